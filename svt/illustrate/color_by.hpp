@@ -46,8 +46,7 @@ struct Coloring {
 /// \return the colours; BadArgument if no shown row has the key, naming those that there are
 /// Cost: O(rows * (attributes + depth of the tree)).
 [[nodiscard]] Result<Coloring> colorBy(std::string_view key, std::span<const model::QueryRow> rows,
-                                       std::span<const std::uint8_t> isShown,
-                                       std::span<const double> areas = {});
+                                       std::span<const std::uint8_t> isShown, std::span<const double> areas = {});
 
 /// The areas that colorBy() wants for its key, by label: floor areas of rooms, see measureFloorAreas(). Empty for other
 /// keys, or an error of findLevels() or measureFloorAreas().

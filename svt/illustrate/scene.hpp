@@ -62,6 +62,7 @@ struct SceneLines {
 struct VolumeForm {
     std::optional<ShellLevel> shell;  ///< the shells of groups of this level, two voxels thick; unset: the volume
     std::optional<int> level;         ///< level of detail, 0 (finest) to 6; unset: chosen by the pixel size
+    bool hasCells = false;            ///< each voxel, or cell of a level, is drawn as a box with edges
     friend bool operator==(const VolumeForm&, const VolumeForm&) = default;
 };
 
@@ -76,7 +77,6 @@ struct ScenePass {
     std::vector<SceneLines> lines;
     VolumeForm form{};
     std::vector<std::string> meshes;  ///< queries, or size<M: drawn as the model's meshes instead of voxels
-    bool hasCells = false;            ///< each voxel, or cell of a level, is drawn as a box with edges
     friend bool operator==(const ScenePass&, const ScenePass&) = default;
 };
 
@@ -113,16 +113,16 @@ struct Inset {
     Corner corner = Corner::TopRight;
     double size = 0.3;  ///< share of the picture's width and height, 0.05 to 0.5
     std::string title;
-    bool hasMark = true;        ///< the frame around what it shows, and lines to it
-    std::string scene = "{}";   ///< JSON object: its members that differ from the picture's, see insetScene()
+    bool hasMark = true;       ///< the frame around what it shows, and lines to it
+    std::string scene = "{}";  ///< JSON object: its members that differ from the picture's, see insetScene()
     friend bool operator==(const Inset&, const Inset&) = default;
 };
 
 /// Where the sun stands: the key light, with shadows. See sun.hpp.
 struct Sun {
-    std::string time;           ///< "2026-06-21 15:00", with "Z" or "+02:00" where it is not the zone of the meridian
+    std::string time;  ///< "2026-06-21 15:00", with "Z" or "+02:00" where it is not the zone of the meridian
     std::optional<std::array<double, 2>> place;  ///< latitude and longitude, degrees; unset: of the model
-    double size = 0.53;         ///< diameter of its disc in degrees, 0 to 20: how soft shadows are
+    double size = 0.53;                          ///< diameter of its disc in degrees, 0 to 20: how soft shadows are
     friend bool operator==(const Sun&, const Sun&) = default;
 };
 

@@ -3,6 +3,7 @@
 /// Draws scenes of one volume. Keeps the forms of the volume (shells, levels of detail, bricks), each made when first
 /// needed.
 
+#include <svt/illustrate/details.hpp>
 #include <svt/illustrate/scene.hpp>
 #include <svt/render/ray_caster.hpp>
 #include <svt/volume/brick_volume.hpp>
@@ -47,6 +48,10 @@ public:
     /// From now on `progress` is told of the stage "prepare" while a form of the volume is made; may be null.
     void reportTo(const Progress* progress) noexcept { progress_ = progress; }
 
+    /// From now on `detail` is drawn in place of what it has of the volume, see details.hpp. Drafts are without it.
+    /// \param detail  of joinLabels(); must outlive the painter
+    void addDetail(const volume::SemanticVolume& detail);
+
     /// Draws `scene`, with its name tags.
     /// \return picture and frame, or an error of makeFrameSpec(), extractShell() or castRays()
     /// Cost: that of castRays(), and once that of each form.
@@ -75,7 +80,10 @@ public:
 private:
     // The volume or a shell of it, with its bricks and levels of detail.
     struct Forms;
-    Result<Forms*> findForms(std::optional<ShellLevel> shell);
+    Result<Forms*> findForms(std::size_t number, std::optional<ShellLevel> shell);
+    [[nodiscard]] Result<render::DrawnVolume> formOf(std::size_t number, const VolumeForm& wanted,
+                                                     const render::FrameSpec& spec);
+    [[nodiscard]] Result<std::vector<render::DrawnVolume>> drawnVolumes(const Scene& scene, render::FrameSpec& spec);
     struct Apart;
     using Paint = std::function<Result<Painting>(const Scene&)>;
     [[nodiscard]] Result<void> addInsets(const Scene& scene, const Paint& paint, Painting& painting) const;
@@ -91,6 +99,11 @@ private:
     const Progress* progress_ = nullptr;
     std::vector<std::unique_ptr<Forms>> forms_;
     std::unique_ptr<Apart> apart_;
+    struct Detail {
+        const volume::SemanticVolume* volume;
+        DetailPlace place;
+    };
+    std::vector<Detail> details_;
 };
 
 }  // namespace svt::illustrate

@@ -33,7 +33,7 @@ struct SunPosition {
 /// The light of Scene::sun on a volume.
 struct Sunlight {
     SunPosition position;
-    Vec3d direction;         ///< towards the sun; world space, unit length
+    Vec3d direction;  ///< towards the sun; world space, unit length
     double latitude = 0, longitude = 0;
 };
 

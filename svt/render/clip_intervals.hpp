@@ -65,7 +65,7 @@ public:
     [[nodiscard]] DrawnIntervals cut(const VoxelRay& ray, RaySpan span) const noexcept {
         return cut(ray.origin, ray.direction, span);
     }
-    /// Whether a point (voxel space) is drawn.
+    /// Whether a point (voxel space) is drawn, by what depends on no line of sight: gaps leave all.
     [[nodiscard]] bool keeps(Vec3d point) const noexcept;
 
 private:
@@ -85,6 +85,7 @@ private:
     struct Region {
         std::vector<Part> parts;
         ClipRegion::Mode mode;
+        std::size_t gap;
     };
     // The interval of a ray inside a part of a region, and the faces at its ends.
     struct PartInterval {
@@ -99,6 +100,8 @@ private:
     };
     static PartInterval within(const Part& part, const Line& line) noexcept;
     static void meetRound(const Round& round, const Line& line, PartInterval& inside) noexcept;
+    static DrawnInterval inGap(const DrawnInterval& interval, const Region& region, const PartIntervals& insides,
+                               std::size_t count) noexcept;
     static std::size_t within(const Region& region, const Line& line, PartIntervals& insides) noexcept;
 
     std::vector<Region> regions_;

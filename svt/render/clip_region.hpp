@@ -56,12 +56,14 @@ struct ConvexPart {
 /// The union of its parts.
 struct ClipRegion {
     enum class Mode : std::uint8_t {
-        CutAway,  ///< nothing inside the region is drawn
-        KeepOnly  ///< only what is inside the region is drawn
+        CutAway,   ///< nothing inside the region is drawn
+        KeepOnly,  ///< only what is inside the region is drawn
+        Gap  ///< of each line of sight only what lies between part `gap` and the next that it meets, 0: before all
     };
 
     std::vector<ConvexPart> parts;  ///< at least one
     Mode mode = Mode::CutAway;
+    std::uint32_t gap = 0;  ///< of Mode::Gap; parts that meet along a line count as one
 
     /// Cuts away the side of the plane to which `normal` points: a section.
     [[nodiscard]] static ClipRegion plane(Vec3d normal, Vec3d point);

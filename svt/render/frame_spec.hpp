@@ -87,7 +87,10 @@ struct Pass {
     enum class Join : std::uint8_t {
         Over,     ///< in front of them, at any depth
         Replace,  ///< where this pass draws anything, all before it is dropped, with a border line around it
-        Depth     ///< in front of them where this pass's first label is nearer, else behind
+        Depth,    ///< in front of them where this pass's first label is nearer, else behind
+        /// Sorted by depth with the pass before and its other parts; together they are joined as that pass says. For parts
+        /// of space that no ray enters twice, such as volumes beside each other and the gaps between them.
+        Part
     };
 
     std::vector<Style> styles;      ///< by scalar; scalars beyond the end are hidden. The transfer function
@@ -96,6 +99,7 @@ struct Pass {
     Join join = Join::Over;
     std::uint32_t volume = 0;               ///< index into the volumes given to castRays()
     std::vector<LineSet> lines{};           ///< composited with the voxels by depth; clipped like these
+    bool hasCells = false;                  ///< edges of voxels are drawn, and each of their faces is flat
     std::vector<MeshTriangle> triangles{};  ///< the same; they replace the voxels of their objects
 
     static constexpr std::size_t kMaxClipParts = 32;

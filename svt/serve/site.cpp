@@ -44,6 +44,30 @@ constexpr Type kOtherType{"", "application/octet-stream", false};
 
 constexpr std::size_t kMinCompressed = 1000;
 
+// As the server's, see http_server.cpp, but for what only a header can say: who may embed the page.
+constexpr std::string_view kPagePolicy =
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; style-src 'self'; "
+    "img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; base-uri 'none'; form-action 'none'";
+
+std::string_view textOf(const Bytes& bytes) {
+    return {reinterpret_cast<const char*>(bytes.data.data()), bytes.data.size()};
+}
+
+std::string attributeText(const std::string& text) {
+    std::string safe;
+    for (const char c : text) {
+        if (c == '&')
+            safe += "&amp;";
+        else if (c == '"')
+            safe += "&quot;";
+        else if (c == '<')
+            safe += "&lt;";
+        else if (static_cast<unsigned char>(c) >= ' ')
+            safe += c;
+    }
+    return safe;
+}
+
 std::string lowerExtension(std::string_view path) {
     const std::size_t slash = path.rfind('/'), dot = path.rfind('.');
     if (dot == std::string_view::npos || (slash != std::string_view::npos && dot < slash)) return {};
@@ -272,6 +296,32 @@ Result<Site> viewerSite(const fs::path& viewer, std::span<const SiteModel> model
     const nlohmann::ordered_json json{{"models", std::move(list)}};
     site.add("/models.json", Bytes::of(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"));
     return site;
+}
+
+Result<void> addPageHead(Site& site, PagePreview preview) {
+    constexpr std::string_view kHead = "<head>";
+    const Resource* page = site.find("/index.html");
+    const std::string_view text = page == nullptr ? std::string_view() : textOf(page->bytes);
+    const std::size_t at = text.find(kHead);
+    if (at == std::string_view::npos) return Error(Code::CannotOpen, "the viewer's index.html has no <head>");
+    std::string head = fmt::format("\n    <meta http-equiv=\"Content-Security-Policy\" content=\"{}\" />", kPagePolicy);
+    const auto tag = [&](std::string_view property, const std::string& content) {
+        head += fmt::format("\n    <meta property=\"{}\" content=\"{}\" />", property, attributeText(content));
+    };
+    tag("og:type", "website");
+    tag("og:title", preview.title);
+    tag("og:description", preview.description);
+    if (!preview.address.empty()) tag("og:url", preview.address);
+    tag("og:image", preview.address + "preview.png");
+    tag("og:image:type", "image/png");
+    tag("og:image:width", fmt::format("{}", preview.size.x));
+    tag("og:image:height", fmt::format("{}", preview.size.y));
+    head += "\n    <meta name=\"twitter:card\" content=\"summary_large_image\" />";
+    std::string changed(text);
+    changed.insert(at + kHead.size(), head);
+    site.add("/index.html", Bytes::of(std::move(changed)));
+    site.add("/preview.png", std::move(preview.picture));
+    return {};
 }
 
 std::vector<std::string> uniqueNames(std::span<const fs::path> files) {

@@ -4,6 +4,7 @@
 /// up in this table and never joined to a folder, so path traversal is impossible.
 
 #include <svt/core/result.hpp>
+#include <svt/core/vec.hpp>
 #include <svt/serve/http_message.hpp>
 
 #include <cstdint>
@@ -60,6 +61,20 @@ struct SiteModel {
 /// them in order as {"models": [{"name", "file", "bytes", "title"}]}.
 /// \return the site, or the errors of addFolder(), or CannotOpen if the folder has no index.html
 [[nodiscard]] Result<Site> viewerSite(const std::filesystem::path& viewer, std::span<const SiteModel> models);
+
+/// What other sites and chat programs show of a link to a page (Open Graph).
+struct PagePreview {
+    std::string title, description;
+    std::string address;  ///< of the published page, with "https://" and a slash at its end; empty: unknown
+    Bytes picture;        ///< PNG
+    Vec3i size;           ///< of the picture, pixels; z is not used
+};
+
+/// Gives the page what no header of a file host would: a Content-Security-Policy that allows its own scripts, models and
+/// pictures alone, and the tags of a preview, with `/preview.png`. Previews need a whole address to find the picture; without
+/// `address` it is relative, which some programs do not follow.
+/// \return CannotOpen if /index.html has no <head>
+[[nodiscard]] Result<void> addPageHead(Site& site, PagePreview preview);
 
 /// Model names derived from file names: without folder and extension, only letters, digits, '.', '_' and '-', made
 /// unique by numbers.

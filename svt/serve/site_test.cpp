@@ -262,5 +262,25 @@ TEST(PublishedSite, PythonServesIt) {
     ::waitpid(child, nullptr, 0);
 }
 
+TEST(PageHead, HasAPolicyAndAPreview) {
+    Site site;
+    site.add("/index.html", Bytes::of("<!doctype html><html><head><title>x</title></head></html>"));
+    PagePreview preview{
+        "A \"house\" & <more>", "to look into", "https://example.org/h/", Bytes::of("png"), {1200, 630, 0}};
+    ASSERT_TRUE(addPageHead(site, preview));
+    const Resource& page = *site.find("/");
+    const std::string text(reinterpret_cast<const char*>(page.bytes.data.data()), page.bytes.data.size());
+    EXPECT_LT(text.find("Content-Security-Policy\" content=\"default-src 'none'; script-src 'self'"),
+              text.find("<title>"))
+        << "it holds for what follows it";
+    EXPECT_NE(text.find("og:title\" content=\"A &quot;house&quot; &amp; &lt;more>\""), std::string::npos);
+    EXPECT_NE(text.find("og:image\" content=\"https://example.org/h/preview.png\""), std::string::npos);
+    EXPECT_NE(text.find("og:url\" content=\"https://example.org/h/\""), std::string::npos);
+    EXPECT_EQ(site.find("/preview.png")->type, "image/png");
+    Site bare;
+    bare.add("/index.html", Bytes::of("hello"));
+    EXPECT_EQ(addPageHead(bare, preview).error().code(), Code::CannotOpen);
+}
+
 }  // namespace
 }  // namespace svt::serve

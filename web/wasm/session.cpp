@@ -51,6 +51,7 @@ Result<const render::Frame*> Session::draw(const illustrate::Scene& scene, bool 
     if (!painting) return painting.error();
     lastSpec_ = std::move(painting->spec);
     lastForms_ = illustrate::volumeForms(scene);
+    lastApart_ = scene.explode;
     lastFrame_ = std::move(painting->frame);
     return &*lastFrame_;
 }
@@ -60,8 +61,10 @@ Result<void> Session::drawGl(const illustrate::Scene& scene, Purpose purpose) {
     if (!spec) return spec.error();
     const auto forms = illustrate::volumeForms(scene);
     const int level = forms.front().level.value_or(render::levelForView(*spec, volume_.grid));
-    if (forms.size() != 1 || forms.front().shell || level != 0 || !scene.names.empty())
-        return Error(Code::BadArgument, "names, shells and levels of detail are drawn by the CPU");
+    const bool hasMore = scene.explode != 0 || scene.sun || !scene.insets.empty() || forms.front().hasCells;
+    if (forms.size() != 1 || forms.front().shell || level != 0 || !scene.names.empty() || hasMore)
+        return Error(Code::BadArgument,
+                     "names, shells, levels of detail, cells, insets, storeys apart and the sun are drawn by the CPU");
     if (!gl_) {
         const auto whole = painter_.form({{}, 0}, *spec);
         if (!whole) return whole.error();
@@ -73,6 +76,7 @@ Result<void> Session::drawGl(const illustrate::Scene& scene, Purpose purpose) {
     if (purpose == Purpose::Trial) return {};
     lastSpec_ = std::move(*spec);
     lastForms_ = forms;
+    lastApart_ = 0;
     lastFrame_.reset();
     return {};
 }
@@ -130,6 +134,7 @@ std::optional<Picked> Session::behindGlass(const render::ViewRay& ray) {
     for (render::Pass& pass : spec.passes) pass.lines.clear();
     spec.width = spec.height = spec.samplesPerPixel = 1;
     spec.light.ambientOcclusion = 0;
+    spec.light.hasShadows = false;
     render::Camera& camera = spec.camera;
     const bool isUpright = length(cross(ray.direction, camera.up)) > 1e-6 * length(ray.direction);
     if (!isUpright) camera.up = {camera.up.y, camera.up.z, camera.up.x};
@@ -137,9 +142,11 @@ std::optional<Picked> Session::behindGlass(const render::ViewRay& ray) {
     camera.target = ray.origin + ray.direction;
     camera.verticalFovDegrees = 0.001;
     camera.orthographicHeight = 1e-4;
+    const auto painter = painter_.apart(lastApart_);
+    if (!painter) return {};
     std::vector<render::DrawnVolume> drawn;
     for (const illustrate::VolumeForm& wanted : lastForms_) {
-        const auto made = painter_.form(wanted, *lastSpec_);
+        const auto made = (*painter)->form(wanted, *lastSpec_);
         if (!made) return {};
         drawn.push_back(*made);
     }
@@ -161,10 +168,12 @@ std::optional<Picked> Session::pickedAt(const render_gl::PickedPixel& pixel, con
 
 Result<std::vector<render::LabelInterval>> Session::along(double x, double y) {
     if (!lastSpec_) return std::vector<render::LabelInterval>{};
-    const auto whole = painter_.form({{}, 0}, *lastSpec_);
+    const auto painter = painter_.apart(lastApart_);
+    if (!painter) return painter.error();
+    const auto whole = (*painter)->form({{}, 0}, *lastSpec_);
     if (!whole) return whole.error();
-    const auto ray = render::viewRay(*lastSpec_, volume_.grid, x, y);
-    return render::labelsAlong(whole->bricks(), volume_.grid, volume_.labels, ray.origin, ray.direction);
+    const auto ray = render::viewRay(*lastSpec_, whole->grid(), x, y);
+    return render::labelsAlong(whole->bricks(), whole->grid(), volume_.labels, ray.origin, ray.direction);
 }
 
 const std::vector<analyze::Contact>& Session::contacts() {

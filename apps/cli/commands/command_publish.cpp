@@ -11,18 +11,27 @@ struct PublishArguments {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path output;
     SiteArguments site;
+    std::string address;
     bool mayReplace = false;
 };
 
 int runPublish(const PublishArguments& arguments) {
     const auto viewer = arguments.site.viewerFolder();
     if (!viewer) return fail(viewer.error());
+    const std::string& address = arguments.address;
+    if (!address.empty() && address.rfind("https://", 0) != 0 && address.rfind("http://", 0) != 0)
+        return fail(Error(
+            Code::BadArgument,
+            fmt::format("--url '{}': expected the address of the page, such as https://example.org/house/", address)));
     if (auto checked = serve::checkSiteFolder(arguments.output, arguments.mayReplace); !checked)
         return fail(checked.error());
     const auto models = arguments.site.load(arguments.inputs);
     if (!models) return fail(models.error());
-    const auto site = serve::viewerSite(*viewer, *models);
+    auto site = serve::viewerSite(*viewer, *models);
     if (!site) return fail(site.error());
+    auto preview = pagePreview(*models, arguments.address, arguments.site.build.threads);
+    if (!preview) return fail(preview.error());
+    if (auto added = serve::addPageHead(*site, std::move(*preview)); !added) return fail(added.error());
     const auto bytes = serve::writeSite(*site, arguments.output, arguments.mayReplace);
     if (!bytes) return fail(bytes.error());
     if (!isQuiet())
@@ -38,6 +47,7 @@ Action connectPublish(Command& command) {
     command.set("input", arguments->inputs);
     command.set("--output", arguments->output);
     command.set("--force", arguments->mayReplace);
+    command.set("--url", arguments->address);
     arguments->site.connect(command);
     return [arguments] { return runPublish(*arguments); };
 }

@@ -6,11 +6,15 @@
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
+#include <svt/analyze/selection.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/machine.hpp>
+#include <svt/illustrate/color_by.hpp>
+#include <svt/illustrate/details.hpp>
 #include <svt/illustrate/line_view.hpp>
 #include <svt/illustrate/motion.hpp>
 #include <svt/illustrate/scene_painter.hpp>
+#include <svt/illustrate/sun.hpp>
 #include <svt/image/png.hpp>
 #include <svt/render/frame_buffers.hpp>
 #include <svt/render_gl/egl_context.hpp>
@@ -20,6 +24,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <utility>
@@ -144,6 +149,59 @@ BuildArguments withVectors(BuildArguments build, const illustrate::Scene& scene)
     return build;
 }
 
+// Gives the volume the owners of its labels, and loads the volumes that are drawn with it.
+Result<std::vector<volume::SemanticVolume>> addInputs(const RenderArguments& arguments, const Progress* progress,
+                                                      Diagnostics& diagnostics, volume::SemanticVolume& volume) {
+    std::vector<volume::SemanticVolume> details;
+    for (const auto& file : arguments.scene.with) {
+        auto detail = loadVolume(file, arguments.build, progress, diagnostics);
+        if (!detail) return detail.error();
+        details.push_back(std::move(*detail));
+    }
+    if (auto joined = illustrate::joinLabels(volume, details); !joined) return joined.error();
+    if (arguments.scene.owners.empty()) return details;
+    const auto table = MappedFile::open(arguments.scene.owners);
+    if (!table) return table.error();
+    if (auto added = illustrate::addOwnerAttributes(volume, table->text(), arguments.scene.owners.string(),
+                                                    arguments.build.threads);
+        !added)
+        return added.error();
+    return details;
+}
+
+// Tells which targets of a cutaway are not seen.
+void noteCutaway(const std::string& query, const volume::SemanticVolume& volume, const render::Frame& frame) {
+    if (query.empty()) return;
+    const auto selected = analyze::selectLabels(volume.labels, query);
+    if (!selected) return;
+    const std::vector<std::uint32_t> labelOf = volume.labels.labelOfScalar();
+    std::vector<bool> isSeen(volume.labels.labels.size() + 1, false);
+    for (const volume::Scalar scalar : frame.label.pixels())
+        if (scalar != 0 && scalar < labelOf.size() && labelOf[scalar] != volume::kNoLabel)
+            isSeen[labelOf[scalar]] = true;
+    std::vector<std::string> hidden;
+    for (const std::uint32_t l : *selected) {
+        const volume::Label& label = volume.labels.labels[l];
+        if (label.voxels > 0 && !isSeen[l]) hidden.push_back(label.name.empty() ? label.id : label.name);
+    }
+    if (hidden.empty()) return;
+    const std::size_t count = hidden.size();
+    if (count > 5) hidden.resize(5);
+    note(fmt::format("cutaway: {} of {} are not seen, behind other targets or outside of the picture: {}{}", count,
+                     selected->size(), fmt::join(hidden, ", "), count > 5 ? ", ..." : ""));
+}
+
+// Tells where the sun stands: a picture from a wrong hour looks as good as one from the right one.
+void noteSun(const illustrate::Scene& scene, const volume::SemanticVolume& volume) {
+    if (!scene.sun) return;
+    const auto light = illustrate::sunlightOf(*scene.sun, volume);
+    if (!light) return;
+    const auto& [azimuth, elevation] = light->position;
+    note(fmt::format("sun: {:.1f} degrees {} the horizon, azimuth {:.1f}, at {:.4f}, {:.4f}{}", std::abs(elevation),
+                     elevation > 0 ? "above" : "below", azimuth, light->latitude, light->longitude,
+                     elevation > 0 ? "" : "; the picture has the light of the sky alone"));
+}
+
 // Tells which names are missing in a picture, and why.
 void noteNames(const illustrate::Painting::Names& names) {
     if (names.hidden != 0) note(fmt::format("names: {} of what is not seen are left out", names.hidden));
@@ -177,6 +235,11 @@ Result<void> writeLineView(const RenderArguments& arguments, const illustrate::L
 int runLineDrawing(const RenderArguments& arguments, const Series& series) {
     if (arguments.gl || !arguments.labelOutput.empty() || !arguments.depthOutput.empty())
         return fail(Error(Code::BadArgument, "--gl, --labels and --depth are for PNG, not for line drawings"));
+    const auto& wanted = arguments.scene;
+    if (!wanted.with.empty() || !wanted.insets.empty() || wanted.explode || !wanted.sunTime.empty() || wanted.hasCells)
+        return fail(
+            Error(Code::BadArgument,
+                  "--with, --inset, --explode, --sun and --cells are for PNG and films, not for line drawings"));
     Diagnostics diagnostics;
     TerminalProgress progress;
     BuildArguments build = arguments.build;
@@ -217,9 +280,12 @@ int runRender(const RenderArguments& arguments) {
     if (isLineDrawing(arguments.output)) return runLineDrawing(arguments, *series);
     Diagnostics diagnostics;
     TerminalProgress progress;
-    const auto volume = loadVolume(arguments.input, withVectors(arguments.build, *first), progress.get(), diagnostics);
-    printDiagnostics(diagnostics, arguments.verbose);
+    auto volume = loadVolume(arguments.input, withVectors(arguments.build, *first), progress.get(), diagnostics);
+    if (!volume) printDiagnostics(diagnostics, arguments.verbose);
     if (!volume) return fail(volume.error());
+    const auto details = addInputs(arguments, progress.get(), diagnostics, *volume);
+    printDiagnostics(diagnostics, arguments.verbose);
+    if (!details) return fail(details.error());
 
     render::CastOptions options;
     options.threads = arguments.build.threads;
@@ -230,6 +296,7 @@ int runRender(const RenderArguments& arguments) {
     std::vector<std::string> nothing;
     painter.tolerateNothing(&nothing);
     painter.reportTo(progress.get());
+    for (const volume::SemanticVolume& detail : *details) painter.addDetail(detail);
     GlDrawer gl(arguments.build.threads);
     const illustrate::ScenePainter::Draw drawByGl = [&](auto volumes, const auto& spec) {
         return gl.draw(volumes, spec);
@@ -246,6 +313,8 @@ int runRender(const RenderArguments& arguments) {
         if (!painting) return fail(painting.error());
         empty += isEmpty(painting->frame);
         if (frame == 0) noteNames(painting->names);
+        if (frame == 0) noteSun(*scene, *volume);
+        if (frame == 0) noteCutaway(arguments.scene.cutaway, *volume, painting->frame);
         const auto written =
             series->film ? series->film->add(painting->frame.color) : writeBuffers(painting->frame, arguments, frame);
         if (!written) return fail(written.error());

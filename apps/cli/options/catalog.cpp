@@ -378,6 +378,13 @@ constexpr Option kRender[] = {
      .help = "draw what the query selects once more, larger, in a corner, with a frame that shows where",
      .group = "Illustrate",
      .mayRepeat = true},
+    {.name = "--with",
+     .value = "F.svt",
+     .help =
+         "another volume of the model, such as a flat at a finer spacing, drawn in place of what it has of the first",
+     .group = "Illustrate",
+     .mayRepeat = true,
+     .file = FileUse::OtherInput},
     {.name = "--explode", .value = "DISTANCE", .group = "Illustrate", .member = "/explode"},
     {.name = "--cells", .kind = Flag, .group = "Illustrate", .member = "/passes/*/cells"},
     {.name = "--owners",
@@ -793,6 +800,9 @@ constexpr Option kPublish[] = {
      .isRequired = true,
      .file = FileUse::OutputFolder},
     {.name = "--force", .kind = Flag, .help = "write into a folder that is not empty; what is not of the page stays"},
+    {.name = "--url",
+     .value = "URL",
+     .help = "where the page will be, such as https://example.org/house/, for previews of links to it"},
 };
 constexpr Option kPage[] = {
     {.name = "--viewer",

@@ -165,7 +165,7 @@ Result<void> addPass(const SceneArguments& arguments, int frame, int frames, Sce
     if (!arguments.highlights.empty()) addHighlight(scene, arguments.highlights, context);
     if (!arguments.cutaway.empty()) addCutaway(scene, arguments.cutaway, 0.15);
     if (arguments.contextLevel && scene.passes.size() == 2) scene.passes.front().form.level = arguments.contextLevel;
-    for (illustrate::ScenePass& any : scene.passes) any.hasCells = any.hasCells || arguments.hasCells;
+    for (illustrate::ScenePass& any : scene.passes) any.form.hasCells = any.form.hasCells || arguments.hasCells;
     for (illustrate::ScenePass& any : scene.passes)
         if (arguments.level && !any.form.level) any.form.level = arguments.level;
     return {};
@@ -246,7 +246,8 @@ Result<Scene> SceneArguments::toScene(int frame, int frames) const {
     scene.names.insert(scene.names.end(), names.begin(), names.end());
     if (auto added = addPass(*this, frame, frames, scene); !added) return added.error();
     if (insets.size() + scene.insets.size() > 4)
-        return Error(Code::BadArgument, fmt::format("{} insets; a picture has 4 corners", insets.size() + scene.insets.size()));
+        return Error(Code::BadArgument,
+                     fmt::format("{} insets; a picture has 4 corners", insets.size() + scene.insets.size()));
     addInsets(*this, scene);
     if (explode) scene.explode = *explode;
     if (!sunTime.empty()) {
@@ -305,6 +306,7 @@ void SceneArguments::connect(Command& command) {
     command.set("--scale-bar", hasScaleBar);
     command.set("--north-arrow", hasNorthArrow);
     command.set("--inset", insets);
+    command.set("--with", with);
     command.set("--explode", explode);
     command.set("--cells", hasCells);
     command.set("--owners", owners);

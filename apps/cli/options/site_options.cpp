@@ -140,6 +140,30 @@ Result<std::vector<serve::SiteModel>> SiteArguments::load(const std::vector<fs::
     return models;
 }
 
+Result<serve::PagePreview> pagePreview(std::span<const serve::SiteModel> models, std::string address, int threads) {
+    constexpr std::int32_t kWidth = 1200, kHeight = 630;
+    serve::PagePreview preview;
+    for (const serve::SiteModel& model : models) preview.title += (preview.title.empty() ? "" : ", ") + model.title;
+    preview.description = "A building model to look into, in three dimensions";
+    if (!address.empty() && address.back() != '/') address += '/';
+    preview.address = std::move(address);
+    preview.size = {kWidth, kHeight, 0};
+    const auto volume = volume::readSvt(models.front().svt.data, models.front().name);
+    if (!volume) return volume.error();
+    illustrate::Scene scene;
+    scene.width = kWidth;
+    scene.height = kHeight;
+    render::CastOptions options;
+    options.threads = threads;
+    options.isAdaptive = true;
+    const auto painting = illustrate::ScenePainter(*volume, threads).paint(scene, options);
+    if (!painting) return painting.error();
+    const auto png = image::encodePng(painting->frame.color);
+    if (!png) return png.error();
+    preview.picture = serve::Bytes::of(std::string(reinterpret_cast<const char*>(png->data()), png->size()));
+    return preview;
+}
+
 serve::Route pictureRoute(std::vector<serve::SiteModel> models, int threads) {
     serve::Route route;
     route.path = "/api/picture";

@@ -9,6 +9,7 @@
 #include <svt/serve/site.hpp>
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,11 @@ struct SiteArguments {
     /// The inputs as `.svt`; model files are built first, with feature edges. Findings go to stderr.
     [[nodiscard]] Result<std::vector<serve::SiteModel>> load(const std::vector<std::filesystem::path>& inputs) const;
 };
+
+/// The preview of a published page: its models' titles, and a picture of the first.
+/// \param address  of the page, or empty
+[[nodiscard]] Result<serve::PagePreview> pagePreview(std::span<const serve::SiteModel> models, std::string address,
+                                                     int threads);
 
 /// POST /api/picture: {"model": NAME, "scene": {...}} -> PNG. NAME may end in ".svt"; without it, the first model. One
 /// picture at a time; 422 if the scene cannot be drawn or has over 16,777,216 rays (pixels times samples).

@@ -114,7 +114,8 @@ Error nothingToColor(std::string_view key, std::span<const model::QueryRow> rows
     return {Code::BadArgument,
             fmt::format("nothing that is visible has '{}' to be coloured by; possible are class, name, storey, "
                         "volume, area (of rooms), voxels{}{}{}{}",
-                        key, equalsIgnoringCase(key, "owner") ? ", owner with a table of owners (--owners)" : "", some.empty() ? "" : ", ", fmt::join(some, ", "), names.size() > 12 ? ", ..." : "")};
+                        key, equalsIgnoringCase(key, "owner") ? ", owner with a table of owners (--owners)" : "",
+                        some.empty() ? "" : ", ", fmt::join(some, ", "), names.size() > 12 ? ", ..." : "")};
 }
 
 void colorByRamp(const std::vector<std::optional<Value>>& values, Coloring& coloring) {

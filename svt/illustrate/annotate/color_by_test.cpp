@@ -116,5 +116,47 @@ TEST_F(ColorByTest, LegendsOfAnySizeStayInThePicture) {
     }
 }
 
+// Two rooms of Anna and Bert with a wall between them, one of Anna's alone, and what touches nobody.
+TEST(OwnerAttributes, FollowTheTableAndContacts) {
+    volume::SemanticVolume volume;
+    volume.grid = *volume::Grid::fromParts({9, 4, 4}, {0.5, 0.5, 0.5}, {0, 0, 0},
+                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    for (const char* id : {"outer", "a", "between", "b", "far"}) {
+        volume::Label& label = volume.labels.labels.emplace_back();
+        label.id = id;
+        label.className = id[1] == '\0' ? "BuildingRoom" : "WallSurface";
+        label.first = static_cast<volume::Scalar>(volume.labels.labels.size());
+        label.count = 1;
+        label.subtreeEnd = label.first;
+        label.voxels = 16;
+    }
+    std::vector<volume::Scalar> dense;
+    for (int row = 0; row < 16; ++row)
+        for (const volume::Scalar scalar : {1, 2, 2, 3, 4, 4, 0, 0, 5}) dense.push_back(scalar);
+    volume.columns = volume::ColumnVolume::fromDense({9, 4, 4}, dense);
+    ASSERT_TRUE(addOwnerAttributes(volume, "feature,owner\na,Anna\nb,Bert\n", "t.csv"));
+    const auto ownerOf = [&](std::size_t l) {
+        const auto& attributes = volume.labels.labels[l].attributes;
+        return attributes.empty() ? std::string("-") : toText(attributes.back().value);
+    };
+    EXPECT_EQ(ownerOf(0), "Anna");
+    EXPECT_EQ(ownerOf(1), "Anna");
+    EXPECT_EQ(ownerOf(2), "shared");
+    EXPECT_EQ(ownerOf(3), "Bert");
+    EXPECT_EQ(ownerOf(4), "-");
+    EXPECT_EQ(addOwnerAttributes(volume, "feature,owner\nnobody,Anna\n", "t.csv").error().code(),
+              Code::NothingSelected);
+}
+
+TEST_F(ColorByTest, AreasAreGivenOrAttributes) {
+    const std::vector<double> areas{0, 0, 0, 12.5, 20, 0};
+    const auto coloring = colorBy("area", rows_, isShown_, areas);
+    ASSERT_TRUE(coloring);
+    EXPECT_EQ(coloring->scale.title, "area (m2)");
+    EXPECT_EQ(coloring->scale.low, 12.5);
+    EXPECT_EQ(coloring->scale.high, 20);
+    EXPECT_EQ(coloring->scale.missing, 1u);
+}
+
 }  // namespace
 }  // namespace svt::illustrate

@@ -20,6 +20,7 @@ using volume::Run;
 using volume::Scalar;
 using volume::VectorParts;
 
+constexpr double kMostTimes = 16;             // by which a grid may grow: memory grows with it
 constexpr double kBrick = 8;                  // samples along an edge of a brick
 constexpr std::int32_t kMostSamples = 65535;  // along an axis: boxes of planes have 16 bits
 
@@ -47,7 +48,8 @@ public:
             addPieces(from, run);
             from = run.end;
         }
-        std::stable_sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) { return a.from < b.from; });
+        std::stable_sort(pieces_.begin(), pieces_.end(),
+                         [](const Piece& a, const Piece& b) { return a.from < b.from; });
         runs_.clear();
         std::uint32_t end = 0;
         for (const Piece& piece : pieces_) {
@@ -138,12 +140,11 @@ public:
                 if (points.size() >= 2) to_.segments.push_back({segment.label, {add(points[0]), add(points[1])}});
             });
         for (const auto& triangle : from_.triangles)
-            eachPart(triangle.label, {triangle.corners.begin(), triangle.corners.end()},
-                     [&](std::span<const Vec3d> points) {
-                         for (std::size_t n = 2; n < points.size(); ++n)
-                             to_.triangles.push_back(
-                                 {triangle.label, {add(points[0]), add(points[n - 1]), add(points[n])}});
-                     });
+            eachPart(
+                triangle.label, {triangle.corners.begin(), triangle.corners.end()}, [&](std::span<const Vec3d> points) {
+                    for (std::size_t n = 2; n < points.size(); ++n)
+                        to_.triangles.push_back({triangle.label, {add(points[0]), add(points[n - 1]), add(points[n])}});
+                });
         return std::move(to_);
     }
 
@@ -206,19 +207,21 @@ Result<volume::SemanticVolume> explodeStoreys(const volume::SemanticVolume& volu
                      fmt::format("storeys cannot be drawn {} m apart; a distance above 0 is possible", distance));
     const StoreyParts parts = findStoreyParts(volume);
     if (parts.highest == 0)
-        return Error(Code::BadArgument,
-                     "no building of this model has two storeys, or rooms on two levels, that could be drawn apart; leave "
-                     "out --explode");
+        return Error(
+            Code::BadArgument,
+            "no building of this model has two storeys, or rooms on two levels, that could be drawn apart; leave "
+            "out --explode");
     const volume::Grid& grid = volume.grid;
     // Whole bricks: so each storey falls into bricks, and is drawn, as it was.
     const double steps = kBrick * std::max(1.0, std::round(distance / grid.spacing().z / kBrick));
     Vec3i dimension = grid.dimension();
     const double height = dimension.z + steps * parts.highest;
-    if (height > kMostSamples)
-        return Error(Code::BadArgument,
-                     fmt::format("{} storeys drawn {} m apart take {} samples along z, {} are possible; use a smaller "
-                                 "distance or a larger --spacing",
-                                 parts.highest + 1, distance, height, kMostSamples));
+    if (height > std::min<double>(kMostSamples, kMostTimes * std::max(dimension.z, 256)))
+        return Error(
+            Code::BadArgument,
+            fmt::format("{} storeys drawn {} m apart take {} samples along z, too many for this model; use a smaller "
+                        "distance or a larger --spacing",
+                        parts.highest + 1, distance, height));
     dimension.z = static_cast<std::int32_t>(height);
     auto higher = volume::Grid::fromParts(dimension, grid.spacing(), grid.origin(), grid.axes());
     if (!higher) return higher.error();
@@ -231,9 +234,14 @@ Result<volume::SemanticVolume> explodeStoreys(const volume::SemanticVolume& volu
             tiles[t] = liftTile(columns.tiles()[t], columns.tileWidth(tileX), lift);
         }
     });
-    volume::SemanticVolume apart{*higher,          volume.labels, volume::ColumnVolume::fromTiles(dimension, std::move(tiles)),
-                                 volume.crsName,   volume.modelName, volume.source,
-                                 {},               liftPlanes(volume, lift)};
+    volume::SemanticVolume apart{*higher,
+                                 volume.labels,
+                                 volume::ColumnVolume::fromTiles(dimension, std::move(tiles)),
+                                 volume.crsName,
+                                 volume.modelName,
+                                 volume.source,
+                                 {},
+                                 liftPlanes(volume, lift)};
     if (!volume.vectors.isEmpty()) apart.vectors = VectorLift(volume, lift).lifted();
     return apart;
 }

@@ -14,9 +14,9 @@
 namespace svt::illustrate {
 namespace {
 
-constexpr double kWhole = 0.85;        // share of a label's height in one storey with which it goes as a whole
-constexpr double kSlab = 0.3;          // metres below a floor, where no ceiling tells how thick the slab is
-constexpr double kLeastStorey = 1.5;   // metres; lower levels are landings
+constexpr double kWhole = 0.85;       // share of a label's height in one storey with which it goes as a whole
+constexpr double kSlab = 0.3;         // metres below a floor, where no ceiling tells how thick the slab is
+constexpr double kLeastStorey = 1.5;  // metres; lower levels are landings
 constexpr std::int32_t kAbove = std::numeric_limits<std::int32_t>::max();
 
 bool isRoom(const volume::Label& label) {
@@ -26,8 +26,8 @@ bool isRoom(const volume::Label& label) {
 // A storey of a building, and the samples of its rooms or, without any, of all that is on it.
 struct Storey {
     std::uint32_t label = volume::kNoLabel;
-    double floor = 0;                     // sample of the lowest of most of it
-    std::int32_t ceiling = -1;            // above the rooms of most of it; -1: no rooms
+    double floor = 0;                           // sample of the lowest of most of it
+    std::int32_t ceiling = -1;                  // above the rooms of most of it; -1: no rooms
     std::map<std::int32_t, double> lows, tops;  // weight by sample
 };
 
@@ -90,7 +90,8 @@ private:
         for (const bool onlyRooms : {true, false})
             for (std::uint32_t l = 0; l < labels_.size(); ++l) {
                 const std::uint32_t at = storeyOf_[l];
-                if (at == volume::kNoLabel || boxes_[l].isEmpty() || l == at || isRoom(labels_[l]) != onlyRooms) continue;
+                if (at == volume::kNoLabel || boxes_[l].isEmpty() || l == at || isRoom(labels_[l]) != onlyRooms)
+                    continue;
                 Storey& storey = storeys[at];
                 storey.label = at;
                 if (onlyRooms || storey.ceiling < 0) addTo(storey, l);
@@ -177,7 +178,7 @@ private:
     const std::vector<volume::Label>& labels_;
     std::vector<model::QueryRow> rows_;
     std::vector<analyze::SampleBox> boxes_;
-    std::vector<std::uint32_t> storeyOf_;  // label of a storey, or kNoLabel
+    std::vector<std::uint32_t> storeyOf_;          // label of a storey, or kNoLabel
     std::map<std::uint32_t, Building> buildings_;  // by the label above the storeys
 };
 

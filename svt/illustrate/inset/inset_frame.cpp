@@ -61,8 +61,8 @@ InsetMargins insetMargins(const Scene& scene) noexcept {
     return margins;
 }
 
-std::optional<PictureBox> boxOfSeen(const render::Frame& frame, const render::FrameSpec& spec,
-                                    const volume::Grid& grid, const render::FrameSpec& other) {
+std::optional<PictureBox> boxOfSeen(const render::Frame& frame, const render::FrameSpec& spec, const volume::Grid& grid,
+                                    const render::FrameSpec& other) {
     const render::CameraRays from(spec, grid), to(other, grid);
     PictureBox box{1e30, 1e30, -1e30, -1e30};
     for (std::int32_t y = 0; y < frame.depth.height(); ++y)

@@ -20,6 +20,31 @@ View makeView(const Camera& camera) {
     return {forward, right, cross(right, forward)};
 }
 
+// Whether two cones meet within the volume. They open towards the viewer: if their rims are apart where the volume ends,
+// they are apart all the way.
+bool meet(const RoundBody& a, const RoundBody& b, const volume::Grid& grid) {
+    constexpr int kPlaces = 48;
+    const auto hasRimIn = [&](const RoundBody& cone, const RoundBody& other) {
+        const Vec3i n = grid.dimension();
+        double height = 0;
+        for (int c = 0; c < 8; ++c) {
+            const Vec3d corner{(c & 1) * n.x - 0.5, ((c >> 1) & 1) * n.y - 0.5, (c >> 2) * n.z - 0.5};
+            height = std::max(height, dot(grid.worldFromIndex(corner) - cone.center, cone.axes[2]));
+        }
+        const Vec3d axis = cone.axes[2] / dot(cone.axes[2], cone.axes[2]);
+        const Vec3d u = cone.axes[0] / dot(cone.axes[0], cone.axes[0]),
+                    v = cone.axes[1] / dot(cone.axes[1], cone.axes[1]);
+        for (int place = 0; place < kPlaces; ++place) {
+            const double angle = 2 * std::numbers::pi * place / kPlaces;
+            const Vec3d rim = axis + u * std::cos(angle) + v * std::sin(angle);
+            for (const double share : {0.02, 0.25, 0.5, 0.75, 1.0})
+                if (other.contains(cone.center + rim * (height * share))) return true;
+        }
+        return false;
+    };
+    return hasRimIn(a, b) || hasRimIn(b, a);
+}
+
 }  // namespace
 
 RoundBody viewBody(const Camera& camera, double aspect, double x, double y, double radius) {
@@ -84,6 +109,47 @@ RoundBody cutawayBody(const Camera& camera, const volume::Grid& grid, const anal
     };
     while (scale < 16 && !isAround(coneOf(scale))) scale *= 1.05;
     return coneOf(scale);
+}
+
+std::vector<RoundBody> cutawayBodies(const Camera& camera, const volume::Grid& grid,
+                                     std::vector<analyze::SampleBox> targets, double margin, std::size_t most) {
+    constexpr std::size_t kMostTargets = 64;
+    if (targets.size() > kMostTargets)
+        for (; targets.size() > 1; targets.pop_back()) targets.front().add(targets.back());
+    std::vector<RoundBody> bodies;
+    for (const auto& target : targets) bodies.push_back(cutawayBody(camera, grid, target, margin));
+    const auto join = [&](std::size_t a, std::size_t b) {
+        targets[a].add(targets[b]);
+        targets.erase(targets.begin() + static_cast<std::ptrdiff_t>(b));
+        bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(b));
+        bodies[a] = cutawayBody(camera, grid, targets[a], margin);
+    };
+    const auto joinAnyThatMeet = [&] {
+        for (std::size_t a = 0; a < bodies.size(); ++a)
+            for (std::size_t b = a + 1; b < bodies.size(); ++b)
+                if (meet(bodies[a], bodies[b], grid)) {
+                    join(a, b);
+                    return true;
+                }
+        return false;
+    };
+    while (joinAnyThatMeet()) {
+    }
+    while (bodies.size() > most) {
+        std::size_t first = 0, second = 1;
+        double nearest = length(bodies[1].center - bodies[0].center);
+        for (std::size_t a = 0; a < bodies.size(); ++a)
+            for (std::size_t b = a + 1; b < bodies.size(); ++b)
+                if (const double apart = length(bodies[b].center - bodies[a].center); apart < nearest) {
+                    nearest = apart;
+                    first = a;
+                    second = b;
+                }
+        join(first, second);
+        while (joinAnyThatMeet()) {
+        }
+    }
+    return bodies;
 }
 
 }  // namespace svt::illustrate

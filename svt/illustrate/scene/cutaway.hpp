@@ -6,6 +6,9 @@
 #include <svt/render/frame_spec.hpp>
 #include <svt/volume/grid.hpp>
 
+#include <cstddef>
+#include <vector>
+
 namespace svt::illustrate {
 
 /// The body of all that is seen in a circle of the picture: a cone from the eye, or a cylinder if the view is parallel.
@@ -21,6 +24,15 @@ namespace svt::illustrate {
 /// \param margin  metres left free around the target
 [[nodiscard]] render::RoundBody cutawayBody(const render::Camera& camera, const volume::Grid& grid,
                                             const analyze::SampleBox& target, double margin);
+
+/// The bodies to cut away so that several targets are visible: one for each. Those that would meet somewhere in the volume
+/// become one around both, so that what stays between two of them hangs together from the targets up to the viewer.
+/// \param targets  samples to enclose, of each target; at least one
+/// \param most     bodies, >= 1: the targets that are nearest to each other are joined until there are no more
+/// Cost: O(targets^2) for up to 64 of them; more are one.
+[[nodiscard]] std::vector<render::RoundBody> cutawayBodies(const render::Camera& camera, const volume::Grid& grid,
+                                                           std::vector<analyze::SampleBox> targets, double margin,
+                                                           std::size_t most);
 
 /// Slope of the cutaway cone relative to the lines of sight: tan 25 degrees.
 inline constexpr double kCutawaySlope = 0.4663;

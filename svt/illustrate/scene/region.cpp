@@ -17,6 +17,9 @@
 namespace svt::illustrate {
 namespace {
 
+// Bodies of one cutaway(); a pass has room for more parts beside them.
+constexpr std::size_t kMostCutaways = 16;
+
 using render::ConvexPart;
 using render::HalfSpace;
 using render::RoundBody;
@@ -395,9 +398,16 @@ private:
         const auto selection = selectionOf("cutaway", text);
         if (!selection) return selection.error();
         if (selection->first.empty()) return nowhere();
-        const auto box = analyze::boxAround(selection->first, context_.volume, "what cutaway() selects");
-        if (!box) return box.error();
-        return Parts{{{}, {cutawayBody(context_.camera, grid(), *box, selection->second)}}};
+        const auto all = analyze::boxAround(selection->first, context_.volume, "what cutaway() selects");
+        if (!all) return all.error();
+        const auto boxes = analyze::labelBoxes(context_.volume.columns, context_.volume.labels);
+        std::vector<analyze::SampleBox> targets;
+        for (const std::uint32_t label : selection->first)
+            if (!boxes[label].isEmpty()) targets.push_back(boxes[label]);
+        Parts parts;
+        for (auto& body : cutawayBodies(context_.camera, grid(), std::move(targets), selection->second, kMostCutaways))
+            parts.push_back({{}, {std::move(body)}});
+        return parts;
     }
 
     std::string_view text_;

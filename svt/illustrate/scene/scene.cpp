@@ -314,6 +314,7 @@ Result<render::Pass> passOf(const Scene& scene, const ScenePass& wanted, const s
     render::Pass pass;
     pass.styles = stylesOf(context.volume.labels, looks, scene.look);
     pass.join = wanted.join;
+    pass.hasCells = wanted.form.hasCells;
     const auto addClip = [&](const std::string& region, render::ClipRegion::Mode mode) -> Result<void> {
         if (region.empty()) return {};
         auto parts = parseRegion(region, context);

@@ -176,7 +176,7 @@ void readPass(Reader& read, const Json& json, const std::string& path, ScenePass
         if (key == "cut") read.text(value, at, pass.cut);
         if (key == "keep") read.text(value, at, pass.keep);
         if (key == "meshes") read.texts(value, at, pass.meshes);
-        if (key == "cells") read.flag(value, at, pass.hasCells);
+        if (key == "cells") read.flag(value, at, pass.form.hasCells);
         if (key == "level") read.number(value, at, pass.form.level.emplace());
         if (std::string level; key == "shell" && read.choice(value, at, "level of hulls", level))
             pass.form.shell = shellLevelFromName(level);
@@ -260,7 +260,8 @@ void readSun(Reader& read, const Json& json, Sun& sun) {
         if (key != "place") continue;
         if (!value.is_array() || value.size() != 2) return read.fail(at, "expected [latitude, longitude] in degrees");
         auto& place = sun.place.emplace();
-        for (std::size_t n = 0; n < 2; ++n) read.number(value[n], fmt::format("{}/{}", at, n), sceneMember(at), place[n]);
+        for (std::size_t n = 0; n < 2; ++n)
+            read.number(value[n], fmt::format("{}/{}", at, n), sceneMember(at), place[n]);
     }
 }
 
@@ -275,7 +276,8 @@ void readInset(Reader& read, const Json& json, const std::string& path, Inset& i
         if (key != "scene") continue;
         if (!value.is_object()) return read.fail(at, "expected an object with members of a scene");
         for (const char* member : {"size", "motion", "insets"})
-            if (value.contains(member)) return read.fail(at + "/" + member, "an inset has none of its own; leave it out");
+            if (value.contains(member))
+                return read.fail(at + "/" + member, "an inset has none of its own; leave it out");
         inset.scene = value.dump();
     }
 }
@@ -410,7 +412,7 @@ Json jsonOf(const ScenePass& pass) {
     if (pass.form.level) json["level"] = *pass.form.level;
     for (const SceneLines& lines : pass.lines) json["lines"].push_back(jsonOf(lines));
     if (!pass.meshes.empty()) json["meshes"] = pass.meshes;
-    if (pass.hasCells) json["cells"] = true;
+    if (pass.form.hasCells) json["cells"] = true;
     return json;
 }
 

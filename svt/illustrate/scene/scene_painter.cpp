@@ -43,10 +43,11 @@ ScenePainter::Draw byCasting(const render::CastOptions& options) {
 }  // namespace
 
 struct ScenePainter::Forms {
+    std::size_t number = 0;  // 0: the painter's volume; others: its details
     std::optional<ShellLevel> level;
     std::optional<volume::SemanticVolume> shell;
     const volume::SemanticVolume* volume = nullptr;
-    std::optional<volume::BrickVolume> bricks;
+    std::optional<volume::BrickVolume> bricks, cells;  // the second of voxels alone
     std::optional<std::vector<volume::LodLevel>> levels;
 };
 
@@ -62,12 +63,13 @@ ScenePainter::ScenePainter(const volume::SemanticVolume& volume, int threads) : 
 ScenePainter::~ScenePainter() = default;
 ScenePainter::ScenePainter(ScenePainter&&) noexcept = default;
 
-Result<ScenePainter::Forms*> ScenePainter::findForms(std::optional<ShellLevel> shell) {
+Result<ScenePainter::Forms*> ScenePainter::findForms(std::size_t number, std::optional<ShellLevel> shell) {
     for (const auto& forms : forms_)
-        if (forms->level == shell) return forms.get();
+        if (forms->number == number && forms->level == shell) return forms.get();
     auto forms = std::make_unique<Forms>();
+    forms->number = number;
     forms->level = shell;
-    forms->volume = &volume_;
+    forms->volume = number == 0 ? &volume_ : details_[number - 1].volume;
     if (shell) {
         ShellOptions options;
         options.threads = threads_;
@@ -79,11 +81,16 @@ Result<ScenePainter::Forms*> ScenePainter::findForms(std::optional<ShellLevel> s
 }
 
 Result<render::DrawnVolume> ScenePainter::form(const VolumeForm& wanted, const render::FrameSpec& spec) {
-    auto found = findForms(wanted.shell);
+    return formOf(0, wanted, spec);
+}
+
+Result<render::DrawnVolume> ScenePainter::formOf(std::size_t number, const VolumeForm& wanted,
+                                                 const render::FrameSpec& spec) {
+    auto found = findForms(number, wanted.shell);
     if (!found) return found.error();
     Forms& forms = **found;
     const volume::SemanticVolume& volume = *forms.volume;
-    const int level = wanted.level.value_or(render::levelForView(spec, volume.grid));
+    const int level = wanted.level.value_or(wanted.hasCells ? 0 : render::levelForView(spec, volume.grid));
     if (level > 0) {
         if (!forms.levels) {
             auto levels = volume::buildLodPyramid(volume.columns, volume.grid, 6, threads_, progress_);
@@ -93,13 +100,44 @@ Result<render::DrawnVolume> ScenePainter::form(const VolumeForm& wanted, const r
         if (!forms.levels->empty())
             return render::DrawnVolume((*forms.levels)[std::min(forms.levels->size(), std::size_t(level)) - 1]);
     }
-    if (!forms.bricks) {
-        auto bricks = volume::BrickVolume::fromColumns(
-            volume.columns, {.planes = volume.planes, .threads = threads_, .progress = progress_});
-        if (!bricks) return bricks.error();
-        forms.bricks = std::move(*bricks);
+    std::optional<volume::BrickVolume>& bricks = wanted.hasCells ? forms.cells : forms.bricks;
+    if (!bricks) {
+        volume::BrickVolume::Options options{.planes = volume.planes, .threads = threads_, .progress = progress_};
+        if (wanted.hasCells) options = {.faces = volume::BrickFaces::Voxels, .threads = threads_};
+        auto made = volume::BrickVolume::fromColumns(volume.columns, options);
+        if (!made) return made.error();
+        bricks = std::move(*made);
     }
-    return render::DrawnVolume(*forms.bricks, volume.grid);
+    return render::DrawnVolume(*bricks, volume.grid);
+}
+
+void ScenePainter::addDetail(const volume::SemanticVolume& detail) {
+    details_.push_back({&detail, placeOfDetail(volume_, detail)});
+}
+
+// The volumes that a frame draws: forms of the first, then those of the details, whose passes are added.
+Result<std::vector<render::DrawnVolume>> ScenePainter::drawnVolumes(const Scene& scene, render::FrameSpec& spec) {
+    std::vector<render::DrawnVolume> drawn;
+    const std::vector<VolumeForm> forms = illustrate::volumeForms(scene);
+    for (const VolumeForm& wanted : forms) {
+        const auto made = form(wanted, spec);
+        if (!made) return made.error();
+        drawn.push_back(*made);
+    }
+    if (details_.empty()) return drawn;
+    std::vector<DetailPlace> places;
+    for (std::size_t d = 0; d < details_.size(); ++d) {
+        places.push_back(details_[d].place);
+        for (const VolumeForm& wanted : forms) {
+            VolumeForm own = wanted;
+            own.shell.reset();
+            const auto made = formOf(d + 1, own, spec);
+            if (!made) return made.error();
+            drawn.push_back(*made);
+        }
+    }
+    if (auto added = addDetailPasses(places, forms, spec); !added) return added.error();
+    return drawn;
 }
 
 Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptions& options) {
@@ -108,6 +146,8 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptio
 
 Result<ScenePainter*> ScenePainter::apart(double distance) {
     if (distance == 0) return this;
+    if (!details_.empty())
+        return Error(Code::BadArgument, "storeys of one volume can be drawn apart; leave out --explode, or --with");
     if (!apart_ || apart_->distance != distance) {
         auto lifted = explodeStoreys(volume_, distance, threads_);
         if (!lifted) return lifted.error();
@@ -161,13 +201,9 @@ Result<Painting> ScenePainter::paintPlain(const Scene& scene, const Draw& draw) 
     ColorScale scale;
     auto spec = makeFrameSpec(scene, volume_, rows, &scale);
     if (!spec) return spec.error();
-    std::vector<render::DrawnVolume> drawn;
-    for (const VolumeForm& wanted : illustrate::volumeForms(scene)) {
-        const auto made = form(wanted, *spec);
-        if (!made) return made.error();
-        drawn.push_back(*made);
-    }
-    return finish(scene, rows, scale, std::move(*spec), drawn, draw);
+    const auto drawn = drawnVolumes(scene, *spec);
+    if (!drawn) return drawn.error();
+    return finish(scene, rows, scale, std::move(*spec), *drawn, draw);
 }
 
 Result<Painting> ScenePainter::paintDraft(const Scene& scene, const render::CastOptions& options) {
@@ -188,7 +224,7 @@ Result<Painting> ScenePainter::draftPlain(const Scene& scene, const render::Cast
     std::vector<render::DrawnVolume> drawn;
     std::vector<std::unique_ptr<volume::BrickVolume>> drafts;
     for (const VolumeForm& wanted : illustrate::volumeForms(scene)) {
-        const auto forms = findForms(wanted.shell);
+        const auto forms = findForms(0, wanted.shell);
         if (!forms) return forms.error();
         const volume::SemanticVolume& volume = *(*forms)->volume;
         auto bricks = volume::BrickVolume::fromColumns(volume.columns,

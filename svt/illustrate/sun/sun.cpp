@@ -144,17 +144,19 @@ SunPosition sunPosition(double julianDay, double latitude, double longitude) noe
     const double hour = (sun.siderealTime + longitude - sun.rightAscension) * kDegree;
     const double phi = latitude * kDegree, declination = sun.declination * kDegree;
     // Meeus, equations 13.5 and 13.6; his azimuth is from the south.
-    const double south = std::atan2(std::sin(hour), std::cos(hour) * std::sin(phi) - std::tan(declination) * std::cos(phi));
-    const double height = std::asin(
-        std::clamp(std::sin(phi) * std::sin(declination) + std::cos(phi) * std::cos(declination) * std::cos(hour), -1.0, 1.0));
+    const double south =
+        std::atan2(std::sin(hour), std::cos(hour) * std::sin(phi) - std::tan(declination) * std::cos(phi));
+    const double height = std::asin(std::clamp(
+        std::sin(phi) * std::sin(declination) + std::cos(phi) * std::cos(declination) * std::cos(hour), -1.0, 1.0));
     return {turnOf(south / kDegree + 180), height / kDegree};
 }
 
 Result<double> parseSunTime(std::string_view text, double longitude) {
     const auto bad = [&] {
-        return Error(Code::BadScene, fmt::format("time of the sun '{}': expected a date from 1900 to 2100 and an hour, such as "
-                                                 "'2026-06-21 15:00', with Z or +02:00 where that is its zone",
-                                                 text));
+        return Error(Code::BadScene,
+                     fmt::format("time of the sun '{}': expected a date from 1900 to 2100 and an hour, such as "
+                                 "'2026-06-21 15:00', with Z or +02:00 where that is its zone",
+                                 text));
     };
     TextReader read(text);
     const auto year = read.number(4, 1900, 2100);
@@ -178,9 +180,10 @@ Result<Sunlight> sunlightOf(const Sun& sun, const volume::SemanticVolume& volume
     std::optional<Site> site;
     if (sun.place) site = Site{(*sun.place)[0], (*sun.place)[1]};
     if (site && std::abs(site->latitude) > 90)
-        return Error(Code::BadScene, fmt::format("a latitude of {} degrees; -90 to 90 are possible, and it comes before the "
-                                                 "longitude",
-                                                 site->latitude));
+        return Error(Code::BadScene,
+                     fmt::format("a latitude of {} degrees; -90 to 90 are possible, and it comes before the "
+                                 "longitude",
+                                 site->latitude));
     if (!site) site = siteOfCrs(volume);
     if (!site) site = siteOfAttributes(volume);
     if (!site)
@@ -190,7 +193,8 @@ Result<Sunlight> sunlightOf(const Sun& sun, const volume::SemanticVolume& volume
     const auto day = parseSunTime(sun.time, site->longitude);
     if (!day) return day.error();
     Sunlight light{sunPosition(*day, site->latitude, site->longitude), {}, site->latitude, site->longitude};
-    const double azimuth = (light.position.azimuth + site->north) * kDegree, height = light.position.elevation * kDegree;
+    const double azimuth = (light.position.azimuth + site->north) * kDegree,
+                 height = light.position.elevation * kDegree;
     light.direction = {std::sin(azimuth) * std::cos(height), std::cos(azimuth) * std::cos(height), std::sin(height)};
     return light;
 }

@@ -1,5 +1,7 @@
 #include <svt/render/light/sample.hpp>
 
+#include <utility>
+
 namespace svt::render {
 
 void joinPass(Pass::Join join, std::size_t number, const Sample& pass, Sample& joined) noexcept {
@@ -16,6 +18,18 @@ void joinPass(Pass::Join join, std::size_t number, const Sample& pass, Sample& j
     joined = front.hasHit() ? front : back;
     joined.color = front.color + back.color * (1 - front.alpha);
     joined.alpha = front.alpha + back.alpha * (1 - front.alpha);
+}
+
+Sample joinParts(std::span<const Sample*> parts) noexcept {
+    for (std::size_t n = 1; n < parts.size(); ++n)
+        for (std::size_t m = n; m > 0 && parts[m]->depth < parts[m - 1]->depth; --m) std::swap(parts[m], parts[m - 1]);
+    Sample joined = *parts.front();
+    for (const Sample* part : parts.subspan(1)) {
+        joined.color = joined.color + part->color * (1 - joined.alpha);
+        joined.alpha = joined.alpha + part->alpha * (1 - joined.alpha);
+        joined.hasLine = joined.hasLine || part->hasLine;
+    }
+    return joined;
 }
 
 }  // namespace svt::render

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 namespace svt::render {
 
@@ -42,6 +43,9 @@ inline void finishSample(Vec3d color, double transmittance, const CastOptions& o
 
 /// Composites the sample of pass `number` with that of the passes before it, `joined`.
 void joinPass(Pass::Join join, std::size_t number, const Sample& pass, Sample& joined) noexcept;
+
+/// Composites the samples of a pass and of its parts (Pass::Join::Part), which it sorts by depth.
+[[nodiscard]] Sample joinParts(std::span<const Sample*> parts) noexcept;
 
 /// Whether joinPass() keeps nothing of the passes before.
 [[nodiscard]] inline bool hidesAllBefore(Pass::Join join, const Sample& pass) noexcept {

@@ -42,7 +42,7 @@ Surface SurfaceLight::findNormal(const LinearStyle& style, const SurfaceHit& hit
     } else if (hit.axis < 0) {
         found.normal = hit.view;
         surface.isAroundEye = true;
-    } else if (style.isBody && hit.isVoxel) {
+    } else if (style.isBody && hit.isVoxel && !frame_.spec.passes[passNumber_].hasCells) {
         const SurfaceNormal& fitted = normalAt(hit.voxel, hit.axis, hit.direction[hit.axis] > 0 ? -1 : 1);
         found = volume_.directions.directions(toDouble(fitted.indexNormal));
         surface.cavity = std::clamp(

@@ -1,4 +1,5 @@
 #include <svt/render/light/cap_hatch.hpp>
+#include <svt/render/light/cell_edges.hpp>
 #include <svt/render/packet/packet_caster.hpp>
 
 #include <algorithm>
@@ -144,7 +145,9 @@ void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
             Sample& sample = ofPasses_[pass * kPacketRays + n];
             writeSample(n, sample);
             first[n] = pass;
-            if (pass == 0 || !hidesAllBefore(frame_.passes[pass].join, sample)) continue;
+            if (pass == 0 || frame_.passes[pass].join == Pass::Join::Part ||
+                !hidesAllBefore(frame_.passes[pass].join, sample))
+                continue;
             first[n] = kPacketRays + pass;
             rays_.to[n] = 0;
             --open;
@@ -154,10 +157,24 @@ void PacketCaster::castPasses(bool withColor, std::span<Sample> samples) {
         const std::size_t begin = first[n] % kPacketRays;
         // Passes before `begin` are hidden.
         Sample& joined = samples[places_[n]];
-        joined = begin > 0 ? Sample() : ofPasses_[n];
-        for (std::size_t pass = std::max<std::size_t>(begin, 1); pass <= last; ++pass)
-            joinPass(frame_.passes[pass].join, pass, ofPasses_[pass * kPacketRays + n], joined);
+        joined = Sample();
+        for (std::size_t pass = begin; pass <= last;) {
+            const std::size_t head = pass++;
+            while (pass <= last && frame_.passes[pass].join == Pass::Join::Part) ++pass;
+            const Sample sample = pass == head + 1 ? ofPasses_[head * kPacketRays + n] : joinedParts(n, head, pass);
+            if (head == 0)
+                joined = sample;
+            else
+                joinPass(frame_.passes[head].join, head, sample, joined);
+        }
     }
+}
+
+// The sample of a pass and its parts [head, end).
+Sample PacketCaster::joinedParts(std::size_t ray, std::size_t head, std::size_t end) const noexcept {
+    std::array<const Sample*, FrameSpec::kMaxPasses> parts;
+    for (std::size_t pass = head; pass < end; ++pass) parts[pass - head] = &ofPasses_[pass * kPacketRays + ray];
+    return joinParts(std::span(parts).first(end - head));
 }
 
 void PacketCaster::castPass(std::size_t pass, const PacketPass& prepared) {
@@ -345,6 +362,7 @@ void PacketCaster::writeSample(std::size_t ray, Sample& sample) const noexcept {
         drawHidden(std::span(fragments_.items).subspan(found.next, found.end - found.next), sample);
     }
     if (sample.isCap) hatchCap(frame_, pass_, rays_.u[ray], rays_.v[ray], sample);
+    if (frame_.spec.passes[pass_].hasCells) drawCellEdges(frame_, pass_, rays_.u[ray], rays_.v[ray], sample);
 }
 
 double PacketCaster::shareOfLight(void* context, const PacketPoint& point) {

@@ -66,6 +66,7 @@ private:
     void writeSample(std::size_t ray, Sample& sample) const noexcept;
     void addFragment(std::size_t ray);
     static void blendFragment(void* context, std::size_t ray);
+    [[nodiscard]] Sample joinedParts(std::size_t ray, std::size_t head, std::size_t end) const noexcept;
     [[nodiscard]] static double shareOfLight(void* context, const PacketPoint& point);
     [[nodiscard]] static Surface shadeSurface(void* context, const PacketSurface& surface);
 

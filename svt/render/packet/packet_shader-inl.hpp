@@ -293,10 +293,11 @@ private:
         hn::Store(normal_.y, d, normal[1]);
         hn::Store(normal_.z, d, normal[2]);
         for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane)
-            shares[lane] = wanted[lane] == 0
-                               ? 1
-                               : pass_.unshaded(context_, {first_ + lane, t[lane],
-                                                           {normal[0][lane], normal[1][lane], normal[2][lane]}});
+            shares[lane] =
+                wanted[lane] == 0
+                    ? 1
+                    : pass_.unshaded(context_,
+                                     {first_ + lane, t[lane], {normal[0][lane], normal[1][lane], normal[2][lane]}});
         return hn::Load(d, shares);
     }
 

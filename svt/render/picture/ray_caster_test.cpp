@@ -556,5 +556,55 @@ TEST(LodFrame, GlassKeepsItsOpacity) {
         EXPECT_NEAR(castRays(level, spec)->color.at(10, 10).r, fine.color.at(10, 10).r, 2) << level.level;
 }
 
+// A face of 8 x 8 voxels, seen face on at 10 pixels each: dark lines on their borders, plain faces between.
+TEST(RayCaster, DrawsTheEdgesOfCells) {
+    const TestVolume volume = makeVolume({8, 8, 8}, {0.1, 0.1, 0.1},
+                                         [](std::int32_t, std::int32_t j, std::int32_t) { return j > 3 ? 1u : 0u; });
+    FrameSpec spec = frontFrame(100, 100, {0.4, 0.4, 0.4}, 1, stylesOf({kOpaque}));
+    spec.passes[0].hasCells = true;
+    spec.light.ambientOcclusion = 0;
+    expectSameFrame(volume, spec);
+    const Frame frame = cast(volume, spec);
+    int onEdge = 0, between = 0;
+    for (int n = 1; n < 8; ++n) {
+        onEdge = std::max(onEdge, int(frame.color.at(10 + 10 * n, 15).r));
+        between = std::max(between, 255 - int(frame.color.at(15 + 10 * n - 10, 15).r));
+    }
+    EXPECT_LT(onEdge, 200);
+    EXPECT_LT(between, 60);
+}
+
+// Three boxes beside each other behind a plate of glass, as parts of one pass: as if they were one volume.
+TEST(RayCaster, PartsAreSortedByDepth) {
+    const TestVolume volume = house();
+    FrameSpec spec = test::presetFrame(120, 90, "iso", volume, houseStyles(true));
+    const Frame whole = cast(volume, spec);
+    const ClipRegion boxes[] = {ClipRegion::box({{1, 1, 1}, {3, 3, 3}}, ClipRegion::Mode::KeepOnly),
+                                ClipRegion::box({{3.5, 2, 0.5}, {5, 5, 5}}, ClipRegion::Mode::KeepOnly)};
+    const Pass pass = spec.passes[0];
+    spec.passes.clear();
+    for (std::uint32_t gap = 0; gap < 3; ++gap) {
+        ClipRegion outside{{boxes[0].parts[0], boxes[1].parts[0]}, ClipRegion::Mode::Gap, gap};
+        spec.passes.push_back(pass);
+        spec.passes.back().clips.push_back(outside);
+        if (gap > 0) spec.passes.back().join = Pass::Join::Part;
+    }
+    for (const ClipRegion& box : boxes) {
+        spec.passes.push_back(pass);
+        spec.passes.back().clips.push_back(box);
+        spec.passes.back().join = Pass::Join::Part;
+    }
+    expectSameFrame(volume, spec);
+    const Frame parts = cast(volume, spec);
+    // Where a part begins within a label it is lit once more, as a face: labels and depths are what is compared.
+    std::size_t others = 0;
+    for (std::size_t n = 0; n < whole.label.pixels().size(); ++n)
+        others += whole.label.pixels()[n] != parts.label.pixels()[n] ||
+                          std::abs(whole.depth.pixels()[n] - parts.depth.pixels()[n]) > 1e-4f
+                      ? 1
+                      : 0;
+    EXPECT_LE(others, whole.label.pixels().size() / 200);
+}
+
 }  // namespace
 }  // namespace svt::render

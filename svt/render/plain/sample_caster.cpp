@@ -1,4 +1,5 @@
 #include <svt/render/light/cap_hatch.hpp>
+#include <svt/render/light/cell_edges.hpp>
 #include <svt/render/light/fragments.hpp>
 #include <svt/render/light/surface_light.hpp>
 #include <svt/render/plain/sample_caster.hpp>
@@ -159,6 +160,8 @@ SampleCaster::~SampleCaster() = default;
 
 Sample SampleCaster::cast(double u, double v, bool withColor) {
     Sample joined;
+    std::vector<Sample> parts;
+    std::size_t head = 0;  // the pass to which the parts belong
     for (std::size_t n = 0; n < frame_.passes.size(); ++n) {
         const PreparedPass& pass = frame_.passes[n];
         const PreparedVolume& volume = frame_.volumes[pass.volume];
@@ -186,10 +189,20 @@ Sample SampleCaster::cast(double u, double v, bool withColor) {
         Sample sample = shader.result();
         sample.volume = pass.volume;
         if (sample.isCap) hatchCap(frame_, n, u, v, sample);
-        if (n == 0)
+        if (frame_.spec.passes[n].hasCells) drawCellEdges(frame_, n, u, v, sample);
+        if (pass.join != Pass::Join::Part) head = n;
+        if (n > 0 && head == n) parts.clear();
+        parts.push_back(sample);
+        if (n + 1 < frame_.passes.size() && frame_.passes[n + 1].join == Pass::Join::Part) continue;
+        if (parts.size() > 1) {
+            std::vector<const Sample*> ordered;
+            for (const Sample& part : parts) ordered.push_back(&part);
+            sample = joinParts(ordered);
+        }
+        if (head == 0)
             joined = sample;
         else
-            joinPass(pass.join, n, sample, joined);
+            joinPass(frame_.passes[head].join, head, sample, joined);
     }
     return joined;
 }

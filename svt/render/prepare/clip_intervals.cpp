@@ -18,7 +18,7 @@ Vec3d inVoxels(Vec3d direction, const volume::Grid& grid) {
 
 Clipper::Clipper(std::span<const ClipRegion> clips, const volume::Grid& grid) {
     for (const ClipRegion& clip : clips) {
-        Region region{{}, clip.mode};
+        Region region{{}, clip.mode, clip.gap};
         for (const ConvexPart& convex : clip.parts) {
             Part part;
             for (const HalfSpace& half : convex.halfSpaces) {
@@ -125,6 +125,17 @@ std::size_t Clipper::within(const Region& region, const Line& line, PartInterval
     return kept;
 }
 
+// What lies between two of the `count` intervals inside a region; empty where there is no such gap.
+DrawnInterval Clipper::inGap(const DrawnInterval& interval, const Region& region, const PartIntervals& insides,
+                             std::size_t count) noexcept {
+    DrawnInterval gap = interval;
+    if (region.gap > count) return {0, 0, {}};
+    if (region.gap > 0 && insides[region.gap - 1].exit > gap.from)
+        gap = {insides[region.gap - 1].exit, gap.to, insides[region.gap - 1].exitFace};
+    if (region.gap < count) gap.to = std::min(gap.to, insides[region.gap].enter);
+    return gap;
+}
+
 DrawnIntervals Clipper::cut(Vec3d origin, Vec3d direction, RaySpan span) const noexcept {
     const Line line{origin, direction};
     DrawnIntervals drawn;
@@ -135,6 +146,10 @@ DrawnIntervals Clipper::cut(Vec3d origin, Vec3d direction, RaySpan span) const n
         const std::size_t count = within(region, line, insides);
         DrawnIntervals next;
         for (const DrawnInterval& interval : drawn) {
+            if (region.mode == ClipRegion::Mode::Gap) {
+                next.add(inGap(interval, region, insides, count));
+                continue;
+            }
             DrawnInterval rest = interval;
             for (std::size_t n = 0; n < count; ++n) {
                 const PartInterval& inside = insides[n];
@@ -158,6 +173,7 @@ DrawnIntervals Clipper::cut(Vec3d origin, Vec3d direction, RaySpan span) const n
 
 bool Clipper::keeps(Vec3d point) const noexcept {
     return std::all_of(regions_.begin(), regions_.end(), [&](const Region& region) {
+        if (region.mode == ClipRegion::Mode::Gap) return true;
         const bool isInside = std::any_of(region.parts.begin(), region.parts.end(), [&](const Part& part) {
             return std::all_of(part.planes.begin(), part.planes.end(),
                                [&](const Plane& plane) { return dot(plane.normal, point) + plane.offset > 0; }) &&

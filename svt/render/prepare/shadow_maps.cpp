@@ -30,7 +30,8 @@ std::vector<Vec3d> directionsOf(Vec3d towards, double degrees) {
     const auto [right, up] = axesAcross(towards);
     std::vector<Vec3d> directions;
     for (std::size_t n = 0; n < count; ++n) {
-        const double r = count == 1 ? 0 : radius * std::sqrt((static_cast<double>(n) + 0.5) / static_cast<double>(count));
+        const double r =
+            count == 1 ? 0 : radius * std::sqrt((static_cast<double>(n) + 0.5) / static_cast<double>(count));
         const double turn = static_cast<double>(n) * std::numbers::pi * (3 - std::sqrt(5.0));
         directions.push_back(normalized(towards + right * (r * std::cos(turn)) + up * (r * std::sin(turn))));
     }
@@ -43,8 +44,8 @@ std::vector<Vec3d> cornersOf(std::span<const DrawnVolume> volumes) {
     for (const DrawnVolume& drawn : volumes)
         for (int c = 0; c < 8; ++c) {
             const Vec3i n = drawn.grid().dimension();
-            corners.push_back(drawn.grid().worldFromIndex(
-                {(c & 1) * n.x - 0.5, ((c >> 1) & 1) * n.y - 0.5, (c >> 2) * n.z - 0.5}));
+            corners.push_back(
+                drawn.grid().worldFromIndex({(c & 1) * n.x - 0.5, ((c >> 1) & 1) * n.y - 0.5, (c >> 2) * n.z - 0.5}));
         }
     return corners;
 }
@@ -99,8 +100,8 @@ Result<ShadowMaps> ShadowMaps::make(std::span<const DrawnVolume> volumes, const 
         map.forward = forward;
         map.right = right;
         map.up = up;
-        map.eye = right * ((box.min.x + box.max.x) / 2) + up * ((box.min.y + box.max.y) / 2) +
-                  forward * (box.min.z - 1);
+        map.eye =
+            right * ((box.min.x + box.max.x) / 2) + up * ((box.min.y + box.max.y) / 2) + forward * (box.min.z - 1);
         from.camera = {Camera::Projection::Orthographic, map.eye, map.eye + forward, up, 35, from.height * maps.pixel_};
         auto frame = castRays(volumes, from, plain);
         if (!frame) return frame.error();
@@ -125,7 +126,8 @@ double ShadowMaps::lightAt(Vec3d point, Vec3d normal) const noexcept {
             return double(map.depth.at(static_cast<std::int32_t>(px), static_cast<std::int32_t>(py))) >= depth ? 1 : 0;
         };
         const double fx = x - left, fy = y - top;
-        sum += (isLit(0, 0) * (1 - fx) + isLit(1, 0) * fx) * (1 - fy) + (isLit(0, 1) * (1 - fx) + isLit(1, 1) * fx) * fy;
+        sum +=
+            (isLit(0, 0) * (1 - fx) + isLit(1, 0) * fx) * (1 - fy) + (isLit(0, 1) * (1 - fx) + isLit(1, 1) * fx) * fy;
     }
     return maps_.empty() ? 1 : sum / static_cast<double>(maps_.size());
 }

@@ -47,6 +47,10 @@ Result<void> FramePainter::prepare(const FrameParts& parts) {
     cutReach_ = reachOf(spec.borders.cutWidth, side_);
     margin_ = spec.borders.strength > 0 ? std::max(lineReach_, cutReach_ > 1 ? 2 * cutReach_ : 1) : 0;
 
+    for (const render::Pass& pass : spec.passes)
+        if (pass.hasCells || pass.join == render::Pass::Join::Part)
+            return Error(Code::BadFrame,
+                         "edges of voxels, and several volumes, are drawn by the CPU alone; leave out --gl");
     if (spec.light.hasShadows)
         return Error(Code::BadFrame, "shadows of the sun are drawn by the CPU alone; leave out --gl");
     passes_.resize(spec.passes.size());

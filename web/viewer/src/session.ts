@@ -61,6 +61,10 @@ export class Session extends EventTarget {
   progress: Progress | null = null;
   message: Message | null = null;
   models: ListedModel[] = [];
+  /** Where the open model of the site lies, relative to the page. */
+  get modelAddress(): string {
+    return this.models.find((model) => model.name === this.modelName)?.file ?? this.modelFile;
+  }
   modelName = "";
   /** File name for generated commands. */
   modelFile = "model.svt";

@@ -262,6 +262,11 @@ const kTexts = {
   passOn: ["Pass on", "Weitergeben"],
   copyLink: ["Copy link", "Link kopieren"],
   copyCommand: ["Copy command", "Befehl kopieren"],
+  copyEmbedding: ["Copy embedding code", "Code zum Einbetten kopieren"],
+  copyEmbeddingHint: [
+    "An iframe with this view, for pages that may show this site: a published folder may be shown anywhere.",
+    "Ein iframe mit dieser Ansicht, für Seiten, die diese zeigen dürfen: Ein veröffentlichter Ordner darf überall gezeigt werden.",
+  ],
   sceneJson: ["Scene (JSON)", "Szene (JSON)"],
   apply: ["Apply", "Anwenden"],
   download: ["Download", "Herunterladen"],
@@ -319,7 +324,7 @@ const kTexts = {
 export const kGermanHelp = {
   "draw a scale bar; parallel projection only, since no other picture has one scale": "zeichnet einen Maßstab; nur bei Parallelprojektion, denn kein anderes Bild hat einen einzigen Maßstab",
   "draw an arrow to grid north (+y)": "zeichnet einen Pfeil nach Gitternord (+y)",
-  "colour what is seen by class, name, storey, volume, voxels or an attribute, with a legend": "färbt, was zu sehen ist, nach class, name, storey, volume, voxels oder einem Attribut, mit Legende",
+  "colour what is seen by class, name, storey, volume, area of rooms, owner, voxels or an attribute, with a legend": "färbt, was zu sehen ist, nach class, name, storey, volume, area (Fläche von Räumen), owner, voxels oder einem Attribut, mit Legende",
   "width and height": "Breite und Höhe",
   "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)":
     "Farben, Linien und Schraffuren des ganzen Bildes: schlicht, Papier (für den Druck), Blaupause oder dunkel (für Folien)",

@@ -61,3 +61,14 @@ function options(state: ViewState, scene: Scene, effects: Described["effects"]):
   }
   return words;
 }
+
+/** The shell command that fetches a model of the site, as the file that the command names. */
+export function fetchingCommand(address: string, file: string): string {
+  return ["curl", "-fLo", file, address].map(shellWord).join(" ");
+}
+
+/** The HTML that shows a view within another page. */
+export function embeddingOf(address: string, title: string, [width, height]: [number, number]): string {
+  const attribute = (text: string) => text.replace(/&/g, "&amp;").replace(/"/g, "&quot;").replace(/</g, "&lt;");
+  return `<iframe src="${attribute(address)}" title="${attribute(title)}" width="${width}" height="${height}" style="border: 0" loading="lazy" allow="fullscreen"></iframe>`;
+}

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { kWorldAxes, type Box } from "../camera/camera";
 import type { Feature } from "../engine";
 import { loadBookmarks, saveBookmarks } from "./bookmarks";
-import { commandOf, shellWord } from "./command";
+import { commandOf, embeddingOf, fetchingCommand, shellWord } from "./command";
 import { indexFeatures, ownerOf } from "./feature_index";
 import { hashOf, ofScene, packed, restored, stateOfHash, unpacked } from "./link";
 import { ofId, parseOwn, quoted } from "./queries";
@@ -246,5 +246,15 @@ describe("command", () => {
   it("takes a scene file where options cannot say it", () => {
     const shown = state({ hatches: false });
     expect(commandOf(shown, sceneOf(shown, box, size), "house.svt")).toBe("svt render house.svt -o view.png --scene view.scene.json");
+  });
+
+  it("fetches a model that the reader has not", () => {
+    expect(fetchingCommand("https://example.org/a b/models/house.svt", "house.svt")).toBe("curl -fLo house.svt 'https://example.org/a b/models/house.svt'");
+  });
+
+  it("embeds a view whatever it is called", () => {
+    expect(embeddingOf('https://example.org/?model=a&b#view="', 'A "house"', [640, 360])).toBe(
+      '<iframe src="https://example.org/?model=a&amp;b#view=&quot;" title="A &quot;house&quot;" width="640" height="360" style="border: 0" loading="lazy" allow="fullscreen"></iframe>',
+    );
   });
 });

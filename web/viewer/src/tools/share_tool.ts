@@ -3,7 +3,7 @@
 import { css, html, nothing } from "lit";
 import type { Scene } from "../engine";
 import { pretty } from "../state/bookmarks";
-import { commandOf } from "../state/command";
+import { commandOf, embeddingOf, fetchingCommand } from "../state/command";
 import { forgetFile, isKept, keepFile } from "../state/kept_files";
 import { ofScene } from "../state/link";
 import { kOtherFirstValues, kRanges, rangeOfControl } from "../state/member_controls";
@@ -63,6 +63,7 @@ export class ShareTool extends Part {
       <div class="row">
         <button id="copy-link" @click=${() => void this.copyLink()}>${icon("copy", 16)}${t("copyLink")}</button>
         <button id="copy-command" @click=${() => void this.copyCommand()}>${icon("code", 16)}${t("copyCommand")}</button>
+        <button id="copy-embedding" title=${t("copyEmbeddingHint")} ?hidden=${this.session.isLocal} @click=${() => void this.copyEmbedding()}>${t("copyEmbedding")}</button>
         <button id="show-scene" aria-expanded=${this.sceneText !== null} @click=${() => void this.toggleScene()}>${t("sceneJson")}</button>
       </div>
       ${this.sceneText !== null ? this.scene(this.sceneText) : nothing}
@@ -118,9 +119,18 @@ export class ShareTool extends Part {
 
   private async copyCommand(): Promise<void> {
     const { session } = this;
-    const command = commandOf(session.state, session.describe(this.size), session.modelFile);
+    const drawn = commandOf(session.state, session.describe(this.size), session.modelFile);
+    // A model of the site is not on the reader's machine yet.
+    const command = session.isLocal ? drawn : `${fetchingCommand(new URL(session.modelAddress, location.href).href, session.modelFile)} && ${drawn}`;
     if (command.includes("--scene")) save(pretty(await session.composed(this.size)), "view.scene.json");
     session.tell((await copy(command)) ? `${t("copied")}: ${command}` : command);
+  }
+
+  private async copyEmbedding(): Promise<void> {
+    const { session } = this;
+    await session.writeLink();
+    const code = embeddingOf(location.href, session.modelName || session.modelFile, this.size);
+    session.tell((await copy(code)) ? `${t("copied")}: ${code}` : code);
   }
 
   private async toggleScene(): Promise<void> {
