@@ -4,8 +4,10 @@
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
+#include <svt/analyze/selection.hpp>
 #include <svt/mesh/mesh_set.hpp>
 #include <svt/volume/svt_file.hpp>
+#include <svt/volume/volume_part.hpp>
 #include <svt/volume_readers/read_label_volume.hpp>
 
 #include <fmt/format.h>
@@ -24,6 +26,8 @@ struct BuildCommandArguments {
     std::filesystem::path output;
     std::filesystem::path gridOf, labels;
     BuildArguments build;
+    std::string only;
+    std::vector<double> box;
     bool json = false, verbose = false, strict = false;
 };
 
@@ -105,6 +109,35 @@ Result<pipeline::BuildOutput> builtOf(const BuildCommandArguments& arguments, co
     return output;
 }
 
+// What --box and --only leave of a volume: its samples there, and the selected components in the box around them.
+Result<void> takePart(const BuildCommandArguments& arguments, volume::SemanticVolume& volume) {
+    if (arguments.box.size() == 6) {
+        const auto& b = arguments.box;
+        const auto samples = volume::samplesIn(volume.grid, Box3d{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}});
+        if (!samples) return samples.error();
+        auto cropped = volume::croppedVolume(volume, *samples);
+        if (!cropped) return cropped.error();
+        volume = std::move(*cropped);
+    }
+    if (arguments.only.empty()) return {};
+    const auto labels = analyze::selectLabels(volume.labels, arguments.only);
+    if (!labels) return labels.error();
+    const auto box = analyze::boxAround(*labels, volume, fmt::format("what --only '{}' selects", arguments.only));
+    if (!box) return box.error();
+    auto selected = volume::selectedVolume(volume, *labels);
+    if (!selected) return selected.error();
+    volume::IndexBox samples{box->min, box->max + Vec3i{1, 1, 1}};
+    // One more sample on each side, as a build has it; at least two along each axis.
+    for (int axis = 0; axis < 3; ++axis) {
+        samples.begin[axis] = std::max(0, samples.begin[axis] - 1);
+        samples.end[axis] = std::min(volume.grid.dimension()[axis], samples.end[axis] + 1);
+    }
+    auto cropped = volume::croppedVolume(*selected, samples);
+    if (!cropped) return cropped.error();
+    volume = std::move(*cropped);
+    return {};
+}
+
 int runBuild(const BuildCommandArguments& arguments) {
     std::optional<pipeline::StyleSheet> sheet;
     auto options = arguments.build.options(sheet);
@@ -121,6 +154,7 @@ int runBuild(const BuildCommandArguments& arguments) {
     Result<pipeline::BuildOutput> built = builtOf(arguments, *options, diagnostics);
     printDiagnostics(diagnostics, arguments.verbose);
     if (!built) return fail(built.error());
+    if (auto taken = takePart(arguments, built->volume); !taken) return fail(taken.error());
     const auto writeStart = std::chrono::steady_clock::now();
     if (Progress::isCancelled(progress->get())) return fail(Error(Code::Cancelled, "stopped before writing"));
     Progress::tell(progress->get(), "write", 0);
@@ -178,6 +212,8 @@ Action connectBuild(Command& command) {
         const auto has = [&](std::string_view kind) { return std::ranges::find(kinds, kind) != kinds.end(); };
         arguments->build.vectors = {.edges = has("edges"), .meshes = has("meshes") || !has("none")};
     });
+    command.set("--only", arguments->only);
+    command.set("--box", arguments->box);
     command.set("--json", arguments->json);
     command.set("--strict", arguments->strict);
     command.set("--verbose", arguments->verbose);

@@ -56,7 +56,7 @@ InsetMargins insetMargins(const Scene& scene) noexcept {
     for (const Inset& inset : scene.insets) {
         const bool isRight = inset.corner == Inset::Corner::TopRight || inset.corner == Inset::Corner::BottomRight;
         double& margin = isRight ? margins.right : margins.left;
-        margin = std::min(0.4, std::max(margin, inset.size + kRim * scene.height / scene.width));
+        margin = std::min(0.4, std::max(margin, inset.size + 2 * kRim * scene.height / scene.width));
     }
     return margins;
 }

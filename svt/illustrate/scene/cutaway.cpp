@@ -10,6 +10,9 @@ namespace {
 using render::Camera;
 using render::RoundBody;
 
+// Of openings beside each other, the widest first: tan 25, 12 and 4 degrees.
+constexpr double kSlopes[] = {kCutawaySlope, 0.2126, 0.0699};
+
 struct View {
     Vec3d forward, right, up;
 };
@@ -20,30 +23,96 @@ View makeView(const Camera& camera) {
     return {forward, right, cross(right, forward)};
 }
 
-// Whether two cones meet within the volume. They open towards the viewer: if their rims are apart where the volume ends,
-// they are apart all the way.
+// Whether two cones meet within the volume: whether points on the rim of one are in the other.
 bool meet(const RoundBody& a, const RoundBody& b, const volume::Grid& grid) {
-    constexpr int kPlaces = 48;
+    constexpr int kPlaces = 48, kHeights = 32;
+    const Vec3d half{0.5, 0.5, 0.5}, end = toDouble(grid.dimension()) - half;
+    const auto isInVolume = [&](Vec3d point) {
+        const Vec3d index = grid.indexFromWorld(point);
+        return index.x > -0.5 && index.y > -0.5 && index.z > -0.5 && index.x < end.x && index.y < end.y &&
+               index.z < end.z;
+    };
     const auto hasRimIn = [&](const RoundBody& cone, const RoundBody& other) {
-        const Vec3i n = grid.dimension();
         double height = 0;
-        for (int c = 0; c < 8; ++c) {
-            const Vec3d corner{(c & 1) * n.x - 0.5, ((c >> 1) & 1) * n.y - 0.5, (c >> 2) * n.z - 0.5};
-            height = std::max(height, dot(grid.worldFromIndex(corner) - cone.center, cone.axes[2]));
-        }
+        for (int c = 0; c < 8; ++c)
+            height = std::max(height, dot(grid.worldFromIndex({(c & 1) != 0 ? end.x : -0.5, (c & 2) != 0 ? end.y : -0.5,
+                                                               (c & 4) != 0 ? end.z : -0.5}) -
+                                              cone.center,
+                                          cone.axes[2]));
         const Vec3d axis = cone.axes[2] / dot(cone.axes[2], cone.axes[2]);
         const Vec3d u = cone.axes[0] / dot(cone.axes[0], cone.axes[0]),
                     v = cone.axes[1] / dot(cone.axes[1], cone.axes[1]);
         for (int place = 0; place < kPlaces; ++place) {
             const double angle = 2 * std::numbers::pi * place / kPlaces;
             const Vec3d rim = axis + u * std::cos(angle) + v * std::sin(angle);
-            for (const double share : {0.02, 0.25, 0.5, 0.75, 1.0})
-                if (other.contains(cone.center + rim * (height * share))) return true;
+            for (int n = 1; n <= kHeights; ++n) {
+                const Vec3d point = cone.center + rim * (height * n / kHeights);
+                if (isInVolume(point) && other.contains(point)) return true;
+            }
         }
         return false;
     };
     return hasRimIn(a, b) || hasRimIn(b, a);
 }
+
+// Openings of targets: those that meet, or are too many, become one.
+class Openings {
+public:
+    Openings(const Camera& camera, const volume::Grid& grid, std::vector<analyze::SampleBox> targets, double margin,
+             double slope)
+        : camera_(camera), grid_(grid), margin_(margin), slope_(slope), targets_(std::move(targets)) {
+        for (const auto& target : targets_) bodies_.push_back(bodyOf(target));
+    }
+
+    void joinToAtMost(std::size_t most) {
+        while (joinAnyThatMeet()) {
+        }
+        while (bodies_.size() > most) {
+            joinNearest();
+            while (joinAnyThatMeet()) {
+            }
+        }
+    }
+    [[nodiscard]] const std::vector<RoundBody>& bodies() const { return bodies_; }
+
+private:
+    [[nodiscard]] RoundBody bodyOf(const analyze::SampleBox& target) const {
+        return cutawayBody(camera_, grid_, target, margin_, slope_);
+    }
+    void join(std::size_t a, std::size_t b) {
+        targets_[a].add(targets_[b]);
+        targets_.erase(targets_.begin() + static_cast<std::ptrdiff_t>(b));
+        bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(b));
+        bodies_[a] = bodyOf(targets_[a]);
+    }
+    bool joinAnyThatMeet() {
+        for (std::size_t a = 0; a < bodies_.size(); ++a)
+            for (std::size_t b = a + 1; b < bodies_.size(); ++b)
+                if (meet(bodies_[a], bodies_[b], grid_)) {
+                    join(a, b);
+                    return true;
+                }
+        return false;
+    }
+    void joinNearest() {
+        std::size_t first = 0, second = 1;
+        double nearest = length(bodies_[1].center - bodies_[0].center);
+        for (std::size_t a = 0; a < bodies_.size(); ++a)
+            for (std::size_t b = a + 1; b < bodies_.size(); ++b)
+                if (const double apart = length(bodies_[b].center - bodies_[a].center); apart < nearest) {
+                    nearest = apart;
+                    first = a;
+                    second = b;
+                }
+        join(first, second);
+    }
+
+    const Camera& camera_;
+    const volume::Grid& grid_;
+    double margin_, slope_;
+    std::vector<analyze::SampleBox> targets_;
+    std::vector<RoundBody> bodies_;
+};
 
 }  // namespace
 
@@ -71,7 +140,8 @@ RoundBody viewBody(const Camera& camera, double aspect, double x, double y, doub
                            cross(axis, across) * slopeTo(0, 2 * radius));
 }
 
-RoundBody cutawayBody(const Camera& camera, const volume::Grid& grid, const analyze::SampleBox& target, double margin) {
+RoundBody cutawayBody(const Camera& camera, const volume::Grid& grid, const analyze::SampleBox& target, double margin,
+                      double slope) {
     std::array<Vec3d, 8> corners;
     Vec3d middle{};
     for (std::size_t c = 0; c < 8; ++c) {
@@ -100,7 +170,7 @@ RoundBody cutawayBody(const Camera& camera, const volume::Grid& grid, const anal
     // all corners, also the far ones, where it is narrower.
     const auto coneOf = [&](double scale) {
         const double larger = scale * std::max(across, high);
-        const double tip = larger / (kCutawaySlope + (distance > 0 ? larger / distance : 0));
+        const double tip = larger / (slope + (distance > 0 ? larger / distance : 0));
         return RoundBody::cone(middle + away * tip, -away, right * (scale * across / tip), up * (scale * high / tip));
     };
     double scale = 1;
@@ -116,38 +186,13 @@ std::vector<RoundBody> cutawayBodies(const Camera& camera, const volume::Grid& g
     constexpr std::size_t kMostTargets = 64;
     if (targets.size() > kMostTargets)
         for (; targets.size() > 1; targets.pop_back()) targets.front().add(targets.back());
+    // Steeper openings take less away, and leave more of them apart.
     std::vector<RoundBody> bodies;
-    for (const auto& target : targets) bodies.push_back(cutawayBody(camera, grid, target, margin));
-    const auto join = [&](std::size_t a, std::size_t b) {
-        targets[a].add(targets[b]);
-        targets.erase(targets.begin() + static_cast<std::ptrdiff_t>(b));
-        bodies.erase(bodies.begin() + static_cast<std::ptrdiff_t>(b));
-        bodies[a] = cutawayBody(camera, grid, targets[a], margin);
-    };
-    const auto joinAnyThatMeet = [&] {
-        for (std::size_t a = 0; a < bodies.size(); ++a)
-            for (std::size_t b = a + 1; b < bodies.size(); ++b)
-                if (meet(bodies[a], bodies[b], grid)) {
-                    join(a, b);
-                    return true;
-                }
-        return false;
-    };
-    while (joinAnyThatMeet()) {
-    }
-    while (bodies.size() > most) {
-        std::size_t first = 0, second = 1;
-        double nearest = length(bodies[1].center - bodies[0].center);
-        for (std::size_t a = 0; a < bodies.size(); ++a)
-            for (std::size_t b = a + 1; b < bodies.size(); ++b)
-                if (const double apart = length(bodies[b].center - bodies[a].center); apart < nearest) {
-                    nearest = apart;
-                    first = a;
-                    second = b;
-                }
-        join(first, second);
-        while (joinAnyThatMeet()) {
-        }
+    for (const double slope : kSlopes) {
+        Openings openings(camera, grid, targets, margin, slope);
+        openings.joinToAtMost(most);
+        if (openings.bodies().size() > bodies.size()) bodies = openings.bodies();
+        if (bodies.size() == targets.size()) break;
     }
     return bodies;
 }

@@ -11,6 +11,9 @@
 
 namespace svt::illustrate {
 
+/// Slope of the cutaway cone relative to the lines of sight: tan 25 degrees.
+inline constexpr double kCutawaySlope = 0.4663;
+
 /// The body of all that is seen in a circle of the picture: a cone from the eye, or a cylinder if the view is parallel.
 /// \param aspect  width / height of the picture
 /// \param x, y    centre of the circle from the upper left corner, as shares of the picture's width and height
@@ -19,22 +22,20 @@ namespace svt::illustrate {
                                          double radius);
 
 /// The body to cut away so that a target is visible: a cone around it, with its apex behind the target, that opens
-/// towards the viewer by kCutawaySlope more than the lines of sight, so that its caps are visible.
+/// towards the viewer by `slope` more than the lines of sight, so that its caps are visible.
 /// \param target  samples to enclose
 /// \param margin  metres left free around the target
 [[nodiscard]] render::RoundBody cutawayBody(const render::Camera& camera, const volume::Grid& grid,
-                                            const analyze::SampleBox& target, double margin);
+                                            const analyze::SampleBox& target, double margin,
+                                            double slope = kCutawaySlope);
 
-/// The bodies to cut away so that several targets are visible: one for each. Those that would meet somewhere in the volume
-/// become one around both, so that what stays between two of them hangs together from the targets up to the viewer.
+/// The bodies to cut away so that several targets are visible: one for each. They open less where
+/// that keeps more of them apart. Those that would meet somewhere in the volume become one around both, so that what stays between two of them hangs together from the targets up to the viewer.
 /// \param targets  samples to enclose, of each target; at least one
 /// \param most     bodies, >= 1: the targets that are nearest to each other are joined until there are no more
 /// Cost: O(targets^2) for up to 64 of them; more are one.
 [[nodiscard]] std::vector<render::RoundBody> cutawayBodies(const render::Camera& camera, const volume::Grid& grid,
                                                            std::vector<analyze::SampleBox> targets, double margin,
                                                            std::size_t most);
-
-/// Slope of the cutaway cone relative to the lines of sight: tan 25 degrees.
-inline constexpr double kCutawaySlope = 0.4663;
 
 }  // namespace svt::illustrate

@@ -187,7 +187,11 @@ Result<void> ScenePainter::addInsets(const Scene& scene, const Paint& paint, Pai
         const bool isOverview = shown && seen && back && shown->width() >= kOverview * seen->width() &&
                                 shown->height() >= kOverview * seen->height() && back->width() < small->spec.width &&
                                 back->height() < small->spec.height;
-        if (isOverview) {
+        // Both show the same: nothing to mark.
+        const auto all = boxOfSeen(small->frame, small->spec, volume_.grid, small->spec);
+        if (isOverview && all && back->width() > 0.95 * all->width() && back->height() > 0.95 * all->height()) {
+            shown.reset();
+        } else if (isOverview) {
             drawMark(*back, color, halo, small->frame.color);
             shown.reset();
         }

@@ -405,6 +405,8 @@ std::string jsonWith(std::string_view pointer, std::string value) {
             value = "[" + value + "]";
         else if (pointer.find("/styles/") != std::string_view::npos && name != "select")
             value = R"({"select": "all", ")" + std::string(name) + "\": " + value + "}";
+        else if (pointer.starts_with("/sun/") && name != "time")
+            value = R"({"time": "2026-06-21 15:00", ")" + std::string(name) + "\": " + value + "}";
         else if (name == "at")
             value = R"({"scene": {}, "at": )" + value + "}";
         else if (name == "keys")
@@ -434,6 +436,8 @@ TEST(SceneMembers, DefaultsAreThoseOfTheStructures) {
         if (member.name.find("/styles/*") != std::string_view::npos)
             plain.passes[0].styles.emplace_back().select = "all";
         if (member.name.starts_with("/motion/")) plain.motion.emplace();
+        if (member.name.starts_with("/sun/")) plain.sun.emplace().time = "2026-06-21 15:00";
+        if (member.name.starts_with("/insets/")) plain.insets.emplace_back();
         if (member.name == "/ambientOcclusion") plain.ambientOcclusion = 0.6f;
         EXPECT_EQ(*scene, plain) << json;
     }
