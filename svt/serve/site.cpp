@@ -317,8 +317,11 @@ Result<void> addPageHead(Site& site, PagePreview preview) {
     tag("og:image:width", fmt::format("{}", preview.size.x));
     tag("og:image:height", fmt::format("{}", preview.size.y));
     head += "\n    <meta name=\"twitter:card\" content=\"summary_large_image\" />";
+    // The encoding must be within the first 1024 bytes of a page.
+    constexpr std::string_view kCharset = "<meta charset=\"utf-8\" />";
+    const std::size_t charset = text.find(kCharset, at);
     std::string changed(text);
-    changed.insert(at + kHead.size(), head);
+    changed.insert(charset == std::string_view::npos ? at + kHead.size() : charset + kCharset.size(), head);
     site.add("/index.html", Bytes::of(std::move(changed)));
     site.add("/preview.png", std::move(preview.picture));
     return {};

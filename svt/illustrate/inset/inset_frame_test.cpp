@@ -44,7 +44,7 @@ Scene fromAbove() {
     return scene;
 }
 
-bool isRed(image::Rgba8 c) { return c.r > 150 && c.g < 90 && c.b < 90; }
+bool isRed(image::Rgba8 c) { return c.r > c.g + 60; }
 
 TEST(Inset, ShowsItsOwnViewAndWhereItIs) {
     const volume::SemanticVolume volume = plate();
@@ -66,7 +66,9 @@ TEST(Inset, ShowsItsOwnViewAndWhereItIs) {
     // Within the inset the block is large, and a pixel says so.
     EXPECT_EQ(painting->frame.label.at(int(place.left) + 50, int(place.top) + 37), 2u);
     // The frame of the inset, and one around the block in the picture, right of the inset and above its middle.
-    EXPECT_TRUE(isRed(painting->frame.color.at(int(place.left) + 30, int(place.top))));
+    bool hasFrame = false;
+    for (int y = -1; y <= 1; ++y) hasFrame |= isRed(painting->frame.color.at(int(place.left) + 30, int(place.top) + y));
+    EXPECT_TRUE(hasFrame);
     int red = 0, block = 0;
     for (int y = 0; y < 150; ++y)
         for (int x = 200; x < 400; ++x) {

@@ -1,8 +1,11 @@
 #include <svt/illustrate/scene/cutaway.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 namespace svt::illustrate {
 namespace {
@@ -11,7 +14,8 @@ using render::Camera;
 using render::RoundBody;
 
 // Of openings beside each other, the widest first: tan 25, 12 and 4 degrees.
-constexpr double kSlopes[] = {kCutawaySlope, 0.2126, 0.0699};
+constexpr double kNarrowest = 0.0699;
+constexpr double kSlopes[] = {kCutawaySlope, 0.2126, kNarrowest};
 
 struct View {
     Vec3d forward, right, up;
@@ -21,6 +25,17 @@ View makeView(const Camera& camera) {
     const Vec3d forward = normalized(camera.target - camera.eye);
     const Vec3d right = normalized(cross(forward, normalized(camera.up)));
     return {forward, right, cross(right, forward)};
+}
+
+std::array<Vec3d, 8> cornersOf(const analyze::SampleBox& box, const volume::Grid& grid) {
+    std::array<Vec3d, 8> corners;
+    for (std::size_t c = 0; c < 8; ++c) {
+        Vec3d index;
+        for (int axis = 0; axis < 3; ++axis)
+            index[axis] = (c >> axis & 1u) != 0 ? box.max[axis] + 0.5 : box.min[axis] - 0.5;
+        corners[c] = grid.worldFromIndex(index);
+    }
+    return corners;
 }
 
 // Whether two cones meet within the volume: whether points on the rim of one are in the other.
@@ -55,7 +70,7 @@ bool meet(const RoundBody& a, const RoundBody& b, const volume::Grid& grid) {
     return hasRimIn(a, b) || hasRimIn(b, a);
 }
 
-// Openings of targets: those that meet, or are too many, become one.
+// Openings of targets.
 class Openings {
 public:
     Openings(const Camera& camera, const volume::Grid& grid, std::vector<analyze::SampleBox> targets, double margin,
@@ -64,20 +79,45 @@ public:
         for (const auto& target : targets_) bodies_.push_back(bodyOf(target));
     }
 
-    void joinToAtMost(std::size_t most) {
-        while (joinAnyThatMeet()) {
-        }
-        while (bodies_.size() > most) {
-            joinNearest();
-            while (joinAnyThatMeet()) {
-            }
+    [[nodiscard]] bool areApart() const {
+        for (std::size_t a = 0; a < bodies_.size(); ++a)
+            for (std::size_t b = a + 1; b < bodies_.size(); ++b)
+                if (meet(bodies_[a], bodies_[b], grid_)) return false;
+        return true;
+    }
+    // Targets that stand in the opening of another one share it.
+    void joinShared() {
+        while (joinAny()) {
         }
     }
-    [[nodiscard]] const std::vector<RoundBody>& bodies() const { return bodies_; }
+    void joinToAtMost(std::size_t most) {
+        while (bodies_.size() > most) {
+            joinNearest();
+            joinShared();
+        }
+    }
+    // Narrow openings reach far behind their targets, where nothing hides them: they end there.
+    [[nodiscard]] std::vector<render::ConvexPart> parts(bool endBehind) const {
+        std::vector<render::ConvexPart> parts;
+        for (std::size_t n = 0; n < bodies_.size(); ++n) {
+            render::ConvexPart& part = parts.emplace_back();
+            part.rounds.push_back(bodies_[n]);
+            if (!endBehind) continue;
+            const Vec3d normal = bodies_[n].axes[2];
+            double farthest = std::numeric_limits<double>::infinity();
+            for (const Vec3d& corner : cornersOf(targets_[n], grid_))
+                farthest = std::min(farthest, dot(corner, normal));
+            part.halfSpaces.push_back({normal, margin_ * length(normal) - farthest});
+        }
+        return parts;
+    }
 
 private:
     [[nodiscard]] RoundBody bodyOf(const analyze::SampleBox& target) const {
         return cutawayBody(camera_, grid_, target, margin_, slope_);
+    }
+    [[nodiscard]] Vec3d middleOf(std::size_t n) const {
+        return grid_.worldFromIndex((toDouble(targets_[n].min) + toDouble(targets_[n].max)) * 0.5);
     }
     void join(std::size_t a, std::size_t b) {
         targets_[a].add(targets_[b]);
@@ -85,10 +125,10 @@ private:
         bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(b));
         bodies_[a] = bodyOf(targets_[a]);
     }
-    bool joinAnyThatMeet() {
+    bool joinAny() {
         for (std::size_t a = 0; a < bodies_.size(); ++a)
             for (std::size_t b = a + 1; b < bodies_.size(); ++b)
-                if (meet(bodies_[a], bodies_[b], grid_)) {
+                if (bodies_[a].contains(middleOf(b)) && bodies_[b].contains(middleOf(a))) {
                     join(a, b);
                     return true;
                 }
@@ -96,10 +136,10 @@ private:
     }
     void joinNearest() {
         std::size_t first = 0, second = 1;
-        double nearest = length(bodies_[1].center - bodies_[0].center);
+        double nearest = std::numeric_limits<double>::infinity();
         for (std::size_t a = 0; a < bodies_.size(); ++a)
             for (std::size_t b = a + 1; b < bodies_.size(); ++b)
-                if (const double apart = length(bodies_[b].center - bodies_[a].center); apart < nearest) {
+                if (const double apart = length(middleOf(b) - middleOf(a)); apart < nearest) {
                     nearest = apart;
                     first = a;
                     second = b;
@@ -142,15 +182,9 @@ RoundBody viewBody(const Camera& camera, double aspect, double x, double y, doub
 
 RoundBody cutawayBody(const Camera& camera, const volume::Grid& grid, const analyze::SampleBox& target, double margin,
                       double slope) {
-    std::array<Vec3d, 8> corners;
+    const std::array<Vec3d, 8> corners = cornersOf(target, grid);
     Vec3d middle{};
-    for (std::size_t c = 0; c < 8; ++c) {
-        Vec3d index;
-        for (int axis = 0; axis < 3; ++axis)
-            index[axis] = (c >> axis & 1u) != 0 ? target.max[axis] + 0.5 : target.min[axis] - 0.5;
-        corners[c] = grid.worldFromIndex(index);
-        middle = middle + corners[c] / 8;
-    }
+    for (const Vec3d& corner : corners) middle = middle + corner / 8;
     const bool isPerspective = camera.projection == Camera::Projection::Perspective;
     const View view = makeView(camera);
     const Vec3d away = isPerspective ? normalized(middle - camera.eye) : view.forward;
@@ -181,20 +215,18 @@ RoundBody cutawayBody(const Camera& camera, const volume::Grid& grid, const anal
     return coneOf(scale);
 }
 
-std::vector<RoundBody> cutawayBodies(const Camera& camera, const volume::Grid& grid,
-                                     std::vector<analyze::SampleBox> targets, double margin, std::size_t most) {
+std::vector<render::ConvexPart> cutawayParts(const Camera& camera, const volume::Grid& grid,
+                                             std::vector<analyze::SampleBox> targets, double margin, std::size_t most) {
     constexpr std::size_t kMostTargets = 64;
     if (targets.size() > kMostTargets)
         for (; targets.size() > 1; targets.pop_back()) targets.front().add(targets.back());
-    // Steeper openings take less away, and leave more of them apart.
-    std::vector<RoundBody> bodies;
     for (const double slope : kSlopes) {
         Openings openings(camera, grid, targets, margin, slope);
+        openings.joinShared();
         openings.joinToAtMost(most);
-        if (openings.bodies().size() > bodies.size()) bodies = openings.bodies();
-        if (bodies.size() == targets.size()) break;
+        if (slope == kNarrowest || openings.areApart()) return openings.parts(slope != kCutawaySlope);
     }
-    return bodies;
+    return {};
 }
 
 }  // namespace svt::illustrate

@@ -29,12 +29,13 @@ inline constexpr double kCutawaySlope = 0.4663;
                                             const analyze::SampleBox& target, double margin,
                                             double slope = kCutawaySlope);
 
-/// The bodies to cut away so that several targets are visible: one for each. They open less where
-/// that keeps more of them apart. Those that would meet somewhere in the volume become one around both, so that what stays between two of them hangs together from the targets up to the viewer.
+/// The regions to cut away so that several targets are visible: one for each, and one for targets that stand in each other's.
+/// One target has that of cutawayBody(). Several open as wide as keeps them apart within the volume, so that what stays
+/// between them hangs together up to the viewer; where none does they are narrow, and end behind their targets.
 /// \param targets  samples to enclose, of each target; at least one
-/// \param most     bodies, >= 1: the targets that are nearest to each other are joined until there are no more
+/// \param most     regions, >= 1: the targets that are nearest to each other are joined until there are no more
 /// Cost: O(targets^2) for up to 64 of them; more are one.
-[[nodiscard]] std::vector<render::RoundBody> cutawayBodies(const render::Camera& camera, const volume::Grid& grid,
+[[nodiscard]] std::vector<render::ConvexPart> cutawayParts(const render::Camera& camera, const volume::Grid& grid,
                                                            std::vector<analyze::SampleBox> targets, double margin,
                                                            std::size_t most);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace svt::illustrate {
 namespace {
 
@@ -13,7 +15,7 @@ protected:
     CutawayTest() {
         grid_ = *volume::Grid::fromParts({200, 200, 30}, {0.1, 0.1, 0.1}, {0, 0, 0},
                                          {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-        camera_.eye = {30, -10, 25};
+        camera_.eye = {10, -15, 40};
         camera_.target = {10, 10, 1};
     }
     static SampleBox boxAt(std::int32_t x, std::int32_t y, std::int32_t size) {
@@ -22,54 +24,66 @@ protected:
         box.max = {x + size, y + size, 10};
         return box;
     }
-    [[nodiscard]] std::vector<render::RoundBody> bodiesOf(std::vector<SampleBox> targets, std::size_t most = 16) const {
-        return cutawayBodies(camera_, grid_, std::move(targets), 0.15, most);
+    [[nodiscard]] std::vector<render::ConvexPart> partsOf(std::vector<SampleBox> targets, std::size_t most = 16) const {
+        return cutawayParts(camera_, grid_, std::move(targets), 0.15, most);
+    }
+    static bool contains(const render::ConvexPart& part, Vec3d p) {
+        return std::all_of(part.rounds.begin(), part.rounds.end(),
+                           [&](const auto& round) { return round.contains(p); }) &&
+               std::all_of(part.halfSpaces.begin(), part.halfSpaces.end(),
+                           [&](const auto& half) { return dot(half.normal, p) + half.offset > 0; });
+    }
+    static int countOf(const std::vector<render::ConvexPart>& parts, Vec3d p) {
+        return static_cast<int>(
+            std::count_if(parts.begin(), parts.end(), [&](const auto& part) { return contains(part, p); }));
     }
     volume::Grid grid_;
     render::Camera camera_;
 };
 
-TEST_F(CutawayTest, FarTargetsHaveOneBodyEach) {
+TEST_F(CutawayTest, OneTargetHasTheBodyThatItAlwaysHad) {
+    const auto parts = partsOf({boxAt(20, 20, 10)});
+    ASSERT_EQ(parts.size(), 1u);
+    EXPECT_TRUE(parts[0].halfSpaces.empty());
+    EXPECT_EQ(parts[0].rounds[0], cutawayBody(camera_, grid_, boxAt(20, 20, 10), 0.15));
+}
+
+TEST_F(CutawayTest, FarTargetsHaveOneEach) {
     const std::vector<SampleBox> targets{boxAt(20, 20, 10), boxAt(170, 20, 10), boxAt(20, 170, 10)};
-    const auto bodies = bodiesOf(targets);
-    ASSERT_EQ(bodies.size(), 3u);
-    // Nothing is cut away between them.
-    for (const auto& body : bodies) EXPECT_FALSE(body.contains({10, 10, 2.9}));
+    const auto parts = partsOf(targets);
+    ASSERT_EQ(parts.size(), 3u);
+    EXPECT_EQ(countOf(parts, {10, 10, 2.9}), 0) << "nothing is cut away between them";
     for (std::size_t n = 0; n < targets.size(); ++n)
-        EXPECT_TRUE(bodies[n].contains(grid_.worldFromIndex(toDouble(targets[n].min))));
+        EXPECT_TRUE(contains(parts[n], grid_.worldFromIndex(toDouble(targets[n].min))));
 }
 
-TEST_F(CutawayTest, NearTargetsShareOneSmoothBody) {
-    const auto bodies = bodiesOf({boxAt(20, 20, 10), boxAt(31, 20, 10), boxAt(170, 170, 10)});
-    ASSERT_EQ(bodies.size(), 2u);
-    for (const double x : {2.1, 3.1, 4.0}) EXPECT_TRUE(bodies[0].contains({x, 2.5, 0.8})) << x;
+TEST_F(CutawayTest, TargetsInEachOthersOpeningShareIt) {
+    const auto parts = partsOf({boxAt(20, 20, 10), boxAt(27, 20, 10), boxAt(170, 170, 10)});
+    ASSERT_EQ(parts.size(), 2u);
+    for (const double x : {2.1, 2.9, 3.6}) EXPECT_TRUE(contains(parts[0], {x, 2.5, 0.8})) << x;
 }
 
-// A row of targets, each a little farther from the next: whatever is joined, no two bodies that are left meet.
-TEST_F(CutawayTest, WhatIsLeftNeverMeets) {
-    std::vector<SampleBox> targets;
-    for (std::int32_t n = 0; n < 7; ++n) targets.push_back(boxAt(10 + 3 * n * n + 10 * n, 60, 6));
-    const auto bodies = bodiesOf(targets);
-    EXPECT_GT(bodies.size(), 1u);
-    EXPECT_LT(bodies.size(), targets.size());
+// Targets in a row, whose widest openings would meet: they open less, until they are apart.
+TEST_F(CutawayTest, NeighboursOpenLess) {
+    const std::vector<SampleBox> targets{boxAt(60, 60, 6), boxAt(80, 60, 6), boxAt(100, 60, 6)};
+    const auto parts = partsOf(targets);
+    ASSERT_EQ(parts.size(), 3u);
     for (double x = 0; x < 20; x += 0.1)
         for (double y = 0; y < 20; y += 0.1)
-            for (const double z : {0.5, 1.5, 2.9}) {
-                int inside = 0;
-                for (const auto& body : bodies) inside += body.contains({x, y, z}) ? 1 : 0;
-                ASSERT_LE(inside, 1) << x << ", " << y << ", " << z;
-            }
+            for (const double z : {0.5, 1.5, 2.9})
+                ASSERT_LE(countOf(parts, {x, y, z}), 1) << x << ", " << y << ", " << z;
     for (const auto& target : targets) {
-        int inside = 0;
-        for (const auto& body : bodies) inside += body.contains(grid_.worldFromIndex(toDouble(target.min))) ? 1 : 0;
-        EXPECT_EQ(inside, 1);
+        EXPECT_EQ(countOf(parts, grid_.worldFromIndex(toDouble(target.min))), 1);
+        // And what is before them is cut away: 2 m nearer to the eye.
+        const Vec3d middle = grid_.worldFromIndex((toDouble(target.min) + toDouble(target.max)) * 0.5);
+        EXPECT_EQ(countOf(parts, middle + normalized(camera_.eye - middle) * 2.0), 1);
     }
 }
 
 TEST_F(CutawayTest, ThereAreNoMoreThanAskedFor) {
-    EXPECT_EQ(bodiesOf({boxAt(20, 20, 10), boxAt(170, 20, 10), boxAt(20, 170, 10)}, 2).size(), 2u);
-    EXPECT_EQ(bodiesOf({boxAt(20, 20, 10), boxAt(170, 20, 10), boxAt(20, 170, 10)}, 1).size(), 1u);
-    EXPECT_EQ(bodiesOf(std::vector<SampleBox>(1000, boxAt(20, 20, 10))).size(), 1u);
+    EXPECT_EQ(partsOf({boxAt(20, 20, 10), boxAt(170, 20, 10), boxAt(20, 170, 10)}, 2).size(), 2u);
+    EXPECT_EQ(partsOf({boxAt(20, 20, 10), boxAt(170, 20, 10), boxAt(20, 170, 10)}, 1).size(), 1u);
+    EXPECT_EQ(partsOf(std::vector<SampleBox>(1000, boxAt(20, 20, 10))).size(), 1u);
 }
 
 }  // namespace

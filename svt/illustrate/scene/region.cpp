@@ -404,10 +404,7 @@ private:
         std::vector<analyze::SampleBox> targets;
         for (const std::uint32_t label : selection->first)
             if (!boxes[label].isEmpty()) targets.push_back(boxes[label]);
-        Parts parts;
-        for (auto& body : cutawayBodies(context_.camera, grid(), std::move(targets), selection->second, kMostCutaways))
-            parts.push_back({{}, {std::move(body)}});
-        return parts;
+        return cutawayParts(context_.camera, grid(), std::move(targets), selection->second, kMostCutaways);
     }
 
     std::string_view text_;
