@@ -83,7 +83,7 @@ private:
     illustrate::ScenePainter painter_;
     std::optional<render::FrameSpec> lastSpec_;
     std::vector<illustrate::VolumeForm> lastForms_;
-    double lastApart_ = 0;  // Scene::explode
+    double lastApart_ = 0;                    // Scene::explode
     std::optional<render::Frame> lastFrame_;  // none if drawn with WebGL2
     std::optional<render_gl::GlRenderer> gl_;
     std::vector<std::uint32_t> labelOfScalar_;
