@@ -1,14 +1,15 @@
 // Volumes: what they are, their labels, files, parts.
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "keywords.hpp"
 #include "long_call.hpp"
 #include "volume_object.hpp"
 
+#include <apps/cli/options/write_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 
 #include <svt/volume/svt_file.hpp>
 #include <svt/volume/volume_json.hpp>
-#include <svt/volume/volume_part.hpp>
 #include <svt/volume_readers/label_array.hpp>
 #include <svt/volume_readers/read_label_volume.hpp>
 #include <svt/writers/volume_formats.hpp>
@@ -108,16 +109,37 @@ SharedVolume volumeOfArray(const py::array& samples, const std::array<double, 3>
     return std::make_shared<VolumeObject>(std::move(made));
 }
 
-std::uint64_t save(const SharedVolume& volume, const Path& path, bool isCompressed, int zarrVersion, const Path& model,
-                   const py::object& report) {
+/// The options of `svt convert` that say what is written, from keywords.
+class WriteKeywords {
+public:
+    WriteKeywords() { arguments_.connect(keywords_.command()); }
+    [[nodiscard]] const cli::WriteArguments& take(const py::dict& given) {
+        keywords_.take(given);
+        return arguments_;
+    }
+    [[nodiscard]] std::string describe() const { return keywords_.describe(); }
+
+private:
+    Keywords keywords_{"convert"};
+    cli::WriteArguments arguments_;
+};
+
+std::uint64_t save(const SharedVolume& volume, const Path& path, const py::dict& given, const py::object& report) {
+    WriteKeywords keywords;
+    const cli::WriteArguments& arguments = keywords.take(given);
     return longCall(report, [&](const Progress* progress) -> Result<std::uint64_t> {
-        if (path.extension() == ".svt") return volume::writeSvt(volume->volume(), path);
-        writers::VolumeWriteOptions options;
-        options.isCompressed = isCompressed;
-        options.zarrVersion = zarrVersion;
-        options.model = model;
-        options.progress = progress;
-        return writers::writeVolume(volume->volume(), path, options);
+        std::optional<volume::SemanticVolume> part;
+        if (arguments.isPart()) {
+            auto made = arguments.partOf(volume->volume(), 0);
+            if (!made) return made.error();
+            part = std::move(*made);
+        }
+        const volume::SemanticVolume& written = part ? *part : volume->volume();
+        if (path.extension() == ".svt") return volume::writeSvt(written, path);
+        auto options = arguments.options(written);
+        if (!options) return options.error();
+        options->progress = progress;
+        return writers::writeVolume(written, path, *options);
     });
 }
 
@@ -130,25 +152,11 @@ std::vector<std::uint32_t> query(const SharedVolume& volume, const std::string& 
 /// What `svt convert` writes with --box, --select and --level.
 SharedVolume partOf(const SharedVolume& whole, const std::optional<std::array<double, 6>>& box,
                     const std::optional<std::string>& select, int level, const py::object& report) {
-    auto made = longCall(report, [&](const Progress*) -> Result<volume::SemanticVolume> {
-        volume::SemanticVolume part = whole->volume();
-        if (box) {
-            const auto& b = *box;
-            const auto samples = volume::samplesIn(part.grid, {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}});
-            if (!samples) return samples.error();
-            auto cropped = volume::croppedVolume(part, *samples);
-            if (!cropped) return cropped;
-            part = std::move(*cropped);
-        }
-        if (select) {
-            const auto labels = analyze::selectLabels(part.labels, *select);
-            if (!labels) return labels.error();
-            auto selected = volume::selectedVolume(part, *labels);
-            if (!selected) return selected;
-            part = std::move(*selected);
-        }
-        return volume::coarseVolume(part, level);
-    });
+    cli::WriteArguments arguments;
+    if (box) arguments.box.assign(box->begin(), box->end());
+    if (select) arguments.select = *select;
+    arguments.level = level;
+    auto made = longCall(report, [&](const Progress*) { return arguments.partOf(whole->volume(), 0); });
     return std::make_shared<VolumeObject>(std::move(made));
 }
 
@@ -277,8 +285,8 @@ void bindVolumes(py::module_& module) {
              })
         .def("query", &query, py::arg("text"))
         .def("part", &partOf, py::arg("box"), py::arg("select"), py::arg("level"), py::arg("progress"))
-        .def("save", &save, py::arg("path"), py::arg("compressed"), py::arg("zarr_version"), py::arg("model"),
-             py::arg("progress"));
+        .def("save", &save, py::arg("path"), py::arg("options"), py::arg("progress"));
+    module.def("save_keywords", [] { return WriteKeywords().describe(); });
     module.def("open", &openVolume, py::arg("path"), py::arg("labels"), py::arg("progress"));
     module.def("from_array", &volumeOfArray, py::arg("samples"), py::arg("spacing"), py::arg("origin"), py::arg("axes"),
                py::arg("labels"), py::arg("crs"), py::arg("source"), py::arg("progress"));

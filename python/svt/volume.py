@@ -289,25 +289,10 @@ class Volume:
         selects, a coarse level. Labels keep their numbers."""
         return Volume(self._native.part(None if box is None else _box_of(box), select, level, progress))
 
-    def save(self, path: PathLike, *, compressed: bool = True, zarr_version: int = 2, model: PathLike = "",
-             progress: Progress = None) -> int:
-        """Write the volume. The ending tells the format: `.svt`, and all of `svt convert` (.nrrd, .vti, .nii.gz, .zarr, ...).
-
-        Parameters
-        ----------
-        compressed
-            For formats that leave the choice.
-        zarr_version
-            2 or 3.
-        model
-            For CityGML: the model that the volume was built from, which is kept in the document.
-
-        Returns
-        -------
-        int
-            Bytes written. All or nothing: a file that was there is kept where writing fails.
-        """
-        return self._native.save(os.fspath(path), compressed, zarr_version, os.fspath(model), progress)
+    def save(self, path: PathLike, *, progress: Progress = None, **options: Any) -> int:
+        if options.get("box") is not None:
+            options["box"] = tuple(_box_of(options["box"]))
+        return self._native.save(os.fspath(path), options, progress)
 
     @classmethod
     def from_dense(cls, array, labels: Any = None, *, spacing: float | Sequence[float] = 1,
@@ -455,3 +440,21 @@ Volume.render.__doc__ = f"""A picture: array (height, width, 4) of uint8, red, g
         dict for queries with a value (``opacity={{'class=BuildingRoom': 0.2}}``).
 
 {_indented(_native.draw_keywords(), 8)}"""
+Volume.save.__doc__ = f"""Write the volume. The ending tells the format: `.svt`, and all of `svt convert` (.nrrd, .vti, .nii.gz, .zarr, ...).
+
+        Parameters
+        ----------
+        path
+            A file, or a folder for formats that are one.
+        progress
+            Called with (stage, fraction) on the calling thread; an exception of it stops the work, and so does Ctrl-C.
+
+        Options of `svt convert`, as keywords; a tuple for several numbers, such as ``place=(49.1, 8.44, 110)``. A part
+        (`select`, `box`, `level`) is written of a `.svt`, too.
+
+{_indented(_native.save_keywords(), 8)}
+        Returns
+        -------
+        int
+            Bytes written. All or nothing: a file that was there is kept where writing fails.
+        """

@@ -58,6 +58,37 @@ class Command(unittest.TestCase):
         again = svt.open(path("command-h.nrrd"))
         np.testing.assert_array_equal(again.dense(), v.dense())
 
+    def test_options_of_written_formats_are_those_of_the_command(self):
+        v = svt.open(house_svt())
+        box = (v.world((10, 20, 5)), v.world((70, 50, 40)))
+        box_text = ",".join(repr(float(x)) for x in np.ravel(box))
+        for name, options, words in (
+            ("o.nrrd", {"encoding": "raw", "box": box, "level": 1}, ["--encoding", "raw", "--box", box_text, "--level", "1"]),
+            ("o.obj", {"select": "class=BuildingRoom", "faces": "voxels"}, ["--select", "class=BuildingRoom", "--faces", "voxels"]),
+            ("o.fds", {"holes": "class=Door", "merge": "class"}, ["--holes", "class=Door", "--merge", "class"]),
+            ("o.vdb", {"level_sets": True, "level": 2}, ["--level-sets", "--level", "2"]),
+            ("o.x3d", {"texture": "atlas"}, ["--texture", "atlas"]),
+        ):
+            v.save(path("python-" + name), **options)
+            command("convert", house_svt(), path("command-" + name), *words)
+            with open(path("python-" + name), "rb") as a, open(path("command-" + name), "rb") as b:
+                self.assertTrue(a.read().replace(b"python-o", b"command-o") == b.read(), name)
+        for name, options, words in (
+            ("o.precomputed", {"meshes": True, "level": 2}, ["--meshes", "--level", "2"]),
+            ("o.zarr", {"zarr": 3}, ["--zarr", "3"]),
+            ("o.3dtiles", {"place": (49.1, 8.44, 110), "lift": 48.2}, ["--place", "49.1,8.44,110", "--lift", "48.2"]),
+        ):
+            v.save(path("python-" + name), **options)
+            command("convert", house_svt(), path("command-" + name), *words)
+            files = sorted(os.path.relpath(os.path.join(at, file), path("command-" + name))
+                           for at, _, found in os.walk(path("command-" + name)) for file in found)
+            self.assertGreater(len(files), 1)
+            for file in files:
+                with open(path("python-" + name, file), "rb") as a, open(path("command-" + name, file), "rb") as b:
+                    self.assertTrue(a.read() == b.read(), file)
+        v.save(path("rooms.svt"), select="class=BuildingRoom")
+        np.testing.assert_array_equal(svt.open(path("rooms.svt")).dense(), v.part(select="class=BuildingRoom").dense())
+
     def test_info_is_that_of_the_command(self):
         self.assertEqual(svt.open(house_svt()).info(), json.loads(command("info", house_svt(), "--json")))
 

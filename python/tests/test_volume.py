@@ -279,6 +279,14 @@ class Words(unittest.TestCase):
             self.assertNotIn("--", str(caught.exception))
         with self.assertRaises(svt.Error):
             svt.build(house_file(), spacing=0.1, dimension=(20, 20, 20))
+        with self.assertRaisesRegex(TypeError, "did you mean 'meshes'"):
+            v.save(path("m.precomputed"), meshs=True)
+        for options in ({"zarr": 4}, {"place": (1, 2)}, {"level": 7}, {"meshes": 1}, {"texture": "oil"}):
+            with self.assertRaises(svt.Error, msg=options) as caught:
+                v.save(path("not.zarr"), **options)
+            self.assertEqual(caught.exception.code, "E904")
+            self.assertNotIn("--", str(caught.exception))
+        self.assertFalse(os.path.exists(path("not.zarr")))
         self.assertEqual(v.render(size=(np.int64(40), 30), ortho=True, hatch=False, zoom=None).shape, (30, 40, 4))
 
     def test_what_is_told_to_be_typed_stays(self):
@@ -301,6 +309,8 @@ class Words(unittest.TestCase):
             self.assertIn(f"\n    {keyword} : ", svt.build.__doc__)
         for keyword in ("section", "highlight", "scale_bar", "hidden_lines"):
             self.assertIn(f"\n        {keyword} : ", svt.Volume.render.__doc__)
+        for keyword in ("encoding", "meshes", "place", "lift", "zarr", "level_sets", "select"):
+            self.assertIn(f"\n        {keyword} : ", svt.Volume.save.__doc__)
 
     def test_notebooks_show_volume_picture_and_drawing(self):
         v = house()

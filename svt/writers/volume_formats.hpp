@@ -37,9 +37,10 @@ struct VolumeFormat {
 
 /// Where a format that is a document (X3D, CityGML) has the samples.
 enum class TextureKind : std::uint8_t {
-    Pixel,    ///< PixelTexture3D: numbers in the document
-    Image,    ///< ImageTexture3D: an NRRD beside the document
-    Composed  ///< ComposedTexture3D: a folder of PNG slices beside the document
+    Pixel,     ///< PixelTexture3D: numbers in the document
+    Image,     ///< ImageTexture3D: an NRRD beside the document
+    Composed,  ///< ComposedTexture3D: a folder of PNG slices beside the document
+    Atlas      ///< of X3D alone: one PNG beside the document, colours without labels (ImageTextureAtlas of X3DOM)
 };
 
 /// Which voxels of components become boxes together.
@@ -57,9 +58,11 @@ struct VolumeWriteOptions {
     std::size_t maxBoxes = 1'000'000;  ///< of boxes: more are refused
     bool hasMeshes = false;            ///< of neuroglancer: also the surface of each label
     std::optional<Vec3d>
-        place;        ///< of 3D Tiles: latitude, longitude (degrees) and height over the ellipsoid (metres) of
-                      ///< the lower corner; none: by the CRS of the volume
-    double lift = 0;  ///< of 3D Tiles: metres that are added to heights
+        place;               ///< of 3D Tiles: latitude, longitude (degrees) and height over the ellipsoid (metres) of
+                             ///< the lower corner; none: by the CRS of the volume
+    double lift = 0;         ///< of 3D Tiles: metres that are added to heights
+    bool hasVoxels = false;  ///< of 3D Tiles: voxels by the draft extensions, not surfaces
+    bool hasLevelSets = false;                ///< of OpenVDB: each class as signed distances, not as a fog volume
     std::vector<std::uint32_t> holes, vents;  ///< of FDS: labels that are open, and that have vents on both sides
     int threads = 0;                          ///< maximum; 0: all cores. The bytes do not depend on it.
     const Progress* progress = nullptr;       ///< stages by format

@@ -110,6 +110,24 @@ TEST_F(Convert, VtkReadsImageData) {
     EXPECT_NE(said.find("label_first [1, 2, 3]"), std::string::npos) << said;
 }
 
+TEST_F(Convert, ParaViewOpensImageDataAndAllLevels) {
+    const char* told = std::getenv("SVT_PVPYTHON");
+    const std::string pvpython = told != nullptr ? told : "pvpython";
+    if (std::system(("'" + pvpython + "' --version > /dev/null 2>&1").c_str()) != 0)
+        GTEST_SKIP() << "no pvpython; SVT_PVPYTHON names one";
+    runSvtWell(folder.path(), {"build", "boxes.gml", "-o", "fine.svt", "--spacing", "0.05,0.06,0.07"});
+    runSvtWell(folder.path(), {"convert", "fine.svt", "fine.nrrd", "--encoding", "raw"});
+    for (const std::string file : {"fine.vti", "raw.vti", "fine.vtm"}) {
+        runSvtWell(folder.path(), {"convert", "fine.svt", file, "--encoding", file == "raw.vti" ? "raw" : "gzip"});
+        const std::string command = "cd '" + folder.path().string() + "' && '" + pvpython +
+                                    "' --force-offscreen-rendering " SVT_SOURCE_DIR "/tests/formats/read_paraview.py " +
+                                    file + " fine.nrrd > output.txt 2>&1";
+        EXPECT_EQ(std::system(command.c_str()), 0) << file << ":\n" << readText(folder / "output.txt");
+        EXPECT_NE(readText(folder / "output.txt").find(" same; 3 names"), std::string::npos)
+            << readText(folder / "output.txt");
+    }
+}
+
 TEST_F(Convert, VtkReadsNrrd) {
     if (!isSameFor("vtknrrd", "reference.nrrd")) GTEST_SKIP() << said;
 }
@@ -233,6 +251,25 @@ TEST_F(Convert, TheOpenVdbLibraryReadsLabelsMasksAndPlace) {
         << "nothing there";
 }
 
+TEST_F(Convert, TheOpenVdbLibraryReadsLevelSets) {
+    runSvtWell(folder.path(), {"build", "boxes.gml", "-o", "cubes.svt", "--spacing", "0.06"});
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml", "--turn", "30"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "turned.svt", "--spacing", "0.3", "--axes", "building"});
+    for (const std::string name : {"cubes", "turned"}) {
+        runSvtWell(folder.path(), {"convert", name + ".svt", name + ".nrrd", "--encoding", "raw"});
+        runSvtWell(folder.path(), {"convert", name + ".svt", name + ".vdb", "--level-sets"});
+        if (!isSameFor("levelset", name + ".vdb", name + ".nrrd")) GTEST_SKIP() << said;
+        EXPECT_NE(said.find(name == "cubes" ? "level sets 1" : "level sets "), std::string::npos) << said;
+    }
+    const std::string print = "cd '" + folder.path().string() + "' && vdb_print cubes.vdb > output.txt 2>&1";
+    if (std::system(print.c_str()) == 0) {
+        EXPECT_NE(readText(folder / "output.txt").find("Building"), std::string::npos);
+    }
+    const auto refused = runSvt(folder.path(), {"convert", "boxes.svt", "no.vdb", "--level-sets"});
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_NE(refused.err.find("cubes"), std::string::npos) << refused.err;
+}
+
 TEST_F(Convert, MagicaVoxelsFormatHasAllVoxelsWithTheirNames) {
     runSvtWell(folder.path(), {"convert", "boxes.svt", "boxes.vox"});
     ASSERT_TRUE(isSameFor("vox", "boxes.vox")) << said;
@@ -311,6 +348,22 @@ TEST_F(Convert, CesiumShowsTilesAtTheirPlaceAndTellsComponents) {
     if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) GTEST_SKIP() << said;
     EXPECT_EQ(status, 0) << said;
     EXPECT_NE(said.find("\"Upper floor\""), std::string::npos) << said;
+}
+
+TEST_F(Convert, CesiumShowsVoxelsAndTellsTheirLabels) {
+    const char* told = std::getenv("SVT_ORACLES");
+    const std::string oracles = told != nullptr ? told : SVT_SOURCE_DIR "/build/oracles";
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.1"});
+    runSvtWell(folder.path(), {"convert", "house.svt", "house.nrrd", "--encoding", "raw"});
+    runSvtWell(folder.path(), {"convert", "house.svt", "house.3dtiles", "--voxels"});
+    const std::string command = "cd '" + folder.path().string() +
+                                "' && node " SVT_SOURCE_DIR "/tests/formats/cesium_voxels.mjs " + oracles +
+                                " house.3dtiles house.nrrd voxels.png > output.txt 2>&1";
+    const int status = std::system(command.c_str());
+    said = readText(folder / "output.txt");
+    if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) GTEST_SKIP() << said;
+    EXPECT_EQ(status, 0) << said;
 }
 
 TEST_F(Convert, ParquetHasTheRowsOfCsv) {
@@ -520,6 +573,54 @@ TEST_F(Convert, X3dIsWellFormedInAllThreeKinds) {
     EXPECT_EQ(runSvt(folder.path(), {"convert", "boxes.svt", "other.x3d", "--texture", "image"}).exitCode, 5);
     EXPECT_EQ(readText(folder / "other.labels.nrrd"), "a letter");
     EXPECT_FALSE(fs::exists(folder / "other.x3d"));
+}
+
+/// Where the viewer of an X3D scene stands, or looks at, as `svt render` takes it: from the lower corner, z up.
+std::string placeIn(const std::string& scene, const char* attribute) {
+    const std::size_t at = scene.find(std::string(attribute) + "='");
+    double x = 0, y = 0, z = 0;
+    if (at == std::string::npos ||
+        std::sscanf(scene.c_str() + scene.find('\'', at) + 1, "%lf %lf %lf", &x, &y, &z) != 3)
+        return {};
+    std::ostringstream text;
+    text.precision(12);
+    text << x << ',' << -z << ',' << y;
+    return text.str();
+}
+
+TEST_F(Convert, BrowsersShowX3dAsWeDrawIt) {
+    const char* told = std::getenv("SVT_ORACLES");
+    const std::string oracles = told != nullptr ? told : SVT_SOURCE_DIR "/build/oracles";
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    std::map<std::string, std::string> models{{"house", "house.gml"}};
+    if (const fs::path ifc = dataFolder() / "fzk_haus.ifc"; fs::exists(ifc)) models["fzk"] = ifc.string();
+    for (const auto& [name, model] : models) {
+        const std::string volume = name + ".svt";
+        runSvtWell(folder.path(), {"build", model, "-o", volume, "--spacing", "0.1"});
+        for (const std::string texture : {"pixel", "image", "composed", "atlas"}) {
+            const std::string scene = name + "_" + texture + ".x3d", ours = name + ".png";
+            runSvtWell(folder.path(), {"convert", volume, scene, "--texture", texture});
+            if (texture == "pixel") {
+                const std::string text = readText(folder / scene);
+                runSvtWell(folder.path(), {"render", volume, "-o", ours, "--size", "960x640", "--fov", "45", "--eye",
+                                           placeIn(text, "position"), "--target", placeIn(text, "centerOfRotation"),
+                                           "--background", "#dbe3eb"});
+            }
+            const std::string command = "cd '" + folder.path().string() +
+                                        "' && node " SVT_SOURCE_DIR "/tests/formats/x3d.mjs " + oracles +
+                                        (texture == "atlas" ? " x3dom " : " x_ite ") + scene + " " + scene + ".png " +
+                                        ours + " > output.txt 2>&1";
+            const int status = std::system(command.c_str());
+            said = readText(folder / "output.txt");
+            if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) GTEST_SKIP() << said;
+            EXPECT_EQ(status, 0) << scene << ":\n" << said;
+            // The samples are the same, wherever they stand.
+            if (texture == "image" || texture == "composed") {
+                EXPECT_EQ(readText(folder / (scene + ".png")), readText(folder / (name + "_pixel.x3d.png"))) << scene;
+            }
+        }
+    }
+    EXPECT_EQ(runSvt(folder.path(), {"convert", "house.svt", "x.ade.gml", "--texture", "atlas"}).exitCode, 2);
 }
 
 TEST_F(Convert, TablesHaveALineForEachObjectAndContact) {

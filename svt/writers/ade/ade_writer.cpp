@@ -166,6 +166,11 @@ Result<std::uint64_t> writeAde(const volume::SemanticVolume& volume, const std::
             Code::BadArgument,
             "the grid is turned, and the extension of CityGML has no place for its axes; build the volume with "
             "--axes world");
+    if (options.texture == TextureKind::Atlas)
+        return Error(
+            Code::BadArgument,
+            "an atlas of slices has no labels, and the extension of CityGML has no place for it; use --texture "
+            "pixel, image or composed");
     if (options.texture == TextureKind::Pixel)
         if (auto checked = checkPixelCount(volume.grid.dimension(), options.maxVoxels); !checked)
             return checked.error();

@@ -116,7 +116,7 @@ Written asVtm(const SemanticVolume& volume, const Path& path, const VolumeWriteO
     return writeVtm(volume, path, denseOptions(options));
 }
 Written asVdb(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
-    return writeVdb(volume, path, denseOptions(options));
+    return writeVdb(volume, path, denseOptions(options), options.hasLevelSets);
 }
 Written asUsd(const SemanticVolume& volume, const Path& path, const VolumeWriteOptions& options) {
     return writeUsd(volume, path, options);
@@ -172,11 +172,11 @@ constexpr VolumeFormat kVolumeFormats[] = {
     {"precomputed", ".precomputed",
      "neuroglancer's precomputed segmentation: a folder with all levels, names and colours",
      "neuroglancer, CloudVolume", true},
-    {"vdb", ".vdb", "OpenVDB: a grid of labels, a fog volume for each class", "Blender, Houdini, Maya, Unreal, OpenVDB",
-     true},
+    {"vdb", ".vdb", "OpenVDB: a grid of labels, a fog volume or level set for each class",
+     "Blender, Houdini, Maya, Unreal, OpenVDB", true},
     {"vox", ".vox", "MagicaVoxel: voxels, a group for each label", "MagicaVoxel, Blender, Goxel, Unity, Godot", true},
     {"x3d", ".x3d", "X3D 4.0: a 3D texture as SegmentedVolumeData, with transfer function and features",
-     "X_ITE, Castle, InstantReality", true},
+     "X_ITE, Castle, InstantReality; X3DOM by --texture atlas", true},
     {"ade", ".ade.gml", "CityGML 2.0 or 3.0: the model with the volume in it, by an application domain extension",
      "svt build; any CityGML reader sees the model", true},
     {"obj", ".obj", "Wavefront OBJ: an object per label, colours in an .mtl beside it", "Blender, MeshLab, CAD, VTK"},

@@ -150,7 +150,9 @@ GltfJson metadataOf(const LabelHulls& hulls, std::size_t begin, std::size_t end,
     return table.extension("component", "a component of a building");
 }
 
-std::string asGlbFile(const GltfJson& json, const std::string& binary) {
+}  // namespace
+
+std::string asGlbFile(const nlohmann::ordered_json& json, const std::string& binary) {
     std::string text = json.dump(-1, ' ', false, GltfJson::error_handler_t::replace);
     text.resize((text.size() + 7) / 8 * 8 + 4, ' ');  // so that the binary begins at a multiple of 8, as tables want it
     const std::array<std::uint32_t, 5> head{0x46546C67, 2, static_cast<std::uint32_t>(28 + text.size() + binary.size()),
@@ -161,8 +163,6 @@ std::string asGlbFile(const GltfJson& json, const std::string& binary) {
     file.append(reinterpret_cast<const char*>(chunk.data()), sizeof chunk);
     return file += binary;
 }
-
-}  // namespace
 
 FeatureTexts featureTexts(const volume::SemanticVolume& volume) {
     const auto& labels = volume.labels.labels;

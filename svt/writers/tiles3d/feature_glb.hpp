@@ -5,6 +5,8 @@
 
 #include <svt/writers/hulls/label_hulls.hpp>
 
+#include <nlohmann/json.hpp>
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -23,6 +25,9 @@ struct FeatureTexts {
 /// \return the file; or GridTooLarge where it would reach the limit of 4 GiB
 [[nodiscard]] Result<std::string> makeFeatureGlb(const LabelHulls& hulls, std::size_t begin, std::size_t end,
                                                  const FeatureTexts& texts);
+
+/// A .glb of a document and its one buffer, which begins at a multiple of 8 bytes.
+[[nodiscard]] std::string asGlbFile(const nlohmann::ordered_json& json, const std::string& binary);
 
 /// The box around surfaces [begin, end), world directions, metres from the lower corner.
 [[nodiscard]] Box3d boxOfHulls(const LabelHulls& hulls, std::size_t begin, std::size_t end);

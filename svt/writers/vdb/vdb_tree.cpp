@@ -1,76 +1,14 @@
 #include <svt/writers/vdb/vdb_tree.hpp>
 
 #include <svt/volume/dense.hpp>
-
-#include <zlib.h>
+#include <svt/writers/vdb/vdb_nodes.hpp>
 
 #include <algorithm>
 #include <array>
-#include <new>
+#include <iterator>
 
 namespace svt::writers {
 namespace {
-
-using VdbBytes = std::vector<std::byte>;
-
-constexpr std::int32_t kUpperSide = 32;  // blocks along an axis of an upper node
-constexpr std::int32_t kLeafSide = 8, kLeavesAlong = VdbBlocks::kSide / kLeafSide;
-constexpr int kVdbLevel = 1;
-
-/// Bits of a node, words of 64.
-template <std::size_t N>
-struct NodeMask {
-    std::array<std::uint64_t, N / 64> words{};
-    void set(std::size_t bit) noexcept { words[bit / 64] |= std::uint64_t{1} << (bit % 64); }
-};
-
-template <class T>
-void put(VdbBytes& to, const T& value) {
-    const auto bytes = std::as_bytes(std::span(&value, 1));
-    to.insert(to.end(), bytes.begin(), bytes.end());
-}
-
-/// zlib with a window as small as the leaves are, made once: setting it up takes longer than to pack a leaf.
-class LeafPacker {
-public:
-    LeafPacker() {
-        if (deflateInit2(&stream_, kVdbLevel, Z_DEFLATED, kWindowBits, kMemoryLevel, Z_DEFAULT_STRATEGY) != Z_OK)
-            throw std::bad_alloc();
-    }
-    LeafPacker(const LeafPacker&) = delete;
-    LeafPacker& operator=(const LeafPacker&) = delete;
-    ~LeafPacker() { deflateEnd(&stream_); }
-
-    /// The packed bytes, until the next call.
-    std::span<const std::byte> pack(std::span<const std::byte> plain) {
-        deflateReset(&stream_);
-        packed_.resize(deflateBound(&stream_, static_cast<uLong>(plain.size())));
-        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(plain.data()));
-        stream_.avail_in = static_cast<uInt>(plain.size());
-        stream_.next_out = reinterpret_cast<Bytef*>(packed_.data());
-        stream_.avail_out = static_cast<uInt>(packed_.size());
-        deflate(&stream_, Z_FINISH);  // ends, since the buffer is large enough
-        return std::span<const std::byte>(packed_).first(packed_.size() - stream_.avail_out);
-    }
-
-private:
-    static constexpr int kWindowBits = 12, kMemoryLevel = 4;
-    z_stream stream_{};
-    VdbBytes packed_;
-};
-
-/// The active values of a node: a byte that says that all others are background, then the values, compressed by zlib where
-/// that makes them smaller.
-void putValues(VdbBytes& to, std::span<const std::uint32_t> active) {
-    thread_local LeafPacker packer;
-    put(to, std::int8_t{0});
-    const auto plain = std::as_bytes(active);
-    const auto packed = packer.pack(plain);
-    const bool isSmaller = packed.size() < plain.size();
-    put(to, isSmaller ? static_cast<std::int64_t>(packed.size()) : -static_cast<std::int64_t>(plain.size()));
-    const auto bytes = isSmaller ? packed : plain;
-    to.insert(to.end(), bytes.begin(), bytes.end());
-}
 
 /// A leaf in the file's order, z fastest; the block is read in its own order, x fastest.
 /// \return whether all samples are alike
@@ -164,7 +102,7 @@ Result<VdbBlocks> VdbBlocks::of(const volume::ColumnVolume& columns, int threads
             return Error(Code::Cancelled, "writing the volume was stopped; no file was left");
         for (std::int32_t y = 0; y < blocks.count_.y; ++y)
             for (std::int32_t x = 0; x < blocks.count_.x; ++x) {
-                blocks.samples({x, y, z}, samples);
+                blocks.samples({x, y, z}, 0, samples);
                 std::vector<volume::Scalar> found;
                 for (std::size_t n = 0; n < samples.size(); ++n) {
                     if (n > 0 && samples[n] == samples[n - 1]) continue;
@@ -180,19 +118,26 @@ Result<VdbBlocks> VdbBlocks::of(const volume::ColumnVolume& columns, int threads
     return blocks;
 }
 
-void VdbBlocks::samples(Vec3i block, std::vector<volume::Scalar>& out) const {
-    const Vec3i first{block.x * kSide, block.y * kSide, block.z * kSide};
-    Vec3i end = first + Vec3i{kSide, kSide, kSide};
-    for (int axis = 0; axis < 3; ++axis) end[axis] = std::min(end[axis], columns_.dimension()[axis]);
-    const Vec3i size = end - first;
+void VdbBlocks::samples(Vec3i block, std::int32_t margin, std::vector<volume::Scalar>& out) const {
+    const std::int32_t side = kSide + 2 * margin;
+    const Vec3i corner = block * kSide - Vec3i{margin, margin, margin};
+    Vec3i first = corner, end = corner + Vec3i{side, side, side};
+    const auto row = static_cast<std::size_t>(side);
+    out.assign(row * row * row, 0);
+    for (int axis = 0; axis < 3; ++axis) {
+        first[axis] = std::max(first[axis], 0);
+        end[axis] = std::min(end[axis], columns_.dimension()[axis]);
+        if (first[axis] >= end[axis]) return;
+    }
+    const Vec3i size = end - first, shift = first - corner;
     inside_.resize(std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z));
     volume::copyBox<volume::Scalar>(columns_, {first.y, end.y, first.z, end.z, first.x, end.x}, inside_, threads_);
-    constexpr auto kRow = static_cast<std::size_t>(kSide);
-    out.assign(kRow * kRow * kRow, 0);
     for (std::int32_t k = 0; k < size.z; ++k)
         for (std::int32_t j = 0; j < size.y; ++j)
             std::copy_n(inside_.begin() + std::ptrdiff_t(size.x) * (j + std::ptrdiff_t(size.y) * k), size.x,
-                        out.begin() + static_cast<std::ptrdiff_t>(kRow * (std::size_t(j) + kRow * std::size_t(k))));
+                        out.begin() +
+                            static_cast<std::ptrdiff_t>(std::size_t(shift.x) + row * (std::size_t(j + shift.y) +
+                                                                                      row * std::size_t(k + shift.z))));
 }
 
 VdbTree::VdbTree(const VdbBlocks& blocks, std::vector<std::uint32_t> valueOf)
@@ -222,7 +167,7 @@ VdbTree::State VdbTree::stateOf(Vec3i block, std::uint32_t& value) const {
 }
 
 void VdbTree::readBlock(Vec3i block, std::vector<std::uint32_t>& values) const {
-    blocks_.samples(block, values);
+    blocks_.samples(block, 0, values);
     for (std::uint32_t& value : values) value = valueOf_[value];
 }
 

@@ -28,8 +28,8 @@ public:
     [[nodiscard]] Vec3i count() const noexcept { return count_; }
     /// Background is among them where it stands in the block.
     [[nodiscard]] std::span<const volume::Scalar> scalars(Vec3i block) const { return scalars_[index(block)]; }
-    /// The samples of a block; those beyond the volume are background.
-    void samples(Vec3i block, std::vector<volume::Scalar>& out) const;
+    /// The samples of a block and of `margin` around it, x fastest; those beyond the volume are background.
+    void samples(Vec3i block, std::int32_t margin, std::vector<volume::Scalar>& out) const;
     [[nodiscard]] const Progress* progress() const noexcept { return progress_; }
 
 private:

@@ -4,14 +4,17 @@
 #include <svt/volume/volume_json.hpp>
 #include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
+#include <svt/writers/vdb/vdb_level_set.hpp>
 #include <svt/writers/vdb/vdb_tree.hpp>
 
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace svt::writers {
@@ -55,15 +58,19 @@ std::string vdbTransform(const volume::Grid& grid) {
 }
 
 struct VdbGrid {
-    std::string name;
-    VdbTree tree;
+    std::string name, kind;
+    std::variant<VdbTree, VdbLevelSet> tree;
+
+    [[nodiscard]] Result<void> write(const VdbSink& topology, const VdbSink& buffers) const {
+        return std::visit([&](const auto& some) { return some.write(topology, buffers); }, tree);
+    }
 };
 
 /// What is in front of the tree of a grid.
 std::string gridHead(const VdbGrid& grid, const volume::Grid& samples) {
     std::string bytes;
     appendBytes(bytes, kZip | kActiveMask);
-    bytes += vdbMetadata({{"class", grid.name == kLabelGrid ? "unknown" : "fog volume"}, {"name", grid.name}});
+    bytes += vdbMetadata({{"class", grid.kind}, {"name", grid.name}});
     return bytes + vdbTransform(samples);
 }
 
@@ -88,7 +95,7 @@ struct VdbPart {
 Result<void> writeGrid(const VdbGrid& grid, const volume::Grid& samples, AtomicFile& file) {
     const std::string head = gridHead(grid, samples);
     VdbPart topology, buffers;
-    if (auto done = grid.tree.write(topology.sink(), buffers.sink()); !done) return done;
+    if (auto done = grid.write(topology.sink(), buffers.sink()); !done) return done;
     std::string descriptor = vdbString(grid.name) + vdbString("Tree_float_5_4_3") + vdbString("");
     const std::uint64_t begin = file.size() + descriptor.size() + 3 * sizeof(std::int64_t),
                         leaves = begin + head.size() + topology.size;
@@ -96,46 +103,64 @@ Result<void> writeGrid(const VdbGrid& grid, const volume::Grid& samples, AtomicF
         appendBytes(descriptor, static_cast<std::int64_t>(place));
     if (auto done = file.write(descriptor + head); !done) return done;
     const auto sink = [&](std::span<const std::byte> bytes) { return file.write(bytes); };
-    auto done = topology.kept.size() == topology.size ? file.write(topology.kept) : grid.tree.write(sink, {});
+    auto done = topology.kept.size() == topology.size ? file.write(topology.kept) : grid.write(sink, {});
     if (!done) return done;
-    return buffers.kept.size() == buffers.size ? file.write(buffers.kept) : grid.tree.write({}, sink);
+    return buffers.kept.size() == buffers.size ? file.write(buffers.kept) : grid.write({}, sink);
 }
 
-std::vector<VdbGrid> gridsOf(const volume::SemanticVolume& volume, const VdbBlocks& blocks) {
+std::vector<VdbGrid> gridsOf(const volume::SemanticVolume& volume, const VdbBlocks& blocks, bool hasLevelSets) {
     const std::size_t scalars = volume.labels.scalarCount();
     std::vector<std::uint32_t> values(scalars);
     for (std::size_t s = 0; s < scalars; ++s) values[s] = std::bit_cast<std::uint32_t>(static_cast<float>(s));
     std::vector<VdbGrid> grids;
-    grids.push_back({std::string(kLabelGrid), VdbTree(blocks, std::move(values))});
-    std::map<std::string, std::vector<std::uint32_t>> masks;
+    grids.push_back({std::string(kLabelGrid), "unknown", VdbTree(blocks, std::move(values))});
+    std::map<std::string, std::vector<bool>> masks;
     for (const volume::Label& label : volume.labels.labels) {
         if (label.count == 0) continue;
         std::string name = validText(label.className);
         if (name.empty() || name == kLabelGrid) name = "class_" + name;
-        const auto mask = masks.try_emplace(name, scalars, 0u).first;
-        for (volume::Scalar s = label.first; s < label.first + label.count; ++s)
-            mask->second[s] = std::bit_cast<std::uint32_t>(1.0f);
+        const auto mask = masks.try_emplace(name, scalars, false).first;
+        for (volume::Scalar s = label.first; s < label.first + label.count; ++s) mask->second[s] = true;
     }
-    for (auto& [name, mask] : masks) {
-        VdbTree tree(blocks, std::move(mask));
-        if (!tree.isEmpty()) grids.push_back({name, std::move(tree)});
+    for (const auto& [name, mask] : masks) {
+        std::vector<std::uint32_t> ones(scalars);
+        for (std::size_t s = 0; s < scalars; ++s) ones[s] = mask[s] ? std::bit_cast<std::uint32_t>(1.0f) : 0;
+        VdbTree tree(blocks, std::move(ones));
+        if (tree.isEmpty()) continue;
+        if (hasLevelSets)
+            grids.push_back({name, "level set", VdbLevelSet(blocks, mask, volume.grid.spacing().x)});
+        else
+            grids.push_back({name, "fog volume", std::move(tree)});
     }
     return grids;
+}
+
+Result<void> checkCubes(const volume::Grid& grid) {
+    const Vec3d spacing = grid.spacing();
+    if (std::abs(spacing.y - spacing.x) <= 1e-6 * spacing.x && std::abs(spacing.z - spacing.x) <= 1e-6 * spacing.x)
+        return {};
+    return Error(
+        Code::BadArgument,
+        fmt::format("a level set has voxels that are cubes, and these are {} x {} x {} m; build with one number "
+                    "for --spacing, or leave --level-sets out",
+                    spacing.x, spacing.y, spacing.z));
 }
 
 }  // namespace
 
 Result<std::uint64_t> writeVdb(const volume::SemanticVolume& volume, const std::filesystem::path& path,
-                               const DenseOptions& options) {
+                               const DenseOptions& options, bool hasLevelSets) {
     if (const auto bits = checkedSampleBits(volume); !bits) return bits.error();
     if (volume.labels.scalarCount() > kMostScalars)
         return Error(Code::BadArgument,
                      fmt::format("{} scalars are more than the {} that a float of OpenVDB tells apart",
                                  volume.labels.scalarCount(), kMostScalars));
+    if (hasLevelSets)
+        if (auto checked = checkCubes(volume.grid); !checked) return checked.error();
     const auto blocks = VdbBlocks::of(volume.columns, options.threads, options.progress);
     if (!blocks) return blocks.error();
-    const std::vector<VdbGrid> grids = gridsOf(volume, *blocks);
-    if (grids.front().tree.isEmpty()) return Error(Code::NothingSelected, "the volume has no voxels");
+    const std::vector<VdbGrid> grids = gridsOf(volume, *blocks, hasLevelSets);
+    if (grids.size() == 1) return Error(Code::NothingSelected, "the volume has no voxels");
     auto file = AtomicFile::create(path);
     if (!file) return file.error();
     std::string head;

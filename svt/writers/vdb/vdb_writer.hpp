@@ -9,6 +9,9 @@
 /// tiles. A voxel's centre is at its whole index, and the transform leads to world coordinates in metres, also of a turned
 /// grid. The metadata of the file have `svt.json` and `labels.json` of a `.svt`, and `crs`.
 ///
+/// Or each class is a level set: signed distances in metres to the surface of its voxels, negative inside, within three
+/// samples of it; of voxels that are cubes alone. Programs make meshes of these, offset them and combine them.
+///
 /// Written from the format as the OpenVDB library reads it (openvdb/io, openvdb/tree, version 10), without the library.
 
 #include <svt/core/result.hpp>
@@ -24,8 +27,8 @@ namespace svt::writers {
 /// of each block are unrolled once, and once more for each grid that has something in it, thrice where the grid has
 /// more than 64 MB.
 /// \return bytes, or NothingSelected if no label has voxels, CannotWrite, DiskFull, Cancelled; BadArgument as
-///         checkedSampleBits(), and for more than 2^24 scalars
+///         checkedSampleBits(), for more than 2^24 scalars, and for level sets where voxels are no cubes
 [[nodiscard]] Result<std::uint64_t> writeVdb(const volume::SemanticVolume& volume, const std::filesystem::path& path,
-                                             const DenseOptions& options = {});
+                                             const DenseOptions& options = {}, bool hasLevelSets = false);
 
 }  // namespace svt::writers

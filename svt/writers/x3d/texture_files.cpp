@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -135,6 +136,42 @@ Result<std::vector<std::string>> writeSlices(const volume::SemanticVolume& volum
         });
     if (!done) return done.error();
     return files;
+}
+
+Result<SliceAtlas> writeAtlas(const volume::SemanticVolume& volume, int bits, const std::vector<std::uint32_t>& lookOf,
+                              const fs::path& document, const StreamOptions& options) {
+    const Vec3i dimension = volume.grid.dimension();
+    // About as wide as high.
+    SliceAtlas atlas;
+    const double square = std::sqrt(double(dimension.z) * dimension.y / dimension.x);
+    atlas.along = std::clamp(static_cast<std::int32_t>(std::lround(square)), 1, dimension.z);
+    atlas.rows = (dimension.z + atlas.along - 1) / atlas.along;
+    const std::int64_t width = std::int64_t{atlas.along} * dimension.x, height = std::int64_t{atlas.rows} * dimension.y;
+    if (std::max(width, height) > SliceAtlas::kMaxSide)
+        return Error(
+            Code::BadArgument,
+            fmt::format("{} slices of {} x {} samples make a picture of {} x {} pixels, and browsers hold {} along "
+                        "an axis; write it coarser by --level, or another kind by --texture",
+                        dimension.z, dimension.x, dimension.y, width, height, SliceAtlas::kMaxSide));
+    atlas.file = stemOf(document) + ".atlas.png";
+    if (auto checked = checkSibling(document.parent_path() / atlas.file, "\x89PNG"); !checked) return checked.error();
+    image::Image<image::Rgba8> picture(static_cast<std::int32_t>(width), static_cast<std::int32_t>(height));
+    const auto nx = static_cast<std::uint64_t>(dimension.x), ny = static_cast<std::uint64_t>(dimension.y);
+    const auto along = static_cast<std::uint64_t>(atlas.along);
+    std::uint64_t sample = 0;
+    const auto done = streamSamples(volume.columns, bits, options, [&](std::span<const std::byte> bytes) {
+        for (std::size_t s = 0; s < bytes.size() / std::size_t(bits / 8); ++s, ++sample) {
+            const std::uint64_t i = sample % nx, j = sample / nx % ny, k = sample / (nx * ny);
+            const std::uint32_t look = lookOf[sampleAt(bytes, s, bits)];
+            picture.at(static_cast<std::int32_t>(k % along * nx + i), static_cast<std::int32_t>(k / along * ny + j)) = {
+                std::uint8_t(look >> 24), std::uint8_t(look >> 16 & 0xFF), std::uint8_t(look >> 8 & 0xFF),
+                std::uint8_t(look & 0xFF)};
+        }
+        return Result<void>();
+    });
+    if (!done) return done.error();
+    if (auto written = image::writePng(document.parent_path() / atlas.file, picture); !written) return written.error();
+    return atlas;
 }
 
 }  // namespace svt::writers

@@ -48,4 +48,19 @@ enum class SliceKind : std::uint8_t {
                                                            const std::filesystem::path& document,
                                                            const StreamOptions& options);
 
+/// All slices in one picture, as X3DOM's ImageTextureAtlas has them: slice 0 in the corner above left, row j = 0 of each on top.
+struct SliceAtlas {
+    std::string file;                  ///< beside the document
+    std::int32_t along = 0, rows = 0;  ///< slices from left to right, and from top to bottom
+
+    static constexpr std::int32_t kMaxSide = 8192;  ///< pixels, that browsers hold
+};
+
+/// Writes `<stem>.atlas.png`. Memory: the picture, 4 bytes a sample.
+/// \param lookOf  of each scalar, 0xRRGGBBAA; 0: background
+/// \return the atlas, or BadArgument if it would be larger than kMaxSide, CannotWrite, DiskFull, WouldDestroy, Cancelled
+[[nodiscard]] Result<SliceAtlas> writeAtlas(const volume::SemanticVolume& volume, int bits,
+                                            const std::vector<std::uint32_t>& lookOf,
+                                            const std::filesystem::path& document, const StreamOptions& options);
+
 }  // namespace svt::writers

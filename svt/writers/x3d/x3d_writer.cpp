@@ -91,7 +91,7 @@ std::string rotationText(const std::array<Vec3d, 3>& axes) {
     return fmt::format("{} {} {} {}", unit.x, unit.y, unit.z, std::atan2(sine, cosine));
 }
 
-std::string metadata(const volume::SemanticVolume& volume, const Palette& palette) {
+std::string metadata(const volume::SemanticVolume& volume, const Palette& palette, bool hasLabels) {
     const Vec3d corner = volume.grid.worldFromIndex({-0.5, -0.5, -0.5});
     std::string text = "<MetadataSet containerField='metadata' name='svt'>\n";
     text += fmt::format("<MetadataString containerField='value' name='crs' value='\"{}\"'/>\n",
@@ -99,6 +99,7 @@ std::string metadata(const volume::SemanticVolume& volume, const Palette& palett
     text += fmt::format("<MetadataDouble containerField='value' name='origin' value='{} {} {}'/>\n", corner.x, corner.y,
                         corner.z);
     for (const volume::Label& label : volume.labels.labels) {
+        if (!hasLabels) break;
         const auto quoted = [](std::string_view value) {
             std::string out;
             for (const char c : value) (c == '"' || c == '\\' ? out += '\\' : out) += c;
@@ -123,7 +124,7 @@ std::string metadata(const volume::SemanticVolume& volume, const Palette& palett
     return text + "</MetadataSet>\n";
 }
 
-std::string beginningOfX3d(const volume::SemanticVolume& volume, const Palette& palette) {
+std::string beginningOfX3d(const volume::SemanticVolume& volume, const Palette& palette, bool hasLabels) {
     const volume::Grid& grid = volume.grid;
     const Vec3d extent = scaled(toDouble(grid.dimension()), grid.spacing());
     std::string text =
@@ -136,7 +137,7 @@ std::string beginningOfX3d(const volume::SemanticVolume& volume, const Palette& 
     const double size = length(extent);
     // From the south-east, above: +x is east, +y up, -z north.
     const Vec3d look{extent.x / 2, extent.z / 2, -extent.y / 2};
-    text += "<Background skyColor='1 1 1'/>\n";
+    text += "<Background skyColor='0.859 0.89 0.922'/>\n";  // not white: walls often are
     text += fmt::format(
         "<Viewpoint description='from the south-east' centerOfRotation='{0} {1} {2}' "
         "position='{3} {4} {5}' orientation='-0.5558 0.7988 0.2302 0.9567'/>\n",
@@ -144,16 +145,35 @@ std::string beginningOfX3d(const volume::SemanticVolume& volume, const Palette& 
     text +=
         fmt::format("<Transform rotation='1 0 0 {}'>\n<Transform rotation='{}'>\n<Transform translation='{} {} {}'>\n",
                     -std::numbers::pi / 2, rotationText(grid.axes()), extent.x / 2, extent.y / 2, extent.z / 2);
-    text += fmt::format("<SegmentedVolumeData DEF='volume' dimensions='{} {} {}'>\n", extent.x, extent.y, extent.z);
-    return text + metadata(volume, palette);
+    text += fmt::format("<{} DEF='volume' dimensions='{} {} {}'>\n", hasLabels ? "SegmentedVolumeData" : "VolumeData",
+                        extent.x, extent.y, extent.z);
+    return text + metadata(volume, palette, hasLabels);
 }
+
+constexpr const char* kEndOfScene = "</Transform>\n</Transform>\n</Transform>\n</Scene>\n</X3D>\n";
 
 std::string endOfX3d(const Palette& palette) {
     return fmt::format(
         "<OpacityMapVolumeStyle containerField='renderStyle'><PixelTexture containerField='transferFunction' "
-        "repeatS='false' repeatT='false' image='{}'>{}</PixelTexture></OpacityMapVolumeStyle>\n</SegmentedVolumeData>\n"
-        "</Transform>\n</Transform>\n</Transform>\n</Scene>\n</X3D>\n",
+        "repeatS='false' repeatT='false' "
+        "image='{}'>{}</PixelTexture></OpacityMapVolumeStyle>\n</SegmentedVolumeData>\n",
         transferFunction(palette), kNearest);
+}
+
+/// The nodes of X3DOM, which X_ITE knows too. X3DOM mixes neighbouring slices, so numbers of looks would become others on
+/// the way to a transfer function; colours become colours between them. Each of its steps through the volume is opaque by
+/// opacityFactor, which is that number of steps; it takes the red channel for opacity.
+Result<std::string> writeAtlasScene(const volume::SemanticVolume& volume, int bits, const Palette& palette,
+                                    const std::filesystem::path& path, const DenseOptions& options) {
+    std::vector<std::uint32_t> lookOf;
+    for (const std::uint32_t look : palette.lookOfScalar) lookOf.push_back(palette.looks[look]);
+    const auto atlas = writeAtlas(volume, bits, lookOf, path, {"write", options.threads, options.progress});
+    if (!atlas) return atlas.error();
+    return fmt::format(
+        "<ImageTextureAtlas containerField='voxels' url='\"{}\"' numberOfSlices='{}' slicesOverX='{}' "
+        "slicesOverY='{}'/>\n<OpacityMapVolumeStyle containerField='renderStyle' opacityFactor='85' "
+        "lightFactor='1'/>\n</VolumeData>\n",
+        xmlAttribute(atlas->file), volume.grid.dimension().z, atlas->along, atlas->rows);
 }
 
 /// An NRRD as browsers read it: bytes, components first.
@@ -239,18 +259,21 @@ Result<std::uint64_t> writeX3d(const volume::SemanticVolume& volume, const std::
     const std::vector<std::uint32_t> codes = codesOf(palette);
     std::string beside;
     if (kind != TextureKind::Pixel) {
-        auto written = writeBesideScene(volume, *bits, codes, path, kind, options);
+        auto written = kind == TextureKind::Atlas ? writeAtlasScene(volume, *bits, palette, path, options)
+                                                  : writeBesideScene(volume, *bits, codes, path, kind, options);
         if (!written) return written.error();
         beside = std::move(*written);
     }
     auto file = AtomicFile::create(path);
     if (!file) return file.error();
-    if (auto done = file->write(beginningOfX3d(volume, palette)); !done) return done.error();
+    const bool hasLabels = kind != TextureKind::Atlas;
+    if (auto done = file->write(beginningOfX3d(volume, palette, hasLabels)); !done) return done.error();
     const StreamOptions stream{"write", options.threads, options.progress};
     const auto done =
         kind == TextureKind::Pixel ? writePixels(volume, *bits, codes, stream, *file) : file->write(beside);
     if (!done) return done.error();
-    if (auto ended = file->write(endOfX3d(palette)); !ended) return ended.error();
+    if (auto ended = file->write((hasLabels ? endOfX3d(palette) : std::string()) + kEndOfScene); !ended)
+        return ended.error();
     return file->commit();
 }
 

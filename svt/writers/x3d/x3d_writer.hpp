@@ -8,6 +8,9 @@
 /// 256 x 1 pixels of an OpacityMapVolumeStyle. Of more than 84 looks, further ones are shown as the nearest.
 /// Samples are never interpolated (NEAREST_PIXEL). The volume stands in metres with y up, its lower corner at the origin;
 /// the world coordinates of that corner, the CRS and the range of scalars of each feature are metadata.
+///
+/// The fourth kind is not of the standard: an ImageTextureAtlas, one picture of all slices, which is all that X3DOM shows as a
+/// volume. It has colours, not labels, and no features.
 
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -19,7 +22,8 @@
 
 namespace svt::writers {
 
-/// What is written beside the document: `<stem>.labels.nrrd`, or `<stem>_slices/0000.png` and so on.
+/// What is written beside the document: `<stem>.labels.nrrd`, or `<stem>_slices/0000.png` and so on, or
+/// `<stem>.atlas.png`.
 /// Equal volumes give equal bytes; the document appears when all is written.
 /// \param maxVoxels  limit of samples as numbers in the document
 /// \return bytes of the document, or BadArgument (too many scalars or voxels), CannotWrite, DiskFull, WouldDestroy,

@@ -1,0 +1,252 @@
+#include <svt/writers/vdb/vdb_level_set.hpp>
+
+#include <svt/writers/vdb/vdb_nodes.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <span>
+#include <tuple>
+#include <utility>
+
+namespace svt::writers {
+namespace {
+
+constexpr std::int32_t kBandMargin = VdbLevelSet::kHalfWidth;
+constexpr auto kBandRow = static_cast<std::size_t>(VdbBlocks::kSide + 2 * kBandMargin);
+constexpr float kFar = std::numeric_limits<float>::max();
+
+std::int32_t floorDivided(std::int32_t a, std::int32_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
+/// Square of the distance along an axis from a sample to the cube of the sample `steps` away.
+constexpr float axisSquare(std::int32_t steps) {
+    const float beyond = steps == 0 ? 0.0f : float(steps > 0 ? steps : -steps) - 0.5f;
+    return beyond * beyond;
+}
+
+/// The box of samples that can have a distance within the band, in a block with its margin; [begin, end) along each axis.
+struct Region {
+    std::array<std::size_t, 3> begin{kBandRow, kBandRow, kBandRow}, end{0, 0, 0};
+    [[nodiscard]] bool isEmpty() const noexcept { return begin[0] >= end[0]; }
+    void add(std::array<std::size_t, 3> place) noexcept {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            begin[axis] = std::min(begin[axis], place[axis]);
+            end[axis] = std::max(end[axis], place[axis] + 1);
+        }
+    }
+    void grow() noexcept {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            begin[axis] -= std::min<std::size_t>(begin[axis], std::size_t(kBandMargin));
+            end[axis] = std::min(end[axis] + std::size_t(kBandMargin), kBandRow);
+        }
+    }
+};
+
+/// One pass of the squared distances: the least sum of a value on the line and the square to its place.
+void spread(std::vector<float>& squares, const Region& region, std::size_t axis) {
+    constexpr std::array<std::size_t, 3> kStep{1, kBandRow, kBandRow * kBandRow};
+    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    std::array<float, kBandRow> line{};
+    const auto first = static_cast<std::int32_t>(region.begin[axis]),
+               last = static_cast<std::int32_t>(region.end[axis]);
+    for (std::size_t b = region.begin[v]; b < region.end[v]; ++b)
+        for (std::size_t a = region.begin[u]; a < region.end[u]; ++a) {
+            float* values = squares.data() + a * kStep[u] + b * kStep[v];
+            bool isAny = false;
+            for (std::int32_t n = first; n < last; ++n) {
+                line[std::size_t(n)] = values[std::size_t(n) * kStep[axis]];
+                isAny = isAny || line[std::size_t(n)] < kFar;
+            }
+            if (!isAny) continue;
+            for (std::int32_t n = first; n < last; ++n) {
+                float least = line[std::size_t(n)];
+                for (std::int32_t steps = 1; steps <= kBandMargin; ++steps) {
+                    const float square = axisSquare(steps);
+                    if (n - steps >= first) least = std::min(least, line[std::size_t(n - steps)] + square);
+                    if (n + steps < last) least = std::min(least, line[std::size_t(n + steps)] + square);
+                }
+                values[std::size_t(n) * kStep[axis]] = least;
+            }
+        }
+}
+
+/// A leaf in the file's order, z fastest.
+void gatherLeaf(const std::vector<float>& block, Vec3i leaf, std::array<float, 512>& values) {
+    constexpr auto kSide = static_cast<std::size_t>(VdbBlocks::kSide);
+    const float* corner = block.data() + std::size_t(leaf.x * kLeafSide) +
+                          kSide * (std::size_t(leaf.y * kLeafSide) + kSide * std::size_t(leaf.z * kLeafSide));
+    for (std::size_t z = 0; z < 8; ++z)
+        for (std::size_t y = 0; y < 8; ++y)
+            for (std::size_t x = 0; x < 8; ++x) values[x << 6 | y << 3 | z] = corner[x + kSide * (y + kSide * z)];
+}
+
+/// The nodes of a block: which leaves there are, with the values of the others, and the leaves.
+struct LowerNode {
+    VdbBytes topology, buffers;
+};
+
+LowerNode lowerNode(const std::vector<float>& block, float background) {
+    NodeMask<4096> children;
+    const NodeMask<4096> tiles;
+    std::vector<float> tileValues(4096, 0.0f);
+    VdbBytes masks;
+    LowerNode node;
+    std::array<float, 512> values{};
+    std::size_t number = 0;
+    for (std::int32_t x = 0; x < kLeavesAlong; ++x)
+        for (std::int32_t y = 0; y < kLeavesAlong; ++y)
+            for (std::int32_t z = 0; z < kLeavesAlong; ++z, ++number) {
+                gatherLeaf(block, {x, y, z}, values);
+                NodeMask<512> active;
+                bool isAny = false;
+                for (std::size_t n = 0; n < values.size(); ++n)
+                    if (std::abs(values[n]) < background) {
+                        active.set(n);
+                        isAny = true;
+                    }
+                if (!isAny) {
+                    tileValues[number] = values[0];
+                    continue;
+                }
+                children.set(number);
+                put(masks, active);
+                put(node.buffers, active);
+                putAllValues(node.buffers, values);
+            }
+    put(node.topology, children);
+    put(node.topology, tiles);
+    putAllValues(node.topology, tileValues);
+    node.topology.insert(node.topology.end(), masks.begin(), masks.end());
+    return node;
+}
+
+}  // namespace
+
+VdbLevelSet::VdbLevelSet(const VdbBlocks& blocks, std::vector<bool> isInside, double spacing)
+    : blocks_(blocks),
+      isInside_(std::move(isInside)),
+      spacing_(static_cast<float>(spacing)),
+      background_(static_cast<float>(spacing) * float(kHalfWidth)) {}
+
+/// By the scalars of the block and of those around it, into which its margin reaches.
+VdbLevelSet::State VdbLevelSet::stateOf(Vec3i block) const {
+    bool hasInside = false, hasOutside = false;
+    for (std::int32_t z = -1; z <= 1; ++z)
+        for (std::int32_t y = -1; y <= 1; ++y)
+            for (std::int32_t x = -1; x <= 1; ++x) {
+                const Vec3i other = block + Vec3i{x, y, z};
+                bool isThere = true;
+                for (int axis = 0; axis < 3; ++axis)
+                    isThere = isThere && other[axis] >= 0 && other[axis] < blocks_.count()[axis];
+                if (!isThere) {
+                    hasOutside = true;
+                    continue;
+                }
+                for (const volume::Scalar scalar : blocks_.scalars(other))
+                    (isInside_[scalar] ? hasInside : hasOutside) = true;
+            }
+    return hasInside && hasOutside ? State::Band : hasInside ? State::Inside : State::Outside;
+}
+
+/// Signed distances of a block, metres, x fastest.
+void VdbLevelSet::distances(Vec3i block, std::vector<float>& values) const {
+    constexpr auto kSide = static_cast<std::size_t>(VdbBlocks::kSide);
+    std::vector<volume::Scalar> samples;
+    blocks_.samples(block, kBandMargin, samples);
+    std::array<Region, 2> regions;              // of what is outside, inside
+    std::array<std::vector<float>, 2> squares;  // to what is outside, inside
+    for (auto& some : squares) some.assign(samples.size(), kFar);
+    std::vector<std::uint8_t> isIn(samples.size());
+    for (std::size_t s = 0; s < samples.size(); ++s) {
+        isIn[s] = isInside_[samples[s]] ? 1 : 0;
+        squares[isIn[s]][s] = 0;
+        regions[isIn[s]].add({s % kBandRow, s / kBandRow % kBandRow, s / (kBandRow * kBandRow)});
+    }
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (regions[side].isEmpty()) continue;
+        // A distance is asked for within the band around what is inside alone.
+        Region region = regions[1];
+        region.grow();
+        for (std::size_t axis = 0; axis < 3; ++axis) spread(squares[side], region, axis);
+    }
+    values.resize(kSide * kSide * kSide);
+    for (std::size_t z = 0; z < kSide; ++z)
+        for (std::size_t y = 0; y < kSide; ++y)
+            for (std::size_t x = 0; x < kSide; ++x) {
+                const std::size_t s =
+                    x + std::size_t(kBandMargin) +
+                    kBandRow * (y + std::size_t(kBandMargin) + kBandRow * (z + std::size_t(kBandMargin)));
+                const float distance = std::min(std::sqrt(squares[isIn[s] != 0 ? 0 : 1][s]) * spacing_, background_);
+                values[x + kSide * (y + kSide * z)] = isIn[s] != 0 ? -distance : distance;
+            }
+}
+
+Result<void> VdbLevelSet::writeUpper(Vec3i upper, const VdbSink& topology, const VdbSink& buffers) const {
+    NodeMask<32768> children;
+    const NodeMask<32768> tiles;
+    std::vector<float> tileValues(32768, 0.0f);
+    std::vector<std::vector<float>> kept;
+    std::vector<Vec3i> bands;
+    const Vec3i first = upper * kUpperSide;
+    std::size_t number = 0;
+    for (std::int32_t x = 0; x < kUpperSide; ++x)
+        for (std::int32_t y = 0; y < kUpperSide; ++y)
+            for (std::int32_t z = 0; z < kUpperSide; ++z, ++number) {
+                const Vec3i block = first + Vec3i{x, y, z};
+                bool isNear = true;
+                for (int axis = 0; axis < 3; ++axis)
+                    isNear = isNear && block[axis] >= -1 && block[axis] <= blocks_.count()[axis];
+                const State state = isNear ? stateOf(block) : State::Outside;
+                tileValues[number] = state == State::Inside ? -background_ : background_;
+                if (state != State::Band) continue;
+                children.set(number);
+                bands.push_back(block);
+            }
+    VdbBytes bytes;
+    for (int axis = 0; axis < 3; ++axis) put(bytes, first[axis] * VdbBlocks::kSide);
+    put(bytes, children);
+    put(bytes, tiles);
+    putAllValues(bytes, tileValues);
+    if (topology)
+        if (auto done = topology(bytes); !done) return done;
+    std::vector<float> values;
+    for (const Vec3i block : bands) {
+        if (Progress::isCancelled(blocks_.progress()))
+            return Error(Code::Cancelled, "writing the volume was stopped; no file was left");
+        distances(block, values);
+        const LowerNode node = lowerNode(values, background_);
+        if (topology)
+            if (auto done = topology(node.topology); !done) return done;
+        if (buffers)
+            if (auto done = buffers(node.buffers); !done) return done;
+    }
+    return {};
+}
+
+Result<void> VdbLevelSet::write(const VdbSink& topology, const VdbSink& buffers) const {
+    // Upper nodes that have something: the band may lie in a block before or behind those of the volume.
+    const auto before = [](Vec3i a, Vec3i b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+    std::set<Vec3i, decltype(before)> uppers(before);
+    const Vec3i count = blocks_.count();
+    for (std::int32_t x = -1; x <= count.x; ++x)
+        for (std::int32_t y = -1; y <= count.y; ++y)
+            for (std::int32_t z = -1; z <= count.z; ++z) {
+                const Vec3i upper{floorDivided(x, kUpperSide), floorDivided(y, kUpperSide),
+                                  floorDivided(z, kUpperSide)};
+                if (!uppers.contains(upper) && stateOf({x, y, z}) != State::Outside) uppers.insert(upper);
+            }
+    VdbBytes bytes;
+    put(bytes, std::int32_t{1});  // buffers of a leaf
+    put(bytes, background_);
+    put(bytes, std::uint32_t{0});  // tiles of the root
+    put(bytes, static_cast<std::uint32_t>(uppers.size()));
+    if (topology)
+        if (auto done = topology(bytes); !done) return done;
+    for (const Vec3i upper : uppers)
+        if (auto done = writeUpper(upper, topology, buffers); !done) return done;
+    return {};
+}
+
+}  // namespace svt::writers

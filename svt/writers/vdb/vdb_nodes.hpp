@@ -1,0 +1,38 @@
+#pragma once
+/// \file
+/// What the nodes of an OpenVDB tree are written with: masks, numbers, values.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace svt::writers {
+
+inline constexpr std::int32_t kUpperSide = 32;  // nodes of 128^3 samples along an axis of an upper node
+inline constexpr std::int32_t kLeafSide = 8, kLeavesAlong = 16;  // samples, and leaves in a node of 128^3 samples
+
+using VdbBytes = std::vector<std::byte>;
+
+/// Bits of a node, words of 64.
+template <std::size_t N>
+struct NodeMask {
+    std::array<std::uint64_t, N / 64> words{};
+    void set(std::size_t bit) noexcept { words[bit / 64] |= std::uint64_t{1} << (bit % 64); }
+};
+
+template <class T>
+void put(VdbBytes& to, const T& value) {
+    const auto bytes = std::as_bytes(std::span(&value, 1));
+    to.insert(to.end(), bytes.begin(), bytes.end());
+}
+
+/// The active values of a node: a byte that says that all others are background, then the values, compressed by zlib where
+/// that makes them smaller.
+void putValues(VdbBytes& to, std::span<const std::uint32_t> active);
+
+/// All values of a node, active or not, in the same way.
+void putAllValues(VdbBytes& to, std::span<const float> values);
+
+}  // namespace svt::writers
