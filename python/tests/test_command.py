@@ -84,7 +84,8 @@ class Command(unittest.TestCase):
                            for at, _, found in os.walk(path("command-" + name)) for file in found)
             self.assertGreater(len(files), 1)
             for file in files:
-                with open(path("python-" + name, file), "rb") as a, open(path("command-" + name, file), "rb") as b:
+                with open(os.path.join(path("python-" + name), file), "rb") as a, \
+                        open(os.path.join(path("command-" + name), file), "rb") as b:
                     self.assertTrue(a.read() == b.read(), file)
         v.save(path("rooms.svt"), select="class=BuildingRoom")
         np.testing.assert_array_equal(svt.open(path("rooms.svt")).dense(), v.part(select="class=BuildingRoom").dense())

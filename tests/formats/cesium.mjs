@@ -17,7 +17,7 @@ if (!browserPath || !existsSync(cesium) || !existsSync(playwright)) {
   console.log(`no Chromium, or no cesium and playwright-core in ${oracles}`);
   process.exit(77);
 }
-const page = `<!doctype html><html><body style="margin:0"><div id="globe" style="width:960px;height:640px"></div>
+const page = `<!doctype html><html><link rel="stylesheet" href="/cesium/Widgets/widgets.css"><body style="margin:0"><div id="globe" style="width:960px;height:640px"></div>
 <script>window.CESIUM_BASE_URL = "/cesium/";</script><script src="/cesium/Cesium.js"></script><script>
 (async () => {
   try {

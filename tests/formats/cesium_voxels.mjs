@@ -47,7 +47,7 @@ if (!browserPath || !existsSync(cesium) || !existsSync(playwright)) {
   console.log(`no Chromium, or no cesium and playwright-core in ${oracles}`);
   process.exit(77);
 }
-const page = `<!doctype html><html><body style="margin:0"><div id="globe" style="width:960px;height:640px"></div>
+const page = `<!doctype html><html><link rel="stylesheet" href="/cesium/Widgets/widgets.css"><body style="margin:0"><div id="globe" style="width:960px;height:640px"></div>
 <script>window.CESIUM_BASE_URL = "/cesium/";</script><script src="/cesium/Cesium.js"></script><script>
 (async () => {
   try {
@@ -56,7 +56,7 @@ const page = `<!doctype html><html><body style="margin:0"><div id="globe" style=
     const options = Object.fromEntries(off.map((name) => [name, false]));
     window.viewer = new Cesium.Viewer("globe", { ...options, contextOptions: { webgl: { preserveDrawingBuffer: true } } });
     viewer.scene.globe.show = false;
-    viewer.scene.skyBox && (viewer.scene.skyBox.show = false);
+    for (const sky of [viewer.scene.skyBox, viewer.scene.skyAtmosphere]) if (sky) sky.show = false;
     viewer.scene.backgroundColor = Cesium.Color.fromCssColorString("#dbe3eb");
     const provider = await Cesium.Cesium3DTilesVoxelProvider.fromUrl("/tiles/tileset.json");
     window.names = provider.names;

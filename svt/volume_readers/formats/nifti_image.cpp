@@ -44,9 +44,15 @@ Result<void> readNiftiType(int type, LabelImage& image) {
         case 4: image.bits = 16; break;
         case 768: image.bits = 32; return {};
         case 8: image.bits = 32; break;
-        default:
-            return badNifti(
-                fmt::format("samples of type {} are no labels; whole numbers of 8, 16 or 32 bits are expected", type));
+        case 16: image.other = OtherKind::Float32; break;
+        case 64: image.other = OtherKind::Float64; break;
+        case 1024: image.other = OtherKind::Int64; break;
+        case 1280: image.other = OtherKind::UInt64; break;
+        default: return badNifti(fmt::format("samples of type {} are no labels; whole numbers are expected", type));
+    }
+    if (image.other != OtherKind::None) {
+        image.bits = 32;
+        return {};
     }
     image.isSigned = true;
     return {};

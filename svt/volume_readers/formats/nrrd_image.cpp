@@ -88,21 +88,28 @@ Result<void> readNrrdType(std::string_view type, LabelImage& image) {
         std::string_view names;
         int bits;
         bool isSigned;
+        OtherKind other = OtherKind::None;
     };
-    constexpr Type kTypes[] = {{"|uchar|unsigned char|uint8|uint8_t|", 8, false},
-                               {"|signed char|int8|int8_t|", 8, true},
-                               {"|ushort|unsigned short|unsigned short int|uint16|uint16_t|", 16, false},
-                               {"|short|short int|signed short|signed short int|int16|int16_t|", 16, true},
-                               {"|uint|unsigned int|uint32|uint32_t|", 32, false},
-                               {"|int|signed int|int32|int32_t|", 32, true}};
+    constexpr Type kTypes[] = {
+        {"|uchar|unsigned char|uint8|uint8_t|", 8, false},
+        {"|signed char|int8|int8_t|", 8, true},
+        {"|ushort|unsigned short|unsigned short int|uint16|uint16_t|", 16, false},
+        {"|short|short int|signed short|signed short int|int16|int16_t|", 16, true},
+        {"|uint|unsigned int|uint32|uint32_t|", 32, false},
+        {"|int|signed int|int32|int32_t|", 32, true},
+        {"|longlong|long long|long long int|signed long long|signed long long int|int64|int64_t|", 32, false,
+         OtherKind::Int64},
+        {"|ulonglong|unsigned long long|unsigned long long int|uint64|uint64_t|", 32, false, OtherKind::UInt64},
+        {"|float|", 32, false, OtherKind::Float32},
+        {"|double|", 32, false, OtherKind::Float64}};
     for (const Type& known : kTypes)
         if (known.names.find(fmt::format("|{}|", type)) != std::string_view::npos) {
             image.bits = known.bits;
             image.isSigned = known.isSigned;
+            image.other = known.other;
             return {};
         }
-    return badNrrd(
-        fmt::format("samples of type '{}' are no labels; whole numbers of 8, 16 or 32 bits are expected", type));
+    return badNrrd(fmt::format("samples of type '{}' are no labels; whole numbers are expected", type));
 }
 
 /// Anatomical spaces count in millimetres; those that look left or posterior are turned to right, anterior, superior.

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
 
 namespace svt::volume_readers {
 namespace {
@@ -176,6 +178,89 @@ TEST(OtherVolumes, EachValueIsALabelWhereNoTableTells) {
     EXPECT_EQ(read->grid.spacing(), (Vec3d{0.5, 1, 2}));
     EXPECT_DOUBLE_EQ(read->labels.labels[0].volume, 4.0);
     EXPECT_TRUE(volume::checkLabels(read->labels));
+}
+
+/// The same image with samples of another type.
+template <class T>
+std::string samplesAs(const char* type, bool isBig, double changed = 0) {
+    std::string text = kHead;
+    text.replace(text.find("short"), 5, type);
+    if (!isBig) text.replace(text.find("big"), 3, "little");
+    for (const double value : {7.0, 7.0, 0.0, 7.0, 7.0, 0.0, 300.0, 300.0, 9.0, 0.0, 0.0, changed}) {
+        const auto number = static_cast<T>(value);
+        std::string bytes(sizeof number, '\0');
+        std::memcpy(bytes.data(), &number, sizeof number);
+        if (isBig) std::reverse(bytes.begin(), bytes.end());
+        text += bytes;
+    }
+    return text;
+}
+
+TEST(OtherVolumes, WholeNumbersAreLabelsInAnyType) {
+    const TemporaryFolder folder;
+    writeText(folder / "v.nrrd", bigEndianShorts());
+    const auto expected = readLabelVolume(folder / "v.nrrd");
+    ASSERT_TRUE(expected);
+    for (const std::string& text :
+         {samplesAs<float>("float", false), samplesAs<float>("float", true), samplesAs<double>("double", false),
+          samplesAs<double>("double", true), samplesAs<std::int64_t>("int64", false),
+          samplesAs<std::int64_t>("long long int", true), samplesAs<std::uint64_t>("uint64_t", false)}) {
+        writeText(folder / "w.nrrd", text);
+        const auto read = readLabelVolume(folder / "w.nrrd");
+        ASSERT_TRUE(read) << read.error().toString();
+        ASSERT_EQ(read->labels.labels.size(), 3u);
+        for (int n = 0; n < 12; ++n)
+            EXPECT_EQ(read->columns.scalarAt(n % 3, n / 3 % 2, n / 6),
+                      expected->columns.scalarAt(n % 3, n / 3 % 2, n / 6));
+        writeText(folder / "w.nrrd", text.substr(0, text.size() - 1));
+        EXPECT_FALSE(readLabelVolume(folder / "w.nrrd"));
+    }
+    for (const std::string& text :
+         {samplesAs<float>("float", false, 0.5), samplesAs<float>("float", true, -1),
+          samplesAs<float>("float", false, std::numeric_limits<double>::quiet_NaN()),
+          samplesAs<double>("double", true, 1e10),
+          samplesAs<double>("double", false, std::numeric_limits<double>::infinity()),
+          samplesAs<std::int64_t>("int64", false, -1), samplesAs<std::uint64_t>("uint64", true, 4294967296.0)}) {
+        writeText(folder / "w.nrrd", text);
+        const auto read = readLabelVolume(folder / "w.nrrd");
+        ASSERT_FALSE(read);
+        EXPECT_EQ(read.error().code(), Code::BadNrrd);
+        EXPECT_NE(read.error().message().find("slice 1 has the value"), std::string::npos) << read.error().message();
+    }
+}
+
+TEST(OtherVolumes, NiftiAndVtiOfFloatsAreLabels) {
+    const TemporaryFolder folder;
+    const SemanticVolume volume = volumeOf(32, true, {12, 9, 8});
+    writers::VolumeWriteOptions options;
+    options.isCompressed = false;
+    ASSERT_TRUE(writers::writeVolume(volume, folder / "v.nii", options));
+    ASSERT_TRUE(writers::writeVolume(volume, folder / "v.vti", options));
+    const std::size_t size = 4 * std::size_t{12 * 9 * 8};
+    const auto withFloats = [&](std::string text, std::size_t begin) {
+        for (std::size_t at = begin; at < begin + size; at += 4) {
+            std::uint32_t value = 0;
+            std::memcpy(&value, text.data() + at, 4);
+            const auto number = static_cast<float>(value);
+            std::memcpy(text.data() + at, &number, 4);
+        }
+        return text;
+    };
+    std::string nifti = readText(folder / "v.nii");
+    const std::size_t type = nifti.substr(4, 2) == "n+" ? 12 : 70;  // of version 2, or 1
+    nifti[type] = 16;
+    nifti[type + 1] = 0;
+    writeText(folder / "f.nii", withFloats(nifti, nifti.size() - size));
+    std::string vti = readText(folder / "v.vti");
+    const std::size_t name = vti.find("UInt32\" Name=\"label\"");
+    ASSERT_NE(name, std::string::npos);
+    vti.replace(name, 6, "Float32");
+    writeText(folder / "f.vti", withFloats(vti, vti.find("encoding=\"raw\">") + 15 + 2 + 8));
+    for (const char* file : {"f.nii", "f.vti"}) {
+        const auto read = readLabelVolume(folder / file);
+        ASSERT_TRUE(read) << read.error().toString();
+        EXPECT_TRUE(read->columns == volume.columns) << file;
+    }
 }
 
 TEST(OtherVolumes, ATableNamesValuesAndPutsThemIntoATree) {

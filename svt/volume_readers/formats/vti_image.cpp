@@ -86,8 +86,18 @@ Result<void> readVtiType(std::string_view type, LabelImage& image) {
     for (const int bits : {8, 16, 32})
         if (type == fmt::format("Int{}", bits) || type == fmt::format("UInt{}", bits)) image.bits = bits;
     if (image.bits != 0) return {};
-    return badVti(
-        fmt::format("samples of type '{}' are no labels; whole numbers of 8, 16 or 32 bits are expected", type));
+    for (const auto& [name, kind] :
+         std::initializer_list<std::pair<std::string_view, OtherKind>>{{"Float32", OtherKind::Float32},
+                                                                       {"Float64", OtherKind::Float64},
+                                                                       {"Int64", OtherKind::Int64},
+                                                                       {"UInt64", OtherKind::UInt64}})
+        if (type == name) {
+            image.isSigned = false;
+            image.bits = 32;
+            image.other = kind;
+            return {};
+        }
+    return badVti(fmt::format("samples of type '{}' are no labels; whole numbers are expected", type));
 }
 
 /// The array to take: the named scalars, else the first.

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 namespace svt::volume_readers {
@@ -88,7 +91,8 @@ private:
         }
         std::uint32_t value = 0;
         std::memcpy(&value, row + 4 * index, 4);
-        if (image_.isSwapped) value = value << 24 | (value << 8 & 0xFF0000) | (value >> 8 & 0xFF00) | value >> 24;
+        if (image_.isSwapped && image_.other == OtherKind::None)
+            value = value << 24 | (value << 8 & 0xFF0000) | (value >> 8 & 0xFF00) | value >> 24;
         isNegative_ = isNegative_ || (image_.isSigned && value > 0x7FFFFFFF);
         return value;
     }
@@ -113,21 +117,74 @@ private:
     bool isNegative_ = false;
 };
 
+/// A number as it is stored, of the machine's byte order afterwards.
+template <class T>
+T storedNumber(const std::byte* at, bool isSwapped) {
+    std::array<std::byte, sizeof(T)> bytes{};
+    std::memcpy(bytes.data(), at, sizeof(T));
+    if (isSwapped) std::reverse(bytes.begin(), bytes.end());
+    return std::bit_cast<T>(bytes);
+}
+
+/// The sample as a label, where it is one.
+std::optional<std::uint32_t> labelOf(const std::byte* at, OtherKind kind, bool isSwapped, double& found) {
+    constexpr double kMost = 4294967295.0;
+    if (kind == OtherKind::Int64 || kind == OtherKind::UInt64) {
+        const auto value = storedNumber<std::uint64_t>(at, isSwapped);
+        found = kind == OtherKind::Int64 ? double(static_cast<std::int64_t>(value)) : double(value);
+        if (value > 0xFFFFFFFFu) return std::nullopt;
+        return static_cast<std::uint32_t>(value);
+    }
+    found =
+        kind == OtherKind::Float32 ? double(storedNumber<float>(at, isSwapped)) : storedNumber<double>(at, isSwapped);
+    if (!(found >= 0 && found <= kMost) || found != std::floor(found)) return std::nullopt;
+    return static_cast<std::uint32_t>(found);
+}
+
+/// Reads slices of other kinds of samples as those of 32 bits.
+class Narrower {
+public:
+    explicit Narrower(const LabelImage& image) : image_(image), stored_(std::size_t(image.storedSliceBytes())) {}
+
+    Result<void> read(std::int32_t k, std::span<std::byte> slice, Code code) {
+        if (auto done = image_.read(stored_); !done) return done;
+        const std::size_t size = image_.other == OtherKind::Float32 ? 4 : 8;
+        for (std::size_t n = 0; n < slice.size() / 4; ++n) {
+            double found = 0;
+            const auto label = labelOf(stored_.data() + n * size, image_.other, image_.isSwapped, found);
+            if (!label)
+                return Error(
+                    code,
+                    fmt::format("slice {} has the value {}; labels are whole numbers from 0 to 4294967295", k, found));
+            std::memcpy(slice.data() + 4 * n, &*label, 4);
+        }
+        return {};
+    }
+
+private:
+    const LabelImage& image_;
+    std::vector<std::byte> stored_;
+};
+
 }  // namespace
 
 Result<ColumnVolume> readColumns(const LabelImage& image, std::uint64_t maxBytes, Code code, const Progress* progress) {
     static_assert(std::endian::native == std::endian::little);
     const std::uint64_t columns = std::uint64_t(image.dimension.x) * std::uint64_t(image.dimension.y);
-    const std::uint64_t needed = 2 * image.sliceBytes() + columns * (sizeof(std::vector<Run>) + 2 * sizeof(Run));
+    const bool isOther = image.other != OtherKind::None;
+    const std::uint64_t needed = 2 * image.sliceBytes() + (isOther ? image.storedSliceBytes() : 0) +
+                                 columns * (sizeof(std::vector<Run>) + 2 * sizeof(Run));
     if (needed > maxBytes)
         return Error(Code::InputTooBig,
                      fmt::format("{} x {} columns take {} at least, and {} may be taken", image.dimension.x,
                                  image.dimension.y, bytesText(needed), bytesText(maxBytes)));
     Collector collector(image, maxBytes, code);
+    std::optional<Narrower> narrower;
+    if (isOther) narrower.emplace(image);
     std::vector<std::byte> slice(static_cast<std::size_t>(image.sliceBytes()));
     for (std::int32_t k = 0; k < image.dimension.z; ++k) {
         if (Progress::isCancelled(progress)) return Error(Code::Cancelled, "reading the labels was stopped");
-        if (auto done = image.read(slice); !done) return done.error();
+        if (auto done = narrower ? narrower->read(k, slice, code) : image.read(slice); !done) return done.error();
         if (auto done = collector.add(k, slice); !done) return done.error();
         if (k % 64 == 0) Progress::tell(progress, "read", double(k) / image.dimension.z);
     }

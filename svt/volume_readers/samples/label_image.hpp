@@ -31,9 +31,13 @@ struct ToldLabel {
 /// Takes the next bytes of the samples, exactly as many as there is room for.
 using ReadSamples = std::function<Result<void>(std::span<std::byte>)>;
 
+/// Samples of other kinds, which are labels where they are whole numbers from 0 to 2^32 - 1: many programs save so.
+enum class OtherKind : std::uint8_t { None, Float32, Float64, Int64, UInt64 };
+
 struct LabelImage {
     Vec3i dimension{};
-    int bits = 0;            ///< 8, 16 or 32
+    int bits = 0;  ///< 8, 16 or 32; 32 for other kinds
+    OtherKind other = OtherKind::None;
     bool isSigned = false;   ///< values must not be negative even so
     bool isSwapped = false;  ///< samples have the other byte order than this machine
     Vec3d origin{};          ///< the first sample, metres
@@ -44,8 +48,13 @@ struct LabelImage {
     std::string crsName;
     ReadSamples read;
 
+    /// Of samples of 8, 16 or 32 bits.
     [[nodiscard]] std::uint64_t sliceBytes() const noexcept {
         return std::uint64_t(dimension.x) * std::uint64_t(dimension.y) * std::uint64_t(bits / 8);
+    }
+    /// Of samples as they are stored.
+    [[nodiscard]] std::uint64_t storedSliceBytes() const noexcept {
+        return other == OtherKind::None || other == OtherKind::Float32 ? sliceBytes() : 2 * sliceBytes();
     }
 };
 
@@ -71,7 +80,8 @@ struct ZlibBlock {
 
 /// Reads all samples into columns, whose scalars are the values. Memory: the runs and two slices.
 /// \param maxBytes  of memory
-/// \return the columns, or InputTooBig, Cancelled, `code` for negative values, or an error of LabelImage::read
+/// \return the columns, or InputTooBig, Cancelled, `code` for values that are no labels (negative, no whole
+///         numbers, too large), or an error of LabelImage::read
 [[nodiscard]] Result<volume::ColumnVolume> readColumns(const LabelImage& image, std::uint64_t maxBytes, Code code,
                                                        const Progress* progress);
 

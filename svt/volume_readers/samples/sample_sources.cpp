@@ -117,8 +117,8 @@ Result<void> checkImage(const LabelImage& image, std::uint64_t storedBytes, bool
             return Error(code,
                          fmt::format("{} x {} x {} samples; 2 to {} along each axis are possible", image.dimension.x,
                                      image.dimension.y, image.dimension.z, volume::Grid::kMaxDimension));
-    // 65535^3 samples of 4 bytes stay below 2^64.
-    const std::uint64_t bytes = image.sliceBytes() * static_cast<std::uint64_t>(image.dimension.z);
+    // 65535^3 samples of 8 bytes stay below 2^64.
+    const std::uint64_t bytes = image.storedSliceBytes() * static_cast<std::uint64_t>(image.dimension.z);
     if (!isCompressed && storedBytes < bytes)
         return Error(code,
                      fmt::format("{} bytes of samples found, {} expected: the file is cut short", storedBytes, bytes));

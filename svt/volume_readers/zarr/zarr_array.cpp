@@ -147,8 +147,12 @@ Result<void> readChain(const ZarrJson& json, ZarrArray& array) {
         if (name == "transpose") {
             const ZarrJson& order = member(told, "order");
             std::vector<std::size_t> axes;
-            for (const ZarrJson& axis : order)
+            for (const ZarrJson& axis : order.is_array() ? order : ZarrJson::array())
                 if (axis.is_number_unsigned()) axes.push_back(axis.get<std::size_t>());
+            // As earlier drafts of version 3 have it.
+            if (order == "C" || order == "F")
+                for (std::size_t axis = 0; axis < array.shape.size(); ++axis)
+                    axes.push_back(order == "C" ? axis : array.shape.size() - 1 - axis);
             std::vector<std::size_t> sorted = axes;
             std::sort(sorted.begin(), sorted.end());
             std::vector<std::size_t> expected(array.shape.size());
