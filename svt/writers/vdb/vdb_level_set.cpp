@@ -26,15 +26,15 @@ constexpr float axisSquare(std::int32_t steps) {
     return beyond * beyond;
 }
 
-/// The box of samples that can have a distance within the band, in a block with its margin; [begin, end) along each axis.
-struct Region {
+/// A box of samples in a block with its margin, [begin, end) along each axis, x fastest.
+struct BandBox {
     std::array<std::size_t, 3> begin{kBandRow, kBandRow, kBandRow}, end{0, 0, 0};
     [[nodiscard]] bool isEmpty() const noexcept { return begin[0] >= end[0]; }
-    void add(std::array<std::size_t, 3> place) noexcept {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            begin[axis] = std::min(begin[axis], place[axis]);
-            end[axis] = std::max(end[axis], place[axis] + 1);
-        }
+    [[nodiscard]] std::size_t size(std::size_t axis) const noexcept { return end[axis] - begin[axis]; }
+    [[nodiscard]] std::size_t count() const noexcept { return size(0) * size(1) * size(2); }
+    void add(std::size_t axis, std::size_t first, std::size_t last) noexcept {
+        begin[axis] = std::min(begin[axis], first);
+        end[axis] = std::max(end[axis], last + 1);
     }
     void grow() noexcept {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -44,32 +44,44 @@ struct Region {
     }
 };
 
-/// One pass of the squared distances: the least sum of a value on the line and the square to its place.
-void spread(std::vector<float>& squares, const Region& region, std::size_t axis) {
-    constexpr std::array<std::size_t, 3> kStep{1, kBandRow, kBandRow * kBandRow};
-    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    std::array<float, kBandRow> line{};
-    const auto first = static_cast<std::int32_t>(region.begin[axis]),
-               last = static_cast<std::int32_t>(region.end[axis]);
-    for (std::size_t b = region.begin[v]; b < region.end[v]; ++b)
-        for (std::size_t a = region.begin[u]; a < region.end[u]; ++a) {
-            float* values = squares.data() + a * kStep[u] + b * kStep[v];
-            bool isAny = false;
-            for (std::int32_t n = first; n < last; ++n) {
-                line[std::size_t(n)] = values[std::size_t(n) * kStep[axis]];
-                isAny = isAny || line[std::size_t(n)] < kFar;
-            }
-            if (!isAny) continue;
-            for (std::int32_t n = first; n < last; ++n) {
-                float least = line[std::size_t(n)];
-                for (std::int32_t steps = 1; steps <= kBandMargin; ++steps) {
-                    const float square = axisSquare(steps);
-                    if (n - steps >= first) least = std::min(least, line[std::size_t(n - steps)] + square);
-                    if (n + steps < last) least = std::min(least, line[std::size_t(n + steps)] + square);
-                }
-                values[std::size_t(n) * kStep[axis]] = least;
-            }
+/// The samples that can have a distance within the band: those that are inside, and what is around them.
+BandBox bandBoxOf(const std::vector<volume::Scalar>& samples, const std::vector<bool>& isInside) {
+    BandBox box;
+    for (std::size_t z = 0; z < kBandRow; ++z)
+        for (std::size_t y = 0; y < kBandRow; ++y) {
+            const volume::Scalar* row = samples.data() + kBandRow * (y + kBandRow * z);
+            std::size_t first = 0, last = kBandRow;
+            while (first < kBandRow && !isInside[row[first]]) ++first;
+            if (first == kBandRow) continue;
+            while (!isInside[row[last - 1]]) --last;
+            box.add(0, first, last - 1);
+            box.add(1, y, y);
+            box.add(2, z, z);
         }
+    if (!box.isEmpty()) box.grow();
+    return box;
+}
+
+/// One pass of the squared distances: the least sum of a value on the line and the square to its place. `from` has the
+/// values before, `to` those after.
+void spread(const std::vector<float>& from, std::vector<float>& to, const BandBox& box, std::size_t axis) {
+    to = from;
+    // Samples in front of an axis move together: `inner` of them, for each place on it, for each of those behind it.
+    std::size_t inner = 1, outer = 1;
+    for (std::size_t a = 0; a < axis; ++a) inner *= box.size(a);
+    for (std::size_t a = axis + 1; a < 3; ++a) outer *= box.size(a);
+    const std::size_t length = box.size(axis) * inner;
+    for (std::int32_t steps = 1; steps <= kBandMargin; ++steps) {
+        const std::size_t shift = std::size_t(steps) * inner;
+        if (shift >= length) break;
+        const float square = axisSquare(steps);
+        for (std::size_t o = 0; o < outer; ++o) {
+            const float* in = from.data() + o * length;
+            float* out = to.data() + o * length;
+            for (std::size_t n = 0; n + shift < length; ++n) out[n] = std::min(out[n], in[n + shift] + square);
+            for (std::size_t n = shift; n < length; ++n) out[n] = std::min(out[n], in[n - shift] + square);
+        }
+    }
 }
 
 /// A leaf in the file's order, z fastest.
@@ -150,37 +162,45 @@ VdbLevelSet::State VdbLevelSet::stateOf(Vec3i block) const {
     return hasInside && hasOutside ? State::Band : hasInside ? State::Inside : State::Outside;
 }
 
-/// Signed distances of a block, metres, x fastest.
-void VdbLevelSet::distances(Vec3i block, std::vector<float>& values) const {
+/// Signed distances of a block, metres, x fastest. \return false: all of it is outside, beyond the band
+bool VdbLevelSet::distances(Vec3i block, std::vector<float>& values) const {
     constexpr auto kSide = static_cast<std::size_t>(VdbBlocks::kSide);
     std::vector<volume::Scalar> samples;
     blocks_.samples(block, kBandMargin, samples);
-    std::array<Region, 2> regions;              // of what is outside, inside
+    const BandBox box = bandBoxOf(samples, isInside_);
+    if (box.isEmpty()) return false;
+    std::vector<bool> isIn(box.count());
     std::array<std::vector<float>, 2> squares;  // to what is outside, inside
-    for (auto& some : squares) some.assign(samples.size(), kFar);
-    std::vector<std::uint8_t> isIn(samples.size());
-    for (std::size_t s = 0; s < samples.size(); ++s) {
-        isIn[s] = isInside_[samples[s]] ? 1 : 0;
-        squares[isIn[s]][s] = 0;
-        regions[isIn[s]].add({s % kBandRow, s / kBandRow % kBandRow, s / (kBandRow * kBandRow)});
-    }
-    for (std::size_t side = 0; side < 2; ++side) {
-        if (regions[side].isEmpty()) continue;
-        // A distance is asked for within the band around what is inside alone.
-        Region region = regions[1];
-        region.grow();
-        for (std::size_t axis = 0; axis < 3; ++axis) spread(squares[side], region, axis);
-    }
-    values.resize(kSide * kSide * kSide);
-    for (std::size_t z = 0; z < kSide; ++z)
-        for (std::size_t y = 0; y < kSide; ++y)
-            for (std::size_t x = 0; x < kSide; ++x) {
-                const std::size_t s =
-                    x + std::size_t(kBandMargin) +
-                    kBandRow * (y + std::size_t(kBandMargin) + kBandRow * (z + std::size_t(kBandMargin)));
-                const float distance = std::min(std::sqrt(squares[isIn[s] != 0 ? 0 : 1][s]) * spacing_, background_);
-                values[x + kSide * (y + kSide * z)] = isIn[s] != 0 ? -distance : distance;
+    for (auto& some : squares) some.assign(box.count(), kFar);
+    std::size_t sample = 0;
+    for (std::size_t z = box.begin[2]; z < box.end[2]; ++z)
+        for (std::size_t y = box.begin[1]; y < box.end[1]; ++y)
+            for (std::size_t x = box.begin[0]; x < box.end[0]; ++x, ++sample) {
+                isIn[sample] = isInside_[samples[x + kBandRow * (y + kBandRow * z)]];
+                squares[isIn[sample] ? 1 : 0][sample] = 0;
             }
+    std::vector<float> moved;
+    for (auto& some : squares)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            spread(some, moved, box, axis);
+            std::swap(some, moved);
+        }
+    values.assign(kSide * kSide * kSide, background_);
+    sample = 0;
+    const auto isOfBlock = [](std::size_t n) {
+        return n >= std::size_t(kBandMargin) && n < kBandRow - std::size_t(kBandMargin);
+    };
+    for (std::size_t z = box.begin[2]; z < box.end[2]; ++z)
+        for (std::size_t y = box.begin[1]; y < box.end[1]; ++y)
+            for (std::size_t x = box.begin[0]; x < box.end[0]; ++x, ++sample) {
+                if (!isOfBlock(x) || !isOfBlock(y) || !isOfBlock(z)) continue;
+                const float distance =
+                    std::min(std::sqrt(squares[isIn[sample] ? 0 : 1][sample]) * spacing_, background_);
+                values[x - std::size_t(kBandMargin) +
+                       kSide * (y - std::size_t(kBandMargin) + kSide * (z - std::size_t(kBandMargin)))] =
+                    isIn[sample] ? -distance : distance;
+            }
+    return true;
 }
 
 Result<void> VdbLevelSet::writeUpper(Vec3i upper, const VdbSink& topology, const VdbSink& buffers) const {
@@ -211,11 +231,11 @@ Result<void> VdbLevelSet::writeUpper(Vec3i upper, const VdbSink& topology, const
     putAllValues(bytes, tileValues);
     if (topology)
         if (auto done = topology(bytes); !done) return done;
-    std::vector<float> values;
+    std::vector<float> values(std::size_t{VdbBlocks::kSide} * VdbBlocks::kSide * VdbBlocks::kSide);
     for (const Vec3i block : bands) {
         if (Progress::isCancelled(blocks_.progress()))
             return Error(Code::Cancelled, "writing the volume was stopped; no file was left");
-        distances(block, values);
+        if (!distances(block, values)) values.assign(values.size(), background_);
         const LowerNode node = lowerNode(values, background_);
         if (topology)
             if (auto done = topology(node.topology); !done) return done;

@@ -30,7 +30,7 @@ public:
 private:
     enum class State : std::uint8_t { Outside, Inside, Band };
     [[nodiscard]] State stateOf(Vec3i block) const;
-    void distances(Vec3i block, std::vector<float>& values) const;
+    bool distances(Vec3i block, std::vector<float>& values) const;
     [[nodiscard]] Result<void> writeUpper(Vec3i upper, const VdbSink& topology, const VdbSink& buffers) const;
 
     const VdbBlocks& blocks_;
