@@ -74,7 +74,7 @@ class Command(unittest.TestCase):
             with open(path("python-" + name), "rb") as a, open(path("command-" + name), "rb") as b:
                 self.assertTrue(a.read().replace(b"python-o", b"command-o") == b.read(), name)
         for name, options, words in (
-            ("o.precomputed", {"meshes": True, "level": 2}, ["--meshes", "--level", "2"]),
+            ("o.precomputed", {"meshes": True, "sharded": True, "level": 1}, ["--meshes", "--sharded", "--level", "1"]),
             ("o.zarr", {"zarr": 3}, ["--zarr", "3"]),
             ("o.3dtiles", {"place": (49.1, 8.44, 110), "lift": 48.2}, ["--place", "49.1,8.44,110", "--lift", "48.2"]),
         ):

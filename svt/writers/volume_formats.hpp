@@ -57,6 +57,7 @@ struct VolumeWriteOptions {
     MergeBy mergeBy = MergeBy::Label;  ///< of boxes (FDS, lists of boxes)
     std::size_t maxBoxes = 1'000'000;  ///< of boxes: more are refused
     bool hasMeshes = false;            ///< of neuroglancer: also the surface of each label
+    bool isSharded = false;            ///< of neuroglancer: chunks in shards, many in a file
     std::optional<Vec3d>
         place;               ///< of 3D Tiles: latitude, longitude (degrees) and height over the ellipsoid (metres) of
                              ///< the lower corner; none: by the CRS of the volume

@@ -4,6 +4,7 @@
 
 #include <svt/writers/volume_formats.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -90,6 +91,14 @@ TEST_F(Convert, SegmentationHasTheKeysOfSlicer) {
           "\nSegment0_SVT_Class:=Building\n", "\nSegmentation_SourceRepresentation:=Binary labelmap\n"})
         EXPECT_NE(header.find(line), std::string::npos) << line << header.substr(0, 2000);
     EXPECT_EQ(header.find("\nSegment3_"), std::string::npos);
+    // Terminology as Slicer parses it: seven parts by ~, of which all but the names of lists are triples by ^.
+    const std::size_t entry = header.find("TerminologyEntry:", header.find("\nSegment0_Tags:="));
+    ASSERT_NE(entry, std::string::npos);
+    std::istringstream parts(header.substr(entry + 17, header.find('|', entry) - entry - 17));
+    int part = 0;
+    for (std::string text; std::getline(parts, text, '~'); ++part)
+        EXPECT_EQ(std::count(text.begin(), text.end(), '^'), part == 0 || part == 4 ? 0 : 2) << part << ": " << text;
+    EXPECT_EQ(part, 7);
     // Box c: i from 0 to 9 or so (1 m by 0.11), above a.
     const std::size_t extent = header.find("\nSegment2_Extent:=");
     ASSERT_NE(extent, std::string::npos);

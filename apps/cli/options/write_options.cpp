@@ -17,6 +17,7 @@ void WriteArguments::connect(Command& command) {
     command.set("--model", model);
     command.set("--zarr", zarr);
     command.set("--meshes", hasMeshes);
+    command.set("--sharded", isSharded);
     command.set("--place", place);
     command.set("--lift", lift);
     command.set("--voxels", hasVoxels);
@@ -62,6 +63,7 @@ Result<writers::VolumeWriteOptions> WriteArguments::options(const volume::Semant
     if (!place.empty()) options.place = Vec3d{place[0], place[1], place[2]};
     options.lift = lift;
     options.hasMeshes = hasMeshes;
+    options.isSharded = isSharded;
     options.hasVoxels = hasVoxels;
     options.hasLevelSets = hasLevelSets;
     options.mergeBy = merge == "class"      ? writers::MergeBy::Class

@@ -21,7 +21,7 @@ struct WriteArguments {
     double maxVoxels = 0, maxBoxes = 0, lift = 0;
     std::vector<double> box, place;
     int level = 0;
-    bool hasMeshes = false, hasVoxels = false, hasLevelSets = false;
+    bool hasMeshes = false, isSharded = false, hasVoxels = false, hasLevelSets = false;
 
     void connect(Command& command);
     /// True where a part of the volume is to be written, or a coarser one.

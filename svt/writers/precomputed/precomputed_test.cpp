@@ -1,12 +1,18 @@
+#include <svt/core/deflate.hpp>
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/volume/sample_volume_test.hpp>
 #include <svt/volume/volume_part.hpp>
+#include <svt/writers/precomputed/precomputed_shards.hpp>
 #include <svt/writers/precomputed/precomputed_writer.hpp>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstring>
+#include <iomanip>
+#include <span>
+#include <sstream>
 
 namespace svt::writers {
 namespace {
@@ -112,6 +118,94 @@ TEST(Precomputed, TheFolderHasEverySampleOfEveryLevel) {
     ASSERT_FALSE(again);
     EXPECT_EQ(again.error().code(), Code::WouldDestroy);
     EXPECT_EQ(folder.count(), 1);
+}
+
+/// A chunk of a sharded level, found as the specification of the format says; written for this test from it.
+std::string chunkOf(const std::filesystem::path& level, const json& sharding, std::uint64_t id) {
+    const auto number = [](const std::string& bytes, std::size_t at) {
+        std::uint64_t value = 0;
+        std::memcpy(&value, bytes.data() + at, 8);
+        return value;
+    };
+    const auto unpacked = [](const std::string& bytes) {
+        const auto plain = inflateBytes(std::as_bytes(std::span(bytes)), DeflateFormat::Gzip, 1 << 16, 1 << 24);
+        EXPECT_EQ(plain.status, InflateStatus::Done);
+        return std::string(reinterpret_cast<const char*>(plain.bytes.data()), plain.bytes.size());
+    };
+    const int minishardBits = sharding["minishard_bits"], shardBits = sharding["shard_bits"];
+    const std::uint64_t hashed = id >> sharding["preshift_bits"].get<int>();
+    const std::uint64_t minishard = hashed & ((1u << minishardBits) - 1),
+                        shard = hashed >> minishardBits & ((1u << shardBits) - 1);
+    std::ostringstream name;
+    name << std::hex << std::setw((shardBits + 3) / 4) << std::setfill('0') << shard << ".shard";
+    const std::string file = readText(level / name.str());
+    const std::size_t indexEnd = std::size_t{16} << minishardBits;
+    const std::uint64_t begin = number(file, 16 * minishard), end = number(file, 16 * minishard + 8);
+    const std::string index = unpacked(file.substr(indexEnd + begin, end - begin));
+    const std::size_t count = index.size() / 24;
+    std::uint64_t code = 0, at = indexEnd;
+    for (std::size_t n = 0; n < count; ++n) {
+        code += number(index, 8 * n);
+        at += number(index, 8 * (count + n));
+        const std::uint64_t size = number(index, 8 * (2 * count + n));
+        if (code == id) return unpacked(file.substr(at, size));
+        at += size;
+    }
+    return {};
+}
+
+TEST(Precomputed, MortonCodesLeaveOutBitsThatAreNotNeeded) {
+    // Bits of x, y, z by turns; y has one, z none.
+    const Vec3i chunks{5, 2, 1};
+    EXPECT_EQ(mortonCode({0, 0, 0}, chunks), 0u);
+    EXPECT_EQ(mortonCode({1, 0, 0}, chunks), 1u);
+    EXPECT_EQ(mortonCode({0, 1, 0}, chunks), 2u);
+    EXPECT_EQ(mortonCode({2, 0, 0}, chunks), 4u);
+    EXPECT_EQ(mortonCode({4, 1, 0}, chunks), 10u);
+    EXPECT_EQ(ShardBits::of(chunks).chunk + ShardBits::of(chunks).minishard + ShardBits::of(chunks).shard, 4);
+    EXPECT_EQ(mortonCode({1, 1, 1}, {2, 2, 2}), 7u);
+    EXPECT_EQ(mortonCode({3, 2, 1}, {4, 4, 4}), 0b011101u);
+}
+
+TEST(Precomputed, ShardsHaveTheChunksOfTheFolder) {
+    const TemporaryFolder folder;
+    for (const Vec3i dimension : {Vec3i{600, 300, 200}, Vec3i{150, 70, 80}, Vec3i{40, 50, 60}}) {
+        std::filesystem::remove_all(folder / "v.precomputed");
+        std::filesystem::remove_all(folder / "s.precomputed");
+        const auto volume = sampleVolume(dimension);
+        VolumeWriteOptions options;
+        ASSERT_TRUE(writePrecomputed(volume, folder / "v.precomputed", options));
+        options.isSharded = true;
+        ASSERT_TRUE(writePrecomputed(volume, folder / "s.precomputed", options));
+        const json info = json::parse(readText(folder / "s.precomputed/info"));
+        std::size_t found = 0, files = 0;
+        for (const json& scale : info["scales"]) {
+            const std::string key = scale["key"];
+            const Vec3i d{scale["size"][0], scale["size"][1], scale["size"][2]};
+            const Vec3i chunks{(d.x + 63) / 64, (d.y + 63) / 64, (d.z + 63) / 64};
+            for (int k = 0; k < chunks.z; ++k)
+                for (int j = 0; j < chunks.y; ++j)
+                    for (int i = 0; i < chunks.x; ++i) {
+                        std::string name;
+                        for (const auto& [first, size] : {std::pair{i * 64, d.x}, {j * 64, d.y}, {k * 64, d.z}})
+                            name += (name.empty() ? "" : "_") + std::to_string(first) + "-" +
+                                    std::to_string(std::min(first + 64, size));
+                        const std::string expected = readText(folder / "v.precomputed" / key / name);
+                        ASSERT_FALSE(expected.empty());
+                        ASSERT_TRUE(chunkOf(folder / "s.precomputed" / key, scale["sharding"],
+                                            mortonCode({i, j, k}, chunks)) == expected)
+                            << key << " " << name;
+                        ++found;
+                    }
+            for ([[maybe_unused]] const auto& file :
+                 std::filesystem::directory_iterator(folder / "s.precomputed" / key))
+                ++files;
+        }
+        EXPECT_GE(found, files);
+        if (dimension.x == 600) {
+            EXPECT_GT(files, info["scales"].size()) << "several shards";
+        }
+    }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <svt/writers/dense/sample_band.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/hulls/label_hulls.hpp>
+#include <svt/writers/precomputed/precomputed_shards.hpp>
 #include <svt/writers/precomputed/precomputed_writer.hpp>
 
 #include <fmt/format.h>
@@ -45,7 +46,20 @@ std::vector<std::uint32_t> blockValues(std::span<const std::uint32_t> values, Ve
 
 SceneJson triple(Vec3d v) { return SceneJson::array({v.x, v.y, v.z}); }
 
-std::string infoJson(const std::vector<const volume::SemanticVolume*>& levels, bool hasMeshes) {
+SceneJson shardingOf(Vec3i dimension) {
+    Vec3i chunks;
+    for (int axis = 0; axis < 3; ++axis) chunks[axis] = (dimension[axis] + kSide - 1) / kSide;
+    const ShardBits bits = ShardBits::of(chunks);
+    return {{"@type", "neuroglancer_uint64_sharded_v1"},
+            {"preshift_bits", bits.chunk},
+            {"hash", "identity"},
+            {"minishard_bits", bits.minishard},
+            {"shard_bits", bits.shard},
+            {"minishard_index_encoding", "gzip"},
+            {"data_encoding", "gzip"}};
+}
+
+std::string infoJson(const std::vector<const volume::SemanticVolume*>& levels, const VolumeWriteOptions& options) {
     SceneJson scales = SceneJson::array();
     for (std::size_t l = 0; l < levels.size(); ++l) {
         const Vec3i d = levels[l]->grid.dimension();
@@ -56,6 +70,7 @@ std::string infoJson(const std::vector<const volume::SemanticVolume*>& levels, b
                           {"chunk_sizes", {{kSide, kSide, kSide}}},
                           {"encoding", "compressed_segmentation"},
                           {"compressed_segmentation_block_size", {kBlock, kBlock, kBlock}}});
+        if (options.isSharded) scales.back()["sharding"] = shardingOf(d);
     }
     SceneJson info{{"@type", "neuroglancer_multiscale_volume"},
                    {"type", "segmentation"},
@@ -63,7 +78,7 @@ std::string infoJson(const std::vector<const volume::SemanticVolume*>& levels, b
                    {"num_channels", 1},
                    {"segment_properties", "properties"},
                    {"scales", scales}};
-    if (hasMeshes) info["mesh"] = "mesh";
+    if (options.hasMeshes) info["mesh"] = "mesh";
     return info.dump(1) + "\n";
 }
 
@@ -212,11 +227,14 @@ Result<std::uint64_t> writePrecomputed(const volume::SemanticVolume& volume, con
     if (!coarser) return coarser.error();
     std::vector<const volume::SemanticVolume*> levels{&volume};
     for (const volume::SemanticVolume& level : *coarser) levels.push_back(&level);
-    if (auto done = folder.write("info", infoJson(levels, options.hasMeshes)); !done) return done.error();
+    if (auto done = folder.write("info", infoJson(levels, options)); !done) return done.error();
     if (auto done = folder.write("properties/info", propertiesJson(volume)); !done) return done.error();
     if (auto done = folder.write("state.json", stateJson(volume)); !done) return done.error();
     for (std::size_t l = 0; l < levels.size(); ++l)
-        if (auto done = writeLevel(levels[l]->columns, std::to_string(l), options, folder); !done) return done.error();
+        if (auto done = options.isSharded ? writeShards(levels[l]->columns, kSide, std::to_string(l), options, folder)
+                                          : writeLevel(levels[l]->columns, std::to_string(l), options, folder);
+            !done)
+            return done.error();
     if (options.hasMeshes)
         if (auto done = writeMeshes(volume, options, folder); !done) return done.error();
     return folder.commit();
