@@ -37,7 +37,8 @@ struct FeatureSpan {
 /// A feature as text: of CityGML the member, of CityJSON and CityJSONSeq a CityJSONFeature.
 struct FeatureText {
     FeatureSpan span;
-    std::string_view text;  ///< valid until the file is asked for another one
+    std::string_view text;   ///< valid until the file is asked for another one
+    std::uint64_t line = 0;  ///< of the file, where the text begins; 0: unknown, as in CityJSON
 };
 
 /// Threads: an object is used by one thread at a time.
@@ -74,9 +75,12 @@ public:
     /// should be that of the whole.
     /// \param features   texts as next() and pick() give them
     /// \param featureOf  receives for each of model.roots the number of its feature; may be null
+    /// \param lines      line of each feature in the file, for features and findings of the model; empty: their lines
+    ///                   are of no use
     [[nodiscard]] Result<model::BuildingModel> read(std::span<const std::string_view> features,
                                                     const ReadOptions& options, Diagnostics* diagnostics,
-                                                    std::vector<std::uint32_t>* featureOf = nullptr) const;
+                                                    std::vector<std::uint32_t>* featureOf = nullptr,
+                                                    std::span<const std::uint64_t> lines = {}) const;
 
 private:
     struct State;

@@ -17,11 +17,11 @@ struct ReadOptions {
     /// EPSG code of a projection in metres that the model is to be in; 0: as the file has it, or where that is not in
     /// metres, `likelyCrs`.
     int crs = 0;
-    int likelyCrs = 0;             ///< where coordinates must be projected: to this code if possible; 0: the usual one
+    int likelyCrs = 0;  ///< where coordinates must be projected: to this code if possible; 0: the usual one
     /// Order of the axes: 0: decided by name and coordinates; +1: east first, -1: north first, whatever they say. For parts
     /// of a file, in which the order was decided for the whole.
     int axisOrder = 0;
-    bool keepFarFeatures = false;  ///< features far away from all others are not left out
+    bool keepFarFeatures = false;    ///< features far away from all others are not left out
     bool extrudeFootprints = false;  ///< footprints with a height as attribute become bodies
     bool splitLayers = false;        ///< IFC: walls and slabs become the layers of their material
 };

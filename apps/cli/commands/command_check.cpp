@@ -1,4 +1,5 @@
 #include <apps/cli/check/check_reports.hpp>
+#include <apps/cli/check/feature_batches.hpp>
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/json_output.hpp>
@@ -9,6 +10,10 @@
 #include <svt/mesh/mesh_set.hpp>
 
 #include <fmt/format.h>
+
+#include <cstdio>
+#include <functional>
+#include <optional>
 
 namespace svt::cli {
 namespace {
@@ -69,34 +74,34 @@ Json objectJson(const model::BuildingModel& model, const mesh::MeshSet& scene, c
 }
 
 void printObject(const model::BuildingModel& model, const mesh::MeshSet& scene, const mesh::ObjectMesh& object,
-                 const validate::ValidationReport& report) {
+                 const validate::ValidationReport& report, std::FILE* to) {
     const model::Feature& feature = model.features[object.feature];
-    fmt::print("{:<28} {:<13}", feature.className, mesh::closureName(object.closure));
+    fmt::print(to, "{:<28} {:<13}", feature.className, mesh::closureName(object.closure));
     const Code reason = whyNoVolume(model, report, object);
     if (object.isSolid() && reason != Code::Internal)
-        fmt::print(" {:>15}", "no volume, " + codeTag(reason));
+        fmt::print(to, " {:>15}", "no volume, " + codeTag(reason));
     else if (object.isSolid())
-        fmt::print(" {:>12.3f} m3", object.volume);
+        fmt::print(to, " {:>12.3f} m3", object.volume);
     else
-        fmt::print(" {:>12.3f} m2", object.area);
-    fmt::print("  {}{}{}\n", feature.name, feature.name.empty() ? "" : "  ", feature.id);
+        fmt::print(to, " {:>12.3f} m2", object.area);
+    fmt::print(to, "  {}{}{}\n", feature.name, feature.name.empty() ? "" : "  ", feature.id);
     if (object.leakCount != 0 && object.closure != mesh::Closure::Surface) {
-        fmt::print("    {} unmatched edges, {} of them leak", object.unmatchedEdges, object.leakCount);
+        fmt::print(to, "    {} unmatched edges, {} of them leak", object.unmatchedEdges, object.leakCount);
         for (std::size_t i = 0; i < std::min<std::size_t>(object.leaks.size(), 4); ++i) {
             const Vec3d at = object.leaks[i] + scene.origin;
-            fmt::print("{} ({:.3f}, {:.3f}, {:.3f})", i == 0 ? " at" : ",", at.x, at.y, at.z);
+            fmt::print(to, "{} ({:.3f}, {:.3f}, {:.3f})", i == 0 ? " at" : ",", at.x, at.y, at.z);
         }
-        fmt::print("{}\n", object.leaks.size() > 4 ? ", ..." : "");
+        fmt::print(to, "{}\n", object.leaks.size() > 4 ? ", ..." : "");
     }
     for (const mesh::Cap& cap : object.caps) {
         const Vec3d at = cap.center + scene.origin;
-        fmt::print("    capped by a ClosureSurface of {:.4f} m2 at ({:.3f}, {:.3f}, {:.3f})\n", cap.area, at.x, at.y,
-                   at.z);
+        fmt::print(to, "    capped by a ClosureSurface of {:.4f} m2 at ({:.3f}, {:.3f}, {:.3f})\n", cap.area, at.x,
+                   at.y, at.z);
     }
     if (object.complementedFaces != 0)
-        fmt::print("    completed with {} faces of adjoining features\n", object.complementedFaces);
+        fmt::print(to, "    completed with {} faces of adjoining features\n", object.complementedFaces);
     if (object.tJunctionCount != 0)
-        fmt::print("    {} edges match only up to T-junctions (tight)\n", object.tJunctionCount);
+        fmt::print(to, "    {} edges match only up to T-junctions (tight)\n", object.tJunctionCount);
 }
 
 void printJson(const Checked& checked, const mesh::MeshSet& scene, const Diagnostics& diagnostics) {
@@ -118,26 +123,124 @@ void printJson(const Checked& checked, const mesh::MeshSet& scene, const Diagnos
     print(json);
 }
 
-void printText(const Checked& checked, const mesh::MeshSet& scene) {
-    std::size_t leaking = 0, solids = 0, tight = 0;
-    for (const mesh::ObjectMesh& object : scene.objects) {
-        printObject(checked.model, scene, object, checked.report);
+// What the last lines of the text count.
+struct Totals {
+    std::size_t objects = 0, solids = 0, leaking = 0, tight = 0, geometries = 0, valid = 0, polygons = 0;
+};
+
+void printObjects(const Checked& checked, Totals& totals, std::FILE* to) {
+    totals.objects += checked.meshes.objects.size();
+    for (const mesh::ObjectMesh& object : checked.meshes.objects) {
+        printObject(checked.model, checked.meshes, object, checked.report, to);
         if (object.closure == mesh::Closure::Surface) continue;
-        ++solids;
-        leaking += object.leakCount != 0;
-        tight += object.closure == mesh::Closure::TJunctions;
+        ++totals.solids;
+        totals.leaking += object.leakCount != 0;
+        totals.tight += object.closure == mesh::Closure::TJunctions;
     }
-    fmt::print("{} objects: {} solids, {} of them leak as read, {} are tight up to T-junctions\n", scene.objects.size(),
-               solids, leaking, tight);
-    std::size_t total = 0, valid = 0;
     for (const auto& entry : checked.report.primitives) {
-        total += entry.second.total;
-        valid += entry.second.valid;
+        totals.geometries += entry.second.total;
+        totals.valid += entry.second.valid;
     }
-    fmt::print("{} geometries of {} polygons: {} are valid\n", total, checked.report.polygonCount, valid);
+    totals.polygons += checked.report.polygonCount;
 }
 
-// The tests by ISO 19107, then what meshes say of the same model.
+void printTotals(const Totals& totals) {
+    fmt::print("{} objects: {} solids, {} of them leak as read, {} are tight up to T-junctions\n", totals.objects,
+               totals.solids, totals.leaking, totals.tight);
+    fmt::print("{} geometries of {} polygons: {} are valid\n", totals.geometries, totals.polygons, totals.valid);
+}
+
+// The tests by ISO 19107, then what meshes say of the same model. Findings of both go to `diagnostics`.
+Result<void> checkModel(const model::BuildingModel& model, const CheckArguments& arguments, const Progress* progress,
+                        Diagnostics& diagnostics, const std::function<Result<void>(const Checked&)>& use) {
+    validate::ValidateOptions validation = arguments.validation;
+    validation.lod = arguments.lod;
+    validation.progress = progress;
+    const auto report = validate::validateModel(model, validation);
+    if (!report) return report.error();
+    mesh::MeshOptions options;
+    options.lod.lod = arguments.lod;
+    options.progress = progress;
+    const auto scene = mesh::buildMeshes(model, options, &diagnostics);
+    if (!scene) return scene.error();
+    const Diagnostics others = diagnostics;
+    const Checked checked{model, *report, validation, *scene, others};
+    addFindings(diagnostics, checked);
+    return use(checked);
+}
+
+// A file of its own, that goes when it is closed.
+class TemporaryText {
+public:
+    TemporaryText() : file_(std::tmpfile()) {}
+    ~TemporaryText() {
+        if (file_ != nullptr) static_cast<void>(std::fclose(file_));
+    }
+    TemporaryText(const TemporaryText&) = delete;
+    TemporaryText& operator=(const TemporaryText&) = delete;
+    [[nodiscard]] std::FILE* get() const noexcept { return file_; }
+    // Writes all of it to stdout; false if it could not be kept, as on a full disk.
+    [[nodiscard]] bool print() const {
+        if (std::fflush(file_) != 0 || std::ferror(file_) != 0) return false;
+        std::rewind(file_);
+        char buffer[1 << 16];
+        for (std::size_t size = 0; (size = std::fread(buffer, 1, sizeof buffer, file_)) != 0;)
+            if (std::fwrite(buffer, 1, size, stdout) != size) return true;  // a closed reader is no error of ours
+        return std::ferror(file_) == 0;
+    }
+
+private:
+    std::FILE* file_;
+};
+
+// Checks a large file batch by batch. The lines of its objects wait in a temporary file until it is known that no
+// feature refers to another.
+Result<bool> checkInBatches(const CheckArguments& arguments, const readers::ReadOptions& reading,
+                            const std::function<void()>& endProgress, Diagnostics& diagnostics) {
+    const TemporaryText lines;
+    if (lines.get() == nullptr) return false;
+    Totals totals;
+    Diagnostics all;
+    const auto done =
+        forEachBatch(arguments.inputs.front(), reading, [&](const model::BuildingModel& model, Diagnostics& findings) {
+            auto checked = checkModel(model, arguments, nullptr, findings, [&](const Checked& batch) {
+                printObjects(batch, totals, lines.get());
+                return Result<void>();
+            });
+            if (checked) all.append(findings);
+            return checked;
+        });
+    if (!done || !*done) return done;
+    endProgress();
+    if (!lines.print())
+        return Error(Code::DiskFull, "no space is left for temporary files in /tmp");
+    printTotals(totals);
+    diagnostics.append(all);
+    return true;
+}
+
+int exitCodeFor(const Diagnostics& diagnostics) {
+    return diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error) != 0 ? kInvalid : kDone;
+}
+
+Result<void> report(const CheckArguments& arguments, const Checked& checked, const Diagnostics& diagnostics) {
+    const std::string inputFile = arguments.inputs.front().string();
+    if (!arguments.report.empty()) {
+        const auto written = writeFileAtomically(arguments.report, htmlReport(checked, inputFile));
+        if (!written) return written.error();
+    }
+    if (arguments.format == "val3dity") {
+        print(val3dityJson(checked, inputFile));
+    } else if (arguments.json || arguments.format == "json") {
+        printJson(checked, checked.meshes, diagnostics);
+    } else {
+        Totals totals;
+        printObjects(checked, totals, stdout);
+        printTotals(totals);
+    }
+    return {};
+}
+
 int runCheck(const CheckArguments& arguments) {
     Diagnostics diagnostics;
     const auto crs = parseCrs(arguments.crs);
@@ -153,36 +256,25 @@ int runCheck(const CheckArguments& arguments) {
     reading.crs = *crs;
     reading.keepFarFeatures = arguments.keepFarFeatures;
     reading.extrudeFootprints = arguments.extrudeFootprints;
+    const bool isText = !arguments.json && arguments.format == "text";
+    if (isText && arguments.report.empty() && arguments.inputs.size() == 1 && isWorthBatches(arguments.inputs[0])) {
+        const auto done = checkInBatches(
+            arguments, reading, [&] { progress.reset(); }, diagnostics);
+        if (!done) return stop(done.error());
+        if (*done) {
+            printDiagnostics(diagnostics, arguments.verbose);
+            return exitCodeFor(diagnostics);
+        }
+    }
     const auto model = pipeline::readModels(arguments.inputs, reading, &diagnostics);
     if (!model) return stop(model.error());
-    validate::ValidateOptions validation = arguments.validation;
-    validation.lod = arguments.lod;
-    validation.progress = progress->get();
-    const auto report = validate::validateModel(*model, validation);
-    if (!report) return stop(report.error());
-    mesh::MeshOptions options;
-    options.lod.lod = arguments.lod;
-    options.progress = progress->get();
-    const auto scene = mesh::buildMeshes(*model, options, &diagnostics);
-    if (!scene) return stop(scene.error());
-    progress.reset();
-    const Diagnostics others = diagnostics;
-    const Checked checked{*model, *report, validation, *scene, others};
-    addFindings(diagnostics, checked);
-    const std::string inputFile = arguments.inputs.front().string();
-    if (!arguments.report.empty()) {
-        const auto written = writeFileAtomically(arguments.report, htmlReport(checked, inputFile));
-        if (!written) return stop(written.error());
-    }
-    if (arguments.format == "val3dity")
-        print(val3dityJson(checked, inputFile));
-    else if (arguments.json || arguments.format == "json")
-        printJson(checked, *scene, diagnostics);
-    else
-        printText(checked, *scene);
-    if (!arguments.json && arguments.format == "text") printDiagnostics(diagnostics, arguments.verbose);
-    const std::size_t findings = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error);
-    return findings != 0 ? kInvalid : kDone;
+    const auto checked = checkModel(*model, arguments, progress->get(), diagnostics, [&](const Checked& whole) {
+        progress.reset();
+        return report(arguments, whole, diagnostics);
+    });
+    if (!checked) return stop(checked.error());
+    if (isText) printDiagnostics(diagnostics, arguments.verbose);
+    return exitCodeFor(diagnostics);
 }
 
 }  // namespace

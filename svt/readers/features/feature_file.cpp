@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <optional>
 
 namespace svt::readers {
@@ -51,7 +52,9 @@ namespace {
 constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
 constexpr std::size_t kShownBytes = std::size_t{1} << 20;
 
-std::span<const std::byte> textBytes(std::string_view text) { return std::as_bytes(std::span(text.data(), text.size())); }
+std::span<const std::byte> textBytes(std::string_view text) {
+    return std::as_bytes(std::span(text.data(), text.size()));
+}
 
 }  // namespace
 
@@ -171,7 +174,7 @@ Result<bool> FeatureFile::State::nextLine(FeatureText& feature) {
             if (*more) continue;
         }
         const std::string_view line = stream.window().substr(0, end);
-        feature = {{stream.base(), line.size()}, line};
+        feature = {{stream.base(), line.size()}, line, stream.line()};
         if (line.empty() && end == std::string_view::npos) return false;
         stream.discard(stream.base() + line.size() + (end == std::string_view::npos ? 0 : 1));
         if (features::skipJsonBlanks(line, 0) != line.size()) return true;
@@ -259,8 +262,58 @@ Result<void> FeatureFile::pick(std::span<const FeatureSpan> spans,
     return {};
 }
 
+namespace {
+
+// Lines of a document made of features, as lines of the file that they are from.
+class LineMap {
+public:
+    // `first`: line of the document where the first feature begins.
+    LineMap(std::uint64_t first, std::span<const std::string_view> features, std::span<const std::uint64_t> lines)
+        : lines_(lines) {
+        for (const std::string_view feature : features) {
+            first_.push_back(first);
+            first += xml::countLines(feature) + 1;
+        }
+    }
+    // Number of the feature that holds a line of the document.
+    [[nodiscard]] std::uint32_t featureAt(std::uint64_t line) const {
+        const auto after = std::upper_bound(first_.begin(), first_.end(), line);
+        return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(1, after - first_.begin()) - 1);
+    }
+    // 0 if unknown.
+    template <class Line>
+    [[nodiscard]] Line ofFile(Line line) const {
+        const std::uint32_t feature = featureAt(static_cast<std::uint64_t>(line));
+        if (line == 0 || static_cast<std::uint64_t>(line) < first_[feature] || lines_[feature] == 0) return 0;
+        return static_cast<Line>(lines_[feature] + (static_cast<std::uint64_t>(line) - first_[feature]));
+    }
+    void apply(model::BuildingModel& model) const {
+        for (model::Feature& feature : model.features) feature.line = ofFile(feature.line);
+    }
+    void append(const Diagnostics& findings, Diagnostics& to) const {
+        std::map<Code, std::size_t> missing;  // counted, but not kept
+        for (const Diagnostic& item : findings.items()) missing.try_emplace(item.code, findings.count(item.code));
+        for (const Diagnostic& item : findings.items()) {
+            Place where = item.where;
+            where.line = ofFile(where.line);
+            to.add(item.severity, item.code, item.message, where);
+            --missing[item.code];
+        }
+        for (const Diagnostic& item : findings.items())
+            for (std::size_t& count = missing[item.code]; count != 0; --count)
+                to.add(item.severity, item.code, item.message, {});
+    }
+
+private:
+    std::span<const std::uint64_t> lines_;
+    std::vector<std::uint64_t> first_;
+};
+
+}  // namespace
+
 Result<model::BuildingModel> FeatureFile::read(std::span<const std::string_view> features, const ReadOptions& options,
-                                               Diagnostics* diagnostics, std::vector<std::uint32_t>* featureOf) const {
+                                               Diagnostics* diagnostics, std::vector<std::uint32_t>* featureOf,
+                                               std::span<const std::uint64_t> lines) const {
     const State& state = *state_;
     const std::string name = state.path.string();
     if (state.format == FeatureFormat::Whole) {
@@ -278,18 +331,17 @@ Result<model::BuildingModel> FeatureFile::read(std::span<const std::string_view>
         for (const std::string_view feature : features) (document += '\n') += feature;
         document += '\n';
     }
-    auto model = readModel(textBytes(document), name, options, diagnostics);
-    if (!model || featureOf == nullptr) return model;
-    std::vector<std::uint64_t> firstLine;
-    for (const std::string_view feature : features) {
-        firstLine.push_back(line);
-        line += xml::countLines(feature) + 1;
+    Diagnostics found;
+    auto model = readModel(textBytes(document), name, options, lines.empty() ? diagnostics : &found);
+    const LineMap map(line, features, lines);
+    if (!lines.empty() && diagnostics != nullptr) map.append(found, *diagnostics);
+    if (!model) return model;
+    if (featureOf != nullptr) {
+        featureOf->clear();
+        for (const model::FeatureIndex root : model->roots)
+            featureOf->push_back(map.featureAt(model->features[root].line));
     }
-    featureOf->clear();
-    for (const model::FeatureIndex root : model->roots) {
-        const auto after = std::upper_bound(firstLine.begin(), firstLine.end(), model->features[root].line);
-        featureOf->push_back(static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(1, after - firstLine.begin()) - 1));
-    }
+    if (!lines.empty()) map.apply(*model);
     return model;
 }
 

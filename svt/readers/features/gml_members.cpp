@@ -169,7 +169,7 @@ void GmlMembers::countHead() { lines_ = xml::countLines(head_) + 1; }
 Result<FeatureText> GmlMembers::memberHere(TextStream& stream) {
     const auto end = endOfElement(stream, 0);
     if (!end) return end.error();
-    return FeatureText{{stream.base(), *end}, stream.window().substr(0, *end)};
+    return FeatureText{{stream.base(), *end}, stream.window().substr(0, *end), stream.line()};
 }
 
 Result<bool> GmlMembers::next(TextStream& stream, FeatureText& feature) {

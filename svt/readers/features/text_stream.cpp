@@ -1,6 +1,7 @@
 #include <svt/readers/features/text_stream.hpp>
 
 #include <svt/readers/feature_file.hpp>
+#include <svt/readers/xml/xml_scanner.hpp>
 
 #include <fmt/format.h>
 
@@ -71,6 +72,7 @@ Result<bool> TextStream::more() {
 }
 
 void TextStream::discard(std::uint64_t offset) {
+    if (line_ != 0) line_ += xml::countLines(window().substr(0, static_cast<std::size_t>(offset - base_)));
     front_ += static_cast<std::size_t>(offset - base_);
     base_ = offset;
 }
@@ -79,6 +81,7 @@ void TextStream::seek(std::uint64_t offset) {
     buffer_.clear();
     front_ = 0;
     base_ = offset;
+    line_ = 0;
     isEnd_ = false;
     file_.clear();
     file_.seekg(static_cast<std::streamoff>(offset));

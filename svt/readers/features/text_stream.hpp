@@ -21,6 +21,8 @@ public:
     /// What is in the window; begins at offset base().
     [[nodiscard]] std::string_view window() const noexcept { return std::string_view(buffer_).substr(front_); }
     [[nodiscard]] std::uint64_t base() const noexcept { return base_; }
+    /// The line at base(), from 1; 0 after seek(): unknown.
+    [[nodiscard]] std::uint64_t line() const noexcept { return line_; }
     [[nodiscard]] bool isGzip() const noexcept { return isGzip_; }
     [[nodiscard]] double progress() const noexcept { return size_ == 0 ? 1 : double(taken_) / double(size_); }
 
@@ -41,7 +43,7 @@ private:
     GzipStream gzip_;
     std::string buffer_, packed_;
     std::size_t front_ = 0;
-    std::uint64_t base_ = 0, taken_ = 0, size_ = 0, unpacked_ = 0;
+    std::uint64_t base_ = 0, line_ = 1, taken_ = 0, size_ = 0, unpacked_ = 0;
     bool isGzip_ = false, isEnd_ = false;
 };
 

@@ -1,0 +1,113 @@
+#include <apps/cli/check/feature_batches.hpp>
+
+#include <svt/readers/feature_file.hpp>
+
+#include <fmt/format.h>
+
+#include <string>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+namespace svt::cli {
+namespace {
+
+using readers::FeatureFile;
+using readers::FeatureFormat;
+
+constexpr std::uint64_t kLargeFile = std::uint64_t{64} << 20, kLargeGzip = std::uint64_t{6} << 20;
+constexpr std::size_t kBatchBytes = std::size_t{16} << 20;
+
+struct Batch {
+    std::vector<std::string> texts;
+    std::vector<std::uint64_t> lines;
+    std::size_t bytes = 0;
+};
+
+class BatchReader {
+public:
+    BatchReader(FeatureFile file, readers::ReadOptions options,
+                const std::function<Result<void>(model::BuildingModel&, Diagnostics&)>& take)
+        : file_(std::move(file)), options_(std::move(options)), progress_(options_.progress), take_(take) {
+        options_.progress = nullptr;  // it would begin anew with each batch
+        options_.keepFarFeatures = true;
+    }
+
+    Result<bool> run() {
+        Batch batch;
+        readers::FeatureText feature;
+        while (true) {
+            const auto found = file_.next(feature);
+            if (!found) return found.error();
+            if (*found) {
+                batch.texts.emplace_back(feature.text);
+                batch.lines.push_back(feature.line);
+                batch.bytes += feature.text.size();
+            }
+            if (*found && batch.bytes < kBatchBytes) continue;
+            if (!batch.texts.empty()) {
+                const auto taken = takeBatch(batch);
+                if (!taken || !*taken) return taken;
+            }
+            if (!*found) return isEmpty_ ? Result<bool>(false) : Result<bool>(true);
+            batch = {};
+        }
+    }
+
+private:
+    Result<bool> takeBatch(const Batch& batch) {
+        Diagnostics findings;
+        const std::vector<std::string_view> texts(batch.texts.begin(), batch.texts.end());
+        auto model = file_.read(texts, options_, &findings, nullptr, batch.lines);
+        // The reader of the whole file says it better.
+        if (!model && model.error().code() != Code::EmptyModel) return false;
+        if (findings.count(Code::DanglingReference) != 0) return false;
+        Progress::tell(progress_, "check", file_.progress());
+        if (Progress::isCancelled(progress_)) return Error(Code::Cancelled, "stopped while checking");
+        if (!model) return true;
+        isEmpty_ = false;
+        if (options_.axisOrder == 0) options_.axisOrder = model->crs.axesSwapped ? -1 : 1;
+        findDuplicates(*model, findings);
+        if (auto taken = take_(*model, findings); !taken) return taken.error();
+        return true;
+    }
+
+    // Ids that an earlier batch has; those of one batch are found by its reader.
+    void findDuplicates(const model::BuildingModel& model, Diagnostics& findings) {
+        std::vector<std::uint64_t> own;
+        for (const model::Feature& feature : model.features) {
+            const std::uint64_t hash = std::hash<std::string>{}(feature.id);
+            if (ids_.contains(hash))
+                findings.add(Severity::Warning, Code::DuplicateId,
+                             "this id was used before; references mean its first use",
+                             {model.source, feature.line, 0, feature.id});
+            own.push_back(hash);
+        }
+        ids_.insert(own.begin(), own.end());
+    }
+
+    FeatureFile file_;
+    readers::ReadOptions options_;
+    const Progress* progress_;
+    const std::function<Result<void>(model::BuildingModel&, Diagnostics&)>& take_;
+    std::unordered_set<std::uint64_t> ids_;
+    bool isEmpty_ = true;
+};
+
+}  // namespace
+
+bool isWorthBatches(const std::filesystem::path& file) {
+    std::error_code failed;
+    const std::uint64_t size = std::filesystem::file_size(file, failed);
+    return !failed && size >= (file.extension() == ".gz" ? kLargeGzip : kLargeFile);
+}
+
+Result<bool> forEachBatch(const std::filesystem::path& file, readers::ReadOptions options,
+                          const std::function<Result<void>(model::BuildingModel&, Diagnostics&)>& take) {
+    auto opened = FeatureFile::open(file, options);
+    if (!opened) return false;
+    if (opened->format() != FeatureFormat::CityGml && opened->format() != FeatureFormat::CityJsonSeq) return false;
+    return BatchReader(std::move(*opened), std::move(options), take).run();
+}
+
+}  // namespace svt::cli
