@@ -95,7 +95,7 @@ struct Extract {
     int detail = 0;
 };
 
-/// Puts parts of a city together on its lattice. Samples of one tile are those of its member; where several tiles fill a
+/// Puts parts of a city together on its lattice. Of buildings by id, the samples around them and their labels alone. Samples of one tile are those of its member; where several tiles fill a
 /// sample, the first along the Morton curve has it.
 /// \return the volume, or NothingSelected, BadArgument, GridTooLarge, BadPack, BadCity
 [[nodiscard]] Result<volume::SemanticVolume> extractVolume(const City& city, const Extract& extract);

@@ -14,7 +14,7 @@ const Limits kLong = [] {
     return limits;
 }();
 
-class City : public ::testing::Test {
+class CityFolder : public ::testing::Test {
 protected:
     CommandResult run(const std::vector<std::string>& arguments) { return runSvt(folder.path(), arguments, kLong); }
     void runWell(const std::vector<std::string>& arguments) {
@@ -28,7 +28,7 @@ protected:
     TemporaryFolder folder;
 };
 
-TEST_F(City, IsPlannedRunAndExtracted) {
+TEST_F(CityFolder, IsPlannedRunAndExtracted) {
     plan();
     runWell({"city", "run", "city", "--jobs", "2"});
     const nlohmann::json info = runSvtForJson(folder.path(), {"city", "info", "city", "--json"});
@@ -38,6 +38,8 @@ TEST_F(City, IsPlannedRunAndExtracted) {
     runWell({"city", "extract", "city", "-o", "one.svt", "--id", "BLDG_0000000100000005"});
     const nlohmann::json one = runSvtForJson(folder.path(), {"info", "one.svt", "--json"});
     EXPECT_EQ(one.at("objects").at(0).at("id"), "BLDG_0000000100000005");
+    for (const auto& object : one.at("objects"))
+        EXPECT_TRUE(object.at("id").get<std::string>().starts_with("BLDG_0000000100000005")) << object;
     runWell(
         {"city", "extract", "city", "-o", "coarse.svt", "--detail", "1", "--box=384000,5811000,0,386000,5813000,500"});
     runWell({"render", "coarse.svt", "-o", "town.png", "--size", "160,120"});
@@ -45,7 +47,7 @@ TEST_F(City, IsPlannedRunAndExtracted) {
     EXPECT_TRUE(status.at("missing").empty());
 }
 
-TEST_F(City, HasTheSameBytesHoweverItsTasksAreRun) {
+TEST_F(CityFolder, HasTheSameBytesHoweverItsTasksAreRun) {
     for (const std::string profile : {"berlin", "3dbag"}) {
         plan(profile, profile);
         runWell({"city", "run", profile, "--jobs", "3"});
@@ -63,7 +65,7 @@ TEST_F(City, HasTheSameBytesHoweverItsTasksAreRun) {
 }
 
 // What the city holds of a building is what `svt build` makes of the file on the same grid.
-TEST_F(City, HasTheVoxelsOfTheWholeModel) {
+TEST_F(CityFolder, HasTheVoxelsOfTheWholeModel) {
     runWell({"sample", "city", "--profile", "3dbag", "--buildings", "64", "-o", "files"});
     runWell({"city", "plan", "files", "-o", "city", "--spacing", "0.5", "-q"});
     runWell({"city", "run", "city", "-q"});
@@ -71,8 +73,8 @@ TEST_F(City, HasTheVoxelsOfTheWholeModel) {
     runWell({"build", "files/00000.city.jsonl", "-o", "whole.svt", "--grid-of", "all.svt", "-q"});
     const auto voxels = [&](const char* name) {
         std::map<std::string, std::uint64_t> result;
-        for (const auto& object : runSvtForJson(folder.path(), {"info", name, "--json"}).at("objects"))
-            result[object.at("id")] = object.at("voxels");
+        const nlohmann::json info = runSvtForJson(folder.path(), {"info", name, "--json"});
+        for (const auto& object : info.at("objects")) result[object.at("id")] = object.at("voxels");
         return result;
     };
     const auto city = voxels("all.svt");
@@ -80,7 +82,7 @@ TEST_F(City, HasTheVoxelsOfTheWholeModel) {
     EXPECT_EQ(city, voxels("whole.svt"));
 }
 
-TEST_F(City, SaysWhatIsMissingAndGoesOn) {
+TEST_F(CityFolder, SaysWhatIsMissingAndGoesOn) {
     plan();
     CommandResult result = run({"city", "merge", "city"});
     EXPECT_EQ(result.exitCode, 3) << result.toString();
@@ -100,7 +102,7 @@ TEST_F(City, SaysWhatIsMissingAndGoesOn) {
     runWell({"city", "extract", "city", "-o", "x.svt", "--id", "BLDG_0000000100000005"});
 }
 
-TEST_F(City, RefusesWhatMakesNoSense) {
+TEST_F(CityFolder, RefusesWhatMakesNoSense) {
     plan();
     runWell({"city", "run", "city"});
     const auto expect = [&](const std::vector<std::string>& arguments, int exitCode, std::string_view message) {

@@ -29,6 +29,13 @@ std::string bytesAt(const std::filesystem::path& path, std::uint64_t offset, std
     return bytes;
 }
 
+// Bytes of a file; 0 where it is missing.
+std::uint64_t sizeOf(const std::filesystem::path& path) {
+    std::error_code failed;
+    const auto size = std::filesystem::file_size(path, failed);
+    return failed ? 0 : size;
+}
+
 bool meets(const std::array<double, 4>& a, double west, double south, double east, double north) {
     return a[0] <= east && west <= a[2] && a[1] <= north && south <= a[3];
 }
@@ -132,7 +139,7 @@ Result<std::vector<City::Place>> City::find(const std::string& id) const {
                sum = from.take<std::uint64_t>();
     const std::uint64_t pages = (count + kIdsOfPage - 1) / kIdsOfPage;
     if (magic != std::string_view("svtids\0\0", 8) || version != 1 || ofPage != kIdsOfPage || !from.isGood() ||
-        fenceSize != pages * 8 || count > buildings_ + 1)
+        fenceSize != pages * 8 || count > buildings_ + 1 || fenceSize > sizeOf(path))
         return damaged("ids.bin", "the index of ids is missing or damaged");
     const std::string fence = bytesAt(path, kIdHead, fenceSize);
     if (fence.size() != fenceSize || idHash(fence) != sum) return damaged("ids.bin", "the fence of the ids is damaged");
@@ -171,6 +178,56 @@ Result<volume::SemanticVolume> City::read(const IndexEntry& entry) const {
 }
 
 namespace {
+
+// The chosen labels alone, in a table without the others. \param kept  ascending; whole subtrees
+volume::SemanticVolume withLabels(const volume::SemanticVolume& volume, const std::vector<std::uint32_t>& kept) {
+    const std::vector<volume::Label>& labels = volume.labels.labels;
+    volume::SemanticVolume result;
+    result.grid = volume.grid;
+    result.crsName = volume.crsName;
+    result.modelName = volume.modelName;
+    result.planes = volume.planes;
+    std::vector<std::uint32_t> newOf(labels.size(), volume::kNoLabel);
+    for (std::uint32_t n = 0; n < kept.size(); ++n) newOf[kept[n]] = n;
+    std::vector<volume::Scalar> scalarOf(volume.labels.scalarCount(), 0);
+    volume::Scalar next = 1;
+    for (const std::uint32_t l : kept) {
+        volume::Label label = labels[l];
+        // The end of a subtree is behind its last label, which is kept, too.
+        label.subtreeEnd = newOf[label.subtreeEnd - 1] + 1;
+        label.parent = label.parent == volume::kNoLabel ? volume::kNoLabel : newOf[label.parent];
+        std::vector<std::uint32_t> groups;
+        for (const std::uint32_t group : label.groups)
+            if (newOf[group] != volume::kNoLabel) groups.push_back(newOf[group]);
+        label.groups = std::move(groups);
+        for (volume::Scalar s = 0; s < label.count; ++s) scalarOf[label.first + s] = next + s;
+        if (label.count > 0) label.first = next;
+        next += label.count;
+        result.labels.labels.push_back(std::move(label));
+    }
+    result.columns = volume::replaceScalars(volume.columns, scalarOf);
+    return result;
+}
+
+// The filled samples with one more at each side; empty where none is filled.
+volume::IndexBox filledSamples(const volume::ColumnVolume& columns) {
+    const Vec3i n = columns.dimension();
+    volume::IndexBox box{n, {0, 0, 0}};
+    for (std::int32_t j = 0; j < n.y; ++j)
+        for (std::int32_t i = 0; i < n.x; ++i) {
+            const auto runs = columns.column(i, j);
+            if (runs.size() == 1 && runs[0].scalar == 0) continue;
+            const auto low = runs[0].scalar == 0 ? static_cast<std::int32_t>(runs[0].end) : 0;
+            const auto high = runs.back().scalar != 0 ? n.z : static_cast<std::int32_t>(runs[runs.size() - 2].end);
+            box.begin = {std::min(box.begin.x, i), std::min(box.begin.y, j), std::min(box.begin.z, low)};
+            box.end = {std::max(box.end.x, i + 1), std::max(box.end.y, j + 1), std::max(box.end.z, high)};
+        }
+    for (int axis = 0; axis < 3; ++axis) {
+        box.begin[axis] = std::max(0, box.begin[axis] - 1);
+        box.end[axis] = std::min(n[axis], box.end[axis] + 1);
+    }
+    return box;
+}
 
 // The labels of buildings by id, with all below them.
 std::vector<std::uint32_t> labelsOf(const volume::LabelTable& table, const std::vector<std::string>& ids) {
@@ -217,14 +274,16 @@ Result<volume::SemanticVolume> extractVolume(const City& city, const Extract& ex
         if (!extract.ids.empty()) {
             const std::vector<std::uint32_t> kept = labelsOf(volume->labels, extract.ids);
             if (kept.empty()) continue;
-            auto selected = volume::selectedVolume(*volume, kept);
-            if (!selected) return selected.error();
-            volume = std::move(selected);
+            volume = withLabels(*volume, kept);
         }
         parts.push_back(std::move(*volume));
     }
     if (parts.empty()) return Error(Code::NothingSelected, "no building of the city has such an id");
     auto joined = parts.size() == 1 ? Result<volume::SemanticVolume>(std::move(parts.front())) : joinVolumes(parts);
+    if (joined && !extract.ids.empty() && !extract.hasBox) {
+        const volume::IndexBox box = filledSamples(joined->columns);
+        return box.begin.x < box.end.x ? volume::croppedVolume(*joined, box) : std::move(joined);
+    }
     if (!joined || !extract.hasBox) return joined;
     const auto samples = volume::samplesIn(joined->grid, {{extract.box[0], extract.box[1], extract.box[2]},
                                                           {extract.box[3], extract.box[4], extract.box[5]}});

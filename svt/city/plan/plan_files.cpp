@@ -205,6 +205,9 @@ Result<std::vector<PlanFeature>> readPlanFeatures(const std::filesystem::path& f
     if (first >= last) return features;
     const std::uint64_t begin = plan.tiles[first].firstFeature;
     const std::uint64_t end = plan.tiles[last - 1].firstFeature + plan.tiles[last - 1].featureCount;
+    std::error_code failed;
+    const std::uint64_t size = std::filesystem::file_size(path, failed);
+    if (failed || end > size / kFeatureBytes) return badPlan(path, "the features are missing or end too early");
     std::ifstream file(path, std::ios::binary);
     std::string bytes(static_cast<std::size_t>((end - begin) * kFeatureBytes), '\0');
     file.seekg(static_cast<std::streamoff>(begin * kFeatureBytes));

@@ -12,6 +12,8 @@
 #include <condition_variable>
 #include <cstdlib>
 #include <mutex>
+#include <new>
+#include <system_error>
 #include <thread>
 
 namespace svt::city {
@@ -25,14 +27,20 @@ using Skips = std::map<std::uint32_t, std::string>;
 /// Ends this process if a step takes longer than it may.
 class Watch {
 public:
-    Watch() : thread_([this] { run(); }) {}
+    Watch() {
+        try {
+            thread_ = std::thread([this] { run(); });
+        } catch (const std::system_error&) {
+            // Without threads (WebAssembly) nobody watches.
+        }
+    }
     ~Watch() {
         {
             const std::lock_guard lock(mutex_);
             isOver_ = true;
         }
         changed_.notify_all();
-        thread_.join();
+        if (thread_.joinable()) thread_.join();
     }
     void begin(double seconds) {
         const std::lock_guard lock(mutex_);
@@ -66,7 +74,7 @@ struct Said {
     std::optional<std::uint32_t> feature;  // likewise
     Skips failed;
     std::optional<Error> error;
-    bool isDone = false;
+    bool isDone = false, isOutOfMemory = false;
 
     explicit Said(const std::string& text) {
         for (std::size_t at = 0; at < text.size();) {
@@ -94,6 +102,7 @@ private:
             error = Error(static_cast<Code>(number(*rest)),
                           std::string(rest->substr(std::min(rest->find(' '), rest->size() - 1) + 1)));
         if (line == "@done") isDone = true;
+        if (line == "@memory") isOutOfMemory = true;
     }
 };
 
@@ -121,14 +130,16 @@ public:
             if (said.isDone) return provenReport(folder_, plan_, pack_, false);
             if (Progress::isCancelled(options_.progress)) return Error(Code::Cancelled, "stopped while building");
             for (const auto& [feature, reason] : said.failed) skips_.emplace(feature, reason);
-            if (!said.tile) return failed(fmt::format("its process {}", faultText(result)));
-            if (auto tried = tryTile(*said.tile, faultText(result)); !tried) return tried.error();
+            if (!said.tile) return failed(fmt::format("its process {}", faultText(result, said)));
+            if (auto tried = tryTile(*said.tile, faultText(result, said)); !tried) return tried.error();
         }
         return failed("too many of its tiles cannot be built");
     }
 
 private:
-    [[nodiscard]] static std::string faultText(const OwnProcessResult& result) {
+    [[nodiscard]] static std::string faultText(const OwnProcessResult& result, const Said& said) {
+        if (said.isOutOfMemory) return "ran out of memory";
+        if (result.fault.empty()) return "could not build it";
         return result.fault == fmt::format("ended with code {}", kTooLong) ? "took too long" : result.fault;
     }
 
@@ -137,16 +148,18 @@ private:
             Code::TaskFailed, fmt::format("pack {} could not be built: {}", pack_, why), {folder_.string(), 0, 0, {}}};
     }
 
+    // Says "@done" where the work came to its end, "@error" for what is no matter of features; else nothing more.
     template <class Work>
     static void guarded(const Say& say, Work&& work) {
         try {
-            if (const Result<void> done = work(); !done)
+            const Result<bool> done = work();
+            if (!done)
                 say(fmt::format("@error {} {}\n", static_cast<int>(done.error().code()),
                                 oneLine(done.error().where().toString() + ": " + done.error().message())));
-            else
+            else if (*done)
                 say("@done\n");
         } catch (const std::bad_alloc&) {
-            std::_Exit(76);
+            say("@memory\n");
         }
     }
 
@@ -160,7 +173,8 @@ private:
     }
 
     // In a process of its own: the whole pack.
-    Result<void> build(const Say& say) {
+    // \return whether all of it was built; false: the tile that was begun last cannot be built
+    Result<bool> build(const Say& say) {
         Watch watch;
         const auto features = PackFeatures::read(folder_, plan_, pack_);
         if (!features) return features.error();
@@ -176,10 +190,9 @@ private:
             if (options_.beforeFeature)
                 for (const std::uint32_t n : all) options_.beforeFeature(features->text(n));
             auto built = buildTile(*features, all, plan_.options, options_.threads);
-            // The parent tries its features one by one.
-            if (!built) std::_Exit(77);
+            if (!built) return false;
             if (!*built) continue;
-            if (auto added = addTile(*writer, plan_.tiles[tile].key, **built, report); !added) return added;
+            if (auto added = addTile(*writer, plan_.tiles[tile].key, **built, report); !added) return added.error();
         }
         watch.begin(3600);
         report.bytes = writer->size();
@@ -192,7 +205,8 @@ private:
         std::error_code ignored;
         std::filesystem::create_directories(folder_ / "reports", ignored);
         const auto written = writeFileAtomically(reportPath(folder_, pack_), reportJson(report));
-        return written ? Result<void>() : written.error();
+        if (!written) return written.error();
+        return true;
     }
 
     static Result<void> addTile(PackWriter& writer, const TileKey& key, const BuiltTile& tile, PackReport& report) {
@@ -226,8 +240,8 @@ private:
             if (said.error) return *said.error;
             for (const auto& [feature, reason] : said.failed) skips_.emplace(feature, reason);
             if (said.isDone) break;
-            if (!said.feature) return failed(faultText(result));
-            skips_.emplace(*said.feature, fmt::format("its process {}", faultText(result)));
+            if (!said.feature) return failed(faultText(result, said));
+            skips_.emplace(*said.feature, fmt::format("its process {}", faultText(result, said)));
             from = *said.feature + 1;
         }
         if (skips_.size() != before) return {};
@@ -244,7 +258,7 @@ private:
     }
 
     // In a process of its own.
-    Result<void> tryFeatures(std::size_t tile, std::uint32_t from, const Say& say) {
+    Result<bool> tryFeatures(std::size_t tile, std::uint32_t from, const Say& say) {
         Watch watch;
         const auto features = PackFeatures::read(folder_, plan_, pack_);
         if (!features) return features.error();
@@ -256,7 +270,7 @@ private:
             const auto built = buildTile(*features, std::span(&n, 1), plan_.options, options_.threads);
             if (!built) say(fmt::format("@failed {} {}\n", n, oneLine(built.error().message())));
         }
-        return {};
+        return true;
     }
 
     const std::filesystem::path& folder_;

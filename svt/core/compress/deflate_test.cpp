@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <string>
 
@@ -60,6 +61,31 @@ TEST(Deflate, DamageAndMissingEndsAreTold) {
             << size;
     packed[packed.size() - 6] ^= std::byte{1};  // the checksum
     EXPECT_EQ(inflateBytes(packed, DeflateFormat::Gzip, 0, 1 << 20).status, InflateStatus::Damaged);
+}
+
+TEST(Deflate, AStreamGivesTheSamePieceByPiece) {
+    const auto a = someBytes(600'000, 6, 40), b = someBytes(777, 7, 9);
+    const auto packed = joined(gzipBytes(a), gzipBytes(b)), plain = joined(a, b);
+    const std::span<const std::byte> all(packed);
+    for (const std::size_t piece : {std::size_t{1}, std::size_t{1000}, packed.size()}) {
+        GzipStream stream;
+        std::string out;
+        for (std::size_t at = 0; at < packed.size(); at += piece)
+            ASSERT_EQ(stream.append(all.subspan(at, std::min(piece, packed.size() - at)), out), InflateStatus::Done);
+        EXPECT_TRUE(stream.isComplete());
+        ASSERT_EQ(out.size(), plain.size());
+        EXPECT_TRUE(std::equal(plain.begin(), plain.end(), std::as_bytes(std::span(out)).begin()));
+    }
+    GzipStream cut;
+    std::string out;
+    EXPECT_EQ(cut.append(all.first(packed.size() - 1), out), InflateStatus::Done);
+    EXPECT_FALSE(cut.isComplete());
+    auto damaged = packed;
+    damaged[packed.size() - 6] ^= std::byte{1};  // the checksum
+    GzipStream stream;
+    EXPECT_EQ(stream.append(damaged, out), InflateStatus::Damaged);
+    EXPECT_EQ(stream.append(packed, out), InflateStatus::Damaged);
+    EXPECT_FALSE(stream.isComplete());
 }
 
 }  // namespace

@@ -211,6 +211,7 @@ Result<bool> FeatureFile::next(FeatureText& feature) {
 // The member or line that stands at `span`.
 Result<FeatureText> FeatureFile::State::memberAt(const FeatureSpan& span) {
     if (pending && pending->span == span) return *pending;
+    pending.reset();  // its text goes with the window
     if (!stream.isGzip()) {
         stream.seek(span.begin);
     } else {

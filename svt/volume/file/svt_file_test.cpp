@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <csignal>
@@ -30,6 +31,9 @@ std::string bytesOfVolume(const SemanticVolume& volume) {
     EXPECT_TRUE(size) << (size ? "" : size.error().toString());
     std::string bytes = readText(folder / "v.svt");
     EXPECT_EQ(bytes.size(), size ? *size : 0);
+    // The same in memory.
+    const auto inMemory = svtBytes(volume);
+    EXPECT_TRUE(inMemory && std::ranges::equal(*inMemory, std::as_bytes(std::span(bytes))));
     return bytes;
 }
 
