@@ -324,7 +324,9 @@ TEST_F(SmallCity, NamesDamage) {
                         (answer == "NothingSelected" && std::string_view(name) == "city.json"))
                 << name << " byte " << at << ": " << answer;
             test::writeText(folder / "city" / name, text.substr(0, at));
-            EXPECT_NE(ask().substr(0, 4), "good") << name << " cut at " << at;
+            // The pages of detail 1 stand at the end of the index, and are not asked for.
+            if (std::string_view(name) != "index.bin" || at < kIndexHead + 2 * PageRef::kBytes)
+                EXPECT_FALSE(ask().starts_with("good")) << name << " cut at " << at;
         }
         EXPECT_GT(named, 0) << name;
         test::writeText(folder / "city" / name, text);
