@@ -141,7 +141,7 @@ int runCityStatus(const CityRunArguments& arguments) {
         print(json);
         return kDone;
     }
-    fmt::print("{} of {} packs are done: {} of {} buildings, {:.1f} MB; {} features left out\n",
+    fmt::print("{} of {} packs are done: {} buildings of {} features, {:.1f} MB; {} features left out\n",
                status.packs - status.missing.size(), status.packs, status.buildings, plan->features,
                double(status.bytes) / 1e6, status.skipped.size());
     if (!status.missing.empty())
