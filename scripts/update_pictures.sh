@@ -18,5 +18,8 @@ draw section_beam house slab_and_beam 900x540
 draw cutaway house beam_cutaway 900x640
 draw lens house lens 900x640
 draw wireframe house wireframe 600x400
+draw storeys_apart house storeys_apart 900x640
+draw inset house inset 900x640
+draw rooms_by_area house rooms_by_area 900x640
 draw flats tower two_flats_in_their_tower 640x720
 draw hulls tower hulls_of_storeys 560x640

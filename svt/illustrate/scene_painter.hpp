@@ -87,6 +87,7 @@ private:
     struct Apart;
     using Paint = std::function<Result<Painting>(const Scene&)>;
     [[nodiscard]] Result<void> addInsets(const Scene& scene, const Paint& paint, Painting& painting) const;
+    [[nodiscard]] std::optional<analyze::SampleBox> targetOf(const Scene& scene) const;
     [[nodiscard]] Result<Painting> paintPlain(const Scene& scene, const Draw& draw);
     [[nodiscard]] Result<Painting> draftPlain(const Scene& scene, const render::CastOptions& options);
     [[nodiscard]] Result<Painting> finish(const Scene& scene, const analyze::LabelRows& rows, const ColorScale& scale,

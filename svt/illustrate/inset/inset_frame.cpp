@@ -35,6 +35,30 @@ void strokeBox(image::Image<image::Rgba8>& image, const PictureBox& box, Vec3f c
         }
 }
 
+// The box around points in a picture, cut to it.
+class SeenBox {
+public:
+    SeenBox(const render::FrameSpec& spec, const volume::Grid& grid) : spec_(spec), rays_(spec, grid) {}
+    void add(Vec3d point) {
+        const Vec3d seen = rays_.seenAt(point - spec_.camera.eye);
+        if (rays_.isPerspective() && !(seen.z > 0)) return;
+        const double x = (seen.x + 1) / 2 * spec_.width, y = (1 - seen.y) / 2 * spec_.height;
+        box_ = {std::min(box_.left, x), std::min(box_.top, y), std::max(box_.right, x), std::max(box_.bottom, y)};
+    }
+    [[nodiscard]] std::optional<PictureBox> box(double air) const {
+        const PictureBox box{std::max(box_.left - air, 0.0), std::max(box_.top - air, 0.0),
+                             std::min(box_.right + air, double(spec_.width)),
+                             std::min(box_.bottom + air, double(spec_.height))};
+        if (!(box.left < box.right && box.top < box.bottom)) return {};
+        return box;
+    }
+
+private:
+    const render::FrameSpec& spec_;
+    render::CameraRays rays_;
+    PictureBox box_{1e30, 1e30, -1e30, -1e30};
+};
+
 double turn(Vec3d a, Vec3d b, Vec3d c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
 }  // namespace
@@ -63,22 +87,25 @@ InsetMargins insetMargins(const Scene& scene) noexcept {
 
 std::optional<PictureBox> boxOfSeen(const render::Frame& frame, const render::FrameSpec& spec, const volume::Grid& grid,
                                     const render::FrameSpec& other) {
-    const render::CameraRays from(spec, grid), to(other, grid);
-    PictureBox box{1e30, 1e30, -1e30, -1e30};
+    const render::CameraRays from(spec, grid);
+    SeenBox box(other, grid);
     for (std::int32_t y = 0; y < frame.depth.height(); ++y)
         for (std::int32_t x = 0; x < frame.depth.width(); ++x) {
             const double depth = double(frame.depth.at(x, y));
-            if (!std::isfinite(depth)) continue;
-            const double u = 2 * (x + 0.5) / spec.width - 1, v = 1 - 2 * (y + 0.5) / spec.height;
-            const Vec3d seen = to.seenAt(from.worldAt(u, v, depth) - other.camera.eye);
-            if (to.isPerspective() && !(seen.z > 0)) continue;
-            const double px = (seen.x + 1) / 2 * other.width, py = (1 - seen.y) / 2 * other.height;
-            box = {std::min(box.left, px), std::min(box.top, py), std::max(box.right, px), std::max(box.bottom, py)};
+            if (std::isfinite(depth))
+                box.add(from.worldAt(2 * (x + 0.5) / spec.width - 1, 1 - 2 * (y + 0.5) / spec.height, depth));
         }
-    box = {std::max(box.left, 0.0), std::max(box.top, 0.0), std::min(box.right, double(other.width)),
-           std::min(box.bottom, double(other.height))};
-    if (!(box.left < box.right && box.top < box.bottom)) return {};
-    return box;
+    return box.box(0);
+}
+
+std::optional<PictureBox> boxOfSamples(const analyze::SampleBox& samples, const volume::Grid& grid,
+                                       const render::FrameSpec& other) {
+    SeenBox box(other, grid);
+    for (int c = 0; c < 8; ++c)
+        box.add(grid.worldFromIndex({(c & 1) != 0 ? samples.max.x + 0.5 : samples.min.x - 0.5,
+                                     (c & 2) != 0 ? samples.max.y + 0.5 : samples.min.y - 0.5,
+                                     (c & 4) != 0 ? samples.max.z + 0.5 : samples.min.z - 0.5}));
+    return box.box(0.01 * other.height);
 }
 
 std::vector<std::pair<Vec3d, Vec3d>> leadersBetween(const PictureBox& a, const PictureBox& b) {
@@ -108,6 +135,20 @@ std::vector<std::pair<Vec3d, Vec3d>> leadersBetween(const PictureBox& a, const P
             }
     }
     return leaders;
+}
+
+InsetMarks findMarks(const render::Frame& inset, const render::FrameSpec& insetSpec, const render::Frame& picture,
+                     const render::FrameSpec& spec, const volume::Grid& grid) {
+    constexpr double kMost = 0.7, kSame = 0.95;
+    const auto shown = boxOfSeen(inset, insetSpec, grid, spec), seen = boxOfSeen(picture, spec, grid, spec);
+    const auto back = boxOfSeen(picture, spec, grid, insetSpec), all = boxOfSeen(inset, insetSpec, grid, insetSpec);
+    const auto covers = [](const PictureBox& box, double share, const PictureBox& other) {
+        return box.width() >= share * other.width() && box.height() >= share * other.height();
+    };
+    if (!shown || !seen || !back || !all || !covers(*shown, kMost, *seen)) return {shown, {}};
+    // Where both show the same there is nothing to mark.
+    if (covers(*back, kSame, *all)) return {};
+    return {{}, back};
 }
 
 void drawInset(const render::Frame& inset, const PictureBox& place, const std::optional<PictureBox>& shown, Vec3f color,

@@ -2,6 +2,7 @@
 /// \file
 /// An inset in its picture: where it stands, what of the picture it shows, and the frame and lines that say so.
 
+#include <svt/analyze/scalar_boxes.hpp>
 #include <svt/illustrate/scene.hpp>
 #include <svt/render/ray_caster.hpp>
 
@@ -34,9 +35,21 @@ struct InsetMargins {
 [[nodiscard]] std::optional<PictureBox> boxOfSeen(const render::Frame& frame, const render::FrameSpec& spec,
                                                   const volume::Grid& grid, const render::FrameSpec& other);
 
+/// The same of a box of samples, with a little air around it.
+[[nodiscard]] std::optional<PictureBox> boxOfSamples(const analyze::SampleBox& box, const volume::Grid& grid,
+                                                     const render::FrameSpec& other);
+
 /// The two lines that join corners of boxes side by side: those edges of the hull of both that lead from one to the other.
 /// Fewer where one lies within the other's breadth and height.
 [[nodiscard]] std::vector<std::pair<Vec3d, Vec3d>> leadersBetween(const PictureBox& a, const PictureBox& b);
+
+/// Marks of what an inset shows: in the picture or, where the inset shows most of that and more, in the inset.
+struct InsetMarks {
+    std::optional<PictureBox> inPicture, inInset;
+};
+[[nodiscard]] InsetMarks findMarks(const render::Frame& inset, const render::FrameSpec& insetSpec,
+                                   const render::Frame& picture, const render::FrameSpec& spec,
+                                   const volume::Grid& grid);
 
 /// Copies an inset into its picture: colours, labels and depths. Draws its frame and, if `shown`, the frame around what it
 /// shows and the lines between them.

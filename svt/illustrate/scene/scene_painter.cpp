@@ -164,40 +164,40 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
     const Paint paintOne = [&](const Scene& one) { return (*painter)->paintPlain(one, draw); };
     auto painting = paintOne(scene);
     if (!painting) return painting;
-    if (auto added = addInsets(scene, paintOne, *painting); !added) return added.error();
+    if (auto added = (*painter)->addInsets(scene, paintOne, *painting); !added) return added.error();
     return painting;
 }
 
-// Draws the insets, and marks in the picture what they show. An inset that shows most of the picture is an overview: there
-// the mark says where the picture is.
+// Draws the insets, and marks in the picture what they show: what their camera is around, else all that is seen in them. An
+// inset that shows most of the picture is an overview: there the mark says where the picture is.
 Result<void> ScenePainter::addInsets(const Scene& scene, const Paint& paint, Painting& painting) const {
-    constexpr double kOverview = 0.7;
     const Vec3f color{0.80f, 0.16f, 0.12f}, halo = textColors(painting.spec.background).halo;
-    std::optional<render::Frame> whole;  // the picture without insets
+    if (scene.insets.empty()) return {};
+    const render::Frame whole = painting.frame;  // the picture without insets
     for (const Inset& inset : scene.insets) {
         const auto own = insetScene(scene, inset);
         if (!own) return own.error();
         auto small = paint(*own);
         if (!small) return small.error();
-        if (!whole) whole = painting.frame;
-        std::optional<PictureBox> shown;
-        if (inset.hasMark) shown = boxOfSeen(small->frame, small->spec, volume_.grid, painting.spec);
-        const auto back = boxOfSeen(*whole, painting.spec, volume_.grid, small->spec);
-        const auto seen = boxOfSeen(*whole, painting.spec, volume_.grid, painting.spec);
-        const bool isOverview = shown && seen && back && shown->width() >= kOverview * seen->width() &&
-                                shown->height() >= kOverview * seen->height() && back->width() < small->spec.width &&
-                                back->height() < small->spec.height;
-        // Both show the same: nothing to mark.
-        const auto all = boxOfSeen(small->frame, small->spec, volume_.grid, small->spec);
-        if (isOverview && all && back->width() > 0.95 * all->width() && back->height() > 0.95 * all->height()) {
-            shown.reset();
-        } else if (isOverview) {
-            drawMark(*back, color, halo, small->frame.color);
-            shown.reset();
-        }
-        drawInset(small->frame, insetPlace(scene, inset), shown, color, halo, painting.frame);
+        InsetMarks marks;
+        const auto target = targetOf(*own);
+        if (inset.hasMark && target)
+            marks.inPicture = boxOfSamples(*target, volume_.grid, painting.spec);
+        else if (inset.hasMark)
+            marks = findMarks(small->frame, small->spec, whole, painting.spec, volume_.grid);
+        if (marks.inInset) drawMark(*marks.inInset, color, halo, small->frame.color);
+        drawInset(small->frame, insetPlace(scene, inset), marks.inPicture, color, halo, painting.frame);
     }
     return {};
+}
+
+// What a named view is around; nothing without a query, or where it selects nothing.
+std::optional<analyze::SampleBox> ScenePainter::targetOf(const Scene& scene) const {
+    if (scene.camera.around.empty()) return {};
+    const auto selected = analyze::selectLabels(volume_.labels, scene.camera.around);
+    if (!selected) return {};
+    const auto box = analyze::boxAround(*selected, volume_, "an inset");
+    return box ? std::optional(*box) : std::nullopt;
 }
 
 Result<Painting> ScenePainter::paintPlain(const Scene& scene, const Draw& draw) {
@@ -216,7 +216,7 @@ Result<Painting> ScenePainter::paintDraft(const Scene& scene, const render::Cast
     const Paint paintOne = [&](const Scene& one) { return (*painter)->draftPlain(one, options); };
     auto painting = paintOne(scene);
     if (!painting) return painting;
-    if (auto added = addInsets(scene, paintOne, *painting); !added) return added.error();
+    if (auto added = (*painter)->addInsets(scene, paintOne, *painting); !added) return added.error();
     return painting;
 }
 

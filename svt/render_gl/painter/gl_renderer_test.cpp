@@ -554,6 +554,11 @@ TEST(GlRenderer, SaysWhatIsOutOfRange) {
     spec.samplesPerPixel = 1;
     spec.camera.target = spec.camera.eye;
     EXPECT_EQ(codeOf(renderer->draw(spec)), Code::BadCamera);
+    FrameSpec shaded = frameOf(*bodies()), cells = shaded;
+    shaded.light.hasShadows = true;
+    EXPECT_EQ(codeOf(renderer->read(shaded)), Code::BadFrame) << "drawn by the CPU alone, and never without a word";
+    cells.passes[0].hasCells = true;
+    EXPECT_EQ(codeOf(renderer->read(cells)), Code::BadFrame);
     // And goes on.
     EXPECT_TRUE(renderer->read(frameOf(*bodies())));
 }
