@@ -33,7 +33,8 @@ namespace svt::cli {
 namespace {
 
 struct RenderArguments {
-    std::filesystem::path input, output, labelOutput, depthOutput, sceneOutput;
+    std::vector<std::filesystem::path> with;
+    std::filesystem::path owners, input, output, labelOutput, depthOutput, sceneOutput;
     BuildArguments build;
     SceneArguments scene;
     int frames = 0;
@@ -153,17 +154,17 @@ BuildArguments withVectors(BuildArguments build, const illustrate::Scene& scene)
 Result<std::vector<volume::SemanticVolume>> addInputs(const RenderArguments& arguments, const Progress* progress,
                                                       Diagnostics& diagnostics, volume::SemanticVolume& volume) {
     std::vector<volume::SemanticVolume> details;
-    for (const auto& file : arguments.scene.with) {
+    for (const auto& file : arguments.with) {
         auto detail = loadVolume(file, arguments.build, progress, diagnostics);
         if (!detail) return detail.error();
         details.push_back(std::move(*detail));
     }
     if (auto joined = illustrate::joinLabels(volume, details); !joined) return joined.error();
-    if (arguments.scene.owners.empty()) return details;
-    const auto table = MappedFile::open(arguments.scene.owners);
+    if (arguments.owners.empty()) return details;
+    const auto table = MappedFile::open(arguments.owners);
     if (!table) return table.error();
-    if (auto added = illustrate::addOwnerAttributes(volume, table->text(), arguments.scene.owners.string(),
-                                                    arguments.build.threads);
+    if (auto added =
+            illustrate::addOwnerAttributes(volume, table->text(), arguments.owners.string(), arguments.build.threads);
         !added)
         return added.error();
     return details;
@@ -236,7 +237,8 @@ int runLineDrawing(const RenderArguments& arguments, const Series& series) {
     if (arguments.gl || !arguments.labelOutput.empty() || !arguments.depthOutput.empty())
         return fail(Error(Code::BadArgument, "--gl, --labels and --depth are for PNG, not for line drawings"));
     const auto& wanted = arguments.scene;
-    if (!wanted.with.empty() || !wanted.insets.empty() || wanted.explode || !wanted.sunTime.empty() || wanted.hasCells)
+    if (!arguments.with.empty() || !wanted.insets.empty() || wanted.explode || !wanted.sunTime.empty() ||
+        wanted.hasCells)
         return fail(
             Error(Code::BadArgument,
                   "--with, --inset, --explode, --sun and --cells are for PNG and films, not for line drawings"));
@@ -339,6 +341,8 @@ Action connectRender(Command& command) {
     command.set("input", arguments->input);
     command.set("--output", arguments->output);
     arguments->scene.connect(command);
+    command.set("--with", arguments->with);
+    command.set("--owners", arguments->owners);
     command.set("--write-scene", arguments->sceneOutput);
     command.set("--frames", arguments->frames);
     command.set("--gl", arguments->gl);

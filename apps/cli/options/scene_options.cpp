@@ -306,10 +306,8 @@ void SceneArguments::connect(Command& command) {
     command.set("--scale-bar", hasScaleBar);
     command.set("--north-arrow", hasNorthArrow);
     command.set("--inset", insets);
-    command.set("--with", with);
     command.set("--explode", explode);
     command.set("--cells", hasCells);
-    command.set("--owners", owners);
     command.set("--sun", sunTime);
     command.set("--place", place);
     command.set("--wireframe", wireframe);

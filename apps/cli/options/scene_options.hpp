@@ -15,8 +15,7 @@ namespace svt::cli {
 
 /// Options not given are taken from the scene file, or else from the scene's defaults.
 struct SceneArguments {
-    std::filesystem::path sceneFile, owners;
-    std::vector<std::filesystem::path> with;
+    std::filesystem::path sceneFile;
     std::optional<std::string> camera, fit, size, background, look;
     std::vector<std::string> hide, show, color, opacity, hatchOf, sections, highlights, names, meshes, insets;
     std::optional<std::string> wireframe, wireColor;
