@@ -762,7 +762,7 @@ describe("keeping", () => {
     const command = await page.evaluate(() => navigator.clipboard.readText());
     // Whoever gets it may not have the model: it comes with the command.
     const [fetching, drawing] = command.split(" && ");
-    assert.match(fetching, /^curl -fLo house\.svt http:\/\/[^ ]+\/models\/house\.svt$/);
+    assert.match(fetching, /^curl -fLo house\.svt http:\/\/[^ ]+\/house\.svt$/);
     assert.match(drawing, /^svt render house\.svt -o view\.png --size 480x270 /);
     const words = [...drawing.matchAll(/'((?:[^'])*)'|(\S+)/g)].map((m) => m[1] ?? m[2]).slice(1);
     words[1] = at("house.svt");
