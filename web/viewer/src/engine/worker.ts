@@ -56,6 +56,8 @@ async function answer(request: Request): Promise<void> {
       await drawerOf(svt).prepare(args[0]);
     // falls through
     case "drawing": {
+      // Numbers of dimensions are measured in it.
+      if (name === "drawing" && args[2]?.dimensions) await drawerOf(svt).fetchFont();
       const bytes = copied(svt.call(name, args));
       return post({ id, result: bytes }, [bytes]);
     }
