@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,5 +43,31 @@ struct FacePlane {
 /// 8 MiB + 8192 times the frame.
 /// \return the planes, or BadVolume
 [[nodiscard]] Result<std::vector<FacePlane>> readFacePlanes(std::span<const std::byte> frame, Vec3i dimension);
+
+/// The planes across an axis near each border between voxels. Thread-safe to read.
+class FaceBorders {
+public:
+    /// For the voxels [low, low + size). Faces across no axis are left out.
+    /// \param faces  must outlive this
+    FaceBorders(Vec3i low, Vec3i size, std::span<const FacePlane> faces);
+
+    [[nodiscard]] bool isEmpty() const noexcept { return count_ == 0; }
+
+    /// The plane of a face across `axis` in or beside the voxels [brick, brick + 8), between the samples on both sides of
+    /// `border` (voxels from the corner of the volume); of several the one whose faces cover most of the brick's side.
+    /// Its normal points up the axis. A plane across the axis itself has exactly that axis as normal.
+    [[nodiscard]] std::optional<BrickPlane> find(int axis, std::int32_t border, Vec3i brick) const;
+
+private:
+    struct Candidate {
+        BrickPlane plane;
+        const FacePlane* face = nullptr;
+    };
+    void add(const FacePlane& face, int axis);
+
+    Vec3i low_, size_;
+    std::array<std::vector<std::vector<Candidate>>, 3> byBorder_;
+    std::size_t count_ = 0;
+};
 
 }  // namespace svt::volume

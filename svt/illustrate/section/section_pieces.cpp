@@ -1,5 +1,5 @@
 #include <svt/illustrate/section/section_pieces.hpp>
-#include <svt/volume/face_borders.hpp>
+#include <svt/volume/face_planes.hpp>
 
 #include <algorithm>
 #include <array>

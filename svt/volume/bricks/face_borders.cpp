@@ -1,4 +1,4 @@
-#include <svt/volume/face_borders.hpp>
+#include <svt/volume/face_planes.hpp>
 
 #include <algorithm>
 #include <cmath>

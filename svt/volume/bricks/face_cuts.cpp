@@ -1,5 +1,5 @@
 #include <svt/volume/bricks/face_cuts.hpp>
-#include <svt/volume/face_borders.hpp>
+#include <svt/volume/face_planes.hpp>
 
 #include <algorithm>
 #include <bit>

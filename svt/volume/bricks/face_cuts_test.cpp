@@ -1,7 +1,7 @@
 /// Boxes anywhere between samples: bricks must tell the label of any point, not only of samples.
 
 #include <svt/volume/brick_volume.hpp>
-#include <svt/volume/face_borders.hpp>
+#include <svt/volume/face_planes.hpp>
 
 #include <gtest/gtest.h>
 
