@@ -500,6 +500,37 @@ bool writeSchemas(const fs::path& folder, const fs::path& data, const std::strin
     return true;
 }
 
+TEST_F(Convert, OtherKindsOfAFormatAreTheSameForAnyThreads) {
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2"});
+    int kind = 0;
+    for (const auto& [ending, option] :
+         std::initializer_list<std::pair<std::string, std::vector<std::string>>>{{".precomputed", {"--sharded"}},
+                                                                                 {".3dtiles", {"--voxels"}},
+                                                                                 {".zarr", {"--zarr", "3"}},
+                                                                                 {".vdb", {"--level-sets"}}}) {
+        const std::string one = "one" + std::to_string(++kind) + ending, two = "two" + std::to_string(kind) + ending;
+        std::vector<std::string> arguments{"convert", "house.svt", one, "--threads", "1"};
+        arguments.insert(arguments.end(), option.begin(), option.end());
+        runSvtWell(folder.path(), arguments);
+        arguments[2] = two;
+        arguments[4] = "3";
+        runSvtWell(folder.path(), arguments);
+        if (!fs::is_directory(folder / one)) {
+            EXPECT_TRUE(readText(folder / one) == readText(folder / two)) << one;
+            continue;
+        }
+        int files = 0;
+        for (const auto& file : fs::recursive_directory_iterator(folder / one)) {
+            if (!file.is_regular_file()) continue;
+            ++files;
+            EXPECT_TRUE(readText(file.path()) == readText(folder / two / fs::relative(file.path(), folder / one)))
+                << file.path();
+        }
+        EXPECT_GT(files, 3) << one;
+    }
+}
+
 fs::path dataFolder() {
     const char* told = std::getenv("SVT_DATA_DIR");
     return told != nullptr ? fs::path(told) : fs::path(SVT_SOURCE_DIR) / "../shared/data";

@@ -45,14 +45,15 @@ struct BandBox {
 };
 
 /// The samples that can have a distance within the band: those that are inside, and what is around them.
-BandBox bandBoxOf(const std::vector<volume::Scalar>& samples, const std::vector<bool>& isInside) {
+/// \param there  the samples of the volume, beyond which all is outside
+BandBox bandBoxOf(const std::vector<volume::Scalar>& samples, const BandBox& there, const std::vector<bool>& isInside) {
     BandBox box;
-    for (std::size_t z = 0; z < kBandRow; ++z)
-        for (std::size_t y = 0; y < kBandRow; ++y) {
+    for (std::size_t z = there.begin[2]; z < there.end[2]; ++z)
+        for (std::size_t y = there.begin[1]; y < there.end[1]; ++y) {
             const volume::Scalar* row = samples.data() + kBandRow * (y + kBandRow * z);
-            std::size_t first = 0, last = kBandRow;
-            while (first < kBandRow && !isInside[row[first]]) ++first;
-            if (first == kBandRow) continue;
+            std::size_t first = there.begin[0], last = there.end[0];
+            while (first < last && !isInside[row[first]]) ++first;
+            if (first == last) continue;
             while (!isInside[row[last - 1]]) --last;
             box.add(0, first, last - 1);
             box.add(1, y, y);
@@ -165,9 +166,18 @@ VdbLevelSet::State VdbLevelSet::stateOf(Vec3i block) const {
 /// Signed distances of a block, metres, x fastest. \return false: all of it is outside, beyond the band
 bool VdbLevelSet::distances(Vec3i block, std::vector<float>& values) const {
     constexpr auto kSide = static_cast<std::size_t>(VdbBlocks::kSide);
+    BandBox there;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::int32_t corner = block[axis] * VdbBlocks::kSide - kBandMargin;
+        const auto place = [&](std::int32_t sample) {
+            return static_cast<std::size_t>(std::clamp(sample - corner, 0, static_cast<std::int32_t>(kBandRow)));
+        };
+        there.begin[std::size_t(axis)] = place(0);
+        there.end[std::size_t(axis)] = place(blocks_.dimension()[axis]);
+    }
     std::vector<volume::Scalar> samples;
     blocks_.samples(block, kBandMargin, samples);
-    const BandBox box = bandBoxOf(samples, isInside_);
+    const BandBox box = bandBoxOf(samples, there, isInside_);
     if (box.isEmpty()) return false;
     std::vector<bool> isIn(box.count());
     std::array<std::vector<float>, 2> squares;  // to what is outside, inside
@@ -231,12 +241,12 @@ Result<void> VdbLevelSet::writeUpper(Vec3i upper, const VdbSink& topology, const
     putAllValues(bytes, tileValues);
     if (topology)
         if (auto done = topology(bytes); !done) return done;
-    std::vector<float> values(std::size_t{VdbBlocks::kSide} * VdbBlocks::kSide * VdbBlocks::kSide);
+    std::vector<float> values(std::size_t{VdbBlocks::kSide} * VdbBlocks::kSide * VdbBlocks::kSide, background_);
+    const LowerNode empty = lowerNode(values, background_);
     for (const Vec3i block : bands) {
         if (Progress::isCancelled(blocks_.progress()))
             return Error(Code::Cancelled, "writing the volume was stopped; no file was left");
-        if (!distances(block, values)) values.assign(values.size(), background_);
-        const LowerNode node = lowerNode(values, background_);
+        const LowerNode node = distances(block, values) ? lowerNode(values, background_) : empty;
         if (topology)
             if (auto done = topology(node.topology); !done) return done;
         if (buffers)

@@ -26,6 +26,7 @@ public:
                                               const Progress* progress);
 
     [[nodiscard]] Vec3i count() const noexcept { return count_; }
+    [[nodiscard]] Vec3i dimension() const noexcept { return columns_.dimension(); }
     /// Background is among them where it stands in the block.
     [[nodiscard]] std::span<const volume::Scalar> scalars(Vec3i block) const { return scalars_[index(block)]; }
     /// The samples of a block and of `margin` around it, x fastest; those beyond the volume are background.
