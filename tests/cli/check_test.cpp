@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+
 namespace svt::test {
 namespace {
 
@@ -177,6 +180,49 @@ TEST_F(Check, Val3ditysReportHasWhatReadingAndClosingFoundBesideIt) {
     EXPECT_EQ(report["other_findings"][1]["code"], "E209");
     EXPECT_EQ(report["other_findings"][1]["feature"], "b");
     EXPECT_EQ(report["other_findings"][1]["severity"], "warning");
+}
+
+// The lines of a text in order of the alphabet, each cut behind its last word: ids, without measures.
+std::vector<std::string> sortedLines(const std::string& text, bool isLastWord) {
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(isLastWord ? line.substr(line.rfind(' ') + 1) : line);
+    std::ranges::sort(lines);
+    return lines;
+}
+
+TEST_F(Check, ALargeFileIsCheckedFeatureByFeatureWithTheSameFindings) {
+    Limits limits;
+    limits.seconds = 120;
+    ASSERT_EQ(
+        runSvt(folder.path(),
+               {"sample", "city", "--profile", "berlin", "--buildings", "5500", "--files", "1", "-o", "files"}, limits)
+            .exitCode,
+        0);
+    ASSERT_GT(std::filesystem::file_size(folder / "files/00000.gml"), std::uintmax_t{64} << 20);
+    const CommandResult batches = runSvt(folder.path(), {"check", "files/00000.gml", "--verbose"}, limits);
+    const CommandResult whole =
+        runSvt(folder.path(), {"check", "files/00000.gml", "--verbose", "--report", "r.html"}, limits);
+    EXPECT_EQ(batches.exitCode, 4) << batches.err.substr(0, 2000);
+    EXPECT_EQ(whole.exitCode, 4);
+    EXPECT_EQ(sortedLines(batches.err, false), sortedLines(whole.err, false));
+    EXPECT_GT(sortedLines(batches.err, false).size(), 5u);
+    EXPECT_EQ(sortedLines(batches.out, true), sortedLines(whole.out, true));
+    EXPECT_EQ(batches.out.substr(batches.out.size() - 100), whole.out.substr(whole.out.size() - 100)) << "the counts";
+
+    // A surface of another building: the file is read whole, and the link is followed.
+    std::string text = readText(folder / "files/00000.gml");
+    const std::size_t polygon = text.find("<gml:Polygon gml:id=\"") + 21;
+    const std::string id = text.substr(polygon, text.find('"', polygon) - polygon);
+    text.insert(text.rfind("</core:CityModel>"),
+                "<core:cityObjectMember><bldg:Building gml:id=\"linked\"><bldg:lod2MultiSurface><gml:MultiSurface>"
+                "<gml:surfaceMember xlink:href=\"#" +
+                    id + "\"/></gml:MultiSurface></bldg:lod2MultiSurface></bldg:Building></core:cityObjectMember>");
+    writeText(folder / "linked.gml", text);
+    const CommandResult linked = runSvt(folder.path(), {"check", "linked.gml", "--verbose"}, limits);
+    EXPECT_EQ(linked.err.find("E110"), std::string::npos) << linked.err.substr(0, 2000);
+    EXPECT_NE(linked.out.find("  linked\n"), std::string::npos);
 }
 
 TEST_F(Check, APageThatCannotBeWrittenIsAnError) {
