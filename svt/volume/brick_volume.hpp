@@ -57,7 +57,10 @@ struct SameLabelBox {
 /// How rays see the labels of mixed bricks.
 enum class BrickFaces : std::uint8_t {
     Planes,  ///< by cuts and planes, where these reproduce all samples; else by voxels
-    Voxels   ///< by voxels only
+    /// As planes, but borders parallel to an axis lie between voxels, not on the model's faces. Where some bricks find
+    /// the plane of a face and their neighbours do not, a picture would show ledges of up to half a voxel.
+    Slopes,
+    Voxels  ///< by voxels only
 };
 
 /// A label volume as bricks, immutable. Thread-safe to read.

@@ -54,7 +54,7 @@ public:
         if (error) fs::copy_file(SVT_COMMAND, folder_ / "bin/svt");
         writeText(folder_ / "bin/xdg-open", "#!/bin/sh\n");
         fs::permissions(folder_ / "bin/xdg-open", fs::perms::owner_all);
-        writeText(folder_ / "share/svt/viewer/index.html", "<!doctype html>");
+        writeText(folder_ / "share/svt/viewer/index.html", "<!doctype html><head></head>");
     }
     [[nodiscard]] std::string bin() const { return (folder_ / "bin").string(); }
 

@@ -208,7 +208,7 @@ TEST_F(Outputs, DevicesAndPipesAreWrittenAsTheyAre) {
 
 TEST_F(Outputs, PublishedFolderIsNotThatOfAnInput) {
     fs::create_directory(folder / "page");
-    writeText(folder / "page/index.html", "<!doctype html>");
+    writeText(folder / "page/index.html", "<!doctype html><head></head>");
     fs::create_directory(folder / "site");
     fs::copy_file(folder / "two.svt", folder / "site/two.svt");
     expectRefused({"publish", "site/two.svt", "-o", "site", "--viewer", "page", "--force"}, "E408.*site/two.svt");

@@ -212,8 +212,7 @@ Result<bool> checkInBatches(const CheckArguments& arguments, const readers::Read
         });
     if (!done || !*done) return done;
     endProgress();
-    if (!lines.print())
-        return Error(Code::DiskFull, "no space is left for temporary files in /tmp");
+    if (!lines.print()) return Error(Code::DiskFull, "no space is left for temporary files in /tmp");
     printTotals(totals);
     diagnostics.append(all);
     return true;

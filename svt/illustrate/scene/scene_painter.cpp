@@ -102,7 +102,8 @@ Result<render::DrawnVolume> ScenePainter::formOf(std::size_t number, const Volum
     }
     std::optional<volume::BrickVolume>& bricks = wanted.hasCells ? forms.cells : forms.bricks;
     if (!bricks) {
-        volume::BrickVolume::Options options{.planes = volume.planes, .threads = threads_, .progress = progress_};
+        volume::BrickVolume::Options options{
+            .faces = volume::BrickFaces::Slopes, .planes = volume.planes, .threads = threads_, .progress = progress_};
         if (wanted.hasCells) options = {.faces = volume::BrickFaces::Voxels, .threads = threads_};
         auto made = volume::BrickVolume::fromColumns(volume.columns, options);
         if (!made) return made.error();

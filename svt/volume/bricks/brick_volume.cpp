@@ -198,7 +198,8 @@ public:
     // kCodedBit and the box, or kVoxelsBit and the pattern.
     std::vector<std::uint32_t> run(BrickFaces faces, std::span<const FacePlane> planes, const ColumnVolume& columns) {
         codeIndex_.assign(places_.patternOf.size(), TileBoxes::kNone);
-        if (faces == BrickFaces::Planes) codeBricks(planes, columns);
+        if (faces == BrickFaces::Planes || (faces == BrickFaces::Slopes && !tile_.patterns.empty()))
+            codeBricks(planes, faces == BrickFaces::Planes ? &columns : nullptr);
         std::vector<std::uint32_t> index;
         index.reserve(codeIndex_.size());
         std::size_t place = 0;
@@ -220,7 +221,8 @@ public:
     }
 
 private:
-    void codeBricks(std::span<const FacePlane> planes, const ColumnVolume& columns) {
+    // Borders parallel to an axis go onto faces where `columns` is given.
+    void codeBricks(std::span<const FacePlane> planes, const ColumnVolume* columns) {
         std::vector<std::uint8_t> kinds;
         std::vector<BrickCode> codes;
         std::vector<std::uint32_t> byCuts;  // by pattern: its code, or kNone
@@ -246,7 +248,7 @@ private:
             }
         }
         TileBrickCodes coded{std::move(codeIndex_), std::move(codes), std::move(tile_.planes)};
-        moveCutsToFaces(places_, tile_.patterns, planes, columns, coded);
+        if (columns != nullptr) moveCutsToFaces(places_, tile_.patterns, planes, *columns, coded);
         codeIndex_ = std::move(coded.codeIndex);
         tile_.planes = std::move(coded.planes);
         tile_.boxes = findCodeBoxes(places_, codeIndex_, coded.codes, tile_.planes);

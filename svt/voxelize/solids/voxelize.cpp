@@ -144,7 +144,7 @@ void addSheet(const IndexMesh& index, const volume::Grid& grid, std::uint32_t cl
     constexpr std::size_t kMany = 1 << 16;
     if (parts.boxes.size() <= kMany) return;
     std::ranges::sort(parts.boxes);
-    parts.boxes.erase(std::ranges::unique(parts.boxes).begin(), parts.boxes.end());
+    parts.boxes.erase(std::unique(parts.boxes.begin(), parts.boxes.end()), parts.boxes.end());
 }
 
 // Prepares the parts of object number `object`; height planes without a shared plane go to `ownHeightPlanes`.
