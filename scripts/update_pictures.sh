@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Draws the pictures of README.md that are scenes of examples/scenes. Needs the FZK-Haus (CityGML 3.0):
+# Draws the pictures of README.md that are scenes of examples/scenes, and the drawings and sheets of the manual. Needs the
+# FZK-Haus (CityGML 3.0):
 #   scripts/update_pictures.sh FZK_HAUS.gml
 set -euo pipefail
 model=$(realpath "${1:?usage: $0 FZK_HAUS.gml}")
@@ -23,3 +24,23 @@ draw inset house inset 900x640
 draw rooms_by_area house rooms_by_area 900x640
 draw flats tower two_flats_in_their_tower 640x720
 draw hulls tower hulls_of_storeys 560x640
+
+# Drawings: as the pages that show them say.
+mkdir "$work/plan"
+$svt sample house -o "$work/plan/house.gml"
+$svt build "$work/plan/house.gml" -o "$work/sample.svt" --spacing 0.05
+$svt section "$work/sample.svt" -o docs/images/section.svg
+$svt section "$work/sample.svt" -o docs/images/section_beyond.svg --plane 'x>5' --beyond
+$svt section "$work/sample.svt" -o docs/images/plan_dimensions.svg --dimensions
+$svt sample house --format ifc -o "$work/house.ifc"
+$svt section "$work/house.ifc" -o docs/images/plan_doors.svg --plane z=1.5 --beyond --dimensions
+sheet() { # picture, number of the sheet, model, options
+  local picture=$1 number=$2 of=$3
+  shift 3
+  $svt sheets "$of" --svg "$work/$picture" "$@"
+  local sheets=("$work/$picture"/*.svg)
+  cp "${sheets[$number - 1]}" "docs/images/$picture.svg"
+}
+sheet sheet_plans 1 "$work/plan/house.gml" --paper A2 --scale 1:50
+sheet sheet_fzk 3 "$model"
+sheet sheet_tower 1 "$work/tower.gml"
