@@ -19,6 +19,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -206,6 +207,9 @@ struct SectionOptions {
 /// Tells what a reader of the drawing should know: areas with a bound that is larger than they are (a warning, all
 /// together), a plane in faces, and objects that are drawn by their voxels though others are exact (notes).
 void reportSection(const SectionDrawing& drawing, const volume::SemanticVolume& volume, Diagnostics& log);
+/// The same of several drawings of one volume, each component once; of planes in faces nothing.
+void reportSections(std::span<const SectionDrawing* const> drawings, const volume::SemanticVolume& volume,
+                    Diagnostics& log);
 
 /// A rectangle inside a polygon, for a text.
 struct TextPlace {

@@ -89,5 +89,26 @@ TEST(Sheets, BoxesWithoutStoreysHaveOnePlan) {
     EXPECT_TRUE(fs::exists(folder / "s" / "sheet-3.svg"));
 }
 
+TEST(Sheets, OfAnOpenShellAreDrawnAndSaySo) {
+    const TemporaryFolder folder;
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    std::string model = readText(folder / "house.gml");
+    const std::string name = "gml:id=\"house_wall_south_0_p";
+    for (int polygon = 0; polygon < 10; ++polygon) {
+        const std::size_t at = model.find(name + std::to_string(polygon) + "\"");
+        if (at == std::string::npos) continue;
+        const std::size_t begin = model.rfind('\n', at), end = model.find('\n', at);
+        model.erase(begin, end - begin);  // as sed does with the line of the polygon
+    }
+    writeText(folder / "gap.gml", model);
+    const CommandResult result = runSvt(folder.path(), {"sheets", "gap.gml", "--svg", "sheets"});
+    EXPECT_EQ(result.exitCode, 0) << result.toString();
+    const std::string expected = "E508 DrawnByVoxels: gap.gml: 1 of ";
+    const std::size_t found = result.err.find(expected);
+    ASSERT_NE(found, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find(expected, found + 1), std::string::npos) << "once for all views";
+    EXPECT_NE(result.err.find("house_wall_south_0", found), std::string::npos);
+}
+
 }  // namespace
 }  // namespace svt::test

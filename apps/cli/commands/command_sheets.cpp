@@ -100,6 +100,15 @@ Result<writers::SheetContent> drawViews(illustrate::SheetSet& set, const SheetsA
     return content;
 }
 
+// What is not exact, once for all views.
+void printFindings(const writers::SheetContent& content, const volume::SemanticVolume& volume) {
+    std::vector<const illustrate::SectionDrawing*> drawings;
+    for (const writers::DrawnView& view : content.views) drawings.push_back(&view.drawing);
+    Diagnostics findings;
+    illustrate::reportSections(drawings, volume, findings);
+    printDiagnostics(findings, true);
+}
+
 Result<void> makeFolder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
@@ -159,11 +168,7 @@ int runSheets(const SheetsArguments& arguments) {
     Progress::tell(progress.get(), "sheets", 0);
     const auto content = drawViews(*set, arguments, *volume);
     if (!content) return fail(content.error());
-    if (content->views.front().drawing.lacksMeshes) {
-        Diagnostics findings;
-        illustrate::reportSection(content->views.front().drawing, *volume, findings);
-        printDiagnostics(findings, true);
-    }
+    printFindings(*content, *volume);
     const auto sheets = writers::makeSvgSheets(*content, *volume, options);
     if (!sheets) return fail(sheets.error());
     if (!arguments.output.empty()) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 
 namespace svt::illustrate {
@@ -20,12 +21,6 @@ std::string listed(const std::vector<std::string>& names) {
 }  // namespace
 
 void reportSection(const SectionDrawing& drawing, const volume::SemanticVolume& volume, Diagnostics& log) {
-    std::vector<std::string> uncertain, byVoxels;
-    for (const SectionComponent& component : drawing.components) {
-        const std::string& id = volume.labels.labels[component.label].id;
-        if (component.area > 0 && component.areaBound > component.area) uncertain.push_back(id);
-        if (drawing.isFromMeshes && !component.isExact) byVoxels.push_back(id);
-    }
     const Place place{volume.source, 0, 0, {}};
     if (drawing.edgesInPlane != 0)
         log.add(
@@ -37,12 +32,38 @@ void reportSection(const SectionDrawing& drawing, const volume::SemanticVolume& 
                             ? fmt::format("; the plane was moved there by {:g} mm", 1000 * drawing.planeShift)
                             : std::string()),
             place);
-    if (drawing.isUnsettled)
-        log.add(Severity::Warning, Code::DrawnByVoxels,
-                "all components are drawn by their voxels, for the edges of their meshes do not settle in whole "
-                "numbers; move the plane by a little",
-                place);
-    if (drawing.lacksMeshes)
+    const SectionDrawing* const one = &drawing;
+    reportSections(std::span(&one, 1), volume, log);
+}
+
+void reportSections(std::span<const SectionDrawing* const> drawings, const volume::SemanticVolume& volume,
+                    Diagnostics& log) {
+    // By label, each once, in the order of the drawings.
+    std::set<std::size_t> all, areUncertain, areByVoxels;
+    std::vector<std::string> uncertain, byVoxels;
+    bool isUnsettled = false, lacksMeshes = false;
+    for (const SectionDrawing* drawing : drawings) {
+        isUnsettled = isUnsettled || drawing->isUnsettled;
+        lacksMeshes = lacksMeshes || drawing->lacksMeshes;
+        for (const SectionComponent& component : drawing->components) {
+            const std::string& id = volume.labels.labels[component.label].id;
+            all.insert(component.label);
+            if (component.area > 0 && component.areaBound > component.area &&
+                areUncertain.insert(component.label).second)
+                uncertain.push_back(id);
+            if (drawing->isFromMeshes && !component.isExact && areByVoxels.insert(component.label).second)
+                byVoxels.push_back(id);
+        }
+    }
+    const Place place{volume.source, 0, 0, {}};
+    if (isUnsettled)
+        log.add(
+            Severity::Warning, Code::DrawnByVoxels,
+            fmt::format("all components{} are drawn by their voxels, for the edges of their meshes do not settle in "
+                        "whole numbers; move the plane by a little",
+                        drawings.size() > 1 ? " of a view" : ""),
+            place);
+    if (lacksMeshes)
         log.add(Severity::Warning, Code::NoMeshes,
                 "what stands beyond the cut is not drawn, for the volume keeps no meshes; give the model itself, or "
                 "build the volume with --vectors meshes",
@@ -50,13 +71,13 @@ void reportSection(const SectionDrawing& drawing, const volume::SemanticVolume& 
     if (!byVoxels.empty())
         log.add(Severity::Note, Code::DrawnByVoxels,
                 fmt::format("{} of {} components are drawn by their voxels, for their shells are open: {}",
-                            byVoxels.size(), drawing.components.size(), listed(byVoxels)),
+                            byVoxels.size(), all.size(), listed(byVoxels)),
                 place);
     if (!uncertain.empty())
         log.add(Severity::Warning, Code::UncertainArea,
                 fmt::format("{} of {} areas may be off by more than they are, for the voxels are too large: {}; give "
                             "the model itself, a volume that keeps its meshes, or a smaller --spacing",
-                            uncertain.size(), drawing.components.size(), listed(uncertain)),
+                            uncertain.size(), all.size(), listed(uncertain)),
                 place);
 }
 
