@@ -5,7 +5,8 @@ namespace svt::python {
 Result<const volume::BrickVolume*> VolumeObject::bricks(const Progress* progress) {
     const std::lock_guard lock(making_);
     if (!bricks_) {
-        auto made = volume::BrickVolume::fromColumns(volume_.columns, {.planes = volume_.planes, .progress = progress});
+        auto made = volume::BrickVolume::fromColumns(
+            volume_.columns, {.faces = volume::BrickFaces::Slopes, .planes = volume_.planes, .progress = progress});
         if (!made) return made.error();
         bricks_ = std::move(*made);
     }

@@ -156,7 +156,8 @@ Table neighborTable(const volume::SemanticVolume& volume, const Labels& selected
 
 Result<Table> rayTable(const volume::SemanticVolume& volume, const Labels& selected, const illustrate::PickRay& ray,
                        int threads) {
-    const auto bricks = volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes, .threads = threads});
+    const auto bricks = volume::BrickVolume::fromColumns(
+        volume.columns, {.faces = volume::BrickFaces::Slopes, .planes = volume.planes, .threads = threads});
     if (!bricks) return bricks.error();
     const auto stretches = render::labelsAlong(*bricks, volume.grid, volume.labels, ray.origin, ray.direction);
     if (!stretches) return stretches.error();
