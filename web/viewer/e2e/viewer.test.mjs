@@ -97,7 +97,8 @@ describe("start", () => {
     const own = sum(files.filter((file) => !isModule(file))), all = sum(files);
     t.diagnostic(`own ${Math.round(own / 1000)} kB, all ${Math.round(all / 1000)} kB, compressed`);
     assert.ok(own <= 300_000, `own scripts and styles: ${own} bytes compressed, at most 300000`);
-    assert.ok(all <= 1_500_000, `all: ${all} bytes compressed, at most 1500000`);
+    // Of these the module has 1.44 MB, 0.1 more since it draws sheets, several volumes and the sun.
+    assert.ok(all <= 1_650_000, `all: ${all} bytes compressed, at most 1650000`);
   });
 
   it("has the picture where it stays, before splitters and sliders have come", async () => {
