@@ -211,6 +211,17 @@ TEST_F(Check, ALargeFileIsCheckedFeatureByFeatureWithTheSameFindings) {
     EXPECT_EQ(sortedLines(batches.out, true), sortedLines(whole.out, true));
     EXPECT_EQ(batches.out.substr(batches.out.size() - 100), whole.out.substr(whole.out.size() - 100)) << "the counts";
 
+    // Degrees: one projection for all batches, told once.
+    ASSERT_EQ(runSvt(folder.path(),
+                     {"sample", "city", "--profile", "plateau", "--buildings", "6000", "--files", "1", "-o", "degrees"},
+                     limits)
+                  .exitCode,
+              0);
+    const CommandResult degrees = runSvt(folder.path(), {"check", "degrees/00000.gml", "--verbose"}, limits);
+    const std::size_t told = degrees.err.find("E118");
+    ASSERT_NE(told, std::string::npos);
+    EXPECT_EQ(degrees.err.find("E118", told + 1), std::string::npos);
+
     // A surface of another building: the file is read whole, and the link is followed.
     std::string text = readText(folder / "files/00000.gml");
     const std::size_t polygon = text.find("<gml:Polygon gml:id=\"") + 21;

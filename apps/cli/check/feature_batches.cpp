@@ -66,10 +66,25 @@ private:
         if (Progress::isCancelled(progress_)) return Error(Code::Cancelled, "stopped while checking");
         if (!model) return true;
         isEmpty_ = false;
-        if (options_.axisOrder == 0) options_.axisOrder = model->crs.axesSwapped ? -1 : 1;
+        if (options_.axisOrder == 0) {  // what the first batch decides holds for all
+            options_.axisOrder = model->crs.axesSwapped ? -1 : 1;
+            if (model->crs.epsg != 0) options_.crs = model->crs.epsg;
+        }
+        dropRepeated(findings);
         findDuplicates(*model, findings);
         if (auto taken = take_(*model, findings); !taken) return taken.error();
         return true;
+    }
+
+    // What is told of the file as a whole is told once.
+    void dropRepeated(Diagnostics& findings) {
+        Diagnostics once;
+        for (const Diagnostic& item : findings.items()) {
+            const bool isOfFile = item.where.id.empty() && item.where.line == 0;
+            if (!isOfFile || told_.insert(item.message).second)
+                once.add(item.severity, item.code, item.message, item.where);
+        }
+        if (once.items().size() != findings.items().size()) findings = std::move(once);
     }
 
     // Ids that an earlier batch has; those of one batch are found by its reader.
@@ -91,6 +106,7 @@ private:
     const Progress* progress_;
     const std::function<Result<void>(model::BuildingModel&, Diagnostics&)>& take_;
     std::unordered_set<std::uint64_t> ids_;
+    std::unordered_set<std::string> told_;
     bool isEmpty_ = true;
 };
 
