@@ -3,28 +3,11 @@
 // ORACLES holds node_modules: npm install --prefix ORACLES cesium playwright-core@1.56.1. Exit code 77 where it or Chromium is not
 // there. LONGITUDE, LATITUDE, HEIGHT: of the middle, expected within some metres; CLASS: of components that must be seen.
 import assert from "node:assert/strict";
-import { existsSync, readFileSync } from "node:fs";
-import http from "node:http";
-import { extname, join, resolve } from "node:path";
-import { pathToFileURL } from "node:url";
+import { cesiumIn, cesiumPage, needs, openLoaded, withPage } from "./browser_page.mjs";
 
 const [oracles, tiles, longitude, latitude, height, className, picture] = process.argv.slice(2);
-const modules = resolve(oracles, "node_modules");
-const browserPath = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
-const cesium = join(modules, "cesium", "Build", "Cesium");
-const playwright = join(modules, "playwright-core", "index.mjs");
-if (!browserPath || !existsSync(cesium) || !existsSync(playwright)) {
-  console.log(`no Chromium, or no cesium and playwright-core in ${oracles}`);
-  process.exit(77);
-}
-const page = `<!doctype html><html><link rel="stylesheet" href="/cesium/Widgets/widgets.css"><body style="margin:0"><div id="globe" style="width:960px;height:640px"></div>
-<script>window.CESIUM_BASE_URL = "/cesium/";</script><script src="/cesium/Cesium.js"></script><script>
-(async () => {
-  try {
-    const off = ["animation", "timeline", "geocoder", "baseLayer", "baseLayerPicker", "homeButton", "infoBox", "fullscreenButton",
-                 "sceneModePicker", "navigationHelpButton", "selectionIndicator"];
-    const options = Object.fromEntries(off.map((name) => [name, false]));
-    window.viewer = new Cesium.Viewer("globe", { ...options, contextOptions: { webgl: { preserveDrawingBuffer: true } } });
+needs(oracles, cesiumIn(oracles));
+const script = `
     const tileset = await Cesium.Cesium3DTileset.fromUrl("/tiles/tileset.json");
     tileset.allTilesLoaded.addEventListener(() => { window.isLoaded = true; });
     viewer.scene.primitives.add(tileset);
@@ -32,10 +15,8 @@ const page = `<!doctype html><html><link rel="stylesheet" href="/cesium/Widgets/
     await viewer.zoomTo(tileset, new Cesium.HeadingPitchRange(0.6, -0.45, 4.5 * radius));
     const place = Cesium.Cartographic.fromCartesian(center);
     window.place = [Cesium.Math.toDegrees(place.longitude), Cesium.Math.toDegrees(place.latitude), place.height, radius];
-  } catch (error) {
-    window.failure = String(error.stack ?? error);
-  }
-})();
+`;
+const functions = `
 window.pick = () => {
   const seen = new Map();
   for (let y = 10; y < 640; y += 20)
@@ -45,26 +26,10 @@ window.pick = () => {
     }
   return [...seen];
 };
-</script></body></html>`;
-const types = { ".js": "text/javascript", ".json": "application/json", ".css": "text/css", ".glb": "model/gltf-binary", ".wasm": "application/wasm" };
-const server = http.createServer((request, answer) => {
-  const url = decodeURIComponent(request.url.split("?")[0]);
-  const file = url.startsWith("/cesium/") ? join(cesium, url.slice(8)) : join(resolve(tiles), url.replace("/tiles/", ""));
-  if (url === "/") return answer.setHeader("content-type", "text/html").end(page);
-  if (!existsSync(file)) return answer.writeHead(404).end();
-  answer.setHeader("content-type", types[extname(file)] ?? "application/octet-stream").end(readFileSync(file));
-});
-await new Promise((done) => server.listen(0, "127.0.0.1", done));
-const { chromium } = await import(pathToFileURL(playwright).href);
-const browser = await chromium.launch({
-  executablePath: browserPath,
-  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
-try {
-  const tab = await browser.newPage({ viewport: { width: 960, height: 640 } });
-  await tab.goto(`http://127.0.0.1:${server.address().port}/`);
-  await tab.waitForFunction("window.isLoaded || window.failure", null, { timeout: 150000 });
-  assert.equal(await tab.evaluate("window.failure"), undefined);
+`;
+const page = { oracles, html: cesiumPage(script, functions), folders: { "/cesium/": cesiumIn(oracles), "/tiles/": tiles } };
+await withPage(page, async (tab, address) => {
+  await openLoaded(tab, address, 150);
   await tab.waitForTimeout(2000);
   const place = await tab.evaluate("window.place");
   const metres = [
@@ -77,7 +42,4 @@ try {
   if (picture) await tab.screenshot({ path: picture });
   assert.ok(seen.some(([, [found]]) => found === className), `no ${className} among ${JSON.stringify(seen)}`);
   console.log("place", place.join(" "), "\n" + seen.map((entry) => JSON.stringify(entry)).join("\n"));
-} finally {
-  await browser.close();
-  server.close();
-}
+});

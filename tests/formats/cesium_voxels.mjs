@@ -3,9 +3,8 @@
 // ORACLES as of cesium.mjs. REFERENCE: the same volume as raw NRRD. Exit code 77 where something is not there.
 import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
-import http from "node:http";
-import { extname, join, resolve } from "node:path";
-import { pathToFileURL } from "node:url";
+import { join } from "node:path";
+import { cesiumIn, cesiumPage, needs, openLoaded, withPage } from "./browser_page.mjs";
 
 const [oracles, tiles, reference, picture] = process.argv.slice(2);
 const nrrd = readFileSync(reference);
@@ -39,22 +38,8 @@ for (let z = 0; z < 1 << level; ++z)
     }
 console.log("filled", filled);
 
-const modules = resolve(oracles, "node_modules");
-const browserPath = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
-const cesium = join(modules, "cesium", "Build", "Cesium");
-const playwright = join(modules, "playwright-core", "index.mjs");
-if (!browserPath || !existsSync(cesium) || !existsSync(playwright)) {
-  console.log(`no Chromium, or no cesium and playwright-core in ${oracles}`);
-  process.exit(77);
-}
-const page = `<!doctype html><html><link rel="stylesheet" href="/cesium/Widgets/widgets.css"><body style="margin:0"><div id="globe" style="width:960px;height:640px"></div>
-<script>window.CESIUM_BASE_URL = "/cesium/";</script><script src="/cesium/Cesium.js"></script><script>
-(async () => {
-  try {
-    const off = ["animation", "timeline", "geocoder", "baseLayer", "baseLayerPicker", "homeButton", "infoBox", "fullscreenButton",
-                 "sceneModePicker", "navigationHelpButton", "selectionIndicator"];
-    const options = Object.fromEntries(off.map((name) => [name, false]));
-    window.viewer = new Cesium.Viewer("globe", { ...options, contextOptions: { webgl: { preserveDrawingBuffer: true } } });
+needs(oracles, cesiumIn(oracles));
+const script = `
     viewer.scene.globe.show = false;
     for (const sky of [viewer.scene.skyBox, viewer.scene.skyAtmosphere]) if (sky) sky.show = false;
     viewer.scene.backgroundColor = Cesium.Color.fromCssColorString("#dbe3eb");
@@ -68,10 +53,8 @@ const page = `<!doctype html><html><link rel="stylesheet" href="/cesium/Widgets/
     voxels.allTilesLoaded.addEventListener(() => { window.isLoaded = true; });
     const sphere = voxels.boundingSphere ?? provider.boundingSphere;
     viewer.camera.flyToBoundingSphere(sphere, { duration: 0, offset: new Cesium.HeadingPitchRange(-0.6, -0.5, 1.6 * sphere.radius) });
-  } catch (error) {
-    window.failure = String(error.stack ?? error);
-  }
-})();
+`;
+const functions = `
 window.pick = () => {
   const seen = [];
   for (let y = 20; y < 640; y += 40)
@@ -82,27 +65,11 @@ window.pick = () => {
     }
   return seen;
 };
-</script></body></html>`;
-const types = { ".js": "text/javascript", ".json": "application/json", ".css": "text/css", ".glb": "model/gltf-binary", ".wasm": "application/wasm" };
-const server = http.createServer((request, answer) => {
-  const url = decodeURIComponent(request.url.split("?")[0]);
-  const file = url.startsWith("/cesium/") ? join(cesium, url.slice(8)) : join(resolve(tiles), url.replace("/tiles/", ""));
-  if (url === "/") return answer.setHeader("content-type", "text/html").end(page);
-  if (!existsSync(file)) return answer.writeHead(404).end();
-  answer.setHeader("content-type", types[extname(file)] ?? "application/octet-stream").end(readFileSync(file));
-});
-await new Promise((done) => server.listen(0, "127.0.0.1", done));
-const { chromium } = await import(pathToFileURL(playwright).href);
-const browser = await chromium.launch({
-  executablePath: browserPath,
-  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
-try {
-  const tab = await browser.newPage({ viewport: { width: 960, height: 640 } });
+`;
+const page = { oracles, html: cesiumPage(script, functions), folders: { "/cesium/": cesiumIn(oracles), "/tiles/": tiles } };
+await withPage(page, async (tab, address) => {
   tab.on("console", (message) => message.type() === "error" && console.log(message.text().slice(0, 600)));
-  await tab.goto(`http://127.0.0.1:${server.address().port}/`);
-  await tab.waitForFunction("window.isLoaded || window.failure", null, { timeout: 120000 });
-  assert.equal(await tab.evaluate("window.failure"), undefined);
+  await openLoaded(tab, address, 120);
   await tab.waitForTimeout(3000);
   if (picture) await tab.screenshot({ path: picture, timeout: 120000 });
   const seen = await tab.evaluate("window.pick()");
@@ -112,7 +79,4 @@ try {
   const known = new Set();
   for (let k = 0; k < sizes[2]; ++k) for (let j = 0; j < sizes[1]; ++j) for (let i = 0; i < sizes[0]; ++i) known.add(sampleAt(i, j, k));
   for (const scalar of scalars) assert.ok(known.has(scalar), `${scalar} is no scalar`);
-} finally {
-  await browser.close();
-  server.close();
-}
+});

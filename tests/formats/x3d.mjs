@@ -3,21 +3,14 @@
 // ORACLES holds node_modules: npm install --prefix ORACLES x_ite playwright-core@1.56.1; and x3dom-full.js, which the npm package of
 // X3DOM leaves out (https://www.x3dom.org/download/dev/x3dom-full.js). Exit code 77 where one of them or Chromium is not there.
 import assert from "node:assert/strict";
-import { existsSync, readFileSync } from "node:fs";
-import http from "node:http";
-import { dirname, extname, join, resolve } from "node:path";
-import { pathToFileURL } from "node:url";
+import { readFileSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
+import { needs, openLoaded, withPage } from "./browser_page.mjs";
 
 const [oracles, player, scene, picture, ours] = process.argv.slice(2);
-const modules = resolve(oracles, "node_modules");
-const browserPath = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
-const playwright = join(modules, "playwright-core", "index.mjs");
-const files = player === "x_ite" ? join(modules, "x_ite", "dist") : resolve(oracles);
+const files = player === "x_ite" ? join(resolve(oracles), "node_modules", "x_ite", "dist") : resolve(oracles);
 const script = player === "x_ite" ? "x_ite.min.js" : "x3dom-full.js";
-if (!browserPath || !existsSync(playwright) || !existsSync(join(files, script))) {
-  console.log(`no Chromium, or no ${script} and playwright-core in ${oracles}`);
-  process.exit(77);
-}
+needs(oracles, join(files, script));
 const [width, height] = [960, 640];
 const pages = {
   x_ite: `<script src="/player/${script}"></script>
@@ -36,15 +29,6 @@ try {
 <inline url="/scene/${scene.split("/").pop()}" onload="window.isLoaded = true" onerror="window.failure = 'not loaded'"></inline></scene></x3d>`,
 };
 const page = `<!doctype html><html><body style="margin:0;background:#fff">${pages[player]}</body></html>`;
-const types = { ".js": "text/javascript", ".html": "text/html", ".x3d": "model/x3d+xml", ".png": "image/png", ".css": "text/css", ".wasm": "application/wasm" };
-const server = http.createServer((request, answer) => {
-  const url = decodeURIComponent(request.url.split("?")[0]);
-  if (url === "/") return answer.setHeader("content-type", "text/html").end(page);
-  const file = url.startsWith("/player/") ? join(files, url.slice(8)) : join(resolve(dirname(scene)), url.replace("/scene/", ""));
-  if (!existsSync(file)) return answer.writeHead(404).end();
-  answer.setHeader("content-type", types[extname(file)] ?? "application/octet-stream").end(readFileSync(file));
-});
-await new Promise((done) => server.listen(0, "127.0.0.1", done));
 /// Of what is not background, as in the corner: the share that both have, and the mean difference of a channel there. Ours is lit, a volume of X3D is not.
 async function compare(pictures) {
   const [a, b] = await Promise.all(
@@ -68,19 +52,12 @@ async function compare(pictures) {
   }
   return [both / any, sum / both];
 }
-const { chromium } = await import(pathToFileURL(playwright).href);
-const browser = await chromium.launch({
-  executablePath: browserPath,
-  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
-try {
-  const tab = await browser.newPage({ viewport: { width, height } });
+const folders = { "/player/": files, "/scene/": dirname(scene) };
+await withPage({ oracles, html: page, folders, width, height }, async (tab, address) => {
   const faults = [];
   tab.on("pageerror", (error) => faults.push(String(error)));
   tab.on("response", (answer) => answer.status() >= 400 && !answer.url().endsWith("favicon.ico") && faults.push(answer.url()));
-  await tab.goto(`http://127.0.0.1:${server.address().port}/`);
-  await tab.waitForFunction("window.isLoaded || window.failure", null, { timeout: 40000 });
-  assert.equal(await tab.evaluate("window.failure"), undefined);
+  await openLoaded(tab, address, 40);
   // A picture is done when two in a row are the same, and not empty.
   let last = "";
   for (let n = 0; n < 40; ++n) {
@@ -94,7 +71,4 @@ try {
   assert.deepEqual(faults, []);
   assert.ok(overlap > 0.95, "the outline is not that of our picture");
   assert.ok(difference < 40, "the colours are not those of our picture");
-} finally {
-  await browser.close();
-  server.close();
-}
+});
