@@ -118,10 +118,10 @@ Result<void> FeatureFile::State::openJson() {
         if (!*more) break;
     }
     if (end != std::string_view::npos) {
-        const std::string_view line = stream.window().substr(0, end);
-        const std::size_t last = features::skipJson(line, 0);
-        if (last != features::kNoJson && features::skipJsonBlanks(line, last) == line.size()) {
-            auto lineHead = features::headOf(line, path.string());
+        const std::string_view firstLine = stream.window().substr(0, end);
+        const std::size_t last = features::skipJson(firstLine, 0);
+        if (last != features::kNoJson && features::skipJsonBlanks(firstLine, last) == firstLine.size()) {
+            auto lineHead = features::headOf(firstLine, path.string());
             if (!lineHead) return lineHead.error();
             std::size_t next = end + 1;
             while ((next = features::skipJsonBlanks(stream.window(), next)) == stream.window().size()) {
@@ -173,11 +173,11 @@ Result<bool> FeatureFile::State::nextLine(FeatureText& feature) {
             if (!more) return more.error();
             if (*more) continue;
         }
-        const std::string_view line = stream.window().substr(0, end);
-        feature = {{stream.base(), line.size()}, line, stream.line()};
-        if (line.empty() && end == std::string_view::npos) return false;
-        stream.discard(stream.base() + line.size() + (end == std::string_view::npos ? 0 : 1));
-        if (features::skipJsonBlanks(line, 0) != line.size()) return true;
+        const std::string_view text = stream.window().substr(0, end);
+        feature = {{stream.base(), text.size()}, text, stream.line()};
+        if (text.empty() && end == std::string_view::npos) return false;
+        stream.discard(stream.base() + text.size() + (end == std::string_view::npos ? 0 : 1));
+        if (features::skipJsonBlanks(text, 0) != text.size()) return true;
         from = 0;
     }
 }
