@@ -75,8 +75,8 @@ double julianDayOf(int year, int month, double day) {
         month += 12;
     }
     const int century = year / 100;
-    return std::floor(365.25 * (year + 4716)) + std::floor(30.6001 * (month + 1)) + day + (2 - century + century / 4) -
-           1524.5;
+    const int skippedLeapDays = 2 - century + century / 4;
+    return std::floor(365.25 * (year + 4716)) + std::floor(30.6001 * (month + 1)) + day + skippedLeapDays - 1524.5;
 }
 
 int daysIn(int year, int month) {
