@@ -23,9 +23,6 @@ std::string_view elementOf(FaceKind kind) {
     return "WallSurface";
 }
 
-// Inside and holes look the other way.
-Ring reversed(Ring ring) { return {ring.rbegin(), ring.rend()}; }
-
 std::string heightText(const Building& building) {
     return building.heightText.empty() ? fixedText(building.heightMillimetres, 3) : std::string(building.heightText);
 }
