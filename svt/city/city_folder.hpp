@@ -14,7 +14,8 @@
 
 namespace svt::city {
 
-/// Where a tile stands at one level of detail.
+/// Where a tile stands at one level of detail. Of details 2 and up the tile is a square of 1024 * 2^level samples
+/// (tileSide()), and the coarsest detail is one tile that may reach over its square.
 struct IndexEntry {
     TileKey tile;
     int detail = 0;
@@ -34,10 +35,12 @@ struct CityStatus {
 /// \param isProven  whether the SHA-256 of each pack is compared, too
 [[nodiscard]] CityStatus cityStatus(const std::filesystem::path& folder, const Plan& plan, bool isProven);
 
-/// Merges the packs of a plan that are there: writes packs.bin, index.bin, ids.bin and, last, city.json. Copies no pack.
+/// Merges the packs of a plan that are there: makes the coarse levels (city_levels.hpp) in packs behind those of the plan;
+/// writes packs.bin, index.bin, ids.bin and, last, city.json. Copies no pack.
+/// \param threads  0: all cores; the result does not depend on it
 /// \return what is merged and what is missing, or BadPack, CannotWrite, DiskFull; CityIncomplete if no pack is done
-/// Memory: 40 bytes a tile and 16 a building.
-[[nodiscard]] Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& plan,
+/// Memory: 80 bytes a tile, 24 a building, and 2 MB a tile along the border of what is done: 4 sqrt(tiles) MB.
+[[nodiscard]] Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& plan, int threads = 0,
                                            const Progress* progress = nullptr);
 
 /// A merged city.
@@ -57,6 +60,17 @@ public:
     [[nodiscard]] std::uint64_t skippedFeatures() const noexcept { return skipped_; }
     [[nodiscard]] const std::string& planDigest() const noexcept { return plan_; }
     [[nodiscard]] const Box3d& box() const noexcept { return box_; }
+    /// The coarsest level of detail: one tile.
+    [[nodiscard]] int topDetail() const noexcept { return top_.detail; }
+    /// Its tile, which city.json names, so that it is there without a look into the index.
+    [[nodiscard]] const IndexEntry& top() const noexcept { return top_; }
+    /// Classes of the buildings, as far as city.json lists them.
+    struct Class {
+        std::string name;
+        std::string color;  ///< "#rrggbb", by default
+        std::uint64_t buildings = 0;
+    };
+    [[nodiscard]] const std::vector<Class>& classes() const noexcept { return classes_; }
 
     /// Entries of a level of detail whose tiles meet [west, south, east, north] (metres); all for an infinite rectangle.
     /// Reads only the pages of the index that meet it.
@@ -83,6 +97,8 @@ private:
     std::uint64_t buildings_ = 0, tiles_ = 0, packBytes_ = 0, missing_ = 0, skipped_ = 0, indexBytes_ = 0;
     std::uint32_t packs_ = 0;
     Box3d box_;
+    IndexEntry top_;
+    std::vector<Class> classes_;
     std::string root_;  // of the index
 };
 

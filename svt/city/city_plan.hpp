@@ -34,7 +34,8 @@ struct TileKey {
     friend bool operator==(const TileKey&, const TileKey&) = default;
     /// "10/383/5812".
     [[nodiscard]] std::string toString() const;
-    [[nodiscard]] static Result<TileKey> fromString(const std::string& text);
+    /// \param most  the largest level
+    [[nodiscard]] static Result<TileKey> fromString(const std::string& text, int most = 10);
 };
 
 /// An input file, and how all of its features are read.

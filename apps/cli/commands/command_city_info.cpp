@@ -4,6 +4,7 @@
 #include <apps/cli/output/messages.hpp>
 
 #include <svt/city/city_folder.hpp>
+#include <svt/city/city_levels.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
@@ -30,6 +31,7 @@ int runCityInfo(const CityInfoArguments& arguments) {
                {"skippedFeatures", city->skippedFeatures()},
                {"bytes", city->packBytes()},
                {"spacing", city->spacing()},
+               {"topDetail", city->topDetail()},
                {"crs", city->crsName()},
                {"box", {toJson(box.min), toJson(box.max)}},
                {"plan", city->planDigest()}});
@@ -39,7 +41,9 @@ int runCityInfo(const CityInfoArguments& arguments) {
                city->buildings(), city->tiles(), city->packs(), double(city->packBytes()) / 1e6,
                double(city->packBytes()) / double(std::max<std::uint64_t>(1, city->buildings())),
                city->skippedFeatures());
-    fmt::print("spacing {:g} m, and {:g} m with one label a building; {}\n", city->spacing(), 2 * city->spacing(),
+    fmt::print("spacing {:g} m, and {:g} m with one label a building; by class {:g} to {:g} m (detail 2 to {}); {}\n",
+               city->spacing(), 2 * city->spacing(), 4 * city->spacing(),
+               city::spacingOf(city->topDetail(), city->spacing()).x, city->topDetail(),
                city->crsName().empty() ? "no CRS" : city->crsName());
     fmt::print("from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f})\n", box.min.x, box.min.y, box.min.z,
                box.max.x, box.max.y, box.max.z);
@@ -52,7 +56,8 @@ int runCityExtract(const CityInfoArguments& arguments) {
     extract.ids = arguments.ids;
     extract.detail = arguments.detail;
     for (const std::string& text : arguments.tiles) {
-        const auto tile = city::TileKey::fromString(text);
+        const auto tile = city::TileKey::fromString(
+            text, arguments.detail < city::kFirstClassDetail ? city::Plan::kTopLevel : city::kMaxLevel);
         if (!tile) return fail(tile.error());
         extract.tiles.push_back(*tile);
     }

@@ -83,7 +83,7 @@ int runCityRun(const CityRunArguments& arguments) {
     if (Progress::isCancelled(progress->get()))
         return fail(Error(Code::Cancelled, "stopped; what is done stays, and the same command goes on from there"));
     // Whatever happened, so that what is done can be used.
-    const auto merged = city::mergeCity(arguments.folder, *plan, progress->get());
+    const auto merged = city::mergeCity(arguments.folder, *plan, arguments.jobs, progress->get());
     progress.reset();
     tellFailed(failed);
     if (!merged) return fail(merged.error());

@@ -1003,9 +1003,10 @@ constexpr Option kCityExtract[] = {
     {.name = "--detail",
      .kind = Whole,
      .least = 0,
-     .most = 1,
+     .most = 26,
      .byDefault = "0",
-     .help = "0: all labels; 1: one label a building, at twice the spacing",
+     .help = "0: all labels; 1: one label a building, at twice the spacing; 2: one label a class, at four times; 3 and "
+             "up: mixtures of classes, each at twice the spacing of the one before",
      .group = "Part"},
 };
 

@@ -1,9 +1,12 @@
 #include <svt/city/join/join_volumes.hpp>
 
+#include <svt/volume/volume_part.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace svt::city {
 namespace {
@@ -110,17 +113,43 @@ void appendLabels(volume::LabelTable& into, const volume::LabelTable& from, Scal
     }
 }
 
+// One table of all labels, each id once, and the columns of each volume with its numbers.
+volume::LabelTable unite(std::span<const volume::SemanticVolume> volumes, std::vector<ColumnVolume>& columns) {
+    std::map<std::pair<std::string, std::string>, volume::Label> sorted;
+    for (const volume::SemanticVolume& volume : volumes)
+        for (const volume::Label& label : volume.labels.labels) {
+            const auto [at, isNew] = sorted.emplace(std::pair(label.className, label.id), label);
+            if (!isNew) at->second.volume += label.volume;
+        }
+    volume::LabelTable table;
+    for (auto& [key, label] : sorted) {
+        label.first = static_cast<Scalar>(table.labels.size() + 1);
+        label.subtreeEnd = static_cast<std::uint32_t>(table.labels.size() + 1);
+        table.labels.push_back(label);
+    }
+    for (const volume::SemanticVolume& volume : volumes) {
+        std::vector<Scalar> newOf(volume.labels.scalarCount(), 0);
+        for (const volume::Label& label : volume.labels.labels)
+            if (label.count > 0) newOf[label.first] = sorted.at({label.className, label.id}).first;
+        columns.push_back(volume::replaceScalars(volume.columns, newOf));
+    }
+    return table;
+}
+
 }  // namespace
 
-Result<volume::SemanticVolume> joinVolumes(std::span<const volume::SemanticVolume> volumes) {
+Result<volume::SemanticVolume> joinVolumes(std::span<const volume::SemanticVolume> volumes, bool isByClass) {
     const volume::SemanticVolume& first = volumes.front();
     const Vec3d spacing = first.grid.spacing();
     std::vector<Part> parts;
     Vec3i low, high;
     volume::SemanticVolume result;
     Scalar before = 0;
-    for (const volume::SemanticVolume& volume : volumes) {
-        Part part{&volume.columns, {}, before};
+    std::vector<ColumnVolume> united;
+    if (isByClass) result.labels = unite(volumes, united);
+    for (std::size_t n = 0; n < volumes.size(); ++n) {
+        const volume::SemanticVolume& volume = volumes[n];
+        Part part{isByClass ? &united[n] : &volume.columns, {}, before};
         for (int axis = 0; axis < 3; ++axis) {
             const double steps = (volume.grid.origin()[axis] - first.grid.origin()[axis]) / spacing[axis];
             if (!volume.grid.isAxisParallel() || volume.grid.spacing()[axis] != spacing[axis] ||
@@ -132,6 +161,7 @@ Result<volume::SemanticVolume> joinVolumes(std::span<const volume::SemanticVolum
             high[axis] = parts.empty() ? end : std::max(high[axis], end);
         }
         parts.push_back(part);
+        if (isByClass) continue;
         const Scalar scalars = volume.labels.scalarCount();
         if (scalars > volume::kMaxScalarCount - before)
             return Error(Code::TooManyLabels,

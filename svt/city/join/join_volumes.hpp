@@ -11,9 +11,12 @@ namespace svt::city {
 
 /// Puts volumes together whose samples lie on one lattice. Where several fill a sample, the first has it; label tables
 /// follow each other. Vectors and overlaps are left out.
-/// \param volumes  at least one, along the axes of the world, with equal spacing
+/// \param volumes      at least one, along the axes of the world, with equal spacing
+/// \param isByClass    labels with the same id are one (levels whose labels are classes, without tree); ordered by class,
+///                     then id
 /// \return the volume, BadArgument where the lattices differ, GridTooLarge, TooManyLabels
 /// Cost: O(columns of the result + runs). Memory: the result.
-[[nodiscard]] Result<volume::SemanticVolume> joinVolumes(std::span<const volume::SemanticVolume> volumes);
+[[nodiscard]] Result<volume::SemanticVolume> joinVolumes(std::span<const volume::SemanticVolume> volumes,
+                                                         bool isByClass = false);
 
 }  // namespace svt::city

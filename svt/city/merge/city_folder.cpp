@@ -2,6 +2,7 @@
 
 #include <svt/city/base/bytes.hpp>
 #include <svt/city/base/sha256.hpp>
+#include <svt/city/city_levels.hpp>
 #include <svt/city/join/join_volumes.hpp>
 #include <svt/city/merge/index_file.hpp>
 #include <svt/core/file.hpp>
@@ -34,6 +35,19 @@ std::uint64_t sizeOf(const std::filesystem::path& path) {
     std::error_code failed;
     const auto size = std::filesystem::file_size(path, failed);
     return failed ? 0 : size;
+}
+
+// The tile that city.json names. \return whether it is one
+bool readTop(const nlohmann::json& json, IndexEntry& top) {
+    const auto& row = json.at("top");
+    top.detail = row.at("detail").get<int>();
+    top.pack = row.at("pack").get<std::uint32_t>();
+    top.offset = row.at("offset").get<std::uint64_t>();
+    top.size = row.at("bytes").get<std::uint64_t>();
+    const auto tile = TileKey::fromString(row.at("tile").get<std::string>(), kMaxLevel);
+    if (!tile || top.detail < kFirstClassDetail || top.detail > kMaxLevel + kFirstClassDetail) return false;
+    top.tile = *tile;
+    return true;
 }
 
 bool meets(const std::array<double, 4>& a, double west, double south, double east, double north) {
@@ -71,6 +85,10 @@ Result<City> City::open(const std::filesystem::path& folder) {
         city.skipped_ = json.at("skippedFeatures").get<std::uint64_t>();
         const auto box = json.at("box").get<std::array<double, 6>>();
         city.box_ = {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}};
+        if (!readTop(json, city.top_)) return city.damaged("city.json", "the top tile is damaged");
+        for (const auto& row : json.at("classes"))
+            city.classes_.push_back({row.at("class").get<std::string>(), row.at("color").get<std::string>(),
+                                     row.at("buildings").get<std::uint64_t>()});
     } catch (const nlohmann::json::exception&) {
         return city.damaged("city.json", "the file is damaged");
     }
@@ -120,7 +138,7 @@ Result<std::vector<IndexEntry>> City::find(int detail, const std::array<double, 
         open->insert(open->end(), below->rbegin(), below->rend());
     }
     std::erase_if(found, [&](const IndexEntry& entry) {
-        const double side = std::ldexp(1.0, entry.tile.level);
+        const double side = tileSide(entry.tile, entry.detail, spacing_);
         // What stands over the border of its tile is found by the pages alone.
         return !meets(rectangle, (entry.tile.x - 1) * side, (entry.tile.y - 1) * side, (entry.tile.x + 2) * side,
                       (entry.tile.y + 2) * side);
@@ -265,6 +283,11 @@ Result<std::vector<IndexEntry>> entriesOf(const City& city, const Extract& extra
 }  // namespace
 
 Result<volume::SemanticVolume> extractVolume(const City& city, const Extract& extract) {
+    if (extract.detail > city.topDetail())
+        return Error(Code::BadArgument,
+                     fmt::format("detail {}: the coarsest of this city is {}", extract.detail, city.topDetail()));
+    if (extract.detail >= kFirstClassDetail && !extract.ids.empty())
+        return Error(Code::BadArgument, "details 2 and up have classes, no buildings; choose by --box or --tile");
     const auto entries = entriesOf(city, extract);
     if (!entries) return entries.error();
     std::vector<volume::SemanticVolume> parts;
@@ -279,7 +302,8 @@ Result<volume::SemanticVolume> extractVolume(const City& city, const Extract& ex
         parts.push_back(std::move(*volume));
     }
     if (parts.empty()) return Error(Code::NothingSelected, "no building of the city has such an id");
-    auto joined = parts.size() == 1 ? Result<volume::SemanticVolume>(std::move(parts.front())) : joinVolumes(parts);
+    auto joined = parts.size() == 1 ? Result<volume::SemanticVolume>(std::move(parts.front()))
+                                    : joinVolumes(parts, extract.detail >= kFirstClassDetail);
     if (joined && !extract.ids.empty() && !extract.hasBox) {
         const volume::IndexBox box = filledSamples(joined->columns);
         return box.begin.x < box.end.x ? volume::croppedVolume(*joined, box) : std::move(joined);

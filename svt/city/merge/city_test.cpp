@@ -1,6 +1,7 @@
 // From files to a city and back: the same bytes whatever builds it, and what is damaged is named.
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/city_folder.hpp>
+#include <svt/city/city_levels.hpp>
 #include <svt/city/merge/index_file.hpp>
 #include <svt/city/tile/tile_builder.hpp>
 #include <svt/core/temporary_folder_test.hpp>
@@ -171,6 +172,50 @@ TEST_F(SmallCity, HasABuildingOfEachAtDetailOne) {
         }
     }
     EXPECT_EQ(buildings, 96u);
+}
+
+// Each sample of detail 1 lies under a filled column of each coarser detail.
+TEST_F(SmallCity, LosesNoBuildingAtAnyDetail) {
+    write(folder / "files", samples::CityProfile::Berlin, 2);
+    build(plan(0.15));
+    const City city = open();
+    ASSERT_GE(city.topDetail(), 3);
+    ASSERT_EQ(city.classes().size(), 1u);
+    EXPECT_EQ(city.classes()[0].name, "Building");
+    EXPECT_EQ(city.classes()[0].buildings, 96u);
+    const std::array<double, 6> all{-1e6, -1e7, -1e3, 1e6, 1e7, 1e4};
+    const auto fine = extractVolume(city, {{}, {}, all, true, 1});
+    ASSERT_TRUE(fine);
+    for (int detail = 2; detail <= city.topDetail(); ++detail) {
+        const auto coarse = extractVolume(city, {{}, {}, all, true, detail});
+        ASSERT_TRUE(coarse) << coarse.error().toString();
+        EXPECT_EQ(coarse->grid.spacing(), spacingOf(detail, 0.15));
+        const Vec3i n = fine->grid.dimension(), m = coarse->grid.dimension();
+        std::size_t filled = 0;
+        for (std::int32_t j = 0; j < n.y; ++j)
+            for (std::int32_t i = 0; i < n.x; ++i) {
+                const auto runs = fine->columns.column(i, j);
+                if (runs.size() == 1 && runs[0].scalar == 0) continue;
+                const Vec3d at = fine->grid.origin() + scaled(Vec3d{double(i), double(j), 0}, fine->grid.spacing());
+                const Vec3d step = coarse->grid.spacing(), corner = coarse->grid.origin() - step * 0.5;
+                const auto x = static_cast<std::int32_t>(std::floor((at.x - corner.x) / step.x)),
+                           y = static_cast<std::int32_t>(std::floor((at.y - corner.y) / step.y));
+                ASSERT_TRUE(x >= 0 && y >= 0 && x < m.x && y < m.y);
+                const auto above = coarse->columns.column(x, y);
+                EXPECT_FALSE(above.size() == 1 && above[0].scalar == 0);
+                ++filled;
+            }
+        EXPECT_GT(filled, 1000u);
+    }
+    EXPECT_EQ(extractVolume(city, {{}, {}, all, true, city.topDetail() + 1}).error().code(), Code::BadArgument);
+    EXPECT_EQ(extractVolume(city, {{}, {"x"}, {}, false, 2}).error().code(), Code::BadArgument);
+    // The top is what city.json says, and one tile.
+    const auto top = city.find(city.topDetail(), {-1e9, -1e9, 1e9, 1e9});
+    ASSERT_TRUE(top);
+    ASSERT_EQ(top->size(), 1u);
+    EXPECT_EQ(top->front().offset, city.top().offset);
+    EXPECT_EQ(top->front().pack, city.top().pack);
+    EXPECT_TRUE(city.read(city.top()));
 }
 
 TEST_F(SmallCity, ExtractsByIdTileAndBox) {

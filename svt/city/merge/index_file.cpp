@@ -2,6 +2,7 @@
 
 #include <svt/city/base/bytes.hpp>
 #include <svt/city/base/sha256.hpp>
+#include <svt/city/city_levels.hpp>
 
 #include <algorithm>
 #include <tuple>
@@ -10,7 +11,7 @@ namespace svt::city {
 namespace {
 
 constexpr std::uint32_t kVersion = 1;
-constexpr std::size_t kRefsOfPage = 400;
+constexpr std::size_t kRefsOfPage = 290;
 
 void putVarint(std::string& to, std::uint64_t value) {
     for (; value >= 0x80; value >>= 7) to += static_cast<char>(value | 0x80);
@@ -67,13 +68,24 @@ void putRef(std::string& to, const PageRef& ref) {
     put(to, ref.size);
     put(to, ref.offset);
     for (const std::int32_t value : ref.rectangle) put(to, value);
+    put(to, ref.lowest);
+    put(to, ref.highest);
+    put(to, ref.members);
     put(to, ref.checksum);
 }
 
-void widen(std::array<std::int32_t, 4>& rectangle, const std::array<std::int32_t, 4>& by, bool isFirst) {
-    if (isFirst) rectangle = by;
-    rectangle = {std::min(rectangle[0], by[0]), std::min(rectangle[1], by[1]), std::max(rectangle[2], by[2]),
-                 std::max(rectangle[3], by[3])};
+// \param below  what a page of one reference or entry would have
+void widen(PageRef& ref, const PageRef& below, bool isFirst) {
+    if (isFirst) {
+        ref.rectangle = below.rectangle;
+        ref.lowest = below.lowest;
+        ref.highest = below.highest;
+    }
+    for (const std::size_t n : {0u, 1u}) ref.rectangle[n] = std::min(ref.rectangle[n], below.rectangle[n]);
+    for (const std::size_t n : {2u, 3u}) ref.rectangle[n] = std::max(ref.rectangle[n], below.rectangle[n]);
+    ref.lowest = std::min(ref.lowest, below.lowest);
+    ref.highest = std::max(ref.highest, below.highest);
+    ref.members += below.members;
 }
 
 // Pages, one after the other, with offsets from the begin of the first.
@@ -99,7 +111,12 @@ void addLeaves(const std::vector<PlacedEntry>& entries, Pages& pages) {
         for (; end < entries.size() && entries[end].entry.detail == ref.detail && rows.size() < kIndexPage - 80;
              ++end) {
             putEntry(rows, entries[end].entry, entries[end == begin ? begin : end - 1].entry, end == begin);
-            widen(ref.rectangle, entries[end].rectangle, end == begin);
+            PageRef own;
+            own.rectangle = entries[end].rectangle;
+            own.lowest = entries[end].entry.lowest;
+            own.highest = entries[end].entry.highest;
+            own.members = entries[end].entry.size;
+            widen(ref, own, end == begin);
         }
         std::string page;
         put(page, static_cast<std::uint8_t>(ref.detail));
@@ -123,7 +140,7 @@ void addInner(Pages& pages) {
             std::size_t end = begin;
             for (; end < below.size() && end - begin < kRefsOfPage && below[end].detail == ref.detail; ++end) {
                 putRef(page, below[end]);
-                widen(ref.rectangle, below[end].rectangle, end == begin);
+                widen(ref, below[end], end == begin);
             }
             pages.add(ref, page);
             begin = end;
@@ -135,7 +152,7 @@ void addInner(Pages& pages) {
 
 std::string indexBytes(std::vector<PlacedEntry> entries) {
     const auto key = [](const PlacedEntry& e) {
-        return std::tuple(e.entry.detail, mortonOf(e.entry.tile), e.entry.tile.level);
+        return std::tuple(-e.entry.detail, mortonOf(e.entry.tile), e.entry.tile.level);
     };
     std::sort(entries.begin(), entries.end(),
               [&](const PlacedEntry& a, const PlacedEntry& b) { return key(a) < key(b); });
@@ -164,6 +181,9 @@ std::optional<std::vector<PageRef>> takeRefs(std::string_view page) {
         ref.size = from.take<std::uint32_t>();
         ref.offset = from.take<std::uint64_t>();
         for (std::int32_t& value : ref.rectangle) value = from.take<std::int32_t>();
+        ref.lowest = from.take<std::int32_t>();
+        ref.highest = from.take<std::int32_t>();
+        ref.members = from.take<std::uint64_t>();
         ref.checksum = from.take<std::uint64_t>();
         if (ref.size > 2 * kIndexPage) return std::nullopt;
         refs.push_back(ref);
@@ -184,7 +204,8 @@ std::optional<std::vector<IndexEntry>> takeEntries(std::string_view page) {
         entry.detail = detail;
         morton += takeVarint(from);
         const std::uint64_t level = takeVarint(from);
-        if (level > static_cast<std::uint64_t>(Plan::kTopLevel)) return std::nullopt;
+        if (level > static_cast<std::uint64_t>(detail < kFirstClassDetail ? Plan::kTopLevel : kMaxLevel))
+            return std::nullopt;
         entry.tile = tileOf(morton, static_cast<int>(level));
         pack += takeSigned(from);
         if (pack < 0 || pack > 0xFFFFFFFF) return std::nullopt;

@@ -11,14 +11,16 @@
 
 namespace svt::city {
 
-/// A page of the index as its parent names it. 40 bytes.
+/// A page of the index as its parent names it. 56 bytes.
 struct PageRef {
-    static constexpr std::size_t kBytes = 40;
+    static constexpr std::size_t kBytes = 56;
     int detail = 0;
     bool isLeaf = true;
     std::uint32_t size = 0;
     std::uint64_t offset = 0;
     std::array<std::int32_t, 4> rectangle{};  ///< west, south, east, north of all members below, metres
+    std::int32_t lowest = 0, highest = 0;     ///< of all members below, metres
+    std::uint64_t members = 0;                ///< bytes of all members below
     std::uint64_t checksum = 0;
 };
 

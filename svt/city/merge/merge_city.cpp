@@ -1,13 +1,18 @@
 #include <svt/city/base/bytes.hpp>
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/city_folder.hpp>
+#include <svt/city/levels/level_builder.hpp>
 #include <svt/city/merge/index_file.hpp>
+#include <svt/city/pack/pack_format.hpp>
 #include <svt/core/file.hpp>
+#include <svt/core/parallel.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <map>
+#include <optional>
 
 namespace svt::city {
 namespace {
@@ -15,33 +20,198 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kNamedPacks = 20;
+constexpr std::uint64_t kMaxPackBytes = 256'000'000;
+constexpr std::size_t kBatch = 32;  // members of detail 1 that are in memory at a time
 
 struct Merging {
     std::vector<PlacedEntry> entries;
     std::vector<IdEntry> ids;
-    std::string packs;  // packs.bin
+    std::vector<ColumnRange> ranges;  // of the members of detail 1
+    std::string packs;                // packs.bin
     Box3d box;
     std::uint64_t tiles = 0;
+    // Of the coarse levels.
+    std::uint32_t packCount = 0;
+    std::uint64_t levelBytes = 0;
+    int top = 0;
+    LevelClasses classes;
 };
 
-void addPack(const Pack& pack, std::uint32_t number, Merging& to) {
+void addEntry(const PackMember& member, std::uint32_t pack, std::uint32_t buildings, Merging& to) {
+    const auto down = [](double value) { return static_cast<std::int32_t>(std::floor(std::max(value, -2e9))); };
+    const auto up = [](double value) { return static_cast<std::int32_t>(std::ceil(std::min(value, 2e9))); };
+    to.entries.push_back(
+        {{member.tile, member.detail, pack, member.offset, member.size, down(member.box.min.z), up(member.box.max.z),
+          buildings},
+         {down(member.box.min.x), down(member.box.min.y), up(member.box.max.x), up(member.box.max.y)}});
+}
+
+void addPack(const Pack& pack, std::uint32_t number, double spacing, Merging& to) {
     std::uint32_t buildings = 0;
     for (const PackMember& member : pack.members()) {
         // Detail 0 comes first of each tile, with its buildings.
         if (member.detail == 0) {
             buildings = static_cast<std::uint32_t>(member.buildings.size());
             ++to.tiles;
+        } else if (member.detail == 1) {
+            const auto column = [&](double side) { return std::llround(side / (2 * spacing)); };
+            to.ranges.push_back({{column(member.box.min.x), column(member.box.min.y)},
+                                 {column(member.box.max.x) - 1, column(member.box.max.y) - 1}});
         }
-        const auto down = [](double value) { return static_cast<std::int32_t>(std::floor(std::max(value, -2e9))); };
-        const auto up = [](double value) { return static_cast<std::int32_t>(std::ceil(std::min(value, 2e9))); };
-        to.entries.push_back(
-            {{member.tile, member.detail, number, member.offset, member.size, down(member.box.min.z),
-              up(member.box.max.z), buildings},
-             {down(member.box.min.x), down(member.box.min.y), up(member.box.max.x), up(member.box.max.y)}});
+        addEntry(member, number, buildings, to);
         to.box.add(member.box);
         for (const PackBuilding& building : member.buildings)
             to.ids.push_back({building.idHash, member.tile, building.label});
     }
+}
+
+// Writes the coarse levels into packs behind those of the plan: each detail into its own, the coarsest first.
+class LevelPacks {
+public:
+    LevelPacks(const std::filesystem::path& folder, const Plan& plan, Merging& merged)
+        : folder_(folder), plan_(plan), merged_(merged) {}
+
+    Result<void> run(int threads, const Progress* progress) {
+        LevelBuilder builder(merged_.ranges, plan_.options.spacing, plan_.crsName, threads);
+        merged_.top = builder.top();
+        writers_.resize(static_cast<std::size_t>(builder.top() + 1));
+        std::vector<std::uint32_t> packs;
+        for (const PlacedEntry& placed : merged_.entries)
+            if (packs.empty() || packs.back() != placed.entry.pack) packs.push_back(placed.entry.pack);
+        for (std::size_t n = 0; n < packs.size(); ++n) {
+            Progress::tell(progress, "levels", double(n) / double(packs.size()));
+            if (Progress::isCancelled(progress)) return Error(Code::Cancelled, "stopped while merging");
+            if (auto added = addPack(packs[n], threads, builder); !added) return added;
+        }
+        for (std::size_t detail = 0; detail < writers_.size(); ++detail)
+            if (auto done = finish(static_cast<int>(detail)); !done) return done;
+        merged_.classes = builder.classes();
+        putDigests();
+        return {};
+    }
+
+private:
+    struct Writing {
+        std::optional<PackWriter> writer;
+        std::uint32_t number = 0, series = 0;
+        std::vector<PackMember> members;
+    };
+    struct Done {
+        std::uint64_t bytes = 0;
+        Digest digest{};
+    };
+
+    Result<void> addPack(std::uint32_t number, int threads, LevelBuilder& builder) {
+        const auto pack = Pack::open(packPath(folder_, number), plan_.digest);
+        if (!pack) return pack.error();
+        std::vector<const PackMember*> members;
+        for (const PackMember& member : pack->members())
+            if (member.detail == 1) members.push_back(&member);
+        for (std::size_t begin = 0; begin < members.size(); begin += kBatch) {
+            const std::size_t count = std::min(kBatch, members.size() - begin);
+            std::vector<std::optional<Result<volume::SemanticVolume>>> read(count);
+            parallelFor(count, 1, threads, [&](std::size_t first, std::size_t last) {
+                for (std::size_t n = first; n < last; ++n) read[n] = pack->read(*members[begin + n]);
+            });
+            std::vector<volume::SemanticVolume> volumes;
+            for (auto& volume : read) {
+                if (!*volume) return volume->error();
+                volumes.push_back(std::move(**volume));
+            }
+            const auto added = builder.add(volumes, [&](LevelMember member) { return write(std::move(member)); });
+            if (!added) return added;
+        }
+        return {};
+    }
+
+    // Packs of a detail that needs several have numbers between which those of the other details lie, so that they are
+    // known from the begin.
+    Result<void> write(LevelMember member) {
+        const int detail = member.member.detail;
+        Writing& to = writers_[static_cast<std::size_t>(detail)];
+        if (to.writer && to.writer->size() + member.bytes.size() > kMaxPackBytes)
+            if (auto done = finish(detail); !done) return done;
+        if (!to.writer) {
+            const auto details = static_cast<std::uint32_t>(merged_.top - kFirstClassDetail + 1);
+            to.number = plan_.packs + to.series++ * details + static_cast<std::uint32_t>(merged_.top - detail);
+            auto writer = PackWriter::create(packPath(folder_, to.number), to.number, plan_.digest);
+            if (!writer) return writer.error();
+            to.writer = std::move(*writer);
+        }
+        const auto added = to.writer->add(member.member, member.bytes);
+        if (!added) return added.error();
+        addEntry(*added, to.number, 0, merged_);
+        return {};
+    }
+
+    Result<void> finish(int detail) {
+        Writing& own = writers_[static_cast<std::size_t>(detail)];
+        if (!own.writer) return {};
+        auto sum = own.writer->commit();
+        if (!sum) return sum.error();
+        done_[own.number] = {own.writer->size(), digestFromHex(*sum)};
+        own.writer.reset();
+        return {};
+    }
+
+    void putDigests() {
+        merged_.packCount = done_.empty() ? plan_.packs : done_.rbegin()->first + 1;
+        for (std::uint32_t number = plan_.packs; number < merged_.packCount; ++number) {
+            const Done& done = done_[number];
+            put(merged_.packs, done.bytes);
+            merged_.packs.append(reinterpret_cast<const char*>(done.digest.data()), done.digest.size());
+            merged_.levelBytes += done.bytes;
+        }
+    }
+
+    const std::filesystem::path& folder_;
+    const Plan& plan_;
+    Merging& merged_;
+    std::vector<Writing> writers_;  // by detail
+    std::map<std::uint32_t, Done> done_;
+};
+
+Json detailsJson(const Plan& plan, const Merging& merged) {
+    Json details = Json::array();
+    for (int detail = 0; detail <= merged.top; ++detail) {
+        const Vec3d spacing = spacingOf(detail, plan.options.spacing);
+        std::uint64_t tiles = 0, bytes = 0;
+        for (const PlacedEntry& placed : merged.entries)
+            if (placed.entry.detail == detail) {
+                ++tiles;
+                bytes += placed.entry.size;
+            }
+        const char* holds = detail == 0 ? "labels" : detail == 1 ? "buildings" : detail == 2 ? "classes" : "mixtures";
+        Json json{{"detail", detail}, {"spacing", spacing.x}, {"holds", holds}, {"tiles", tiles}, {"bytes", bytes}};
+        if (detail >= kFirstClassDetail) json["verticalSpacing"] = spacing.z;
+        details.push_back(json);
+    }
+    return details;
+}
+
+Json topJson(const Merging& merged) {
+    for (const PlacedEntry& placed : merged.entries)
+        if (placed.entry.detail == merged.top)
+            return {{"detail", merged.top},
+                    {"tile", placed.entry.tile.toString()},
+                    {"pack", placed.entry.pack},
+                    {"offset", placed.entry.offset},
+                    {"bytes", placed.entry.size}};
+    return nullptr;
+}
+
+Json classesJson(const LevelClasses& classes) {
+    constexpr std::size_t kMost = 64;  // so that city.json stays small
+    Json json = Json::array();
+    for (const auto& [name, number] : classes.numberOf) {
+        if (json.size() == kMost) break;
+        const Vec3f color = classes.colors[number];
+        const auto byte = [](float value) { return static_cast<int>(std::lround(double(value) * 255)); };
+        json.push_back({{"class", name},
+                        {"buildings", classes.buildings[number]},
+                        {"color", fmt::format("#{:02x}{:02x}{:02x}", byte(color.x), byte(color.y), byte(color.z))}});
+    }
+    return json;
 }
 
 std::string cityJson(const Plan& plan, const CityStatus& status, const Merging& merged, std::uint64_t indexBytes,
@@ -56,14 +226,15 @@ std::string cityJson(const Plan& plan, const CityStatus& status, const Merging& 
     json["box"] = {merged.box.min.x, merged.box.min.y, merged.box.min.z,
                    merged.box.max.x, merged.box.max.y, merged.box.max.z};
     json["tileScheme"] = {{"largestSide", 1 << Plan::kTopLevel}, {"order", "morton"}};
-    json["details"] = Json::array();
-    json["details"].push_back({{"detail", 0}, {"spacing", plan.options.spacing}, {"holds", "labels"}});
-    json["details"].push_back({{"detail", 1}, {"spacing", plan.options.spacing * 2}, {"holds", "buildings"}});
+    json["details"] = detailsJson(plan, merged);
+    json["top"] = topJson(merged);
+    json["classes"] = classesJson(merged.classes);
     json["buildings"] = status.buildings;
     json["tiles"] = merged.tiles;
-    json["packs"] = {{"count", plan.packs},
+    json["packs"] = {{"count", merged.packCount},
+                     {"ofTasks", plan.packs},
                      {"names", "packs/%05u.svtp"},
-                     {"bytes", status.bytes},
+                     {"bytes", status.bytes + merged.levelBytes},
                      {"missing", status.missing.size()}};
     Json named = Json::array();
     for (std::size_t n = 0; n < std::min(kNamedPacks, status.missing.size()); ++n) named.push_back(status.missing[n]);
@@ -94,7 +265,8 @@ CityStatus cityStatus(const std::filesystem::path& folder, const Plan& plan, boo
     return status;
 }
 
-Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& plan, const Progress* progress) {
+Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& plan, int threads,
+                             const Progress* progress) {
     CityStatus status = cityStatus(folder, plan, false);
     if (status.missing.size() == plan.packs)
         return Error(Code::CityIncomplete, "no pack of the city is done; run its tasks first (svt city run)",
@@ -117,8 +289,9 @@ Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& pl
         merged.packs.append(reinterpret_cast<const char*>(digest.data()), digest.size());
         const auto pack = Pack::open(packPath(folder, number), plan.digest);
         if (!pack) return pack.error();
-        addPack(*pack, number, merged);
+        addPack(*pack, number, plan.options.spacing, merged);
     }
+    if (auto done = LevelPacks(folder, plan, merged).run(threads, progress); !done) return done.error();
     const std::string index = indexBytes(merged.entries), ids = idsBytes(std::move(merged.ids));
     for (const auto& [name, text] : {std::pair<const char*, const std::string*>{"packs.bin", &merged.packs},
                                      {"index.bin", &index},

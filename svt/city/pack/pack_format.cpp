@@ -1,6 +1,7 @@
 #include <svt/city/pack/pack_format.hpp>
 
 #include <svt/city/base/bytes.hpp>
+#include <svt/city/city_levels.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
@@ -59,8 +60,9 @@ bool takeMember(Taker& from, std::uint64_t bodyEnd, PackMember& member) {
         member.buildings.push_back({hash, from.take<std::uint32_t>()});
     }
     return from.isGood() && isFinite(member.box.min) && isFinite(member.box.max) && !member.box.isEmpty() &&
-           member.tile.level <= Plan::kTopLevel && member.offset >= kHeadBytes && member.offset % kAlignment == 0 &&
-           member.offset <= bodyEnd && member.size <= bodyEnd - member.offset;
+           member.tile.level <= (member.detail < kFirstClassDetail ? Plan::kTopLevel : kMaxLevel) &&
+           member.offset >= kHeadBytes && member.offset % kAlignment == 0 && member.offset <= bodyEnd &&
+           member.size <= bodyEnd - member.offset;
 }
 
 }  // namespace
@@ -86,14 +88,15 @@ Result<void> PackWriter::write(std::span<const std::byte> bytes) {
     return file_.write(bytes);
 }
 
-Result<void> PackWriter::add(PackMember member, std::span<const std::byte> bytes) {
+Result<PackMember> PackWriter::add(PackMember member, std::span<const std::byte> bytes) {
     const std::string zeros((kAlignment - file_.size() % kAlignment) % kAlignment, '\0');
-    if (auto written = write(zeros); !written) return written;
+    if (auto written = write(zeros); !written) return written.error();
     member.offset = file_.size();
     member.size = bytes.size();
     putMember(directory_, member);
     ++count_;
-    return write(bytes);
+    if (auto written = write(bytes); !written) return written.error();
+    return member;
 }
 
 Result<std::string> PackWriter::commit() {

@@ -13,8 +13,8 @@ class PackWriter {
 public:
     [[nodiscard]] static Result<PackWriter> create(const std::filesystem::path& path, std::uint32_t pack,
                                                    const std::string& planDigest);
-    /// \param member  offset and size are filled in
-    Result<void> add(PackMember member, std::span<const std::byte> bytes);
+    /// \return the member with offset and size
+    Result<PackMember> add(PackMember member, std::span<const std::byte> bytes);
     /// Writes the directory, syncs and renames. \return SHA-256 of the file
     [[nodiscard]] Result<std::string> commit();
     [[nodiscard]] std::uint64_t size() const noexcept { return file_.size(); }

@@ -74,7 +74,7 @@ bool takeTiles(std::string_view bytes, Plan& plan) {
 
 std::string TileKey::toString() const { return fmt::format("{}/{}/{}", level, x, y); }
 
-Result<TileKey> TileKey::fromString(const std::string& text) {
+Result<TileKey> TileKey::fromString(const std::string& text, int most) {
     TileKey key;
     const char *at = text.data(), *end = at + text.size();
     bool isGood = true;
@@ -86,7 +86,7 @@ Result<TileKey> TileKey::fromString(const std::string& text) {
     number(key.level, '/');
     number(key.x, '/');
     number(key.y, '\0');
-    if (!isGood || key.level < 0 || key.level > Plan::kTopLevel)
+    if (!isGood || key.level < 0 || key.level > most)
         return Error(Code::BadArgument, fmt::format("'{}' is no tile; expected LEVEL/X/Y, such as 10/390/5812", text));
     return key;
 }

@@ -222,7 +222,7 @@ private:
             member.box.max =
                 volume.grid.origin() + scaled(toDouble(volume.grid.dimension()), volume.grid.spacing()) - half;
             if (detail == 0) member.buildings = tile.labels;
-            if (auto added = writer.add(std::move(member), *bytes); !added) return added;
+            if (auto added = writer.add(std::move(member), *bytes); !added) return added.error();
         }
         report.buildings += tile.labels.size();
         return {};

@@ -1,0 +1,81 @@
+#pragma once
+/// \file
+/// Builds all coarse levels of a city in one pass over its members of detail 1.
+
+#include <svt/city/city_folder.hpp>
+#include <svt/city/levels/level_sums.hpp>
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <vector>
+
+namespace svt::city {
+
+/// Columns of detail 1, [first, last] along each axis, where a member may be filled.
+struct ColumnRange {
+    std::array<std::int64_t, 2> first{}, last{};
+};
+
+/// A tile of a coarse level as a `.svt`.
+struct LevelMember {
+    PackMember member;
+    std::vector<std::byte> bytes;
+};
+
+/// The detail whose single tile holds the whole city: the first where `whole` has at most 256 columns along each axis.
+[[nodiscard]] int topDetail(const ColumnRange& whole) noexcept;
+
+/// Tiles are open from the first member that meets them to the last one; then they become a `.svt`, and are added to the
+/// tile above. So memory is that of the tiles along the border of what is done: 2 MB each.
+class LevelBuilder {
+public:
+    /// \param members  where each member lies, in the order in which they come; at least one
+    LevelBuilder(std::span<const ColumnRange> members, double spacing, std::string crsName, int threads);
+
+    [[nodiscard]] int top() const noexcept { return top_; }
+    [[nodiscard]] const LevelClasses& classes() const noexcept { return classes_; }
+
+    /// Adds the next members. Gives away finished tiles, those of a detail along the Morton curve.
+    [[nodiscard]] Result<void> add(std::span<const volume::SemanticVolume> volumes,
+                                   const std::function<Result<void>(LevelMember)>& give);
+
+private:
+    struct Key {
+        int detail = 0;
+        std::uint64_t morton = 0;
+        TileKey tile;
+        friend bool operator<(const Key& a, const Key& b) {
+            return std::tie(a.detail, a.morton) < std::tie(b.detail, b.morton);
+        }
+    };
+    struct Open {
+        std::uint32_t left = 0;  // members or tiles below that are still to come
+        std::optional<LevelSums> sums;
+    };
+    struct Ready {
+        Key key;
+        LevelSums sums;
+    };
+
+    [[nodiscard]] std::vector<Key> tilesOf(const ColumnRange& range) const;
+    [[nodiscard]] Key above(const Key& key) const;
+    [[nodiscard]] LevelSums emptySums(const Key& key) const;
+    template <class Source>
+    void addTo(const Key& key, const Source& source, std::vector<Ready>& ready);
+    [[nodiscard]] Result<LevelMember> memberOf(const Ready& ready) const;
+    Result<void> giveInOrder(const std::function<Result<void>(LevelMember)>& give);
+
+    std::vector<ColumnRange> members_;
+    double spacing_;
+    std::string crsName_;
+    int threads_, top_;
+    ColumnRange whole_;
+    std::size_t next_ = 0;
+    LevelClasses classes_;
+    std::map<Key, Open> open_;            // all that are not finished
+    std::map<Key, LevelMember> waiting_;  // finished, but one before them is not
+};
+
+}  // namespace svt::city

@@ -1,0 +1,212 @@
+// Coarse levels beside a second way to count: every column of detail 1 on its own, in a map.
+#include <svt/city/levels/level_builder.hpp>
+#include <svt/volume/svt_file.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace svt::city {
+namespace {
+
+constexpr double kSpacing = 0.5;
+
+struct Sample {
+    std::vector<volume::SemanticVolume> volumes;
+    std::vector<ColumnRange> ranges;
+};
+
+volume::SemanticVolume boxes(std::array<std::int64_t, 3> first, Vec3i size, std::uint32_t seed) {
+    volume::SemanticVolume result;
+    result.grid = *volume::Grid::fromParts(size, {2 * kSpacing, 2 * kSpacing, 2 * kSpacing},
+                                           {double(first[0]) + 0.5, double(first[1]) + 0.5, double(first[2]) + 0.5},
+                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    std::vector<volume::Scalar> dense(std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z), 0);
+    std::uint32_t state = seed;
+    const auto next = [&](std::uint32_t below) {
+        state = state * 1664525u + 1013904223u;
+        return static_cast<std::int32_t>((state >> 8) % below);
+    };
+    for (std::uint32_t l = 0; l < 5; ++l) {
+        volume::Label label;
+        label.id = "b" + std::to_string(l);
+        label.className = l == 1 ? "Bridge" : l == 3 ? "Tunnel" : "Building";
+        label.color = l == 1 ? Vec3f{1, 0, 0} : l == 3 ? Vec3f{0, 0, 1} : Vec3f{0, 1, 0};
+        label.first = l + 1;
+        label.count = 1;
+        label.subtreeEnd = l + 1;
+        result.labels.labels.push_back(label);
+        const std::int32_t x = next(std::uint32_t(size.x) - 8), y = next(std::uint32_t(size.y) - 8), top = 2 + next(9);
+        for (std::int32_t k = 0; k < top; ++k)
+            for (std::int32_t j = y; j < y + 7; ++j)
+                for (std::int32_t i = x; i < x + 5; ++i)
+                    dense[std::size_t(i) +
+                          std::size_t(size.x) * (std::size_t(j) + std::size_t(size.y) * std::size_t(k))] = label.first;
+    }
+    result.columns = volume::ColumnVolume::fromDense(size, dense);
+    return result;
+}
+
+// Volumes around the origin, over borders of tiles, some of them far away.
+Sample sampleOf(std::int64_t reach) {
+    Sample sample;
+    for (std::uint32_t n = 0; n < 24; ++n) {
+        const std::int64_t x = (std::int64_t(n) * 7919) % (2 * reach) - reach,
+                           y = (std::int64_t(n) * 104729) % (2 * reach) - reach;
+        const Vec3i size{40 + std::int32_t(n % 3) * 4, 36, 12};
+        sample.volumes.push_back(boxes({x, y, std::int64_t(n % 5) * 2 - 4}, size, n + 1));
+        sample.ranges.push_back({{x, y}, {x + size.x - 1, y + size.y - 1}});
+    }
+    return sample;
+}
+
+struct Column {
+    std::int64_t area = 0, low = 0, top = 0;
+    std::map<std::string, std::int64_t> areaOf;
+};
+
+// What a detail's columns are by definition.
+std::map<std::pair<std::int64_t, std::int64_t>, Column> count(const Sample& sample, int detail) {
+    std::map<std::pair<std::int64_t, std::int64_t>, Column> columns;
+    for (const volume::SemanticVolume& volume : sample.volumes) {
+        const Vec3i n = volume.grid.dimension();
+        for (std::int32_t j = 0; j < n.y; ++j)
+            for (std::int32_t i = 0; i < n.x; ++i) {
+                std::map<std::string, int> filled;
+                std::int64_t low = 0, top = 0;
+                std::string lowest;
+                for (std::int32_t k = 0; k < n.z; ++k) {
+                    const volume::Scalar scalar = volume.columns.scalarAt(i, j, k);
+                    if (scalar == 0) continue;
+                    const auto z = std::int64_t(std::floor(volume.grid.origin().z)) + k;
+                    if (filled.empty()) {
+                        low = z;
+                        lowest = volume.labels.labels[scalar - 1].className;
+                    }
+                    top = z + 1;
+                    ++filled[volume.labels.labels[scalar - 1].className];
+                }
+                if (filled.empty()) continue;
+                const double cell = kSpacing * std::pow(2, detail);
+                Column& to = columns[{std::int64_t(std::floor((volume.grid.origin().x + i) / cell)),
+                                      std::int64_t(std::floor((volume.grid.origin().y + j) / cell))}];
+                ++to.area;
+                to.low += low;
+                to.top += top;
+                std::string most = lowest;
+                for (const auto& [name, samples] : filled)
+                    if (samples > filled[most]) most = name;
+                ++to.areaOf[most];
+            }
+    }
+    return columns;
+}
+
+using Members = std::map<std::pair<int, std::string>, std::vector<std::byte>>;
+
+Members build(const Sample& sample, std::size_t batch, int threads, std::vector<LevelMember>* all = nullptr) {
+    LevelBuilder builder(sample.ranges, kSpacing, "EPSG:25832", threads);
+    Members members;
+    std::map<int, std::uint64_t> last;
+    for (std::size_t begin = 0; begin < sample.volumes.size(); begin += batch) {
+        const auto done =
+            builder.add(std::span(sample.volumes).subspan(begin, std::min(batch, sample.volumes.size() - begin)),
+                        [&](LevelMember member) -> Result<void> {
+                            // Each detail along the curve.
+                            const std::uint64_t morton = mortonOf(member.member.tile) + 1;
+                            EXPECT_GT(morton, last[member.member.detail]);
+                            last[member.member.detail] = morton;
+                            members[{member.member.detail, member.member.tile.toString()}] = member.bytes;
+                            if (all != nullptr) all->push_back(std::move(member));
+                            return {};
+                        });
+        EXPECT_TRUE(done);
+    }
+    return members;
+}
+
+TEST(LevelBuilder, HoldsTheColumnsOfEachDetail) {
+    const Sample sample = sampleOf(1500);
+    std::vector<LevelMember> members;
+    build(sample, 5, 1, &members);
+    int top = 0;
+    std::map<int, std::map<std::pair<std::int64_t, std::int64_t>, Column>> expected;
+    std::map<int, std::size_t> tiles;
+    for (const LevelMember& made : members) {
+        const int detail = made.member.detail;
+        top = std::max(top, detail);
+        ++tiles[detail];
+        if (!expected.contains(detail)) expected[detail] = count(sample, detail);
+        const auto volume = volume::readSvt(made.bytes);
+        ASSERT_TRUE(volume) << volume.error().toString();
+        EXPECT_EQ(volume->grid.spacing(), spacingOf(detail, kSpacing));
+        const Vec3i n = volume->grid.dimension();
+        EXPECT_LE(n.x, kLevelCells);
+        for (std::int32_t j = 0; j < n.y; ++j)
+            for (std::int32_t i = 0; i < n.x; ++i) {
+                const Vec3d at = volume->grid.origin() + scaled(Vec3d{double(i), double(j), 0}, volume->grid.spacing());
+                const double cell = volume->grid.spacing().x;
+                const std::pair key{std::int64_t(std::floor(at.x / cell)), std::int64_t(std::floor(at.y / cell))};
+                const auto runs = volume->columns.column(i, j);
+                const auto found = expected[detail].find(key);
+                if (runs.size() == 1 && runs[0].scalar == 0) {
+                    EXPECT_TRUE(found == expected[detail].end());
+                    continue;
+                }
+                ASSERT_TRUE(found != expected[detail].end());
+                const Column& own = found->second;
+                const bool isFloating = runs[0].scalar == 0;
+                const volume::Run& run = runs[isFloating ? 1 : 0];
+                const double step = volume->grid.spacing().z, bottom = volume->grid.origin().z - step / 2;
+                const double low = bottom + step * (isFloating ? runs[0].end : 0), high = bottom + step * run.end;
+                EXPECT_LE(std::abs(low - double(own.low) / double(own.area)), step / 2);
+                // At least one sample high.
+                if (high - low > step) EXPECT_LE(std::abs(high - double(own.top) / double(own.area)), step / 2);
+                const volume::Label& label = volume->labels.labels[run.scalar - 1];
+                const auto coverage = coverageOf(label);
+                for (const auto& [name, area] : own.areaOf) EXPECT_LE(area, own.areaOf.at(label.className)) << name;
+                if (detail == 2) continue;
+                ASSERT_EQ(coverage.size(), own.areaOf.size());
+                for (const auto& [name, eighths] : coverage) {
+                    const double share = 8 * double(own.areaOf.at(name)) / std::pow(4, detail - 1);
+                    EXPECT_LE(std::abs(eighths - std::clamp(share, 1.0, 8.0)), own.areaOf.size() > 1 ? 1.5 : 0.5)
+                        << name;
+                }
+                expected[detail].erase(found);
+            }
+    }
+    EXPECT_GE(top, 4);
+    EXPECT_EQ(tiles[top], 1u);
+    for (int detail = 3; detail <= top; ++detail) EXPECT_TRUE(expected[detail].empty()) << detail;
+}
+
+TEST(LevelBuilder, GivesTheSameForAnyBatchesAndThreads) {
+    const Sample sample = sampleOf(1500);
+    const Members once = build(sample, 24, 1);
+    EXPECT_GT(once.size(), 20u);
+    EXPECT_EQ(build(sample, 1, 1), once);
+    EXPECT_EQ(build(sample, 7, 3), once);
+}
+
+TEST(LevelBuilder, HasOneTileOfASmallCity) {
+    Sample sample = sampleOf(40);
+    std::vector<LevelMember> members;
+    build(sample, 24, 1, &members);
+    ASSERT_EQ(members.size(), 1u);
+    EXPECT_EQ(members[0].member.detail, 2);
+}
+
+TEST(Levels, KnowTheirSizes) {
+    EXPECT_EQ(spacingOf(0, 0.5), (Vec3d{0.5, 0.5, 0.5}));
+    EXPECT_EQ(spacingOf(1, 0.5), (Vec3d{1, 1, 1}));
+    EXPECT_EQ(spacingOf(2, 0.5), (Vec3d{2, 2, 1}));
+    EXPECT_EQ(spacingOf(3, 0.5), (Vec3d{4, 4, 2}));
+    EXPECT_EQ(spacingOf(9, 0.5), (Vec3d{256, 256, 4}));
+    EXPECT_EQ(spacingOf(3, 5), (Vec3d{40, 40, 10}));
+    EXPECT_EQ(tileSide({0, 0, 0}, 2, 0.5), 512);
+    EXPECT_EQ(tileSide({3, 0, 0}, 5, 0.5), 4096);
+    EXPECT_EQ(tileSide({9, 0, 0}, 1, 0.5), 512);
+}
+
+}  // namespace
+}  // namespace svt::city
