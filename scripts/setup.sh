@@ -4,6 +4,7 @@
 #   scripts/setup.sh peers    also the peers used only by `make bench`
 #   scripts/setup.sh readers  also the programs that read our formats in tests, which are skipped without them
 #   scripts/setup.sh python   also the tools to build and test the Python module
+#   scripts/setup.sh slurm    also Slurm, for the test of job arrays (scripts/test_slurm.sh)
 #   scripts/setup.sh web      also the tools to build and test the WebAssembly module and the page
 set -euo pipefail
 
@@ -18,6 +19,7 @@ peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth valgrin
 readers=(ffmpeg python3-nibabel python3-tifffile python3-zarr python3-vtk9 python3-networkx python3-numcodecs
   python3-openvdb)
 web=(emscripten libfast-float-dev dpkg-dev chromium)
+slurm=(slurmctld slurmd slurm-client munge python3-yaml)
 python=(python3-dev pybind11-dev python3-numpy python3-scipy)
 checks=(clang clang-tidy clang-tools libclang-rt-14-dev)
 # A Node.js from another source has its own npm, which conflicts with Debian's.
@@ -26,6 +28,7 @@ command -v npm >/dev/null || web+=(npm)
 [ "${1:-}" = peers ] && packages+=("${peers[@]}")
 [ "${1:-}" = readers ] && packages+=("${readers[@]}")
 [ "${1:-}" = web ] && packages+=("${web[@]}")
+[ "${1:-}" = slurm ] && packages+=("${slurm[@]}")
 [ "${1:-}" = python ] && packages+=("${python[@]}")
 [ "${1:-}" = checks ] && packages+=("${checks[@]}")
 

@@ -24,6 +24,7 @@ struct CityOptions {
     double spacing = 0.5;  ///< metres between samples of the finest level, 0.001..100
     double lod = -1;       ///< use no finer level of detail of the models; -1: the finest that each feature has
     int crs = 0;           ///< EPSG code of a projection in metres; 0: that of the first file
+    double packSeconds = 10;  ///< expected work in a pack
     friend bool operator==(const CityOptions&, const CityOptions&) = default;
 };
 

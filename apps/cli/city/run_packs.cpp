@@ -50,4 +50,12 @@ std::vector<FailedPack> runPacks(const std::filesystem::path& folder, const city
     return failed;
 }
 
+ToolAnswer runTool(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
+    // The shell finds the program, and brings stdout to where it is kept.
+    std::vector<std::string> call{"/bin/sh", "-c", "exec \"$@\" >&2", "sh"};
+    call.insert(call.end(), arguments.begin(), arguments.end());
+    const serve::ChildResult result = runChild(call, folder, kNoLimits, Progress());
+    return {result.exitCode, result.messages};
+}
+
 }  // namespace svt::cli

@@ -26,4 +26,12 @@ struct FailedPack {
 [[nodiscard]] std::vector<FailedPack> runPacks(const std::filesystem::path& folder, const city::Plan& plan, int jobs,
                                                const city::PackOptions& options, const Progress* progress);
 
+/// What another program said.
+struct ToolAnswer {
+    int exitCode = -1;  ///< 127 where it is not there
+    std::string text;   ///< the last 64 KiB of stdout and stderr
+};
+/// Runs a program by its name and waits for it. Under Node.js no program is there.
+[[nodiscard]] ToolAnswer runTool(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+
 }  // namespace svt::cli

@@ -16,7 +16,7 @@ struct CityPlanArguments {
     std::filesystem::path output;
     city::PlanOptions options;
     std::string crs;
-    bool verbose = false;
+    bool verbose = false, isUpdate = false;
 };
 
 int runCityPlan(CityPlanArguments& arguments) {
@@ -53,6 +53,8 @@ Action connectCityPlan(Command& command) {
     command.set("--lod", arguments->options.city.lod);
     command.set("--crs", arguments->crs);
     command.set("--tasks", arguments->options.tasks);
+    command.set("--pack-seconds", arguments->options.city.packSeconds);
+    command.set("--update", arguments->isUpdate);
     command.set("--threads", arguments->options.threads);
     command.set("--verbose", arguments->verbose);
     return [arguments] { return runCityPlan(*arguments); };

@@ -1,3 +1,4 @@
+#include <apps/cli/city/engines.hpp>
 #include <apps/cli/city/run_packs.hpp>
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/output/json_output.hpp>
@@ -16,10 +17,12 @@ namespace {
 
 struct CityRunArguments {
     std::filesystem::path folder;
-    city::PackOptions options;
+    city::PackOptions packs;
     int jobs = 0;
     std::uint32_t task = 0, tasks = 0;
-    bool json = false, isProven = false;
+    bool json = false, isProven = false, isPrinted = false;
+    std::string engine;
+    std::vector<std::string> options;
 };
 
 std::shared_ptr<CityRunArguments> arguments(Command& command) {
@@ -29,8 +32,8 @@ std::shared_ptr<CityRunArguments> arguments(Command& command) {
 }
 
 void connectLimits(Command& command, CityRunArguments& to) {
-    command.set("--tile-seconds", to.options.tileSeconds);
-    command.set("--feature-seconds", to.options.featureSeconds);
+    command.set("--tile-seconds", to.packs.tileSeconds);
+    command.set("--feature-seconds", to.packs.featureSeconds);
 }
 
 void tellSkipped(const std::vector<city::SkippedFeature>& skipped) {
@@ -54,19 +57,6 @@ void tellFailed(const std::vector<FailedPack>& failed) {
     if (failed.size() > kShown) note(fmt::format("{} more packs failed", failed.size() - kShown));
 }
 
-// "0-3,7": packs as Slurm and people write them.
-std::string rangesOf(const std::vector<std::uint32_t>& numbers) {
-    std::string text;
-    for (std::size_t n = 0; n < numbers.size();) {
-        std::size_t end = n;
-        while (end + 1 < numbers.size() && numbers[end + 1] == numbers[end] + 1) ++end;
-        text += fmt::format("{}{}", text.empty() ? "" : ",", numbers[n]);
-        if (end > n) text += fmt::format("-{}", numbers[end]);
-        n = end + 1;
-    }
-    return text;
-}
-
 int tellMissing(const std::filesystem::path& folder, const city::CityStatus& status) {
     if (status.missing.empty()) return kDone;
     return fail(Error(Code::CityIncomplete,
@@ -75,11 +65,55 @@ int tellMissing(const std::filesystem::path& folder, const city::CityStatus& sta
                       {folder.string(), 0, 0, {}}));
 }
 
+void printCall(const std::vector<std::string>& call) {
+    for (std::size_t n = 0; n < call.size(); ++n) fmt::print("{}{}", n == 0 ? "" : " ", shellQuoted(call[n]));
+    fmt::print("\n");
+}
+
+int runSlurm(const CityRunArguments& arguments, const EngineJob& job, const city::Plan& plan) {
+    const city::CityStatus status = city::cityStatus(arguments.folder, plan, false);
+    const std::uint32_t tasks = slurmTasks(plan);
+    const std::vector<std::uint32_t> open = openTasks(plan, status.missing, tasks);
+    if (arguments.isPrinted) {
+        printCall(slurmArray(job, open, tasks));
+        printCall(slurmMerge(job, "ID"));
+        return kDone;
+    }
+    if (open.empty()) {
+        note("all packs are done; 'svt city merge' makes their index");
+        return kDone;
+    }
+    const auto jobs = submitToSlurm(job, open, tasks);
+    if (!jobs) return fail(jobs.error());
+    if (const auto kept = keepOptions(job, *jobs); !kept) return fail(kept.error());
+    if (!isQuiet())
+        fmt::print("{} of {} tasks as job {}, their merge as job {}; logs in {}\n", open.size(), tasks, jobs->array,
+                   jobs->merge, (job.folder / "logs").string());
+    return kDone;
+}
+
+int runEngine(const CityRunArguments& arguments, const city::Plan& plan) {
+    std::error_code failed;
+    const EngineJob job{std::filesystem::absolute(arguments.folder, failed).lexically_normal(), arguments.options,
+                        arguments.packs};
+    if (arguments.engine == "slurm") return runSlurm(arguments, job, plan);
+    if (!arguments.isPrinted)
+        return fail(Error(Code::BadArgument,
+                          "--engine kubernetes needs --print: the job is printed as YAML for 'kubectl apply -f -'"));
+    const auto yaml = kubernetesJobs(job, plan);
+    if (!yaml) return fail(yaml.error());
+    fmt::print("{}", *yaml);
+    return kDone;
+}
+
 int runCityRun(const CityRunArguments& arguments) {
     const auto plan = city::readPlan(arguments.folder, programOfCity());
     if (!plan) return fail(plan.error());
+    if (arguments.engine != "local") return runEngine(arguments, *plan);
+    if (!arguments.options.empty() || arguments.isPrinted)
+        return fail(Error(Code::BadArgument, "--print and options after -- need --engine slurm or kubernetes"));
     std::optional<TerminalProgress> progress(std::in_place);
-    const auto failed = runPacks(arguments.folder, *plan, arguments.jobs, arguments.options, progress->get());
+    const auto failed = runPacks(arguments.folder, *plan, arguments.jobs, arguments.packs, progress->get());
     if (Progress::isCancelled(progress->get()))
         return fail(Error(Code::Cancelled, "stopped; what is done stays, and the same command goes on from there"));
     // Whatever happened, so that what is done can be used.
@@ -105,7 +139,7 @@ int runCityTask(const CityRunArguments& arguments) {
     int worst = kDone;
     const auto [first, last] = plan->packsOf(arguments.task, tasks);
     for (std::uint32_t pack = first; pack < last; ++pack) {
-        const auto report = city::runPack(arguments.folder, *plan, pack, arguments.options);
+        const auto report = city::runPack(arguments.folder, *plan, pack, arguments.packs);
         if (!report) {
             worst = fail(report.error());
             continue;  // the others do not depend on it
@@ -145,7 +179,7 @@ int runCityStatus(const CityRunArguments& arguments) {
                status.packs - status.missing.size(), status.packs, status.buildings, plan->features,
                double(status.bytes) / 1e6, status.skipped.size());
     if (!status.missing.empty())
-        fmt::print("missing: {}\nsvt city run {}\n", rangesOf(status.missing), arguments.folder.string());
+        fmt::print("missing: {}\n{}\n", rangesOf(status.missing), resubmitLine(arguments.folder));
     tellSkipped(status.skipped);
     return kDone;
 }
@@ -155,6 +189,9 @@ int runCityStatus(const CityRunArguments& arguments) {
 Action connectCityRun(Command& command) {
     auto given = arguments(command);
     command.set("--jobs", given->jobs);
+    command.set("--engine", given->engine);
+    command.set("--print", given->isPrinted);
+    command.set("options", given->options);
     connectLimits(command, *given);
     return [given] { return runCityRun(*given); };
 }
@@ -163,7 +200,7 @@ Action connectCityTask(Command& command) {
     auto given = arguments(command);
     command.set("task", given->task);
     command.set("--of", given->tasks);
-    command.set("--threads", given->options.threads);
+    command.set("--threads", given->packs.threads);
     connectLimits(command, *given);
     return [given] { return runCityTask(*given); };
 }

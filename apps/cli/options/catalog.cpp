@@ -928,6 +928,18 @@ constexpr Option kCityPlan[] = {
      .otherwise = "some 5 minutes each, at most 1000",
      .help = "number of tasks that a cluster is to run; the city does not depend on it",
      .group = "Work"},
+    {.name = "--pack-seconds",
+     .kind = Number,
+     .unit = "seconds",
+     .least = 0.01,
+     .most = 3600,
+     .byDefault = "10",
+     .help = "expected work in a pack, the smallest part that is built, proven and built again",
+     .group = "Work"},
+    {.name = "--update",
+     .kind = Flag,
+     .help = "the folder has a plan: say which tiles change, and keep packs whose content stays",
+     .group = "Work"},
 };
 constexpr Option kCityLimits[] = {
     {.name = "--tile-seconds",
@@ -948,6 +960,18 @@ constexpr Option kCityLimits[] = {
      .group = "Limits"},
 };
 constexpr Option kCityRun[] = {
+    {.name = "options",
+     .value = "OPTION",
+     .help =
+         "after --: with slurm, options of sbatch, such as --partition=batch; with kubernetes, image=, claim=, mount=, "
+         "namespace=, cpu=, memory=, parallelism=",
+     .mayRepeat = true},
+    {.name = "--engine",
+     .choices = "local|slurm|kubernetes",
+     .byDefault = "local",
+     .help = "where: on this machine; as a job array of Slurm; as an Indexed Job of Kubernetes, which is printed",
+     .group = "Work"},
+    {.name = "--print", .kind = Flag, .help = "print what would be submitted, and do nothing", .group = "Work"},
     {.name = "--jobs",
      .kind = Whole,
      .least = 0,

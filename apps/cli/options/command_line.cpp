@@ -59,6 +59,8 @@ CLI::Option* addOption(CLI::App& app, const Option& option, std::vector<std::str
     } else {
         added->expected(1)->multi_option_policy(option.mayRepeat ? CLI::MultiOptionPolicy::TakeAll
                                                                  : CLI::MultiOptionPolicy::Throw);
+        // Else a "--" behind its value would be taken for the end of its values, not of the options.
+        if (!option.mayRepeat) added->allow_extra_args(false);
     }
     return added->check(CLI::Validator([option](std::string& text) { return faultOfValues(option, text); }, ""));
 }

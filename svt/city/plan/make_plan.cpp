@@ -14,7 +14,7 @@
 namespace svt::city {
 namespace {
 
-constexpr std::uint64_t kTileCost = 4'000'000, kPackCost = 10'000'000, kTaskCost = 300'000'000;  // microseconds
+constexpr std::uint64_t kTileCost = 4'000'000, kTaskCost = 300'000'000;  // microseconds
 constexpr std::uint32_t kPackTiles = 2000;
 constexpr std::uint32_t kMaxTasks = 1000;  // the index of Slurm's arrays ends there by default
 constexpr std::int32_t kMaxTileSamples = 8192;
@@ -115,10 +115,11 @@ private:
     }
 
     static void pack(Plan& plan) {
+        const auto packCost = static_cast<std::uint64_t>(plan.options.packSeconds * 1e6);
         std::uint64_t cost = 0, all = 0;
         std::uint32_t tiles = 0;
         for (PlanTile& tile : plan.tiles) {
-            if (cost >= kPackCost || tiles == kPackTiles) {
+            if (cost >= packCost || tiles == kPackTiles) {
                 ++plan.packs;
                 cost = 0;
                 tiles = 0;

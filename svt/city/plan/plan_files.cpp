@@ -32,7 +32,8 @@ void readJson(const Json& json, Plan& plan) {
     plan.crs = json.at("crs").get<int>();
     plan.crsName = json.at("crsName").get<std::string>();
     const Json& options = json.at("options");
-    plan.options = {options.at("spacing").get<double>(), options.at("lod").get<double>(), options.at("crs").get<int>()};
+    plan.options = {options.at("spacing").get<double>(), options.at("lod").get<double>(), options.at("crs").get<int>(),
+                    options.at("packSeconds").get<double>()};
     for (const Json& file : json.at("files"))
         plan.files.push_back({file.at("path").get<std::string>(), file.at("bytes").get<std::uint64_t>(),
                               file.at("crs").get<int>(), file.at("axisOrder").get<int>()});
@@ -138,7 +139,10 @@ std::string planJson(const Plan& plan, const std::string& digest) {
     json["featuresSha256"] = plan.featuresDigest;
     json["crs"] = plan.crs;
     json["crsName"] = plan.crsName;
-    json["options"] = {{"spacing", plan.options.spacing}, {"lod", plan.options.lod}, {"crs", plan.options.crs}};
+    json["options"] = {{"spacing", plan.options.spacing},
+                       {"lod", plan.options.lod},
+                       {"crs", plan.options.crs},
+                       {"packSeconds", plan.options.packSeconds}};
     json["features"] = plan.features;
     json["replicas"] = plan.replicas;
     json["skipped"] = plan.skipped;
