@@ -30,6 +30,9 @@ cd "$work"
 "$svt" sample city --buildings 4000 --files 4 -o files -q
 plan() { "$svt" city plan files -o "$1" --pack-seconds 0.05 --tasks 1000 --spacing 1 -q; }
 submit() { "$svt" city run "$1" --engine slurm -- --time=5 "${@:2}" >said || fail "not submitted"; sed -n 's/.*as job \([0-9]*\), .*/\1/p' said; }
+release() { # all that was submitted with --hold, the merge, too
+  for job in $(squeue -h -t PD -o %A | sort -u); do scontrol release "$job"; done
+}
 drained() { # until no job is left, at most $1 seconds
   for _ in $(seq "$(($1 * 4))"); do [ -z "$(squeue -h)" ] && return; sleep 0.25; done
   squeue >&2
@@ -59,15 +62,15 @@ grep -q "E609.*nowhere\|E609.*nvalid partition" said || fail "Slurm's reason is 
 
 plan killed
 job=$(submit killed --hold)
-scontrol release "$job"
+release
 victim=
 for _ in $(seq 400); do
-  victim=$(pgrep -f "^$svt city task $work/killed " | head -n 1)
-  [ -n "$victim" ] && break
+  victim=$(pgrep -f "^$svt city task $work/killed " | head -n 1) || true
+  [ -z "$victim" ] || break
   sleep 0.02
 done
 # The task and the process in which it builds a pack.
-kill -KILL "$victim" $(pgrep -P "$victim") 2>/dev/null || fail "no task was seen"
+kill -KILL "$victim" $(pgrep -P "$victim" || true) 2>/dev/null || fail "no task was seen"
 drained 90
 "$svt" city status killed >said
 grep -q "^missing: " said || fail "nothing is missing after kill -9"
@@ -92,7 +95,7 @@ job=$(submit failing --hold)
 RANDOM=7
 for task in $(seq 0 20); do [ $((RANDOM % 10)) -ge 1 ] || scancel "${job}_$task"; done
 scancel "${job}_4"
-scontrol release "$job"
+release
 drained 90
 for _ in 1 2 3; do
   [ "$("$svt" city status failing | grep -c '^missing')" = 0 ] && break

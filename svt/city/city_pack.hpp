@@ -37,9 +37,9 @@ struct PackMember {
 class Pack {
 public:
     /// Opens a pack and reads its directory, whose checksum is checked.
-    /// \return the pack, or CannotOpen; BadPack if it is damaged, none, or of another plan (\param plan: its digest; empty:
-    ///         any)
-    [[nodiscard]] static Result<Pack> open(const std::filesystem::path& path, const std::string& plan);
+    /// \return the pack, or CannotOpen; BadPack if it is damaged, none, or of other content (\param content: its
+    ///         digest, Plan::packDigests; empty: any)
+    [[nodiscard]] static Result<Pack> open(const std::filesystem::path& path, const std::string& content);
 
     [[nodiscard]] const std::vector<PackMember>& members() const noexcept { return members_; }
     /// The volume of a member. \return the volume, or BadPack that tells what is wrong with it
@@ -65,8 +65,8 @@ struct SkippedFeature {
 /// What is said of a pack that is done.
 struct PackReport {
     std::uint32_t pack = 0;
-    std::string plan;    ///< digest
-    std::string sha256;  ///< of the pack
+    std::string content;  ///< Plan::packDigests
+    std::string sha256;   ///< of the pack
     std::uint64_t bytes = 0, buildings = 0, members = 0;
     std::vector<SkippedFeature> skipped;
 };
@@ -83,7 +83,7 @@ struct PackOptions {
 
 [[nodiscard]] std::filesystem::path packPath(const std::filesystem::path& folder, std::uint32_t pack);
 
-/// Builds a pack of a plan, unless it is there and proven: its report has the digest of the plan, and the file the SHA-256
+/// Builds a pack of a plan, unless it is there and proven: its report has the digest of its content, and the file the SHA-256
 /// of the report. The work is done in processes of their own: one that crashes, or takes too long for a tile, ends alone;
 /// then the features of that tile are tried one by one, and those that fail are left out and reported. Requires that this
 /// process has started no threads (see inOwnProcess()); on systems without processes a crash is one.

@@ -21,9 +21,9 @@ namespace svt::city {
 
 /// What decides the content of a city beside its files.
 struct CityOptions {
-    double spacing = 0.5;  ///< metres between samples of the finest level, 0.001..100
-    double lod = -1;       ///< use no finer level of detail of the models; -1: the finest that each feature has
-    int crs = 0;           ///< EPSG code of a projection in metres; 0: that of the first file
+    double spacing = 0.5;     ///< metres between samples of the finest level, 0.001..100
+    double lod = -1;          ///< use no finer level of detail of the models; -1: the finest that each feature has
+    int crs = 0;              ///< EPSG code of a projection in metres; 0: that of the first file
     double packSeconds = 10;  ///< expected work in a pack
     friend bool operator==(const CityOptions&, const CityOptions&) = default;
 };
@@ -43,8 +43,9 @@ struct TileKey {
 struct PlanFile {
     std::string path;  ///< absolute
     std::uint64_t size = 0;
-    int crs = 0;        ///< for ReadOptions::crs
-    int axisOrder = 0;  ///< for ReadOptions::axisOrder
+    int crs = 0;                 ///< for ReadOptions::crs
+    int axisOrder = 0;           ///< for ReadOptions::axisOrder
+    std::uint64_t headHash = 0;  ///< of what is read with each feature
 };
 
 struct PlanFeature {
@@ -74,6 +75,8 @@ struct Plan {
     std::string crsName;
     std::vector<PlanFile> files;
     std::vector<PlanTile> tiles;  ///< ordered along the Morton curve
+    /// By pack, 64 hexadecimal digits: SHA-256 of all that decides its bytes. Equal ones of two plans are one pack.
+    std::vector<std::string> packDigests;
     std::uint64_t features = 0, replicas = 0, skipped = 0;
     std::uint32_t packs = 0;
     std::uint32_t tasks = 0;  ///< for a cluster: each does packs / tasks of them
@@ -106,6 +109,19 @@ struct PlanOptions {
 /// Cost: about that of reading the files. Memory: 52 bytes a feature, and a few hundred MB.
 [[nodiscard]] Result<Plan> makePlan(std::span<const std::filesystem::path> files, const std::filesystem::path& folder,
                                     const PlanOptions& options, Diagnostics& diagnostics);
+
+/// What is new in a plan beside the one before.
+struct PlanChanges {
+    std::uint64_t newFeatures = 0, goneFeatures = 0;  ///< by content
+    std::uint64_t newTiles = 0, changedTiles = 0, goneTiles = 0;
+    std::uint64_t keptPacks = 0;  ///< built ones that are of the new plan, too
+};
+/// As makePlan(), for a folder that has a plan of the same program: packs of the plan before whose content stays keep
+/// their bytes under their new number, those of no use are removed, and the city is to be merged again. After a crash it
+/// may be called again: one pack at most is built once more.
+/// \return the plan; BadPlan where the folder has none
+[[nodiscard]] Result<Plan> updatePlan(std::span<const std::filesystem::path> files, const std::filesystem::path& folder,
+                                      const PlanOptions& options, Diagnostics& diagnostics, PlanChanges& changes);
 
 /// Reads the plan of a folder.
 /// \param program  version of this program; another one's plan is PlanVersion; empty: any

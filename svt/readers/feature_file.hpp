@@ -57,6 +57,8 @@ public:
     ~FeatureFile();
 
     [[nodiscard]] FeatureFormat format() const noexcept;
+    /// What stands before the features and is read with each of them; empty of Whole.
+    [[nodiscard]] std::string head() const;
     /// Bytes of the file that have been read, as a share of all: 0..1.
     [[nodiscard]] double progress() const noexcept;
 

@@ -30,7 +30,9 @@ int runCityPlan(CityPlanArguments& arguments) {
     Diagnostics diagnostics;
     std::optional<TerminalProgress> progress(std::in_place);
     options.progress = progress->get();
-    const auto plan = city::makePlan(*files, arguments.output, options, diagnostics);
+    city::PlanChanges changes;
+    const auto plan = arguments.isUpdate ? city::updatePlan(*files, arguments.output, options, diagnostics, changes)
+                                         : city::makePlan(*files, arguments.output, options, diagnostics);
     progress.reset();
     printDiagnostics(diagnostics, arguments.verbose);
     if (!plan) return fail(plan.error());
@@ -38,6 +40,12 @@ int runCityPlan(CityPlanArguments& arguments) {
         fmt::print("{}: {} features of {} files in {} tiles and {} packs; {} replicas, {} left out; {}\n",
                    arguments.output.string(), plan->features, plan->files.size(), plan->tiles.size(), plan->packs,
                    plan->replicas, plan->skipped, plan->crsName.empty() ? "no CRS" : plan->crsName);
+    if (!isQuiet() && arguments.isUpdate)
+        fmt::print(
+            "{} features are new or changed, {} gone; {} tiles are new, {} changed, {} gone; {} of {} packs are "
+            "built, 'svt city run {}' builds the others\n",
+            changes.newFeatures, changes.goneFeatures, changes.newTiles, changes.changedTiles, changes.goneTiles,
+            changes.keptPacks, plan->packs, arguments.output.string());
     return kDone;
 }
 

@@ -188,7 +188,7 @@ Result<std::vector<City::Place>> City::find(const std::string& id) const {
 }
 
 Result<volume::SemanticVolume> City::read(const IndexEntry& entry) const {
-    const auto pack = Pack::open(packPath(folder_, entry.pack), plan_);
+    const auto pack = Pack::open(packPath(folder_, entry.pack), {});
     if (!pack) return pack.error();
     for (const PackMember& member : pack->members())
         if (member.offset == entry.offset && member.size == entry.size) return pack->read(member);

@@ -102,7 +102,7 @@ private:
     };
 
     Result<void> addPack(std::uint32_t number, int threads, LevelBuilder& builder) {
-        const auto pack = Pack::open(packPath(folder_, number), plan_.digest);
+        const auto pack = Pack::open(packPath(folder_, number), plan_.packDigests[number]);
         if (!pack) return pack.error();
         std::vector<const PackMember*> members;
         for (const PackMember& member : pack->members())
@@ -134,7 +134,7 @@ private:
         if (!to.writer) {
             const auto details = static_cast<std::uint32_t>(merged_.top - kFirstClassDetail + 1);
             to.number = plan_.packs + to.series++ * details + static_cast<std::uint32_t>(merged_.top - detail);
-            auto writer = PackWriter::create(packPath(folder_, to.number), to.number, plan_.digest);
+            auto writer = PackWriter::create(packPath(folder_, to.number), plan_.digest);
             if (!writer) return writer.error();
             to.writer = std::move(*writer);
         }
@@ -287,7 +287,7 @@ Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& pl
         put(merged.packs, report->bytes);
         const Digest digest = digestFromHex(report->sha256);
         merged.packs.append(reinterpret_cast<const char*>(digest.data()), digest.size());
-        const auto pack = Pack::open(packPath(folder, number), plan.digest);
+        const auto pack = Pack::open(packPath(folder, number), plan.packDigests[number]);
         if (!pack) return pack.error();
         addPack(*pack, number, plan.options.spacing, merged);
     }

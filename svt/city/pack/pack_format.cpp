@@ -67,8 +67,7 @@ bool takeMember(Taker& from, std::uint64_t bodyEnd, PackMember& member) {
 
 }  // namespace
 
-Result<PackWriter> PackWriter::create(const std::filesystem::path& path, std::uint32_t pack,
-                                      const std::string& planDigest) {
+Result<PackWriter> PackWriter::create(const std::filesystem::path& path, const std::string& content) {
     std::error_code failed;
     std::filesystem::create_directories(path.parent_path(), failed);
     auto file = AtomicFile::create(path);
@@ -76,8 +75,8 @@ Result<PackWriter> PackWriter::create(const std::filesystem::path& path, std::ui
     PackWriter writer(std::move(*file));
     std::string head(kHead);
     put(head, kPackVersion);
-    put(head, pack);
-    const Digest digest = digestFromHex(planDigest);
+    put(head, std::uint32_t{0});
+    const Digest digest = digestFromHex(content);
     head.append(reinterpret_cast<const char*>(digest.data()), digest.size());
     if (auto written = writer.write(head); !written) return written.error();
     return writer;
@@ -113,7 +112,7 @@ Result<std::string> PackWriter::commit() {
     return hexOf(sum_.finish());
 }
 
-Result<Pack> Pack::open(const std::filesystem::path& path, const std::string& plan) {
+Result<Pack> Pack::open(const std::filesystem::path& path, const std::string& content) {
     auto file = MappedFile::open(path);
     if (!file) return file.error();
     Pack pack(path, std::move(*file));
@@ -124,10 +123,10 @@ Result<Pack> Pack::open(const std::filesystem::path& path, const std::string& pl
         return Error(Code::PlanVersion, "the pack has a version that this program does not know",
                      {path.string(), 0, 0, {}});
     head.take<std::uint32_t>();
-    const Digest digest = digestFromHex(plan);
+    const Digest digest = digestFromHex(content);
     const std::string_view own = head.text(digest.size());
-    if (!plan.empty() && own != std::string_view(reinterpret_cast<const char*>(digest.data()), digest.size()))
-        return badPack(path, "the pack was made by another plan");
+    if (!content.empty() && own != std::string_view(reinterpret_cast<const char*>(digest.data()), digest.size()))
+        return badPack(path, "the pack is one of another plan, or of other files");
     Taker tail(text.substr(text.size() - kTailBytes));
     const auto offset = tail.take<std::uint64_t>(), size = tail.take<std::uint64_t>(), sum = tail.take<std::uint64_t>();
     if (tail.text(kTail.size()) != kTail || offset < kHeadBytes || offset > text.size() - kTailBytes ||
@@ -166,7 +165,7 @@ std::string reportJson(const PackReport& report) {
     Json json;
     json["format"] = "svt-city-report";
     json["pack"] = report.pack;
-    json["plan"] = report.plan;
+    json["content"] = report.content;
     json["sha256"] = report.sha256;
     json["bytes"] = report.bytes;
     json["members"] = report.members;
@@ -186,7 +185,7 @@ Result<PackReport> readReport(const std::filesystem::path& path) {
     try {
         const Json json = Json::parse(file->text());
         report.pack = json.at("pack").get<std::uint32_t>();
-        report.plan = json.at("plan").get<std::string>();
+        report.content = json.at("content").get<std::string>();
         report.sha256 = json.at("sha256").get<std::string>();
         report.bytes = json.at("bytes").get<std::uint64_t>();
         report.members = json.at("members").get<std::uint64_t>();
@@ -209,7 +208,8 @@ Result<PackReport> provenReport(const std::filesystem::path& folder, const Plan&
         return Error(Code::CityIncomplete, fmt::format("{}; run its task again", what), {path.string(), 0, 0, {}});
     };
     std::error_code failed;
-    if (report->plan != plan.digest || report->pack != pack) return open("the pack was made by another plan");
+    if (report->content != plan.packDigests[pack] || report->pack != pack)
+        return open("the pack is one of another plan, or of other files");
     if (std::filesystem::file_size(path, failed) != report->bytes || failed)
         return open("the pack is missing, or has another size than its report says");
     if (!isProven) return report;

@@ -11,8 +11,7 @@ namespace svt::city {
 
 class PackWriter {
 public:
-    [[nodiscard]] static Result<PackWriter> create(const std::filesystem::path& path, std::uint32_t pack,
-                                                   const std::string& planDigest);
+    [[nodiscard]] static Result<PackWriter> create(const std::filesystem::path& path, const std::string& content);
     /// \return the member with offset and size
     Result<PackMember> add(PackMember member, std::span<const std::byte> bytes);
     /// Writes the directory, syncs and renames. \return SHA-256 of the file

@@ -1,3 +1,4 @@
+#include <svt/city/base/bytes.hpp>
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/city_plan.hpp>
 #include <svt/city/plan/plan_files.hpp>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <tuple>
 
 namespace svt::city {
@@ -114,22 +116,28 @@ private:
         }
     }
 
-    static void pack(Plan& plan) {
-        const auto packCost = static_cast<std::uint64_t>(plan.options.packSeconds * 1e6);
-        std::uint64_t cost = 0, all = 0;
-        std::uint32_t tiles = 0;
-        for (PlanTile& tile : plan.tiles) {
-            if (cost >= packCost || tiles == kPackTiles) {
-                ++plan.packs;
-                cost = 0;
-                tiles = 0;
-            }
-            ++tiles;
-            tile.pack = plan.packs;
-            cost += tile.cost;
-            all += tile.cost;
+    // A pack is a square of the quadtree with little enough work, or a tile: so tiles of another district do not move it.
+    static void packSquare(Plan& plan, std::size_t begin, std::size_t end, int level) {
+        std::uint64_t cost = 0;
+        for (std::size_t n = begin; n < end; ++n) cost += plan.tiles[n].cost;
+        if (end - begin == 1 || (double(cost) <= plan.options.packSeconds * 1e6 && end - begin <= kPackTiles)) {
+            for (std::size_t n = begin; n < end; ++n) plan.tiles[n].pack = plan.packs;
+            ++plan.packs;
+            return;
         }
-        ++plan.packs;
+        const auto quarter = [&](std::size_t n) { return mortonOf(plan.tiles[n].key) >> 2 * (level - 1); };
+        while (begin < end) {
+            std::size_t last = begin + 1;
+            while (last < end && quarter(last) == quarter(begin)) ++last;
+            packSquare(plan, begin, last, level - 1);
+            begin = last;
+        }
+    }
+
+    static void pack(Plan& plan) {
+        packSquare(plan, 0, plan.tiles.size(), 32);
+        std::uint64_t all = 0;
+        for (const PlanTile& tile : plan.tiles) all += tile.cost;
         if (plan.tasks == 0)
             plan.tasks = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(all / kTaskCost + 1, 1, kMaxTasks));
         plan.tasks = std::min(plan.tasks, plan.packs);
@@ -140,28 +148,96 @@ private:
     std::vector<std::uint32_t> order_;
 };
 
+// The digest of each pack: of the program, the options, and the tiles with all that their features are read from.
+class PackDigests {
+public:
+    explicit PackDigests(const Plan& plan) : plan_(plan) {}
+
+    void add(const PlanTile& tile) {
+        if (tile.pack != pack_ || !isBegun_) begin(tile.pack);
+        std::string text;
+        put(text, static_cast<std::int32_t>(tile.key.level));
+        put(text, tile.key.x);
+        put(text, tile.key.y);
+        put(text, tile.featureCount);
+        sum_.add(text);
+    }
+    void add(const PlanFeature& feature) {
+        const PlanFile& file = plan_.files[feature.file];
+        std::string text;
+        put(text, feature.span.size);
+        put(text, feature.contentHash);
+        put(text, file.headHash);
+        put(text, static_cast<std::int32_t>(file.crs));
+        put(text, static_cast<std::int32_t>(file.axisOrder));
+        // Features of one file follow each other as one model.
+        put(text, std::uint32_t{feature.file == file_ ? 0u : 1u});
+        file_ = feature.file;
+        sum_.add(text);
+    }
+    // \return all digests, 32 bytes each
+    std::string finish(Plan& plan) {
+        end();
+        for (std::size_t at = 0; at < bytes_.size(); at += sizeof(Digest)) {
+            Digest digest;
+            std::memcpy(digest.data(), bytes_.data() + at, sizeof(Digest));
+            plan.packDigests.push_back(hexOf(digest));
+        }
+        return std::move(bytes_);
+    }
+
+private:
+    void begin(std::uint32_t pack) {
+        if (isBegun_) end();
+        isBegun_ = true;
+        pack_ = pack;
+        file_ = 0xFFFFFFFF;
+        sum_ = Sha256();
+        const CityOptions& options = plan_.options;
+        sum_.add(fmt::format("svt-city-pack 1\n{}\n{} {}\n", plan_.program, options.spacing, options.lod));
+    }
+    void end() {
+        const Digest digest = sum_.finish();
+        bytes_.append(reinterpret_cast<const char*>(digest.data()), digest.size());
+    }
+
+    const Plan& plan_;
+    Sha256 sum_;
+    std::string bytes_;
+    std::uint32_t pack_ = 0, file_ = 0;
+    bool isBegun_ = false;
+};
+
 Result<void> writePlan(const std::filesystem::path& folder, const Survey& survey, const Tiling& tiling, Plan& plan) {
     std::error_code failed;
     std::filesystem::create_directories(folder / "plan", failed);
     auto features = AtomicFile::create(folder / "plan" / "features.bin");
     if (!features) return features.error();
     Sha256 featureSum;
-    for (const std::uint32_t n : tiling.order()) {
-        const Surveyed& f = survey.features[n];
-        const PlanFeature feature{f.file, {f.begin, f.size}, f.contentHash};
-        const std::string bytes = featureBytes(feature);
-        featureSum.add(bytes);
-        if (auto written = features->write(bytes); !written) return written;
+    PackDigests packDigests(plan);
+    std::string tiles;
+    for (const PlanTile& tile : plan.tiles) {
+        tiles += tileBytes(tile);
+        packDigests.add(tile);
+        for (std::uint64_t n = tile.firstFeature; n < tile.firstFeature + tile.featureCount; ++n) {
+            const Surveyed& f = survey.features[tiling.order()[n]];
+            const PlanFeature feature{f.file, {f.begin, f.size}, f.contentHash};
+            const std::string bytes = featureBytes(feature);
+            featureSum.add(bytes);
+            packDigests.add(feature);
+            if (auto written = features->write(bytes); !written) return written;
+        }
     }
     plan.featuresDigest = hexOf(featureSum.finish());
-    std::string tiles;
-    for (const PlanTile& tile : plan.tiles) tiles += tileBytes(tile);
+    const std::string packs = packDigests.finish(plan);
     Sha256 sum;
     sum.add(planJson(plan, ""));
     sum.add(tiles);
+    sum.add(packs);
     plan.digest = hexOf(sum.finish());
     if (auto done = features->commit(); !done) return done.error();
     if (auto done = writeFileAtomically(folder / "plan" / "tiles.bin", tiles); !done) return done.error();
+    if (auto done = writeFileAtomically(folder / "plan" / "packs.bin", packs); !done) return done.error();
     // Last, so that there is no plan without its parts.
     if (auto done = writeFileAtomically(folder / "plan" / "plan.json", planJson(plan, plan.digest)); !done)
         return done.error();

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstring>
 #include <fstream>
 
 namespace svt::city {
@@ -36,7 +37,8 @@ void readJson(const Json& json, Plan& plan) {
                     options.at("packSeconds").get<double>()};
     for (const Json& file : json.at("files"))
         plan.files.push_back({file.at("path").get<std::string>(), file.at("bytes").get<std::uint64_t>(),
-                              file.at("crs").get<int>(), file.at("axisOrder").get<int>()});
+                              file.at("crs").get<int>(), file.at("axisOrder").get<int>(),
+                              file.at("head").get<std::uint64_t>()});
     plan.features = json.at("features").get<std::uint64_t>();
     plan.replicas = json.at("replicas").get<std::uint64_t>();
     plan.skipped = json.at("skipped").get<std::uint64_t>();
@@ -151,8 +153,11 @@ std::string planJson(const Plan& plan, const std::string& digest) {
     json["tasks"] = plan.tasks;
     json["files"] = Json::array();
     for (const PlanFile& file : plan.files)
-        json["files"].push_back(
-            {{"path", file.path}, {"bytes", file.size}, {"crs", file.crs}, {"axisOrder", file.axisOrder}});
+        json["files"].push_back({{"path", file.path},
+                                 {"bytes", file.size},
+                                 {"crs", file.crs},
+                                 {"axisOrder", file.axisOrder},
+                                 {"head", file.headHash}});
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -187,11 +192,21 @@ Result<Plan> readPlan(const std::filesystem::path& folder, const std::string& pr
     } catch (const Json::exception&) {
         return badPlan(path, "the plan is damaged");
     }
+    const auto packs = MappedFile::open(planFile(folder, "packs.bin"));
+    if (!packs) return badPlan(folder, "the plan lacks packs.bin");
+    if (packs->text().size() != plan.packs * sizeof(Digest))
+        return badPlan(planFile(folder, "packs.bin"), "the digests of packs are damaged");
+    for (std::size_t at = 0; at < packs->text().size(); at += sizeof(Digest)) {
+        Digest digest;
+        std::memcpy(digest.data(), packs->text().data() + at, sizeof(Digest));
+        plan.packDigests.push_back(hexOf(digest));
+    }
     if (!takeTiles(tiles->text(), plan)) return badPlan(planFile(folder, "tiles.bin"), "the tiles are damaged");
     // The features are not read here: each has the hash of its text.
     Sha256 sum;
     sum.add(planJson(plan, ""));
     sum.add(tiles->text());
+    sum.add(packs->text());
     if (hexOf(sum.finish()) != plan.digest) return badPlan(path, "plan and tiles do not fit the digest of the plan");
     if (!program.empty() && plan.program != program)
         return Error(Code::PlanVersion,

@@ -39,7 +39,8 @@ public:
         if (!file) return file.error();
         std::error_code failed;
         entry_ = {std::filesystem::absolute(path_, failed).lexically_normal().string(),
-                  std::filesystem::file_size(path_, failed), 0, 0};
+                  std::filesystem::file_size(path_, failed), 0, 0, 0};
+        entry_.headHash = contentHash(file->head());
         number_ = static_cast<std::uint32_t>(survey_.files.size());
         Batch batch;
         while (true) {

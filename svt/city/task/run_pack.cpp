@@ -178,9 +178,9 @@ private:
         Watch watch;
         const auto features = PackFeatures::read(folder_, plan_, pack_);
         if (!features) return features.error();
-        auto writer = PackWriter::create(packPath(folder_, pack_), pack_, plan_.digest);
+        auto writer = PackWriter::create(packPath(folder_, pack_), plan_.packDigests[pack_]);
         if (!writer) return writer.error();
-        PackReport report{pack_, plan_.digest, {}, 0, 0, 0, {}};
+        PackReport report{pack_, plan_.packDigests[pack_], {}, 0, 0, 0, {}};
         const auto [first, last] = plan_.tilesOf(pack_);
         for (std::size_t tile = first; tile < last; ++tile) {
             say(fmt::format("@tile {}\n", tile));

@@ -312,6 +312,10 @@ private:
 
 }  // namespace
 
+std::string FeatureFile::head() const {
+    return state_->format == FeatureFormat::CityGml ? state_->gml.document({}) : state_->head;
+}
+
 Result<model::BuildingModel> FeatureFile::read(std::span<const std::string_view> features, const ReadOptions& options,
                                                Diagnostics* diagnostics, std::vector<std::uint32_t>* featureOf,
                                                std::span<const std::uint64_t> lines) const {
