@@ -38,9 +38,9 @@ drained() { # until no job is left, at most $1 seconds
   squeue >&2
   fail "jobs do not end"
 }
-same() { # the city $1 has the bytes of the local one
+same() { # the city $1 has the bytes of the local one, $3
   local name
-  for name in city.json index.bin ids.bin packs.bin packs; do diff -rq "local/$name" "$1/$name" >&2 || fail "$1/$name differs: $2"; done
+  for name in city.json index.bin ids.bin packs.bin packs; do diff -rq "${3:-local}/$name" "$1/$name" >&2 || fail "$1/$name differs: $2"; done
   echo "slurm: $2"
 }
 plan local
@@ -61,22 +61,24 @@ plan refused
 grep -q "E609.*nowhere\|E609.*nvalid partition" said || fail "Slurm's reason is not told: $(cat said)"
 
 plan killed
-job=$(submit killed --hold)
-release
-victim=
+submit killed >/dev/null
+killed=0
 for _ in $(seq 400); do
+  # The task and the process in which it builds a pack; one that came to its end before is none.
   victim=$(pgrep -f "^$svt city task $work/killed " | head -n 1) || true
-  [ -z "$victim" ] || break
+  if [ -n "$victim" ]; then
+    kill -KILL "$victim" $(pgrep -P "$victim" || true) 2>/dev/null && killed=$((killed + 1)) || true
+  fi
+  [ $killed -lt 2 ] || break
   sleep 0.02
 done
-# The task and the process in which it builds a pack.
-kill -KILL "$victim" $(pgrep -P "$victim" || true) 2>/dev/null || fail "no task was seen"
+[ $killed -gt 0 ] || fail "no task was seen"
 drained 90
 "$svt" city status killed >said
 grep -q "^missing: " said || fail "nothing is missing after kill -9"
 grep -l "E605" killed/logs/merge_* >/dev/null || fail "the merge does not name what is missing"
 eval "$(grep '^svt city run' said | sed "s|^svt|$svt|")" >said
-grep -q "^1 of 21" said || fail "one element is enough for what was killed: $(cat said)"
+grep -q "^[1-4] of 21" said || fail "few elements are enough for what was killed: $(cat said)"
 drained 60
 same killed "a task killed with -9 is missing, named, and alone run again by the line of 'svt city status'"
 
@@ -149,14 +151,18 @@ same merged "a merge killed midway is run again"
 same late "also one that Slurm ran"
 
 if [ "${2:-}" = long ]; then
-  plan lost
+  # Tasks of some seconds, so that one is at work when its node goes.
+  for town in lost-local lost; do "$svt" city plan files -o $town --pack-seconds 4 --tasks 1000 --spacing 0.2 -q; done
+  "$svt" city run lost-local -q
   submit lost >/dev/null
-  for _ in $(seq 200); do squeue -h -n svt-city -t R -o %N | grep -q n2 && break; sleep 0.02; done
+  for _ in $(seq 200); do squeue -h -n svt-city -t R -o %N | grep -q n2 && break; sleep 0.05; done
+  sleep 0.5
   "$nodes" kill "$work/slurm" n2
   start=$SECONDS
   drained 400
   sinfo -h -n n2 -o %T | grep -qi down || fail "the lost node is not down"
-  same lost "a lost node's task is requeued and runs on the other node ($((SECONDS - start)) s)"
+  grep -qi "requeue.*n2" "$work/slurm/ctld.log" || fail "nothing was requeued"
+  same lost "a lost node's task is requeued and runs on the other node ($((SECONDS - start)) s)" lost-local
 fi
 pgrep -f "$work/" >/dev/null && sleep 2 || true
 echo "slurm: done"

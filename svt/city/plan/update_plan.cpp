@@ -153,6 +153,12 @@ Result<Plan> updatePlan(std::span<const fs::path> files, const fs::path& folder,
     const auto contentNow = contentOf(aside, *now);
     if (!contentNow) return contentNow.error();
     compare(*contentBefore, *contentNow, changes);
+    if (before->digest == now->digest) {  // the same files and options
+        fs::remove_all(aside, failed);
+        for (std::uint32_t pack = 0; pack < now->packs; ++pack)
+            changes.keptPacks += provenReport(folder, *now, pack, false) ? 1 : 0;
+        return now;
+    }
     // Until all is merged again there is no city.
     fs::remove(folder / "city.json", failed);
     if (auto moved = putAside(folder, *before, *now); !moved) return moved.error();
