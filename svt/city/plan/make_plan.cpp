@@ -279,6 +279,11 @@ Result<Plan> makePlan(std::span<const std::filesystem::path> files, const std::f
     survey.crs = options.city.crs;
     for (const std::filesystem::path& file : files)
         if (auto surveyed = surveyFile(file, options, survey, diagnostics); !surveyed) return surveyed.error();
+    return planSurveyed(survey, folder, options, diagnostics);
+}
+
+Result<Plan> planSurveyed(const Survey& survey, const std::filesystem::path& folder, const PlanOptions& options,
+                          Diagnostics& diagnostics) {
     if (survey.features.empty()) return Error(Code::EmptyModel, "no file has a feature with geometry");
     if (survey.features.size() > 0xFFFFFFF0u)
         return Error(Code::InputTooBig, "a city has at most 4,294,967,280 features; plan it in parts");
@@ -299,7 +304,7 @@ Result<Plan> makePlan(std::span<const std::filesystem::path> files, const std::f
                 Severity::Note, Code::Replica,
                 fmt::format("{} features stand in a file before with the same id and text; they are left out",
                             replicas[f]),
-                {files[f].string(), 0, 0, {}});
+                {survey.files[f].path, 0, 0, {}});
     }
     plan.features = tiling.order().size();
     tiling.cut(plan);

@@ -30,4 +30,8 @@ struct Survey {
 Result<void> surveyFile(const std::filesystem::path& path, const PlanOptions& options, Survey& survey,
                         Diagnostics& diagnostics);
 
+/// The plan of what was surveyed, written into `folder`/plan. Memory: 4 bytes a feature beside the survey.
+[[nodiscard]] Result<Plan> planSurveyed(const Survey& survey, const std::filesystem::path& folder,
+                                        const PlanOptions& options, Diagnostics& diagnostics);
+
 }  // namespace svt::city
