@@ -152,11 +152,11 @@ same late "also one that Slurm ran"
 
 if [ "${2:-}" = long ]; then
   # Tasks of some seconds, so that one is at work when its node goes.
-  for town in lost-local lost; do "$svt" city plan files -o $town --pack-seconds 4 --tasks 1000 --spacing 0.2 -q; done
+  for town in lost-local lost; do "$svt" city plan files -o $town --pack-seconds 4 --tasks 2 --spacing 0.1 -q; done
   "$svt" city run lost-local -q
   submit lost >/dev/null
   for _ in $(seq 200); do squeue -h -n svt-city -t R -o %N | grep -q n2 && break; sleep 0.05; done
-  sleep 0.5
+  sleep 1
   "$nodes" kill "$work/slurm" n2
   start=$SECONDS
   drained 400

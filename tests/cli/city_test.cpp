@@ -102,6 +102,58 @@ TEST_F(CityFolder, SaysWhatIsMissingAndGoesOn) {
     runWell({"city", "extract", "city", "-o", "x.svt", "--id", "BLDG_0000000100000005"});
 }
 
+// A district more, a building changed, a district less: the bytes of a new plan of everything, and few packs built.
+TEST_F(CityFolder, IsUpdated) {
+    runWell({"sample", "city", "--buildings", "600", "--files", "6", "-o", "all", "-q"});
+    const auto file = [](int n) { return "all/0000" + std::to_string(n) + ".gml"; };
+    const auto planOf = [&](const std::string& city, int files, bool isUpdate) {
+        std::vector<std::string> arguments{"city", "plan", "-o", city, "--spacing", "1", "--pack-seconds", "0.05"};
+        if (isUpdate) arguments.emplace_back("--update");
+        for (int n = 0; n < files; ++n) arguments.push_back(file(n));
+        const CommandResult result = run(arguments);
+        EXPECT_EQ(result.exitCode, 0) << result.toString();
+        return result.out;
+    };
+    const auto expectSame = [&](int files) {
+        std::filesystem::remove_all(folder / "new");
+        planOf("new", files, false);
+        runWell({"city", "run", "new", "-q"});
+        for (const char* name : {"plan/plan.json", "city.json", "index.bin", "ids.bin", "packs.bin"})
+            EXPECT_EQ(readText(folder / "city" / name), readText(folder / "new" / name)) << name;
+        std::size_t packs = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(folder / "city/packs")) {
+            EXPECT_EQ(readText(entry.path()), readText(folder / "new/packs" / entry.path().filename()));
+            ++packs;
+        }
+        EXPECT_GT(packs, 3u);
+    };
+    EXPECT_EQ(run({"city", "plan", file(0), "-o", "city", "--update"}).exitCode, 3);
+    planOf("city", 4, false);
+    runWell({"city", "run", "city", "-q"});
+    EXPECT_NE(planOf("city", 4, true).find("0 features are new or changed, 0 gone"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(folder / "city/city.json"));
+    planOf("city", 6, true);
+    EXPECT_FALSE(std::filesystem::exists(folder / "city/city.json"));
+    const nlohmann::json status = runSvtForJson(folder.path(), {"city", "status", "city", "--json"});
+    EXPECT_FALSE(status.at("missing").empty());
+    EXPECT_LT(status.at("missing").size(), status.at("packs").get<std::size_t>());
+    runWell({"city", "run", "city", "-q"});
+    expectSame(6);
+    std::string text = readText(folder / file(2));
+    const std::size_t at = text.find("<bldg:measuredHeight");
+    ASSERT_NE(at, std::string::npos);
+    text.insert(text.find('>', at) + 1, "1");
+    writeText(folder / file(2), text);
+    EXPECT_NE(planOf("city", 6, true).find("1 features are new or changed, 1 gone; 0 tiles are new, 1 changed, 0 gone"),
+              std::string::npos);
+    EXPECT_EQ(runSvtForJson(folder.path(), {"city", "status", "city", "--json"}).at("missing").size(), 1u);
+    runWell({"city", "run", "city", "-q"});
+    expectSame(6);
+    planOf("city", 3, true);
+    runWell({"city", "run", "city", "-q"});
+    expectSame(3);
+}
+
 TEST_F(CityFolder, RefusesWhatMakesNoSense) {
     plan();
     runWell({"city", "run", "city"});
@@ -115,6 +167,10 @@ TEST_F(CityFolder, RefusesWhatMakesNoSense) {
     expect({"city", "extract", "city", "-o", "x.svt", "--tile", "9/1/1"}, 2, "E902");
     expect({"city", "extract", "city", "-o", "x.svt", "--id", "nobody"}, 2, "E902");
     expect({"city", "extract", "city", "-o", "x.svt", "--box=3,0,0,2,1,1"}, 2, "--box");
+    expect({"city", "extract", "city", "-o", "x.svt", "--detail", "9", "--box=0,0,0,1,1,1"}, 2, "E904");
+    expect({"city", "extract", "city", "-o", "x.svt", "--detail", "2", "--id", "x"}, 2, "E904");
+    expect({"city", "run", "city", "--print"}, 2, "E904");
+    expect({"city", "run", "city", "--engine", "kubernetes"}, 2, "--print");
     expect({"city", "task", "city", "7"}, 2, "E904");
     expect({"city", "plan", "files", "-o", "files", "--spacing", "1"}, 5, "E408");
     expect({"city", "plan", "nowhere", "-o", "other"}, 3, "E101");
