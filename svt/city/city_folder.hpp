@@ -9,13 +9,15 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace svt::city {
 
-/// Where a tile stands at one level of detail. Of details 2 and up the tile is a square of 1024 * 2^level samples
-/// (tileSide()), and the coarsest detail is one tile that may reach over its square.
+class Store;
+
+/// Where a tile stands at one level of detail.
 struct IndexEntry {
     TileKey tile;
     int detail = 0;
@@ -47,8 +49,12 @@ struct CityStatus {
 class City {
 public:
     /// Reads city.json and the root of the index.
-    /// \return the city, or BadCity where one of them is missing or damaged; PlanVersion
+    /// \param folder  or the address of one (http://, https://), which is read by requests for ranges
+    /// \return the city, or BadCity where one of them is missing or damaged; PlanVersion; CannotOpen where a server does
+    ///         not answer, or not with the ranges that are asked for
     [[nodiscard]] static Result<City> open(const std::filesystem::path& folder);
+    /// The same of files that are open. \param folder  for messages
+    [[nodiscard]] static Result<City> open(std::shared_ptr<const Store> store, const std::filesystem::path& folder);
 
     [[nodiscard]] double spacing() const noexcept { return spacing_; }
     [[nodiscard]] const std::string& crsName() const noexcept { return crsName_; }
@@ -82,8 +88,11 @@ public:
     };
     [[nodiscard]] Result<std::vector<Place>> find(const std::string& id) const;
 
-    /// The volume of an entry. \return the volume, or BadPack, BadCity
+    /// The volume of an entry. Reads its bytes alone. May be called from several threads.
+    /// \return the volume, or BadPack where it is damaged or that of another tile; CannotOpen, BadCity of servers
     [[nodiscard]] Result<volume::SemanticVolume> read(const IndexEntry& entry) const;
+    /// The bytes of an entry: a `.svt` file. \return the bytes, or BadPack, CannotOpen, BadCity
+    [[nodiscard]] Result<std::string> readBytes(const IndexEntry& entry) const;
 
 private:
     struct Page;
@@ -92,6 +101,7 @@ private:
     Result<void> readEntries(const Page& page, std::vector<IndexEntry>& to) const;
 
     std::filesystem::path folder_;
+    std::shared_ptr<const Store> store_;
     double spacing_ = 0;
     std::string crsName_, plan_;
     std::uint64_t buildings_ = 0, tiles_ = 0, packBytes_ = 0, missing_ = 0, skipped_ = 0, indexBytes_ = 0;

@@ -39,10 +39,11 @@ struct DetailPlace {
 /// Cost: that of labelBoxes() of both.
 [[nodiscard]] DetailPlace placeOfDetail(const volume::SemanticVolume& volume, const volume::SemanticVolume& detail);
 
-/// Divides each pass of the volume into its gaps, and adds the details as parts of it. Shells are drawn without details.
+/// Divides each pass of the volume into its gaps, and adds the details as parts of it. Shells are drawn without details,
+/// unless they have shells of their own.
 /// \param forms  of the scene; detail d in form f is volume (d + 1) * forms.size() + f
 /// \return BadFrame where there are too many passes or clips, BadArgument where a pass has lines or meshes
 [[nodiscard]] Result<void> addDetailPasses(std::span<const DetailPlace> details, std::span<const VolumeForm> forms,
-                                           render::FrameSpec& spec);
+                                           render::FrameSpec& spec, bool haveShells = false);
 
 }  // namespace svt::illustrate

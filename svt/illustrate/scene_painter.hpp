@@ -52,6 +52,11 @@ public:
     /// \param detail  of joinLabels(); must outlive the painter
     void addDetail(const volume::SemanticVolume& detail);
 
+    /// From now on `part` is drawn with the volume: a part of one model that is divided among several volumes, none of whose
+    /// objects has voxels in another one. So parts take no place of others, and have shells of their own.
+    /// \param part  of joinLabels(); must outlive the painter
+    void addPart(const volume::SemanticVolume& part);
+
     /// Draws `scene`, with its name tags.
     /// \return picture and frame, or an error of makeFrameSpec(), extractShell() or castRays()
     /// Cost: that of castRays(), and once that of each form.
@@ -103,6 +108,7 @@ private:
     struct Detail {
         const volume::SemanticVolume* volume;
         DetailPlace place;
+        bool isPart = false;
     };
     std::vector<Detail> details_;
 };

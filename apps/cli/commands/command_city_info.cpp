@@ -1,6 +1,6 @@
+#include <apps/cli/city/city_input.hpp>
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
-#include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
 
 #include <svt/city/city_folder.hpp>
@@ -18,38 +18,6 @@ struct CityInfoArguments {
     std::vector<std::string> tiles, ids, box;
     int detail = 0;
 };
-
-int runCityInfo(const CityInfoArguments& arguments) {
-    const auto city = city::City::open(arguments.folder);
-    if (!city) return fail(city.error());
-    const Box3d& box = city->box();
-    if (arguments.json) {
-        print({{"buildings", city->buildings()},
-               {"tiles", city->tiles()},
-               {"packs", city->packs()},
-               {"missingPacks", city->missingPacks()},
-               {"skippedFeatures", city->skippedFeatures()},
-               {"bytes", city->packBytes()},
-               {"spacing", city->spacing()},
-               {"topDetail", city->topDetail()},
-               {"crs", city->crsName()},
-               {"box", {toJson(box.min), toJson(box.max)}},
-               {"plan", city->planDigest()}});
-        return kDone;
-    }
-    fmt::print("{} buildings in {} tiles and {} packs, {:.1f} MB ({:.0f} bytes a building); {} features left out\n",
-               city->buildings(), city->tiles(), city->packs(), double(city->packBytes()) / 1e6,
-               double(city->packBytes()) / double(std::max<std::uint64_t>(1, city->buildings())),
-               city->skippedFeatures());
-    fmt::print("spacing {:g} m, and {:g} m with one label a building; by class {:g} to {:g} m (detail 2 to {}); {}\n",
-               city->spacing(), 2 * city->spacing(), 4 * city->spacing(),
-               city::spacingOf(city->topDetail(), city->spacing()).x, city->topDetail(),
-               city->crsName().empty() ? "no CRS" : city->crsName());
-    fmt::print("from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f})\n", box.min.x, box.min.y, box.min.z,
-               box.max.x, box.max.y, box.max.z);
-    if (city->missingPacks() != 0) fmt::print("{} packs are missing\n", city->missingPacks());
-    return kDone;
-}
 
 int runCityExtract(const CityInfoArguments& arguments) {
     city::Extract extract;
@@ -90,7 +58,7 @@ Action connectCityInfo(Command& command) {
     auto arguments = std::make_shared<CityInfoArguments>();
     command.set("folder", arguments->folder);
     command.set("--json", arguments->json);
-    return [arguments] { return runCityInfo(*arguments); };
+    return [arguments] { return printCity(arguments->folder, arguments->json); };
 }
 
 Action connectCityExtract(Command& command) {

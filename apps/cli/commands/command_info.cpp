@@ -1,3 +1,4 @@
+#include <apps/cli/city/city_input.hpp>
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/json_output.hpp>
@@ -55,6 +56,10 @@ void printFigures(const volume::SemanticVolume& volume) {
 }
 
 int runInfo(const InfoArguments& arguments) {
+    if (isCity(arguments.input)) {
+        if (!arguments.tree) return printCity(arguments.input, arguments.json);
+        return fail(Error(Code::BadArgument, "--tree: a city has too many features to be listed; svt query lists them"));
+    }
     Diagnostics diagnostics;
     Result<volume::SemanticVolume> loaded = [&] {
         const TerminalProgress progress;

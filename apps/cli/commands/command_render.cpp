@@ -1,3 +1,4 @@
+#include <apps/cli/city/city_input.hpp>
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/scene_options.hpp>
@@ -273,12 +274,72 @@ int runLineDrawing(const RenderArguments& arguments, const Series& series) {
     return kDone;
 }
 
+// What needs all of a model at once.
+Result<void> checkForCity(const RenderArguments& arguments) {
+    const auto& scene = arguments.scene;
+    const std::pair<bool, const char*> needs[] = {{isLineDrawing(arguments.output), "-o .svg or .pdf"},
+                                                  {!arguments.with.empty(), "--with"},
+                                                  {!arguments.owners.empty(), "--owners"},
+                                                  {arguments.gl, "--gl"},
+                                                  {scene.explode.has_value(), "--explode"},
+                                                  {!scene.insets.empty(), "--inset"},
+                                                  {!scene.cutaway.empty(), "--cutaway"},
+                                                  {scene.wireframe.has_value(), "--wireframe"},
+                                                  {!scene.meshes.empty(), "--vectors"}};
+    for (const auto& [isGiven, option] : needs)
+        if (isGiven)
+            return Error(Code::BadArgument,
+                         fmt::format("{} is for one volume; take a part of the city (svt city extract)", option));
+    return {};
+}
+
+// Pictures of a city: for each of them, its tiles are chosen and read.
+int runCityRender(const RenderArguments& arguments, Series& series) {
+    if (auto checked = checkForCity(arguments); !checked) return fail(checked.error());
+    TerminalProgress progress;
+    auto picture = CityPicture::open(arguments.input, arguments.build, progress.get());
+    if (!picture) return fail(picture.error());
+    render::CastOptions options;
+    options.threads = arguments.build.threads;
+    options.progress = progress.get();
+    options.isAdaptive = true;
+    for (int frame = 0; frame < series.count; ++frame) {
+        progress.beginPart(frame, series.count);
+        const auto still = arguments.scene.toScene(frame, series.count);
+        if (!still) return fail(still.error());
+        const auto scene = illustrate::sceneAt(*still, frame * series.seconds, picture->frame());
+        if (!scene) return fail(scene.error());
+        const auto painting = picture->paint(*scene, options);
+        if (!painting) return fail(painting.error());
+        if (frame == 0) {
+            noteNames(painting->names);
+            noteSun(*scene, picture->frame());
+            for (const std::string& message : picture->nothing()) note(message);
+            if (const city::ChosenTiles& chosen = picture->chosen(); chosen.pixels > 1)
+                note(fmt::format("memory: voxels are up to {:.1f} pixels wide; more --memory makes them finer",
+                                 chosen.pixels));
+        }
+        if (isEmpty(painting->frame)) note("nothing is visible");
+        const auto written =
+            series.film ? series.film->add(painting->frame.color) : writeBuffers(painting->frame, arguments, frame);
+        if (!written) return fail(written.error());
+    }
+    if (series.film)
+        if (auto written = series.film->finish(progress.get()); !written) return fail(written.error());
+    if (arguments.sceneOutput.empty()) return kDone;
+    const auto first = arguments.scene.toScene(0, series.count);
+    if (!first) return fail(first.error());
+    const auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(*first));
+    return written ? static_cast<int>(kDone) : fail(written.error());
+}
+
 int runRender(const RenderArguments& arguments) {
     // Validate the request before any long work.
     const auto first = arguments.scene.toScene(0, isFilm(arguments.output) ? 2 : arguments.frames);
     if (!first) return fail(first.error());
     auto series = seriesOf(arguments, *first);
     if (!series) return fail(series.error());
+    if (isCity(arguments.input)) return runCityRender(arguments, *series);
     if (isLineDrawing(arguments.output)) return runLineDrawing(arguments, *series);
     Diagnostics diagnostics;
     TerminalProgress progress;

@@ -5,7 +5,9 @@
 #include <svt/city/city_levels.hpp>
 #include <svt/city/join/join_volumes.hpp>
 #include <svt/city/merge/index_file.hpp>
+#include <svt/city/store/store.hpp>
 #include <svt/core/file.hpp>
+#include <svt/volume/svt_file.hpp>
 #include <svt/volume/volume_part.hpp>
 
 #include <fmt/format.h>
@@ -13,45 +15,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
 
 namespace svt::city {
 namespace {
 
-// Bytes [offset, offset + size) of a file; shorter where it ends.
-std::string bytesAt(const std::filesystem::path& path, std::uint64_t offset, std::size_t size) {
-    std::ifstream file(path, std::ios::binary);
-    std::string bytes(size, '\0');
-    file.seekg(static_cast<std::streamoff>(offset));
-    file.read(bytes.data(), static_cast<std::streamsize>(size));
-    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
-    return bytes;
-}
-
-// Bytes of a file; 0 where it is missing.
-std::uint64_t sizeOf(const std::filesystem::path& path) {
-    std::error_code failed;
-    const auto size = std::filesystem::file_size(path, failed);
-    return failed ? 0 : size;
-}
-
-// The tile that city.json names. \return whether it is one
-bool readTop(const nlohmann::json& json, IndexEntry& top) {
-    const auto& row = json.at("top");
-    top.detail = row.at("detail").get<int>();
-    top.pack = row.at("pack").get<std::uint32_t>();
-    top.offset = row.at("offset").get<std::uint64_t>();
-    top.size = row.at("bytes").get<std::uint64_t>();
-    const auto tile = TileKey::fromString(row.at("tile").get<std::string>(), kMaxLevel);
-    if (!tile || top.detail < kFirstClassDetail || top.detail > kMaxLevel + kFirstClassDetail) return false;
-    top.tile = *tile;
-    return true;
-}
-
 bool meets(const std::array<double, 4>& a, double west, double south, double east, double north) {
     return a[0] <= east && west <= a[2] && a[1] <= north && south <= a[3];
+}
+
+std::string packName(std::uint32_t pack) { return packPath({}, pack).generic_string(); }
+
+Error badMember(const std::string& place, const IndexEntry& entry, std::string_view what) {
+    return {Code::BadPack,
+            fmt::format("tile {}, detail {}, is damaged ({}); remove the file, run its task again and merge",
+                        entry.tile.toString(), entry.detail, what),
+            {place, 0, 0, {}}};
+}
+
+// Whether the samples of a grid can be those of an entry: they meet its square and have its heights.
+bool isOf(const volume::Grid& grid, const IndexEntry& entry) {
+    const double side = std::ldexp(1.0, entry.tile.level);
+    const Vec3d low = grid.origin(), high = low + scaled(toDouble(grid.dimension()), grid.spacing());
+    return low.x <= (entry.tile.x + 1) * side && high.x >= entry.tile.x * side && low.y <= (entry.tile.y + 1) * side &&
+           high.y >= entry.tile.y * side && std::abs(low.z - entry.lowest) <= 2 + grid.spacing().z &&
+           std::abs(high.z - entry.highest) <= 2 + 2 * grid.spacing().z;
 }
 
 }  // namespace
@@ -64,12 +53,16 @@ Error City::damaged(const char* file, std::string_view what) const {
             {(folder_ / file).string(), 0, 0, {}}};
 }
 
-Result<City> City::open(const std::filesystem::path& folder) {
+Result<City> City::open(const std::filesystem::path& folder) { return open(openStore(folder.string()), folder); }
+
+Result<City> City::open(std::shared_ptr<const Store> store, const std::filesystem::path& folder) {
     City city(folder);
-    const auto file = MappedFile::open(folder / "city.json", 1 << 20);
-    if (!file) return city.damaged("city.json", "the folder has no merged city");
+    city.store_ = std::move(store);
+    const auto text = city.store_->read("city.json", 0, 1 << 20);
+    if (!text) return text.error();
+    if (text->empty()) return city.damaged("city.json", "the folder has no merged city");
     try {
-        const auto json = nlohmann::json::parse(file->text());
+        const auto json = nlohmann::json::parse(*text);
         if (json.at("format") != "svt-city") return city.damaged("city.json", "this is no city");
         if (json.at("version").get<int>() != 1)
             return Error(Code::PlanVersion, "the city has a version that this program does not know",
@@ -92,7 +85,9 @@ Result<City> City::open(const std::filesystem::path& folder) {
     } catch (const nlohmann::json::exception&) {
         return city.damaged("city.json", "the file is damaged");
     }
-    const std::string head = bytesAt(folder / "index.bin", 0, kIndexHead + kIndexPage);
+    const auto read = city.store_->read("index.bin", 0, kIndexHead + kIndexPage);
+    if (!read) return read.error();
+    const std::string& head = *read;
     Taker from(head);
     const std::string_view magic = from.text(8);
     const auto version = from.take<std::uint32_t>();
@@ -107,8 +102,9 @@ Result<City> City::open(const std::filesystem::path& folder) {
 }
 
 Result<void> City::readEntries(const Page& page, std::vector<IndexEntry>& to) const {
-    const std::string bytes = bytesAt(folder_ / "index.bin", kIndexHead + root_.size() + page.offset, page.size);
-    const auto entries = idHash(bytes) == page.checksum ? takeEntries(bytes) : std::nullopt;
+    const auto bytes = store_->read("index.bin", kIndexHead + root_.size() + page.offset, page.size);
+    if (!bytes) return bytes.error();
+    const auto entries = idHash(*bytes) == page.checksum ? takeEntries(*bytes) : std::nullopt;
     if (!entries) return damaged("index.bin", fmt::format("the page at byte {} is damaged", page.offset));
     to.insert(to.end(), entries->begin(), entries->end());
     return {};
@@ -129,8 +125,9 @@ Result<std::vector<IndexEntry>> City::find(int detail, const std::array<double, 
             if (auto read = readEntries({ref}, found); !read) return read.error();
             continue;
         }
-        const std::string bytes = bytesAt(folder_ / "index.bin", kIndexHead + root_.size() + ref.offset, ref.size);
-        const auto below = idHash(bytes) == ref.checksum ? takeRefs(bytes) : std::nullopt;
+        const auto bytes = store_->read("index.bin", kIndexHead + root_.size() + ref.offset, ref.size);
+        if (!bytes) return bytes.error();
+        const auto below = idHash(*bytes) == ref.checksum ? takeRefs(*bytes) : std::nullopt;
         // A page stands before those that refer to it, so this ends.
         const bool isBefore =
             below && std::all_of(below->begin(), below->end(), [&](const PageRef& b) { return b.offset < ref.offset; });
@@ -147,9 +144,11 @@ Result<std::vector<IndexEntry>> City::find(int detail, const std::array<double, 
 }
 
 Result<std::vector<City::Place>> City::find(const std::string& id) const {
-    const std::filesystem::path path = folder_ / "ids.bin";
-    const std::string head = bytesAt(path, 0, kIdHead);
-    Taker from(head);
+    const std::string path = "ids.bin";
+    const auto head = store_->read(path, 0, kIdHead);
+    const auto fileSize = store_->size(path);
+    if (!head || !fileSize) return head ? fileSize.error() : head.error();
+    Taker from(*head);
     const std::string_view magic = from.text(8);
     const auto version = from.take<std::uint32_t>();
     const auto ofPage = from.take<std::uint32_t>();
@@ -157,9 +156,11 @@ Result<std::vector<City::Place>> City::find(const std::string& id) const {
                sum = from.take<std::uint64_t>();
     const std::uint64_t pages = (count + kIdsOfPage - 1) / kIdsOfPage;
     if (magic != std::string_view("svtids\0\0", 8) || version != 1 || ofPage != kIdsOfPage || !from.isGood() ||
-        fenceSize != pages * 8 || count > buildings_ + 1 || fenceSize > sizeOf(path))
+        fenceSize != pages * 8 || count > buildings_ + 1 || fenceSize > *fileSize)
         return damaged("ids.bin", "the index of ids is missing or damaged");
-    const std::string fence = bytesAt(path, kIdHead, fenceSize);
+    const auto read = store_->read(path, kIdHead, fenceSize);
+    if (!read) return read.error();
+    const std::string& fence = *read;
     if (fence.size() != fenceSize || idHash(fence) != sum) return damaged("ids.bin", "the fence of the ids is damaged");
     std::vector<std::uint64_t> first;
     for (Taker fences(fence); fences.left() > 0;) first.push_back(fences.take<std::uint64_t>());
@@ -169,30 +170,43 @@ Result<std::vector<City::Place>> City::find(const std::string& id) const {
     page -= page > 0 ? 1 : 0;
     std::vector<Place> found;
     for (; page < pages && first[page] <= hash; ++page) {
-        const std::string bytes = bytesAt(path, kIdHead + fenceSize + page * kIdPage, kIdPage);
+        const auto own = store_->read(path, kIdHead + fenceSize + page * kIdPage, kIdPage);
+        if (!own) return own.error();
+        const std::string& bytes = *own;
         Taker tail(std::string_view(bytes).substr(std::min(bytes.size(), kIdPage - 8)));
         if (bytes.size() != kIdPage || tail.take<std::uint64_t>() != idHash(bytes.substr(0, kIdPage - 8)))
             return damaged("ids.bin", fmt::format("page {} of the ids is damaged", page));
         Taker entries(bytes);
         for (std::uint64_t n = 0; n < std::min<std::uint64_t>(kIdsOfPage, count - page * kIdsOfPage); ++n) {
-            const auto own = entries.take<std::uint64_t>();
+            const auto ownHash = entries.take<std::uint64_t>();
             Place place;
             place.tile.x = entries.take<std::int32_t>();
             place.tile.y = entries.take<std::int32_t>();
             place.label = entries.take<std::uint32_t>();
             place.tile.level = static_cast<int>(entries.take<std::uint32_t>());
-            if (own == hash) found.push_back(place);
+            if (ownHash == hash) found.push_back(place);
         }
     }
     return found;
 }
 
+Result<std::string> City::readBytes(const IndexEntry& entry) const {
+    const std::string name = packName(entry.pack);
+    auto bytes = store_->read(name, entry.offset, entry.size);
+    if (bytes && bytes->size() != entry.size)
+        return badMember(store_->place(name), entry, "the pack is missing or ends before it");
+    return bytes;
+}
+
 Result<volume::SemanticVolume> City::read(const IndexEntry& entry) const {
-    const auto pack = Pack::open(packPath(folder_, entry.pack), {});
-    if (!pack) return pack.error();
-    for (const PackMember& member : pack->members())
-        if (member.offset == entry.offset && member.size == entry.size) return pack->read(member);
-    return damaged("index.bin", fmt::format("tile {} does not stand where the index says", entry.tile.toString()));
+    const auto bytes = readBytes(entry);
+    if (!bytes) return bytes.error();
+    const std::string place = store_->place(packName(entry.pack));
+    auto volume = volume::readSvt(std::as_bytes(std::span(*bytes)), place);
+    if (!volume) return badMember(place, entry, volume.error().message());
+    // A pack of another plan has other tiles there.
+    if (!isOf(volume->grid, entry)) return badMember(place, entry, "another tile stands there");
+    return volume;
 }
 
 namespace {

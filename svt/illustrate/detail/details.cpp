@@ -146,13 +146,13 @@ DetailPlace placeOfDetail(const volume::SemanticVolume& volume, const volume::Se
 }
 
 Result<void> addDetailPasses(std::span<const DetailPlace> details, std::span<const VolumeForm> forms,
-                             render::FrameSpec& spec) {
+                             render::FrameSpec& spec, bool haveShells) {
     std::vector<render::ConvexPart> boxes;
     for (const DetailPlace& detail : details)
         if (detail.box) boxes.push_back(*detail.box);
     std::vector<render::Pass> passes;
     for (const render::Pass& pass : spec.passes) {
-        if (forms[pass.volume].shell) {
+        if (forms[pass.volume].shell && !haveShells) {
             passes.push_back(pass);
             continue;
         }

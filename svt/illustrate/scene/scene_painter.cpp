@@ -73,7 +73,7 @@ Result<ScenePainter::Forms*> ScenePainter::findForms(std::size_t number, std::op
     if (shell) {
         ShellOptions options;
         options.threads = threads_;
-        auto hulls = extractShell(volume_, *shell, options);
+        auto hulls = extractShell(*forms->volume, *shell, options);
         if (!hulls) return hulls.error();
         forms->volume = &forms->shell.emplace(std::move(*hulls));
     }
@@ -116,6 +116,8 @@ void ScenePainter::addDetail(const volume::SemanticVolume& detail) {
     details_.push_back({&detail, placeOfDetail(volume_, detail)});
 }
 
+void ScenePainter::addPart(const volume::SemanticVolume& part) { details_.push_back({&part, {}, true}); }
+
 // The volumes that a frame draws: forms of the first, then those of the details, whose passes are added.
 Result<std::vector<render::DrawnVolume>> ScenePainter::drawnVolumes(const Scene& scene, render::FrameSpec& spec) {
     std::vector<render::DrawnVolume> drawn;
@@ -131,13 +133,13 @@ Result<std::vector<render::DrawnVolume>> ScenePainter::drawnVolumes(const Scene&
         places.push_back(details_[d].place);
         for (const VolumeForm& wanted : forms) {
             VolumeForm own = wanted;
-            own.shell.reset();
+            if (!details_[d].isPart) own.shell.reset();
             const auto made = formOf(d + 1, own, spec);
             if (!made) return made.error();
             drawn.push_back(*made);
         }
     }
-    if (auto added = addDetailPasses(places, forms, spec); !added) return added.error();
+    if (auto added = addDetailPasses(places, forms, spec, details_.front().isPart); !added) return added.error();
     return drawn;
 }
 

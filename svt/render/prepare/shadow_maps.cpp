@@ -38,11 +38,14 @@ std::vector<Vec3d> directionsOf(Vec3d towards, double degrees) {
     return directions;
 }
 
+// Whether a volume has more than background, and so can throw shadows.
+bool isFilled(const DrawnVolume& drawn) { return drawn.bricks().scalarCount() > 1; }
+
 // The corners of all volumes.
 std::vector<Vec3d> cornersOf(std::span<const DrawnVolume> volumes) {
     std::vector<Vec3d> corners;
     for (const DrawnVolume& drawn : volumes)
-        for (int c = 0; c < 8; ++c) {
+        for (int c = 0; c < 8 && isFilled(drawn); ++c) {
             const Vec3i n = drawn.grid().dimension();
             corners.push_back(
                 drawn.grid().worldFromIndex({(c & 1) * n.x - 0.5, ((c >> 1) & 1) * n.y - 0.5, (c >> 2) * n.z - 0.5}));
@@ -77,10 +80,12 @@ Result<ShadowMaps> ShadowMaps::make(std::span<const DrawnVolume> volumes, const 
     double voxel = std::numeric_limits<double>::infinity();
     double largest = 0;
     for (const DrawnVolume& drawn : volumes) {
+        if (!isFilled(drawn)) continue;
         const Vec3d spacing = drawn.grid().spacing();
         voxel = std::min({voxel, spacing.x, spacing.y, spacing.z});
         largest = std::max({largest, spacing.x, spacing.y, spacing.z});
     }
+    if (corners.empty()) return maps;
     CastOptions plain = options;
     plain.isAdaptive = false;
     plain.labelAt = 0;
