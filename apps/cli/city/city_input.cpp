@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <optional>
 
 namespace svt::cli {
 
@@ -49,12 +50,14 @@ int printCity(const std::filesystem::path& folder, bool json) {
 }
 
 Result<void> forEachTile(const city::City& city, const std::vector<double>& box, int threads, const Progress* progress,
-                         const std::function<Result<void>(const volume::SemanticVolume&)>& work) {
+                         const std::function<Result<void>(const volume::SemanticVolume&)>& work,
+                         const std::function<bool(const city::IndexEntry&)>& isWanted) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     std::array<double, 4> rectangle{-kInfinity, -kInfinity, kInfinity, kInfinity};
     if (!box.empty()) rectangle = {box[0], box[1], box[3], box[4]};
-    const auto entries = city.find(0, rectangle);
+    auto entries = city.find(0, rectangle);
     if (!entries) return entries.error();
+    if (isWanted) std::erase_if(*entries, [&](const city::IndexEntry& entry) { return !isWanted(entry); });
     const std::size_t batch = 2 * static_cast<std::size_t>(threads > 0 ? threads : hardwareThreads());
     ProgressCounter counter(progress, "tiles", entries->size());
     for (std::size_t begin = 0; begin < entries->size(); begin += batch) {

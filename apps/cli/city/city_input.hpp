@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -60,9 +61,11 @@ private:
 
 /// Asks each tile of a city, one after the other, so that memory is that of one tile for each thread.
 /// \param box   west, south, lowest, east, north, highest; empty: all of the city
-/// \param work  called in the order of tiles, never twice at once; returns whether to go on
+/// \param work  called in the order of tiles, never twice at once; an error ends it
+/// \param isWanted  tiles that are read; null: all
 [[nodiscard]] Result<void> forEachTile(const city::City& city, const std::vector<double>& box, int threads,
                                        const Progress* progress,
-                                       const std::function<Result<void>(const volume::SemanticVolume&)>& work);
+                                       const std::function<Result<void>(const volume::SemanticVolume&)>& work,
+                                       const std::function<bool(const city::IndexEntry&)>& isWanted = {});
 
 }  // namespace svt::cli

@@ -1,3 +1,5 @@
+#include <apps/cli/city/city_input.hpp>
+#include <apps/cli/city/feature_query.hpp>
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/json_output.hpp>
@@ -20,6 +22,7 @@ struct QueryArguments {
     std::filesystem::path owners, parcels;
     bool neighbors = false, overlaps = false, gaps = false, areas = false;
     BuildArguments build;
+    FeatureQuery features;
     bool json = false, csv = false;
 
     [[nodiscard]] int reportCount() const {
@@ -112,6 +115,24 @@ int printOwners(const volume::SemanticVolume& volume, const Labels& selected, co
     return kDone;
 }
 
+// Of a city, or with options that are answered feature by feature.
+int runFeatures(const QueryArguments& arguments) {
+    if (arguments.reportCount() > 0)
+        return fail(Error(Code::BadArgument,
+                          isCity(arguments.input)
+                              ? "reports are of one volume; take a part of the city (svt city extract), or leave out "
+                                "--with, --neighbours, --along, --overlaps, --gaps, --areas, --owners and --parcels"
+                              : "-o, --box, --by, --cut, --sort, --first and --leaks go without reports; leave out "
+                                "--with, --neighbours, --along, --overlaps, --gaps, --areas, --owners and --parcels"));
+    FeatureQuery query = arguments.features;
+    query.input = arguments.input;
+    query.query = arguments.query;
+    query.build = arguments.build;
+    query.json = arguments.json;
+    query.csv = arguments.csv;
+    return runFeatureQuery(query);
+}
+
 int runQuery(const QueryArguments& arguments) {
     if (auto parsed = model::Query::parse(arguments.query); !parsed) return fail(parsed.error());
     if (arguments.reportCount() > 1)
@@ -121,6 +142,7 @@ int runQuery(const QueryArguments& arguments) {
             "give one of them"));
     if (arguments.json && arguments.csv)
         return fail(Error(Code::BadArgument, "--json and --csv exclude each other; give one of them"));
+    if (isCity(arguments.input) || arguments.features.isAsked()) return runFeatures(arguments);
     Diagnostics diagnostics;
     Result<volume::SemanticVolume> volume = [&] {
         const TerminalProgress progress;
@@ -158,6 +180,13 @@ Action connectQuery(Command& command) {
     command.set("--parcels", arguments->parcels);
     command.set("--json", arguments->json);
     command.set("--csv", arguments->csv);
+    command.set("--output", arguments->features.output);
+    command.set("--box", arguments->features.box);
+    command.set("--by", arguments->features.by);
+    command.set("--cut", arguments->features.cut);
+    command.set("--sort", arguments->features.sort);
+    command.set("--first", arguments->features.first);
+    command.set("--leaks", arguments->features.leaks);
     arguments->build.connect(command);
     return [arguments] { return runQuery(*arguments); };
 }

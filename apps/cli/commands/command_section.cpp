@@ -1,3 +1,5 @@
+#include <apps/cli/city/city_input.hpp>
+#include <apps/cli/city/city_section.hpp>
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/paper_scale.hpp>
@@ -13,6 +15,8 @@
 #include <svt/writers/svg_drawing.hpp>
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace svt::cli {
 namespace {
@@ -45,22 +49,7 @@ Result<illustrate::SectionPlane> planeOf(const SectionArguments& arguments, cons
     return illustrate::parseSectionPlane(arguments.plane, volume);
 }
 
-int runSection(const SectionArguments& arguments) {
-    if (arguments.outputs.empty() && arguments.tables.empty() && !arguments.json)
-        return fail(Error(Code::BadArgument, "nothing to write; give -o D.svg, --table T.csv or --json"));
-    if (!arguments.plane.empty() && !arguments.elevation.empty())
-        return fail(Error(Code::BadArgument, "--plane and --elevation exclude each other; give one of them"));
-    const auto scale = parseScale(arguments.scale);
-    if (!scale) return fail(scale.error());
-    Diagnostics diagnostics;
-    const TerminalProgress progress;
-    BuildArguments build = arguments.build;
-    build.vectors.meshes = true;
-    const auto volume = loadVolume(arguments.input, build, progress.get(), diagnostics);
-    printDiagnostics(diagnostics, arguments.verbose);
-    if (!volume) return fail(volume.error());
-    const auto plane = planeOf(arguments, *volume);
-    if (!plane) return fail(plane.error());
+illustrate::SectionOptions optionsOf(const SectionArguments& arguments, std::vector<std::string>& nothing) {
     illustrate::SectionOptions options;
     options.show = arguments.show;
     options.hide = arguments.hide;
@@ -70,16 +59,18 @@ int runSection(const SectionArguments& arguments) {
     options.dimensions = arguments.dimensions;
     if (!arguments.elevation.empty()) options.beyond.visible = true;
     options.threads = arguments.build.threads;
-    std::vector<std::string> nothing;
     options.nothing = &nothing;
-    Progress::tell(progress.get(), "section", 0);
-    const auto drawing = illustrate::drawSection(*volume, *plane, options);
-    if (!drawing) return fail(drawing.error());
+    return options;
+}
+
+// Tells what was drawn and what was not, and writes it.
+int writeSection(const SectionArguments& arguments, const illustrate::SectionDrawing& drawing,
+                 const volume::SemanticVolume& volume, const std::vector<std::string>& nothing, double scale) {
     Diagnostics findings;
-    illustrate::reportSection(*drawing, *volume, findings);
+    illustrate::reportSection(drawing, volume, findings);
     printDiagnostics(findings, true);
     for (const std::string& message : nothing) note(message);
-    const bool isEmpty = drawing->components.empty() && drawing->beyond.empty();
+    const bool isEmpty = drawing.components.empty() && drawing.beyond.empty();
     if (isEmpty && !nothing.empty()) note("nothing is drawn");
     if (isEmpty && nothing.empty())
         return fail(Error(Code::BadSection,
@@ -87,16 +78,61 @@ int runSection(const SectionArguments& arguments) {
                                       "--no-rooms and --min-area",
                                       arguments.plane.empty() ? "1.1 m above the lowest floor" : arguments.plane)));
     for (const std::filesystem::path& path : arguments.outputs)
-        if (auto written = writeDrawing(*drawing, *volume, path, *scale, arguments.dxf); !written)
+        if (auto written = writeDrawing(drawing, volume, path, scale, arguments.dxf); !written)
             return fail(written.error());
     for (const std::filesystem::path& path : arguments.tables) {
-        const std::string text = endingOf(path) == ".csv" ? writers::makeSectionCsv(*drawing, *volume)
-                                                          : writers::makeSectionJson(*drawing, *volume);
+        const std::string text = endingOf(path) == ".csv" ? writers::makeSectionCsv(drawing, volume)
+                                                          : writers::makeSectionJson(drawing, volume);
         if (auto written = writeFileAtomically(path, text); !written) return fail(written.error());
     }
     TerminalProgress::hide();
-    if (arguments.json) fmt::print("{}", writers::makeSectionJson(*drawing, *volume));
+    if (arguments.json) fmt::print("{}", writers::makeSectionJson(drawing, volume));
     return kDone;
+}
+
+// Of a city: its tiles, one after the other, in one drawing.
+int runCitySection(const SectionArguments& arguments, double scale) {
+    if (arguments.plane.empty())
+        return fail(Error(Code::BadArgument,
+                          "a city is cut by a plane that --plane gives, such as 'z=abs(50)'; elevations are drawn of a "
+                          "part (svt city extract)"));
+    if (arguments.beyond.isAny() || arguments.dimensions)
+        return fail(Error(Code::BadArgument,
+                          "--beyond, --hidden, --above and --dimensions need the meshes of a model, which a city does "
+                          "not keep; leave them out"));
+    const TerminalProgress progress;
+    std::vector<std::string> nothing;
+    const auto section = cutCity(arguments.input, arguments.plane, optionsOf(arguments, nothing), progress.get());
+    if (!section) return fail(section.error());
+    // Queries that find nothing in one tile may find something in others.
+    if (!section->drawing.components.empty()) nothing.clear();
+    std::sort(nothing.begin(), nothing.end());
+    nothing.erase(std::unique(nothing.begin(), nothing.end()), nothing.end());
+    return writeSection(arguments, section->drawing, section->volume, nothing, scale);
+}
+
+int runSection(const SectionArguments& arguments) {
+    if (arguments.outputs.empty() && arguments.tables.empty() && !arguments.json)
+        return fail(Error(Code::BadArgument, "nothing to write; give -o D.svg, --table T.csv or --json"));
+    if (!arguments.plane.empty() && !arguments.elevation.empty())
+        return fail(Error(Code::BadArgument, "--plane and --elevation exclude each other; give one of them"));
+    const auto scale = parseScale(arguments.scale);
+    if (!scale) return fail(scale.error());
+    if (isCity(arguments.input)) return runCitySection(arguments, *scale);
+    Diagnostics diagnostics;
+    const TerminalProgress progress;
+    BuildArguments build = arguments.build;
+    build.vectors.meshes = true;
+    const auto volume = loadVolume(arguments.input, build, progress.get(), diagnostics);
+    printDiagnostics(diagnostics, arguments.verbose);
+    if (!volume) return fail(volume.error());
+    const auto plane = planeOf(arguments, *volume);
+    if (!plane) return fail(plane.error());
+    std::vector<std::string> nothing;
+    Progress::tell(progress.get(), "section", 0);
+    const auto drawing = illustrate::drawSection(*volume, *plane, optionsOf(arguments, nothing));
+    if (!drawing) return fail(drawing.error());
+    return writeSection(arguments, *drawing, *volume, nothing, *scale);
 }
 
 }  // namespace

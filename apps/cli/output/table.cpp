@@ -80,6 +80,11 @@ void Table::printCsv() const {
     std::string text;
     for (std::size_t c = 0; c < columns.size(); ++c) text += (c == 0 ? "" : ",") + columns[c].key;
     fmt::print("{}\n", text);
+    printCsvRows();
+}
+
+void Table::printCsvRows() const {
+    std::string text;
     for (const std::vector<Json>& row : rows) {
         text.clear();
         for (std::size_t c = 0; c < columns.size(); ++c) text += (c == 0 ? "" : ",") + csvOf(row[c]);

@@ -26,6 +26,8 @@ struct Table {
     void printText() const;
     /// RFC 4180 with a header line of keys, separated by commas; numbers in full precision.
     void printCsv() const;
+    /// The same without the header line, for rows that follow others.
+    void printCsvRows() const;
 };
 
 }  // namespace svt::cli

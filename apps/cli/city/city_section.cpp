@@ -1,0 +1,150 @@
+#include <apps/cli/city/city_section.hpp>
+
+#include <apps/cli/city/city_input.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace svt::cli {
+namespace {
+
+using illustrate::PlanePoint;
+using illustrate::SectionDrawing;
+
+// Collects the drawings of tiles in the coordinates of one of them.
+class Collector {
+public:
+    Collector(const illustrate::SectionPlane& plane, volume::SemanticVolume frame) {
+        section_.volume = std::move(frame);
+        section_.drawing.plane = plane;
+        section_.drawing.axes = illustrate::makePlaneAxes(plane, section_.volume.grid);
+    }
+
+    void add(SectionDrawing drawing, const volume::SemanticVolume& tile) {
+        SectionDrawing& to = section_.drawing;
+        to.drawingUnit = std::max(to.drawingUnit, drawing.drawingUnit);
+        to.tolerance = std::max(to.tolerance, drawing.tolerance);
+        by_ = to.axes.planeFromWorld(drawing.axes.origin);
+        numberOf_.clear();
+        for (illustrate::SectionComponent& component : drawing.components) {
+            component.label = numberOf(component.label, tile);
+            for (illustrate::SectionPolygon& polygon : component.polygons) {
+                move(polygon.outer);
+                for (illustrate::Ring& hole : polygon.holes) move(hole);
+            }
+            to.area += component.area;
+            to.components.push_back(std::move(component));
+        }
+        for (illustrate::SectionBorder& border : drawing.borders) {
+            border.left = numberOf(border.left, tile);
+            border.right = numberOf(border.right, tile);
+            move(border.points);
+            to.borders.push_back(std::move(border));
+        }
+        for (illustrate::SectionLine& line : drawing.lines) {
+            line.label = numberOf(line.label, tile);
+            move(line.points);
+            to.lines.push_back(std::move(line));
+        }
+        for (const illustrate::ClassArea& own : drawing.classes) {
+            illustrate::ClassArea& sum = classes_[own.className];
+            sum.className = own.className;
+            sum.components += own.components;
+            sum.area += own.area;
+        }
+    }
+
+    CitySection finish() {
+        SectionDrawing& drawing = section_.drawing;
+        const auto byLabel = [](const auto& a, const auto& b) { return a.label < b.label; };
+        std::stable_sort(drawing.components.begin(), drawing.components.end(), byLabel);
+        std::stable_sort(drawing.lines.begin(), drawing.lines.end(), byLabel);
+        for (auto& [name, sum] : classes_) drawing.classes.push_back(std::move(sum));
+        return std::move(section_);
+    }
+
+private:
+    // All coordinates of a drawing are multiples of its unit.
+    void move(std::vector<PlanePoint>& points) const {
+        const double unit = section_.drawing.drawingUnit;
+        const auto rounded = [&](double value) { return unit > 0 ? std::round(value / unit) * unit : value; };
+        for (PlanePoint& point : points) point = {rounded(point.u + by_.u), rounded(point.v + by_.v)};
+    }
+
+    std::uint32_t numberOf(std::uint32_t label, const volume::SemanticVolume& tile) {
+        if (label == volume::kNoLabel) return label;
+        std::vector<volume::Label>& labels = section_.volume.labels.labels;
+        const auto [known, isNew] = numberOf_.emplace(label, static_cast<std::uint32_t>(labels.size()));
+        if (!isNew) return known->second;
+        volume::Label& own = labels.emplace_back(tile.labels.labels[label]);
+        own.parent = volume::kNoLabel;
+        own.groups.clear();
+        own.subtreeEnd = static_cast<std::uint32_t>(labels.size());
+        own.first = static_cast<volume::Scalar>(labels.size());
+        own.count = own.count > 0 ? 1 : 0;
+        return known->second;
+    }
+
+    CitySection section_;
+    PlanePoint by_;
+    std::map<std::uint32_t, std::uint32_t> numberOf_;
+    std::map<std::string, illustrate::ClassArea> classes_;
+};
+
+// Whether a plane may cut what a tile has. \param reach  of buildings over the border of their tile, metres
+bool mayCut(const illustrate::SectionPlane& plane, const city::IndexEntry& entry, double reach) {
+    const double side = std::ldexp(1.0, entry.tile.level);
+    double nearest = INFINITY, farthest = -INFINITY;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d at{(entry.tile.x + (corner & 1)) * side + ((corner & 1) != 0 ? reach : -reach),
+                       (entry.tile.y + ((corner >> 1) & 1)) * side + ((corner & 2) != 0 ? reach : -reach),
+                       (corner & 4) != 0 ? double(entry.highest) : double(entry.lowest)};
+        const double distance = dot(at - plane.point, plane.normal);
+        nearest = std::min(nearest, distance);
+        farthest = std::max(farthest, distance);
+    }
+    return nearest <= 0 && farthest >= 0;
+}
+
+// Whether a plane cuts the samples of a volume.
+bool cuts(const illustrate::SectionPlane& plane, const volume::Grid& grid) {
+    double nearest = INFINITY, farthest = -INFINITY;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3i n = grid.dimension();
+        const Vec3d at =
+            grid.worldFromIndex({(corner & 1) != 0 ? n.x - 0.5 : -0.5, (corner & 2) != 0 ? n.y - 0.5 : -0.5,
+                                 (corner & 4) != 0 ? n.z - 0.5 : -0.5});
+        const double distance = dot(at - plane.point, plane.normal);
+        nearest = std::min(nearest, distance);
+        farthest = std::max(farthest, distance);
+    }
+    return nearest < 0 && farthest > 0;
+}
+
+}  // namespace
+
+Result<CitySection> cutCity(const std::filesystem::path& folder, const std::string& text,
+                            const illustrate::SectionOptions& options, const Progress* progress) {
+    const auto city = city::City::open(folder);
+    if (!city) return city.error();
+    auto frame = city::frameVolume(*city);
+    if (!frame) return frame.error();
+    const auto plane = illustrate::parseSectionPlane(text, *frame);
+    if (!plane) return plane.error();
+    Collector collector(*plane, std::move(*frame));
+    const auto cut = [&](const volume::SemanticVolume& tile) -> Result<void> {
+        if (!cuts(*plane, tile.grid)) return {};
+        auto drawing = illustrate::drawSection(tile, *plane, options);
+        if (!drawing) return drawing.error();
+        collector.add(std::move(*drawing), tile);
+        return {};
+    };
+    // Of a building its middle is in the tile: it reaches out by half of its length at most.
+    constexpr double kReach = 500;
+    const auto isWanted = [&](const city::IndexEntry& entry) { return mayCut(*plane, entry, kReach); };
+    if (auto done = forEachTile(*city, {}, options.threads, progress, cut, isWanted); !done) return done.error();
+    return collector.finish();
+}
+
+}  // namespace svt::cli

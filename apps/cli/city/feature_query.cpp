@@ -1,0 +1,374 @@
+#include <apps/cli/city/feature_query.hpp>
+
+#include <apps/cli/city/city_input.hpp>
+#include <apps/cli/city/feature_rows.hpp>
+#include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/table.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
+
+#include <svt/analyze/selection.hpp>
+#include <svt/core/attribute.hpp>
+#include <svt/core/text.hpp>
+#include <svt/volume/svt_file.hpp>
+#include <svt/writers/feature_layer.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+namespace svt::cli {
+namespace {
+
+using writers::FeatureCell;
+using writers::FeatureColumn;
+using Kind = FeatureColumn::Kind;
+
+const std::vector<FeatureColumn>& ownColumns() {
+    static const std::vector<FeatureColumn> kColumns = {
+        {"id", Kind::Text},      {"class", Kind::Text},    {"name", Kind::Text},     {"volume", Kind::Number},
+        {"area", Kind::Number},  {"height", Kind::Number}, {"lowest", Kind::Number}, {"highest", Kind::Number},
+        {"voxels", Kind::Whole}, {"filling", Kind::Text},  {"open", Kind::Whole}};
+    return kColumns;
+}
+
+std::vector<FeatureCell> cellsOf(const FeatureRow& row, const volume::Label& label) {
+    return {label.id,
+            label.className,
+            label.name,
+            row.volume,
+            row.area,
+            row.highest - row.lowest,
+            row.lowest,
+            row.highest,
+            static_cast<std::int64_t>(row.voxels),
+            std::string(volume::fillingName(label.filling)),
+            std::int64_t{row.isOpen ? 1 : 0}};
+}
+
+FeatureCell cellOf(const AttributeValue& value) {
+    return std::visit([](const auto& v) { return FeatureCell(v); }, value);
+}
+
+Kind kindOf(const AttributeValue& value) {
+    if (std::holds_alternative<std::int64_t>(value)) return Kind::Whole;
+    return std::holds_alternative<double>(value) ? Kind::Number : Kind::Text;
+}
+
+// Volumes one after the other: the tiles of a city, or one volume.
+class Source {
+public:
+    explicit Source(const FeatureQuery& query) : query_(query) {}
+
+    Result<void> open(Diagnostics& diagnostics) {
+        const TerminalProgress progress;
+        if (isCity(query_.input)) {
+            auto opened = city::City::open(query_.input);
+            if (!opened) return opened.error();
+            city_.emplace(std::move(*opened));
+            auto frame = city::frameVolume(*city_);
+            if (!frame) return frame.error();
+            frame_ = std::move(*frame);
+            return {};
+        }
+        auto loaded = loadVolume(query_.input, query_.build, progress.get(), diagnostics);
+        if (!loaded) return loaded.error();
+        frame_ = std::move(*loaded);
+        return {};
+    }
+    // What positions refer to.
+    [[nodiscard]] const volume::SemanticVolume& frame() const noexcept { return frame_; }
+
+    Result<void> forEach(const std::function<Result<void>(const volume::SemanticVolume&)>& work) const {
+        if (!city_) return work(frame_);
+        const TerminalProgress progress;
+        return forEachTile(*city_, query_.box, query_.build.threads, progress.get(), work);
+    }
+    // The same of label tables alone, without their columns.
+    Result<void> forEachTable(const std::function<Result<void>(const volume::LabelTable&)>& work) const {
+        if (!city_) return work(frame_.labels);
+        std::array<double, 4> rectangle{-1e300, -1e300, 1e300, 1e300};
+        const std::vector<double>& box = query_.box;
+        if (!box.empty()) rectangle = {box[0], box[1], box[3], box[4]};
+        const auto entries = city_->find(0, rectangle);
+        if (!entries) return entries.error();
+        for (const city::IndexEntry& entry : *entries) {
+            const auto bytes = city_->readBytes(entry);
+            if (!bytes) return bytes.error();
+            const auto tile = volume::openSvt(std::as_bytes(std::span(*bytes)), entry.tile.toString());
+            if (!tile) return tile.error();
+            if (auto done = work(tile->labels); !done) return done;
+        }
+        return {};
+    }
+
+private:
+    const FeatureQuery& query_;
+    std::optional<city::City> city_;
+    volume::SemanticVolume frame_;
+};
+
+class Answer {
+public:
+    explicit Answer(const FeatureQuery& query) : query_(query), source_(query) {}
+
+    Result<void> run() {
+        Diagnostics diagnostics;
+        auto opened = source_.open(diagnostics);
+        printDiagnostics(diagnostics, false);
+        if (!opened) return opened;
+        if (!query_.cut.empty()) {
+            auto plane = illustrate::parseSectionPlane(query_.cut, source_.frame());
+            if (!plane) return plane.error();
+            plane_ = *plane;
+        }
+        for (std::size_t at = 0; at < query_.by.size();) {
+            const std::size_t comma = std::min(query_.by.find(',', at), query_.by.size());
+            keys_.push_back(query_.by.substr(at, comma - at));
+            at = comma + 1;
+        }
+        if (!query_.output.empty())
+            if (auto begun = beginFile(); !begun) return begun;
+        if (auto asked = source_.forEach([&](const volume::SemanticVolume& volume) { return ask(volume); }); !asked)
+            return asked;
+        return finish();
+    }
+
+private:
+    struct Sum {
+        std::uint64_t count = 0;
+        double volume = 0, area = 0;
+    };
+    struct Kept {
+        double order = 0;
+        std::vector<FeatureCell> cells;
+        std::vector<std::array<double, 2>> outline;
+    };
+
+    Result<std::vector<std::uint32_t>> select(const volume::LabelTable& labels) const {
+        std::vector<std::string> nothing;
+        auto selected = analyze::selectLabels(analyze::LabelRows(labels, &nothing), query_.query);
+        if (selected && query_.leaks)
+            std::erase_if(*selected, [&](std::uint32_t l) {
+                const auto filling = labels.labels[l].filling;
+                return filling != volume::Filling::Capped && filling != volume::Filling::Winding &&
+                       filling != volume::Filling::Complemented;
+            });
+        return selected;
+    }
+
+    // The columns of attributes must be known before the first row.
+    Result<void> beginFile() {
+        std::map<std::string, Kind> attributes;
+        const auto add = [&](const volume::LabelTable& labels) -> Result<void> {
+            const auto selected = select(labels);
+            if (!selected) return selected.error();
+            for (const std::uint32_t l : *selected)
+                for (const Attribute& attribute : labels.labels[l].attributes) {
+                    const Kind kind = kindOf(attribute.value);
+                    const auto [known, isNew] = attributes.emplace(attribute.name, kind);
+                    if (isNew || known->second == kind) continue;
+                    const bool areNumbers = known->second != Kind::Text && kind != Kind::Text;
+                    known->second = areNumbers ? Kind::Number : Kind::Text;
+                }
+            return {};
+        };
+        if (auto done = source_.forEachTable(add); !done) return done;
+        columns_ = ownColumns();
+        for (const auto& [name, kind] : attributes) {
+            // Names of columns are not told apart by case, and one table has each once.
+            const bool isOwn = std::any_of(columns_.begin(), columns_.end(), [&, &wanted = name](const auto& column) {
+                return equalsIgnoringCase(column.name, wanted) || equalsIgnoringCase(wanted, "fid") ||
+                       equalsIgnoringCase(wanted, "geom");
+            });
+            std::string unique = isOwn ? "attribute:" + name : name;
+            while (std::any_of(columns_.begin(), columns_.end(),
+                               [&](const auto& column) { return equalsIgnoringCase(column.name, unique); }))
+                unique += "_";
+            placeOf_[name] = columns_.size();
+            columns_.push_back({unique, kind});
+        }
+        auto layer = writers::FeatureLayer::create(query_.output, columns_, source_.frame().crsName);
+        if (!layer) return layer.error();
+        layer_ = std::move(*layer);
+        return {};
+    }
+
+    [[nodiscard]] bool isInBox(const FeatureRow& row) const {
+        const std::vector<double>& box = query_.box;
+        if (box.empty()) return true;
+        if (row.voxels == 0 || row.outline.empty() || row.highest < box[2] || row.lowest > box[5]) return false;
+        std::array<double, 4> own{1e300, 1e300, -1e300, -1e300};
+        for (const auto& [x, y] : row.outline)
+            own = {std::min(own[0], x), std::min(own[1], y), std::max(own[2], x), std::max(own[3], y)};
+        return own[0] <= box[3] && box[0] <= own[2] && own[1] <= box[4] && box[1] <= own[3];
+    }
+
+    Result<void> ask(const volume::SemanticVolume& volume) {
+        const auto selected = select(volume.labels);
+        if (!selected) return selected.error();
+        if (selected->empty()) return {};
+        for (FeatureRow& row : featureRows(volume, *selected, plane_ ? &*plane_ : nullptr)) {
+            if ((plane_ && !row.isCut) || !isInBox(row)) continue;
+            ++count_;
+            const volume::Label& label = volume.labels.labels[row.label];
+            if (!keys_.empty()) addToSum(row, label);
+            if (auto added = take(std::move(row), label); !added) return added;
+        }
+        return {};
+    }
+
+    void addToSum(const FeatureRow& row, const volume::Label& label) {
+        std::vector<std::string> values;
+        for (const std::string& key : keys_) {
+            std::string value = equalsIgnoringCase(key, "class") ? label.className : std::string();
+            for (const Attribute& attribute : label.attributes)
+                if (equalsIgnoringCase(attribute.name, key)) value = toText(attribute.value);
+            values.push_back(value);
+        }
+        Sum& sum = sums_[values];
+        ++sum.count;
+        sum.volume += row.volume;
+        sum.area += row.area;
+    }
+
+    Result<void> take(FeatureRow row, const volume::Label& label) {
+        Kept kept{0, cellsOf(row, label), std::move(row.outline)};
+        if (layer_) {
+            kept.cells.resize(columns_.size());
+            for (const Attribute& attribute : label.attributes) {
+                const std::size_t place = placeOf_.at(attribute.name);
+                kept.cells[place] =
+                    columns_[place].kind == Kind::Text ? FeatureCell(toText(attribute.value)) : cellOf(attribute.value);
+            }
+        }
+        if (!query_.sort.empty()) {
+            kept.order = query_.sort == "volume" ? row.volume
+                         : query_.sort == "area" ? row.area
+                                                 : row.highest - row.lowest;
+            return keepLargest(std::move(kept));
+        }
+        if (query_.first > 0 && given_ >= query_.first) return {};
+        ++given_;
+        return give(kept);
+    }
+
+    Result<void> keepLargest(Kept kept) {
+        const auto isLarger = [](const Kept& a, const Kept& b) {
+            return a.order != b.order ? a.order > b.order
+                                      : std::get<std::string>(a.cells[0]) < std::get<std::string>(b.cells[0]);
+        };
+        largest_.push_back(std::move(kept));
+        const auto most = static_cast<std::size_t>(query_.first > 0 ? query_.first : 100);
+        if (largest_.size() < 2 * most) return {};
+        std::sort(largest_.begin(), largest_.end(), isLarger);
+        largest_.resize(most);
+        return {};
+    }
+
+    // A row into the file, or as a line.
+    Result<void> give(const Kept& kept) {
+        if (layer_) return layer_->add(kept.cells, kept.outline);
+        if (!keys_.empty()) return {};
+        std::vector<Json> row;
+        for (const FeatureCell& cell : kept.cells)
+            row.push_back(std::visit(
+                [](const auto& value) -> Json {
+                    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>)
+                        return nullptr;
+                    else
+                        return value;
+                },
+                cell));
+        table_.rows.push_back(std::move(row));
+        if (query_.json || table_.rows.size() < 1000) return {};
+        printTable();
+        return {};
+    }
+
+    // Rows so far, so that memory does not grow with them.
+    void printTable() {
+        if (!isBegun_)
+            for (const FeatureColumn& column : ownColumns()) table_.columns.push_back({column.name, column.name, 2});
+        if (query_.json)
+            print(table_.toJson());
+        else if (query_.csv)
+            isBegun_ ? table_.printCsvRows() : table_.printCsv();
+        else
+            table_.printText();
+        isBegun_ = true;
+        table_.rows.clear();
+    }
+
+    void printSums() const {
+        Table table;
+        for (const std::string& key : keys_) table.columns.push_back({key, key, 0});
+        table.columns.push_back({"features", "features", 0});
+        table.columns.push_back({"volume", "m3", 1});
+        table.columns.push_back({"area", "m2 in plan", 1});
+        for (const auto& [values, sum] : sums_) {
+            std::vector<Json> row(values.begin(), values.end());
+            for (Json& cell : row)
+                if (cell.get<std::string>().empty()) cell = nullptr;
+            row.emplace_back(sum.count);
+            row.emplace_back(sum.volume);
+            row.emplace_back(sum.area);
+            table.rows.push_back(std::move(row));
+        }
+        if (query_.json)
+            print(table.toJson());
+        else if (query_.csv)
+            table.printCsv();
+        else
+            table.printText();
+    }
+
+    Result<void> finish() {
+        if (!query_.sort.empty()) {
+            const auto most = largest_.size();
+            std::sort(largest_.begin(), largest_.end(), [](const Kept& a, const Kept& b) {
+                return a.order != b.order ? a.order > b.order
+                                          : std::get<std::string>(a.cells[0]) < std::get<std::string>(b.cells[0]);
+            });
+            const auto wanted = static_cast<std::size_t>(query_.first > 0 ? query_.first : 100);
+            for (std::size_t n = 0; n < std::min(most, wanted); ++n)
+                if (auto given = give(largest_[n]); !given) return given;
+        }
+        if (layer_)
+            if (const auto written = layer_->finish(); !written) return written.error();
+        TerminalProgress::hide();
+        if (!keys_.empty())
+            printSums();
+        else if (!layer_ && (!table_.rows.empty() || !isBegun_))
+            printTable();
+        if (count_ == 0) note(fmt::format("the query '{}' selects nothing", query_.query));
+        if (layer_ && !isQuiet())
+            fmt::print("{}: {} features\n", query_.output.string(),
+                       query_.sort.empty() ? given_ : int(largest_.size()));
+        return {};
+    }
+
+    const FeatureQuery& query_;
+    Source source_;
+    std::optional<illustrate::SectionPlane> plane_;
+    std::vector<std::string> keys_;
+    std::vector<FeatureColumn> columns_;
+    std::map<std::string, std::size_t> placeOf_;
+    std::unique_ptr<writers::FeatureLayer> layer_;
+    std::map<std::vector<std::string>, Sum> sums_;
+    std::vector<Kept> largest_;
+    Table table_;
+    bool isBegun_ = false;
+    int given_ = 0;
+    std::uint64_t count_ = 0;
+};
+
+}  // namespace
+
+int runFeatureQuery(const FeatureQuery& query) {
+    const auto answered = Answer(query).run();
+    return answered ? static_cast<int>(kDone) : fail(answered.error());
+}
+
+}  // namespace svt::cli

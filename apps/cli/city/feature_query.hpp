@@ -1,0 +1,32 @@
+#pragma once
+/// \file
+/// Questions of many features, answered tile by tile: rows into a file, sums by attribute, the largest. Of a city, or of
+/// one volume.
+
+#include <apps/cli/options/build_options.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace svt::cli {
+
+struct FeatureQuery {
+    std::filesystem::path input, output;
+    std::string query = "all";
+    std::vector<double> box;
+    std::string by, cut, sort;
+    int first = 0;
+    bool leaks = false, json = false, csv = false;
+    BuildArguments build;
+
+    /// Whether an option is given that only this answers.
+    [[nodiscard]] bool isAsked() const {
+        return !output.empty() || !box.empty() || !by.empty() || !cut.empty() || !sort.empty() || first > 0 || leaks;
+    }
+};
+
+/// \return the exit code
+int runFeatureQuery(const FeatureQuery& query);
+
+}  // namespace svt::cli

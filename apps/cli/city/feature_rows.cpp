@@ -1,0 +1,153 @@
+#include <apps/cli/city/feature_rows.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace svt::cli {
+namespace {
+
+using volume::Filling;
+using volume::kNoLabel;
+
+using Point = std::array<double, 2>;
+
+double turn(const Point& a, const Point& b, const Point& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+// The convex hull of points, counter-clockwise (Andrew 1979).
+std::vector<Point> hullOf(std::vector<Point> points) {
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    if (points.size() < 3) return {};
+    std::vector<Point> hull;
+    const auto add = [&](const Point& point, std::size_t least) {
+        while (hull.size() >= least && turn(hull[hull.size() - 2], hull.back(), point) <= 0) hull.pop_back();
+        hull.push_back(point);
+    };
+    for (const Point& point : points) add(point, 2);
+    const std::size_t upper = hull.size() + 1;
+    for (std::size_t n = points.size() - 1; n-- > 0;) add(points[n], upper);
+    hull.pop_back();
+    return hull;
+}
+
+// The m3 of a label's solid, or of those below it.
+double volumeOf(const std::vector<volume::Label>& labels, std::uint32_t l) {
+    if (labels[l].volume > 0) return labels[l].volume;
+    double sum = 0;
+    for (std::uint32_t below = l + 1; below < labels[l].subtreeEnd; below = labels[below].subtreeEnd)
+        sum += volumeOf(labels, below);
+    return sum;
+}
+
+bool isOpenShell(const volume::Label& label) {
+    return label.filling == Filling::Capped || label.filling == Filling::Winding ||
+           label.filling == Filling::Complemented;
+}
+
+// What is gathered of a row while columns are read.
+struct Gathered {
+    std::int32_t low = INT32_MAX, high = -1;          // samples [low, high)
+    double nearest = INFINITY, farthest = -INFINITY;  // of corners of voxels from the plane
+    std::uint64_t columns = 0, voxels = 0;
+    std::int32_t lastI = -1, lastJ = -1;
+    std::map<std::int32_t, std::array<std::int32_t, 2>> rows;  // by j: the first and last i
+};
+
+class Gatherer {
+public:
+    Gatherer(const volume::SemanticVolume& volume, std::span<const std::uint32_t> selected,
+             const illustrate::SectionPlane* plane)
+        : volume_(volume), plane_(plane), rowOf_(volume.labels.labels.size(), kNoLabel), gathered_(selected.size()) {
+        for (std::uint32_t n = 0; n < selected.size(); ++n) rowOf_[selected[n]] = n;
+        if (plane == nullptr) return;
+        const Vec3d spacing = volume.grid.spacing();
+        for (int axis = 0; axis < 3; ++axis)
+            halfVoxel_ += std::abs(dot(volume.grid.axes()[std::size_t(axis)], plane->normal)) * spacing[axis] / 2;
+    }
+
+    std::vector<Gathered> run() {
+        const Vec3i n = volume_.columns.dimension();
+        const std::vector<std::uint32_t> labelOf = volume_.labels.labelOfScalar();
+        for (std::int32_t j = 0; j < n.y; ++j)
+            for (std::int32_t i = 0; i < n.x; ++i) {
+                std::int32_t begin = 0;
+                for (const volume::Run& run : volume_.columns.column(i, j)) {
+                    const auto end = static_cast<std::int32_t>(run.end);
+                    if (run.scalar != 0 && run.scalar < labelOf.size()) add(labelOf[run.scalar], i, j, begin, end);
+                    begin = end;
+                }
+            }
+        return std::move(gathered_);
+    }
+
+private:
+    void add(std::uint32_t label, std::int32_t i, std::int32_t j, std::int32_t begin, std::int32_t end) {
+        for (std::uint32_t l = label; l != kNoLabel; l = volume_.labels.labels[l].parent) {
+            if (rowOf_[l] == kNoLabel) continue;
+            Gathered& to = gathered_[rowOf_[l]];
+            to.low = std::min(to.low, begin);
+            to.high = std::max(to.high, end);
+            to.voxels += static_cast<std::uint64_t>(end - begin);
+            if (to.lastI != i || to.lastJ != j) ++to.columns;
+            to.lastI = i;
+            to.lastJ = j;
+            const auto [row, isNew] = to.rows.emplace(j, std::array<std::int32_t, 2>{i, i});
+            if (!isNew) row->second = {std::min(row->second[0], i), std::max(row->second[1], i)};
+            if (plane_ == nullptr) continue;
+            for (const std::int32_t k : {begin, end - 1}) {
+                const double distance =
+                    dot(volume_.grid.worldFromIndex({double(i), double(j), double(k)}) - plane_->point, plane_->normal);
+                to.nearest = std::min(to.nearest, distance - halfVoxel_);
+                to.farthest = std::max(to.farthest, distance + halfVoxel_);
+            }
+        }
+    }
+
+    const volume::SemanticVolume& volume_;
+    const illustrate::SectionPlane* plane_;
+    std::vector<std::uint32_t> rowOf_;
+    std::vector<Gathered> gathered_;
+    double halfVoxel_ = 0;
+};
+
+std::vector<Point> outlineOf(const Gathered& gathered, const volume::Grid& grid) {
+    std::vector<Point> points;
+    for (const auto& [j, ends] : gathered.rows)
+        for (const double x : {ends[0] - 0.5, ends[1] + 0.5})
+            for (const double y : {j - 0.5, j + 0.5}) {
+                const Vec3d world = grid.worldFromIndex({x, y, 0});
+                points.push_back({world.x, world.y});
+            }
+    return hullOf(std::move(points));
+}
+
+}  // namespace
+
+std::vector<FeatureRow> featureRows(const volume::SemanticVolume& volume, std::span<const std::uint32_t> selected,
+                                    const illustrate::SectionPlane* plane) {
+    const std::vector<volume::Label>& labels = volume.labels.labels;
+    const std::vector<Gathered> gathered = Gatherer(volume, selected, plane).run();
+    const Vec3d spacing = volume.grid.spacing();
+    std::vector<FeatureRow> rows;
+    for (std::size_t n = 0; n < selected.size(); ++n) {
+        FeatureRow& row = rows.emplace_back();
+        row.label = selected[n];
+        row.volume = volumeOf(labels, row.label);
+        for (std::uint32_t l = row.label; l < labels[row.label].subtreeEnd; ++l)
+            row.isOpen = row.isOpen || isOpenShell(labels[l]);
+        const Gathered& own = gathered[n];
+        if (own.voxels == 0) continue;
+        row.voxels = own.voxels;
+        row.area = double(own.columns) * spacing.x * spacing.y;
+        row.lowest = volume.grid.worldFromIndex({0, 0, own.low - 0.5}).z;
+        row.highest = volume.grid.worldFromIndex({0, 0, own.high - 0.5}).z;
+        row.isCut = plane != nullptr && own.nearest < 0 && own.farthest > 0;
+        row.outline = outlineOf(own, volume.grid);
+    }
+    return rows;
+}
+
+}  // namespace svt::cli

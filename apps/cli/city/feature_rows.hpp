@@ -1,0 +1,35 @@
+#pragma once
+/// \file
+/// What is measured of features of one volume, with all below them: the rows of `svt query` on cities.
+
+#include <svt/illustrate/section_plane.hpp>
+#include <svt/volume/semantic_volume.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace svt::cli {
+
+/// A feature and all below it.
+struct FeatureRow {
+    std::uint32_t label = 0;
+    double volume = 0;               ///< m3: of its solid; else of the solids below it
+    double area = 0;                 ///< m2 in plan: of the columns of samples that it fills
+    double lowest = 0, highest = 0;  ///< of its voxels, metres above datum; 0 where it has none
+    std::uint64_t voxels = 0;
+    bool isOpen = false;                         ///< a shell of it or below it is not closed in the model
+    bool isCut = false;                          ///< by the plane
+    std::vector<std::array<double, 2>> outline;  ///< convex, around its voxels in plan; counter-clockwise
+};
+
+/// \param selected  labels, ascending
+/// \param plane     that cuts, at the accuracy of voxels; null: none
+/// Cost: O(columns + runs * depth of the tree)
+[[nodiscard]] std::vector<FeatureRow> featureRows(const volume::SemanticVolume& volume,
+                                                  std::span<const std::uint32_t> selected,
+                                                  const illustrate::SectionPlane* plane);
+
+}  // namespace svt::cli

@@ -1,0 +1,46 @@
+#pragma once
+/// \file
+/// Features with an outline in plan and values, one after the other: CSV, GeoJSON or GeoPackage, for tables and GIS.
+
+#include <svt/core/result.hpp>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace svt::writers {
+
+using FeatureCell = std::variant<std::monostate, std::string, std::int64_t, double, bool>;
+
+/// A column of a layer; what stands in it has this kind, or is empty. In CSV and GeoJSON each cell keeps its own.
+struct FeatureColumn {
+    enum class Kind : std::uint8_t { Text, Whole, Number };
+    std::string name;
+    Kind kind = Kind::Text;
+};
+
+/// A file that features are added to. Nothing is there before finish().
+class FeatureLayer {
+public:
+    /// \param path     ends in .csv (without outlines), .geojson or .gpkg (table `features`)
+    /// \param crsName  of the coordinates, which are written as they are; GeoJSON names it as its version of 2008 did
+    /// \return the layer, or BadArgument for another ending; CannotWrite, DiskFull
+    [[nodiscard]] static Result<std::unique_ptr<FeatureLayer>> create(const std::filesystem::path& path,
+                                                                      std::vector<FeatureColumn> columns,
+                                                                      const std::string& crsName);
+    virtual ~FeatureLayer() = default;
+
+    /// \param cells    one for each column
+    /// \param outline  a simple ring (east, north), the first point not repeated; empty: none
+    [[nodiscard]] virtual Result<void> add(std::span<const FeatureCell> cells,
+                                           std::span<const std::array<double, 2>> outline) = 0;
+    /// \return bytes written, or CannotWrite, DiskFull. Equal features give equal bytes.
+    [[nodiscard]] virtual Result<std::uint64_t> finish() = 0;
+};
+
+}  // namespace svt::writers

@@ -1,0 +1,234 @@
+#include <svt/writers/feature_layer.hpp>
+
+#include <svt/core/attribute.hpp>
+#include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
+#include <svt/crs/crs_name.hpp>
+#include <svt/writers/sheets/sqlite_database.hpp>
+#include <svt/writers/tables/csv_text.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace svt::writers {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Ring = std::span<const std::array<double, 2>>;
+
+class CsvLayer : public FeatureLayer {
+public:
+    CsvLayer(AtomicFile file, const std::vector<FeatureColumn>& columns) : file_(std::move(file)) {
+        for (const FeatureColumn& column : columns) text_.field(column.name);
+        text_.endLine();
+    }
+    Result<void> add(std::span<const FeatureCell> cells, Ring) override {
+        for (const FeatureCell& cell : cells) {
+            if (const auto* text = std::get_if<std::string>(&cell)) text_.field(*text);
+            if (const auto* whole = std::get_if<std::int64_t>(&cell)) text_.number(*whole);
+            if (const auto* number = std::get_if<double>(&cell)) text_.number(*number);
+            if (const auto* truth = std::get_if<bool>(&cell)) text_.field(*truth ? "true" : "false");
+            if (std::holds_alternative<std::monostate>(cell)) text_.nothing();
+        }
+        text_.endLine();
+        return file_.write(text_.take());
+    }
+    Result<std::uint64_t> finish() override {
+        if (auto written = file_.write(text_.take()); !written) return written.error();
+        return file_.commit();
+    }
+
+private:
+    AtomicFile file_;
+    CsvText text_;
+};
+
+Json jsonOf(const FeatureCell& cell) {
+    if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+    if (const auto* whole = std::get_if<std::int64_t>(&cell)) return *whole;
+    if (const auto* number = std::get_if<double>(&cell)) return *number;
+    if (const auto* truth = std::get_if<bool>(&cell)) return *truth;
+    return nullptr;
+}
+
+class GeoJsonLayer : public FeatureLayer {
+public:
+    GeoJsonLayer(AtomicFile file, std::vector<FeatureColumn> columns, const std::string& crsName)
+        : file_(std::move(file)), columns_(std::move(columns)) {
+        head_ = "{\"type\":\"FeatureCollection\"";
+        if (const std::uint32_t epsg = crs::epsgCodeOf(crsName); epsg != 0)
+            head_ += fmt::format(
+                ",\n\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":\"urn:ogc:def:crs:EPSG::{}\"}}}}", epsg);
+        head_ += ",\n\"features\":[";
+    }
+    Result<void> add(std::span<const FeatureCell> cells, Ring outline) override {
+        Json feature;
+        feature["type"] = "Feature";
+        feature["geometry"] = nullptr;
+        if (outline.size() >= 3) {
+            Json ring = Json::array();
+            for (std::size_t n = 0; n <= outline.size(); ++n)
+                ring.push_back({outline[n % outline.size()][0], outline[n % outline.size()][1]});
+            feature["geometry"] = {{"type", "Polygon"}, {"coordinates", Json::array({ring})}};
+        }
+        Json properties = Json::object();
+        for (std::size_t n = 0; n < cells.size(); ++n)
+            if (!std::holds_alternative<std::monostate>(cells[n])) properties[columns_[n].name] = jsonOf(cells[n]);
+        feature["properties"] = std::move(properties);
+        const std::string text = head_ + "\n" + feature.dump(-1, ' ', false, Json::error_handler_t::replace);
+        head_ = ",";
+        return file_.write(text);
+    }
+    Result<std::uint64_t> finish() override {
+        const std::string end = head_ == "," ? "\n]}\n" : head_ + "]}\n";
+        if (auto written = file_.write(end); !written) return written.error();
+        return file_.commit();
+    }
+
+private:
+    AtomicFile file_;
+    std::vector<FeatureColumn> columns_;
+    std::string head_;
+};
+
+// Tables that the standard asks for (OGC 12-128r19).
+constexpr const char* kPackageTables = R"(
+PRAGMA application_id=0x47504B47; PRAGMA user_version=10300;
+CREATE TABLE gpkg_spatial_ref_sys(srs_name TEXT NOT NULL,srs_id INTEGER NOT NULL PRIMARY KEY,organization TEXT NOT NULL,
+ organization_coordsys_id INTEGER NOT NULL,definition TEXT NOT NULL,description TEXT);
+CREATE TABLE gpkg_contents(table_name TEXT NOT NULL PRIMARY KEY,data_type TEXT NOT NULL,identifier TEXT UNIQUE,
+ description TEXT DEFAULT '',last_change DATETIME NOT NULL,min_x DOUBLE,min_y DOUBLE,max_x DOUBLE,max_y DOUBLE,srs_id INTEGER,
+ CONSTRAINT fk_gc_r_srs_id FOREIGN KEY(srs_id) REFERENCES gpkg_spatial_ref_sys(srs_id));
+CREATE TABLE gpkg_geometry_columns(table_name TEXT NOT NULL,column_name TEXT NOT NULL,geometry_type_name TEXT NOT NULL,
+ srs_id INTEGER NOT NULL,z TINYINT NOT NULL,m TINYINT NOT NULL,CONSTRAINT pk_geom_cols PRIMARY KEY(table_name,column_name),
+ CONSTRAINT uk_gc_table_name UNIQUE(table_name),
+ CONSTRAINT fk_gc_tn FOREIGN KEY(table_name) REFERENCES gpkg_contents(table_name),
+ CONSTRAINT fk_gc_srs FOREIGN KEY(srs_id) REFERENCES gpkg_spatial_ref_sys(srs_id));
+)";
+
+class PackageLayer : public FeatureLayer {
+public:
+    PackageLayer(std::filesystem::path path, std::unique_ptr<SqliteDatabase> database,
+                 const std::vector<FeatureColumn>& columns, const std::string& crsName)
+        : path_(std::move(path)), database_(std::move(database)) {
+        database_->run(std::string("BEGIN;") + kPackageTables);
+        addReferences(crsName);
+        std::string table = "CREATE TABLE features(fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,geom POLYGON";
+        for (const FeatureColumn& column : columns) {
+            std::string quoted;
+            for (const char c : column.name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+            table += fmt::format(",\"{}\" {}", quoted,
+                                 column.kind == FeatureColumn::Kind::Text    ? "TEXT"
+                                 : column.kind == FeatureColumn::Kind::Whole ? "INTEGER"
+                                                                             : "DOUBLE");
+        }
+        database_->run(table + ");");
+    }
+
+    Result<void> add(std::span<const FeatureCell> cells, Ring outline) override {
+        std::vector<SqliteValue> row{SqliteValue(), SqliteValue()};
+        if (outline.size() >= 3) row[1] = blobOf(outline);
+        for (const FeatureCell& cell : cells) {
+            SqliteValue value;
+            if (const auto* text = std::get_if<std::string>(&cell)) value = *text;
+            if (const auto* whole = std::get_if<std::int64_t>(&cell)) value = *whole;
+            if (const auto* number = std::get_if<double>(&cell)) value = *number;
+            if (const auto* truth = std::get_if<bool>(&cell)) value = std::int64_t{*truth ? 1 : 0};
+            row.push_back(std::move(value));
+        }
+        database_->insert("features", row);
+        return {};
+    }
+
+    Result<std::uint64_t> finish() override {
+        const bool isEmpty = !(bounds_[0] <= bounds_[2]);
+        std::vector<SqliteValue> row{std::string("features"), std::string("features"), std::string("features"),
+                                     std::string(), std::string("2000-01-01T00:00:00.000Z")};
+        for (const double bound : bounds_) row.push_back(isEmpty ? SqliteValue() : SqliteValue(bound));
+        row.push_back(reference_);
+        database_->insert("gpkg_contents", row);
+        database_->insert("gpkg_geometry_columns",
+                          {std::string("features"), std::string("geom"), std::string("POLYGON"), reference_,
+                           std::int64_t{0}, std::int64_t{0}});
+        database_->run("COMMIT;");
+        const auto bytes = database_->bytes();
+        if (!bytes) return bytes.error();
+        return writeFileAtomically(path_, *bytes);
+    }
+
+private:
+    void addReferences(const std::string& crsName) {
+        const auto add = [&](const std::string& name, std::int64_t number, const std::string& organization,
+                             const std::string& definition) {
+            database_->insert("gpkg_spatial_ref_sys", {name, number, organization, number, definition, SqliteValue{}});
+        };
+        if (const std::uint32_t epsg = crs::epsgCodeOf(crsName); epsg != 0) reference_ = epsg;
+        add("Undefined Cartesian SRS", -1, "NONE", "undefined");
+        add("Undefined geographic SRS", 0, "NONE", "undefined");
+        add("WGS 84 geodetic", 4326, "EPSG",
+            "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS "
+            "84\",6378137,298.257223563,AUTHORITY[\"EPSG\",\"7030\"]],"
+            "AUTHORITY[\"EPSG\",\"6326\"]],PRIMEM[\"Greenwich\",0,AUTHORITY[\"EPSG\",\"8901\"]],UNIT[\"degree\","
+            "0.0174532925199433,AUTHORITY[\"EPSG\",\"9122\"]],AUTHORITY[\"EPSG\",\"4326\"]]");
+        // Readers take the definition from their own register, by the code.
+        if (reference_ > 0 && reference_ != 4326) add(crsName, reference_, "EPSG", "undefined");
+    }
+
+    // A header with the extent, then well-known binary, all little-endian.
+    std::vector<std::byte> blobOf(Ring outline) {
+        std::array<double, 4> box{1e300, 1e300, -1e300, -1e300};
+        for (const auto& [x, y] : outline)
+            box = {std::min(box[0], x), std::min(box[1], y), std::max(box[2], x), std::max(box[3], y)};
+        bounds_ = {std::min(bounds_[0], box[0]), std::min(bounds_[1], box[1]), std::max(bounds_[2], box[2]),
+                   std::max(bounds_[3], box[3])};
+        std::vector<std::byte> bytes;
+        const auto put = [&](auto value) {
+            static_assert(std::endian::native == std::endian::little);
+            std::array<std::byte, sizeof(value)> raw;
+            std::memcpy(raw.data(), &value, sizeof(value));
+            bytes.insert(bytes.end(), raw.begin(), raw.end());
+        };
+        for (const char c : {'G', 'P', '\0', '\3'}) put(c);
+        put(static_cast<std::int32_t>(reference_));
+        for (const double value : {box[0], box[2], box[1], box[3]}) put(value);
+        put(char{1});
+        put(std::uint32_t{3});  // a polygon
+        put(std::uint32_t{1});  // of one ring
+        put(static_cast<std::uint32_t>(outline.size() + 1));
+        for (std::size_t n = 0; n <= outline.size(); ++n)
+            for (const double value : outline[n % outline.size()]) put(value);
+        return bytes;
+    }
+
+    std::filesystem::path path_;
+    std::unique_ptr<SqliteDatabase> database_;
+    std::int64_t reference_ = -1;
+    std::array<double, 4> bounds_{1e300, 1e300, -1e300, -1e300};
+};
+
+}  // namespace
+
+Result<std::unique_ptr<FeatureLayer>> FeatureLayer::create(const std::filesystem::path& path,
+                                                           std::vector<FeatureColumn> columns,
+                                                           const std::string& crsName) {
+    const std::string ending = lowerAscii(path.extension().string());
+    if (ending == ".gpkg") {
+        auto database = makeSqliteDatabase();
+        if (!database) return database.error();
+        return std::unique_ptr<FeatureLayer>(
+            std::make_unique<PackageLayer>(path, std::move(*database), columns, crsName));
+    }
+    if (ending != ".csv" && ending != ".geojson")
+        return Error(Code::BadArgument, "features are written as .csv, .geojson or .gpkg", {path.string(), 0, 0, {}});
+    auto file = AtomicFile::create(path);
+    if (!file) return file.error();
+    if (ending == ".csv") return std::unique_ptr<FeatureLayer>(std::make_unique<CsvLayer>(std::move(*file), columns));
+    return std::unique_ptr<FeatureLayer>(std::make_unique<GeoJsonLayer>(std::move(*file), std::move(columns), crsName));
+}
+
+}  // namespace svt::writers
