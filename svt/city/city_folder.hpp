@@ -110,6 +110,7 @@ private:
     IndexEntry top_;
     std::vector<Class> classes_;
     std::string root_;  // of the index
+    std::vector<std::uint64_t> packSizes_;
 };
 
 /// Chosen parts of a city as one volume.

@@ -91,7 +91,9 @@ Result<illustrate::Painting> CityPicture::paint(illustrate::Scene scene, const r
     illustrate::ScenePainter painter(shown_, build_.threads);
     painter.tolerateNothing(&nothing_);
     painter.reportTo(progress_);
-    for (const volume::SemanticVolume& part : parts_) painter.addPart(part);
+    // Voxels of all but the nearest are at most a pixel wide.
+    const double finest = parts_.empty() ? 0 : parts_.back().grid.spacing().x;
+    for (const volume::SemanticVolume& part : parts_) painter.addPart(part, part.grid.spacing().x <= finest);
     return painter.paint(scene, options);
 }
 

@@ -1,5 +1,7 @@
 #include <apps/cli/check/check_reports.hpp>
 #include <apps/cli/check/feature_batches.hpp>
+#include <apps/cli/city/city_check.hpp>
+#include <apps/cli/city/city_input.hpp>
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/json_output.hpp>
@@ -241,6 +243,7 @@ Result<void> report(const CheckArguments& arguments, const Checked& checked, con
 }
 
 int runCheck(const CheckArguments& arguments) {
+    if (arguments.inputs.size() == 1 && isCity(arguments.inputs[0])) return checkCity(arguments.inputs[0]);
     Diagnostics diagnostics;
     const auto crs = parseCrs(arguments.crs);
     if (!crs) return fail(crs.error());

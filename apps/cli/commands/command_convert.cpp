@@ -1,8 +1,11 @@
+#include <apps/cli/city/city_input.hpp>
+#include <apps/cli/city/feature_query.hpp>
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/write_options.hpp>
 #include <apps/cli/output/file_content.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/volume/svt_file.hpp>
@@ -20,6 +23,19 @@ struct ConvertArguments {
 };
 
 int runConvert(const ConvertArguments& arguments) {
+    if (isCity(arguments.input)) {
+        if (endingOf(arguments.output) != ".csv")
+            return fail(Error(Code::BadArgument,
+                              "a city becomes a table of its buildings here (.csv); svt query -o writes .geojson and "
+                              ".gpkg, and svt city extract takes a part, which becomes any format"));
+        FeatureQuery query;
+        query.input = arguments.input;
+        query.output = arguments.output;
+        query.query = arguments.write.select.empty() ? "class=Building" : arguments.write.select;
+        query.box = arguments.write.box;
+        query.build = arguments.build;
+        return runFeatureQuery(query);
+    }
     Diagnostics diagnostics;
     const TerminalProgress progress;
     BuildArguments build = arguments.build;

@@ -1,5 +1,6 @@
 #include <svt/city/join/join_volumes.hpp>
 
+#include <svt/core/parallel.hpp>
 #include <svt/volume/volume_part.hpp>
 
 #include <fmt/format.h>
@@ -27,17 +28,30 @@ class Joiner {
 public:
     Joiner(std::vector<Part> parts, Vec3i dimension) : parts_(std::move(parts)), dimension_(dimension) {}
 
-    ColumnVolume run() {
+    // Tiles do not depend on each other, nor on the number of threads.
+    ColumnVolume run() const {
         constexpr std::int32_t kSize = ColumnVolume::kTileSize;
-        std::vector<ColumnTileData> tiles;
-        for (std::int32_t j = 0; j < dimension_.y; j += kSize)
-            for (std::int32_t i = 0; i < dimension_.x; i += kSize)
-                tiles.push_back(tile(i, j, std::min(kSize, dimension_.x - i), std::min(kSize, dimension_.y - j)));
+        const auto across = static_cast<std::size_t>((dimension_.x + kSize - 1) / kSize);
+        const auto along = static_cast<std::size_t>((dimension_.y + kSize - 1) / kSize);
+        std::vector<ColumnTileData> tiles(across * along);
+        parallelFor(tiles.size(), 16, 0, [&](std::size_t begin, std::size_t end) {
+            Scratch scratch;
+            for (std::size_t n = begin; n < end; ++n) {
+                const auto i = static_cast<std::int32_t>(n % across) * kSize;
+                const auto j = static_cast<std::int32_t>(n / across) * kSize;
+                tiles[n] = tile(i, j, std::min(kSize, dimension_.x - i), std::min(kSize, dimension_.y - j), scratch);
+            }
+        });
         return ColumnVolume::fromTiles(dimension_, std::move(tiles));
     }
 
 private:
-    ColumnTileData tile(std::int32_t iBegin, std::int32_t jBegin, std::int32_t width, std::int32_t height) {
+    struct Scratch {
+        std::vector<Run> whole, next;
+    };
+
+    ColumnTileData tile(std::int32_t iBegin, std::int32_t jBegin, std::int32_t width, std::int32_t height,
+                        Scratch& scratch) const {
         std::vector<const Part*> meeting;
         for (const Part& part : parts_) {
             const Vec3i n = part.columns->dimension();
@@ -48,32 +62,38 @@ private:
         ColumnTileBuilder builder(width);
         std::vector<std::uint16_t> row(static_cast<std::size_t>(width));
         for (std::int32_t j = jBegin; j < jBegin + height; ++j) {
+            if (meeting.empty() && j > jBegin) {
+                builder.repeatRow();
+                continue;
+            }
             for (std::int32_t x = 0; x < width; ++x)
-                row[std::size_t(x)] = builder.addColumn(column(meeting, iBegin + x, j));
+                row[std::size_t(x)] = builder.addColumn(column(meeting, iBegin + x, j, scratch));
             builder.addRow(row);
         }
         return builder.finish();
     }
 
-    std::span<const Run> column(const std::vector<const Part*>& meeting, std::int32_t i, std::int32_t j) {
-        whole_.assign(1, {static_cast<std::uint32_t>(dimension_.z), 0});
+    std::span<const Run> column(const std::vector<const Part*>& meeting, std::int32_t i, std::int32_t j,
+                                Scratch& scratch) const {
+        scratch.whole.assign(1, {static_cast<std::uint32_t>(dimension_.z), 0});
         for (const Part* part : meeting) {
             const Vec3i n = part->columns->dimension();
             const std::int32_t x = i - part->begin.x, y = j - part->begin.y;
             if (x < 0 || y < 0 || x >= n.x || y >= n.y) continue;
-            lay(*part, part->columns->column(x, y));
+            lay(*part, part->columns->column(x, y), scratch);
         }
-        return whole_;
+        return scratch.whole;
     }
 
     // Lays the runs of a part under those that are there.
-    void lay(const Part& part, std::span<const Run> runs) {
+    static void lay(const Part& part, std::span<const Run> runs, Scratch& scratch) {
+        auto& [whole, next] = scratch;
         if (runs.size() == 1 && runs[0].scalar == 0) return;
-        next_.clear();
+        next.clear();
         std::uint32_t from = 0;
         std::size_t under = 0;
         const auto low = static_cast<std::uint32_t>(part.begin.z);
-        for (const Run& over : whole_)
+        for (const Run& over : whole)
             while (from < over.end) {
                 Scalar scalar = 0;
                 std::uint32_t end = over.end;
@@ -87,18 +107,17 @@ private:
                     }
                 }
                 if (over.scalar != 0) scalar = over.scalar;
-                if (!next_.empty() && next_.back().scalar == scalar)
-                    next_.back().end = end;
+                if (!next.empty() && next.back().scalar == scalar)
+                    next.back().end = end;
                 else
-                    next_.push_back({end, scalar});
+                    next.push_back({end, scalar});
                 from = end;
             }
-        std::swap(whole_, next_);
+        std::swap(whole, next);
     }
 
     std::vector<Part> parts_;
     Vec3i dimension_;
-    std::vector<Run> whole_, next_;
 };
 
 // The labels of `from`, with numbers behind those of `into`.

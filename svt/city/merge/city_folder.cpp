@@ -25,6 +25,8 @@ bool meets(const std::array<double, 4>& a, double west, double south, double eas
     return a[0] <= east && west <= a[2] && a[1] <= north && south <= a[3];
 }
 
+constexpr std::size_t kPackEntry = 40;  // of packs.bin: bytes and SHA-256
+
 std::string packName(std::uint32_t pack) { return packPath({}, pack).generic_string(); }
 
 Error badMember(const std::string& place, const IndexEntry& entry, std::string_view what) {
@@ -98,6 +100,10 @@ Result<City> City::open(std::shared_ptr<const Store> store, const std::filesyste
         idHash(head.substr(kIndexHead, size)) != sum)
         return city.damaged("index.bin", "the root of the index is missing or damaged");
     city.root_ = head.substr(kIndexHead, size);
+    const auto sizes = city.store_->read("packs.bin", 0, std::size_t{city.packs_} * kPackEntry);
+    if (!sizes) return sizes.error();
+    for (Taker packs(*sizes); packs.left() >= kPackEntry; packs.text(kPackEntry - 8))
+        city.packSizes_.push_back(packs.take<std::uint64_t>());
     return city;
 }
 
@@ -193,7 +199,14 @@ Result<std::vector<City::Place>> City::find(const std::string& id) const {
 Result<std::string> City::readBytes(const IndexEntry& entry) const {
     const std::string name = packName(entry.pack);
     auto bytes = store_->read(name, entry.offset, entry.size);
-    if (bytes && bytes->size() != entry.size)
+    if (!bytes) return bytes;
+    const auto size = store_->size(name);
+    if (!size) return size.error();
+    if (entry.pack < packSizes_.size() && *size != packSizes_[entry.pack])
+        return badMember(
+            store_->place(name), entry,
+            fmt::format("the pack has {} bytes, and had {} when the city was merged", *size, packSizes_[entry.pack]));
+    if (bytes->size() != entry.size)
         return badMember(store_->place(name), entry, "the pack is missing or ends before it");
     return bytes;
 }

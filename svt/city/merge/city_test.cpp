@@ -2,6 +2,7 @@
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/city_folder.hpp>
 #include <svt/city/city_levels.hpp>
+#include <svt/city/city_view.hpp>
 #include <svt/city/merge/index_file.hpp>
 #include <svt/city/tile/tile_builder.hpp>
 #include <svt/core/temporary_folder_test.hpp>
@@ -345,6 +346,89 @@ TEST_F(SmallCity, RefusesPlansOfOthers) {
 }
 
 // Any changed byte of an index or a pack is an error with a name, or changes nothing.
+CameraView lookingDown(const Box3d& box, double pixels) {
+    CameraView view;
+    view.isPerspective = false;
+    view.eye = {(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, box.max.z + 10};
+    view.forward = {0, 0, -1};
+    view.right = {1, 0, 0};
+    view.up = {0, 1, 0};
+    view.halfWidth = view.halfHeight = std::max(box.max.x - box.min.x, box.max.y - box.min.y) / 2 + 1;
+    view.pixel = 2 * view.halfHeight / pixels;
+    return view;
+}
+
+TEST_F(SmallCity, IsSeenAtTheDetailOfAPixel) {
+    write(folder / "files", samples::CityProfile::Berlin, 1);
+    build(plan());
+    const City city = open();
+    ASSERT_GE(city.topDetail(), 2);
+    for (int detail = 0; detail <= city.topDetail(); ++detail) {
+        const double voxel = spacingOf(detail, city.spacing()).x;
+        CameraView view = lookingDown(city.box(), 1);
+        view.pixel = 1.01 * voxel;
+        const auto chosen = chooseTiles(city, view, 1'000'000'000);
+        ASSERT_TRUE(chosen);
+        const auto all = city.find(detail, {-1e300, -1e300, 1e300, 1e300});
+        ASSERT_TRUE(all);
+        ASSERT_EQ(chosen->entries.size(), all->size()) << "detail " << detail;
+        for (const IndexEntry& entry : chosen->entries) EXPECT_EQ(entry.detail, detail);
+        const auto volumes = readTiles(city, *chosen);
+        ASSERT_TRUE(volumes) << volumes.error().toString();
+        ASSERT_EQ(volumes->size(), 1u);
+        const auto extracted = extractVolume(city, {{},
+                                                    {},
+                                                    {city.box().min.x, city.box().min.y, city.box().min.z,
+                                                     city.box().max.x, city.box().max.y, city.box().max.z},
+                                                    true,
+                                                    detail});
+        ASSERT_TRUE(extracted) << extracted.error().toString();
+        EXPECT_EQ(voxelsOf(volumes->front()), voxelsOf(*extracted)) << "detail " << detail;
+    }
+}
+
+TEST_F(SmallCity, IsReadOnlyWhereItIsSeen) {
+    write(folder / "files", samples::CityProfile::Berlin, 1);
+    build(plan());
+    const City city = open();
+    CameraView view = lookingDown(city.box(), 100);
+    view.forward = {0, 0, 1};
+    auto chosen = chooseTiles(city, view, 1'000'000'000);
+    ASSERT_TRUE(chosen);
+    EXPECT_TRUE(chosen->entries.empty()) << "looking into the sky";
+    view.forward = {0, 0, -1};
+    view.eye.x += 1e5;
+    chosen = chooseTiles(city, view, 1'000'000'000);
+    ASSERT_TRUE(chosen);
+    EXPECT_TRUE(chosen->entries.empty()) << "looking elsewhere";
+    // The sun in the east throws shadows to the west.
+    view.eye.x = city.box().min.x - view.halfWidth - 60;
+    view.towardsLight = normalized(Vec3d{1, 0, 0.05});
+    chosen = chooseTiles(city, view, 1'000'000'000);
+    ASSERT_TRUE(chosen);
+    EXPECT_FALSE(chosen->entries.empty());
+}
+
+TEST_F(SmallCity, GrowsCoarserWhereMemoryIsShort) {
+    write(folder / "files", samples::CityProfile::Berlin, 1);
+    build(plan());
+    const City city = open();
+    CameraView view = lookingDown(city.box(), 1);
+    view.pixel = 1.01 * city.spacing();
+    const auto all = chooseTiles(city, view, 1'000'000'000);
+    ASSERT_TRUE(all);
+    EXPECT_EQ(all->pixels, 1);
+    const auto less = chooseTiles(city, view, kBytesAByte * (all->bytes - 1));
+    ASSERT_TRUE(less);
+    EXPECT_LT(less->bytes, all->bytes);
+    EXPECT_GT(less->pixels, 1);
+    EXPECT_FALSE(less->entries.empty());
+    const auto least = chooseTiles(city, view, 1);
+    ASSERT_TRUE(least);
+    ASSERT_EQ(least->entries.size(), 1u) << "the top tile is always there";
+    EXPECT_EQ(least->entries.front().detail, city.topDetail());
+}
+
 TEST_F(SmallCity, NamesDamage) {
     write(folder / "files", samples::CityProfile::Dutch, 1);
     build(plan());

@@ -104,7 +104,8 @@ Result<render::DrawnVolume> ScenePainter::formOf(std::size_t number, const Volum
     if (!bricks) {
         volume::BrickVolume::Options options{
             .faces = volume::BrickFaces::Slopes, .planes = volume.planes, .threads = threads_, .progress = progress_};
-        if (wanted.hasCells) options = {.faces = volume::BrickFaces::Voxels, .threads = threads_};
+        const bool hasSlopes = number == 0 || details_[number - 1].hasSlopes;
+        if (wanted.hasCells || !hasSlopes) options = {.faces = volume::BrickFaces::Voxels, .threads = threads_};
         auto made = volume::BrickVolume::fromColumns(volume.columns, options);
         if (!made) return made.error();
         bricks = std::move(*made);
@@ -116,7 +117,9 @@ void ScenePainter::addDetail(const volume::SemanticVolume& detail) {
     details_.push_back({&detail, placeOfDetail(volume_, detail)});
 }
 
-void ScenePainter::addPart(const volume::SemanticVolume& part) { details_.push_back({&part, {}, true}); }
+void ScenePainter::addPart(const volume::SemanticVolume& part, bool hasSlopes) {
+    details_.push_back({&part, {}, true, hasSlopes});
+}
 
 // The volumes that a frame draws: forms of the first, then those of the details, whose passes are added.
 Result<std::vector<render::DrawnVolume>> ScenePainter::drawnVolumes(const Scene& scene, render::FrameSpec& spec) {

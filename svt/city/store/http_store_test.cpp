@@ -1,0 +1,190 @@
+// What a server of a city may answer, and what is made of it: good ranges, whole files, lies.
+#include <svt/city/store/store.hpp>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <thread>
+
+namespace svt::city {
+namespace {
+
+// A server of one text, on a port of its own; `answer` makes the answer to a request for bytes [first, last].
+class TinyServer {
+public:
+    using Answer = std::function<std::string(std::size_t first, std::size_t last)>;
+
+    explicit TinyServer(Answer answer) : answer_(std::move(answer)) {
+        socket_ = ::socket(AF_INET, SOCK_STREAM, 0);
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof(address);
+        EXPECT_EQ(::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
+        EXPECT_EQ(::listen(socket_, 8), 0);
+        ::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
+        port_ = ntohs(address.sin_port);
+        thread_ = std::thread([this] { run(); });
+    }
+    ~TinyServer() {
+        ::shutdown(socket_, SHUT_RDWR);
+        ::close(socket_);
+        thread_.join();
+    }
+    std::string address() const { return fmt::format("http://127.0.0.1:{}/town/", port_); }
+    int requests() const { return requests_; }
+
+private:
+    void run() {
+        for (int client = 0; (client = ::accept(socket_, nullptr, nullptr)) >= 0; ::close(client)) {
+            std::string request;
+            char bytes[4096];
+            while (request.find("\r\n\r\n") == std::string::npos) {
+                const auto got = ::recv(client, bytes, sizeof(bytes), 0);
+                if (got <= 0) break;
+                request.append(bytes, static_cast<std::size_t>(got));
+            }
+            ++requests_;
+            unsigned long first = 0, last = 0;
+            const std::size_t range = request.find("bytes=");
+            if (range != std::string::npos) std::sscanf(request.c_str() + range, "bytes=%lu-%lu", &first, &last);
+            const std::string answer = answer_(first, last);
+            std::size_t sent = 0;
+            while (sent < answer.size()) {
+                const auto done = ::send(client, answer.data() + sent, answer.size() - sent, MSG_NOSIGNAL);
+                if (done <= 0) break;
+                sent += static_cast<std::size_t>(done);
+            }
+        }
+    }
+
+    Answer answer_;
+    int socket_ = -1, port_ = 0;
+    std::atomic<int> requests_{0};
+    std::thread thread_;
+};
+
+std::string textOf(std::size_t size) {
+    std::string text;
+    for (std::size_t n = 0; n < size; ++n) text += static_cast<char>('a' + n % 23);
+    return text;
+}
+
+std::string answerOf(int status, const std::string& body, const std::string& headers = {}) {
+    return fmt::format("HTTP/1.1 {} X\r\nContent-Length: {}\r\nConnection: close\r\n{}\r\n{}", status, body.size(),
+                       headers, body);
+}
+
+std::string rangeOf(const std::string& text, std::size_t first, std::size_t last) {
+    if (first >= text.size()) return answerOf(416, "");
+    last = std::min(last, text.size() - 1);
+    return answerOf(206, text.substr(first, last - first + 1),
+                    fmt::format("Content-Range: bytes {}-{}/{}\r\n", first, last, text.size()));
+}
+
+// What reading bytes [100, 200) says.
+std::string faultOf(TinyServer::Answer answer) {
+    const TinyServer server(std::move(answer));
+    const auto bytes = openHttpStore(server.address())->read("index.bin", 100, 100);
+    return bytes ? "" : bytes.error().toString();
+}
+
+TEST(HttpStore, ReadsRanges) {
+    const std::string text = textOf(1000);
+    const TinyServer server([&](std::size_t first, std::size_t last) { return rangeOf(text, first, last); });
+    const auto traffic = std::make_shared<Traffic>();
+    const auto store = openHttpStore(server.address(), traffic);
+    EXPECT_EQ(store->place("index.bin"), server.address() + "index.bin");
+    for (const auto& [offset, size] : {std::pair<std::size_t, std::size_t>{0, 1}, {100, 100}, {990, 10}, {999, 1}}) {
+        const auto bytes = store->read("index.bin", offset, size);
+        ASSERT_TRUE(bytes) << bytes.error().toString();
+        EXPECT_EQ(*bytes, text.substr(offset, size));
+    }
+    EXPECT_EQ(*store->read("index.bin", 950, 500), text.substr(950)) << "it ends there";
+    EXPECT_EQ(*store->read("index.bin", 5000, 10), "") << "behind its end";
+    EXPECT_EQ(*store->size("index.bin"), 1000u);
+    EXPECT_EQ(traffic->requests, 6u) << "the size is known by then";
+    EXPECT_EQ(traffic->bytes, 1u + 100 + 10 + 1 + 50);
+}
+
+TEST(HttpStore, TakesAWholeFileThatIsNoLonger) {
+    const std::string text = textOf(50);
+    const TinyServer server([&](std::size_t, std::size_t) { return answerOf(200, text); });
+    const auto bytes = openHttpStore(server.address())->read("city.json", 0, 100);
+    ASSERT_TRUE(bytes) << bytes.error().toString();
+    EXPECT_EQ(*bytes, text);
+}
+
+TEST(HttpStore, NamesServersWithoutRanges) {
+    const std::string text = textOf(1000);
+    const std::string fault = faultOf([&](std::size_t, std::size_t) { return answerOf(200, text); });
+    EXPECT_NE(fault.find("sends whole files where a range is asked for"), std::string::npos) << fault;
+}
+
+TEST(HttpStore, NamesServersThatLie) {
+    const std::string text = textOf(1000);
+    const auto lie = [&](const char* contentRange, std::size_t size) {
+        return faultOf([&, contentRange, size](std::size_t, std::size_t) {
+            return answerOf(206, text.substr(0, size), fmt::format("Content-Range: {}\r\n", contentRange));
+        });
+    };
+    for (const std::string& fault :
+         {lie("bytes 0-99/1000", 100), lie("bytes 100-199/1000", 90), lie("bytes 100-149/1000", 50), lie("", 100),
+          lie("bytes 100-199", 100), lie("bytes 100-199/*", 100), lie("bytes 100-199/150", 100),
+          lie("bytes 199-100/1000", 100), lie("bytes 100-99999999999999999999999/1000", 100)})
+        EXPECT_NE(fault.find("it is no good for ranges"), std::string::npos) << fault;
+    // More than was asked for is not read to its end.
+    const std::string fault = faultOf([&](std::size_t, std::size_t) {
+        return answerOf(206, textOf(1 << 20), "Content-Range: bytes 100-199/1048676\r\n");
+    });
+    EXPECT_NE(fault.find("E101"), std::string::npos) << fault;
+}
+
+TEST(HttpStore, NoticesAFileThatChanges) {
+    std::size_t size = 1000;
+    const TinyServer server([&](std::size_t first, std::size_t last) { return rangeOf(textOf(size), first, last); });
+    const auto store = openHttpStore(server.address());
+    ASSERT_TRUE(store->read("packs.bin", 0, 10));
+    size = 1001;
+    const auto bytes = store->read("packs.bin", 0, 10);
+    ASSERT_FALSE(bytes);
+    EXPECT_EQ(bytes.error().code(), Code::BadCity);
+}
+
+TEST(HttpStore, TriesAgainAndGivesUp) {
+    int failures = 2;
+    const std::string text = textOf(1000);
+    const TinyServer server([&](std::size_t first, std::size_t last) {
+        return failures-- > 0 ? answerOf(503, "") : rangeOf(text, first, last);
+    });
+    const auto store = openHttpStore(server.address());
+    const auto bytes = store->read("index.bin", 3, 4);
+    ASSERT_TRUE(bytes) << bytes.error().toString();
+    EXPECT_EQ(*bytes, text.substr(3, 4));
+    failures = 100;
+    EXPECT_FALSE(store->read("index.bin", 3, 4));
+    EXPECT_EQ(server.requests(), 6);
+    // Refused: not tried again.
+    const TinyServer closed([&](std::size_t, std::size_t) { return answerOf(403, ""); });
+    const auto refused = openHttpStore(closed.address())->read("index.bin", 0, 4);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message().find("status 403"), std::string::npos) << refused.error().message();
+    EXPECT_EQ(closed.requests(), 1);
+}
+
+TEST(HttpStore, SaysThatNobodyAnswers) {
+    const auto bytes = openHttpStore("http://127.0.0.1:1/town")->read("city.json", 0, 10);
+    ASSERT_FALSE(bytes);
+    EXPECT_NE(bytes.error().message().find("does not answer"), std::string::npos) << bytes.error().message();
+}
+
+}  // namespace
+}  // namespace svt::city
