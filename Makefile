@@ -1,6 +1,7 @@
 # What people type. Each target sets up what is missing, is quiet, and may be repeated.
 #   make          the same as make build
 #   make build    the command at build/release/bin/svt
+#   make demo-city  a generated town of 3000 buildings as a city, pictures and figures under build/demo-city; then the page
 #   make demo     a generated house, its volume and pictures under build/demo; then the viewer, and how to open it
 #   make test     all tests
 #   make web      the library as a WebAssembly module: build/web/svt.js and svt.wasm
@@ -20,7 +21,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := build
-.PHONY: build demo install package npm python test web viewer bench check asan tsan tidy fuzz mutants clean setup
+.PHONY: build demo demo-city install package npm python test web viewer bench check asan tsan tidy fuzz mutants clean setup
 SECONDS ?= 60
 FOLDERS ?= volume voxelize mesh render readers
 COUNT ?= 30
@@ -34,6 +35,12 @@ build: setup
 
 viewer: web
 	@scripts/viewer.sh
+
+demo-city: build
+	@scripts/demo_city.sh
+	@$(MAKE) -s viewer
+	@build/release/bin/svt publish build/demo-city/town -o build/demo-city/page --force
+	@echo "demo-city: 'build/release/bin/svt view build/demo-city/town' opens the town in the browser"
 
 demo: build
 	@scripts/demo.sh

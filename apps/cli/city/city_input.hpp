@@ -22,6 +22,10 @@ namespace svt::cli {
 /// Prints what a city has, for `svt info` and `svt city info`. \return the exit code
 int printCity(const std::filesystem::path& folder, bool json);
 
+/// All of a city as one volume for the page, at the finest detail that it draws without streaming; tells which in a note.
+/// \return the volume, or an error of City::open(), extractVolume()
+[[nodiscard]] Result<volume::SemanticVolume> pageVolume(const std::filesystem::path& folder);
+
 /// Memory that tiles may take: half of --memory, or 1 GB.
 [[nodiscard]] std::uint64_t tileMemory();
 

@@ -1,5 +1,6 @@
 #include <apps/cli/options/site_options.hpp>
 
+#include <apps/cli/city/city_input.hpp>
 #include <apps/cli/options/viewer_folder.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 // A model as the bytes of a .svt; the temporary file is removed.
 Result<MappedFile> built(const fs::path& input, const BuildArguments& build, Diagnostics& diagnostics) {
     const TerminalProgress progress;
-    const auto volume = loadVolume(input, build, progress.get(), diagnostics);
+    const auto volume = isCity(input) ? pageVolume(input) : loadVolume(input, build, progress.get(), diagnostics);
     if (!volume) return volume.error();
     const PrivateFolder folder;
     if (folder.path().empty())
@@ -35,7 +36,7 @@ Result<MappedFile> built(const fs::path& input, const BuildArguments& build, Dia
 
 Result<serve::SiteModel> modelOf(const fs::path& input, const std::string& name, const BuildArguments& build,
                                  Diagnostics& diagnostics) {
-    auto file = MappedFile::open(input);
+    auto file = isCity(input) ? built(input, build, diagnostics) : MappedFile::open(input);
     if (!file) return file.error();
     if (!volume::looksLikeSvt(file->bytes())) file = built(input, build, diagnostics);
     if (!file) return file.error();

@@ -132,6 +132,19 @@ void appendLabels(volume::LabelTable& into, const volume::LabelTable& from, Scal
     }
 }
 
+// Adds planes of a part. \param begin  of its first sample in the whole
+void addPlanes(const std::vector<volume::FacePlane>& planes, Vec3i begin, std::vector<volume::FacePlane>& to) {
+    for (volume::FacePlane face : planes) {
+        face.plane.offset -= dot(face.plane.normal, toDouble(begin));
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto place = static_cast<std::size_t>(axis);
+            face.min[place] = static_cast<std::uint16_t>(face.min[place] + begin[axis]);
+            face.max[place] = static_cast<std::uint16_t>(face.max[place] + begin[axis]);
+        }
+        to.push_back(face);
+    }
+}
+
 // One table of all labels, each id once, and the columns of each volume with its numbers.
 volume::LabelTable unite(std::span<const volume::SemanticVolume> volumes, std::vector<ColumnVolume>& columns) {
     std::map<std::pair<std::string, std::string>, volume::Label> sorted;
@@ -195,6 +208,7 @@ Result<volume::SemanticVolume> joinVolumes(std::span<const volume::SemanticVolum
     result.grid = *grid;
     result.crsName = first.crsName;
     result.modelName = first.modelName;
+    for (std::size_t n = 0; n < volumes.size(); ++n) addPlanes(volumes[n].planes, parts[n].begin, result.planes);
     result.columns = Joiner(std::move(parts), high - low).run();
     const auto counts = result.columns.countVoxels(result.labels.scalarCount());
     for (volume::Label& label : result.labels.labels) {

@@ -10,7 +10,7 @@
 namespace svt::city {
 
 /// Puts volumes together whose samples lie on one lattice. Where several fill a sample, the first has it; label tables
-/// follow each other. Vectors and overlaps are left out.
+/// follow each other, so do planes of faces. Vectors and overlaps are left out.
 /// \param volumes      at least one, along the axes of the world, with equal spacing
 /// \param isByClass    labels with the same id are one (levels whose labels are classes, without tree); ordered by class,
 ///                     then id

@@ -74,8 +74,10 @@ Result<ScenePainter::Forms*> ScenePainter::findForms(std::size_t number, std::op
         ShellOptions options;
         options.threads = threads_;
         auto hulls = extractShell(*forms->volume, *shell, options);
-        if (!hulls) return hulls.error();
-        forms->volume = &forms->shell.emplace(std::move(*hulls));
+        // A part may have no group of that level, such as one of classes alone.
+        const bool isPart = number > 0 && details_[number - 1].isPart;
+        if (!hulls && !(isPart && hulls.error().code() == Code::NothingSelected)) return hulls.error();
+        if (hulls) forms->volume = &forms->shell.emplace(std::move(*hulls));
     }
     return forms_.emplace_back(std::move(forms)).get();
 }
@@ -125,7 +127,9 @@ void ScenePainter::addPart(const volume::SemanticVolume& part, bool hasSlopes) {
 Result<std::vector<render::DrawnVolume>> ScenePainter::drawnVolumes(const Scene& scene, render::FrameSpec& spec) {
     std::vector<render::DrawnVolume> drawn;
     const std::vector<VolumeForm> forms = illustrate::volumeForms(scene);
-    for (const VolumeForm& wanted : forms) {
+    for (VolumeForm wanted : forms) {
+        // What is divided into parts has its shells there.
+        if (!details_.empty() && details_.front().isPart) wanted.shell.reset();
         const auto made = form(wanted, spec);
         if (!made) return made.error();
         drawn.push_back(*made);
