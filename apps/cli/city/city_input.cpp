@@ -14,7 +14,8 @@
 namespace svt::cli {
 
 bool isCity(const std::filesystem::path& input) {
-    const std::string text = input.generic_string();
+    // As it was given: the generic form has but one slash behind "http:".
+    const std::string text = input.string();
     if (text.starts_with("http://") || text.starts_with("https://")) return true;
     std::error_code ignored;
     return std::filesystem::is_regular_file(input / "city.json", ignored);

@@ -16,12 +16,12 @@ using enum OptionKind;
 
 constexpr Option kModelInput[] = {{.name = "input",
                                    .value = "FILE",
-                                   .help = "a .svt or a model file",
+                                   .help = "a .svt, a model file, or a city: its folder or address",
                                    .isRequired = true,
                                    .file = FileUse::ModelOrVolume}};
 constexpr Option kSiteInputs[] = {{.name = "input",
                                    .value = "FILE",
-                                   .help = "what the page opens: .svt or model files",
+                                   .help = "what the page opens: .svt, model files, folders of cities",
                                    .isRequired = true,
                                    .mayRepeat = true,
                                    .file = FileUse::ModelOrVolume}};
@@ -88,7 +88,9 @@ constexpr Option kMemory[] = {
      .least = 64,
      .most = 16777216,
      .otherwise = "what the machine has, or a control group or ulimit grants",
-     .help = "memory that the work may take; where it needs more, it ends with a message",
+     .help =
+         "memory that the work may take; where it needs more, it ends with a message. Pictures of cities give half of "
+         "it to tiles (1 GB without the option), and become coarser",
      .group = "Model"},
 };
 constexpr Option kStyle[] = {
@@ -274,7 +276,7 @@ constexpr Option kInfoOutput[] = {
 constexpr Option kCheck[] = {
     {.name = "input",
      .value = "FILE",
-     .help = "model files",
+     .help = "model files, or a city: its folder or address",
      .isRequired = true,
      .mayRepeat = true,
      .file = FileUse::Model},

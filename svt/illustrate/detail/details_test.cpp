@@ -135,6 +135,28 @@ TEST(Details, WholeComponentsReplaceTheirs) {
     EXPECT_NEAR(static_cast<double>(knob), 3, 1);
 }
 
+// A model that is divided among volumes is drawn as if it were whole, also from an empty volume around it.
+TEST(Details, PartsAreDrawnAsTheWhole) {
+    const std::vector<const char*> ids{"wall", "post", "glass"};
+    const volume::SemanticVolume whole = sampled({0, 0, 0}, {8, 8, 8}, 0.4, ids, model);
+    volume::SemanticVolume frame = sampled({0, 0, 0}, {8, 8, 8}, 0.4, {}, [](Vec3d) { return 0u; });
+    std::vector<volume::SemanticVolume> parts;
+    for (volume::Scalar own = 1; own <= 3; ++own)
+        parts.push_back(
+            sampled({0, 0, 0}, {8, 8, 8}, 0.4, {ids[own - 1]}, [own](Vec3d p) { return model(p) == own ? 1u : 0u; }));
+    for (std::size_t n = 0; n < 3; ++n) parts[n].labels.labels[0].color = whole.labels.labels[n].color;
+    ASSERT_TRUE(joinLabels(frame, parts));
+    ScenePainter plain(whole), divided(frame);
+    for (const auto& part : parts) divided.addPart(part);
+    for (const char* preset : {"iso", "front", "iso-nw", "left"}) {
+        Scene wanted = scene();
+        wanted.camera.preset = preset;
+        EXPECT_EQ(differences(painted(divided, wanted), painted(plain, wanted)), 0u) << preset;
+        wanted.passes[0].cut = "z>4";
+        EXPECT_EQ(differences(painted(divided, wanted), painted(plain, wanted)), 0u) << preset << ", cut";
+    }
+}
+
 TEST(Details, OtherReferenceSystemsAreRefused) {
     volume::SemanticVolume tower = sampled({0, 0, 0}, {8, 8, 8}, 0.4, {"wall", "post", "glass"}, model);
     std::vector<volume::SemanticVolume> details{tower};
