@@ -3,6 +3,7 @@
 /// Cities as inputs of commands that work on volumes.
 
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/city_page.hpp>
 
 #include <svt/city/city_view.hpp>
 #include <svt/illustrate/scene_painter.hpp>
@@ -16,15 +17,8 @@
 
 namespace svt::cli {
 
-/// Whether an input is a city: the folder of one, or an address (http://, https://).
-[[nodiscard]] bool isCity(const std::filesystem::path& input);
-
 /// Prints what a city has, for `svt info` and `svt city info`. \return the exit code
 int printCity(const std::filesystem::path& folder, bool json);
-
-/// All of a city as one volume for the page, at the finest detail that it draws without streaming; tells which in a note.
-/// \return the volume, or an error of City::open(), extractVolume()
-[[nodiscard]] Result<volume::SemanticVolume> pageVolume(const std::filesystem::path& folder);
 
 /// Memory that tiles may take: half of --memory, or 1 GB.
 [[nodiscard]] std::uint64_t tileMemory();

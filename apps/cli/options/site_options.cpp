@@ -1,6 +1,6 @@
 #include <apps/cli/options/site_options.hpp>
 
-#include <apps/cli/city/city_input.hpp>
+#include <apps/cli/options/city_page.hpp>
 #include <apps/cli/options/viewer_folder.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
