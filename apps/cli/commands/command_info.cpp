@@ -58,7 +58,8 @@ void printFigures(const volume::SemanticVolume& volume) {
 int runInfo(const InfoArguments& arguments) {
     if (isCity(arguments.input)) {
         if (!arguments.tree) return printCity(arguments.input, arguments.json);
-        return fail(Error(Code::BadArgument, "--tree: a city has too many features to be listed; svt query lists them"));
+        return fail(
+            Error(Code::BadArgument, "--tree: a city has too many features to be listed; svt query lists them"));
     }
     Diagnostics diagnostics;
     Result<volume::SemanticVolume> loaded = [&] {
