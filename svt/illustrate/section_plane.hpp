@@ -66,6 +66,23 @@ struct StoreyHeights {
 /// \return the plane, or BadSection if the side is none of these
 [[nodiscard]] Result<SectionPlane> elevationPlane(std::string_view side, const volume::SemanticVolume& volume);
 
+/// How far a plane that lies in faces of the model (within 0.2 mm) has to move to the side that is kept, so that a picture
+/// shows one side of them everywhere and not now one, now the other: by 0.5 mm.
+/// \return metres, > 0; 0 where it lies in no face, or the volume does not know the planes of its faces
+/// Cost: O(planes of the volume).
+[[nodiscard]] double hairOffFaces(const SectionPlane& plane, const volume::SemanticVolume& volume);
+/// The plane, moved by that.
+[[nodiscard]] SectionPlane keptOffFaces(SectionPlane plane, const volume::SemanticVolume& volume);
+
+struct Scene;
+/// A plane of a scene's regions that is drawn elsewhere than it is written.
+struct MovedPlane {
+    std::string text;  ///< as written: "y<5.5"
+    double by = 0;     ///< metres to the side that is kept
+};
+/// Those planes of a scene's cuts that lie in faces of the model, each once.
+[[nodiscard]] std::vector<MovedPlane> planesInFaces(const Scene& scene, const volume::SemanticVolume& volume);
+
 /// Whether the plane intersects the voxels of `grid`.
 [[nodiscard]] bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid);
 

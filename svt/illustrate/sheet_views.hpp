@@ -34,7 +34,8 @@ struct SheetViews {
 };
 
 /// Levels: the storeys of the model; without any, floors of rooms that are at least 1.5 m high, those within 1.2 m of
-/// the lowest of them being one level. A level lies on the floor of most of its rooms; that of an IFC storey without rooms
+/// the lowest of them being one level; without rooms, the tops of slabs and floors of 4 m2 or more that are no roof. A
+/// level lies on the floor of most of its rooms; that of an IFC storey without rooms
 /// on its attribute `elevation`.
 [[nodiscard]] std::vector<BuildingLevel> findLevels(const volume::SemanticVolume& volume);
 

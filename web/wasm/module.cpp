@@ -2,6 +2,7 @@
 // stores a reply, JSON or bytes, that must be read before the next call. See calls() for the calls.
 #include "font.hpp"
 #include "replies.hpp"
+#include "walk.hpp"
 
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/illustrate/section_plane.hpp>
@@ -92,16 +93,74 @@ illustrate::Context contextOf(const Json& value) {
     return illustrate::Context::Ghost;
 }
 
-// (name) and the file's bytes -> VolumeInfo
+// (name, or names) and, for several, (sizes in bytes); {draft, memory}; the files' bytes one after the other -> VolumeInfo
 Result<Reply> open(const Arguments& arguments) {
     Progress progress;
     progress.report = [](std::string_view stage, double done) {
         svt_progress(stage.data(), static_cast<int>(stage.size()), done);
     };
-    auto opened = Session::open(arguments.bytes(), arguments.text(0), &progress);
+    std::vector<NamedBytes> files;
+    std::size_t at = 0;
+    if (arguments.at(0).is_array()) {
+        for (std::size_t n = 0; n < arguments.at(0).size(); ++n) {
+            const auto size = arguments.at(1).at(n).get<std::size_t>();
+            files.push_back({arguments.at(0).at(n).get<std::string>(), arguments.bytes().subspan(at, size)});
+            at += size;
+        }
+    } else {
+        files.push_back({arguments.text(0), arguments.bytes()});
+    }
+    if (files.empty()) return Error(Code::BadArgument, "no file to open");
+    OpenOptions options;
+    if (const Json& wanted = arguments.at(2); wanted.is_object()) {
+        options.isDraft = wanted.value("draft", false);
+        options.memoryBytes = static_cast<std::uint64_t>(std::max(0.0, wanted.value("memory", 0.0)));
+    }
+    auto opened = Session::open(files, options, &progress);
     if (!opened) return opened.error();
     session = std::move(*opened);
     return Reply(infoOf(*session));
+}
+
+// (file name) and a table's bytes -> nothing: features get owners
+Result<Reply> owners(const Arguments& arguments) {
+    const auto bytes = arguments.bytes();
+    const std::string_view table(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (auto done = session->setOwners(table, arguments.text(0)); !done) return done.error();
+    return Reply(std::string("null"));
+}
+
+Result<Vec3d> pointAt(const Arguments& arguments, std::size_t n) {
+    const Json& given = arguments.at(n);
+    if (!given.is_array() || given.size() != 3) return Error(Code::BadArgument, "a point is three numbers");
+    return Vec3d{given[0].get<double>(), given[1].get<double>(), given[2].get<double>()};
+}
+Json jsonOf(Vec3d p) { return Json::array({p.x, p.y, p.z}); }
+
+// (point) -> the eye of who stands near it, or null
+Result<Reply> stand(const Arguments& arguments) {
+    const auto wanted = pointAt(arguments, 0);
+    if (!wanted) return wanted.error();
+    const auto place = standingPlace(*session, *wanted);
+    return Reply((place ? jsonOf(*place) : Json(nullptr)).dump());
+}
+
+// (eye, step) -> the eye after it
+Result<Reply> step(const Arguments& arguments) {
+    const auto eye = pointAt(arguments, 0), by = pointAt(arguments, 1);
+    if (!eye) return eye.error();
+    if (!by) return by.error();
+    return Reply(jsonOf(afterStep(*session, *eye, *by)).dump());
+}
+
+// (scene) -> [{text, by}]: its section planes that lie in faces of the model, and how far they are moved
+Result<Reply> movedPlanes(const Arguments& arguments) {
+    const auto scene = arguments.scene(0);
+    if (!scene) return scene.error();
+    Json list = Json::array();
+    for (const illustrate::MovedPlane& plane : illustrate::planesInFaces(*scene, session->volume()))
+        list.push_back({{"text", plane.text}, {"by", plane.by}});
+    return Reply(list.dump());
 }
 
 // The bytes of DejaVuSans.ttf -> nothing. Needed before names are drawn.
@@ -278,7 +337,11 @@ constexpr Call kCalls[] = {{"open", open, false},
                            {"picture", picture},
                            {"labels", labels},
                            {"drawing", drawing},
-                           {"sheets", sheets}};
+                           {"sheets", sheets},
+                           {"owners", owners},
+                           {"stand", stand},
+                           {"step", step},
+                           {"movedPlanes", movedPlanes}};
 
 Result<Reply> run(std::string_view name, std::string_view json, std::span<const std::byte> bytes) {
     const Json values = Json::parse(json, nullptr, false);

@@ -3,6 +3,7 @@
 #include <svt/analyze/selection.hpp>
 #include <svt/core/text.hpp>
 #include <svt/illustrate/section_plane.hpp>
+#include <svt/illustrate/sheet_views.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,8 +11,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace svt::web {
@@ -40,6 +43,35 @@ Json storeysJson(const volume::SemanticVolume& volume) {
         const volume::Label& label = volume.labels.labels[storey.label];
         list.push_back({{"id", label.id}, {"name", label.name}, {"floor", storey.floor}, {"top", storey.ceiling}});
     }
+    if (!list.empty()) return list;
+    // Without storeys, what rooms and slabs tell.
+    const auto levels = illustrate::findLevels(volume);
+    const double top = (volume.grid.dimension().z - 1) * volume.grid.spacing().z;
+    for (std::size_t n = 0; n < levels.size(); ++n)
+        list.push_back({{"id", ""},
+                        {"name", levels[n].name},
+                        {"floor", levels[n].floor},
+                        {"top", n + 1 < levels.size() ? levels[n + 1].floor : top}});
+    return list;
+}
+
+// The type that the model's own format gives a feature: IfcWall.
+std::string typeOf(const volume::Label& label) {
+    for (const Attribute& attribute : label.attributes)
+        if (const auto* text = std::get_if<std::string>(&attribute.value); text && attribute.name == "ifcType")
+            return *text;
+    return {};
+}
+
+// Names of all attributes, those of most features first.
+Json attributeNames(const volume::LabelTable& table) {
+    std::map<std::string, std::size_t> counts;
+    for (const volume::Label& label : table.labels)
+        for (const Attribute& attribute : label.attributes) ++counts[attribute.name];
+    std::vector<std::pair<std::string, std::size_t>> ordered(counts.begin(), counts.end());
+    std::stable_sort(ordered.begin(), ordered.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+    Json list = Json::array();
+    for (std::size_t n = 0; n < std::min<std::size_t>(ordered.size(), 200); ++n) list.push_back(ordered[n].first);
     return list;
 }
 
@@ -57,6 +89,7 @@ Json featuresJson(const volume::LabelTable& table) {
         feature["count"] = label.count;
         feature["color"] = hexOf(label.color);
         feature["opacity"] = label.opacity;
+        if (std::string type = typeOf(label); !type.empty()) feature["type"] = std::move(type);
         list.push_back(std::move(feature));
     }
     return list;
@@ -151,6 +184,9 @@ std::string infoOf(const Session& session) {
                    {"features", featuresJson(volume.labels)},
                    {"hasEdges", !volume.vectors.segments.empty()},
                    {"hasMeshes", !volume.vectors.triangles.empty()},
+                   {"spacingReason", session.spacingReason()},
+                   {"details", session.details()},
+                   {"attributes", attributeNames(volume.labels)},
                    {"findings", findingsJson(session.findings())}});
 }
 
@@ -169,6 +205,11 @@ Result<std::string> propertiesOf(Session& session, const std::string& id) {
     for (const Attribute& attribute : found->attributes)
         json["attributes"][attribute.name] =
             attribute.unit.empty() ? toText(attribute.value) : toText(attribute.value) + " " + attribute.unit;
+    // Numbers once more as such, for readers who write them with a comma.
+    json["numbers"] = Json::object();
+    for (const Attribute& attribute : found->attributes)
+        if (const auto* number = std::get_if<double>(&attribute.value))
+            json["numbers"][attribute.name] = {{"value", *number}, {"unit", attribute.unit}};
     json["voxelVolume"] = double(found->voxels) * volume.grid.voxelVolume();
     json["modelVolume"] = isClosed ? Json(found->volume) : Json(nullptr);
     json["surface"] = session.measures()[index].area;

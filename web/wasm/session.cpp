@@ -1,6 +1,9 @@
 #include "session.hpp"
 
+#include <svt/illustrate/color_by.hpp>
+#include <svt/illustrate/details.hpp>
 #include <svt/image/png.hpp>
+#include <svt/model/classes.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/render/frame_buffers.hpp>
@@ -8,24 +11,72 @@
 #include <svt/volume/svt_file.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 namespace svt::web {
 namespace {
 
-Result<volume::SemanticVolume> load(std::span<const std::byte> bytes, const std::string& name, const Progress* progress,
-                                    Diagnostics& findings) {
-    if (volume::looksLikeSvt(bytes)) return volume::readSvt(bytes, name);
+// Of a draft: coarse enough to be made at once.
+constexpr std::uint64_t kDraftBytes = 40'000'000;
+
+struct Loaded {
+    std::vector<volume::SemanticVolume> volumes;
+    std::string spacingReason;
+};
+
+// The models as one volume.
+Result<void> build(std::span<const NamedBytes> files, const OpenOptions& options, const Progress* progress,
+                   Diagnostics& findings, Loaded& into) {
     readers::ReadOptions reading;
     reading.progress = progress;
-    auto model = readers::readModel(bytes, name, reading, &findings);
-    if (!model) return model.error();
+    std::optional<model::BuildingModel> all;
+    for (std::size_t n = 0; n < files.size(); ++n) {
+        auto model = readers::readModel(files[n].bytes, files[n].name, reading, &findings);
+        if (!model) return model.error();
+        if (all)
+            pipeline::joinModel(*all, std::move(*model), n, &findings);
+        else
+            all = std::move(*model);
+    }
     pipeline::BuildOptions building;
-    building.vectors = {.edges = true, .meshes = true, .isRequired = false};
+    if (!options.isDraft) building.vectors = {.edges = true, .meshes = true, .isRequired = false};
+    if (options.isDraft)
+        building.memoryBytes = kDraftBytes;
+    else if (options.memoryBytes != 0)
+        building.memoryBytes = std::min(building.memoryBytes, options.memoryBytes);
     building.progress = progress;
-    auto output = pipeline::buildVolume(*model, building, &findings);
+    auto output = pipeline::buildVolume(*all, building, &findings);
     if (!output) return output.error();
-    return std::move(output->volume);
+    if (output->report.spacing) into.spacingReason = output->report.spacing->reason;
+    into.volumes.push_back(std::move(output->volume));
+    return {};
+}
+
+Result<Loaded> load(std::span<const NamedBytes> files, const OpenOptions& options, const Progress* progress,
+                    Diagnostics& findings) {
+    Loaded loaded;
+    const bool hasVolumes = std::any_of(files.begin(), files.end(),
+                                        [](const NamedBytes& file) { return volume::looksLikeSvt(file.bytes); });
+    if (!hasVolumes) {
+        if (auto built = build(files, options, progress, findings, loaded); !built) return built.error();
+        return loaded;
+    }
+    for (std::size_t n = 0; n < files.size(); ++n) {
+        if (!volume::looksLikeSvt(files[n].bytes)) {
+            if (auto built = build(files.subspan(n, 1), options, progress, findings, loaded); !built)
+                return built.error();
+            continue;
+        }
+        auto volume = volume::readSvt(files[n].bytes, files[n].name);
+        if (!volume) return volume.error();
+        loaded.volumes.push_back(std::move(*volume));
+    }
+    auto& volumes = loaded.volumes;
+    if (auto joined = illustrate::joinLabels(volumes.front(), std::span(volumes).subspan(1)); !joined)
+        return joined.error();
+    return loaded;
 }
 
 render::CastOptions castOptions() {
@@ -36,14 +87,61 @@ render::CastOptions castOptions() {
 
 }  // namespace
 
-Result<std::unique_ptr<Session>> Session::open(std::span<const std::byte> bytes, const std::string& name,
+Session::Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findings)
+    : volume_(std::move(volumes.front())),
+      details_(std::make_move_iterator(volumes.begin() + 1), std::make_move_iterator(volumes.end())),
+      findings_(std::move(findings)),
+      painter_(volume_) {
+    for (const volume::SemanticVolume& detail : details_) painter_.addDetail(detail);
+}
+
+Result<std::unique_ptr<Session>> Session::open(std::span<const NamedBytes> files, const OpenOptions& options,
                                                const Progress* progress) {
     Diagnostics findings;
-    auto volume = load(bytes, name, progress, findings);
-    if (!volume) return volume.error();
-    std::unique_ptr<Session> session(new Session(std::move(*volume), std::move(findings)));
+    auto loaded = load(files, options, progress, findings);
+    if (!loaded) return loaded.error();
+    std::unique_ptr<Session> session(new Session(std::move(loaded->volumes), std::move(findings)));
+    session->spacingReason_ = std::move(loaded->spacingReason);
     session->labelOfScalar_ = session->volume_.labels.labelOfScalar();
     return session;
+}
+
+Result<void> Session::setOwners(std::string_view table, std::string_view file) {
+    if (hasOwners_)
+        for (volume::Label& label : volume_.labels.labels)
+            if (!label.attributes.empty() && label.attributes.back().name == "owner") label.attributes.pop_back();
+    hasOwners_ = false;
+    if (auto added = illustrate::addOwnerAttributes(volume_, table, file); !added) return added;
+    hasOwners_ = true;
+    return {};
+}
+
+volume::Scalar Session::scalarAt(Vec3d point) const {
+    const volume::Grid& grid = volume_.grid;
+    std::array<std::int32_t, 3> at{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double index = dot(point, grid.axes()[static_cast<std::size_t>(axis)]) / grid.spacing()[axis];
+        if (!(index > -0.5 && index < grid.dimension()[axis] - 0.5)) return 0;
+        at[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(std::floor(index + 0.5));
+    }
+    return volume_.columns.scalarAt(at[0], at[1], at[2]);
+}
+
+bool Session::isInRoom(Vec3d point) const {
+    const volume::Scalar scalar = scalarAt(point);
+    return scalar != 0 && model::isSpace(volume_.labels.labels[labelOfScalar_[scalar]].className);
+}
+
+bool Session::isAir(Vec3d point) const {
+    const volume::Scalar scalar = scalarAt(point);
+    if (scalar == 0) return true;
+    const volume::Label& label = volume_.labels.labels[labelOfScalar_[scalar]];
+    if (model::isSpace(label.className) || label.className == "Door" || label.className == "DoorSurface") return true;
+    if (!lastSpec_) return false;
+    const auto isDrawn = [&](const render::Pass& pass) {
+        return scalar < pass.styles.size() && pass.styles[scalar].opacity > 0;
+    };
+    return std::none_of(lastSpec_->passes.begin(), lastSpec_->passes.end(), isDrawn);
 }
 
 Result<const render::Frame*> Session::draw(const illustrate::Scene& scene, bool isDraft) {
@@ -61,7 +159,8 @@ Result<void> Session::drawGl(const illustrate::Scene& scene, Purpose purpose) {
     if (!spec) return spec.error();
     const auto forms = illustrate::volumeForms(scene);
     const int level = forms.front().level.value_or(render::levelForView(*spec, volume_.grid));
-    const bool hasMore = scene.explode != 0 || scene.sun || !scene.insets.empty() || forms.front().hasCells;
+    const bool hasMore =
+        !details_.empty() || scene.explode != 0 || scene.sun || !scene.insets.empty() || forms.front().hasCells;
     if (forms.size() != 1 || forms.front().shell || level != 0 || !scene.names.empty() || hasMore)
         return Error(Code::BadArgument,
                      "names, shells, levels of detail, cells, insets, storeys apart and the sun are drawn by the CPU");

@@ -16,6 +16,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace svt::web {
@@ -27,17 +28,46 @@ struct Picked {
     Vec3d point{};  ///< metres from the grid's lower corner
 };
 
+/// A file of the user.
+struct NamedBytes {
+    std::string name;  ///< for messages
+    std::span<const std::byte> bytes;
+};
+
+/// How models become volumes.
+struct OpenOptions {
+    /// Coarse voxels without edges, for a first picture. No difference for `.svt`.
+    bool isDraft = false;
+    /// Bytes that a volume may take whose spacing nobody asked for; 0: as for `svt build`.
+    std::uint64_t memoryBytes = 0;
+};
+
 class Session {
 public:
-    /// Opens a volume from the bytes of a `.svt`, or of a model, whose feature edges are kept.
-    /// \param name  file name for messages
-    /// \return the session, or an error of readSvt(), readModel() or buildVolume()
-    [[nodiscard]] static Result<std::unique_ptr<Session>> open(std::span<const std::byte> bytes,
-                                                               const std::string& name, const Progress* progress);
+    /// Opens one or several files: a `.svt`, or a model, whose feature edges are kept. Several models become one, as by
+    /// `svt build A B`; with a `.svt` among them, the first file is drawn with the others as by `svt render --with`.
+    /// \return the session, or an error of readSvt(), readModel(), buildVolume() or joinLabels()
+    [[nodiscard]] static Result<std::unique_ptr<Session>> open(std::span<const NamedBytes> files,
+                                                               const OpenOptions& options, const Progress* progress);
 
     [[nodiscard]] const volume::SemanticVolume& volume() const noexcept { return volume_; }
     /// Findings of building the volume from a model.
     [[nodiscard]] const Diagnostics& findings() const noexcept { return findings_; }
+    /// Why the volume has the spacing that it has; empty where it was not built here.
+    [[nodiscard]] const std::string& spacingReason() const noexcept { return spacingReason_; }
+    /// Number of volumes that are drawn with the first.
+    [[nodiscard]] std::size_t details() const noexcept { return details_.size(); }
+
+    /// Gives the features their owners, as attributes `owner`; those of a table before are forgotten.
+    /// \param table  CSV, see analyze::parseOwners()
+    /// \return an error of parseOwners(); the features then have no owners
+    [[nodiscard]] Result<void> setOwners(std::string_view table, std::string_view file);
+
+    /// Whether one can be at a point, metres from the grid's lower corner along world axes: in the air of a room, outside,
+    /// in a door, or in what the last picture does not draw at all. Cost: O(log runs of a column).
+    [[nodiscard]] bool isAir(Vec3d point) const;
+    /// Whether a point is in a room.
+    [[nodiscard]] bool isInRoom(Vec3d point) const;
 
     /// Draws `scene` as `svt render` does; pick() and along() then refer to this picture.
     /// \param isDraft  true for a first picture, see ScenePainter::paintDraft()
@@ -70,8 +100,8 @@ public:
     [[nodiscard]] const std::vector<analyze::LabelMeasure>& measures();
 
 private:
-    Session(volume::SemanticVolume volume, Diagnostics findings)
-        : volume_(std::move(volume)), findings_(std::move(findings)), painter_(volume_) {}
+    Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findings);
+    [[nodiscard]] volume::Scalar scalarAt(Vec3d point) const;
 
     [[nodiscard]] render_gl::PickedPixel firstAt(std::int32_t column, std::int32_t row);
     [[nodiscard]] bool isSeenThrough(volume::Scalar scalar) const;
@@ -79,7 +109,10 @@ private:
     [[nodiscard]] std::optional<Picked> pickedAt(const render_gl::PickedPixel& pixel, const render::ViewRay& ray) const;
 
     volume::SemanticVolume volume_;
+    std::vector<volume::SemanticVolume> details_;
     Diagnostics findings_;
+    std::string spacingReason_;
+    bool hasOwners_ = false;
     illustrate::ScenePainter painter_;
     std::optional<render::FrameSpec> lastSpec_;
     std::vector<illustrate::VolumeForm> lastForms_;

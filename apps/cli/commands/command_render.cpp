@@ -15,6 +15,7 @@
 #include <svt/illustrate/line_view.hpp>
 #include <svt/illustrate/motion.hpp>
 #include <svt/illustrate/scene_painter.hpp>
+#include <svt/illustrate/section_plane.hpp>
 #include <svt/illustrate/sun.hpp>
 #include <svt/image/png.hpp>
 #include <svt/render/frame_buffers.hpp>
@@ -212,6 +213,13 @@ void noteNames(const illustrate::Painting::Names& names) {
                          names.withoutRoom));
 }
 
+// Tells which section planes are drawn elsewhere than they are asked for, and why.
+void noteMovedPlanes(const illustrate::Scene& scene, const volume::SemanticVolume& volume) {
+    for (const illustrate::MovedPlane& plane : illustrate::planesInFaces(scene, volume))
+        note(fmt::format("the plane '{}' lies in faces of the model; it is moved by {:g} mm to the side that is kept",
+                         plane.text, std::round(1e4 * plane.by) / 10));
+}
+
 bool isLineDrawing(const std::filesystem::path& output) {
     const std::string ending = endingOf(output);
     return ending == ".svg" || ending == ".pdf";
@@ -377,6 +385,7 @@ int runRender(const RenderArguments& arguments) {
         empty += isEmpty(painting->frame);
         if (frame == 0) noteNames(painting->names);
         if (frame == 0) noteSun(*scene, *volume);
+        if (frame == 0) noteMovedPlanes(*scene, *volume);
         if (frame == 0) noteCutaway(arguments.scene.cutaway, *volume, painting->frame);
         const auto written =
             series->film ? series->film->add(painting->frame.color) : writeBuffers(painting->frame, arguments, frame);

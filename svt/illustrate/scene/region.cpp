@@ -2,6 +2,7 @@
 #include <svt/illustrate/scene/region.hpp>
 
 #include <svt/analyze/selection.hpp>
+#include <svt/illustrate/scene.hpp>
 #include <svt/illustrate/scene/cutaway.hpp>
 #include <svt/illustrate/section_plane.hpp>
 
@@ -221,7 +222,9 @@ private:
         if (begin == at_) return wrong("expected a region such as z>1.2 or box(0,0,0,1,1,1)");
         const auto parsed = parseSectionPlane(plane, context_.volume, context_.rows);
         if (!parsed) return parsed.error();
-        return Parts{{{{parsed->normal, -dot(parsed->normal, parsed->point)}}, {}}};
+        const double hair = hairOffFaces(*parsed, context_.volume);
+        if (hair != 0 && context_.moved != nullptr) context_.moved->push_back({plane, hair});
+        return Parts{{{{parsed->normal, hair - dot(parsed->normal, parsed->point)}}, {}}};
     }
 
     // The text up to the matching closing bracket; moves behind it.
@@ -421,6 +424,20 @@ Result<std::vector<ConvexPart>> parseRegion(std::string_view text, const RegionC
 bool dependsOnView(std::string_view region) {
     const std::string text = lowerAscii(region);
     return text.find("view") != std::string::npos || text.find("cutaway") != std::string::npos;
+}
+
+std::vector<MovedPlane> planesInFaces(const Scene& scene, const volume::SemanticVolume& volume) {
+    const analyze::LabelRows rows(volume.labels);
+    std::vector<MovedPlane> moved;
+    // What else is wrong with a region is told where it is drawn.
+    for (const ScenePass& pass : scene.passes)
+        for (const std::string& region : {pass.cut, pass.keep})
+            if (!region.empty()) (void)parseRegion(region, {volume, rows, {}, 1, &moved});
+    std::vector<MovedPlane> once;
+    for (MovedPlane& plane : moved)
+        if (std::none_of(once.begin(), once.end(), [&](const MovedPlane& other) { return other.text == plane.text; }))
+            once.push_back(std::move(plane));
+    return once;
 }
 
 }  // namespace svt::illustrate

@@ -19,10 +19,11 @@
 ///                                                    share of its height
 ///                | cutaway(QUERY[; margin])          all that hides what the query selects: a cone that opens towards
 ///                                                    the viewer, with its apex behind the target
-/// Lengths are in metres; coordinates in metres from the grid's lower corner along its axes.
+/// A plane that lies in faces of the model is moved off them by a hair, see hairOffFaces(). Lengths are in metres; coordinates in metres from the grid's lower corner along its axes.
 
 #include <svt/analyze/selection.hpp>
 #include <svt/core/result.hpp>
+#include <svt/illustrate/section_plane.hpp>
 #include <svt/render/frame_spec.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
@@ -36,7 +37,8 @@ struct RegionContext {
     const volume::SemanticVolume& volume;
     const analyze::LabelRows& rows;  ///< of volume.labels
     render::Camera camera;
-    double aspect = 1;  ///< width / height of the picture
+    double aspect = 1;                         ///< width / height of the picture
+    std::vector<MovedPlane>* moved = nullptr;  ///< receives the planes that lie in faces; may be null
 };
 
 /// Parses a region into a union of convex parts.

@@ -10,7 +10,9 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace svt::illustrate {
@@ -49,6 +51,11 @@ std::pair<double, double> extentAlong(Vec3d normal, const volume::Grid& grid) {
     return extent;
 }
 
+// Metres above the grid's lower corner.
+std::pair<double, double> heightsOf(const analyze::SampleBox& box, const volume::Grid& grid) {
+    return {(box.min.z - 0.5) * grid.spacing().z, (box.max.z + 0.5) * grid.spacing().z};
+}
+
 Result<std::pair<double, double>> heightsOf(const std::string& storey, const volume::SemanticVolume& volume,
                                             const analyze::LabelRows& rows,
                                             const std::vector<analyze::SampleBox>& boxes) {
@@ -65,10 +72,36 @@ Result<std::pair<double, double>> heightsOf(const std::string& storey, const vol
         if (model::isSpace(volume.labels.labels[l].className)) rooms.add(boxes[l]);
     }
     if (all.isEmpty()) return Error(Code::NothingSelected, fmt::format("the storey '{}' has no voxels", storey));
-    const analyze::SampleBox& box = rooms.isEmpty() ? all : rooms;
-    const double spacing = volume.grid.spacing().z;
-    return std::pair((box.min.z - 0.5) * spacing, (box.max.z + 0.5) * spacing);
+    return heightsOf(rooms.isEmpty() ? all : rooms, volume.grid);
 }
+
+// What stands directly below each label: its children, and the members of a group. A district has a thousand storeys, so
+// that these are found once for all.
+class Members {
+public:
+    explicit Members(const volume::LabelTable& table) : begins_(table.labels.size() + 1, 0) {
+        const auto forEachAbove = [&](std::uint32_t l, const auto& visit) {
+            const volume::Label& label = table.labels[l];
+            if (label.parent != volume::kNoLabel) visit(label.parent);
+            for (const std::uint32_t group : label.groups) visit(group);
+        };
+        const auto count = static_cast<std::uint32_t>(table.labels.size());
+        for (std::uint32_t l = 0; l < count; ++l) forEachAbove(l, [&](std::uint32_t above) { ++begins_[above + 1]; });
+        for (std::size_t l = 1; l < begins_.size(); ++l) begins_[l] += begins_[l - 1];
+        labels_.resize(begins_.back());
+        std::vector<std::size_t> next(begins_.begin(), begins_.end() - 1);
+        for (std::uint32_t l = 0; l < count; ++l)
+            forEachAbove(l, [&](std::uint32_t above) { labels_[next[above]++] = l; });
+    }
+
+    [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t above) const noexcept {
+        return std::span(labels_).subspan(begins_[above], begins_[above + 1] - begins_[above]);
+    }
+
+private:
+    std::vector<std::size_t> begins_;
+    std::vector<std::uint32_t> labels_;
+};
 
 }  // namespace
 
@@ -85,15 +118,63 @@ std::vector<StoreyHeights> findStoreys(const volume::SemanticVolume& volume) {
     const auto boxes = analyze::labelBoxes(volume.columns, volume.labels);
     const analyze::LabelRows labelRows(volume.labels);
     const std::span<const model::QueryRow> rows = labelRows.get();
+    const Members members(volume.labels);
+    std::vector<std::uint32_t> seenBy(rows.size(), volume::kNoLabel);
     std::vector<StoreyHeights> storeys;
     for (std::uint32_t l = 0; l < rows.size(); ++l) {
         if (!model::query::isStorey(rows[l])) continue;
-        if (const auto heights = heightsOf(volume.labels.labels[l].id, volume, labelRows, boxes))
-            storeys.push_back({l, heights->first, heights->second});
+        analyze::SampleBox rooms, all;
+        std::vector<std::uint32_t> open{l};
+        while (!open.empty()) {
+            const std::uint32_t above = open.back();
+            open.pop_back();
+            for (const std::uint32_t below : members.of(above)) {
+                if (seenBy[below] == l) continue;
+                seenBy[below] = l;
+                all.add(boxes[below]);
+                if (model::isSpace(volume.labels.labels[below].className)) rooms.add(boxes[below]);
+                if (below != l) open.push_back(below);
+            }
+        }
+        if (all.isEmpty()) continue;
+        const auto [floor, ceiling] = heightsOf(rooms.isEmpty() ? all : rooms, volume.grid);
+        storeys.push_back({l, floor, ceiling});
     }
     std::stable_sort(storeys.begin(), storeys.end(),
                      [](const StoreyHeights& a, const StoreyHeights& b) { return a.floor < b.floor; });
     return storeys;
+}
+
+double hairOffFaces(const SectionPlane& plane, const volume::SemanticVolume& volume) {
+    constexpr double kInFace = 2e-4, kHair = 5e-4;  // metres
+    const volume::Grid& grid = volume.grid;
+    // Each face's height over the plane, towards the side that is cut away.
+    std::vector<double> heights;
+    for (const volume::FacePlane& face : volume.planes) {
+        Vec3d normal{};
+        for (int axis = 0; axis < 3; ++axis)
+            normal =
+                normal + grid.axes()[static_cast<std::size_t>(axis)] * (face.plane.normal[axis] / grid.spacing()[axis]);
+        const double size = length(normal);
+        if (!(size > 0) || length(cross(normal, plane.normal)) > 1e-6 * size) continue;
+        // Voxel space begins half a sample before the grid's lower corner.
+        const double at =
+            -(face.plane.offset + 0.5 * (face.plane.normal.x + face.plane.normal.y + face.plane.normal.z)) / size *
+            (dot(normal, plane.normal) < 0 ? -1 : 1);
+        heights.push_back(at - dot(plane.normal, plane.point - grid.origin()));
+    }
+    // Downwards from the plane: past each face that is met within a hair.
+    std::sort(heights.begin(), heights.end(), std::greater<>());
+    double moved = 0;
+    for (const double height : heights)
+        if (height <= kInFace - moved && height > -kInFace - moved) moved = kHair - height;
+    return moved;
+}
+
+SectionPlane keptOffFaces(SectionPlane plane, const volume::SemanticVolume& volume) {
+    const double moved = hairOffFaces(plane, volume);
+    if (moved != 0) plane.point = plane.point - plane.normal * moved;
+    return plane;
 }
 
 bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid) {

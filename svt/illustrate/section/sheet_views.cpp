@@ -18,6 +18,8 @@ constexpr double kLeastRoom = 1.5;     // metres: lower spaces are voids
 constexpr double kSameLevel = 1.2;     // metres
 constexpr double kSameFloor = 0.01;    // metres
 constexpr double kLeastFloorArea = 1;  // m2
+constexpr double kLeastSlabArea = 4;   // m2: smaller ones are landings
+constexpr double kThickestSlab = 1;    // metres
 
 // The extent of labels along the grid's axes, metres from its lower corner: of the meshes, else of the voxels.
 std::vector<Box3d> boxesOf(const volume::SemanticVolume& volume) {
@@ -125,6 +127,49 @@ Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, co
     return best;
 }
 
+// Tops of slabs: of components that are one by class or IFC type, and of floors that are surfaces. Slabs of roofs are none.
+bool isSlab(const volume::Label& label) {
+    if (label.className == "FloorSurface") return true;
+    std::string type, words = label.name;
+    for (const Attribute& attribute : label.attributes)
+        if (const auto* text = std::get_if<std::string>(&attribute.value)) {
+            if (attribute.name == "ifcType" || attribute.name == "function") type += " " + *text;
+            if (attribute.name == "predefinedType" || attribute.name == "PredefinedType") words += " " + *text;
+        }
+    for (char& c : type) c = lowerAscii(c);
+    for (char& c : words) c = lowerAscii(c);
+    const auto has = [](const std::string& text, const char* word) { return text.find(word) != std::string::npos; };
+    if (has(words, "roof") || has(words, "dach")) return false;
+    return has(type, "slab") || has(type, "floor");
+}
+
+// Levels from what is stood on, each at the height that most of its area has.
+std::vector<BuildingLevel> levelsOf(const std::vector<RoomFloor>& floors) {
+    std::vector<BuildingLevel> levels;
+    for (const RoomFloor& floor : floors)
+        if (levels.empty() || floor.at - levels.back().floor >= kSameLevel)
+            levels.push_back({"", *mainFloor(floors, floor.at, floor.at + kSameLevel)});
+    return levels;
+}
+
+std::vector<BuildingLevel> levelsOfSlabs(const volume::SemanticVolume& volume, const std::vector<Box3d>& boxes) {
+    std::vector<RoomFloor> tops;
+    for (std::size_t l = 0; l < boxes.size(); ++l) {
+        const Vec3d size = boxes[l].size();
+        // Thicker ones are no slabs, or slope.
+        if (boxes[l].isEmpty() || !isSlab(volume.labels.labels[l]) || size.z > kThickestSlab) continue;
+        if (size.x * size.y >= kLeastSlabArea) tops.push_back({boxes[l].max.z, size.x * size.y});
+    }
+    std::sort(tops.begin(), tops.end(),
+              [](const RoomFloor& a, const RoomFloor& b) { return std::tie(a.at, a.area) < std::tie(b.at, b.area); });
+    std::vector<BuildingLevel> levels = levelsOf(tops);
+    // What nothing stands on is a flat roof.
+    double highest = -kInfinity;
+    for (const Box3d& box : boxes) highest = box.isEmpty() ? highest : std::max(highest, box.max.z);
+    while (levels.size() > 1 && highest - levels.back().floor < kLeastRoom) levels.pop_back();
+    return levels;
+}
+
 }  // namespace
 
 std::vector<BuildingLevel> findLevels(const volume::SemanticVolume& volume) {
@@ -151,11 +196,8 @@ std::vector<BuildingLevel> findLevels(const volume::SemanticVolume& volume) {
         if (!levels.empty() && floor - levels.back().floor < kSameLevel) continue;
         levels.push_back({label.name, floor});
     }
-    if (!levels.empty()) return levels;
-    for (const RoomFloor& room : floors)
-        if (levels.empty() || room.at - levels.back().floor >= kSameLevel)
-            levels.push_back({"", *mainFloor(floors, room.at, room.at + kSameLevel)});
-    return levels;
+    if (levels.empty()) levels = levelsOf(floors);
+    return levels.empty() ? levelsOfSlabs(volume, boxes) : levels;
 }
 
 Result<SheetViews> chooseSheetViews(const volume::SemanticVolume& volume, int threads) {

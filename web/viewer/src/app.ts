@@ -23,10 +23,11 @@ import "./tools/share_tool";
 import { leaveCustom } from "./tools/share_tool";
 import "./tools/views_tool";
 import { setWalking } from "./tools/views_tool";
-import { number, t } from "./texts";
+import { movedText, number, t } from "./texts";
 import { kViews } from "./state/member_controls";
 import { ofSubtree } from "./state/queries";
 import { subtree } from "./state/visibility";
+import { movedByArrow } from "./ui/arrow_keys";
 import { icon, type IconName } from "./ui/icons";
 import { controls, Part } from "./ui/part";
 import { theme, toggleTheme } from "./ui/theme";
@@ -60,8 +61,8 @@ export class App extends Part {
   declare spoken: string;
   /** The tool that the Tab key reaches. */
   declare dockAt: number;
-  /** Handlers for a file, and for a model of the list. */
-  onFile: (file: File) => void = () => {};
+  /** Handlers for files, and for a model of the list. */
+  onFiles: (files: File[]) => void = () => {};
   onModel: (name: string) => void = () => {};
   private seenSelection: unknown = null;
 
@@ -105,7 +106,7 @@ export class App extends Part {
     const { state } = s;
     return [
       s.status, s.progress, s.message, s.models, s.modelName, s.info, s.tool, s.along, state.selection, s.report, s.isServerOnly, s.isLegendShown, state.custom,
-      state.sections.length, state.effect, state.shell, state.wireframe, state.look, state.measured.length, s.isWalking, s.engine, s.history.last, s.history.next, s.opening,
+      state.sections.length, state.effect, state.shell, state.wireframe, state.look, state.measured.length, s.isWalking, s.engine, s.history.last, s.history.next, s.opening, s.refining.progress, s.refining.isCoarse, s.moved, s.languages,
     ];
   }
 
@@ -139,7 +140,7 @@ export class App extends Part {
         ${this.isDropping ? html`<div class="dropping">${t("dropNow")}</div>` : nothing}
       </main>
       <div class="visually-hidden" role="status" aria-live="polite" id="said">${this.spoken}</div>
-      <input type="file" id="file" hidden accept=${[...kFileKinds, ".gz"].join(",")} aria-label=${t("openHint")} @change=${this.chosen} />
+      <input type="file" id="file" hidden multiple accept=${[...kFileKinds, ".gz", ".csv"].join(",")} aria-label=${t("openHint")} @change=${this.chosen} />
       <svt-help .session=${session}></svt-help>
     `;
   }
@@ -165,7 +166,10 @@ export class App extends Part {
       ${hasModel && !session.isServerOnly ? html`${this.stepButton("undo", session.history.last, () => session.undo())}${this.stepButton("redo", session.history.next, () => session.redo())}` : nothing}
       <button class="bare" id="open" aria-label=${t("openHint")} title=${t("openHint")} @click=${() => this.choose()}>${icon("open")}</button>
       <button class="bare" id="theme" aria-label=${t("theme")} title=${t("theme")} @click=${() => this.switchTheme()}>${icon(theme() === "dark" ? "sun" : "moon")}</button>
-      <button class="bare" id="language" lang=${session.language === "en" ? "de" : "en"} aria-label=${t("language")} title=${t("language")} @click=${() => session.setLanguage(session.language === "en" ? "de" : "en")}>${session.language === "en" ? "DE" : "EN"}</button>
+      ${session.languages.length > 2
+        ? html`<select class="languages" id="languages" aria-label=${t("languages")} @change=${(e: Event) => void session.chooseLanguage((e.target as HTMLSelectElement).value)}>${session.languages.map(
+            ({ code, name }) => html`<option value=${code} lang=${code} ?selected=${code === session.language}>${name}</option>`)}</select>`
+        : html`<button class="bare" id="language" lang=${session.language === "en" ? "de" : "en"} aria-label=${t("language")} title=${t("language")} @click=${() => session.setLanguage(session.language === "en" ? "de" : "en")}>${session.language === "en" ? "DE" : "EN"}</button>`}
       <button class="bare" id="help" aria-label=${t("help")} title="${t("help")} (?)" @click=${() => this.help()}>${icon("help")}</button>
     </header>`;
   }
@@ -217,18 +221,31 @@ export class App extends Part {
 
   private middle() {
     const { session } = this;
+    const { state } = session;
     return html`<div class="middle">
       <svt-picture .session=${session} .canvas=${this.canvas}></svt-picture>
       ${session.info ? html`
         <div class="corner">
           ${session.state.custom ? html`<div class="note">${t("customScene")}<button @click=${() => session.set(leaveCustom(session.state))}>${t("leaveCustom")}</button></div>` : nothing}
           ${session.isServerOnly ? html`<div class="note">${t("serverPictures")}</div>` : nothing}
+          ${session.refining.isCoarse ? this.coarse() : nothing}
+          ${session.moved.length && state.sections.length ? html`<div class="note" id="moved-plane">${movedText(session.moved)}</div>` : nothing}
           ${session.isLegendShown ? html`<svt-legend .session=${session}></svt-legend>` : nothing}
         </div>
         ${this.status()}
         ${session.tool ? this.card(session.tool) : nothing}
         ${this.dock()}` : nothing}
     </div>`;
+  }
+
+  /** The first picture of a large model, and what becomes of it. */
+  private coarse() {
+    const { refining } = this.session;
+    const { progress } = refining;
+    return html`<div class="note" id="refining">${t("coarseNow", { spacing: number(refining.spacing, 2) })}
+      ${progress
+        ? html`<progress aria-label=${t("makingFiner")} max="1" value=${progress.share >= 0 ? progress.share : nothing}></progress><span>${progress.text}</span><button id="stay-coarse" @click=${() => refining.stop()}>${t("stayCoarse")}</button>`
+        : html`<button id="refine" @click=${() => refining.again()}>${t("makeFiner")}</button>`}</div>`;
   }
 
   private status() {
@@ -341,9 +358,9 @@ export class App extends Part {
 
   private readonly chosen = (event: Event): void => {
     const input = event.target as HTMLInputElement;
-    const file = input.files?.[0];
+    const files = [...(input.files ?? [])];
     input.value = "";
-    if (file) this.onFile(file);
+    if (files.length) this.onFiles(files);
   };
 
   private draggedOver(event: DragEvent): void {
@@ -355,8 +372,8 @@ export class App extends Part {
   private dropped(event: DragEvent): void {
     event.preventDefault();
     this.isDropping = false;
-    const file = event.dataTransfer?.files[0];
-    if (file) this.onFile(file);
+    const files = [...(event.dataTransfer?.files ?? [])];
+    if (files.length) this.onFiles(files);
   }
 
   private keyDown(event: KeyboardEvent): void {
@@ -364,6 +381,7 @@ export class App extends Part {
     const target = event.composedPath()[0] as HTMLElement;
     const isTyping = target.matches?.("input:not([type=checkbox]), textarea, select") || target.isContentEditable;
     if (event.key === "Escape") return this.leave(isTyping ? target : null);
+    if (movedByArrow(event)) return event.preventDefault();
     if (!isTyping && (event.ctrlKey || event.metaKey) && !event.altKey && this.stepKey(event)) return event.preventDefault();
     if (isTyping || event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     if (event.key === "?") this.help();
@@ -422,6 +440,7 @@ export class App extends Part {
     else if (session.message) this.dismiss();
     else if (session.tool) this.endTool(session.tool);
     else if (session.isWalking) setWalking(session, false);
+    else if (session.refining.progress) session.refining.stop();
     else if (this.hasSelection) {
       session.along = null;
       session.select([]);

@@ -65,6 +65,21 @@ export const appStyles = css`
     .dock button { min-width: 0; padding: 5px 2px; flex: 1; font-size: 10.5px; overflow: hidden; }
     .card { order: 1; max-height: 42dvh; }
     .sheet { height: 50dvh; }
-    header { padding: 4px 6px; gap: 0; }
+    header { padding: 4px; gap: 0; }
+    header button.bare { min-width: 44px; min-height: 44px; }
+    .dock button { min-height: 48px; }
+    .card, .sheet { overflow-x: hidden; }
+    .note { max-width: min(300px, 80vw); }
+  }
+  @media (max-width: 479px) {
+    header { flex-wrap: wrap; justify-content: space-between; }
+    .title { flex-basis: 100%; padding-left: 6px; }
+    .title select { max-width: 100%; }
+    header .languages { width: auto; }
+  }
+  @media (max-width: 759px) and (max-height: 480px) {
+    .card { max-height: 55dvh; }
+    .sheet { height: 60dvh; }
+    .dock button span { display: none; }
   }
 `;

@@ -88,6 +88,8 @@ export interface Feature {
   /** Own scalars [first, first + count); count 0: no voxels of its own. */
   first: number;
   count: number;
+  /** Type in the model's own format: IfcWall. */
+  type?: string;
   /** sRGB from the volume's style, `#rrggbb`; opacity as in styles. */
   color: string;
   opacity: number;
@@ -105,7 +107,14 @@ export interface VolumeInfo {
   size: Point;
   /** The grid's axes in world axes; absent if they coincide. Sections along x, y and z follow the grid. */
   axes?: [Point, Point, Point];
+  /** Of the model; where it names none, levels found from rooms and slabs, with an empty id. */
   storeys: { id: string; name: string; floor: number; top: number }[];
+  /** Why a model was built with this spacing; empty for a `.svt`. */
+  spacingReason: string;
+  /** Number of other volumes that are drawn with it. */
+  details: number;
+  /** Names of attributes, those of most features first. */
+  attributes: string[];
   features: Feature[];
   /** Whether wireframes and meshes can be drawn. */
   hasEdges: boolean;
@@ -120,6 +129,8 @@ export interface FeatureProperties {
   class: string;
   name: string;
   attributes: Record<string, string>;
+  /** Those of the attributes that are measured or counted with fractions. */
+  numbers: Record<string, { value: number; unit: string }>;
   /** From voxels, m3; the model's own volume if its solid is closed. */
   voxelVolume: number;
   modelVolume: number | null;
@@ -174,6 +185,25 @@ export interface EngineError {
   message: string;
 }
 
+/** A file of the user or the site. */
+export interface FileBytes {
+  name: string;
+  bytes: ArrayBuffer;
+}
+
+export interface OpenOptions {
+  /** Models: coarse voxels without edges, for a first picture. */
+  draft?: boolean;
+  /** Models: bytes that a volume may take whose spacing nobody asked for. */
+  memory?: number;
+}
+
+/** A section plane that lies in faces of the model, and is drawn so many metres beside them on the side that is kept. */
+export interface MovedPlane {
+  text: string;
+  by: number;
+}
+
 /** The code of an opening that was cancelled. */
 export const kCancelled = "cancelled";
 
@@ -181,8 +211,13 @@ export const kCancelled = "cancelled";
 export interface Engine {
   readonly kind: EngineKind;
 
-  /** Opens a `.svt` or a model file from its bytes, whose ownership is transferred. */
-  open(bytes: ArrayBuffer, fileName: string, onProgress: (step: string, done: number) => void): Promise<VolumeInfo>;
+  /** Opens files from their bytes, whose ownership is transferred: several models become one; other volumes are drawn with the first file. */
+  open(files: FileBytes[], onProgress: (step: string, done: number) => void, options?: OpenOptions): Promise<VolumeInfo>;
+
+  /** Opens files beside what is open, which can be drawn and asked meanwhile, and is replaced at the end. */
+  refine(files: FileBytes[], onProgress: (step: string, done: number) => void, options?: OpenOptions): Promise<VolumeInfo>;
+  /** Ends refine(); its promise is rejected with kCancelled. What was open stays. */
+  cancelRefining(): void;
 
   /**
    * Draws into the engine's canvas at `width` x `height` pixels (the canvas is scaled by CSS).
@@ -219,6 +254,14 @@ export interface Engine {
   picture(scene: Scene): Promise<ArrayBuffer>;
   /** The section through the volume as drawn by `svt section`. */
   drawing(plane: string, format: DrawingFormat, parts?: DrawingParts): Promise<ArrayBuffer>;
+  /** Gives features owners, as attributes `owner`, from a table (CSV); the table before is forgotten. */
+  setOwners(table: ArrayBuffer, fileName: string): Promise<void>;
+  /** The eye of who stands near a point, inside if possible; null: nowhere. */
+  stand(near: Point): Promise<Point | null>;
+  /** The eye after a step that glides along what is in the way. */
+  step(eye: Point, by: Point): Promise<Point>;
+  /** The planes of the scene that lie in faces of the model. */
+  movedPlanes(scene: Scene): Promise<MovedPlane[]>;
   /** Plans, sections, elevations and tables on sheets, as SVG documents; as by `svt sheets`. */
   sheets(language: "en" | "de"): Promise<string[]>;
 }

@@ -29,11 +29,12 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
   const refuse = () => Promise.reject(kNotHere);
   return {
     kind: "cpu",
-    async open(_, fileName) {
+    async open([file]) {
+      const fileName = file!.name;
       model = fileName.replace(/\.[^.]+$/, "");
       return {
         name: fileName, source: fileName, crs: "", dimension: [2, 2, 2], spacing: [1, 1, 1], origin: [0, 0, 0], size: [10, 10, 10],
-        storeys: [], features: [], hasEdges: true, hasMeshes: false, findings: [],
+        storeys: [], spacingReason: "", details: 0, attributes: [], features: [], hasEdges: true, hasMeshes: false, findings: [],
       };
     },
     async draw(scene, width, height) {
@@ -53,5 +54,11 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
     picture: async (scene) => (await drawn(scene)).arrayBuffer(),
     drawing: refuse,
     sheets: refuse,
+    refine: refuse,
+    cancelRefining: () => undefined,
+    setOwners: refuse,
+    stand: refuse,
+    step: (eye) => Promise.resolve(eye),
+    movedPlanes: () => Promise.resolve([]),
   };
 }

@@ -58,8 +58,8 @@ export async function openModel(session: Session, name: string, state: ViewState
     return session.recover();
   }
   const fileName = model.file.split("/").pop()!.split("?")[0]!;
-  const again = async () => (await fetch(model.file)).arrayBuffer();
-  if (await session.open(opening, data, fileName, again, state)) {
+  const again = async () => [{ name: fileName, bytes: await (await fetch(model.file)).arrayBuffer() }];
+  if (await session.open(opening, [{ name: fileName, bytes: data }], again, state)) {
     session.modelName = model.name;
     session.isLocal = false;
   }
@@ -88,10 +88,21 @@ async function received(response: Response, expected: number, signal: AbortSigna
 /** What the library reads: volumes, CityGML and IndoorGML, CityJSON and its sequences, IFC; each also compressed by gzip. */
 export const kFileKinds = [".svt", ".gml", ".xml", ".citygml", ".json", ".jsonl", ".cityjson", ".ifc", ".ifczip"];
 
-export async function openFile(session: Session, file: File): Promise<void> {
-  const name = file.name.toLowerCase().replace(/\.gz$/, "");
-  if (!kFileKinds.some((kind) => name.endsWith(kind))) return session.fail({ message: t("wrongKind", { name: file.name, kinds: kFileKinds.join(", ") }) }, t("failedTitle"));
-  await openLocal(session, file.name, file);
+/** Opens files of the user: several models become one, a table gives owners to what is open, or is opened with them. */
+export async function openFiles(session: Session, files: File[]): Promise<void> {
+  const tables = files.filter(({ name }) => /\.(csv|tsv)$/i.test(name)), models = files.filter((file) => !tables.includes(file));
+  for (const { name } of models) {
+    const plain = name.toLowerCase().replace(/\.gz$/, "");
+    if (!kFileKinds.some((kind) => plain.endsWith(kind))) return session.fail({ message: t("wrongKind", { name, kinds: kFileKinds.join(", ") }) }, t("failedTitle"));
+  }
+  if (models.length) await openLocal(session, models);
+  for (const table of tables) {
+    try {
+      await session.owners.give(await table.arrayBuffer(), table.name);
+    } catch (error) {
+      session.fail(error, t("failedTitle"));
+    }
+  }
 }
 
 /** Opens a file that was kept in this browser; false if it is not there any more. */
@@ -99,18 +110,19 @@ export async function openKept(session: Session, name: string, state: ViewState 
   const data = await keptFile(name);
   if (!data) return false;
   session.awaited = { file: name, state };
-  await openLocal(session, name, data);
+  await openLocal(session, [new File([data], name)]);
   return true;
 }
 
-async function openLocal(session: Session, name: string, file: Blob): Promise<void> {
+async function openLocal(session: Session, files: File[]): Promise<void> {
+  const name = files.map((file) => file.name).join(", ");
   const opening = session.startOpening(name);
   const state = session.awaited?.file === name ? session.awaited.state : null;
   session.progress = { text: t("loadingFile", { name }), share: -1 };
   session.changed();
   try {
-    const data = await file.arrayBuffer();
-    if (await session.open(opening, data, name, () => file.arrayBuffer(), state)) {
+    const read = () => Promise.all(files.map(async (file) => ({ name: file.name, bytes: await file.arrayBuffer() })));
+    if (await session.open(opening, await read(), read, state)) {
       session.modelName = "";
       session.isLocal = true;
       session.awaited = null;

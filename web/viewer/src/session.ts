@@ -3,16 +3,22 @@
 import { boxOf, withProjection, between, type Box } from "./camera/camera";
 import { PictureLoop, type Quality } from "./canvas/picture_loop";
 import { kCancelled } from "./engine";
-import type { Engine, EngineError, FeatureProperties, FrameReport, Pick, Samples, SceneCamera, Stretch, VolumeInfo } from "./engine";
+import type {
+  Engine, EngineError, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Pick, Point, Samples, SceneCamera, Stretch, VolumeInfo,
+} from "./engine";
 import { kSceneMembers } from "./generated/scene_members";
 import { indexFeatures, labelOf, type FeatureIndex } from "./state/feature_index";
 import { History, type Changed } from "./state/history";
 import { hashOf } from "./state/link";
 import { ofId } from "./state/queries";
-import { sceneCamera, sceneOf, type Described } from "./state/scene_of";
+import { kBuiltIn, moreLanguages, textsOf, wantedOf, type ListedLanguage } from "./languages";
+import { Owners } from "./owners";
+import { memoryOfPage, Refining, wantsDraft, type Source } from "./refining";
+import { cutOf, sceneCamera, sceneOf, type Described } from "./state/scene_of";
 import { hiddenFlags, hideQueries, switched } from "./state/visibility";
-import { initialState, type Camera, type ViewState } from "./state/view_state";
-import { browserLanguage, setLanguage, t, type Language, type TextKey } from "./texts";
+import { sub } from "./camera/vec";
+import { initialState, shifted, type Camera, type ViewState } from "./state/view_state";
+import { browserLanguage, movedText, setLanguage, stageText, t, type Language, type LanguageTexts, type TextKey } from "./texts";
 
 export type Tool = "section" | "lens" | "focus" | "look" | "measure" | "views" | "share";
 export type Status = "starting" | "empty" | "loading" | "ready";
@@ -68,6 +74,13 @@ export class Session extends EventTarget {
   modelName = "";
   /** File name for generated commands. */
   modelFile = "model.svt";
+  /** Names of the files that were opened with it. */
+  otherFiles: string[] = [];
+  readonly refining = new Refining(this);
+  readonly owners = new Owners(this);
+  private openedWith: OpenOptions = {};
+  /** Section planes that are drawn beside faces of the model in which they lie. */
+  moved: MovedPlane[] = [];
   info: VolumeInfo | null = null;
   index: FeatureIndex = indexFeatures([]);
   hidden: Uint8Array = new Uint8Array(0);
@@ -113,11 +126,31 @@ export class Session extends EventTarget {
     this.changed();
   }
 
-  setLanguage(language: Language = browserLanguage()): void {
+  /** English and German, and what lies beside the page. */
+  languages: ListedLanguage[] = kBuiltIn;
+
+  setLanguage(language: Language = browserLanguage(), texts: LanguageTexts | null = null): void {
     this.language = language;
-    setLanguage(language);
+    setLanguage(language, texts);
     document.documentElement.lang = language;
     this.changed();
+  }
+
+  /** One of `languages`; its file is fetched if it has one. */
+  async chooseLanguage(code: Language): Promise<void> {
+    const isBuiltIn = kBuiltIn.some((language) => language.code === code);
+    const texts = isBuiltIn ? null : await textsOf(code);
+    if (isBuiltIn || texts) this.setLanguage(code, texts);
+    else this.tell(t("noLanguage", { name: `languages/${code}.json` }));
+  }
+
+  /** Looks for more languages beside the page, and speaks the one that the address or the browser asks for. */
+  async findLanguages(): Promise<void> {
+    const more = await moreLanguages();
+    this.languages = [...kBuiltIn, ...more];
+    const asked = new URLSearchParams(location.search).get("language") ?? wantedOf(this.languages);
+    if (asked && asked !== this.language && this.languages.some(({ code }) => code === asked)) await this.chooseLanguage(asked);
+    if (more.length) this.changed();
   }
 
   changed(): void {
@@ -197,8 +230,23 @@ export class Session extends EventTarget {
     this.quality = quality;
     this.shownCamera = state.camera;
     this.refit(report.width / report.height);
+    if (quality !== "moving") void this.findMoved(state);
     this.changed();
   }
+
+  /** Tells which planes lie in faces, once each time. */
+  private async findMoved(state: ViewState): Promise<void> {
+    if (state.sections === this.seenSections || !this.engine) return;
+    this.seenSections = state.sections;
+    const cut = cutOf(state.sections);
+    const moved = cut ? await this.engine.movedPlanes({ passes: [{ cut }] }).catch(() => []) : [];
+    if (this.state.sections !== state.sections) return;
+    const isNew = moved.some(({ text }) => !this.moved.some((other) => other.text === text));
+    this.moved = moved;
+    if (isNew) this.say(movedText(moved));
+    this.changed();
+  }
+  private seenSections: unknown = null;
 
   /** The view fitted to the whole building, and its aspect ratio; it is recomputed for another aspect ratio. */
   private fitted: { camera: Camera; aspect: number } | null = null;
@@ -234,11 +282,11 @@ export class Session extends EventTarget {
   }
 
   /** Fetches the bytes of the open model again, for a restarted library. */
-  private source: (() => Promise<ArrayBuffer>) | null = null;
+  private source: Source | null = null;
   private restartedAt = -Infinity;
 
-  /** The bytes of the open model; null if they cannot be had again. */
-  async bytesAgain(): Promise<ArrayBuffer | null> {
+  /** The files of the open model; null if they cannot be had again. */
+  async filesAgain(): Promise<FileBytes[] | null> {
     return (await this.source?.().catch(() => null)) ?? null;
   }
 
@@ -253,7 +301,8 @@ export class Session extends EventTarget {
   private async bringBack(): Promise<boolean> {
     if (!this.source || !this.engine) return false;
     try {
-      await this.engine.open(await this.source(), this.modelFile, () => undefined);
+      await this.engine.open(await this.source(), () => undefined, this.openedWith);
+      await this.owners.giveAgain();
       this.hasLostVolume = false;
       this.redraw();
       return true;
@@ -297,19 +346,26 @@ export class Session extends EventTarget {
   /**
    * Opens a model; on failure, or when it is cancelled, the previous one stays open.
    * @param opening  from startOpening()
-   * @param source  fetches the bytes again
+   * @param source  fetches the files again
    */
-  async open(opening: Opening, bytes: ArrayBuffer, fileName: string, source: () => Promise<ArrayBuffer>, state: ViewState | null = null): Promise<boolean> {
+  async open(opening: Opening, files: FileBytes[], source: Source, state: ViewState | null = null): Promise<boolean> {
     if (!this.engine || this.opening !== opening) return false;
     this.status = "loading";
     this.message = null;
     this.isReading = true;
     try {
-      const info = await this.engine.open(bytes, fileName, (step, share) => this.tellProgress(step, share));
+      this.refining.cancel();
+      const [first, ...others] = files.map(({ name }) => name);
+      const options = { draft: wantsDraft(files), memory: memoryOfPage() };
+      const info = await this.engine.open(files, (step, share) => this.tellProgress(step, share), options);
       this.hasLostVolume = false;
-      this.modelFile = fileName;
+      this.modelFile = first!;
+      this.otherFiles = others;
       this.source = source;
+      this.openedWith = options;
+      this.owners.forget();
       this.take(info, state ?? { ...initialState(this.state.look), wireframe: null });
+      if (options.draft) this.refining.begin(source, options.memory);
       return true;
     } catch (error) {
       if ((error as EngineError).code === kCancelled) {
@@ -332,7 +388,25 @@ export class Session extends EventTarget {
   }
 
   private tellProgress(step: string, share: number): void {
-    this.progress = { text: step, share };
+    this.progress = { text: stageText(step), share };
+    this.changed();
+  }
+
+  /** A finer volume of the same model has taken the place of the coarse one: what was chosen meanwhile stays. */
+  takeFiner(info: VolumeInfo, memory: number): void {
+    const by = this.info ? sub(this.info.origin, info.origin) : [0, 0, 0] as Point;
+    this.openedWith = { draft: false, memory };
+    this.info = info;
+    this.box = boxOf(info);
+    this.index = indexFeatures(info.features);
+    this.hidden = hiddenFlags(this.index, this.state.hide);
+    const move = (state: ViewState) => shifted(state, by, this.box);
+    this.history.change(move);
+    this.state = move(this.state);
+    this.fitted = null;
+    this.properties = null;
+    this.redraw();
+    void this.readProperties();
     this.changed();
   }
 
@@ -343,6 +417,8 @@ export class Session extends EventTarget {
     this.state = { ...state, selection: state.selection.filter((id) => this.index.byId.has(id)) };
     this.hidden = hiddenFlags(this.index, state.hide);
     this.history.clear();
+    this.moved = [];
+    this.seenSections = null;
     this.along = null;
     this.properties = null;
     this.report = null;
@@ -431,6 +507,11 @@ export class Session extends EventTarget {
   hide(members: Iterable<number>, hidden: boolean): void {
     const flags = switched(this.hidden, members, hidden);
     this.set({ hide: hideQueries(this.index, flags, this.state.hide) });
+  }
+
+  /** The files that are open; several: `A and B`. */
+  get fileNames(): string[] {
+    return [this.modelFile, ...this.otherFiles];
   }
 
   private async readProperties(): Promise<void> {

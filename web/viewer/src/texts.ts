@@ -1,4 +1,7 @@
-/** All texts of the page, English and German side by side. `{x}` is a placeholder. */
+/**
+ * All texts of the page, English and German side by side. `{x}` is a placeholder. Other languages come from files of the
+ * same keys, see languages.ts.
+ */
 
 import { kSceneMembers, type SceneMember, type Unit } from "./generated/scene_members";
 
@@ -11,8 +14,8 @@ const kTexts = {
   model: ["Model", "Modell"],
   dropTitle: ["Drop a building here", "Ein Gebäude hierher ziehen"],
   dropText: [
-    "A volume (.svt), CityGML (.gml), CityJSON (.json) or IFC (.ifc). It stays on this computer.",
-    "Ein Volumen (.svt), CityGML (.gml), CityJSON (.json) oder IFC (.ifc). Es bleibt auf diesem Rechner.",
+    "A volume (.svt), CityGML (.gml), CityJSON (.json) or IFC (.ifc), one or several. It stays on this computer.",
+    "Ein Volumen (.svt), CityGML (.gml), CityJSON (.json) oder IFC (.ifc), eines oder mehrere. Es bleibt auf diesem Rechner.",
   ],
   dropNow: ["Drop to open", "Loslassen zum Öffnen"],
   choose: ["Choose a file", "Datei wählen"],
@@ -74,6 +77,8 @@ const kTexts = {
   findingsTitle: ["What the model is like", "Zustand des Modells"],
   theme: ["Dark or light", "Dunkel oder hell"],
   language: ["DE, Deutsch", "EN, English"],
+  languages: ["Language", "Sprache"],
+  noLanguage: ["{name} is no language file.", "{name} ist keine Sprachdatei."],
   helpTitle: ["Mouse, touch and keys", "Maus, Finger und Tasten"],
   help: ["Help", "Hilfe"],
   panelTree: ["Parts", "Teile"],
@@ -141,6 +146,27 @@ const kTexts = {
   views: ["Views", "Ansichten"],
   share: ["Keep", "Sichern"],
 
+  coarseNow: ["Coarse for now: {spacing} m", "Vorerst grob: {spacing} m"],
+  makingFiner: ["Made finer", "Wird verfeinert"],
+  makeFiner: ["Make it finer", "Verfeinern"],
+  stayCoarse: ["Leave it so", "So lassen"],
+  staysCoarse: ["The picture stays coarse: {spacing} m from voxel to voxel.", "Das Bild bleibt grob: {spacing} m von Voxel zu Voxel."],
+  isFiner: ["Now fine: {spacing} m", "Jetzt fein: {spacing} m"],
+  spacingTold: ["Voxels of {reason}", "Voxel von {reason}"],
+  stage_read: ["Reading", "Wird gelesen"],
+  stage_mesh: ["Faces", "Flächen"],
+  stage_close: ["Closing shells", "Hüllen werden geschlossen"],
+  stage_voxelize: ["Voxels", "Voxel"],
+  stage_patterns: ["Patterns", "Muster"],
+  stage_pack: ["Packing", "Wird verpackt"],
+  ownersNeedModel: ["{name} tells owners: open the model first, or drop both together.", "{name} nennt Eigentümer: erst das Modell öffnen, oder beide zusammen fallen lassen."],
+  ownersGiven: ["Owners are those of {name}; colours tell them. Queries: owner=NAME.", "Eigentümer nach {name}; die Farben zeigen sie. Abfragen: owner=NAME."],
+  movedPlane: [
+    "{plane} lies in faces of the model and is drawn {mm} mm beside them, on the side that is kept.",
+    "{plane} liegt in Flächen des Modells und ist {mm} mm daneben gezeichnet, auf der Seite, die bleibt.",
+  ],
+  level: ["Level at {height} m", "Ebene auf {height} m"],
+  moreStoreys: ["Storey", "Geschoss"],
   addPlane: ["Add a plane", "Ebene hinzufügen"],
   planeNumber: ["Plane {n}", "Ebene {n}"],
   removePlane: ["Remove plane {n}", "Ebene {n} entfernen"],
@@ -214,7 +240,7 @@ const kTexts = {
   noEdges: ["This volume was built without edges (svt build --vectors edges).", "Dieses Volumen wurde ohne Kanten gebaut (svt build --vectors edges)."],
   names: ["Names of the selection", "Namen der Auswahl"],
   colorBy: ["Colour by", "Farbe nach"],
-  colorByNothing: ["class, storey, volume, an attribute", "class, storey, volume, ein Attribut"],
+  colorByNothing: ["class, storey, volume, owner, an attribute", "class, storey, volume, owner, ein Attribut"],
   scaleBar: ["Scale bar", "Maßstab"],
   northArrow: ["North arrow", "Nordpfeil"],
   legend: ["Legend", "Legende"],
@@ -244,7 +270,11 @@ const kTexts = {
   fit: ["Show all of it", "Alles zeigen"],
   parallel: ["Parallel", "Parallel"],
   walk: ["Walk", "Gehen"],
-  walkHint: ["W A S D walk, Q and E go down and up, dragging looks around.", "W A S D gehen, Q und E runter und rauf, Ziehen blickt umher."],
+  walkNowhere: ["There is no place to stand here.", "Hier ist kein Platz zum Stehen."],
+  bcfExport: ["Save these views as BCF 3.0", "Diese Ansichten als BCF 3.0 sichern"],
+  bcfMissing: ["{n} components of it are not in this model.", "{n} Bauteile daraus sind nicht in diesem Modell."],
+  notBcf: ["{name} is no BCF file that can be read: {error}.", "{name} ist keine lesbare BCF-Datei: {error}."],
+  walkHint: ["W A S D walk, around walls and up stairs; Q and E go down and up, dragging looks around, 0 ends it.", "W A S D gehen, an Wänden entlang und Treppen hinauf; Q und E runter und rauf, Ziehen blickt umher, 0 beendet es."],
   fieldOfView: ["Field of view", "Blickwinkel"],
 
   bookmarks: ["Kept views", "Gesicherte Ansichten"],
@@ -255,7 +285,7 @@ const kTexts = {
   bookmarkExport: ["{name} as scene JSON", "{name} als Szenen-JSON"],
   bookmarkUp: ["{name} one place up", "{name} einen Platz nach oben"],
   bookmarksExport: ["Save these views as a file", "Diese Ansichten als Datei sichern"],
-  bookmarksImport: ["Add views from a file", "Ansichten aus einer Datei hinzufügen"],
+  bookmarksImport: ["Add views from a file (ours, or BCF)", "Ansichten aus einer Datei hinzufügen (eigene oder BCF)"],
   bookmarksAdded: ["{n} views added", "{n} Ansichten hinzugefügt"],
   noViews: ["{name} contains no kept views.", "{name} enthält keine gesicherten Ansichten."],
   notKept: ["This browser keeps nothing for this page.", "Dieser Browser speichert nichts für diese Seite."],
@@ -280,6 +310,14 @@ const kTexts = {
   pictureHeight: ["Height", "Höhe"],
   pictureSave: ["Save PNG", "PNG speichern"],
   pictureWorking: ["Drawing", "Wird gezeichnet"],
+  linkOnThisMachine: [
+    "Copied. The address is one of this computer: others cannot open it.",
+    "Kopiert. Die Adresse gilt nur auf diesem Rechner: Andere können sie nicht öffnen.",
+  ],
+  linkTooLong: [
+    "Copied. The link has {n} characters; some programs shorten such links. A file of kept views is safer.",
+    "Kopiert. Der Link hat {n} Zeichen; manche Programme kürzen solche Links. Eine Datei gesicherter Ansichten ist sicherer.",
+  ],
   badLink: ["The link is damaged; the model is shown as it is.", "Der Link ist beschädigt; das Modell wird gezeigt, wie es ist."],
   badJson: ["This is no JSON: {error}", "Das ist kein JSON: {error}"],
   pictureLabel: [
@@ -347,29 +385,58 @@ type HelpedMember = { [Name in SceneMember]: HelpOf<Name> extends keyof typeof k
 const kUnitSigns: Record<Unit, string> = { pixels: " px", degrees: "°", metres: " m", seconds: " s" };
 
 export type TextKey = keyof typeof kTexts;
-export type Language = "en" | "de";
+/** `en`, `de`, or the code of a language file: a BCP 47 tag. */
+export type Language = string;
+
+/** Texts of another language, by key; help of scene members by its English text. What is missing is English. */
+export interface LanguageTexts {
+  texts: Record<string, string>;
+  /** Words that find a class: `{"Window": "fenêtre"}`. */
+  classes?: Record<string, string>;
+}
 
 let current: Language = "en";
+let other: LanguageTexts | null = null;
 
 export function language(): Language {
   return current;
 }
-export function setLanguage(wanted: Language): void {
+export function otherTexts(): LanguageTexts | null {
+  return other;
+}
+/** @param texts  of a language that is not built in */
+export function setLanguage(wanted: Language, texts: LanguageTexts | null = null): void {
   current = wanted;
+  other = texts;
 }
 export function browserLanguage(): Language {
   return (navigator.languages ?? [navigator.language]).find((l) => /^(en|de)/i.test(l))?.slice(0, 2).toLowerCase() === "de" ? "de" : "en";
 }
 
 export function t(key: TextKey, values: Record<string, string | number> = {}): string {
-  const text: string = kTexts[key][current === "de" ? 1 : 0];
+  const text: string = other?.texts[key] ?? kTexts[key][current === "de" ? 1 : 0];
   return text.replace(/\{(\w+)\}/g, (whole, name: string) => (name in values ? String(values[name]) : whole));
+}
+
+/** The English of all texts, which a language file translates. */
+export function template(): Record<string, string> {
+  return Object.fromEntries([...Object.entries(kTexts).map(([key, [english]]) => [key, english]), ...Object.keys(kGermanHelp).map((help) => [help, help])]);
+}
+
+/** The name of a stage of the library; its own word where there is none. */
+export function stageText(stage: string): string {
+  const key = `stage_${stage}`;
+  return key in kTexts ? t(key as TextKey) : stage;
+}
+
+export function movedText(planes: { text: string; by: number }[]): string {
+  return planes.map(({ text, by }) => t("movedPlane", { plane: text, mm: number(1000 * by, 1) })).join(" ");
 }
 
 /** What a member of a scene does, with its unit: the tooltip of its control. */
 export function help(member: HelpedMember): string {
   const declared: { help: keyof typeof kGermanHelp; unit?: Unit } = kSceneMembers[member];
-  const text: string = current === "de" ? kGermanHelp[declared.help] : declared.help;
+  const text: string = other?.texts[declared.help] ?? (current === "de" ? kGermanHelp[declared.help] : declared.help);
   const unit = declared.unit ? ` (${kUnitSigns[declared.unit].trim()})` : "";
   return text.charAt(0).toUpperCase() + text.slice(1) + unit;
 }
@@ -377,6 +444,12 @@ export function help(member: HelpedMember): string {
 /** Formats numbers in the chosen language. */
 export function number(value: number, digits: number): string {
   return value.toLocaleString(current, { minimumFractionDigits: digits, maximumFractionDigits: digits });
+}
+/** A day, from ISO 8601, in the chosen language; other text as it is. */
+export function dateText(text: string): string {
+  const found = /^(\d{4})-(\d\d)-(\d\d)(T[\d:.]+(Z|[+-][\d:]+)?)?$/.exec(text);
+  const date = found && new Date(Date.UTC(Number(found[1]), Number(found[2]) - 1, Number(found[3])));
+  return date && !Number.isNaN(date.getTime()) ? date.toLocaleDateString(current, { dateStyle: "medium", timeZone: "UTC" }) : text;
 }
 export function withUnit(value: number, digits: number, unit: Unit): string {
   return number(value, digits) + kUnitSigns[unit];

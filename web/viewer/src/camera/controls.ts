@@ -5,7 +5,7 @@ import type { Session } from "../session";
 import { kOtherFirstValues } from "../state/member_controls";
 import type { Camera } from "../state/view_state";
 import { basisOf, lookAround, orbit, pan, pointAt, walk, zoom } from "./camera";
-import { distance, dot, sub } from "./vec";
+import { add, distance, dot, sub } from "./vec";
 
 /** Rotation in radians for a drag over the whole height of the picture. */
 const kTurnPerHeight = Math.PI;
@@ -159,7 +159,7 @@ export class Controls {
   private zoomTo(x: number, y: number, factor: number): void {
     const camera = this.camera;
     if (!camera) return;
-    if (this.session.isWalking) return this.session.turn(walk(camera, (1 - factor) * 3, 0, 0));
+    if (this.session.isWalking) return void this.stepTo(walk(camera, (1 - factor) * 3, 0, 0));
     const now = performance.now();
     const target = this.zoomTarget;
     if (!target || Math.hypot(target.x - x, target.y - y) > 0.01 || now - target.time > 800) this.findZoomTarget(x, y);
@@ -214,25 +214,32 @@ export class Controls {
   }
 
   private stepWalk(before: number): void {
-    this.walking = requestAnimationFrame((now) => {
+    this.walking = requestAnimationFrame(async (now) => {
       const held = (key: string) => (this.keys.has(key) ? 1 : 0);
       const metres = Math.min(0.2, (now - before) / 1000) * 2.5;
       if (this.camera && this.keys.size)
-        this.session.turn(
-          walk(this.camera, (held("w") - held("s")) * metres, (held("d") - held("a")) * metres, (held("e") - held("q")) * metres),
-        );
+        await this.stepTo(walk(this.camera, (held("w") - held("s")) * metres, (held("d") - held("a")) * metres, (held("e") - held("q")) * metres));
       this.walking = 0;
       if (this.keys.size && this.session.isWalking) this.stepWalk(now);
     });
   }
+
+  /** As far as there is air, along what is in the way. */
+  private async stepTo(wanted: Camera): Promise<void> {
+    const from = this.camera!;
+    const eye = await this.session.engine?.step(from.eye, sub(wanted.eye, from.eye)).catch(() => null);
+    // Meanwhile the view may have been turned, or walking ended.
+    const now = this.camera;
+    if (!eye || !now || !this.session.isWalking) return;
+    const by = sub(eye, from.eye);
+    this.session.turn({ ...now, eye: add(now.eye, by), target: add(now.target, by) });
+  }
 }
 
-/** Stands in front of the previous target, at eye height if above the ground. */
-export function stepInside(camera: Camera, floor: number): Camera {
-  const eyeHeight = floor + 1.65;
+/** Looks ahead from where one stands. */
+export function standAt(camera: Camera, eye: Point): Camera {
   const { forward } = basisOf(camera);
   const level = Math.hypot(forward[0], forward[1]) || 1;
-  const eye: Point = [camera.target[0], camera.target[1], eyeHeight];
-  const target: Point = [eye[0] + (forward[0] / level) * 3, eye[1] + (forward[1] / level) * 3, eyeHeight];
+  const target: Point = [eye[0] + (forward[0] / level) * 3, eye[1] + (forward[1] / level) * 3, eye[2]];
   return { ...camera, parallel: false, eye, target, fieldOfView: kOtherFirstValues.walkingFieldOfView.value, height: Math.max(1, distance(eye, target)) };
 }

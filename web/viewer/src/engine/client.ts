@@ -1,8 +1,8 @@
 /** The engine on the page's side: passes requests to the worker and shows its pictures on the canvas. */
 import { kCancelled } from "../engine";
 import type {
-  DrawingFormat, DrawingParts, Effects, Engine, EngineError, EngineKind, FeatureProperties, FrameReport, Pick, Scene, SceneCamera,
-  Stretch, VolumeInfo,
+  DrawingFormat, DrawingParts, Effects, Engine, EngineError, EngineKind, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Pick,
+  Point, Scene, SceneCamera, Stretch, VolumeInfo,
 } from "../engine";
 import type { Answer, Calls, Request } from "./protocol";
 
@@ -22,13 +22,61 @@ interface WaitingDraw {
   reject: (error: EngineError) => void;
 }
 
-class WorkerEngine implements Engine {
-  kind: EngineKind = "cpu";
-  private worker: Worker;
+/** One worker with the library and one volume. */
+class Connection {
+  private readonly worker: Worker;
   private readonly waiting = new Map<number, Waiting>();
   private lastId = 0;
-  /** Whether the current worker has ever answered: one that never did would fail again. */
-  private isAlive = false;
+  /** Whether it has ever answered: one that never did would fail again. */
+  isAlive = false;
+
+  /** @param died  called when the library has stopped; close() is up to the caller */
+  constructor(private readonly died: (error: EngineError) => void) {
+    this.worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
+    this.worker.onmessage = (event: MessageEvent<Answer>) => this.take(event.data);
+    this.worker.onerror = (event) => {
+      event.preventDefault();
+      this.died({ code: "E999", message: `the library cannot run here (${event.message})` });
+    };
+  }
+
+  ask<N extends Name>(
+    name: N, args: Calls[N]["args"], transfer: Transferable[] = [], onProgress?: Waiting["onProgress"],
+  ): Promise<Calls[N]["result"]> {
+    return new Promise((resolve, reject) => {
+      const id = ++this.lastId;
+      this.waiting.set(id, { resolve, reject, ...(onProgress ? { onProgress } : {}) });
+      this.worker.postMessage({ id, name, args } as Request, transfer);
+    });
+  }
+
+  /** Ends it with all its requests. */
+  close(error: EngineError): void {
+    this.worker.terminate();
+    const lost = [...this.waiting.values()];
+    this.waiting.clear();
+    for (const request of lost) request.reject(error);
+  }
+
+  private take(answer: Answer): void {
+    this.isAlive = this.isAlive || !("error" in answer);
+    const request = this.waiting.get(answer.id);
+    if (!request) return;
+    if ("step" in answer) return request.onProgress?.(answer.step, answer.done);
+    this.waiting.delete(answer.id);
+    if ("result" in answer) return request.resolve(answer.result as never);
+    request.reject(answer.error);
+    if (answer.isDead) this.died(answer.error);
+  }
+}
+
+const kGivenUp: EngineError = { code: kCancelled, message: kCancelled };
+
+class WorkerEngine implements Engine {
+  kind: EngineKind = "cpu";
+  private main: Connection;
+  /** Opens a finer volume meanwhile. */
+  private second: Connection | null = null;
   private isDrawing = false;
   private nextDraw: WaitingDraw | null = null;
   private readonly screen: ImageBitmapRenderingContext;
@@ -40,7 +88,7 @@ class WorkerEngine implements Engine {
     const screen = canvas.getContext("bitmaprenderer");
     if (!screen) throw { code: "E904", message: "the canvas has another context already" } satisfies EngineError;
     this.screen = screen;
-    this.worker = this.startWorker();
+    this.main = this.connect();
   }
 
   /** Resolves when the library is loaded. */
@@ -48,8 +96,48 @@ class WorkerEngine implements Engine {
     this.kind = await this.ask("start", [this.wanted]);
   }
 
-  open(bytes: ArrayBuffer, fileName: string, onProgress: (step: string, done: number) => void): Promise<VolumeInfo> {
-    return this.ask("open", [bytes, fileName], [bytes], onProgress);
+  private connect(): Connection {
+    const made: Connection = new Connection((error) => {
+      if (made === this.main) this.restart(error);
+      else if (made === this.second) this.endSecond(error);
+    });
+    return made;
+  }
+
+  private ask<N extends Name>(name: N, args: Calls[N]["args"], transfer: Transferable[] = [], onProgress?: Waiting["onProgress"]): Promise<Calls[N]["result"]> {
+    return this.main.ask(name, args, transfer, onProgress);
+  }
+
+  open(files: FileBytes[], onProgress: (step: string, done: number) => void, options: OpenOptions = {}): Promise<VolumeInfo> {
+    this.cancelRefining();
+    return this.ask("open", [files, options], files.map(({ bytes }) => bytes), onProgress);
+  }
+
+  async refine(files: FileBytes[], onProgress: (step: string, done: number) => void, options: OpenOptions = {}): Promise<VolumeInfo> {
+    this.cancelRefining();
+    const second = (this.second = this.connect());
+    try {
+      await second.ask("start", [this.wanted]);
+      const info = await second.ask("open", [files, options], files.map(({ bytes }) => bytes), onProgress);
+      const before = this.main;
+      this.main = second;
+      this.second = null;
+      before.close(kGivenUp);
+      return info;
+    } catch (error) {
+      if (this.second === second) this.endSecond(kGivenUp);
+      throw error;
+    }
+  }
+
+  cancelRefining(): void {
+    this.endSecond(kGivenUp);
+  }
+
+  private endSecond(error: EngineError): void {
+    const { second } = this;
+    this.second = null;
+    second?.close(error);
   }
 
   draw(scene: Scene, width: number, height: number): Promise<FrameReport | null> {
@@ -65,7 +153,8 @@ class WorkerEngine implements Engine {
   }
   /** The worker cannot be interrupted: it is replaced. */
   cancel(): void {
-    this.restart({ code: kCancelled, message: kCancelled });
+    this.cancelRefining();
+    this.restart(kGivenUp);
   }
   pick(x: number, y: number, reach = 0): Promise<Pick | null> {
     return this.ask("pick", [x, y, reach]);
@@ -94,6 +183,18 @@ class WorkerEngine implements Engine {
   sheets(language: "en" | "de"): Promise<string[]> {
     return this.ask("sheets", [language]);
   }
+  async setOwners(table: ArrayBuffer, fileName: string): Promise<void> {
+    await this.ask("owners", [table, fileName], [table]);
+  }
+  stand(near: Point): Promise<Point | null> {
+    return this.ask("stand", [near]);
+  }
+  step(eye: Point, by: Point): Promise<Point> {
+    return this.ask("step", [eye, by]);
+  }
+  movedPlanes(scene: Scene): Promise<MovedPlane[]> {
+    return this.ask("movedPlanes", [scene]);
+  }
 
   private drawNext(): void {
     const next = this.nextDraw;
@@ -112,48 +213,14 @@ class WorkerEngine implements Engine {
       });
   }
 
-  private ask<N extends Name>(
-    name: N, args: Calls[N]["args"], transfer: Transferable[] = [], onProgress?: Waiting["onProgress"],
-  ): Promise<Calls[N]["result"]> {
-    return new Promise((resolve, reject) => {
-      const id = ++this.lastId;
-      this.waiting.set(id, { resolve, reject, ...(onProgress ? { onProgress } : {}) });
-      this.worker.postMessage({ id, name, args } as Request, transfer);
-    });
-  }
-
-  private startWorker(): Worker {
-    this.isAlive = false;
-    const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
-    worker.onmessage = (event: MessageEvent<Answer>) => this.take(event.data);
-    worker.onerror = (event) => {
-      event.preventDefault();
-      this.restart({ code: "E999", message: `the library cannot run here (${event.message})` });
-    };
-    return worker;
-  }
-
-  private take(answer: Answer): void {
-    this.isAlive = this.isAlive || !("error" in answer);
-    const request = this.waiting.get(answer.id);
-    if (!request) return;
-    if ("step" in answer) return request.onProgress?.(answer.step, answer.done);
-    this.waiting.delete(answer.id);
-    if ("result" in answer) return request.resolve(answer.result as never);
-    request.reject(answer.error);
-    if (answer.isDead) this.restart(answer.error);
-  }
-
   /** Discards a failed worker with all its requests; the new one has no volume. */
   private restart(error: EngineError): void {
-    this.worker.terminate();
-    const lost = [...this.waiting.values()];
-    this.waiting.clear();
-    if (this.isAlive) {
-      this.worker = this.startWorker();
+    const before = this.main;
+    if (before.isAlive) {
+      this.main = this.connect();
       this.start().catch(() => undefined);
     }
-    for (const request of lost) request.reject(error);
+    before.close(error);
   }
 }
 

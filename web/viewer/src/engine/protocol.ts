@@ -1,11 +1,11 @@
 /** Messages between page and worker. A request has one answer, matched by id; open() reports progress before it. */
 import type { Effects, EngineError, EngineKind, Pick, Scene, SceneCamera, Stretch } from "../engine";
-import type { DrawingFormat, DrawingParts, FeatureProperties, FrameReport, VolumeInfo } from "../engine";
+import type { DrawingFormat, DrawingParts, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Point, VolumeInfo } from "../engine";
 
 /** Arguments and result of each call. */
 export interface Calls {
   start: { args: [wanted: EngineKind | null]; result: EngineKind };
-  open: { args: [bytes: ArrayBuffer, fileName: string]; result: VolumeInfo };
+  open: { args: [files: FileBytes[], options: OpenOptions]; result: VolumeInfo };
   draw: { args: [scene: Scene, width: number, height: number]; result: Drawn };
   compose: { args: [scene: Scene, effects: Effects]; result: Scene };
   pick: { args: [x: number, y: number, reach: number]; result: Pick | null };
@@ -16,6 +16,10 @@ export interface Calls {
   view: { args: [query: string, preset: string | null, camera: SceneCamera]; result: SceneCamera };
   picture: { args: [scene: Scene]; result: ArrayBuffer };
   drawing: { args: [plane: string, format: DrawingFormat, parts: DrawingParts | null]; result: ArrayBuffer };
+  owners: { args: [table: ArrayBuffer, fileName: string]; result: null };
+  stand: { args: [near: Point]; result: Point | null };
+  step: { args: [eye: Point, by: Point]; result: Point };
+  movedPlanes: { args: [scene: Scene]; result: MovedPlane[] };
   sheets: { args: [language: "en" | "de"]; result: string[] };
 }
 

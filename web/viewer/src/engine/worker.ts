@@ -2,6 +2,7 @@
 import createSvt, { type SvtModule } from "../../../../build/web/svt.js";
 import { Drawer } from "./drawer";
 import { isEngineError } from "./errors";
+import type { FileBytes } from "../engine";
 import type { Answer, Request } from "./protocol";
 
 /** Idle time of the page before longer work starts. */
@@ -30,6 +31,17 @@ function copied(reply: Uint8Array): ArrayBuffer {
   return reply.slice().buffer as ArrayBuffer;
 }
 
+function joined(files: FileBytes[]): Uint8Array {
+  if (files.length === 1) return new Uint8Array(files[0]!.bytes);
+  const all = new Uint8Array(files.reduce((sum, file) => sum + file.bytes.byteLength, 0));
+  let at = 0;
+  for (const { bytes } of files) {
+    all.set(new Uint8Array(bytes), at);
+    at += bytes.byteLength;
+  }
+  return all;
+}
+
 function drawerOf(svt: SvtModule): Drawer {
   return (drawer ??= new Drawer(svt, null));
 }
@@ -44,7 +56,8 @@ async function answer(request: Request): Promise<void> {
       drawer = new Drawer(svt, args[0]);
       return post({ id, result: drawer.kind });
     case "open": {
-      const info = svt.call(name, [args[1]], new Uint8Array(args[0]));
+      const [files, options] = args;
+      const info = svt.call(name, [files.map((file) => file.name), files.map((file) => file.bytes.byteLength), options], joined(files));
       drawerOf(svt).forgetPicture();
       return post({ id, result: json(info) });
     }
@@ -61,6 +74,8 @@ async function answer(request: Request): Promise<void> {
       const bytes = copied(svt.call(name, args));
       return post({ id, result: bytes }, [bytes]);
     }
+    case "owners":
+      return post({ id, result: json(svt.call(name, [args[1]], new Uint8Array(args[0]))) });
     case "sheets":
       await drawerOf(svt).fetchFont();
     // falls through

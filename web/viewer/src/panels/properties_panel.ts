@@ -5,7 +5,7 @@ import type { FeatureProperties } from "../engine";
 import { labelOf } from "../state/feature_index";
 import { ofId, ofSubtree } from "../state/queries";
 import { subtree } from "../state/visibility";
-import { number, t } from "../texts";
+import { dateText, number, t } from "../texts";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
 import "./style_editor";
@@ -49,7 +49,8 @@ export class PropertiesPanel extends Part {
   }
 
   private findings() {
-    const findings = this.session.info?.findings ?? [];
+    const { findings: found = [], spacingReason = "" } = this.session.info ?? {};
+    const findings = spacingReason ? [t("spacingTold", { reason: spacingReason }), ...found] : found;
     if (!findings.length) return nothing;
     return html`<h3>${t("findingsTitle")}</h3><ul class="findings">${findings.slice(0, 50).map((text) => html`<li>${text}</li>`)}</ul>`;
   }
@@ -85,7 +86,7 @@ export class PropertiesPanel extends Part {
         ${size.every(Number.isFinite) && p.voxelVolume > 0 ? html`<dt>${t("extent")}</dt><dd>${size.map((v) => number(v, 2)).join(" × ")} m</dd>` : nothing}
       </dl>
       <h3>${t("attributes")}</h3>
-      ${attributes.length ? html`<dl>${attributes.map(([key, value]) => html`<dt>${key}</dt><dd>${value}</dd>`)}</dl>` : html`<p class="quiet">${t("noAttributes")}</p>`}
+      ${attributes.length ? html`<dl>${attributes.map(([key, value]) => html`<dt>${key}</dt><dd>${valueText(p.numbers[key], value)}</dd>`)}</dl>` : html`<p class="quiet">${t("noAttributes")}</p>`}
       ${p.neighbours.length
         ? html`<h3>${t("neighbours")}</h3><ul>${p.neighbours.map(
             (n) => n.id === "" ? html`<li class="outside"><span>${t("outside")}</span><span>${number(n.area, 2)} m²</span></li>` : html`<li><button @click=${() => this.session.select([n.id])}><span>${labelOf(n)}</span><span>${number(n.area, 2)} m²</span></button></li>`,
@@ -137,3 +138,10 @@ export class PropertiesPanel extends Part {
   }
 }
 customElements.define("svt-properties", PropertiesPanel);
+
+/** Numbers and days as the page's language writes them. */
+function valueText(value: { value: number; unit: string } | undefined, text: string): string {
+  if (!value) return dateText(text);
+  const digits = /\.(\d+)/.exec(text)?.[1]?.length ?? 0;
+  return `${number(value.value, Math.min(6, digits))}${value.unit ? ` ${value.unit}` : ""}`;
+}

@@ -3,7 +3,7 @@
  * so that 100,000 features cost no more than 30.
  */
 
-import { css, html, nothing } from "lit";
+import { css, html, nothing, unsafeCSS } from "lit";
 import type { EngineError } from "../engine";
 import { ancestors, labelOf } from "../state/feature_index";
 import { ofClass, ofId, ofSubtree } from "../state/queries";
@@ -13,7 +13,8 @@ import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
 import { firstOpen, rowsOf, type Rows } from "./tree_rows";
 
-const kRow = 30;
+/** Pixels of a row: as high as a finger is wide, where there are fingers. */
+const kRow = matchMedia("(max-width: 759px), (pointer: coarse)").matches ? 44 : 30;
 const kSpare = 6;
 /** Milliseconds after the last key. */
 const kAttributesAfter = 150;
@@ -59,7 +60,7 @@ export class TreePanel extends Part {
       .list { flex: 1; min-height: 0; overflow: auto; position: relative; border-top: 1px solid var(--line); overscroll-behavior: contain; outline-offset: -2px !important; }
       .space { position: relative; }
       .item {
-        position: absolute; left: 0; right: 0; height: 30px; display: flex; align-items: center; gap: 4px; padding-right: 6px; cursor: default;
+        position: absolute; left: 0; right: 0; height: ${unsafeCSS(`${kRow}px`)}; display: flex; align-items: center; gap: 4px; padding-right: 6px; cursor: default;
       }
       .item:hover { background: var(--hover); }
       .item.selected { background: var(--accent-soft); color: var(--accent-text); }

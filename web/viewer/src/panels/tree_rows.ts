@@ -1,6 +1,7 @@
 /** Expanded or matching rows of the tree: indices into the feature index, in tree order. */
 
 import { classWords } from "../state/class_words";
+import { language } from "../texts";
 import { ancestors, labelOf, type FeatureIndex } from "../state/feature_index";
 
 export interface Rows {
@@ -40,12 +41,22 @@ export function rowsOf(index: FeatureIndex, open: ReadonlySet<number>, search: s
   return { shown, matches: null, isOpen: (i) => open.has(i) };
 }
 
-/** Features whose name, class (also in German) or id contains all the words, with their ancestors. */
+const kKnown = new Map<string, string>();
+
+/** Class, type, and words for both; few of them are different. */
+function wordsOf({ class: name, type = "" }: { class: string; type?: string }): string {
+  const key = `${language()} ${name} ${type}`;
+  let words = kKnown.get(key);
+  if (words === undefined) kKnown.set(key, (words = `${name} ${type} ${classWords(name, type)}`));
+  return words;
+}
+
+/** Features whose name, class, type (also as words of a language) or id contains all the words, with their ancestors. */
 function found(index: FeatureIndex, words: string[], also: ReadonlySet<number>): Rows {
   const kept = new Set<number>();
   let matches = 0;
   index.features.forEach((feature, i) => {
-    const text = `${labelOf(feature)} ${feature.class} ${classWords(feature.class)} ${feature.id}`.toLowerCase();
+    const text = `${labelOf(feature)} ${wordsOf(feature)} ${feature.id}`.toLowerCase();
     if (!also.has(i) && !words.every((word) => text.includes(word))) return;
     ++matches;
     kept.add(i);

@@ -9,6 +9,8 @@ export interface Bookmark {
   state: ViewState;
   /** A small picture as a data URL. */
   picture?: string;
+  /** The day on which it was kept, ISO 8601. */
+  date?: string;
 }
 
 const keyOf = (model: string) => `svt-bookmarks:${model}`;
@@ -25,8 +27,12 @@ export function loadBookmarks(model: string, store: Storage = localStorage): Boo
 function bookmarksOf(value: unknown): Bookmark[] {
   if (!Array.isArray(value)) return [];
   return value
-    .filter((item): item is { name: string; state: unknown; picture?: unknown } => typeof item?.name === "string")
-    .map(({ name, state, picture }) => ({ name, state: restored(state), ...(typeof picture === "string" && kPicture.test(picture) ? { picture } : {}) }));
+    .filter((item): item is { name: string; state: unknown; picture?: unknown; date?: unknown } => typeof item?.name === "string")
+    .map(({ name, state, picture, date }) => ({
+      name, state: restored(state),
+      ...(typeof picture === "string" && kPicture.test(picture) ? { picture } : {}),
+      ...(typeof date === "string" && /^\d{4}-\d\d-\d\d$/.test(date) ? { date } : {}),
+    }));
 }
 
 const kPicture = /^data:image\/(jpeg|png|webp);base64,[A-Za-z0-9+/=]+$/;

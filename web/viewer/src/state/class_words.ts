@@ -1,30 +1,36 @@
-/** German words for classes of building models, so that a search in German finds them. */
+/** Words for classes of building models and types of IFC, so that a search in the page's language finds them. */
 
-const kWords: [pattern: RegExp, words: string][] = [
-  [/^(GroundSurface|Footing|Pile)/, "Grundfläche Fundament Gründung"],
-  [/Window/, "Fenster"],
-  [/Door/, "Tür Türe"],
-  [/(Wall|CurtainWall)/, "Wand Mauer"],
-  [/(Slab|Ceiling|Floor)/, "Decke Boden Platte"],
-  [/Roof/, "Dach"],
-  [/(Room|Space|Zone|CellSpace)/, "Raum Zimmer"],
-  [/(BuildingUnit|Unit)/, "Wohnung Einheit"],
-  [/Storey/, "Geschoss Stockwerk Etage"],
-  [/(Building|BuildingPart)$/, "Gebäude Haus"],
-  [/(Stair|Ramp)/, "Treppe Rampe"],
-  [/Railing/, "Geländer"],
-  [/Column/, "Stütze Säule"],
-  [/(Beam|Member)/, "Träger Balken Unterzug"],
-  [/Furni/, "Möbel Einrichtung"],
-  [/(Opening|Filling)/, "Öffnung"],
-  [/Installation/, "Einbau Anbau"],
-  [/Chimney/, "Schornstein Kamin"],
-  [/(Covering|Closure)/, "Belag Abschluss"],
-  [/Bridge/, "Brücke"],
-  [/(Vegetation|Plant)/, "Pflanze Baum"],
+import { otherTexts } from "../texts";
+
+const kWords: [pattern: RegExp, german: string, english: string][] = [
+  [/^(GroundSurface|Footing|Pile)|Footing|Pile$/, "Grundfläche Fundament Gründung", "foundation"],
+  [/Window/, "Fenster", "window glazing"],
+  [/Door/, "Tür Türe", "door"],
+  [/(Wall|CurtainWall)/, "Wand Mauer Fassade", "wall facade"],
+  [/(Slab|Ceiling|Floor)/, "Decke Boden Platte", "slab floor ceiling"],
+  [/Roof/, "Dach", "roof"],
+  [/(Room|Space|Zone|CellSpace)/, "Raum Zimmer", "room space"],
+  [/(BuildingUnit|Unit)/, "Wohnung Einheit", "flat apartment unit"],
+  [/Storey/, "Geschoss Stockwerk Etage", "storey story level"],
+  [/(Building|BuildingPart)$/, "Gebäude Haus", "building house"],
+  [/(Stair|Ramp)/, "Treppe Rampe", "stairs ramp"],
+  [/Railing/, "Geländer", "railing balustrade"],
+  [/Column/, "Stütze Säule", "column pillar"],
+  [/(Beam|Member)/, "Träger Balken Unterzug", "beam girder"],
+  [/Furni/, "Möbel Einrichtung", "furniture"],
+  [/(Opening|Filling)/, "Öffnung", "opening"],
+  [/Installation/, "Einbau Anbau", "installation"],
+  [/Chimney/, "Schornstein Kamin", "chimney"],
+  [/(Covering|Closure)/, "Belag Abschluss", "covering finish"],
+  [/Bridge/, "Brücke", "bridge"],
+  [/(Vegetation|Plant)/, "Pflanze Baum", "plant tree"],
+  [/(Pipe|FlowSegment|Duct)/, "Rohr Leitung Kanal", "pipe duct"],
 ];
 
-/** German words for a class, separated by spaces; empty where there are none. */
-export function classWords(className: string): string {
-  return kWords.filter(([pattern]) => pattern.test(className)).map(([, words]) => words).join(" ");
+/** Words for a class and a type of IFC, separated by spaces: German, English, and those of the page's own language. */
+export function classWords(className: string, type = ""): string {
+  const isFor = (pattern: RegExp) => pattern.test(className) || pattern.test(type);
+  const words = kWords.filter(([pattern]) => isFor(pattern)).map(([, german, english]) => `${german} ${english}`);
+  const own = Object.entries(otherTexts()?.classes ?? {}).filter(([name]) => className.includes(name) || type.includes(name)).map(([, word]) => word);
+  return [...words, ...own].join(" ");
 }

@@ -1,4 +1,4 @@
-/** A view as a shell command: `svt render` with options if they suffice, else with a scene file. */
+/** A view as shell commands: `svt render` with options if they suffice, else with a scene file; before it, what makes or fetches its model. */
 
 import type { Scene } from "../engine";
 import { kSceneMembers } from "../generated/scene_members";
@@ -17,10 +17,30 @@ function isExpressibleAsOptions(state: ViewState): boolean {
   return state.styles.every((style) => !style.hatch && !style.ghost);
 }
 
-export function commandOf(state: ViewState, { scene, effects }: Described, model: string): string {
-  const start = ["svt", "render", model, "-o", "view.png"];
-  const words = isExpressibleAsOptions(state) ? [...start, ...options(state, scene, effects)] : [...start, "--scene", "view.scene.json"];
-  return words.map(shellWord).join(" ");
+/** What the reader of a command has, or fetches. */
+export interface Inputs {
+  /** Names of the open files, the first one foremost. */
+  files: string[];
+  /** Name of the table of owners; empty: none. */
+  owners: string;
+  /** Where the first file is fetched from; empty: the reader has it. */
+  address: string;
+}
+
+/** The commands that draw the view, in the order in which they run. */
+export function commandOf(state: ViewState, { scene, effects }: Described, { files, owners, address }: Inputs): string {
+  const [first = "", ...others] = files;
+  const isJoined = others.length > 0 && !files.some((file) => /\.svt$/i.test(file));
+  const model = isJoined ? "model.svt" : first;
+  const words = ["svt", "render", model, "-o", "view.png"];
+  if (isExpressibleAsOptions(state)) words.push(...options(state, scene, effects));
+  else words.push("--scene", "view.scene.json");
+  if (!isJoined) for (const other of others) words.push("--with", other);
+  if (owners) words.push("--owners", owners);
+  const commands = [words];
+  if (isJoined) commands.unshift(["svt", "build", ...files, "-o", model, "--vectors", "edges,meshes"]);
+  if (address) commands.unshift(["curl", "-fLo", first, address]);
+  return commands.map((command) => command.map(shellWord).join(" ")).join(" && ");
 }
 
 /** What is as a scene has it by default is left out: the options of `svt render` have these defaults, too. */
@@ -60,11 +80,6 @@ function options(state: ViewState, scene: Scene, effects: Described["effects"]):
     words.push("--wireframe");
   }
   return words;
-}
-
-/** The shell command that fetches a model of the site, as the file that the command names. */
-export function fetchingCommand(address: string, file: string): string {
-  return ["curl", "-fLo", file, address].map(shellWord).join(" ");
 }
 
 /** The HTML that shows a view within another page. */

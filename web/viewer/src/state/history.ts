@@ -44,6 +44,14 @@ export class History {
     this.isSealed = true;
   }
 
+  /** Applies a change to all views of all steps. */
+  change(of: (state: ViewState) => ViewState): void {
+    for (const step of [...this.done, ...this.undone]) {
+      step.before = of(step.before);
+      step.after = of(step.after);
+    }
+  }
+
   clear(): void {
     this.done = [];
     this.undone = [];

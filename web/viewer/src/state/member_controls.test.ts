@@ -86,14 +86,14 @@ describe("a view that nobody has changed", () => {
   });
 
   it("needs no options as a command", () => {
-    expect(commandOf(initialState(), described, "house.svt")).toBe("svt render house.svt -o view.png --size 640x360");
+    expect(commandOf(initialState(), described, { files: ["house.svt"], owners: "", address: "" })).toBe("svt render house.svt -o view.png --size 640x360");
     const camera = {
       preset: kSceneMembers["/camera/preset"].default,
       fieldOfView: kSceneMembers["/camera/fieldOfView"].default,
       zoom: kSceneMembers["/camera/zoom"].default,
     };
     const edges = { ...initialState(), wireframe: kSceneMembers["/passes/*/lines/*/hidden"].default };
-    expect(commandOf(edges, { scene: { camera }, effects: {} }, "house.svt")).toBe("svt render house.svt -o view.png --size 1280x720 --wireframe");
+    expect(commandOf(edges, { scene: { camera }, effects: {} }, { files: ["house.svt"], owners: "", address: "" })).toBe("svt render house.svt -o view.png --size 1280x720 --wireframe");
   });
 
   it("has the declared angle of view where a scene gives none", () => {

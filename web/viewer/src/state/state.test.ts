@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { kWorldAxes, type Box } from "../camera/camera";
 import type { Feature } from "../engine";
 import { loadBookmarks, saveBookmarks } from "./bookmarks";
-import { commandOf, embeddingOf, fetchingCommand, shellWord } from "./command";
+import { commandOf, embeddingOf, shellWord, type Inputs } from "./command";
 import { indexFeatures, ownerOf } from "./feature_index";
 import { hashOf, ofScene, packed, restored, stateOfHash, unpacked } from "./link";
 import { ofId, parseOwn, quoted } from "./queries";
@@ -12,6 +12,7 @@ import { hiddenFlags, hideQueries, SeenCounts, subtree, switched } from "./visib
 
 const box: Box = { low: [0, 0, 0], high: [12, 10, 6], axes: kWorldAxes };
 const size: [number, number] = [640, 360];
+const given: Inputs = { files: ["house.svt"], owners: "", address: "" };
 const section = (change: Partial<Section>): Section => ({ axis: "z", at: 1.6, flip: false, turn: 0, tilt: 0, ...change });
 const state = (change: Partial<ViewState>): ViewState => ({ ...initialState(), ...change });
 
@@ -65,7 +66,7 @@ describe("scene of the state", () => {
     expect(scene.scaleBar, "in perspective there is no one scale").toBeUndefined();
     const parallel = { ...shown, camera: { eye: [1, 2, 50], target: [1, 2, 0], fieldOfView: 30, parallel: true, height: 10 } } as ViewState;
     expect(sceneOf(parallel, box, size).scene.scaleBar).toBe(true);
-    expect(commandOf(shown, sceneOf(shown, box, size), "house.svt")).toContain("--color-by storey --north-arrow");
+    expect(commandOf(shown, sceneOf(shown, box, size), given)).toContain("--color-by storey --north-arrow");
   });
 
   it("names the selection, draws lines and hulls, hatches or not", () => {
@@ -240,16 +241,23 @@ describe("command", () => {
 
   it("says the view in options", () => {
     const shown = state({ hide: ["class=Room"], sections: [section({ axis: "y", at: 5, flip: true })], look: "paper" });
-    expect(commandOf(shown, sceneOf(shown, box, size), "house.svt")).toBe("svt render house.svt -o view.png --size 640x360 --look paper --hide class=Room --section 'y<5'");
+    expect(commandOf(shown, sceneOf(shown, box, size), given)).toBe("svt render house.svt -o view.png --size 640x360 --look paper --hide class=Room --section 'y<5'");
   });
 
   it("takes a scene file where options cannot say it", () => {
     const shown = state({ hatches: false });
-    expect(commandOf(shown, sceneOf(shown, box, size), "house.svt")).toBe("svt render house.svt -o view.png --scene view.scene.json");
+    expect(commandOf(shown, sceneOf(shown, box, size), given)).toBe("svt render house.svt -o view.png --scene view.scene.json");
   });
 
   it("fetches a model that the reader has not", () => {
-    expect(fetchingCommand("https://example.org/a b/models/house.svt", "house.svt")).toBe("curl -fLo house.svt 'https://example.org/a b/models/house.svt'");
+    const fetched = { ...given, address: "https://example.org/a b/models/house.svt" };
+    expect(commandOf(initialState(), sceneOf(initialState(), box, size), fetched)).toBe("curl -fLo house.svt 'https://example.org/a b/models/house.svt' && svt render house.svt -o view.png --size 640x360");
+  });
+
+  it("names all that the user has opened", () => {
+    const command = (inputs: Partial<Inputs>) => commandOf(initialState(), sceneOf(initialState(), box, size), { ...given, ...inputs });
+    expect(command({ files: ["a.ifc", "b.ifc"] })).toBe("svt build a.ifc b.ifc -o model.svt --vectors edges,meshes && svt render model.svt -o view.png --size 640x360");
+    expect(command({ files: ["a.svt", "b.svt"], owners: "parcels.csv" })).toBe("svt render a.svt -o view.png --size 640x360 --with b.svt --owners parcels.csv");
   });
 
   it("embeds a view whatever it is called", () => {

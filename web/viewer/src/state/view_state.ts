@@ -117,3 +117,21 @@ export function withStyle(styles: SceneStyle[], select: string, change: Partial<
   const others = styles.filter((style) => style.select !== select);
   return Object.keys(after).length > 1 ? [...others, after] : others;
 }
+
+/** The same view of a volume whose grid begins elsewhere: points move by `by`, planes along their normals. */
+export function shifted(state: ViewState, by: Point, box: { axes: [Point, Point, Point] }): ViewState {
+  const move = (p: Point): Point => [p[0] + by[0], p[1] + by[1], p[2] + by[2]];
+  const along = (n: Point) => n[0] * by[0] + n[1] * by[1] + n[2] * by[2];
+  const normal = ({ axis, turn, tilt }: Section): Point => {
+    if (axis !== "free") return box.axes[{ x: 0, y: 1, z: 2 }[axis]]!;
+    const [a, b] = [(turn * Math.PI) / 180, (tilt * Math.PI) / 180];
+    return [Math.cos(a) * Math.cos(b), Math.sin(a) * Math.cos(b), Math.sin(b)];
+  };
+  const { camera } = state;
+  return {
+    ...state,
+    camera: camera && { ...camera, eye: move(camera.eye), target: move(camera.target) },
+    sections: state.sections.map((section) => ({ ...section, at: section.at + along(normal(section)) })),
+    measured: state.measured.map(move),
+  };
+}

@@ -2,9 +2,10 @@
 
 import { css, html, nothing } from "lit";
 import { bookmarkFile, bookmarksOfFile, loadBookmarks, movedUp, pretty, saveBookmarks, type Bookmark } from "../state/bookmarks";
+import { bcfOf, viewsOfBcf, type BcfModel } from "../state/bcf";
 import { sceneOf } from "../state/scene_of";
 import type { ViewState } from "../state/view_state";
-import { t } from "../texts";
+import { dateText, t } from "../texts";
 import { save } from "../ui/files";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
@@ -54,15 +55,16 @@ export class BookmarkList extends Part {
         <button class="bare" id="import-views" aria-label=${t("bookmarksImport")} title=${t("bookmarksImport")} @click=${() => this.renderRoot.querySelector<HTMLInputElement>("#views-file")!.click()}>${icon("open", 16)}</button>
         <button class="bare" id="export-views" ?disabled=${!this.views.length} aria-label=${t("bookmarksExport")} title=${t("bookmarksExport")}
           @click=${() => save(bookmarkFile(this.viewsOf, this.views), "views.json")}>${icon("share", 16)}</button>
-        <input type="file" id="views-file" hidden accept=".json" aria-label=${t("bookmarksImport")} @change=${(e: Event) => void this.add(e.target as HTMLInputElement)} />
+        <button id="export-bcf" ?disabled=${!this.views.length} aria-label=${t("bcfExport")} title=${t("bcfExport")} @click=${() => void this.exportBcf()}>BCF</button>
+        <input type="file" id="views-file" hidden accept=".json,.bcf,.bcfzip" aria-label=${t("bookmarksImport")} @change=${(e: Event) => void this.add(e.target as HTMLInputElement)} />
       </div>
     `;
   }
 
-  private view({ name, state, picture }: Bookmark, n: number) {
+  private view({ name, state, picture, date }: Bookmark, n: number) {
     return html`<li>
       <button class="go" aria-label=${name} title=${name} @click=${() => this.go(state)}>${picture ? html`<img src=${picture} alt="" />` : icon("view", 18)}</button>
-      <input type="text" autocomplete="off" spellcheck="false" aria-label=${t("bookmarkRename")} .value=${name} @change=${(e: Event) => this.rename(n, e.target as HTMLInputElement)} />
+      <input type="text" autocomplete="off" spellcheck="false" aria-label=${t("bookmarkRename")} title=${date ? dateText(date) : nothing} .value=${name} @change=${(e: Event) => this.rename(n, e.target as HTMLInputElement)} />
       ${n > 0 ? this.button("up", t("bookmarkUp", { name }), () => this.store(movedUp(this.views, n))) : html`<span>${nothing}</span>`}
       ${this.button("code", t("bookmarkExport", { name }), () => void this.exportScene(name, state))}
       ${this.button("bin", t("bookmarkRemove", { name }), () => this.store(this.views.filter((_, i) => i !== n)))}
@@ -83,7 +85,7 @@ export class BookmarkList extends Part {
   private async keep(): Promise<void> {
     const { state } = this.session;
     const picture = await this.smallPicture();
-    this.store([...this.views, { name: t("bookmarkName", { n: this.views.length + 1 }), state, ...(picture ? { picture } : {}) }]);
+    this.store([...this.views, { name: t("bookmarkName", { n: this.views.length + 1 }), state, date: new Date().toISOString().slice(0, 10), ...(picture ? { picture } : {}) }]);
   }
 
   private rename(n: number, input: HTMLInputElement): void {
@@ -107,10 +109,36 @@ export class BookmarkList extends Part {
     const file = input.files?.[0];
     input.value = "";
     if (!file) return;
+    const { session } = this;
+    if (/\.bcf(zip)?$/i.test(file.name)) return this.addBcf(file);
     const views = bookmarksOfFile(await file.text());
-    if (!views?.length) return this.session.tell(t("noViews", { name: file.name }));
+    if (!views?.length) return session.tell(t("noViews", { name: file.name }));
     this.store([...this.views, ...views]);
-    this.session.tell(t("bookmarksAdded", { n: views.length }));
+    session.tell(t("bookmarksAdded", { n: views.length }));
+  }
+
+  private async addBcf(file: File): Promise<void> {
+    const { session } = this;
+    const model = this.bcfModel();
+    if (!model) return;
+    try {
+      const { views, missing } = await viewsOfBcf(await file.arrayBuffer(), model);
+      if (!views.length) return session.tell(t("noViews", { name: file.name }));
+      this.store([...this.views, ...views]);
+      session.tell([t("bookmarksAdded", { n: views.length }), ...(missing ? [t("bcfMissing", { n: missing })] : [])].join(". "));
+    } catch (error) {
+      session.fail({ message: t("notBcf", { name: file.name, error: (error as Error).message ?? String(error) }) });
+    }
+  }
+
+  private bcfModel(): BcfModel | null {
+    const { engine, info, index, box, aspect, modelFile } = this.session;
+    return engine && info && { engine, info, index, box, aspect, file: modelFile };
+  }
+
+  private async exportBcf(): Promise<void> {
+    const model = this.bcfModel();
+    if (model) save(await bcfOf(this.views, model, "SVT", new Date()), "views.bcf");
   }
 
   private store(views: Bookmark[]): void {

@@ -10,7 +10,7 @@ const kLooks = kSceneMembers["/look"].choices;
 const kLines = ["off", ...kSceneMembers["/passes/*/lines/*/hidden"].choices] as const;
 
 /** Suggested; attributes of the model are possible, too. */
-const kColorKeys = ["class", "name", "storey", "volume"] as const;
+const kColorKeys = ["class", "name", "storey", "volume", "area"] as const;
 
 export class LookTool extends Part {
   static override styles = [controls, css`.segments { display: flex; } h3:first-child { margin-top: 0; }`];
@@ -43,7 +43,7 @@ export class LookTool extends Part {
       </div>
       <h3 id="color-by-title">${t("colorBy")}</h3>
       <input id="color-by" list="color-by-keys" aria-labelledby="color-by-title" title=${help("/colorBy")} placeholder=${t("colorByNothing")} .value=${colorBy} @change=${(e: Event) => session.set({ colorBy: (e.target as HTMLInputElement).value.trim() })} />
-      <datalist id="color-by-keys">${kColorKeys.map((key) => html`<option value=${key}></option>`)}</datalist>
+      <datalist id="color-by-keys">${[...kColorKeys, ...(session.owners.file ? ["owner"] : []), ...(session.info?.attributes ?? [])].map((key) => html`<option value=${key}></option>`)}</datalist>
       <div class="row">
         <label class="check" title=${help("/scaleBar")}><input type="checkbox" id="scale-bar" .checked=${scaleBar} @change=${(e: Event) => session.set({ scaleBar: (e.target as HTMLInputElement).checked })} />${t("scaleBar")}</label>
         <label class="check" title=${help("/northArrow")}><input type="checkbox" id="north-arrow" .checked=${northArrow} @change=${(e: Event) => session.set({ northArrow: (e.target as HTMLInputElement).checked })} />${t("northArrow")}</label>

@@ -1,7 +1,7 @@
 /** Section planes: their positions and drawings. */
 
 import { css, html, nothing } from "lit";
-import type { DrawingFormat, DrawingParts } from "../engine";
+import type { DrawingFormat, DrawingParts, VolumeInfo } from "../engine";
 import { regionOf } from "../state/scene_of";
 import type { Section, SectionAxis } from "../state/view_state";
 import { help, language, number, t } from "../texts";
@@ -18,6 +18,14 @@ const kPngScale = 300 / 96;
 const kParts = [["beyond", "drawBeyond"], ["above", "drawAbove"], ["dimensions", "drawDimensions"]] as const;
 /** Height at which plans are cut: above the floor, over window sills. */
 const kPlanHeight = 1.1;
+/** More storeys than these, as a district has, are a list. */
+const kMostChips = 14;
+
+/** Storeys, or levels that the model does not name; those of several buildings with the same name and height are one. */
+function levelsOf(storeys: VolumeInfo["storeys"]): { name: string; floor: number }[] {
+  const levels = storeys.map(({ name, id, floor }) => ({ name: name || id || t("level", { height: number(floor, 2) }), floor }));
+  return levels.filter(({ name, floor }, n) => levels.findIndex((other) => other.name === name && Math.abs(other.floor - floor) < 0.05) === n);
+}
 
 export class SectionTool extends Part {
   /** What the next drawings have beside the cut. */
@@ -77,7 +85,7 @@ export class SectionTool extends Part {
     this.isDrawing = true;
     this.requestUpdate();
     try {
-      const sheets = await session.engine!.sheets(language());
+      const sheets = await session.engine!.sheets(language() === "de" ? "de" : "en");
       save(zipOf(sheets.map((text, n) => ({ name: `sheet-${n + 1}.svg`, text }))), "sheets.zip");
     } catch (error) {
       session.fail(error);
@@ -88,10 +96,13 @@ export class SectionTool extends Part {
   }
 
   private storeys() {
-    const storeys = this.session.info?.storeys ?? [];
-    if (!storeys.length) return nothing;
-    return html`<div class="chips" role="group" aria-label=${t("storeys")}>${storeys.map(
-      ({ name, id, floor }) => html`<button aria-label=${t("storeyCut", { name: name || id })} @click=${() => this.cutStorey(floor)}>${name || id}</button>`,
+    const levels = levelsOf(this.session.info?.storeys ?? []);
+    if (!levels.length) return nothing;
+    if (levels.length > kMostChips)
+      return html`<select id="storeys" aria-label=${t("storeys")} @change=${(e: Event) => this.cutStorey(levels[(e.target as HTMLSelectElement).selectedIndex - 1]!.floor)}>
+        <option selected disabled>${t("storeys")}</option>${levels.map(({ name, floor }) => html`<option>${name} (${number(floor, 2)} m)</option>`)}</select>`;
+    return html`<div class="chips" role="group" aria-label=${t("storeys")}>${levels.map(
+      ({ name, floor }) => html`<button aria-label=${t("storeyCut", { name })} @click=${() => this.cutStorey(floor)}>${name}</button>`,
     )}</div>`;
   }
 
@@ -112,7 +123,7 @@ export class SectionTool extends Part {
         ? html`${this.slider(t("turn"), section.turn, -180, 180, 1, `${number(section.turn, 0)}°`, (turn) => this.change(n, { turn }))}
             ${this.slider(t("tilt"), section.tilt, -90, 90, 1, `${number(section.tilt, 0)}°`, (tilt) => this.change(n, { tilt }))}`
         : nothing}
-      <div class="row small drawings"><span class="quiet grow">${t("drawing")}</span>${kFormats.map(
+      <div class="row small drawings" role="toolbar" aria-label=${t("drawing")}><span class="quiet grow">${t("drawing")}</span>${kFormats.map(
         (format) => html`<button class="small" aria-label=${t("exportAs", { format: format.toUpperCase() })} @click=${() => void this.export(n, format)}>${format.toUpperCase()}</button>`,
       )}</div>
     </div>`;

@@ -3,7 +3,7 @@
 import { css, html, nothing } from "lit";
 import type { Scene } from "../engine";
 import { pretty } from "../state/bookmarks";
-import { commandOf, embeddingOf, fetchingCommand } from "../state/command";
+import { commandOf, embeddingOf } from "../state/command";
 import { forgetFile, isKept, keepFile } from "../state/kept_files";
 import { ofScene } from "../state/link";
 import { kOtherFirstValues, kRanges, rangeOfControl } from "../state/member_controls";
@@ -105,7 +105,7 @@ export class ShareTool extends Part {
   private async keepFile(isWanted: boolean): Promise<void> {
     const { session } = this;
     if (!isWanted) await forgetFile(session.modelFile);
-    const bytes = isWanted ? await session.bytesAgain() : null;
+    const bytes = isWanted ? ((await session.filesAgain())?.[0]?.bytes ?? null) : null;
     this.isFileKept = bytes !== null && (await keepFile(session.modelFile, bytes));
     if (isWanted && !this.isFileKept) session.tell(t("notKept"));
   }
@@ -114,14 +114,21 @@ export class ShareTool extends Part {
     const { session } = this;
     await session.writeLink();
     const isCopied = await copy(location.href);
-    session.tell(isCopied && session.isLocal ? t("linkNeedsFile", { name: session.modelFile }) : t(isCopied ? "copied" : "notCopied"));
+    if (!isCopied) return session.tell(t("notCopied"));
+    if (session.isLocal) session.tell(t("linkNeedsFile", { name: session.fileNames.join(", ") }));
+    else if (isOfThisMachine(location)) session.tell(t("linkOnThisMachine"));
+    else if (location.href.length > kLongLink) session.tell(t("linkTooLong", { n: location.href.length }));
+    else session.tell(t("copied"));
   }
 
   private async copyCommand(): Promise<void> {
     const { session } = this;
-    const drawn = commandOf(session.state, session.describe(this.size), session.modelFile);
-    // A model of the site is not on the reader's machine yet.
-    const command = session.isLocal ? drawn : `${fetchingCommand(new URL(session.modelAddress, location.href).href, session.modelFile)} && ${drawn}`;
+    const command = commandOf(session.state, session.describe(this.size), {
+      files: session.fileNames,
+      owners: session.owners.file,
+      // A model of the site is not on the reader's machine yet.
+      address: session.isLocal ? "" : new URL(session.modelAddress, location.href).href,
+    });
     if (command.includes("--scene")) save(pretty(await session.composed(this.size)), "view.scene.json");
     session.tell((await copy(command)) ? `${t("copied")}: ${command}` : command);
   }
@@ -173,6 +180,13 @@ export class ShareTool extends Part {
   }
 }
 customElements.define("svt-share-tool", ShareTool);
+
+/** Characters that every program passes on. */
+const kLongLink = 2000;
+
+function isOfThisMachine({ protocol, hostname }: Location): boolean {
+  return protocol === "file:" || hostname === "localhost" || hostname === "[::1]" || /^127\./.test(hostname);
+}
 
 /** Leaves a scene that was written by hand. */
 export function leaveCustom(state: ViewState): Partial<ViewState> {

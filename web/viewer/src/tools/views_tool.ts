@@ -2,7 +2,7 @@
 
 import { css, html, nothing } from "lit";
 import { withProjection } from "../camera/camera";
-import { stepInside } from "../camera/controls";
+import { standAt } from "../camera/controls";
 import { kSceneMembers } from "../generated/scene_members";
 import type { Session } from "../session";
 import { kViews } from "../state/member_controls";
@@ -11,13 +11,29 @@ import { icon } from "../ui/icons";
 import { memberSlider } from "../ui/member_slider";
 import { controls, Part } from "../ui/part";
 
+/** Metres from the floor to the eye. */
+const kEyeHeight = 1.65;
+
+/** Walking begins where there is air, on the storey whose heights the view's target is in; else on the lowest. */
 export function setWalking(session: Session, isWalking: boolean): void {
-  const { camera } = session.state;
   session.isWalking = isWalking;
-  if (!camera) return session.changed();
-  if (!isWalking) return void session.goTo("", kSceneMembers["/camera/preset"].default);
-  const floor = session.info?.storeys[0]?.floor ?? session.box.low[2];
-  session.moveTo(stepInside(withProjection(camera, false), floor));
+  session.changed();
+  if (!session.state.camera) return;
+  if (isWalking) void enter(session);
+  else void session.goTo("", kSceneMembers["/camera/preset"].default);
+}
+
+async function enter(session: Session): Promise<void> {
+  const { state, info, box, engine } = session;
+  const { target } = state.camera!;
+  const storeys = info?.storeys ?? [];
+  const storey = storeys.find(({ floor, top }) => target[2] >= floor && target[2] < top) ?? storeys[0];
+  const floor = storey?.floor ?? box.low[2];
+  const eye = await engine?.stand([target[0], target[1], floor + kEyeHeight]).catch(() => null);
+  if (!session.isWalking || !session.state.camera) return;
+  if (eye) return session.moveTo(standAt(withProjection(session.state.camera, false), eye));
+  session.isWalking = false;
+  session.tell(t("walkNowhere"));
 }
 
 export class ViewsTool extends Part {
@@ -38,7 +54,7 @@ export class ViewsTool extends Part {
     const { session } = this;
     const { camera } = session.state;
     return html`
-      <div class="views">${kViews.map(
+      <div class="views" role="toolbar" aria-label=${t("views")}>${kViews.map(
         (view, n) => html`<button title=${help("/camera/preset")} @click=${() => void session.goTo("", view)}>${t(`view_${view}`)} <kbd>${n + 1}</kbd></button>`,
       )}<button @click=${() => void session.goTo("", null)}>${icon("fit", 16)} <kbd>0</kbd><span class="visually-hidden">${t("fit")}</span></button></div>
       <div class="row">

@@ -1,7 +1,7 @@
 /** File downloads, and text for the clipboard. */
 
 const kKinds: Record<string, string> = {
-  svg: "image/svg+xml", png: "image/png", csv: "text/csv", json: "application/json", geojson: "application/geo+json", zip: "application/zip",
+  svg: "image/svg+xml", png: "image/png", csv: "text/csv", json: "application/json", geojson: "application/geo+json", zip: "application/zip", bcf: "application/octet-stream",
 };
 
 export function save(data: ArrayBuffer | string, name: string): void {
@@ -39,13 +39,13 @@ export async function pngOf(svg: ArrayBuffer, scale: number): Promise<ArrayBuffe
   }
 }
 
-/** A ZIP archive of texts, not compressed, dated 1980-01-01, so that equal texts give equal bytes. */
-export function zipOf(files: { name: string; text: string }[]): ArrayBuffer {
+/** A ZIP archive, not compressed, dated 1980-01-01, so that equal files give equal bytes. A name that ends with / is a folder. */
+export function zipOf(files: { name: string; text: string | Uint8Array }[]): ArrayBuffer {
   const parts: Uint8Array[] = [], directory: Uint8Array[] = [];
   const encoder = new TextEncoder();
   let offset = 0;
   for (const file of files) {
-    const name = encoder.encode(file.name), data = encoder.encode(file.text);
+    const name = encoder.encode(file.name), data = typeof file.text === "string" ? encoder.encode(file.text) : file.text;
     // Shared by both headers: version, flags, method, time and date, checksum, sizes, length of the name, of extra fields.
     const common = new DataView(new ArrayBuffer(26));
     common.setUint16(0, 20, true);
@@ -75,6 +75,47 @@ export function zipOf(files: { name: string; text: string }[]): ArrayBuffer {
     at += part.length;
   }
   return all.buffer;
+}
+
+/** Bytes that an archive may have when unpacked. */
+const kMostUnpacked = 64 << 20;
+
+/** The files of a ZIP archive, stored or deflated, by name. Rejects what is none, or is too big. */
+export async function unzipped(bytes: ArrayBuffer): Promise<Map<string, Uint8Array>> {
+  const view = new DataView(bytes);
+  let end = bytes.byteLength - 22;
+  while (end >= 0 && view.getUint32(end, true) !== 0x06054b50) --end;
+  if (end < 0) throw new Error("no ZIP archive");
+  const files = new Map<string, Uint8Array>();
+  let at = view.getUint32(end + 16, true), room = kMostUnpacked;
+  for (let n = view.getUint16(end + 10, true); n > 0; --n) {
+    if (view.getUint32(at, true) !== 0x02014b50) throw new Error("damaged ZIP archive");
+    const method = view.getUint16(at + 10, true), packed = view.getUint32(at + 20, true);
+    const nameLength = view.getUint16(at + 28, true), rest = view.getUint16(at + 30, true) + view.getUint16(at + 32, true);
+    const name = new TextDecoder().decode(new Uint8Array(bytes, at + 46, nameLength));
+    const header = view.getUint32(at + 42, true);
+    const from = header + 30 + view.getUint16(header + 26, true) + view.getUint16(header + 28, true);
+    const data = new Uint8Array(bytes, from, packed);
+    if (method !== 0 && method !== 8) throw new Error(`compressed by method ${method}`);
+    const content = method === 0 ? data : await inflated(data, room);
+    room -= content.length;
+    if (room < 0) throw new Error("too big");
+    files.set(name.replace(/\\/g, "/"), content);
+    at += 46 + nameLength + rest;
+  }
+  return files;
+}
+
+async function inflated(data: Uint8Array<ArrayBuffer>, most: number): Promise<Uint8Array> {
+  const reader = new Blob([data]).stream().pipeThrough(new DecompressionStream("deflate-raw")).getReader();
+  const parts: Uint8Array<ArrayBuffer>[] = [];
+  for (let size = 0; ; ) {
+    const { done, value } = await reader.read();
+    if (done) return new Uint8Array(await new Blob(parts).arrayBuffer());
+    size += value.length;
+    if (size > most) throw new Error("too big");
+    parts.push(value as Uint8Array<ArrayBuffer>);
+  }
 }
 
 /** CRC-32 of ISO 3309. */

@@ -78,5 +78,13 @@ export const controls = css`
   wa-slider::part(label), wa-color-picker::part(form-control-label) {
     position: absolute; width: 1px; height: 1px; margin: 0; overflow: hidden; clip-path: inset(50%); white-space: nowrap;
   }
+  @media (max-width: 759px), (pointer: coarse) {
+    button, select, input:not([type="checkbox"], [type="range"]), label.check { min-height: 44px; }
+    button, button.bare, .segments button { min-width: 44px; }
+    button.small, .drawings button, button.go { min-height: 44px !important; }
+    input[type="checkbox"] { width: 22px; height: 22px; }
+    wa-slider { min-height: 44px; display: grid; align-content: center; --thumb-width: 24px; --thumb-height: 24px; }
+    .segments { display: flex; }
+  }
   .visually-hidden { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
 `;

@@ -1,0 +1,58 @@
+/**
+ * Languages beside English and German, from files beside the page: `languages/index.json` lists them
+ * (`{"languages": [{"code": "fr", "name": "Français"}]}`), `languages/fr.json` has the texts
+ * (`{"texts": {"addPlane": "..."}, "classes": {"Window": "fenêtre"}}`). A file that is bad changes nothing.
+ */
+
+import type { LanguageTexts } from "./texts";
+
+export interface ListedLanguage {
+  code: string;
+  name: string;
+}
+
+export const kBuiltIn: ListedLanguage[] = [{ code: "en", name: "English" }, { code: "de", name: "Deutsch" }];
+
+/** `fr`, or nothing where it is no language tag: it becomes part of an address. */
+function isTag(code: unknown): code is string {
+  try {
+    return typeof code === "string" && /^[A-Za-z]{2,8}(-[A-Za-z0-9]{2,8})*$/.test(code) && Intl.getCanonicalLocales(code).length === 1;
+  } catch {
+    return false;
+  }
+}
+
+async function fetched(file: string): Promise<unknown> {
+  try {
+    const response = await fetch(`languages/${file}.json`);
+    return response.ok ? await response.json() : null;
+  } catch {
+    return null;
+  }
+}
+
+export async function moreLanguages(): Promise<ListedLanguage[]> {
+  const { languages } = ((await fetched("index")) ?? {}) as { languages?: unknown };
+  if (!Array.isArray(languages)) return [];
+  return languages.filter((l): l is ListedLanguage => isTag(l?.code) && typeof l.name === "string" && !kBuiltIn.some(({ code }) => code === l.code));
+}
+
+/** The texts of one of them; null if the file is none. */
+export async function textsOf(code: string): Promise<LanguageTexts | null> {
+  const { texts, classes } = ((await fetched(code)) ?? {}) as { texts?: unknown; classes?: unknown };
+  if (typeof texts !== "object" || texts === null) return null;
+  return { texts: strings(texts), ...(typeof classes === "object" && classes !== null ? { classes: strings(classes) } : {}) };
+}
+
+function strings(of: object): Record<string, string> {
+  return Object.fromEntries(Object.entries(of).filter((entry): entry is [string, string] => typeof entry[1] === "string"));
+}
+
+/** The first that the browser asks for and that there is; null: neither of these. */
+export function wantedOf(all: ListedLanguage[]): string | null {
+  for (const tag of navigator.languages ?? [navigator.language]) {
+    const found = all.find(({ code }) => tag.toLowerCase() === code.toLowerCase()) ?? all.find(({ code }) => tag.slice(0, 2).toLowerCase() === code.slice(0, 2).toLowerCase());
+    if (found) return found.code;
+  }
+  return null;
+}
