@@ -66,8 +66,9 @@ struct StoreyHeights {
 /// \return the plane, or BadSection if the side is none of these
 [[nodiscard]] Result<SectionPlane> elevationPlane(std::string_view side, const volume::SemanticVolume& volume);
 
-/// How far a plane that lies in faces of the model (within 0.2 mm) has to move to the side that is kept, so that a picture
-/// shows one side of them everywhere and not now one, now the other: by 0.5 mm.
+/// How far a plane that lies in faces of the model has to move to the side that is kept, so that a picture shows one side
+/// of them everywhere and not now one, now the other. In faces is what is within 0.2 mm, or 1/170 of a voxel where that is
+/// more, since faces are rounded to 1/256; it moves by 2.5 times that.
 /// \return metres, > 0; 0 where it lies in no face, or the volume does not know the planes of its faces
 /// Cost: O(planes of the volume).
 [[nodiscard]] double hairOffFaces(const SectionPlane& plane, const volume::SemanticVolume& volume);

@@ -146,10 +146,17 @@ std::vector<StoreyHeights> findStoreys(const volume::SemanticVolume& volume) {
 }
 
 double hairOffFaces(const SectionPlane& plane, const volume::SemanticVolume& volume) {
-    constexpr double kInFace = 2e-4, kHair = 5e-4;  // metres
+    // Of a voxel: what rounding moves faces by, see voxelize.hpp, and how far samples stand from whole indices.
+    constexpr double kRounding = 1.0 / 256, kShift = 0.5 - 1.0 / 512;
+    constexpr double kInFace = 2e-4;  // metres
     const volume::Grid& grid = volume.grid;
     // Each face's height over the plane, towards the side that is cut away.
     std::vector<double> heights;
+    double reach = kInFace;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double along = dot(plane.normal, grid.axes()[static_cast<std::size_t>(axis)]);
+        reach = std::max(reach, 1.5 * kRounding * std::abs(along) * grid.spacing()[axis]);
+    }
     for (const volume::FacePlane& face : volume.planes) {
         Vec3d normal{};
         for (int axis = 0; axis < 3; ++axis)
@@ -157,17 +164,16 @@ double hairOffFaces(const SectionPlane& plane, const volume::SemanticVolume& vol
                 normal + grid.axes()[static_cast<std::size_t>(axis)] * (face.plane.normal[axis] / grid.spacing()[axis]);
         const double size = length(normal);
         if (!(size > 0) || length(cross(normal, plane.normal)) > 1e-6 * size) continue;
-        // Voxel space begins half a sample before the grid's lower corner.
+        const Vec3d n = face.plane.normal;
         const double at =
-            -(face.plane.offset + 0.5 * (face.plane.normal.x + face.plane.normal.y + face.plane.normal.z)) / size *
-            (dot(normal, plane.normal) < 0 ? -1 : 1);
+            -(face.plane.offset + kShift * (n.x + n.y + n.z)) / size * (dot(normal, plane.normal) < 0 ? -1 : 1);
         heights.push_back(at - dot(plane.normal, plane.point - grid.origin()));
     }
-    // Downwards from the plane: past each face that is met within a hair.
+    // Downwards from the plane: past each face that is met within reach.
     std::sort(heights.begin(), heights.end(), std::greater<>());
     double moved = 0;
     for (const double height : heights)
-        if (height <= kInFace - moved && height > -kInFace - moved) moved = kHair - height;
+        if (std::abs(height + moved) <= reach) moved = 2.5 * reach - height;
     return moved;
 }
 

@@ -129,5 +129,30 @@ TEST(SectionPlane, SaysWhatIsWrong) {
     EXPECT_EQ(codeOf("storey=Attic+1"), Code::NothingSelected);
 }
 
+TEST(SectionPlane, MovesOffFacesToTheSideThatIsKept) {
+    volume::SemanticVolume volume;
+    volume.grid = *volume::Grid::fromParts({5, 5, 21}, {0.25, 0.25, 0.25}, {100, 200, 30},
+                                           {Vec3d{0.6, 0.8, 0}, Vec3d{-0.8, 0.6, 0}, Vec3d{0, 0, 1}});
+    const auto faceAt = [&](double metres) {
+        return volume::FacePlane{{{0, 0, -1}, metres / 0.25 + 0.5 - 1.0 / 512}, {0, 0, 0}, {1, 1, 1}};
+    };
+    volume.planes = {faceAt(2.0), faceAt(2.0004), {{{0, 1, 0}, -2.5 + 1.0 / 512}, {0, 0, 0}, {1, 1, 1}}};
+    const auto at = [](double z, double side) { return SectionPlane{{0, 0, side}, {100, 200, 30 + z}}; };
+    const double hair = 2.5 * 1.5 * 0.25 / 256;
+    // Kept is what lies below, where another face is as near: past both.
+    EXPECT_NEAR(hairOffFaces(at(2.0, 1), volume), hair - 0.0004, 1e-9);
+    EXPECT_NEAR(hairOffFaces(at(2.0004, 1), volume), hair, 1e-9);
+    EXPECT_NEAR(hairOffFaces(at(2.001, -1), volume), hair - 0.0006, 1e-9);
+    EXPECT_NEAR(keptOffFaces(at(2.0, -1), volume).point.z, 32 + hair, 1e-9);
+    EXPECT_EQ(hairOffFaces(at(2.01, 1), volume), 0);
+    EXPECT_EQ(hairOffFaces(at(1.9, -1), volume), 0);
+    // Along the turned y axis: the plane of voxel space 2.5 is sample 2, at 0.5 m.
+    const Vec3d turned = volume.grid.origin() + Vec3d{-0.4, 0.3, 0};
+    EXPECT_NEAR(hairOffFaces({{-0.8, 0.6, 0}, turned}, volume), hair, 1e-9);
+    EXPECT_EQ(hairOffFaces({{0, 1, 0}, turned}, volume), 0);
+    volume.planes.clear();
+    EXPECT_EQ(hairOffFaces(at(2.0, 1), volume), 0);
+}
+
 }  // namespace
 }  // namespace svt::illustrate

@@ -33,6 +33,21 @@ TEST(SheetViews, LevelsAreFloorsOfRoomsButNotOfVoids) {
     EXPECT_NEAR(levels[1].floor, 3.05, 1e-5);
 }
 
+TEST(SheetViews, WithoutRoomsLevelsAreTopsOfSlabsButNotOfRoofsAndLandings) {
+    Boxes boxes;
+    boxes.addBox("ground", "BuildingConstructiveElement", {0, 0, 0}, {8, 6, 0.2});
+    boxes.addBox("upper", "BuildingConstructiveElement", {0, 0, 2.8}, {8, 6, 3.05});
+    boxes.addBox("landing", "BuildingConstructiveElement", {0, 0, 1.4}, {1, 2, 1.6});
+    boxes.addBox("flat roof", "BuildingConstructiveElement", {0, 0, 5.8}, {8, 6, 6});
+    boxes.addBox("wall", "BuildingConstructiveElement", {0, 0, 0.2}, {0.3, 6, 2.8});
+    for (volume::Label& label : boxes.volume.labels.labels)
+        label.attributes.push_back({"ifcType", std::string(label.id == "wall" ? "IfcWall" : "IfcSlab"), {}});
+    const auto levels = findLevels(boxes.volume);
+    ASSERT_EQ(levels.size(), 2u);
+    EXPECT_NEAR(levels[0].floor, 0.2, 1e-5);
+    EXPECT_NEAR(levels[1].floor, 3.05, 1e-5);
+}
+
 TEST(SheetViews, AShaftThatBeginsBelowIsNotTheFloor) {
     Boxes boxes = threeRooms();
     boxes.addBox("shaft", "BuildingRoom", {0.3, 0.3, 2.8}, {1.8, 1.8, 5.5});

@@ -24,7 +24,9 @@ const kMostChips = 14;
 /** Storeys, or levels that the model does not name; those of several buildings with the same name and height are one. */
 function levelsOf(storeys: VolumeInfo["storeys"]): { name: string; floor: number }[] {
   const levels = storeys.map(({ name, id, floor }) => ({ name: name || id || t("level", { height: number(floor, 2) }), floor }));
-  return levels.filter(({ name, floor }, n) => levels.findIndex((other) => other.name === name && Math.abs(other.floor - floor) < 0.05) === n);
+  const once = levels.filter(({ name, floor }, n) => levels.findIndex((other) => other.name === name && Math.abs(other.floor - floor) < 0.05) === n);
+  const isAlone = (name: string) => once.filter((other) => other.name === name).length === 1;
+  return once.map(({ name, floor }) => ({ name: isAlone(name) ? name : `${name} (${number(floor, 2)} m)`, floor }));
 }
 
 export class SectionTool extends Part {
@@ -100,7 +102,7 @@ export class SectionTool extends Part {
     if (!levels.length) return nothing;
     if (levels.length > kMostChips)
       return html`<select id="storeys" aria-label=${t("storeys")} @change=${(e: Event) => this.cutStorey(levels[(e.target as HTMLSelectElement).selectedIndex - 1]!.floor)}>
-        <option selected disabled>${t("storeys")}</option>${levels.map(({ name, floor }) => html`<option>${name} (${number(floor, 2)} m)</option>`)}</select>`;
+        <option selected disabled>${t("storeys")}</option>${levels.map(({ name, floor }) => html`<option>${name}</option>`)}</select>`;
     return html`<div class="chips" role="group" aria-label=${t("storeys")}>${levels.map(
       ({ name, floor }) => html`<button aria-label=${t("storeyCut", { name })} @click=${() => this.cutStorey(floor)}>${name}</button>`,
     )}</div>`;

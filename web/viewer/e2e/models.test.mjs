@@ -1,0 +1,265 @@
+// Models of all kinds in the built page: large ones, several at once, without storeys, with owners; planes, search, walking.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
+import { after, before, describe, it } from "node:test";
+import { command, serve, svt, withModels } from "./harness.mjs";
+import { scratch, Visit } from "./visit.mjs";
+
+const { at, drop } = scratch("svt-models-test-");
+const visit = new Visit();
+const inPage = (body, value) => visit.inPage(body, value);
+const file = (name) => ({ name, bytes: readFileSync(at(name)) });
+let server;
+
+before(async () => {
+  svt("sample", "house", "-o", at("house.gml"));
+  svt("build", at("house.gml"), "-o", at("house.svt"), "--spacing", "0.12", "--vectors", "edges,meshes");
+  server = await serve(withModels([{ name: "house", path: at("house.svt"), title: "Sample house" }]));
+});
+after(async () => {
+  await visit.close();
+  await server?.close();
+  drop();
+});
+
+describe("large models", () => {
+  before(async () => {
+    svt("sample", "district", "--columns", "6", "--rows", "6", "-o", at("district.gml"));
+    await visit.open(`${server.url}?model=house`);
+  });
+
+  it("are seen coarsely at once, can be used, and become fine where they are", async (t) => {
+    const start = Date.now();
+    await visit.choose(file("district.gml"));
+    await visit.until("s.modelFile === 'district.gml' && s.report", 120_000);
+    const first = Date.now() - start;
+    const coarse = await inPage("[s.refining.isCoarse, s.info.spacing[0], s.info.features.length]");
+    assert.equal(coarse[0], true, "a draft comes first");
+    await visit.page.locator("#refining").getByText("Coarse for now").waitFor();
+    // Meanwhile it is cut, picked and turned.
+    await visit.until("s.state.camera");
+    const picked = await inPage("(async () => { for (let y = 0.3; y < 0.8; y += 0.1) { const pick = await s.engine.pick(0.5, y); if (pick) return pick.id; } return null; })()");
+    assert.ok(picked, "the coarse picture is picked");
+    await inPage("(s.select([v]), s.set({ sections: [{ axis: 'z', at: 2, flip: false, turn: 0, tilt: 90 }], measured: [[1, 1, 1]] }))", picked);
+    const world = "[...s.state.camera.eye.map((e, i) => e + s.info.origin[i]), s.state.sections[0].at + s.info.origin[2], s.state.measured[0][0] + s.info.origin[0]]";
+    const before = await inPage(world);
+    await visit.until("!s.refining.isCoarse", 240_000);
+    t.diagnostic(`first picture after ${first} ms, fine after ${Date.now() - start} ms, at ${coarse[1]} m, then ${await inPage("s.info.spacing[0]")} m`);
+    assert.ok((await inPage("s.info.spacing[0]")) < coarse[1], "finer voxels");
+    assert.equal(await inPage("s.info.features.length"), coarse[2]);
+    assert.deepEqual(await inPage("s.state.selection"), [picked]);
+    (await inPage(world)).forEach((value, i) => assert.ok(Math.abs(value - before[i]) < 1e-6, `place ${i}: ${value}, was ${before[i]}`));
+    await inPage("s.undo()");
+    assert.deepEqual(await inPage("s.state.sections"), []);
+    assert.equal(await visit.page.locator("#refining").count(), 0);
+    await visit.settled();
+    assert.equal(await inPage("s.message"), null);
+  });
+
+  it("stay coarse when asked, say so, and become fine later", async () => {
+    await visit.choose(file("district.gml"));
+    await visit.until("s.refining.progress && s.report", 120_000);
+    const spacing = await inPage("s.info.spacing[0]");
+    await visit.page.locator("#stay-coarse").dispatchEvent("click");
+    await visit.message("The picture stays coarse");
+    assert.equal(await inPage("s.info.spacing[0]"), spacing);
+    assert.ok((await inPage("s.engine.select('class=BuildingRoom')")).length > 0, "what is open answers");
+    await visit.page.locator("#refine").click();
+    await visit.until("!s.refining.isCoarse", 240_000);
+    assert.ok((await inPage("s.info.spacing[0]")) < spacing);
+  });
+
+  it("take no more memory than the page grants, and say what that means", async () => {
+    const usual = await inPage("s.info.spacing[0]");
+    await visit.open(`${server.url}?model=house&memory=60`);
+    await visit.choose(file("district.gml"));
+    await visit.until("s.modelFile === 'district.gml' && !s.refining.isCoarse && s.report", 240_000);
+    assert.ok((await inPage("s.info.spacing[0]")) > usual, "coarser than without");
+    await visit.page.getByText(/Voxels of .*since by .* MB/).first().waitFor();
+  });
+
+  it("have storeys as a list, each once", async () => {
+    await visit.tool("section");
+    const names = await visit.page.locator("#storeys option, svt-section-tool .chips button").allInnerTexts();
+    assert.ok(names.length < 40, `${names.length} storeys`);
+    assert.equal(new Set(names).size, names.length);
+  });
+});
+
+describe("storeys", () => {
+  it("are found from rooms where the model names none", async () => {
+    // Units instead of storeys: the rooms are the same.
+    const text = readFileSync(at("house.gml"), "utf8").replaceAll("bldg:Storey", "bldg:BuildingUnit");
+    writeFileSync(at("nameless.gml"), text);
+    await visit.open(`${server.url}?model=house`);
+    const named = await inPage("s.info.storeys.map(({ floor }) => floor + s.info.origin[2])");
+    await visit.choose(file("nameless.gml"));
+    await visit.until("s.modelFile === 'nameless.gml' && s.report");
+    assert.equal(await inPage("s.index.classes.has('Storey')"), false);
+    const found = await inPage("s.info.storeys.map(({ floor }) => floor + s.info.origin[2])");
+    assert.equal(found.length, named.length);
+    found.forEach((floor, i) => assert.ok(Math.abs(floor - named[i]) < 0.15, `level ${i} at ${floor}, storey at ${named[i]}`));
+    await visit.tool("section");
+    await visit.page.getByRole("button", { name: /Cut Level at [\d.]+ m at 1.1 m/ }).first().click();
+    assert.equal((await visit.state()).sections[0].axis, "z");
+  });
+});
+
+describe("planes in faces", () => {
+  before(() => visit.open(`${server.url}?model=house`));
+
+  it("are moved by a hair to the side that is kept, in the page and by the command, which both say so", async () => {
+    // The plane of some face: the model's heights are round.
+    const plane = await inPage(`(async () => {
+      for (let n = 1; n < 120; ++n) {
+        const at = Number((Math.ceil(s.info.origin[2] / 0.05 + n) * 0.05 - s.info.origin[2]).toFixed(4)), text = "z>" + at;
+        const moved = await s.engine.movedPlanes({ passes: [{ cut: text }] }).catch(() => []);
+        if (moved.length) return { at, text, by: moved[0].by };
+      }
+      return null;
+    })()`);
+    assert.ok(plane, "some face lies across z");
+    assert.ok(plane.by > 0.0002 && plane.by < 0.002, `${plane.by} m`);
+    await inPage("s.set({ sections: [{ axis: 'z', at: v, flip: false, turn: 0, tilt: 90 }] })", plane.at);
+    await visit.page.locator("#moved-plane").getByText(`${plane.text} lies in faces of the model`).waitFor();
+    const picture = (cut) => inPage("(async () => [...new Uint8Array(await s.engine.picture({ size: [320, 180], passes: [{ cut: v }] }))].join())()", cut);
+    const moved = await picture(plane.text);
+    assert.equal(moved, await picture(`z>${(plane.at - plane.by).toFixed(6)}`), "as a plane a hair below");
+    const told = spawnSync(command, ["render", at("house.svt"), "-o", at("p.png"), "--size", "320x180", "--section", plane.text], { encoding: "utf8" });
+    assert.match(told.stderr, /lies in faces of the model; it is moved by [\d.]+ mm to the side that is kept/);
+    const beside = spawnSync(command, ["render", at("house.svt"), "-o", at("q.png"), "--size", "320x180", "--section", `z>${(plane.at + 0.021).toFixed(4)}`], { encoding: "utf8" });
+    assert.doesNotMatch(beside.stderr, /lies in faces/);
+    // Beside the face nothing is said.
+    await inPage("s.set({ sections: [{ axis: 'z', at: v + 0.021, flip: false, turn: 0, tilt: 90 }] })", plane.at);
+    await visit.eventually(async () => assert.equal(await visit.page.locator("#moved-plane").count(), 0));
+  });
+});
+
+describe("search and colours", () => {
+  before(async () => {
+    svt("sample", "house", "--format", "ifc", "-o", at("house.ifc"));
+    svt("build", at("house.ifc"), "-o", at("ifc.svt"), "--spacing", "0.12");
+    await visit.open(`${server.url}?model=house`);
+    await visit.choose(file("ifc.svt"));
+    await visit.until("s.modelFile === 'ifc.svt' && s.report");
+  });
+
+  it("finds types by words of the language", async () => {
+    const expected = async (type) => (await inPage(`(await s.engine.select('class=${type}')).length`));
+    for (const [word, type] of [["window", "IfcWindow"], ["Fenster", "IfcWindow"], ["IfcWindow", "IfcWindow"], ["Wand", "IfcWall"], ["Tür", "IfcDoor"]]) {
+      await visit.page.fill("#search", word);
+      const wanted = await expected(type);
+      assert.ok(wanted > 0, type);
+      await visit.eventually(async () => {
+        const said = await visit.page.locator("svt-tree [role=status]").first().innerText();
+        assert.ok(Number(/^\d+/.exec(said)?.[0]) >= wanted, `${word}: ${said}, expected ${wanted}`);
+      });
+      const ids = await inPage(`s.engine.select('class=${type}')`);
+      const found = await inPage("[...document.querySelector('svt-app').shadowRoot.querySelector('svt-tree').rows.shown].map((i) => s.index.features[i].id)");
+      for (const id of ids) assert.ok(found.includes(id), `${word} does not find ${id}`);
+    }
+    await visit.page.fill("#search", "");
+  });
+
+  it("offers the attributes of the model for colours, with a legend in the picture", async () => {
+    await visit.tool("look");
+    const offered = await visit.page.locator("#color-by-keys option").evaluateAll((options) => options.map((option) => option.value));
+    assert.ok(offered.includes("ifcType"), offered.join());
+    const picture = () => inPage("(async () => [...new Uint8Array(await s.engine.picture(await s.composed([480, 270])))].join())()");
+    const plain = await picture();
+    await visit.page.fill("#color-by", "ifcType");
+    await visit.page.locator("#color-by").press("Enter");
+    await visit.settled();
+    assert.equal(await inPage("s.message"), null);
+    assert.notEqual(await picture(), plain);
+    await inPage("s.set({ colorBy: '' })");
+  });
+});
+
+describe("tables and several models", () => {
+  before(() => visit.open(`${server.url}?model=house`));
+
+  it("a table that is dropped gives owners, colours and queries, and is named by the command", async () => {
+    const rooms = await inPage("s.engine.select('class=BuildingRoom')");
+    const table = `feature,owner\n${rooms.map((id, n) => `${id},${n % 2 ? "Ada" : "Bob"}`).join("\n")}\n`;
+    await visit.choose({ name: "parcels.csv", bytes: Buffer.from(table) });
+    await visit.message("Owners are those of parcels.csv");
+    assert.equal((await visit.state()).colorBy, "owner");
+    assert.deepEqual((await inPage("s.engine.select('owner=Ada and class=BuildingRoom')")).sort(), rooms.filter((_, n) => n % 2).sort());
+    await visit.settled();
+    await visit.page.getByRole("button", { name: "Dismiss" }).click();
+    await visit.tool("share");
+    await visit.page.click("#copy-command");
+    await visit.eventually(async () => assert.match(await visit.page.evaluate(() => navigator.clipboard.readText()), /--color-by owner --owners parcels\.csv$/));
+    // Another table takes its place; a bad one says where.
+    await visit.choose({ name: "other.csv", bytes: Buffer.from(`feature,owner\n${rooms[0]},Cleo\n`) });
+    await visit.message("Owners are those of other.csv");
+    assert.deepEqual(await inPage("s.engine.select('owner=Ada').catch(() => [])"), []);
+    await visit.choose({ name: "bad.csv", bytes: Buffer.from("feature,owner\nno such thing,Ada\n") });
+    await visit.page.locator("#message.bad").getByText(/bad\.csv:2/).waitFor();
+  });
+
+  it("volumes are drawn together, picked as one, and named by the command", async () => {
+    svt("sample", "tower", "-o", at("tower.gml"));
+    svt("build", at("house.gml"), "-o", at("a.svt"), "--spacing", "0.12", "--vectors", "none");
+    // Another building beside it, of another spacing.
+    svt("build", at("tower.gml"), "-o", at("part.svt"), "--spacing", "0.2", "--vectors", "none");
+    await visit.choose(file("a.svt"), file("part.svt"));
+    await visit.until("s.modelFile === 'a.svt' && s.report");
+    assert.equal(await inPage("s.info.details"), 1);
+    const [bytes, scene] = await inPage("(async () => { const scene = await s.composed([320, 180]); return [btoa(Array.from(new Uint8Array(await s.engine.picture(scene)), (b) => String.fromCharCode(b)).join('')), scene]; })()");
+    writeFileSync(at("two.scene.json"), JSON.stringify(scene));
+    svt("render", at("a.svt"), "--with", at("part.svt"), "--scene", at("two.scene.json"), "-o", at("two.png"));
+    assert.ok(Buffer.from(bytes, "base64").equals(readFileSync(at("two.png"))), "as svt render --with");
+    await visit.tool("share");
+    await visit.page.click("#copy-command");
+    await visit.eventually(async () => assert.match(await visit.page.evaluate(() => navigator.clipboard.readText()), /^svt render a\.svt .*--with part\.svt$/));
+  });
+
+  it("models become one", async () => {
+    await visit.choose(file("house.gml"), { name: "again.gml", bytes: readFileSync(at("house.gml")) });
+    await visit.until("s.otherFiles.join() === 'again.gml' && s.report", 120_000);
+    const rooms = (await inPage("s.engine.select('class=BuildingRoom')")).length;
+    assert.equal(rooms, 2 * JSON.parse(svt("query", at("house.svt"), "class=BuildingRoom", "--json")).length);
+    await visit.page.click("#copy-command");
+    await visit.eventually(async () => assert.match(await visit.page.evaluate(() => navigator.clipboard.readText()), /^svt build house\.gml again\.gml -o model\.svt .* && svt render model\.svt /));
+  });
+});
+
+describe("walking", () => {
+  before(() => visit.open(`${server.url}?model=house`));
+
+  it("begins in the air of a room, is stopped by walls, glides along them, and 0 ends it", async () => {
+    await visit.settled();
+    await visit.page.locator("svt-picture .stage").focus();
+    await visit.page.keyboard.press("g");
+    await visit.until("s.isWalking && Math.abs(s.state.camera.eye[2] - s.state.camera.target[2]) < 1e-6 && s.state.camera.fieldOfView === 65");
+    await visit.page.waitForTimeout(500);
+    const eye = (await visit.state()).camera.eye;
+    const boxes = await inPage("(async () => { const all = []; for (const id of await s.engine.select('class=BuildingRoom')) all.push((await s.engine.properties(id)).box); return all; })()");
+    const isIn = (p, slack) => boxes.some(({ low, high }) => p.every((v, i) => v > low[i] - slack && v < high[i] + slack));
+    assert.ok(isIn(eye, 0), `stands at ${eye}, in no room`);
+    // In all directions a wall, or a door and then the open, ends the way: never inside of a wall.
+    const size = await inPage("s.box.high");
+    let stopped = 0;
+    for (let n = 0; n < 8; ++n) {
+      const [dx, dy] = [Math.cos((n * Math.PI) / 4), Math.sin((n * Math.PI) / 4)];
+      const end = await inPage("s.engine.step(v[0], v[1])", [eye, [5 * dx, 5 * dy, 0]]);
+      const went = Math.hypot(end[0] - eye[0], end[1] - eye[1]);
+      assert.ok(went <= 5 + 1e-6);
+      if (went < 4.9) ++stopped;
+      // A step from where one stands is free somewhere: one is in no wall.
+      const back = await inPage("s.engine.step(v[0], v[1])", [end, [-0.3 * dx, -0.3 * dy, 0]]);
+      assert.ok(Math.hypot(back[0] - end[0], back[1] - end[1]) > 0.05, `stuck at ${end}`);
+    }
+    assert.ok(stopped >= 4, `${stopped} of 8 ways end at something within 5 m; the house is ${size}`);
+    await visit.page.locator("svt-picture .stage").focus();
+    await visit.page.keyboard.down("w");
+    await visit.page.waitForTimeout(1500);
+    await visit.page.keyboard.up("w");
+    await visit.eventually(async () => assert.notDeepEqual((await visit.state()).camera.eye, eye));
+    await visit.page.keyboard.press("0");
+    await visit.until("!s.isWalking");
+  });
+});
