@@ -1,5 +1,6 @@
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
+import { template } from "./src/texts";
 
 // Relative addresses, so that the page works in any folder of any server.
 export default defineConfig({
@@ -13,4 +14,14 @@ export default defineConfig({
     assetsInlineLimit: 0,
   },
   worker: { format: "es" },
+  plugins: [
+    {
+      // What translators begin with, see src/languages.ts.
+      name: "language-template",
+      apply: "build",
+      generateBundle() {
+        this.emitFile({ type: "asset", fileName: "languages/template.json", source: `${JSON.stringify({ texts: template(), classes: {} }, null, 1)}\n` });
+      },
+    },
+  ],
 });

@@ -153,9 +153,13 @@ describe("languages", () => {
     const [id] = await inPage("s.engine.select('class=IfcDoor')");
     await inPage("s.select([v])", id);
     const properties = await inPage("(async () => { await new Promise((r) => setTimeout(r, 500)); return s.properties; })()");
-    const text = await visit.page.locator("svt-properties").innerText();
+    const text = (await visit.page.locator("svt-properties dl").allInnerTexts()).join("\n");
     assert.ok(text.includes(`${properties.surface.toFixed(2).replace(".", ",")} m²`), text);
-    for (const [key, { value }] of Object.entries(properties.numbers)) if (!Number.isInteger(value)) assert.ok(text.includes(String(properties.attributes[key]).replace(".", ",")) , `${key}: ${value}`);
+    for (const [key, { value }] of Object.entries(properties.numbers)) {
+      const digits = Math.min(6, /\.(\d+)/.exec(properties.attributes[key])?.[1].length ?? 0);
+      const expected = value.toLocaleString("de", { minimumFractionDigits: digits, maximumFractionDigits: digits });
+      assert.ok(text.includes(expected), `${key}: ${expected} in ${text}`);
+    }
     await visit.tool("share");
     await visit.page.click("#keep-view");
     const title = await visit.page.locator("svt-bookmark-list li input").first().getAttribute("title");

@@ -64,6 +64,9 @@ async function startEngine(): Promise<Engine> {
   }
 }
 
+/** The address of the page has a view that cannot be read. */
+let isDamaged = false;
+
 async function start(): Promise<void> {
   const linked = linkedState();
   const list = await listing;
@@ -90,6 +93,8 @@ async function start(): Promise<void> {
   }
   if (list.chosen) await openModel(session, list.chosen.name, file === null ? await linked : null, list.bytes);
   if (list.note) session.tell(list.note);
+  // Opening a model clears messages.
+  if (isDamaged) session.fail({ message: t("badLink") });
   if (file !== null) session.tell(t("awaitsFile", { name: file }));
 }
 
@@ -97,13 +102,15 @@ async function linkedState(): Promise<ViewState | null> {
   try {
     return await stateOfHash(location.hash, session.state);
   } catch {
-    session.fail({ message: t("badLink") });
+    isDamaged = true;
     return null;
   }
 }
 
 /** Opens a link pasted into the open page. */
 async function follow(): Promise<void> {
+  isDamaged = false;
   const state = await linkedState();
+  if (isDamaged) session.fail({ message: t("badLink") });
   if (state && session.info) session.set(state);
 }

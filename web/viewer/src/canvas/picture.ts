@@ -46,6 +46,7 @@ export class PictureView extends Part {
         background: var(--accent); color: var(--on-accent); border: 2px solid #fff; box-shadow: 0 1px 5px #0006; cursor: grab; touch-action: none;
         font-size: 12px; font-weight: 700;
       }
+      @media (max-width: 759px), (pointer: coarse) { .handle { width: 44px; height: 44px; margin: -22px 0 0 -22px; } }
       .handle:hover { background: var(--accent); filter: brightness(1.1); }
       .handle:active { cursor: grabbing; }
       .tip {

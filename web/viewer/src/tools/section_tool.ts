@@ -42,6 +42,7 @@ export class SectionTool extends Part {
       output { text-align: right; min-width: 74px; font-variant-numeric: tabular-nums; }
       .typed { display: flex; gap: 4px; align-items: center; justify-content: flex-end; }
       .typed input { width: 82px; text-align: right; padding: 2px 4px; min-height: 28px; font-variant-numeric: tabular-nums; }
+      @media (max-width: 759px), (pointer: coarse) { .typed input { min-height: 44px; } }
       .head { display: flex; gap: 6px; align-items: center; }
       .head .segments { flex: 1; }
       .drawings { gap: 4px; }
@@ -102,7 +103,7 @@ export class SectionTool extends Part {
     if (!levels.length) return nothing;
     if (levels.length > kMostChips)
       return html`<select id="storeys" aria-label=${t("storeys")} @change=${(e: Event) => this.cutStorey(levels[(e.target as HTMLSelectElement).selectedIndex - 1]!.floor)}>
-        <option selected disabled>${t("storeys")}</option>${levels.map(({ name, floor }) => html`<option>${name}</option>`)}</select>`;
+        <option selected disabled>${t("storeys")}</option>${levels.map(({ name }) => html`<option>${name}</option>`)}</select>`;
     return html`<div class="chips" role="group" aria-label=${t("storeys")}>${levels.map(
       ({ name, floor }) => html`<button aria-label=${t("storeyCut", { name })} @click=${() => this.cutStorey(floor)}>${name}</button>`,
     )}</div>`;
