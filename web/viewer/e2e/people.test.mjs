@@ -19,7 +19,7 @@ before(async () => {
     ...withModels([{ name: "house", path: at("house.svt"), title: "Sample house" }]),
     "languages/index.json": { languages: [{ code: "tlh", name: "tlhIngan Hol" }, { code: "../x", name: "Bad" }, { code: "eo", name: "Esperanto" }] },
     "languages/tlh.json": { texts: { addPlane: "beQ chenmoH", section: "pe'", found: "{n} tu'", view_front: 7 }, classes: { Window: "Qorwagh" } },
-    "languages/eo.json": "no language file",
+    "languages/eo.json": { texts: 4 },
   });
   await visit.open(`${server.url}?model=house`);
 });

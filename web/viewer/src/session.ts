@@ -439,6 +439,8 @@ export class Session extends EventTarget {
     try {
       const { eye, target, fieldOfView } = await this.engine.view(query, preset, from);
       if (!eye || !target) return;
+      // Fitting is no wish of the user, whose own choice meanwhile stays.
+      if (!isFollowed && this.state.camera !== now) return;
       const camera: Camera = { eye, target, parallel: false, height: 10, fieldOfView: fieldOfView ?? seen?.fieldOfView ?? kSceneMembers["/camera/fieldOfView"].default };
       this.moveTo(withProjection(camera, now?.parallel ?? false), isFollowed);
     } catch (error) {
