@@ -106,7 +106,7 @@ export class App extends Part {
     const { state } = s;
     return [
       s.status, s.progress, s.message, s.models, s.modelName, s.info, s.tool, s.along, state.selection, s.report, s.isServerOnly, s.isLegendShown, state.custom,
-      state.sections.length, state.effect, state.shell, state.wireframe, state.look, state.measured.length, s.isWalking, s.engine, s.history.last, s.history.next, s.opening, s.refining.progress, s.refining.isCoarse, s.moved, s.languages,
+      state.sections.length, state.effect, state.shell, state.wireframe, state.look, state.colorBy, state.measured.length, s.isWalking, s.engine, s.history.last, s.history.next, s.opening, s.refining.progress, s.refining.isCoarse, s.moved, s.languages,
     ];
   }
 
@@ -250,7 +250,8 @@ export class App extends Part {
 
   private status() {
     const { report } = this.session;
-    if (!report) return nothing;
+    // The legend of colours stands in the same corner.
+    if (!report || this.session.state.colorBy) return nothing;
     const { width, height, milliseconds, engine } = report;
     return html`<div class="status">${t(engine === "cpu" ? "cpuKind" : "glKind")}<br />${t("frame", { width, height, ms: number(milliseconds, 0) })}</div>`;
   }

@@ -11,6 +11,8 @@ import { add, distance, dot, sub } from "./vec";
 const kTurnPerHeight = Math.PI;
 const kClickSlop = 5;
 const kLongPress = 550;
+/** Metres within which walking looks for room. */
+const kFarLook = 8;
 
 export interface ControlsHost {
   session: Session;
@@ -236,10 +238,18 @@ export class Controls {
   }
 }
 
-/** Looks ahead from where one stands. */
-export function standAt(camera: Camera, eye: Point): Camera {
+/** Looks from where one stands to where there is most room. */
+export async function standAt(camera: Camera, eye: Point, step: (eye: Point, by: Point) => Promise<Point>): Promise<Camera> {
   const { forward } = basisOf(camera);
-  const level = Math.hypot(forward[0], forward[1]) || 1;
-  const target: Point = [eye[0] + (forward[0] / level) * 3, eye[1] + (forward[1] / level) * 3, eye[2]];
+  const ahead = Math.atan2(forward[1], forward[0]);
+  let best = ahead, most = -1;
+  for (let n = 0; n < 8; ++n) {
+    // To and fro around the direction of the view, which wins where there is as much room.
+    const angle = ahead + ((n % 2 ? (n + 1) / 2 : -n / 2) * Math.PI) / 4;
+    const end = await step(eye, [kFarLook * Math.cos(angle), kFarLook * Math.sin(angle), 0]).catch(() => eye);
+    const room = Math.round((end[0] - eye[0]) * Math.cos(angle) + (end[1] - eye[1]) * Math.sin(angle));
+    if (room > most) [best, most] = [angle, room];
+  }
+  const target: Point = [eye[0] + 3 * Math.cos(best), eye[1] + 3 * Math.sin(best), eye[2]];
   return { ...camera, parallel: false, eye, target, fieldOfView: kOtherFirstValues.walkingFieldOfView.value, height: Math.max(1, distance(eye, target)) };
 }

@@ -66,7 +66,7 @@ export class TreePanel extends Part {
       .item.selected { background: var(--accent-soft); color: var(--accent-text); }
       .list:focus-visible .item.active { box-shadow: inset 0 0 0 2px var(--focus); }
       .item button { min-height: 26px; min-width: 26px; padding: 2px; border-radius: 6px; flex: none; }
-      @media (max-width: 759px), (pointer: coarse) { .item { gap: 0; } .item button { min-height: 44px; min-width: 44px; } }
+      @media (max-width: 759px), (pointer: coarse) { .field svg { top: 14px; } .item { gap: 0; } .item button { min-height: 44px; min-width: 44px; } }
       .twist { color: var(--quiet); }
       .name { flex: 1; min-width: 0; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
       .name .quiet { font-size: 12px; margin-left: 6px; }

@@ -42,10 +42,11 @@ export class SectionTool extends Part {
       output { text-align: right; min-width: 74px; font-variant-numeric: tabular-nums; }
       .typed { display: flex; gap: 4px; align-items: center; justify-content: flex-end; }
       .typed input { width: 82px; text-align: right; padding: 2px 4px; min-height: 28px; font-variant-numeric: tabular-nums; }
-      @media (max-width: 759px), (pointer: coarse) { .typed input { min-height: 44px; } }
+      @media (max-width: 759px), (pointer: coarse) { .typed input { min-height: 44px; } .drawings { flex-wrap: wrap; } .drawings > .grow { flex-basis: 100%; } }
       .head { display: flex; gap: 6px; align-items: center; }
       .head .segments { flex: 1; }
       .drawings { gap: 4px; }
+      .drawings > .grow { flex-basis: auto; }
       .drawings button { min-height: 28px; padding: 2px 7px; }
       .chips { display: flex; flex-wrap: wrap; gap: 6px; margin: 8px 0; }
     `,
@@ -203,7 +204,7 @@ customElements.define("svt-section-tool", SectionTool);
 
 /** The code of the first part of a CRS, which is the horizontal one: EPSG:25832. */
 function crsText(crs: string): string {
-  const found = /EPSG:+(?:[\d.]*:)?(\d+)/i.exec(crs);
+  const found = /EPSG[:/]+(?:[\d.]*[:/])?(\d+)/i.exec(crs);
   return found ? `EPSG:${found[1]}` : crs;
 }
 

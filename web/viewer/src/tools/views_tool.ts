@@ -30,8 +30,12 @@ async function enter(session: Session): Promise<void> {
   const storey = storeys.find(({ floor, top }) => target[2] >= floor && target[2] < top) ?? storeys[0];
   const floor = storey?.floor ?? box.low[2];
   const eye = await engine?.stand([target[0], target[1], floor + kEyeHeight]).catch(() => null);
-  if (!session.isWalking || !session.state.camera) return;
-  if (eye) return session.moveTo(standAt(withProjection(session.state.camera, false), eye));
+  const { camera } = session.state;
+  if (!session.isWalking || !camera) return;
+  if (eye) {
+    const standing = await standAt(withProjection(camera, false), eye, (from, by) => engine!.step(from, by));
+    return session.isWalking ? session.moveTo(standing) : undefined;
+  }
   session.isWalking = false;
   session.tell(t("walkNowhere"));
 }
