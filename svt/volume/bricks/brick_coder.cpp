@@ -70,34 +70,45 @@ std::optional<std::uint32_t> indexIn(const BrickPattern& pattern, const SideMask
 bool findSideScalars(const BrickPattern& pattern, std::span<const SideMask> sides, std::size_t cuts,
                      std::vector<Scalar>& scalars) {
     const std::size_t count = std::size_t{1} << sides.size();
-    scalars.assign(count, 0);
+    std::array<SideMask, std::size_t{1} << BrickVolume::kMaxSides> parts;  // by combination of the sides so far
+    parts[0].fill(kAll);
+    for (std::size_t s = 0; s < sides.size(); ++s)
+        for (std::size_t part = 0; part < std::size_t{1} << s; ++part) {
+            SideMask &below = parts[part], &beyond = parts[part | std::size_t{1} << s];
+            for (std::size_t k = 0; k < 8; ++k) {
+                beyond[k] = below[k] & sides[s][k];
+                below[k] &= ~sides[s][k];
+            }
+        }
+    std::array<Scalar, std::size_t{1} << BrickVolume::kMaxSides> found{};
     std::uint64_t known = 0;
     for (std::size_t combination = 0; combination < count; ++combination) {
-        SideMask mask;
-        mask.fill(kAll);
-        for (std::size_t s = 0; s < sides.size(); ++s)
-            for (std::size_t k = 0; k < 8; ++k) mask[k] &= ((combination >> s) & 1u) != 0 ? sides[s][k] : ~sides[s][k];
-        if (std::all_of(mask.begin(), mask.end(), [](std::uint64_t word) { return word == 0; })) continue;
+        const SideMask& mask = parts[combination];
+        std::uint64_t any = 0;
+        for (const std::uint64_t word : mask) any |= word;
+        if (any == 0) continue;
         const auto index = indexIn(pattern, mask);
         if (!index) return false;
-        scalars[combination] = pattern.palette[*index];
+        found[combination] = pattern.palette[*index];
         known |= std::uint64_t{1} << combination;
     }
-    const auto distance = [&](std::size_t differing) {
-        std::size_t sum = 0;
-        for (std::size_t s = 0; s < sides.size(); ++s)
-            if (((differing >> s) & 1u) != 0) sum += s < cuts ? 1 : std::size_t{1} << (sides.size() - s);
-        return sum;
-    };
-    for (std::size_t combination = 0; combination < count; ++combination) {
-        if (((known >> combination) & 1u) != 0) continue;
-        std::size_t nearest = count;
-        for (std::size_t other = 0; other < count; ++other)
-            if (((known >> other) & 1u) != 0 &&
-                (nearest == count || distance(other ^ combination) < distance(nearest ^ combination)))
-                nearest = other;
-        scalars[combination] = scalars[nearest];
+    std::array<std::uint16_t, std::size_t{1} << BrickVolume::kMaxSides> distance{};  // by sides that differ
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+        const std::size_t step = s < cuts ? 1 : std::size_t{1} << (sides.size() - s);
+        for (std::size_t part = 0; part < std::size_t{1} << s; ++part)
+            distance[part | std::size_t{1} << s] = static_cast<std::uint16_t>(distance[part] + step);
     }
+    const std::uint64_t all = count == 64 ? kAll : (std::uint64_t{1} << count) - 1;
+    for (std::uint64_t unknown = all & ~known; unknown != 0; unknown &= unknown - 1) {
+        const auto combination = static_cast<std::size_t>(std::countr_zero(unknown));
+        std::size_t nearest = count;
+        for (std::uint64_t rest = known; rest != 0; rest &= rest - 1) {
+            const auto other = static_cast<std::size_t>(std::countr_zero(rest));
+            if (nearest == count || distance[other ^ combination] < distance[nearest ^ combination]) nearest = other;
+        }
+        found[combination] = found[nearest];
+    }
+    scalars.assign(found.begin(), found.begin() + std::ptrdiff_t(count));
     return true;
 }
 
@@ -112,22 +123,49 @@ Changes findChanges(const BrickPattern& pattern) noexcept {
     return changes;
 }
 
-std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes,
-                                     std::initializer_list<const BrickSide*> planes) {
+namespace {
+
+// Two changes along one axis at different places, which no plane of a set explains: no cut across the axis explains both.
+struct CutConflict {
+    int axis = -1;  // none
+    std::array<std::size_t, 2> word{};
+    std::array<std::uint64_t, 2> bit{};
+
+    // Whether the side explains change n.
+    [[nodiscard]] bool isExplained(std::size_t n, const BrickSide& side) const noexcept {
+        return (side.changes[static_cast<std::size_t>(axis)][word[n]] & bit[n]) != 0;
+    }
+};
+
+// The voxel with the lowest place along the axis (or the highest) in a mask that is not empty.
+void findExtreme(const SideMask& mask, int axis, bool isHighest, std::size_t& word, std::uint64_t& bit) noexcept {
+    const std::uint32_t places = placesOf(mask, axis);
+    const auto place = static_cast<std::uint32_t>(isHighest ? std::bit_width(places) - 1 : std::countr_zero(places));
+    const std::uint64_t layer = axis == 0 ? 0x0101010101010101ull << place : axis == 1 ? 0xFFull << (8 * place) : kAll;
+    word = axis == 2 ? place : 0;
+    while ((mask[word] & layer) == 0) ++word;
+    bit = mask[word] & layer;
+    bit &= ~bit + 1;
+}
+
+// As codeBySides(). Where no cuts exist because of two changes, `conflict` tells which.
+std::optional<BrickCode> codeByPlanes(const BrickPattern& pattern, const Changes& changes,
+                                      std::span<const BrickSide* const> planes, CutConflict& conflict) {
     BrickCode code;
     std::array<SideMask, BrickVolume::kMaxSides> sides;
     std::size_t count = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         SideMask rest = changes[a];  // changes that no plane explains
-        std::uint64_t any = 0;
-        for (std::size_t k = 0; k < 8; ++k) {
-            for (const BrickSide* plane : planes) rest[k] &= ~plane->changes[a][k];
-            any |= rest[k];
-        }
-        if (any == 0) continue;
+        for (const BrickSide* plane : planes)
+            for (std::size_t k = 0; k < 8; ++k) rest[k] &= ~plane->changes[a][k];
         const std::uint32_t cuts = placesOf(rest, axis);
-        if ((cuts & (cuts - 1)) != 0) return std::nullopt;
+        if (cuts == 0) continue;
+        if ((cuts & (cuts - 1)) != 0) {
+            conflict.axis = axis;
+            for (const std::size_t n : {0, 1}) findExtreme(rest, axis, n == 1, conflict.word[n], conflict.bit[n]);
+            return std::nullopt;
+        }
         code.cut[a] = static_cast<std::uint8_t>(std::countr_zero(cuts) + 1);
         sides[count++] = cutMask(axis, code.cut[a]);
     }
@@ -135,6 +173,14 @@ std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes&
     for (const BrickSide* plane : planes) sides[count++] = plane->mask;
     if (!findSideScalars(pattern, std::span(sides).first(count), cuts, code.sideScalars)) return std::nullopt;
     return code;
+}
+
+}  // namespace
+
+std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes,
+                                     std::initializer_list<const BrickSide*> planes) {
+    CutConflict conflict;
+    return codeByPlanes(pattern, changes, {planes.begin(), planes.size()}, conflict);
 }
 
 namespace {
@@ -269,12 +315,17 @@ public:
           heights_(patterns.size()),
           faces_(patterns.size()),
           codeIndex_(places.patternOf.size(), kNone) {
+        for (int axis = 0; axis < 3; ++axis)
+            cutPlanes_[std::size_t(axis)].resize(std::size_t(8 * places_.count[axis]) + 1);
         for (const FacePlane& face : faces)
-            (isAcrossAxis(face.plane.normal) ? cutPlanes_ : facePlanes_).push_back(face);
+            if (isAcrossAxis(face.plane.normal))
+                addCutPlane(face);
+            else
+                addFacePlane(face);
     }
 
     TileCodes code() {
-        if (!facePlanes_.empty())
+        if (hasFacePlanes_)
             forEachPlace([&](Vec3i at) {
                 if (needsCode(at) || isStep(at)) codeByFaces(at);
             });
@@ -300,6 +351,7 @@ public:
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
     // Maximum candidates per brick: planes of the model, planes where surfaces meet, cuts; and those tried in triples.
+    // At most 32 of all together.
     static constexpr std::size_t kMaxFaces = 12, kMaxAround = 8, kMaxCuts = 4, kMaxOfThree = 7;
 
     template <class Body>
@@ -345,24 +397,23 @@ private:
 
     // The side of each sample; nullopt if a sample is within kMargin of the plane.
     [[nodiscard]] std::optional<SideMask> sideMask(const BrickPlane& plane, Vec3i at) const noexcept {
-        const Vec3d n = plane.normal;
-        const double base = valueAt(plane, corner(at) + Vec3d{0.5, 0.5, 0.5});
-        // Along a row in x the side changes at most once; only the samples next to that place can be near the plane.
-        const double inverse = n.x != 0 ? -1 / n.x : 0;
-        SideMask mask{};
-        for (int k = 0; k < 8; ++k)
-            for (int j = 0; j < 8; ++j) {
-                const double row = base + n.y * j + n.z * k;
-                const int change = static_cast<int>(std::clamp(row * inverse, -1.0, 7.0) + 1);  // 0..8
-                const int before = std::max(change - 1, 0), after = std::min(change, 7);
-                const double low = row + n.x * before, high = row + n.x * after;
-                if (std::min(std::abs(low), std::abs(high)) < kMargin) return std::nullopt;
-                // Sides of the samples before the change, and from it on.
-                const std::uint64_t first = low > 0 ? 0xFF : 0, rest = high > 0 ? 0xFF : 0;
-                const std::uint64_t from = (0xFFull << change) & 0xFF;
-                mask[std::size_t(k)] |= ((first & ~from) | (rest & from)) << (8 * j);
-            }
+        SideMask mask;
+        if (!findSides(valueAt(plane, corner(at) + Vec3d{0.5, 0.5, 0.5}), plane.normal, kMargin, mask))
+            return std::nullopt;
         return mask;
+    }
+
+    // The side of all samples: 1 if it is the positive one; nullopt if there are two, or a sample is within kMargin of the
+    // plane. As sideMask(), but mostly without looking at the samples one by one.
+    [[nodiscard]] std::optional<std::size_t> sideOfAll(const BrickPlane& plane, Vec3i at) const noexcept {
+        constexpr double kRounding = 1e-8;
+        const double middle = valueAt(plane, corner(at) + Vec3d{4, 4, 4});
+        const double reach = 3.5 * (std::abs(plane.normal.x) + std::abs(plane.normal.y) + std::abs(plane.normal.z));
+        if (std::abs(middle) > reach + kMargin + kRounding) return middle > 0 ? 1 : 0;
+        if (std::abs(middle) < reach - kMargin - kRounding) return std::nullopt;
+        const auto mask = sideMask(plane, at);
+        if (!mask || !isTrivial(*mask)) return std::nullopt;
+        return (*mask)[0] != 0 ? 1 : 0;
     }
 
     void setCode(Vec3i at, BrickCode code) {
@@ -490,25 +541,54 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
             if (code.cut[a] == 0) continue;
-            const double place = (places_.origin + at * 8)[axis] + code.cut[a];
-            // The face must lie between the samples on both sides of the cut.
-            if (std::none_of(cutPlanes_.begin(), cutPlanes_.end(), [&](const FacePlane& face) {
-                    return std::abs(face.plane.normal[axis]) > 0.5 &&
-                           std::abs(face.plane.offset * face.plane.normal[axis] + place) <= 0.5 && isBeside(face, at);
-                }))
+            const auto& faces = cutPlanes_[a][std::size_t(8 * at[axis] + code.cut[a])];
+            if (std::none_of(faces.begin(), faces.end(), [&](const BrickRange& range) { return range.has(at); }))
                 return false;
         }
         return true;
     }
 
-    // Whether the plane has faces in the brick or adjacent to it.
-    [[nodiscard]] bool isBeside(const FacePlane& face, Vec3i at) const noexcept {
-        const Vec3i low = places_.origin + at * 8;
+    // Bricks of the tile, including max.
+    struct BrickRange {
+        std::array<std::int16_t, 3> min{}, max{};
+        [[nodiscard]] bool has(Vec3i at) const noexcept {
+            return at.x >= min[0] && at.x <= max[0] && at.y >= min[1] && at.y <= max[1] && at.z >= min[2] &&
+                   at.z <= max[2];
+        }
+    };
+    // The bricks in or beside which the plane has faces.
+    [[nodiscard]] BrickRange bricksBeside(const FacePlane& face) const noexcept {
+        BrickRange range;
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
-            if (face.min[a] > low[axis] + 8 || face.max[a] < low[axis]) return false;
+            const std::int32_t first = face.min[a] - 8 - places_.origin[axis],
+                               last = face.max[a] - places_.origin[axis];
+            range.min[a] = static_cast<std::int16_t>(std::max((first + 7) >> 3, 0));
+            range.max[a] = static_cast<std::int16_t>(std::min(last >> 3, places_.count[axis] - 1));
         }
-        return true;
+        return range;
+    }
+    // A plane across an axis is listed at each cut that lies with it between the same samples.
+    void addCutPlane(const FacePlane& face) {
+        const BrickRange range = bricksBeside(face);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(std::abs(face.plane.normal[axis]) > 0.5)) continue;
+            const double place = -face.plane.offset * face.plane.normal[axis] - places_.origin[axis];
+            auto& byCut = cutPlanes_[std::size_t(axis)];
+            const double most = static_cast<double>(byCut.size()) - 1;
+            const auto first = static_cast<std::int32_t>(std::clamp(std::floor(place) - 1, 0.0, most));
+            const auto last = static_cast<std::int32_t>(std::clamp(std::ceil(place) + 1, 0.0, most));
+            for (std::int32_t cut = first; cut <= last; ++cut)
+                if (std::abs(face.plane.offset * face.plane.normal[axis] + (places_.origin[axis] + double(cut))) <= 0.5)
+                    byCut[std::size_t(cut)].push_back(range);
+        }
+    }
+    void addFacePlane(const FacePlane& face) {
+        hasFacePlanes_ = true;
+        const BrickRange range = bricksBeside(face);
+        for (std::int32_t y = range.min[1]; y <= range.max[1]; ++y)
+            for (std::int32_t x = range.min[0]; x <= range.max[0]; ++x)
+                facesOfColumn_[std::size_t(x + kColumns * y)].push_back({face.plane, range.min[2], range.max[2]});
     }
 
     void startCandidates(Vec3i at) {
@@ -518,9 +598,10 @@ private:
     }
 
     void addFacePlanes(Vec3i at, std::size_t most) {
-        for (const FacePlane& face : facePlanes_) {
+        for (const ColumnFace& face : facesOfColumn_[std::size_t(at.x + kColumns * at.y)]) {
             if (sides_.size() == most) return;
-            if (isBeside(face, at) && cutsBox(face.plane, at)) addCandidate(face.plane, sideMask(face.plane, at));
+            if (at.z >= face.min && at.z <= face.max && cutsBox(face.plane, at))
+                addCandidate(face.plane, sideMask(face.plane, at));
         }
     }
 
@@ -552,26 +633,48 @@ private:
     // be at faces of the model: otherwise they are steps of an oblique face that is not among the candidates, and
     // voxels look better.
     bool tryCandidates(Vec3i at, std::size_t from) {
-        const auto isDone = [&](std::initializer_list<std::size_t> planes,
-                                std::initializer_list<const BrickSide*> sides) {
-            auto code = codeBySides(patternAt(at), changes_, sides);
-            if (!code || !hasCutsOfModel(*code, at)) return false;
-            std::size_t count = 0;
-            for (const std::size_t plane : planes) code->plane[count++] = numberOf(candidates_[plane]);
-            setCode(at, std::move(*code));
-            return true;
-        };
+        conflicts_.clear();
         for (std::size_t a = from; a < sides_.size(); ++a)
-            if (isDone({a}, {&sides_[a]})) return true;
+            if (trySides(at, {a})) return true;
         for (std::size_t b = std::max<std::size_t>(from, 1); b < sides_.size(); ++b)
             for (std::size_t a = 0; a < b; ++a)
-                if (isDone({a, b}, {&sides_[a], &sides_[b]})) return true;
+                if (trySides(at, {a, b})) return true;
         const std::size_t end = std::min(sides_.size(), kMaxOfThree);
         for (std::size_t c = std::max<std::size_t>(from, 2); c < end; ++c)
             for (std::size_t b = 1; b < c; ++b)
                 for (std::size_t a = 0; a < b; ++a)
-                    if (isDone({a, b, c}, {&sides_[a], &sides_[b], &sides_[c]})) return true;
+                    if (trySides(at, {a, b, c})) return true;
         return false;
+    }
+
+    // Most sets of candidates fail for one of few reasons, so these are kept: of two changes that cannot both be at a cut,
+    // the candidates that explain either.
+    bool trySides(Vec3i at, std::initializer_list<std::size_t> candidates) {
+        std::uint32_t set = 0;
+        for (const std::size_t candidate : candidates) set |= 1u << candidate;
+        for (std::size_t n = 0; n < conflicts_.size(); ++n) {
+            if ((set & conflicts_[n][0]) != 0 || (set & conflicts_[n][1]) != 0) continue;
+            if (n > 0) std::swap(conflicts_[n], conflicts_[n - 1]);
+            return false;
+        }
+        std::array<const BrickSide*, BrickVolume::kMaxPlanes> sides{};
+        std::size_t count = 0;
+        for (const std::size_t candidate : candidates) sides[count++] = &sides_[candidate];
+        CutConflict conflict;
+        auto code = codeByPlanes(patternAt(at), changes_, std::span(sides).first(count), conflict);
+        if (conflict.axis >= 0) addConflict(conflict);
+        if (!code || !hasCutsOfModel(*code, at)) return false;
+        count = 0;
+        for (const std::size_t candidate : candidates) code->plane[count++] = numberOf(candidates_[candidate]);
+        setCode(at, std::move(*code));
+        return true;
+    }
+    void addConflict(const CutConflict& conflict) {
+        std::array<std::uint32_t, 2> explained{};
+        for (std::size_t s = 0; s < sides_.size(); ++s)
+            for (const std::size_t n : {0, 1})
+                if (conflict.isExplained(n, sides_[s])) explained[n] |= 1u << s;
+        conflicts_.push_back(explained);
     }
 
     // Adds a candidate; false if it separates no voxels, or the same voxels as another candidate.
@@ -660,24 +763,27 @@ private:
         faces.emplace();
         const BrickPattern& pattern = patternAt(at);
         const Changes changes = findChanges(pattern);
-        const auto scalarAt = [&](std::size_t word, std::size_t bit) {
+        const std::size_t labels = pattern.palette.size(), planes = pattern.bitPlanes.size() / 8;
+        const std::uint64_t* words = pattern.bitPlanes.data();
+        const auto indexAt = [&](std::size_t word, std::size_t bit) {
             std::size_t index = 0;
-            for (std::size_t p = 0; 8 * p < pattern.bitPlanes.size(); ++p)
-                index |= static_cast<std::size_t>((pattern.bitPlanes[8 * p + word] >> bit) & 1u) << p;
-            return pattern.palette[index];
+            for (std::size_t p = 0; p < planes; ++p)
+                index |= static_cast<std::size_t>((words[8 * p + word] >> bit) & 1u) << p;
+            return index;
         };
         for (std::size_t axis = 0; axis < 3; ++axis) {
             AxisFaces& ofAxis = (*faces)[axis];
             newFaces_.clear();
+            groupOf_.assign(labels * labels, kNone);
             const auto add = [&](std::size_t word, std::size_t bit) {
                 const std::size_t x = bit % 8, y = bit / 8, z = word;
-                const Scalar low = scalarAt(word, bit);
-                const Scalar high = axis == 2 ? scalarAt(word + 1, bit) : scalarAt(word, bit + (axis == 0 ? 1 : 8));
-                const auto known =
-                    std::find_if(ofAxis.groups.begin(), ofAxis.groups.end(),
-                                 [&](const FaceGroup& group) { return group.low == low && group.high == high; });
-                const auto group = static_cast<std::uint32_t>(known - ofAxis.groups.begin());
-                if (known == ofAxis.groups.end()) ofAxis.groups.push_back({low, high, 0, 0});
+                const std::size_t low = indexAt(word, bit);
+                const std::size_t high = axis == 2 ? indexAt(word + 1, bit) : indexAt(word, bit + (axis == 0 ? 1 : 8));
+                std::uint32_t& group = groupOf_[low * labels + high];
+                if (group == kNone) {
+                    group = static_cast<std::uint32_t>(ofAxis.groups.size());
+                    ofAxis.groups.push_back({pattern.palette[low], pattern.palette[high], 0, 0});
+                }
                 ++ofAxis.groups[group].end;
                 newFaces_.push_back(
                     {group,
@@ -752,10 +858,8 @@ private:
                              place / (places_.count.x * places_.count.y)};
             forEachNeighbor(from, [&](Vec3i at) {
                 if (isMixed(at) || codeAt(at) != nullptr || !cutsBox(plane, at)) return;
-                const auto mask = sideMask(plane, at);
-                if (mask && isTrivial(*mask) &&
-                    code.sideScalars[(*mask)[0] != 0 ? 1 : 0] == places_.scalarOf[this->place(at)])
-                    setCode(at, code);
+                const auto side = sideOfAll(plane, at);
+                if (side && code.sideScalars[*side] == places_.scalarOf[this->place(at)]) setCode(at, code);
             });
         }
     }
@@ -763,15 +867,25 @@ private:
     const TilePlaces& places_;
     const std::vector<BrickPattern>& patterns_;
     const std::vector<std::uint8_t>& kindOfPattern_;
-    std::vector<FacePlane> facePlanes_, cutPlanes_;  // of the model; cutPlanes_ are across an axis
-    bool knowsFaces_;
+    // A plane with faces in or beside the bricks of a column from height min to height max, including both.
+    struct ColumnFace {
+        BrickPlane plane;
+        std::int16_t min, max;
+    };
+    static constexpr std::int32_t kColumns = ColumnVolume::kTileSize / BrickVolume::kBrickSize;  // along an axis
+    std::array<std::vector<ColumnFace>, kColumns * kColumns> facesOfColumn_;  // of the model, across no axis
+    std::array<std::vector<std::vector<BrickRange>>, 3>
+        cutPlanes_;  // across an axis: by cut, voxels from the tile's corner
+    bool knowsFaces_, hasFacePlanes_ = false;
     std::vector<std::array<std::optional<Heights>, 3>> heights_;
     std::vector<std::optional<Faces>> faces_;               // by pattern
     std::vector<std::pair<std::uint32_t, Face>> newFaces_;  // scratch: faces of one axis with the index of their group
+    std::vector<std::uint32_t> groupOf_;                    // scratch: by low and high label of the palette
     std::vector<std::uint32_t> codeIndex_;
     std::vector<BrickPlane> candidates_;
-    std::vector<BrickSide> sides_;  // of the candidates, same order
-    Changes changes_{};             // of the brick being coded
+    std::vector<BrickSide> sides_;                         // of the candidates, same order
+    std::vector<std::array<std::uint32_t, 2>> conflicts_;  // sets of candidates that explain either of two changes
+    Changes changes_{};                                    // of the brick being coded
     TileCodes result_;
 };
 

@@ -28,6 +28,7 @@
 ///   so that the surface continues there.
 
 #include <svt/volume/brick_volume.hpp>
+#include <svt/volume/bricks/side_masks.hpp>
 
 #include <array>
 #include <cstdint>
@@ -54,9 +55,6 @@ struct BrickCode {
     std::vector<Scalar> sideScalars;  ///< by side combination: a bit per cut (x, y, z), then per plane, from the lowest
     friend bool operator==(const BrickCode&, const BrickCode&) = default;
 };
-
-/// The voxels of a brick on the positive side of a plane, or beyond a cut: bit i + 8 j of word k.
-using SideMask = std::array<std::uint64_t, 8>;
 
 /// Per axis: the voxels that differ from the next voxel along this axis.
 using Changes = std::array<SideMask, 3>;

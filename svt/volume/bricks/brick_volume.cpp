@@ -346,8 +346,8 @@ private:
         for (std::int32_t z = seed.z; z < box.max.z; ++z)
             for (std::int32_t y = z == seed.z ? seed.y : box.min.y; y < box.max.y; ++y) {
                 std::uint32_t* row = boxOf_.data() + at(0, y, z);
-                for (std::int32_t x = box.min.x; x < box.max.x; ++x)
-                    if (row[x] == kNone) row[x] = number;
+                // Boxes come in ascending order, and kNone is above them all: the least is the first.
+                for (std::int32_t x = box.min.x; x < box.max.x; ++x) row[x] = std::min(row[x], number);
                 budget_ -= (box.max.x - box.min.x) / 8;
             }
         boxes_.push_back(box);
