@@ -191,9 +191,8 @@ void TilePlan::addBox(const TileInput& input, const ClaimedBox& box) {
     for (const bool isEntry : {true, false}) {
         const std::int32_t k = std::clamp(isEntry ? box.low : box.high, 0, input.depth);
         const Boundary boundary{static_cast<std::uint32_t>(k), box.claim, isEntry != box.countsAgainst};
-        covers_.push_back({rows, boundary.packed(), {}, {}});
-        std::memset(covers_.back().begin, begin, kTile);
-        std::memset(covers_.back().end, end, kTile);
+        boxCovers_.push_back(
+            {rows, boundary.packed(), static_cast<std::uint8_t>(begin), static_cast<std::uint8_t>(end)});
     }
     newRows_ |= changes(rows);
 }
@@ -201,6 +200,7 @@ void TilePlan::addBox(const TileInput& input, const ClaimedBox& box) {
 void TilePlan::build(const TileInput& input) {
     width_ = input.width;
     covers_.clear();
+    boxCovers_.clear();
     newRows_ = 1;
     const auto isSameFace = [&](PartRef p, PartRef q) {
         return p.object == q.object && triangleOf(input, p).face == triangleOf(input, q).face;
@@ -222,6 +222,13 @@ void TilePlan::build(const TileInput& input) {
             const int row = std::countr_zero(rows);
             if (cover.begin[row] < cover.end[row]) rows_[row].push_back({c, cover.begin[row], cover.end[row]});
         }
+    }
+    auto number = static_cast<std::uint32_t>(covers_.size());
+    for (const BoxCover& cover : boxCovers_) {
+        coverMembers_.push_back({cover.boundary, scramble(cover.boundary)});
+        for (std::uint64_t rows = cover.rows & newRows_; rows != 0; rows &= rows - 1)
+            rows_[std::countr_zero(rows)].push_back({number, cover.begin, cover.end});
+        ++number;
     }
     intervalCount_ = 0;
 }

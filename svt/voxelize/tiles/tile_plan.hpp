@@ -100,6 +100,11 @@ private:
         std::uint64_t boundary = 0;
         std::uint8_t begin[kTile], end[kTile];
     };
+    // The same columns in all rows: of boxes, of which open surfaces have very many.
+    struct BoxCover {
+        std::uint64_t rows, boundary;
+        std::uint8_t begin, end;
+    };
     struct Member {
         std::uint64_t boundary, hash;
     };
@@ -145,6 +150,7 @@ private:
     std::uint64_t newRows_ = 0;
     Outline outline_;
     std::vector<Cover> covers_;
+    std::vector<BoxCover> boxCovers_;   // numbered after covers_
     std::vector<Member> coverMembers_;  // per cover
     std::vector<Crossing> crossings_;
     std::vector<std::uint8_t> begins_;
