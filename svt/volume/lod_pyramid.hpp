@@ -62,6 +62,15 @@ struct LodLevel {
                                                             int coarsest = 6, int threads = 0,
                                                             const Progress* progress = nullptr);
 
+/// Count of the levels that buildLodPyramid() makes of a volume of this dimension, 0 to 6.
+[[nodiscard]] int lodLevelCount(Vec3i dimension) noexcept;
+
+/// One of these levels alone, equal to that of buildLodPyramid(): each is made of `columns`, not of the one before.
+/// \param level  1 to lodLevelCount(columns.dimension())
+/// \return the level, or BadArgument if there is no such level or the dimension of `grid` differs from that of `columns`
+/// Cost: O(columns + runs of the distinct blocks of columns).
+[[nodiscard]] Result<LodLevel> buildLodLevel(const ColumnVolume& columns, const Grid& grid, int level, int threads = 0);
+
 /// Mixture of a block with these voxel counts.
 /// \param counts  scalar and number of voxels (> 0), each scalar once, any order; background may be among them
 /// \param total   voxels of the block, the sum of all counts

@@ -8,6 +8,7 @@
 #include <svt/illustrate/shell.hpp>
 
 #include <algorithm>
+#include <map>
 
 namespace svt::illustrate {
 namespace {
@@ -48,7 +49,7 @@ struct ScenePainter::Forms {
     std::optional<volume::SemanticVolume> shell;
     const volume::SemanticVolume* volume = nullptr;
     std::optional<volume::BrickVolume> bricks, cells;  // the second of voxels alone
-    std::optional<std::vector<volume::LodLevel>> levels;
+    std::map<int, volume::LodLevel> levels;            // made when a picture takes them
 };
 
 struct ScenePainter::Apart {
@@ -94,13 +95,16 @@ Result<render::DrawnVolume> ScenePainter::formOf(std::size_t number, const Volum
     const volume::SemanticVolume& volume = *forms.volume;
     const int level = wanted.level.value_or(wanted.hasCells ? 0 : render::levelForView(spec, volume.grid));
     if (level > 0) {
-        if (!forms.levels) {
-            auto levels = volume::buildLodPyramid(volume.columns, volume.grid, 6, threads_, progress_);
-            if (!levels) return levels.error();
-            forms.levels = std::move(*levels);
+        if (const int own = std::min(level, volume::lodLevelCount(volume.grid.dimension())); own > 0) {
+            auto known = forms.levels.find(own);
+            if (known == forms.levels.end()) {
+                Progress::tell(progress_, "prepare", 0);
+                auto made = volume::buildLodLevel(volume.columns, volume.grid, own, threads_);
+                if (!made) return made.error();
+                known = forms.levels.emplace(own, std::move(*made)).first;
+            }
+            return render::DrawnVolume(known->second);
         }
-        if (!forms.levels->empty())
-            return render::DrawnVolume((*forms.levels)[std::min(forms.levels->size(), std::size_t(level)) - 1]);
     }
     std::optional<volume::BrickVolume>& bricks = wanted.hasCells ? forms.cells : forms.bricks;
     if (!bricks) {

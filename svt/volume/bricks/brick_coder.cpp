@@ -325,21 +325,22 @@ public:
     }
 
     TileCodes code() {
+        findMixed();
         if (hasFacePlanes_)
-            forEachPlace([&](Vec3i at) {
+            forEachMixed([&](Vec3i at) {
                 if (needsCode(at) || isStep(at)) codeByFaces(at);
             });
-        forEachPlace([&](Vec3i at) {
+        forEachMixed([&](Vec3i at) {
             if (needsCode(at) && patternAt(at).palette.size() == 2) codeSurface(at, true);
         });
-        forEachPlace([&](Vec3i at) {
+        forEachMixed([&](Vec3i at) {
             if (!isStep(at)) return;
             if (patternAt(at).palette.size() == 2)
                 codeSurface(at, false);
             else
                 codeJunction(at);
         });
-        forEachPlace([&](Vec3i at) {
+        forEachMixed([&](Vec3i at) {
             if (needsCode(at)) codeJunction(at);
         });
         extendToUniformNeighbors();
@@ -354,11 +355,20 @@ private:
     // At most 32 of all together.
     static constexpr std::size_t kMaxFaces = 12, kMaxAround = 8, kMaxCuts = 4, kMaxOfThree = 7;
 
-    template <class Body>
-    void forEachPlace(const Body& body) const {
+    // Mixed bricks that cuts alone do not code for certain, in the order of places.
+    void findMixed() {
+        std::size_t place = 0;
         for (std::int32_t z = 0; z < places_.count.z; ++z)
             for (std::int32_t y = 0; y < places_.count.y; ++y)
-                for (std::int32_t x = 0; x < places_.count.x; ++x) body(Vec3i{x, y, z});
+                for (std::int32_t x = 0; x < places_.count.x; ++x, ++place)
+                    if (const std::uint32_t pattern = places_.patternOf[place];
+                        pattern != TilePlaces::kUniform &&
+                        kindOfPattern_[pattern] != static_cast<std::uint8_t>(BrickKind::Coded))
+                        mixed_.push_back({x, y, z});
+    }
+    template <class Body>
+    void forEachMixed(const Body& body) const {
+        for (const Vec3i at : mixed_) body(at);
     }
     // The 26 neighbours of `at`: those across faces first, then edges, then corners.
     template <class Body>
@@ -877,6 +887,7 @@ private:
     std::array<std::vector<std::vector<BrickRange>>, 3>
         cutPlanes_;  // across an axis: by cut, voxels from the tile's corner
     bool knowsFaces_, hasFacePlanes_ = false;
+    std::vector<Vec3i> mixed_;
     std::vector<std::array<std::optional<Heights>, 3>> heights_;
     std::vector<std::optional<Faces>> faces_;               // by pattern
     std::vector<std::pair<std::uint32_t, Face>> newFaces_;  // scratch: faces of one axis with the index of their group

@@ -19,6 +19,8 @@ constexpr std::uint32_t kMixedBit = 0x80000000u;
 // Tag bits of index entries during construction. The other bits are a box of coded bricks, or a palette brick.
 constexpr std::uint32_t kCodedBit = 0x40000000u, kVoxelsBit = 0x80000000u;
 constexpr std::uint32_t kAnyMixed = kCodedBit | kVoxelsBit;
+// Parallel loops over bricks take at least so many rows of bricks, or 64 times as many bricks, at once.
+constexpr std::size_t kRowsAtOnce = 256, kBricksAtOnce = 64 * kRowsAtOnce;
 constexpr std::int32_t kBricksPerTile = ColumnVolume::kTileSize / BrickVolume::kBrickSize;
 
 // The bricks of a tile. `entries` holds the distinct columns of bricks, bricksZ entries each. An entry is an index in
@@ -184,13 +186,16 @@ private:
 class TileCoding {
 public:
     TileCoding(TileBricks& tile, Vec3i origin, Vec3i count) : tile_(tile), places_{origin, count, {}, {}} {
+        places_.patternOf.resize(places_.at(0, 0, count.z));
+        places_.scalarOf.resize(places_.patternOf.size());
+        std::size_t place = 0;
         for (std::int32_t z = 0; z < count.z; ++z)
             for (std::int32_t y = 0; y < count.y; ++y)
-                for (std::int32_t x = 0; x < count.x; ++x) {
+                for (std::int32_t x = 0; x < count.x; ++x, ++place) {
                     const std::uint32_t entry = tile_.entryAt(x, y, z, count.z);
                     const bool isMixed = (entry & kMixedBit) != 0;
-                    places_.patternOf.push_back(isMixed ? entry & ~kMixedBit : TilePlaces::kUniform);
-                    places_.scalarOf.push_back(isMixed ? 0 : tile_.scalars[entry]);
+                    places_.patternOf[place] = isMixed ? entry & ~kMixedBit : TilePlaces::kUniform;
+                    places_.scalarOf[place] = isMixed ? 0 : tile_.scalars[entry];
                 }
     }
 
@@ -277,8 +282,8 @@ struct BrickBox {
 // each. A budget of tests bounds the cost; when it is spent, boxes grow only over bricks without a box.
 class BoxFinder {
 public:
-    BoxFinder(const std::vector<std::uint32_t>& index, Vec3i count) : index_(index), count_(count) {
-        findRuns();
+    BoxFinder(const std::vector<std::uint32_t>& index, Vec3i count, int threads) : index_(index), count_(count) {
+        findRuns(threads);
         boxOf_.assign(index_.size(), kNone);
         budget_ = 12 * static_cast<std::int64_t>(index_.size());
         std::size_t brick = 0;
@@ -302,14 +307,17 @@ private:
     }
 
     // For each brick: the end along x of its run of equal entries.
-    void findRuns() {
+    void findRuns(int threads) {
         runEnd_.resize(index_.size());
-        for (std::size_t row = 0; row < index_.size(); row += static_cast<std::size_t>(count_.x))
-            for (std::int32_t x = count_.x - 1, end = count_.x; x >= 0; --x) {
-                const std::size_t brick = row + static_cast<std::size_t>(x);
-                if (x + 1 < count_.x && index_[brick + 1] != index_[brick]) end = x + 1;
-                runEnd_[brick] = static_cast<std::uint16_t>(end);
-            }
+        const auto width = static_cast<std::size_t>(count_.x);
+        parallelFor(index_.size() / width, kRowsAtOnce, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t row = begin * width; row < end * width; row += width)
+                for (std::int32_t x = count_.x - 1, stop = count_.x; x >= 0; --x) {
+                    const std::size_t brick = row + static_cast<std::size_t>(x);
+                    if (x + 1 < count_.x && index_[brick + 1] != index_[brick]) stop = x + 1;
+                    runEnd_[brick] = static_cast<std::uint16_t>(stop);
+                }
+        });
     }
 
     // Can the bricks [box.min.x, box.max.x) of row (y, z) join the box?
@@ -411,19 +419,21 @@ public:
         });
     }
 
-    void takeBoxes(const BoxFinder& finder) {
+    void takeBoxes(const BoxFinder& finder, int threads) {
         for (const BrickBox& found : finder.boxes())
             volume_.boxes_.push_back(boxOf(found.min, found.max, scalars_[found.entry]));
         volume_.uniformBoxes_ = volume_.boxes_.size();
         volume_.boxes_.insert(volume_.boxes_.end(), codeBoxes_.begin(), codeBoxes_.end());
-        for (std::size_t brick = 0; brick < volume_.wide_.size(); ++brick) {
-            std::uint32_t& entry = volume_.wide_[brick];
-            if ((entry & kAnyMixed) == 0) entry = finder.boxOf()[brick];
-        }
+        parallelFor(volume_.wide_.size(), kBricksAtOnce, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t brick = begin; brick < end; ++brick) {
+                std::uint32_t& entry = volume_.wide_[brick];
+                if ((entry & kAnyMixed) == 0) entry = finder.boxOf()[brick];
+            }
+        });
     }
 
     // Converts the index from tagged entries to its final form, with 16 bits if they suffice.
-    void finishIndex() {
+    void finishIndex(int threads) {
         const auto uniform = static_cast<std::uint32_t>(volume_.uniformBoxes_);
         const auto boxes = static_cast<std::uint32_t>(volume_.boxes_.size());
         const auto finished = [&](std::uint32_t entry) {
@@ -431,43 +441,53 @@ public:
             if ((entry & kVoxelsBit) != 0) return (entry & ~kVoxelsBit) + boxes;
             return entry;
         };
+        const std::size_t count = volume_.wide_.size();
         if (boxes + volume_.bricks_.size() <= 65536) {
-            volume_.narrow_.reserve(volume_.wide_.size() + 4);
-            for (const std::uint32_t entry : volume_.wide_)
-                volume_.narrow_.push_back(static_cast<std::uint16_t>(finished(entry)));
-            volume_.narrow_.insert(volume_.narrow_.end(), 4, 0);
+            volume_.narrow_.resize(count + 4);
+            parallelFor(count, kBricksAtOnce, threads, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t brick = begin; brick < end; ++brick)
+                    volume_.narrow_[brick] = static_cast<std::uint16_t>(finished(volume_.wide_[brick]));
+            });
             volume_.wide_ = {};
         } else {
-            for (std::uint32_t& entry : volume_.wide_) entry = finished(entry);
+            parallelFor(count, kBricksAtOnce, threads, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t brick = begin; brick < end; ++brick)
+                    volume_.wide_[brick] = finished(volume_.wide_[brick]);
+            });
             volume_.wide_.insert(volume_.wide_.end(), 2, 0);
         }
         volume_.palettes_.insert(volume_.palettes_.end(), 7, 0);
     }
 
     // Makes the bit vector of coded bricks and the table of their palette bricks, by rank.
-    void rankCoded() {
-        const std::size_t words = volume_.wide_.size() / 64 + 1;
+    void rankCoded(int threads) {
+        const std::size_t count = volume_.wide_.size(), words = count / 64 + 1;
         volume_.codedBricks_.resize(words);
         volume_.codedBefore_.resize(words);
-        for (std::size_t brick = 0; brick < volume_.wide_.size(); ++brick)
-            volume_.codedBricks_[brick / 64] |= std::uint64_t{(volume_.wide_[brick] & kCodedBit) != 0} << (brick % 64);
+        parallelFor(words, kRowsAtOnce, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t word = begin; word < end; ++word) {
+                std::uint64_t coded = 0;
+                for (std::size_t brick = 64 * word; brick < std::min(64 * word + 64, count); ++brick)
+                    coded |= std::uint64_t{(volume_.wide_[brick] & kCodedBit) != 0} << (brick % 64);
+                volume_.codedBricks_[word] = coded;
+            }
+        });
         std::uint32_t before = 0;
         for (std::size_t word = 0; word < words; ++word) {
             volume_.codedBefore_[word] = before;
             before += static_cast<std::uint32_t>(std::popcount(volume_.codedBricks_[word]));
         }
         volume_.codedPatterns_.resize(before);
-        for (std::size_t tile = 0; tile < numbers_.size(); ++tile) {
-            const Numbers& numbers = numbers_[tile];
-            std::size_t next = 0;
-            forEachPlace(tile, [&](std::size_t brick) {
-                if ((volume_.wide_[brick] & kCodedBit) == 0) return;
-                const std::uint64_t below = volume_.codedBricks_[brick / 64] & ((std::uint64_t{1} << (brick % 64)) - 1);
-                volume_.codedPatterns_[volume_.codedBefore_[brick / 64] +
-                                       static_cast<std::uint32_t>(std::popcount(below))] =
-                    numbers.patterns[numbers.codedPatterns[next++]];
-            });
-        }
+        parallelFor(numbers_.size(), 4, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t tile = begin; tile < end; ++tile) {
+                const Numbers& numbers = numbers_[tile];
+                std::size_t next = 0;
+                forEachPlace(tile, [&](std::size_t brick) {
+                    if ((volume_.wide_[brick] & kCodedBit) != 0)
+                        volume_.codedPatterns_[volume_.rankOf(brick)] = numbers.patterns[numbers.codedPatterns[next++]];
+                });
+            }
+        });
     }
 
 private:
@@ -692,9 +712,9 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const 
     parallelFor(tiles.size(), 4, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) merger.numberTile(n);
     });
-    merger.takeBoxes(BoxFinder(volume.wide_, volume.brickCount_));
-    merger.rankCoded();
-    merger.finishIndex();
+    merger.takeBoxes(BoxFinder(volume.wide_, volume.brickCount_, options.threads), options.threads);
+    merger.rankCoded(options.threads);
+    merger.finishIndex(options.threads);
     return volume;
 }
 

@@ -268,6 +268,26 @@ Mixture makeMixture(std::span<const std::pair<Scalar, std::uint64_t>> counts, st
     return mixture;
 }
 
+int lodLevelCount(Vec3i dimension) noexcept {
+    int count = 0;
+    for (; count < kCoarsest; ++count) {
+        for (int axis = 0; axis < 3; ++axis) dimension[axis] = (dimension[axis] + 1) / 2;
+        if (std::min({dimension.x, dimension.y, dimension.z}) < 2) break;
+    }
+    return count;
+}
+
+Result<LodLevel> buildLodLevel(const ColumnVolume& columns, const Grid& grid, int level, int threads) {
+    Vec3i dimension = columns.dimension();
+    if (level < 1 || level > lodLevelCount(dimension))
+        return Error(Code::BadArgument,
+                     fmt::format("level {} is out of range; there are {}", level, lodLevelCount(dimension)));
+    if (grid.dimension() != dimension) return Error(Code::BadArgument, "the grid's dimension is not the volume's");
+    for (int axis = 0; axis < 3; ++axis)
+        for (int n = 0; n < level; ++n) dimension[axis] = (dimension[axis] + 1) / 2;
+    return makeLevel(columns, grid, level, dimension, threads);
+}
+
 Result<std::vector<LodLevel>> buildLodPyramid(const ColumnVolume& columns, const Grid& grid, int coarsest, int threads,
                                               const Progress* progress) {
     if (coarsest < 1 || coarsest > kCoarsest)
@@ -276,12 +296,9 @@ Result<std::vector<LodLevel>> buildLodPyramid(const ColumnVolume& columns, const
     if (grid.dimension() != columns.dimension())
         return Error(Code::BadArgument, "the grid's dimension is not the volume's");
     std::vector<LodLevel> levels;
-    Vec3i dimension = columns.dimension();
-    for (int level = 1; level <= coarsest; ++level) {
-        for (int axis = 0; axis < 3; ++axis) dimension[axis] = (dimension[axis] + 1) / 2;
-        if (std::min({dimension.x, dimension.y, dimension.z}) < 2) break;
+    for (int level = 1; level <= std::min(coarsest, lodLevelCount(columns.dimension())); ++level) {
         Progress::tell(progress, "prepare", double(level - 1) / coarsest);
-        auto made = makeLevel(columns, grid, level, dimension, threads);
+        auto made = buildLodLevel(columns, grid, level, threads);
         if (!made) return made.error();
         levels.push_back(std::move(*made));
     }

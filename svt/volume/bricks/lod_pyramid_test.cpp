@@ -132,6 +132,29 @@ TEST(LodPyramid, DoesNotDependOnTheThreads) {
     }
 }
 
+TEST(LodPyramid, ALevelAloneIsThatOfThePyramid) {
+    std::mt19937 random(9);
+    const Vec3i n{67, 41, 53};
+    const ColumnVolume columns = columnsOf(n, [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+        return random() % 6 == 0 ? Scalar(random() % 9) : Scalar((i / 7 + j / 9 + k / 11) % 4);
+    });
+    const auto levels = pyramidOf(columns);
+    ASSERT_EQ(lodLevelCount(n), 5);
+    ASSERT_EQ(levels.size(), 5u);
+    for (const LodLevel& level : levels) {
+        const auto alone = buildLodLevel(columns, gridOf(n), level.level, 1);
+        ASSERT_TRUE(alone.hasValue());
+        EXPECT_EQ(alone->grid.dimension(), level.grid.dimension());
+        EXPECT_EQ(alone->mixtures, level.mixtures);
+        EXPECT_EQ(alone->columns, level.columns);
+        EXPECT_EQ(alone->bricks, level.bricks);
+    }
+    EXPECT_EQ(buildLodLevel(columns, gridOf(n), 0).error().code(), Code::BadArgument);
+    EXPECT_EQ(buildLodLevel(columns, gridOf(n), 6).error().code(), Code::BadArgument);
+    EXPECT_EQ(buildLodLevel(columns, gridOf({66, 41, 53}), 1).error().code(), Code::BadArgument);
+    EXPECT_EQ(lodLevelCount({1, 100, 100}), 0);
+}
+
 TEST(Mixture, CoverageSumsToTheFilledShare) {
     using Counts = std::vector<std::pair<Scalar, std::uint64_t>>;
     EXPECT_EQ(makeMixture(Counts{{0, 8}}, 8), Mixture{});

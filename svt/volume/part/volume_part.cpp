@@ -226,21 +226,28 @@ Result<SemanticVolume> selectedVolume(const SemanticVolume& volume, std::span<co
     return part;
 }
 
+namespace {
+
+SemanticVolume coarseOf(const SemanticVolume& volume, const LodLevel& level,
+                        const std::vector<std::uint32_t>& labelOf) {
+    std::vector<Scalar> newOf;
+    newOf.reserve(level.mixtures.size());
+    for (const Mixture& mixture : level.mixtures) newOf.push_back(scalarOf(mixture, labelOf));
+    SemanticVolume part{level.grid,     volume.labels,    replaceScalars(level.columns, newOf),
+                        volume.crsName, volume.modelName, volume.source};
+    part.labels.overlaps.clear();
+    recount(part);
+    return part;
+}
+
+}  // namespace
+
 Result<std::vector<SemanticVolume>> coarseVolumes(const SemanticVolume& volume, int coarsest, int threads) {
     auto levels = buildLodPyramid(volume.columns, volume.grid, coarsest, threads);
     if (!levels) return levels.error();
     const auto labelOf = volume.labels.labelOfScalar();
     std::vector<SemanticVolume> parts;
-    for (const LodLevel& level : *levels) {
-        std::vector<Scalar> newOf;
-        newOf.reserve(level.mixtures.size());
-        for (const Mixture& mixture : level.mixtures) newOf.push_back(scalarOf(mixture, labelOf));
-        SemanticVolume& part =
-            parts.emplace_back(SemanticVolume{level.grid, volume.labels, replaceScalars(level.columns, newOf),
-                                              volume.crsName, volume.modelName, volume.source});
-        part.labels.overlaps.clear();
-        recount(part);
-    }
+    for (const LodLevel& level : *levels) parts.push_back(coarseOf(volume, level, labelOf));
     return parts;
 }
 
@@ -248,12 +255,12 @@ Result<SemanticVolume> coarseVolume(const SemanticVolume& volume, int level, int
     if (level == 0) return volume;
     if (level < 0 || level > 6)
         return Error(Code::BadArgument, fmt::format("level {} is out of range; 0 to 6 are possible", level));
-    auto levels = coarseVolumes(volume, level, threads);
-    if (!levels) return levels.error();
-    if (levels->size() < static_cast<std::size_t>(level))
+    if (const int count = lodLevelCount(volume.grid.dimension()); level > count)
         return Error(Code::BadArgument,
-                     fmt::format("the volume is too small for level {}; its coarsest is {}", level, levels->size()));
-    return std::move(levels->back());
+                     fmt::format("the volume is too small for level {}; its coarsest is {}", level, count));
+    const auto coarse = buildLodLevel(volume.columns, volume.grid, level, threads);
+    if (!coarse) return coarse.error();
+    return coarseOf(volume, *coarse, volume.labels.labelOfScalar());
 }
 
 }  // namespace svt::volume
