@@ -29,6 +29,8 @@ GOALS = [
      "{:.1f} x", None, None, True),
     ("model file to `.svt` on disk",
      lambda r, h: stage(r, "model-file-to-.svt", h, "time"), "{:.3f} s", 0.25, 0.05, False),
+    ("ready to draw from a `.svt`, as `svt render` does: opened, bricks made",
+     lambda r, h: stage(r, "ready-to-draw", h, "time"), "{:.3f} s", 0.08, 0.02, False),
     ("size on disk, lossless", lambda r, h: stage(r, "write-.svt", h, "size"), "{:.2f} MB", 1, 0.1, False),
     ("size in memory, ready to cast", lambda r, h: stage(r, "make-bricks", h, "size"), "{:.2f} MB", 4, 1, False),
     ("opaque frame, 1280 x 720, lit: times faster than VTK's CPU ray caster, unlit",

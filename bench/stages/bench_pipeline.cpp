@@ -45,10 +45,14 @@ Result<void> benchSize(const Input& input, const Workload& workload, Vec3i dimen
 
     // Failures of this stage were already reported above; only time counts here.
     const auto done = [](const auto& result) { static_cast<void>(result.hasValue()); };
+    mesh::MeshOptions meshOptions;
+    meshOptions.measuresThickness = false;  // measured by the pipeline, up to a voxel
+    // What `svt render` and the page make of a file: no borders on faces, and levels only where a picture takes them.
+    const volume::BrickVolume::Options forPictures{.faces = volume::BrickFaces::Slopes, .planes = volume.planes};
     const std::array sheets{&pipeline::defaultStyle(false)};
     const std::vector<Stage> stages{
         {"read the model", 0, [&] { done(readers::readModel(input.file)); }},
-        {"make meshes", 0, [&] { done(mesh::buildMeshes(workload.model)); }},
+        {"make meshes", 0, [&] { done(mesh::buildMeshes(workload.model, meshOptions)); }},
         {"make labels", 0, [&] { done(pipeline::makeLabels(workload.model, workload.meshes, sheets)); }},
         {"voxelize to columns", volume.columns.sizeBytes(),
          [&] { done(voxelize::voxelize(workload.meshes, volume.grid, workload.labels.claims)); }},
@@ -58,6 +62,12 @@ Result<void> benchSize(const Input& input, const Workload& workload, Vec3i dimen
          [&] { done(volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes})); }},
         {"make coarse levels", levelBytes(*levels),
          [&] { done(volume::buildLodPyramid(volume.columns, volume.grid)); }},
+        {"make one coarse level", 0, [&] { done(volume::buildLodLevel(volume.columns, volume.grid, 1)); }},
+        {"ready to draw", 0,
+         [&] {
+             const auto opened = volume::readSvt(target);
+             if (opened) done(volume::BrickVolume::fromColumns(opened->columns, forPictures));
+         }},
         {"model file to .svt", *fileBytes, [&] {
              const auto output = pipeline::buildVolume(files, buildOptions);
              if (output) done(volume::writeSvt(output->volume, target));

@@ -98,6 +98,7 @@ struct MeshOptions {
     double weldDistance = 5e-6;       ///< points closer than this along each axis are merged, metres
     double tJunctionDistance = 1e-4;  ///< a point within this distance of an edge lies on it, metres
     double capDeviation = 0.05;       ///< a hole is capped if its boundary is within this distance of a plane, metres
+    bool measuresThickness = true;    ///< false: Triangle::thickness is left +inf, see measureThickness()
     int threads = 0;
     const Progress* progress = nullptr;
 };

@@ -4,6 +4,8 @@
 
 #include <svt/mesh/mesh_set.hpp>
 
+#include <limits>
+
 namespace svt::mesh {
 
 /// Sets Triangle::thickness of a closed mesh: the distance, in metres, from the centroid of the face along its inward
@@ -11,6 +13,11 @@ namespace svt::mesh {
 /// none. Cost: O(n log n) by a bounding volume hierarchy; where that fails, as for very many thin triangles across each
 /// other's boxes, the search ends after 256 boxes a face on average (and at least 34 million), and +inf stands for the
 /// faces that are left.
-void measureThickness(ObjectMesh& mesh);
+/// \param limit  metres; a thickness of this or more is +inf, too, and costs little: a ray ends there
+void measureThickness(ObjectMesh& mesh, double limit = std::numeric_limits<double>::infinity());
+
+/// The same for all solids of a model.
+/// \param threads  0: all cores; the result does not depend on it
+void measureThickness(MeshSet& meshes, double limit, int threads);
 
 }  // namespace svt::mesh

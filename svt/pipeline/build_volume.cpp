@@ -1,3 +1,4 @@
+#include <svt/mesh/thickness.hpp>
 #include <svt/pipeline/build_volume.hpp>
 
 #include <svt/model/classes.hpp>
@@ -121,6 +122,7 @@ struct Prepared {
 Result<Prepared> prepare(model::BuildingModel& model, const BuildOptions& options, Diagnostics* log) {
     mesh::MeshOptions meshOptions;
     meshOptions.lod = options.lod;
+    meshOptions.measuresThickness = false;  // below: only what is thinner than a voxel matters
     meshOptions.threads = options.threads;
     meshOptions.progress = options.progress;
     auto meshes = mesh::buildMeshes(model, meshOptions, log);
@@ -130,6 +132,9 @@ Result<Prepared> prepare(model::BuildingModel& model, const BuildOptions& option
     if (!grid) return grid.error();
     if (options.grid)
         if (const auto checked = checkGivenGrid(model, *meshes, *grid, log); !checked) return checked.error();
+    const Vec3d spacing = grid->spacing();
+    constexpr double kRounding = 1 + 1e-6;  // thickness is of single precision
+    mesh::measureThickness(*meshes, std::max({spacing.x, spacing.y, spacing.z}) * kRounding, options.threads);
     addCapFeatures(model, *meshes);
     std::vector<const StyleSheet*> sheets{&defaultStyle(options.usePatterns)};
     if (options.style != nullptr) sheets.push_back(options.style);

@@ -114,14 +114,13 @@ double volumeWithFans(const ObjectMesh& mesh) {
     return signedVolume(vertices, triangles);
 }
 
-void finish(ObjectMesh& mesh) {
+void finish(ObjectMesh& mesh, bool measuresThickness) {
     if (mesh.isSolid()) {
         mesh.flippedFaces += orientOutwards(mesh.vertices, mesh.triangles);
         mesh.volume = signedVolume(mesh.vertices, mesh.triangles);
-        measureThickness(mesh);
-    } else {
-        for (Triangle& triangle : mesh.triangles) triangle.thickness = std::numeric_limits<float>::infinity();
     }
+    for (Triangle& triangle : mesh.triangles) triangle.thickness = std::numeric_limits<float>::infinity();
+    if (mesh.isSolid() && measuresThickness) measureThickness(mesh);
     mesh.enclosedVolume = mesh.isSolid() ? mesh.volume : mesh.closure == Closure::Open ? volumeWithFans(mesh) : 0;
     for (const Triangle& triangle : mesh.triangles) {
         const Vec3d a = mesh.vertices[triangle.corners[0]];
@@ -289,7 +288,7 @@ Result<MeshSet> buildMeshes(const BuildingModel& model, const MeshOptions& optio
     meshes.origin = polygons.origin;
     for (Work& object : work) meshes.objects.push_back(std::move(object.shell.mesh));
     parallelFor(meshes.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) finish(meshes.objects[i]);
+        for (std::size_t i = begin; i < end; ++i) finish(meshes.objects[i], options.measuresThickness);
     });
     turnSheets(sources, polygons, meshes);
     for (std::size_t i = 0; i < meshes.objects.size(); ++i) {

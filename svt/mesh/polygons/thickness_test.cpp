@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace svt::mesh {
@@ -27,6 +29,30 @@ TEST(MeasureThickness, SlabPaneAndRodAreAsThickAsTheyAre) {
     expectBox({10, 8, 0.2});     // slab
     expectBox({2, 0.004, 1.5});  // pane
     expectBox({0.01, 0.01, 3});  // rod
+}
+
+TEST(MeasureThickness, BeyondTheLimitItIsUnknown) {
+    const ObjectMesh box = boxMesh({1, 2, 3}, {1.5, 2.25, 3.125});
+    ObjectMesh all = box;
+    measureThickness(all);
+    for (const double limit : {0.1, 0.2, 0.3, 1.0}) {
+        MeshSet meshes;
+        meshes.objects = {box, box};
+        meshes.objects[0].closure = Closure::Closed;
+        meshes.objects[1].closure = Closure::Surface;
+        for (ObjectMesh& mesh : meshes.objects)
+            for (Triangle& triangle : mesh.triangles) triangle.thickness = std::numeric_limits<float>::infinity();
+        measureThickness(meshes, limit, 2);
+        std::size_t known = 0;
+        for (std::size_t t = 0; t < box.triangles.size(); ++t) {
+            const float thickness = all.triangles[t].thickness;
+            known += thickness < limit ? 1 : 0;
+            EXPECT_EQ(meshes.objects[0].triangles[t].thickness,
+                      thickness < limit ? thickness : std::numeric_limits<float>::infinity());
+            EXPECT_TRUE(std::isinf(meshes.objects[1].triangles[t].thickness));  // no solid
+        }
+        EXPECT_EQ(known, limit == 0.1 ? 0u : limit == 0.2 ? 4u : limit == 0.3 ? 8u : 12u);
+    }
 }
 
 TEST(MeasureThickness, BallIsAsThickAsItsDiameter) {
