@@ -24,8 +24,8 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 # PROJ is loaded with the first use, so that its package is not found by what is linked: libproj.so.25 is in libproj25.
 string(REPLACE ".so." "" SVT_PROJ_PACKAGE ${SVT_PROJ_LIBRARY})
 set(CPACK_DEBIAN_COMMAND_PACKAGE_DEPENDS ${SVT_PROJ_PACKAGE})
-# OpenGL is optional, and so are cairo, for PDF, SQLite, for GeoPackage, ffmpeg, for films, and a browser that `svt view` may open.
-set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, libcairo2, libsqlite3-0, xdg-utils")
+# OpenGL is optional, and so are cairo and qpdf, for PDF and its layers, SQLite, for GeoPackage, ffmpeg, for films, and a browser that `svt view` may open.
+set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, libcairo2, libqpdf29, libsqlite3-0, xdg-utils")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS ffmpeg)
 set(CPACK_COMPONENT_COMMAND_DESCRIPTION "Turns a semantic building model (CityGML, CityJSON) into a volume in which
 every point knows which component it belongs to, and draws that volume cut

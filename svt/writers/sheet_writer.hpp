@@ -75,7 +75,10 @@ struct SheetOptions {
                                                              const volume::SemanticVolume& volume,
                                                              const SheetOptions& options = {});
 
-/// The sheets as one PDF, a page each.
+/// Why no PDF has layers (optional content) here; empty: they have. Loads libqpdf with the first call.
+[[nodiscard]] const std::string& missingPdfLayers();
+
+/// The sheets as one PDF, a page each, with the layers of the SVG unless missingPdfLayers().
 /// \return the bytes, or the errors of makeSvgSheets(), NoCairo or CannotWrite
 [[nodiscard]] Result<std::string> makePdfSheets(const SheetContent& content, const volume::SemanticVolume& volume,
                                                 const SheetOptions& options = {});

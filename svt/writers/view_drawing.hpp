@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Line drawings in three dimensions on a page of their own, as SVG or PDF: what is cut is hatched and has bold outlines,
-/// edges are narrow lines, hidden ones dashed (ISO 128-2).
+/// Drawings on a page of their own: line drawings in three dimensions as SVG or PDF, where what is cut is hatched and has
+/// bold outlines, edges are narrow lines, hidden ones dashed (ISO 128-2); sections as PDF.
 
 #include <svt/core/result.hpp>
 #include <svt/illustrate/line_view.hpp>
@@ -18,5 +18,12 @@ namespace svt::writers {
 /// \return the bytes, or NoCairo or CannotWrite
 [[nodiscard]] Result<std::string> makeViewPdf(const illustrate::LineView& view, const volume::SemanticVolume& volume,
                                               double width);
+
+/// A section on the page of makeSvg(), with layers as makePdfSheets().
+/// \param scale  100 draws 1 m as 10 mm; 0.01 to 10^7
+/// \return the bytes, or BadArgument: a scale out of range, or a page over the 5.08 m that PDF allows; NoCairo or
+///         CannotWrite
+[[nodiscard]] Result<std::string> makeSectionPdf(const illustrate::SectionDrawing& drawing,
+                                                 const volume::SemanticVolume& volume, double scale);
 
 }  // namespace svt::writers

@@ -348,7 +348,7 @@ TEST(Section, ErrorsSayWhatToDo) {
         const char* expected;
     };
     const Case cases[] = {
-        {{"-o", "d.pdf"}, 2, "\\.svg, \\.dxf, \\.geojson"},
+        {{"-o", "d.png"}, 2, "\\.svg, \\.pdf, \\.dxf, \\.geojson"},
         {{}, 2, "nothing to write"},
         {{"-o", "d.svg", "--plane", "z=99"}, 2, "E503 BadSection.*does not meet the volume.*from"},
         {{"-o", "d.svg", "--plane", "q=1"}, 2, "E503 BadSection.*expected z=1.2"},

