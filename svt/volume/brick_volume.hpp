@@ -158,13 +158,37 @@ public:
 
     /// The code of a box of bricks: cuts, planes and the label of each side combination. 24 bytes.
     struct BoxCoding {
-        std::array<std::uint16_t, 3> cut{};  ///< voxels of the volume below the cut, per axis
-        std::uint16_t cutAxes = 0;           ///< bit a: the code has a cut across axis a
+        /// Per axis: voxels of the volume below the cut, or the low bits of the number of a plane that takes its place.
+        std::array<std::uint16_t, 3> cut{};
+        /// Bit a: the code has a cut across axis a. Bit 3 + a: a plane across axis a is in its place. Bits 6 + 3 a to
+        /// 8 + 3 a: the high bits of that plane's number.
+        std::uint16_t cutAxes = 0;
         std::array<std::uint32_t, kMaxPlanes> plane{kNoPlane, kNoPlane, kNoPlane};  ///< in planes()
-        /// Offset in palettes of the scalars by side combination. It has one bit per existing cut (x, y, z) and plane,
-        /// in this order from the lowest; 1 means beyond the cut, or on the positive side of the plane.
+        /// Offset in palettes of the scalars by side combination. It has one bit per side in the order of forEachSide(),
+        /// from the lowest; 1 means beyond the cut, or on the positive side of the plane.
         std::uint32_t firstSideScalar = 0;
+        static constexpr std::uint32_t kMostPlanesInCuts = 1u << 19;  ///< those with lower numbers can be
         [[nodiscard]] bool hasCut(int axis) const noexcept { return ((cutAxes >> axis) & 1u) != 0; }
+        [[nodiscard]] std::uint32_t planeInCut(int axis) const noexcept {
+            if (((cutAxes >> (3 + axis)) & 1u) == 0) return kNoPlane;
+            return cut[static_cast<std::size_t>(axis)] | ((std::uint32_t{cutAxes} >> (6 + 3 * axis)) & 7u) << 16;
+        }
+        void setPlaneInCut(std::size_t axis, std::uint32_t number) noexcept {
+            cut[axis] = static_cast<std::uint16_t>(number);
+            cutAxes = static_cast<std::uint16_t>(cutAxes | 8u << axis | (number >> 16) << (6 + 3 * axis));
+        }
+        /// Calls onCut(axis, place) or onPlane(number) for each side: x, y, z, then `plane`.
+        template <class OnCut, class OnPlane>
+        void forEachSide(const OnCut& onCut, const OnPlane& onPlane) const {
+            for (int axis = 0; axis < 3; ++axis) {
+                if (hasCut(axis))
+                    onCut(axis, cut[static_cast<std::size_t>(axis)]);
+                else if (const std::uint32_t number = planeInCut(axis); number != kNoPlane)
+                    onPlane(number);
+            }
+            for (const std::uint32_t number : plane)
+                if (number != kNoPlane) onPlane(number);
+        }
         friend bool operator==(const BoxCoding&, const BoxCoding&) = default;
     };
     /// Box of a coded brick.

@@ -265,14 +265,13 @@ private:
             }
             bit <<= 1;
         };
-        for (int axis = 0; axis < 3; ++axis) {
-            if (!coding.hasCut(axis)) continue;
-            Vec3d normal;
-            normal[axis] = 1;
-            split(normal, -double(coding.cut[static_cast<std::size_t>(axis)]));
-        }
-        for (const std::uint32_t plane : coding.plane)
-            if (plane != BrickVolume::kNoPlane) split(bricks_.planes()[plane].normal, bricks_.planes()[plane].offset);
+        coding.forEachSide(
+            [&](int axis, std::uint16_t place) {
+                Vec3d normal;
+                normal[axis] = 1;
+                split(normal, -double(place));
+            },
+            [&](std::uint32_t plane) { split(bricks_.planes()[plane].normal, bricks_.planes()[plane].offset); });
         for (std::size_t n = 0; n < count; ++n)
             if (parts[n].piece.count != 0) emit(parts[n].piece, labelOf(bricks_.sideScalar(coding, parts[n].sides)));
     }

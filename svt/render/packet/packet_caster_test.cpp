@@ -96,6 +96,35 @@ TEST(PacketCaster, GivesItWhereFacesMeetByThrees) {
     expectThePictureOfThePlainCaster(volume);
 }
 
+// A shell of four voxels: six faces meet at each corner, more than a code has places for planes.
+TEST(PacketCaster, GivesItWherePlanesTakeThePlaceOfCuts) {
+    const Vec3d low{9.8, 10.3, 10.1}, high{69.6, 62.1, 46.3};
+    constexpr double kWidth = 3.7;
+    TestVolume volume = makeVolume({80, 80, 56}, {0.125, 0.125, 0.125}, [&](int i, int j, int k) {
+        const Vec3d p{i + 0.5, j + 0.5, k + 0.5};
+        const auto isIn = [&](double inset) {
+            for (int axis = 0; axis < 3; ++axis)
+                if (p[axis] < low[axis] + inset || p[axis] > high[axis] - inset) return false;
+            return true;
+        };
+        return isIn(kWidth) ? (i < 37 ? 3u : 2u) : isIn(0) ? 1u : 0u;
+    });
+    std::vector<volume::FacePlane> faces;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double at : {low[axis], low[axis] + kWidth, high[axis] - kWidth, high[axis]}) {
+            volume::FacePlane& face = faces.emplace_back();
+            face.plane.normal[axis] = 1;
+            face.plane.offset = -at;
+            face.max = {80, 80, 56};
+        }
+    volume.bricks = *volume::BrickVolume::fromColumns(volume.columns, {.planes = faces});
+    const auto codes = volume.bricks.arrays().codes;
+    ASSERT_GT(std::count_if(codes.begin(), codes.end(),
+                            [](const auto& code) { return code.planeInCut(0) != volume::BrickVolume::kNoPlane; }),
+              7);
+    expectThePictureOfThePlainCaster(volume);
+}
+
 // Passes are cast from the last to the first; rays for which a later pass hides all before it are skipped.
 TEST(PacketCaster, LightsRaysOfMoreLabelsThanItKeeps) {
     TestVolume volume = makeVolume({96, 40, 40}, {0.1, 0.1, 0.1}, [](std::int32_t i, std::int32_t j, std::int32_t k) {

@@ -93,8 +93,14 @@ public:
         const D d;
         Side sides[volume::BrickVolume::kMaxSides];
         std::size_t count = 0;
+        const auto addPlane = [&](std::uint32_t number) {
+            if (number == volume::BrickVolume::kNoPlane) return;
+            Side& side = sides[count++];
+            findCrossing(pass_.volume.planes[number], side.time, side.isBeyondAfter);
+            side.plane = number;
+        };
         const auto addCut = [&](const Axis& axis, std::size_t number) {
-            if (((code.cutAxes >> number) & 1u) == 0) return;
+            if (((code.cutAxes >> number) & 1u) == 0) return addPlane(code.planeInCut(static_cast<int>(number)));
             const V place = hn::Set(d, static_cast<double>(code.cut[number]));
             Side& side = sides[count++];
             side.time = axis.planeTime(place);
@@ -107,12 +113,7 @@ public:
         addCut(vectors_.x, 0);
         addCut(vectors_.y, 1);
         addCut(vectors_.z, 2);
-        for (const std::uint32_t number : code.plane) {
-            if (number == volume::BrickVolume::kNoPlane) continue;
-            Side& side = sides[count++];
-            findCrossing(pass_.volume.planes[number], side.time, side.isBeyondAfter);
-            side.plane = number;
-        }
+        for (const std::uint32_t number : code.plane) addPlane(number);
         const volume::Scalar* scalars = pass_.volume.palettes.data() + code.firstSideScalar;
         switch (count) {
             case 1: return crossSides<1>(inside, sides, scalars);

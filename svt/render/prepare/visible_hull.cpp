@@ -35,9 +35,9 @@ constexpr std::array<Vec3d, kFixed> kDirections{{{1, 0, 0},
                                                  {1, -1, -1}}};
 
 std::size_t sideCount(const BrickVolume::BoxCoding& code) noexcept {
-    const auto planes = std::count_if(code.plane.begin(), code.plane.end(),
-                                      [](std::uint32_t plane) { return plane != BrickVolume::kNoPlane; });
-    return static_cast<std::size_t>(std::popcount(code.cutAxes)) + static_cast<std::size_t>(planes);
+    std::size_t count = 0;
+    code.forEachSide([&](int, std::uint16_t) { ++count; }, [&](std::uint32_t) { ++count; });
+    return count;
 }
 
 // The most frequent plane normals, by number of coded boxes; nearly parallel ones count together.

@@ -28,6 +28,14 @@ struct PlaneCrossing {
     [[nodiscard]] bool isPositiveAt(double t) const noexcept { return (t >= time) == isRising; }
 };
 
+/// Whether a brick is coded by any plane.
+[[nodiscard]] inline bool hasPlanes(const volume::BrickVolume& volume, volume::BrickVolume::Entry entry) noexcept {
+    if (!entry.isCoded()) return false;
+    bool isAny = false;
+    volume.coding(entry).forEachSide([](int, std::uint16_t) {}, [&](std::uint32_t) { isAny = true; });
+    return isAny;
+}
+
 /// The planes of a brick; kNoPlanes if it is not coded by any.
 using BrickPlanes = decltype(volume::BrickVolume::BoxCoding::plane);
 inline constexpr BrickPlanes kNoPlanes = volume::BrickVolume::BoxCoding().plane;

@@ -117,19 +117,20 @@ private:
         };
         std::array<Side, volume::BrickVolume::kMaxSides> sides;
         std::size_t count = 0;
+        const auto addPlane = [&](std::uint32_t plane) {
+            if (plane == volume::BrickVolume::kNoPlane) return;
+            const PlaneCrossing crossing(volume_.planes()[plane], ray_);
+            sides[count++] = {crossing.time, crossing.isRising, -1, plane};
+        };
         forEachAxis([&](auto axis) {
-            if (!coding.hasCut(axis)) return;
+            if (!coding.hasCut(axis)) return addPlane(coding.planeInCut(axis));
             const std::int32_t place = coding.cut[static_cast<std::size_t>(axis)];
             Side side{ray_.planeTime(axis, place), ray_.step[axis] > 0, axis, volume::BrickVolume::kNoPlane};
             // A ray with zero direction on this axis stays on one side.
             if (ray_.step[axis] == 0) side.isBeyondAfter = voxel_[axis] < place;
             sides[count++] = side;
         });
-        for (const std::uint32_t plane : coding.plane) {
-            if (plane == volume::BrickVolume::kNoPlane) continue;
-            const PlaneCrossing crossing(volume_.planes()[plane], ray_);
-            sides[count++] = {crossing.time, crossing.isRising, -1, plane};
-        }
+        for (const std::uint32_t plane : coding.plane) addPlane(plane);
         std::uint32_t crossed = volume::BrickVolume::kNoPlane;
         while (true) {
             std::size_t combination = 0;
@@ -212,25 +213,23 @@ void walkRunsReference(const volume::BrickVolume& volume, const VoxelRay& ray, d
             std::min({ray.leaveTime(0, voxel.x), ray.leaveTime(1, voxel.y), ray.leaveTime(2, voxel.z)});
         const volume::BrickVolume::Entry entry = volume.entry(voxel.x >> 3, voxel.y >> 3, voxel.z >> 3);
         double next = leave;
-        if (planesOf(volume, entry) != kNoPlanes) {
+        if (hasPlanes(volume, entry)) {
             const volume::BrickVolume::BoxCoding& coding = volume.coding(entry);
             std::size_t side = 0;
             int bit = 0;
-            for (int axis = 0; axis < 3; ++axis)
-                if (coding.hasCut(axis))
-                    side |= std::size_t{voxel[axis] >= coding.cut[static_cast<std::size_t>(axis)]} << bit++;
             std::uint32_t nextPlane = volume::BrickVolume::kNoPlane;
-            for (const std::uint32_t plane : coding.plane) {
-                if (plane == volume::BrickVolume::kNoPlane) continue;
-                const PlaneCrossing crossing(volume.planes()[plane], ray);
-                side |= std::size_t{crossing.isPositiveAt(t)} << bit++;
-                // A plane may be crossed exactly where the ray leaves the voxel; then it counts as crossed, too.
-                const bool isFirstPlane = nextPlane == volume::BrickVolume::kNoPlane;
-                if (crossing.time > t && (crossing.time < next || (isFirstPlane && crossing.time == next))) {
-                    next = crossing.time;
-                    nextPlane = plane;
-                }
-            }
+            coding.forEachSide(
+                [&](int axis, std::int32_t place) { side |= std::size_t{voxel[axis] >= place} << bit++; },
+                [&](std::uint32_t plane) {
+                    const PlaneCrossing crossing(volume.planes()[plane], ray);
+                    side |= std::size_t{crossing.isPositiveAt(t)} << bit++;
+                    // A plane may be crossed exactly where the ray leaves the voxel; then it counts as crossed, too.
+                    const bool isFirstPlane = nextPlane == volume::BrickVolume::kNoPlane;
+                    if (crossing.time > t && (crossing.time < next || (isFirstPlane && crossing.time == next))) {
+                        next = crossing.time;
+                        nextPlane = plane;
+                    }
+                });
             if (moveTo(volume.sideScalar(coding, side), crossed, false)) return;
             crossed = nextPlane;
         } else {

@@ -123,8 +123,11 @@ void findStep() {
     ivec3 place = ivec3(cuts.x & 0xFFFFu, cuts.x >> 16, cuts.y & 0xFFFFu);
     vec3 times = planeTimes(place);
     if ((axes & 1u) != 0u) meetCut(times.x, place.x, 0, side, bit);
+    else if ((axes & 8u) != 0u) meetPlane(uint(place.x) | (axes >> 6 & 7u) << 16, side, bit);
     if ((axes & 2u) != 0u) meetCut(times.y, place.y, 1, side, bit);
+    else if ((axes & 16u) != 0u) meetPlane(uint(place.y) | (axes >> 9 & 7u) << 16, side, bit);
     if ((axes & 4u) != 0u) meetCut(times.z, place.z, 2, side, bit);
+    else if ((axes & 32u) != 0u) meetPlane(uint(place.z) | (axes >> 12 & 7u) << 16, side, bit);
     meetPlane(oblique.x, side, bit);
     meetPlane(oblique.y, side, bit);
     meetPlane(rest.x, side, bit);

@@ -92,23 +92,9 @@ bool findSideScalars(const BrickPattern& pattern, std::span<const SideMask> side
         found[combination] = pattern.palette[*index];
         known |= std::uint64_t{1} << combination;
     }
-    std::array<std::uint16_t, std::size_t{1} << BrickVolume::kMaxSides> distance{};  // by sides that differ
-    for (std::size_t s = 0; s < sides.size(); ++s) {
-        const std::size_t step = s < cuts ? 1 : std::size_t{1} << (sides.size() - s);
-        for (std::size_t part = 0; part < std::size_t{1} << s; ++part)
-            distance[part | std::size_t{1} << s] = static_cast<std::uint16_t>(distance[part] + step);
-    }
-    const std::uint64_t all = count == 64 ? kAll : (std::uint64_t{1} << count) - 1;
-    for (std::uint64_t unknown = all & ~known; unknown != 0; unknown &= unknown - 1) {
-        const auto combination = static_cast<std::size_t>(std::countr_zero(unknown));
-        std::size_t nearest = count;
-        for (std::uint64_t rest = known; rest != 0; rest &= rest - 1) {
-            const auto other = static_cast<std::size_t>(std::countr_zero(rest));
-            if (nearest == count || distance[other ^ combination] < distance[nearest ^ combination]) nearest = other;
-        }
-        found[combination] = found[nearest];
-    }
-    scalars.assign(found.begin(), found.begin() + std::ptrdiff_t(count));
+    fillUnknown(
+        sides.size(), known, [&](std::size_t s) { return s < cuts ? 1 : std::size_t{1} << (sides.size() - s); },
+        scalars);
     return true;
 }
 

@@ -52,7 +52,10 @@ struct BrickCode {
     std::array<std::uint8_t, 3> cut{};  ///< voxels of the brick below the cut across each axis, 1..7; 0: no cut
     std::array<std::uint32_t, BrickVolume::kMaxPlanes> plane{BrickVolume::kNoPlane, BrickVolume::kNoPlane,
                                                              BrickVolume::kNoPlane};
-    std::vector<Scalar> sideScalars;  ///< by side combination: a bit per cut (x, y, z), then per plane, from the lowest
+    /// Planes across an axis that take the place of its cut, which is 0 then: a code has six sides at most.
+    std::array<std::uint32_t, 3> cutPlane{BrickVolume::kNoPlane, BrickVolume::kNoPlane, BrickVolume::kNoPlane};
+    /// By side combination: a bit per cut or plane in its place (x, y, z), then per plane, from the lowest.
+    std::vector<Scalar> sideScalars;
     friend bool operator==(const BrickCode&, const BrickCode&) = default;
 };
 
@@ -75,6 +78,28 @@ struct BrickSide {
 /// \return the code, with BrickCode::plane left to the caller, or nullopt if there is none
 [[nodiscard]] std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes,
                                                    std::initializer_list<const BrickSide*> planes = {});
+
+/// Labels of side combinations without a sample, which are slivers between the others: that of the nearest one that has
+/// samples. Crossing side s costs `costOf(s)`; of equally near ones the lowest counts.
+/// \param known    bit n: `scalars[n]` is known
+template <class CostOf>
+void fillUnknown(std::size_t sides, std::uint64_t known, const CostOf& costOf, std::vector<Scalar>& scalars) {
+    const std::size_t count = std::size_t{1} << sides;
+    const auto distance = [&](std::size_t differing) {
+        std::size_t sum = 0;
+        for (std::size_t s = 0; s < sides; ++s) sum += ((differing >> s) & 1u) != 0 ? costOf(s) : 0;
+        return sum;
+    };
+    for (std::size_t combination = 0; combination < count; ++combination) {
+        if (((known >> combination) & 1u) != 0) continue;
+        std::size_t nearest = count;
+        for (std::size_t other = 0; other < count; ++other)
+            if (((known >> other) & 1u) != 0 &&
+                (nearest == count || distance(other ^ combination) < distance(nearest ^ combination)))
+                nearest = other;
+        scalars[combination] = scalars[nearest];
+    }
+}
 
 /// The bricks of a tile by place: for each the index of its pattern, or kUniform if it has one label.
 struct TilePlaces {

@@ -70,16 +70,14 @@ Coded expectCodesHold(const BrickVolume& bricks) {
                             const Vec3i at{i, j, k};
                             std::size_t cell = 0;
                             int bit = 0;
-                            for (int axis = 0; axis < 3; ++axis)
-                                if (coding.hasCut(axis))
-                                    cell |= std::size_t{at[axis] >= coding.cut[static_cast<std::size_t>(axis)]}
-                                            << bit++;
-                            for (const std::uint32_t plane : coding.plane) {
-                                if (plane == BrickVolume::kNoPlane) continue;
-                                const BrickPlane& side = bricks.planes()[plane];
-                                const double value = dot(side.normal, Vec3d{i + 0.5, j + 0.5, k + 0.5}) + side.offset;
-                                cell |= std::size_t{value > 0} << bit++;
-                            }
+                            coding.forEachSide(
+                                [&](int axis, std::uint16_t place) { cell |= std::size_t{at[axis] >= place} << bit++; },
+                                [&](std::uint32_t plane) {
+                                    const BrickPlane& side = bricks.planes()[plane];
+                                    const double value =
+                                        dot(side.normal, Vec3d{i + 0.5, j + 0.5, k + 0.5}) + side.offset;
+                                    cell |= std::size_t{value > 0} << bit++;
+                                });
                             EXPECT_EQ(bricks.sideScalar(coding, cell), bricks.scalarAt(i, j, k))
                                 << i << ' ' << j << ' ' << k;
                         }

@@ -526,8 +526,18 @@ private:
     void addCode(const BoxCode& code, const std::vector<std::uint32_t>& planes) {
         BrickVolume::BoxCoding coding;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (code.cut[axis] == BoxCode::kNoCut) continue;
-            coding.cut[axis] = static_cast<std::uint16_t>(code.cut[axis]);
+            std::int32_t cut = code.cut[axis];
+            if (code.cutPlane[axis] != BrickVolume::kNoPlane) {
+                const std::uint32_t number = planes[code.cutPlane[axis]];
+                if (number < BrickVolume::BoxCoding::kMostPlanesInCuts) {
+                    coding.setPlaneInCut(axis, number);
+                    continue;
+                }
+                cut = static_cast<std::int32_t>(
+                    std::lround(-volume_.planes_[number].offset));  // between the same samples
+            }
+            if (cut == BoxCode::kNoCut) continue;
+            coding.cut[axis] = static_cast<std::uint16_t>(cut);
             coding.cutAxes = static_cast<std::uint16_t>(coding.cutAxes | (1u << axis));
         }
         for (std::size_t p = 0; p < BrickVolume::kMaxPlanes; ++p)

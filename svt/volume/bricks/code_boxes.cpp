@@ -49,20 +49,22 @@ private:
             }
             bit <<= 1;
         };
+        const auto addPlane = [&](std::size_t side, std::uint32_t number) {
+            const BrickPlane& plane = planes_[number];
+            const Vec3d n = plane.normal;
+            const double middle = dot(n, Vec3d{low.x + 4.0, low.y + 4.0, low.z + 4.0}) + plane.offset;
+            const double reach = 4 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) + 1e-6;
+            add(side, middle > reach ? 1 : middle < -reach ? -1 : 0);
+        };
         for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (code_.cutPlane[axis] != BrickVolume::kNoPlane) addPlane(axis, code_.cutPlane[axis]);
             const std::int32_t cut = code_.cut[axis];
             if (cut == BoxCode::kNoCut) continue;
             const std::int32_t first = low[static_cast<int>(axis)];
             add(axis, cut <= first ? 1 : cut >= first + 8 ? -1 : 0);
         }
-        for (std::size_t p = 0; p < BrickVolume::kMaxPlanes; ++p) {
-            if (code_.plane[p] == BrickVolume::kNoPlane) continue;
-            const BrickPlane& plane = planes_[code_.plane[p]];
-            const Vec3d n = plane.normal;
-            const double middle = dot(n, Vec3d{low.x + 4.0, low.y + 4.0, low.z + 4.0}) + plane.offset;
-            const double reach = 4 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) + 1e-6;
-            add(3 + p, middle > reach ? 1 : middle < -reach ? -1 : 0);
-        }
+        for (std::size_t p = 0; p < BrickVolume::kMaxPlanes; ++p)
+            if (code_.plane[p] != BrickVolume::kNoPlane) addPlane(3 + p, code_.plane[p]);
         return sides;
     }
 
@@ -81,8 +83,9 @@ private:
         const BrickCode& code = codes_[own];
         const Vec3i low = corner(at);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const int cut = code.cut[axis] == 0 ? 0 : low[static_cast<int>(axis)] + code.cut[axis];
-            if (cut != (sides.cuts[axis] ? code_.cut[axis] : 0)) return false;
+            const int cut = code.cut[axis] == 0 ? BoxCode::kNoCut : low[static_cast<int>(axis)] + code.cut[axis];
+            if (cut != (sides.cuts[axis] ? code_.cut[axis] : BoxCode::kNoCut)) return false;
+            if (code.cutPlane[axis] != (sides.cuts[axis] ? code_.cutPlane[axis] : BrickVolume::kNoPlane)) return false;
         }
         decltype(code.plane) planes = BrickCode().plane;
         std::size_t count = 0;
@@ -111,6 +114,7 @@ private:
         for (std::size_t axis = 0; axis < 3; ++axis)
             if (own.cut[axis] != 0) code_.cut[axis] = corner(seed)[static_cast<int>(axis)] + own.cut[axis];
         code_.plane = own.plane;
+        code_.cutPlane = own.cutPlane;
         code_.sideScalars = own.sideScalars;
         CodeBox box{seed, seed + Vec3i{1, 1, 1}, numberOfCode()};
         for (int axis = 0; axis < 3; ++axis) {

@@ -15,6 +15,7 @@ struct BoxCode {
     std::array<std::int32_t, 3> cut{kNoCut, kNoCut, kNoCut};
     std::array<std::uint32_t, BrickVolume::kMaxPlanes> plane{BrickVolume::kNoPlane, BrickVolume::kNoPlane,
                                                              BrickVolume::kNoPlane};
+    std::array<std::uint32_t, 3> cutPlane{BrickVolume::kNoPlane, BrickVolume::kNoPlane, BrickVolume::kNoPlane};
     std::vector<Scalar> sideScalars;
     static constexpr std::int32_t kNoCut = -1;
     friend bool operator==(const BoxCode&, const BoxCode&) = default;

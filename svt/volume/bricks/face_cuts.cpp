@@ -25,11 +25,6 @@ struct SideList {
     std::array<Side, BrickVolume::kMaxSides> sides{};
     std::size_t count = 0;
 
-    [[nodiscard]] std::size_t planeCount() const noexcept {
-        std::size_t planes = 0;
-        for (std::size_t s = 0; s < count; ++s) planes += sides[s].isCut() ? 0 : 1;
-        return planes;
-    }
     [[nodiscard]] bool hasCut(int axis) const noexcept {
         return std::any_of(sides.begin(), sides.begin() + std::ptrdiff_t(count),
                            [&](const Side& side) { return side.isCut() && side.axis == axis; });
@@ -43,40 +38,59 @@ struct SideList {
         while (s < count && sides[s].plane != plane) ++s;
         return s;
     }
-    bool addPlane(std::uint32_t plane) noexcept {
-        if (hasPlane(plane)) return true;
-        if (planeCount() == BrickVolume::kMaxPlanes) return false;
-        sides[count++] = {-1, 0, plane};
-        return true;
-    }
 };
 
 SideList sidesOf(const BrickCode& code) noexcept {
     SideList list;
-    for (int axis = 0; axis < 3; ++axis)
-        if (const std::uint8_t cut = code.cut[static_cast<std::size_t>(axis)]; cut != 0)
-            list.sides[list.count++] = {axis, cut, kNone};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (code.cut[axis] != 0) list.sides[list.count++] = {static_cast<int>(axis), code.cut[axis], kNone};
+        if (code.cutPlane[axis] != BrickVolume::kNoPlane) list.sides[list.count++] = {-1, 0, code.cutPlane[axis]};
+    }
     for (const std::uint32_t plane : code.plane)
         if (plane != BrickVolume::kNoPlane) list.sides[list.count++] = {-1, 0, plane};
     return list;
 }
 
+// The axis that a plane is exactly across; -1: none.
+int axisOf(const BrickPlane& plane) noexcept {
+    for (int axis = 0; axis < 3; ++axis)
+        if (plane.normal[axis] == 1) return axis;
+    return -1;
+}
+
+// The place of each side in a code: 0 to 2 that of the cut across an axis, which one plane across it may take, then
+// those of planes; nullopt if there are too many.
+using Places = std::array<std::size_t, BrickVolume::kMaxSides>;
+std::optional<Places> placesOf(const SideList& list, const std::vector<BrickPlane>& planes) noexcept {
+    Places places{};
+    std::array<bool, BrickVolume::kMaxSides> isTaken{};
+    for (std::size_t s = 0; s < list.count; ++s)
+        if (list.sides[s].isCut()) isTaken[places[s] = static_cast<std::size_t>(list.sides[s].axis)] = true;
+    for (std::size_t s = 0; s < list.count; ++s) {
+        if (list.sides[s].isCut()) continue;
+        const int axis = axisOf(planes[list.sides[s].plane]);
+        std::size_t place = axis < 0 ? 3 : static_cast<std::size_t>(axis);
+        if (isTaken[place]) place = 3;
+        while (place < isTaken.size() && isTaken[place]) ++place;
+        if (place == isTaken.size()) return std::nullopt;
+        isTaken[places[s] = place] = true;
+    }
+    return places;
+}
+
 // The code of sides in any order: `scalars` by combination in the order of `list`.
-BrickCode codeOf(const SideList& list, const std::vector<Scalar>& scalars) {
+BrickCode codeOf(const SideList& list, const Places& places, const std::vector<Scalar>& scalars) {
     BrickCode code;
     std::array<std::size_t, BrickVolume::kMaxSides> order{};
     for (std::size_t s = 0; s < list.count; ++s) order[s] = s;
-    std::stable_sort(order.begin(), order.begin() + std::ptrdiff_t(list.count), [&](std::size_t a, std::size_t b) {
-        const auto key = [&](std::size_t s) { return list.sides[s].isCut() ? list.sides[s].axis : 3; };
-        return key(a) < key(b);
-    });
-    std::size_t planes = 0;
+    std::sort(order.begin(), order.begin() + std::ptrdiff_t(list.count),
+              [&](std::size_t a, std::size_t b) { return places[a] < places[b]; });
     for (std::size_t s = 0; s < list.count; ++s) {
-        const SideList::Side& side = list.sides[order[s]];
+        const SideList::Side& side = list.sides[s];
         if (side.isCut())
-            code.cut[static_cast<std::size_t>(side.axis)] = side.cut;
+            code.cut[places[s]] = side.cut;
         else
-            code.plane[planes++] = side.plane;
+            (places[s] < 3 ? code.cutPlane[places[s]] : code.plane[places[s] - 3]) = side.plane;
     }
     code.sideScalars.resize(std::size_t{1} << list.count);
     for (std::size_t part = 0; part < code.sideScalars.size(); ++part) {
@@ -118,10 +132,16 @@ struct Around {
 class CutMover {
 public:
     CutMover(const TilePlaces& places, const std::vector<BrickPattern>& patterns, const FaceBorders& faces,
-             const ColumnVolume& columns, TileBrickCodes& tile)
-        : places_(places), patterns_(patterns), faces_(faces), columns_(columns), tile_(tile) {}
+             std::span<const FacePlane> planes, const ColumnVolume& columns, TileBrickCodes& tile)
+        : places_(places), patterns_(patterns), faces_(faces), columns_(columns), tile_(tile) {
+        for (const FacePlane& face : planes) {
+            const Vec3d n = face.plane.normal;
+            if (std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)}) < 1 - 1e-6) oblique_.push_back(face);
+        }
+    }
 
     void run() {
+        forEachPlace([&](Vec3i at) { codeByBorders(at); });
         forEachPlace([&](Vec3i at) { replaceCuts(at); });
         forEachPlace([&](Vec3i at) { takeFacesAtSides(at); });
     }
@@ -184,17 +204,90 @@ private:
         if (!isAny) return;
         const auto [known, isNew] = replaced_.try_emplace({index, becomes}, kNone);
         if (isNew) {
-            std::size_t room = BrickVolume::kMaxPlanes - list.planeCount();
-            for (std::size_t s = 0; s < list.count; ++s) {
-                if (becomes[s] == kNone || list.hasPlane(becomes[s])) continue;
-                if (list.sides[s].isCut() && room-- == 0) break;
-                list.sides[s] = {-1, 0, becomes[s]};
+            for (std::size_t n = 0; n < list.count; ++n) {
+                if (becomes[n] == kNone || list.hasPlane(becomes[n])) continue;
+                const SideList before = list;
+                list.sides[n] = {-1, 0, becomes[n]};
+                if (!placesOf(list, tile_.planes)) list = before;
             }
             known->second = static_cast<std::uint32_t>(tile_.codes.size());
             const std::vector<Scalar> scalars = tile_.codes[index].sideScalars;
-            tile_.codes.push_back(codeOf(list, scalars));
+            tile_.codes.push_back(codeOf(list, *placesOf(list, tile_.planes), scalars));
         }
         index = known->second;
+    }
+
+    // A brick without a code, whose labels change at few places: by all of them. Where faces are oblique, these places are
+    // steps, and voxels look better.
+    void codeByBorders(Vec3i at) {
+        const std::size_t number = place(at);
+        if (tile_.codeIndex[number] != kNone || places_.patternOf[number] == TilePlaces::kUniform) return;
+        if (isBesideOblique(at)) return;
+        const Changes changes = findChanges(patterns_[places_.patternOf[number]]);
+        SideList list;
+        for (int axis = 0; axis < 3; ++axis) {
+            bool isFirst = true;
+            for (std::uint32_t borders = bordersOf(changes[static_cast<std::size_t>(axis)], axis); borders != 0;
+                 borders &= borders - 1) {
+                if (list.count == list.sides.size()) return;
+                const int border = std::countr_zero(borders) + 1;
+                BrickPlane plane;
+                plane.normal[axis] = 1;
+                plane.offset = -(corner(at)[axis] + border);
+                SideList::Side& side = list.sides[list.count++];
+                if (isFirst)
+                    side = {axis, static_cast<std::uint8_t>(border), kNone};
+                else
+                    side = {-1, 0, numberOf(plane)};
+                isFirst = false;
+            }
+        }
+        const auto places = placesOf(list, tile_.planes);
+        if (!places) return;
+        // Cells between borders have one label.
+        std::vector<Scalar> scalars(std::size_t{1} << list.count);
+        std::uint64_t known = 0;
+        for (std::int32_t n = 0; n < 512; ++n) {
+            const Vec3i p{n & 7, n >> 3 & 7, n >> 6};
+            std::size_t combination = 0;
+            for (std::size_t s = 0; s < list.count; ++s) {
+                const SideList::Side& side = list.sides[s];
+                const int axis = side.isCut() ? side.axis : axisOf(tile_.planes[side.plane]);
+                const double border = side.isCut() ? side.cut : -tile_.planes[side.plane].offset - corner(at)[axis];
+                if (p[axis] >= border) combination |= std::size_t{1} << s;
+            }
+            scalars[combination] = scalarAt(corner(at) + p);
+            known |= std::uint64_t{1} << combination;
+        }
+        fillUnknown(
+            list.count, known, [](std::size_t) { return std::size_t{1}; }, scalars);
+        tile_.codeIndex[number] = static_cast<std::uint32_t>(tile_.codes.size());
+        tile_.codes.push_back(codeOf(list, *places, scalars));
+    }
+
+    // Whether faces that are across no axis reach to the brick.
+    [[nodiscard]] bool isBesideOblique(Vec3i at) const noexcept {
+        const Vec3i low = corner(at);
+        return std::any_of(oblique_.begin(), oblique_.end(), [&](const FacePlane& face) {
+            for (int axis = 0; axis < 3; ++axis) {
+                const auto a = static_cast<std::size_t>(axis);
+                if (face.min[a] > low[axis] + 8 || face.max[a] < low[axis]) return false;
+            }
+            const Vec3d n = face.plane.normal;
+            const double middle = dot(n, toDouble(low) + Vec3d{4, 4, 4}) + face.plane.offset;
+            return std::abs(middle) <= 5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+        });
+    }
+
+    // Places along an axis where labels change: bit p between the voxels at p and p + 1.
+    static std::uint32_t bordersOf(const SideMask& changes, int axis) noexcept {
+        std::uint32_t found = 0;
+        for (std::uint32_t k = 0; k < 8; ++k)
+            for (std::uint64_t bits = changes[k]; bits != 0; bits &= bits - 1) {
+                const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits));
+                found |= 1u << (axis == 0 ? bit % 8 : axis == 1 ? bit / 8 : k);
+            }
+        return found;
     }
 
     // Faces in the half voxel at the sides of a brick, whose samples are those of the bricks beside it.
@@ -296,17 +389,20 @@ private:
         nearMask_ = insideBits_ = 0;
         for (const SideFace& face : faces) {
             const std::uint32_t plane = numberOf(face.plane);
-            if (!list.addPlane(plane)) return false;
+            if (!addPlane(list, plane)) return false;
             const std::size_t bit = std::size_t{1} << list.find(plane);
             nearMask_ |= bit;
             if (!face.isUpper) insideBits_ |= bit;
         }
         if (!findScalars(at, list)) {
-            if (!addMissingSides(at, list) || !findScalars(at, list)) return false;
+            if (!addMissingSides(at, list)) return false;
+            if (!findScalars(at, list)) return false;
         }
         dropNeedless(list);
         if (list.count == 0) return true;
-        BrickCode code = codeOf(list, scalars_);
+        const auto places = placesOf(list, tile_.planes);
+        if (!places) return false;
+        BrickCode code = codeOf(list, *places, scalars_);
         if (own != kNone && code == tile_.codes[own]) return true;
         const auto end = tile_.codes.rbegin() + std::min<std::ptrdiff_t>(32, std::ssize(tile_.codes));
         const auto same = std::find(tile_.codes.rbegin(), end, code);
@@ -317,6 +413,16 @@ private:
         tile_.codeIndex[place(at)] = static_cast<std::uint32_t>(tile_.codes.size());
         tile_.codes.push_back(std::move(code));
         return true;
+    }
+
+    // Adds a plane to sides; false if there is no place for it.
+    bool addPlane(SideList& list, std::uint32_t plane) const noexcept {
+        if (list.hasPlane(plane)) return true;
+        if (list.count == list.sides.size()) return false;
+        list.sides[list.count++] = {-1, 0, plane};
+        if (placesOf(list, tile_.planes)) return true;
+        --list.count;
+        return false;
     }
 
     // The side combination of each sample beside the brick.
@@ -380,22 +486,9 @@ private:
             }
         });
         if (!isValid) return false;
-        const auto distance = [&](std::size_t differing) {
-            std::size_t sum = 0;
-            for (std::size_t s = 0; s < list.count; ++s)
-                if (((differing >> s) & 1u) != 0)
-                    sum += isAcross(list.sides[s]) ? 1 : std::size_t{8} << (list.count - s);
-            return sum;
-        };
-        for (std::size_t combination = 0; combination < count; ++combination) {
-            if (((known >> combination) & 1u) != 0) continue;
-            std::size_t nearest = count;
-            for (std::size_t other = 0; other < count; ++other)
-                if (((known >> other) & 1u) != 0 &&
-                    (nearest == count || distance(other ^ combination) < distance(nearest ^ combination)))
-                    nearest = other;
-            scalars_[combination] = scalars_[nearest];
-        }
+        fillUnknown(
+            list.count, known,
+            [&](std::size_t n) { return isAcross(list.sides[n]) ? 1 : std::size_t{8} << (list.count - n); }, scalars_);
         return true;
     }
     [[nodiscard]] bool isAcross(const SideList::Side& side) const noexcept {
@@ -420,9 +513,11 @@ private:
                 const auto border = std::countr_zero(borders);
                 if (border < 1 || border > 7) return false;
                 const std::uint32_t face = faceAt(axis, corner(at)[axis] + border, at);
-                if (face != kNone && list.addPlane(face)) continue;
-                if (list.hasCut(axis) || list.count == list.sides.size()) return false;
+                if (face != kNone && addPlane(list, face)) continue;
+                if (list.hasCut(axis)) return false;
+                if (list.count == list.sides.size()) return false;
                 list.sides[list.count++] = {axis, static_cast<std::uint8_t>(border), kNone};
+                if (!placesOf(list, tile_.planes)) return false;
             }
         }
         return true;
@@ -449,6 +544,7 @@ private:
     const TilePlaces& places_;
     const std::vector<BrickPattern>& patterns_;
     const FaceBorders& faces_;
+    std::vector<FacePlane> oblique_;  // across no axis
     const ColumnVolume& columns_;
     TileBrickCodes& tile_;
     std::map<std::pair<std::uint32_t, std::array<std::uint32_t, BrickVolume::kMaxSides>>, std::uint32_t> replaced_;
@@ -463,7 +559,7 @@ private:
 void moveCutsToFaces(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
                      std::span<const FacePlane> faces, const ColumnVolume& columns, TileBrickCodes& tile) {
     const FaceBorders byBorder(places.origin, places.count * 8, faces);
-    if (!byBorder.isEmpty()) CutMover(places, patterns, byBorder, columns, tile).run();
+    if (!byBorder.isEmpty()) CutMover(places, patterns, byBorder, faces, columns, tile).run();
 }
 
 }  // namespace svt::volume

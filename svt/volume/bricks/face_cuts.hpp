@@ -28,7 +28,8 @@ struct TileBrickCodes {
 };
 
 /// Replaces cuts of `tile` by planes of `faces` across (nearly) an axis, and codes uniform bricks that they cross. All samples
-/// keep their labels. A brick has three planes at most; cuts that find no room stay.
+/// keep their labels. A brick has three planes and one across each axis at most; cuts that find no room stay. Bricks
+/// without a code, where no face is oblique, are coded first by all places where labels change, six at most.
 /// Cost: O(bricks), and about 2 us for each brick that a face crosses in the half voxel at its side.
 void moveCutsToFaces(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
                      std::span<const FacePlane> faces, const ColumnVolume& columns, TileBrickCodes& tile);

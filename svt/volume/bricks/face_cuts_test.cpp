@@ -65,13 +65,11 @@ Scalar scalarAt(const BrickVolume& bricks, Vec3d p) {
     const auto& coding = bricks.coding(entry);
     std::size_t side = 0;
     int bit = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        if (coding.hasCut(axis)) side |= std::size_t{p[axis] > coding.cut[static_cast<std::size_t>(axis)]} << bit++;
-    for (const std::uint32_t number : coding.plane) {
-        if (number == BrickVolume::kNoPlane) continue;
-        const BrickPlane& plane = bricks.planes()[number];
-        side |= std::size_t{dot(plane.normal, p) + plane.offset > 0} << bit++;
-    }
+    coding.forEachSide([&](int axis, std::uint16_t place) { side |= std::size_t{p[axis] > place} << bit++; },
+                       [&](std::uint32_t number) {
+                           const BrickPlane& plane = bricks.planes()[number];
+                           side |= std::size_t{dot(plane.normal, p) + plane.offset > 0} << bit++;
+                       });
     return bricks.sideScalar(coding, side);
 }
 
@@ -142,6 +140,55 @@ TEST(FaceCuts, RoomsAndWallsMeetOnTheirFaces) {
         after += wrongShare(boxes, *BrickVolume::fromColumns(columns, {.planes = faces}), n, dice);
     }
     EXPECT_LT(after, 0.03 * before) << before;
+}
+
+// At a corner of a shell of four voxels six faces meet in a brick: three planes take the places of cuts.
+TEST(FaceCuts, AThinShellKeepsItsFacesInCorners) {
+    const Vec3i n{100, 90, 50};
+    Dice dice(5);
+    std::size_t inCuts = 0;
+    for (int trial = 0; trial < 20; ++trial) {
+        const double w = dice.next(3, 4.5);
+        // Corners in the middle of bricks.
+        const Vec3d low{9.5 + dice.next(0, 1), 17.5 + dice.next(0, 1), 9.5 + dice.next(0, 1)},
+            high{78.5 - dice.next(0, 1), 70.5 - dice.next(0, 1), 38.5 - dice.next(0, 1)};
+        const std::vector<LabelledBox> boxes{{low, high, 1}, {low + Vec3d{w, w, w}, high - Vec3d{w, w, w}, 2}};
+        const ColumnVolume columns = columnsOf(boxes, n);
+        const auto faces = facesOf(boxes, n);
+        const auto bricks = *BrickVolume::fromColumns(columns, {.planes = faces});
+        EXPECT_LT(wrongShare(boxes, bricks, n, dice), 1e-4) << trial;
+        for (const auto& code : bricks.arrays().codes)
+            for (int axis = 0; axis < 3; ++axis) {
+                const std::uint32_t plane = code.planeInCut(axis);
+                if (plane == BrickVolume::kNoPlane) continue;
+                ++inCuts;
+                EXPECT_EQ(bricks.planes()[plane].normal[axis], 1);
+                EXPECT_FALSE(code.hasCut(axis));
+            }
+        for (int k = 0; k < n.z; ++k)
+            for (int j = 0; j < n.y; ++j)
+                for (int i = 0; i < n.x; ++i) ASSERT_EQ(bricks.scalarAt(i, j, k), columns.scalarAt(i, j, k));
+    }
+    EXPECT_GT(inCuts, 100u);
+}
+
+TEST(BoxCoding, KeepsNumbersOfPlanesInCuts) {
+    BrickVolume::BoxCoding code;
+    code.cut[1] = 77;
+    code.cutAxes = 2;
+    code.setPlaneInCut(0, 0);
+    code.setPlaneInCut(2, BrickVolume::BoxCoding::kMostPlanesInCuts - 1);
+    EXPECT_EQ(code.planeInCut(0), 0u);
+    EXPECT_EQ(code.planeInCut(1), BrickVolume::kNoPlane);
+    EXPECT_EQ(code.planeInCut(2), BrickVolume::BoxCoding::kMostPlanesInCuts - 1);
+    std::vector<std::uint32_t> sides;
+    code.plane[0] = 9;
+    code.forEachSide(
+        [&](int axis, std::uint16_t place) {
+            sides.insert(sides.end(), {std::uint32_t(axis), place});
+        },
+        [&](std::uint32_t number) { sides.push_back(number); });
+    EXPECT_EQ(sides, (std::vector<std::uint32_t>{0, 1, 77, BrickVolume::BoxCoding::kMostPlanesInCuts - 1, 9}));
 }
 
 TEST(FaceBorders, AreFoundByTheirBorderAndNotBeyondTheirFaces) {

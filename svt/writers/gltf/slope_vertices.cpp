@@ -24,24 +24,21 @@ bool isInside(Vec3i voxel, Vec3i dimension) {
 
 // Sides of a code's cuts and planes on which a voxel lies; see BrickVolume::BoxCoding::firstSideScalar.
 struct Sides {
-    std::uint32_t bits = 0;
-    std::uint32_t cutBits = 0;  // number of bits that belong to cuts
+    std::uint32_t bits = 0, planeBits = 0;                      // the latter are of planes
+    std::array<std::uint32_t, BrickVolume::kMaxSides> plane{};  // by bit, where it is of a plane
 };
 
 Sides sidesOf(const BrickVolume& bricks, const BrickVolume::BoxCoding& code, Vec3i voxel) {
     Sides sides;
-    for (int axis = 0; axis < 3; ++axis)
-        if (code.hasCut(axis)) {
-            const bool isBeyond = voxel[axis] >= code.cut[static_cast<std::size_t>(axis)];
-            sides.bits |= (isBeyond ? 1u : 0u) << sides.cutBits++;
-        }
-    std::uint32_t bit = sides.cutBits;
-    for (const std::uint32_t number : code.plane) {
-        if (number == BrickVolume::kNoPlane) continue;
-        const BrickPlane& plane = bricks.planes()[number];
-        const Vec3d center{voxel.x + 0.5, voxel.y + 0.5, voxel.z + 0.5};
-        sides.bits |= (dot(plane.normal, center) + plane.offset > 0 ? 1u : 0u) << bit++;
-    }
+    std::uint32_t bit = 0;
+    code.forEachSide([&](int axis, std::uint16_t place) { sides.bits |= (voxel[axis] >= place ? 1u : 0u) << bit++; },
+                     [&](std::uint32_t number) {
+                         const BrickPlane& plane = bricks.planes()[number];
+                         const Vec3d center{voxel.x + 0.5, voxel.y + 0.5, voxel.z + 0.5};
+                         sides.plane[bit] = number;
+                         sides.planeBits |= 1u << bit;
+                         sides.bits |= (dot(plane.normal, center) + plane.offset > 0 ? 1u : 0u) << bit++;
+                     });
     return sides;
 }
 
@@ -88,12 +85,10 @@ std::uint32_t SlopeVertices::separatingPlane(Vec3i a, Vec3i b) const {
         const BrickVolume::BoxCoding& code = bricks_.coding(entry);
         const Sides sidesA = sidesOf(bricks_, code, a), sidesB = sidesOf(bricks_, code, b);
         const std::uint32_t differing = sidesA.bits ^ sidesB.bits;
-        if (std::popcount(differing) != 1 || (differing >> sidesA.cutBits) == 0) continue;
+        if (std::popcount(differing) != 1 || (differing & sidesA.planeBits) == 0) continue;
         if (bricks_.sideScalar(code, sidesA.bits) != scalarA || bricks_.sideScalar(code, sidesB.bits) != scalarB)
             continue;
-        std::uint32_t bit = sidesA.cutBits;
-        for (const std::uint32_t number : code.plane)
-            if (number != BrickVolume::kNoPlane && differing == 1u << bit++) return number;
+        return sidesA.plane[static_cast<std::size_t>(std::countr_zero(differing))];
     }
     return BrickVolume::kNoPlane;
 }
