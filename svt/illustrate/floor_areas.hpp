@@ -10,6 +10,7 @@
 
 #include <svt/core/result.hpp>
 #include <svt/illustrate/sheet_views.hpp>
+#include <svt/volume/brick_volume.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
 #include <cstddef>
@@ -65,9 +66,11 @@ struct FloorAreas {
 /// is at most 0.3 m above its floor. Storeys and units are no rooms.
 /// \param levels   of findLevels()
 /// \param threads  0: all cores; the result does not depend on it
+/// \param bricks   of the volume, if the caller has them; objects with open shells need them
 /// \return the areas, or an error of drawSection()
 /// Cost: O(triangles), and a section for each level.
 [[nodiscard]] Result<FloorAreas> measureFloorAreas(const volume::SemanticVolume& volume,
-                                                   const std::vector<BuildingLevel>& levels, int threads = 0);
+                                                   const std::vector<BuildingLevel>& levels, int threads = 0,
+                                                   const volume::BrickVolume* bricks = nullptr);
 
 }  // namespace svt::illustrate

@@ -7,12 +7,14 @@
 
 #include <svt/core/file.hpp>
 #include <svt/illustrate/sheet_set.hpp>
+#include <svt/volume/brick_volume.hpp>
 #include <svt/writers/dxf_drawing.hpp>
 #include <svt/writers/sheet_geopackage.hpp>
 #include <svt/writers/sheet_writer.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <system_error>
 
@@ -75,6 +77,7 @@ Result<writers::SheetContent> drawViews(illustrate::SheetSet& set, const SheetsA
     content.levels = std::move(chosen->levels);
     std::vector<std::string> nothing;
     std::vector<int> groups;  // by view
+    std::optional<volume::BrickVolume> bricks;
     for (const illustrate::SetSheet& sheet : set.sheets) {
         groups.insert(groups.end(), sheet.views.size(), static_cast<int>(content.groups.size()));
         content.groups.push_back({sheet.title, sheet.scale});
@@ -87,12 +90,21 @@ Result<writers::SheetContent> drawViews(illustrate::SheetSet& set, const SheetsA
         options.beyond = view.beyond;
         options.dimensions = view.kind == illustrate::ViewKind::Plan && set.dimensions;
         if (content.views.empty()) options.nothing = &nothing;
-        auto drawing = illustrate::drawSection(volume, view.plane, options);
+        auto drawing = bricks ? illustrate::drawSection(volume, *bricks, view.plane, options)
+                              : illustrate::drawSection(volume, view.plane, options);
         if (!drawing) return drawing.error();
+        // Where one view needs bricks, so do the others: they are made once more and kept.
+        if (!bricks && std::ranges::any_of(drawing->components, [](const auto& c) { return !c.isExact; })) {
+            auto made = volume::BrickVolume::fromColumns(volume.columns,
+                                                         {.planes = volume.planes, .threads = arguments.build.threads});
+            if (!made) return made.error();
+            bricks = std::move(*made);
+        }
         content.views.push_back({std::move(view), std::move(*drawing), groups[content.views.size()]});
     }
     if (set.tables) {
-        const auto areas = illustrate::measureFloorAreas(volume, content.levels, arguments.build.threads);
+        const auto areas =
+            illustrate::measureFloorAreas(volume, content.levels, arguments.build.threads, bricks ? &*bricks : nullptr);
         if (!areas) return areas.error();
         content.tables = writers::makeAreaTables(*areas, content.levels, languageOf(set.language));
     }

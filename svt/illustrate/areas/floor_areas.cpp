@@ -104,8 +104,9 @@ bool hasClosedMesh(volume::Filling filling) noexcept {
 
 class AreaMaker {
 public:
-    AreaMaker(const volume::SemanticVolume& volume, const std::vector<BuildingLevel>& levels, int threads)
-        : volume_(volume), levels_(levels), threads_(threads), meshes_(sumMeshes(volume)) {}
+    AreaMaker(const volume::SemanticVolume& volume, const std::vector<BuildingLevel>& levels, int threads,
+              const volume::BrickVolume* bricks)
+        : volume_(volume), levels_(levels), threads_(threads), bricks_(bricks), meshes_(sumMeshes(volume)) {}
 
     Result<FloorAreas> run() {
         areas_.levels.resize(levels_.size());
@@ -125,7 +126,8 @@ private:
         for (std::size_t n = 0; n < levels_.size(); ++n) {
             const SectionPlane plane{up, volume_.grid.origin() + up * (levels_[n].floor + kBelowSills)};
             if (!meetsGrid(plane, volume_.grid)) continue;
-            const auto drawing = drawSection(volume_, plane, options);
+            const auto drawing = bricks_ != nullptr ? drawSection(volume_, *bricks_, plane, options)
+                                                    : drawSection(volume_, plane, options);
             if (!drawing) return drawing.error();
             for (const SectionComponent& component : drawing->components) {
                 const volume::Label& label = volume_.labels.labels[component.label];
@@ -198,6 +200,7 @@ private:
     const volume::SemanticVolume& volume_;
     const std::vector<BuildingLevel>& levels_;
     int threads_;
+    const volume::BrickVolume* bricks_;
     std::vector<MeshSum> meshes_;              // by label
     std::vector<std::vector<double>> areaAt_;  // by level and label, m2
     FloorAreas areas_;
@@ -242,8 +245,8 @@ LevelArea FloorAreas::total() const noexcept {
 }
 
 Result<FloorAreas> measureFloorAreas(const volume::SemanticVolume& volume, const std::vector<BuildingLevel>& levels,
-                                     int threads) {
-    return AreaMaker(volume, levels, threads).run();
+                                     int threads, const volume::BrickVolume* bricks) {
+    return AreaMaker(volume, levels, threads, bricks).run();
 }
 
 }  // namespace svt::illustrate
