@@ -203,9 +203,7 @@ Result<std::string> City::readBytes(const IndexEntry& entry) const {
     const auto size = store_->size(name);
     if (!size) return size.error();
     if (entry.pack < packSizes_.size() && *size != packSizes_[entry.pack])
-        return badMember(
-            store_->place(name), entry,
-            fmt::format("the pack has {} bytes, and had {} when the city was merged", *size, packSizes_[entry.pack]));
+        return badMember(store_->place(name), entry, "the pack is not as long as when the city was merged");
     if (bytes->size() != entry.size)
         return badMember(store_->place(name), entry, "the pack is missing or ends before it");
     return bytes;

@@ -26,7 +26,10 @@ Survey madeUp(std::uint64_t count) {
                                    static_cast<std::int32_t>(38'000'000 + n % side * 1400),
                                    static_cast<std::int32_t>(581'000'000 + n / side * 1400), file,
                                    static_cast<std::uint32_t>(900 + (state >> 40) % 400)});
-        if (file >= survey.files.size()) survey.files.push_back({"/files/" + std::to_string(file), 1, 25833, 1, 7});
+        if (file >= survey.files.size()) {
+            survey.fileNames.push_back("/files/" + std::to_string(file));
+            survey.files.push_back({survey.fileNames.back(), 1, 25833, 1, 7});
+        }
     }
     return survey;
 }

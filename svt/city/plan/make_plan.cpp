@@ -304,7 +304,7 @@ Result<Plan> planSurveyed(const Survey& survey, const std::filesystem::path& fol
                 Severity::Note, Code::Replica,
                 fmt::format("{} features stand in a file before with the same id and text; they are left out",
                             replicas[f]),
-                {survey.files[f].path, 0, 0, {}});
+                {survey.fileNames[f], 0, 0, {}});
     }
     plan.features = tiling.order().size();
     tiling.cut(plan);

@@ -61,6 +61,7 @@ public:
         }
         tellSkipped();
         survey_.files.push_back(entry_);
+        survey_.fileNames.push_back(path_.string());
         return {};
     }
 

@@ -23,6 +23,7 @@ struct Survey {
     int crs = 0;
     std::string crsName;
     std::vector<PlanFile> files;
+    std::vector<std::string> fileNames;  ///< as they were given
 };
 
 /// Adds the features of a file. The first file with a CRS decides that of the city.
