@@ -56,8 +56,8 @@ struct StoreyHeights {
 /// All storeys with voxels, the lowest first; those of equal height by label.
 [[nodiscard]] std::vector<StoreyHeights> findStoreys(const volume::SemanticVolume& volume);
 
-/// The default plane of a plan: 1.1 m above the floor of the lowest storey; or at half the volume's height, if there is
-/// no storey with voxels, or the volume ends below that.
+/// The default plane of a plan: 1.1 m above the lowest level that findLevels() finds; or at half the volume's height, if
+/// it finds none, or the volume ends below that.
 [[nodiscard]] SectionPlane defaultSectionPlane(const volume::SemanticVolume& volume);
 
 /// The plane of an elevation: upright before the model, 10 mm from its meshes or voxels. It faces `side`, or, in a turned

@@ -334,9 +334,9 @@ void LevelSums::add(const LevelSums& finer) {
         low[to] += finer.low[from];
         top[to] += finer.top[from];
     });
-    for (const auto& [number, area] : finer.areaOf) {
-        std::vector<std::uint64_t>& own = areas(number);
-        eachColumn([&](std::size_t to, std::size_t from) { own[to] += area[from]; });
+    for (const auto& entry : finer.areaOf) {
+        std::vector<std::uint64_t>& own = areas(entry.first);
+        eachColumn([&](std::size_t to, std::size_t from) { own[to] += entry.second[from]; });
     }
 }
 

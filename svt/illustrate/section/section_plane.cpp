@@ -1,4 +1,5 @@
 #include <svt/illustrate/section_plane.hpp>
+#include <svt/illustrate/sheet_views.hpp>
 
 #include <svt/analyze/scalar_boxes.hpp>
 #include <svt/analyze/selection.hpp>
@@ -192,8 +193,8 @@ bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid) {
 SectionPlane defaultSectionPlane(const volume::SemanticVolume& volume) {
     const volume::Grid& grid = volume.grid;
     SectionPlane plane{grid.axes()[2], grid.origin()};
-    if (const auto storeys = findStoreys(volume); !storeys.empty()) {
-        plane.point = grid.origin() + plane.normal * (storeys.front().floor + 1.1);
+    if (const auto levels = findLevels(volume); !levels.empty()) {
+        plane.point = grid.origin() + plane.normal * (levels.front().floor + 1.1);
         if (meetsGrid(plane, grid)) return plane;
     }
     plane.point = grid.origin() + plane.normal * (0.5 * (grid.dimension().z - 1) * grid.spacing().z);

@@ -91,7 +91,7 @@ TEST(SectionPlane, StoreysCountFromTheFloorOfTheirRooms) {
     EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("storey=\"1-OG\"+0.5", volume)), 30 + 2.875 + 0.5);
 }
 
-TEST(SectionPlane, DefaultIsAPlanOfTheLowestStorey) {
+TEST(SectionPlane, DefaultIsAPlanOfTheLowestFloor) {
     auto volume = twoStoreys();
     EXPECT_DOUBLE_EQ(heightOf(defaultSectionPlane(volume)), 30 + 0.375 + 1.1);
     EXPECT_EQ(defaultSectionPlane(volume).normal, (Vec3d{0, 0, 1}));
@@ -105,6 +105,10 @@ TEST(SectionPlane, DefaultIsAPlanOfTheLowestStorey) {
     EXPECT_DOUBLE_EQ(heightOf(defaultSectionPlane(groups)), 30 + 0.375 + 1.1);
     for (volume::Label& label : volume.labels.labels)
         if (label.className == "Storey") label.className = "CityObjectGroup";
+    // Without storeys the floors of rooms tell; without rooms it is the middle.
+    EXPECT_DOUBLE_EQ(heightOf(defaultSectionPlane(volume)), 30 + 0.375 + 1.1);
+    for (volume::Label& label : volume.labels.labels)
+        if (label.className != "Building") label.className = "GenericCityObject";
     EXPECT_DOUBLE_EQ(heightOf(defaultSectionPlane(volume)), 30 + 2.5);
 }
 
