@@ -17,7 +17,8 @@ namespace svt::city {
 
 class Store;
 
-/// Where a tile stands at one level of detail.
+/// Where a tile stands at one level of detail. Of details 2 and up the tile is a square of 1024 * 2^level samples
+/// (tileSide()), and the coarsest detail is one tile that may reach over its square.
 struct IndexEntry {
     TileKey tile;
     int detail = 0;

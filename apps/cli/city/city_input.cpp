@@ -3,6 +3,7 @@
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
 
+#include <svt/city/city_levels.hpp>
 #include <svt/core/parallel.hpp>
 
 #include <fmt/format.h>
@@ -24,6 +25,7 @@ int printCity(const std::filesystem::path& folder, bool json) {
                {"skippedFeatures", city->skippedFeatures()},
                {"bytes", city->packBytes()},
                {"spacing", city->spacing()},
+               {"topDetail", city->topDetail()},
                {"crs", city->crsName()},
                {"box", {toJson(box.min), toJson(box.max)}},
                {"plan", city->planDigest()}});
@@ -33,7 +35,9 @@ int printCity(const std::filesystem::path& folder, bool json) {
                city->buildings(), city->tiles(), city->packs(), double(city->packBytes()) / 1e6,
                double(city->packBytes()) / double(std::max<std::uint64_t>(1, city->buildings())),
                city->skippedFeatures());
-    fmt::print("spacing {:g} m, and {:g} m with one label a building; {}\n", city->spacing(), 2 * city->spacing(),
+    fmt::print("spacing {:g} m, and {:g} m with one label a building; by class {:g} to {:g} m (detail 2 to {}); {}\n",
+               city->spacing(), 2 * city->spacing(), 4 * city->spacing(),
+               city::spacingOf(city->topDetail(), city->spacing()).x, city->topDetail(),
                city->crsName().empty() ? "no CRS" : city->crsName());
     fmt::print("from ({:.1f}, {:.1f}, {:.1f}) to ({:.1f}, {:.1f}, {:.1f})\n", box.min.x, box.min.y, box.min.z,
                box.max.x, box.max.y, box.max.z);

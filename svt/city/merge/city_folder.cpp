@@ -21,6 +21,19 @@
 namespace svt::city {
 namespace {
 
+// The tile that city.json names. \return whether it is one
+bool readTop(const nlohmann::json& json, IndexEntry& top) {
+    const auto& row = json.at("top");
+    top.detail = row.at("detail").get<int>();
+    top.pack = row.at("pack").get<std::uint32_t>();
+    top.offset = row.at("offset").get<std::uint64_t>();
+    top.size = row.at("bytes").get<std::uint64_t>();
+    const auto tile = TileKey::fromString(row.at("tile").get<std::string>(), kMaxLevel);
+    if (!tile || top.detail < kFirstClassDetail || top.detail > kMaxLevel + kFirstClassDetail) return false;
+    top.tile = *tile;
+    return true;
+}
+
 bool meets(const std::array<double, 4>& a, double west, double south, double east, double north) {
     return a[0] <= east && west <= a[2] && a[1] <= north && south <= a[3];
 }
@@ -37,12 +50,17 @@ Error badMember(const std::string& place, const IndexEntry& entry, std::string_v
 }
 
 // Whether the samples of a grid can be those of an entry: they meet its square and have its heights.
-bool isOf(const volume::Grid& grid, const IndexEntry& entry) {
-    const double side = std::ldexp(1.0, entry.tile.level);
+bool isOf(const volume::Grid& grid, const IndexEntry& entry, double spacing, const Box3d& all) {
+    const double side = tileSide(entry.tile, entry.detail, spacing);
     const Vec3d low = grid.origin(), high = low + scaled(toDouble(grid.dimension()), grid.spacing());
-    return low.x <= (entry.tile.x + 1) * side && high.x >= entry.tile.x * side && low.y <= (entry.tile.y + 1) * side &&
-           high.y >= entry.tile.y * side && std::abs(low.z - entry.lowest) <= 2 + grid.spacing().z &&
-           std::abs(high.z - entry.highest) <= 2 + 2 * grid.spacing().z;
+    const double slack = 2 + 2 * grid.spacing().z;
+    if (entry.lowest < entry.highest &&
+        (std::abs(low.z - entry.lowest) > slack || std::abs(high.z - entry.highest) > slack))
+        return false;
+    // The coarsest tile may reach over its square.
+    const double reach = entry.detail < kFirstClassDetail ? 0 : std::max(all.max.x - all.min.x, all.max.y - all.min.y);
+    return low.x <= (entry.tile.x + 1) * side + reach && high.x >= entry.tile.x * side &&
+           low.y <= (entry.tile.y + 1) * side + reach && high.y >= entry.tile.y * side;
 }
 
 }  // namespace
@@ -215,8 +233,8 @@ Result<volume::SemanticVolume> City::read(const IndexEntry& entry) const {
     const std::string place = store_->place(packName(entry.pack));
     auto volume = volume::readSvt(std::as_bytes(std::span(*bytes)), place);
     if (!volume) return badMember(place, entry, volume.error().message());
-    // A pack of another plan has other tiles there.
-    if (!isOf(volume->grid, entry)) return badMember(place, entry, "another tile stands there");
+    // A pack of other content has other tiles there.
+    if (!isOf(volume->grid, entry, spacing_, box_)) return badMember(place, entry, "another tile stands there");
     return volume;
 }
 

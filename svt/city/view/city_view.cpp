@@ -1,5 +1,6 @@
 #include <svt/city/city_view.hpp>
 
+#include <svt/city/city_levels.hpp>
 #include <svt/city/join/join_volumes.hpp>
 #include <svt/core/parallel.hpp>
 
@@ -24,9 +25,8 @@ struct Square {
     double west, south, east, north;
 };
 
-double sideOf(const City& /*city*/, const IndexEntry& entry) { return std::ldexp(1.0, entry.tile.level); }
-int topOf(const City& /*city*/) { return 1; }
-double voxelOf(const City& city, int detail) { return std::ldexp(city.spacing(), detail); }
+double sideOf(const City& city, const IndexEntry& entry) { return tileSide(entry.tile, entry.detail, city.spacing()); }
+double voxelOf(const City& city, int detail) { return spacingOf(detail, city.spacing()).x; }
 
 Square squareOf(const City& city, const IndexEntry& entry) {
     const double side = sideOf(city, entry);
@@ -47,10 +47,9 @@ public:
     Result<ChosenTiles> run() {
         ChosenTiles chosen;
         chosen.pixels = pixels_;
-        auto open = city_.find(topOf(city_), {-kInfinity, -kInfinity, kInfinity, kInfinity});
-        if (!open) return open.error();
-        std::erase_if(*open, [&](const IndexEntry& entry) { return !isNeeded(entry); });
-        for (int detail = topOf(city_); !open->empty(); --detail) {
+        Result<std::vector<IndexEntry>> open(std::vector<IndexEntry>{city_.top()});
+        if (!isNeeded(city_.top())) return chosen;
+        for (int detail = city_.topDetail(); !open->empty(); --detail) {
             std::vector<IndexEntry> fine;
             for (const IndexEntry& entry : *open)
                 if (detail > finest_ && isTooCoarse(entry))
@@ -80,7 +79,13 @@ private:
         std::array<double, 4> around{kInfinity, kInfinity, -kInfinity, -kInfinity};
         std::vector<Square> squares;
         for (const IndexEntry& entry : entries) {
-            const Square& square = squares.emplace_back(squareOf(city_, entry));
+            Square square = squareOf(city_, entry);
+            // The tile that holds all may reach over its square.
+            if (entry.detail == city_.topDetail()) {
+                const Box3d& all = city_.box();
+                square = {all.min.x - 1, all.min.y - 1, all.max.x + 1, all.max.y + 1};
+            }
+            squares.push_back(square);
             around = {std::min(around[0], square.west), std::min(around[1], square.south),
                       std::max(around[2], square.east), std::max(around[3], square.north)};
         }
@@ -109,10 +114,9 @@ private:
     Box3d boxOf(const IndexEntry& entry) const {
         const Square square = squareOf(city_, entry);
         const double around = kOverhang + voxelOf(city_, entry.detail);
-        // The tile that holds all may reach over its square.
         Box3d box{{square.west - around, square.south - around, double(entry.lowest)},
                   {square.east + around, square.north + around, double(entry.highest)}};
-        if (entry.detail == topOf(city_) && entry.detail > 1) box = city_.box();
+        if (entry.detail == city_.topDetail()) box = city_.box();
         return box;
     }
 
@@ -213,7 +217,7 @@ Result<std::vector<volume::SemanticVolume>> readTiles(const City& city, const Ch
             joined.push_back(std::move(parts.front()));
             continue;
         }
-        auto volume = joinVolumes(parts);
+        auto volume = joinVolumes(parts, entries[begin].detail >= kFirstClassDetail);
         if (!volume) return volume.error();
         joined.push_back(std::move(*volume));
     }

@@ -92,6 +92,7 @@ bool findSideScalars(const BrickPattern& pattern, std::span<const SideMask> side
         found[combination] = pattern.palette[*index];
         known |= std::uint64_t{1} << combination;
     }
+    scalars.assign(found.begin(), found.begin() + std::ptrdiff_t(count));
     fillUnknown(
         sides.size(), known, [&](std::size_t s) { return s < cuts ? 1 : std::size_t{1} << (sides.size() - s); },
         scalars);

@@ -31,6 +31,7 @@
 #include <svt/volume/bricks/side_masks.hpp>
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
@@ -85,18 +86,18 @@ struct BrickSide {
 template <class CostOf>
 void fillUnknown(std::size_t sides, std::uint64_t known, const CostOf& costOf, std::vector<Scalar>& scalars) {
     const std::size_t count = std::size_t{1} << sides;
-    const auto distance = [&](std::size_t differing) {
-        std::size_t sum = 0;
-        for (std::size_t s = 0; s < sides; ++s) sum += ((differing >> s) & 1u) != 0 ? costOf(s) : 0;
-        return sum;
-    };
-    for (std::size_t combination = 0; combination < count; ++combination) {
-        if (((known >> combination) & 1u) != 0) continue;
+    std::array<std::size_t, std::size_t{1} << BrickVolume::kMaxSides> distance{};  // by sides that differ
+    for (std::size_t s = 0; s < sides; ++s)
+        for (std::size_t part = 0; part < std::size_t{1} << s; ++part)
+            distance[part | std::size_t{1} << s] = distance[part] + costOf(s);
+    const std::uint64_t all = ~std::uint64_t{0} >> (64 - count);
+    for (std::uint64_t unknown = all & ~known; unknown != 0; unknown &= unknown - 1) {
+        const auto combination = static_cast<std::size_t>(std::countr_zero(unknown));
         std::size_t nearest = count;
-        for (std::size_t other = 0; other < count; ++other)
-            if (((known >> other) & 1u) != 0 &&
-                (nearest == count || distance(other ^ combination) < distance(nearest ^ combination)))
-                nearest = other;
+        for (std::uint64_t rest = known & all; rest != 0; rest &= rest - 1) {
+            const auto other = static_cast<std::size_t>(std::countr_zero(rest));
+            if (nearest == count || distance[other ^ combination] < distance[nearest ^ combination]) nearest = other;
+        }
         scalars[combination] = scalars[nearest];
     }
 }
