@@ -89,16 +89,19 @@ Inflated inflateBytes(std::span<const std::byte> packed, DeflateFormat format, s
 struct GzipStream::State {
     z_stream stream{};
     bool isComplete = true, isDamaged = false;
+
+    State() {
+        if (inflateInit2(&stream, kGzipWindow) != Z_OK) throw std::bad_alloc();
+    }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() { inflateEnd(&stream); }
 };
 
-GzipStream::GzipStream() : state_(std::make_unique<State>()) {
-    if (inflateInit2(&state_->stream, kGzipWindow) != Z_OK) throw std::bad_alloc();
-}
+GzipStream::GzipStream() : state_(std::make_unique<State>()) {}
 GzipStream::GzipStream(GzipStream&&) noexcept = default;
 GzipStream& GzipStream::operator=(GzipStream&&) noexcept = default;
-GzipStream::~GzipStream() {
-    if (state_ != nullptr) inflateEnd(&state_->stream);
-}
+GzipStream::~GzipStream() = default;
 
 InflateStatus GzipStream::append(std::span<const std::byte> packed, std::string& out) {
     constexpr std::size_t kPiece = std::size_t{1} << 18;
