@@ -4,6 +4,7 @@
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 #include <svt/crs/crs_name.hpp>
+#include <svt/writers/sheets/geopackage_tables.hpp>
 #include <svt/writers/sheets/sqlite_database.hpp>
 #include <svt/writers/tables/csv_text.hpp>
 
@@ -96,28 +97,14 @@ private:
     std::string head_;
 };
 
-// Tables that the standard asks for (OGC 12-128r19).
-constexpr const char* kPackageTables = R"(
-PRAGMA application_id=0x47504B47; PRAGMA user_version=10300;
-CREATE TABLE gpkg_spatial_ref_sys(srs_name TEXT NOT NULL,srs_id INTEGER NOT NULL PRIMARY KEY,organization TEXT NOT NULL,
- organization_coordsys_id INTEGER NOT NULL,definition TEXT NOT NULL,description TEXT);
-CREATE TABLE gpkg_contents(table_name TEXT NOT NULL PRIMARY KEY,data_type TEXT NOT NULL,identifier TEXT UNIQUE,
- description TEXT DEFAULT '',last_change DATETIME NOT NULL,min_x DOUBLE,min_y DOUBLE,max_x DOUBLE,max_y DOUBLE,srs_id INTEGER,
- CONSTRAINT fk_gc_r_srs_id FOREIGN KEY(srs_id) REFERENCES gpkg_spatial_ref_sys(srs_id));
-CREATE TABLE gpkg_geometry_columns(table_name TEXT NOT NULL,column_name TEXT NOT NULL,geometry_type_name TEXT NOT NULL,
- srs_id INTEGER NOT NULL,z TINYINT NOT NULL,m TINYINT NOT NULL,CONSTRAINT pk_geom_cols PRIMARY KEY(table_name,column_name),
- CONSTRAINT uk_gc_table_name UNIQUE(table_name),
- CONSTRAINT fk_gc_tn FOREIGN KEY(table_name) REFERENCES gpkg_contents(table_name),
- CONSTRAINT fk_gc_srs FOREIGN KEY(srs_id) REFERENCES gpkg_spatial_ref_sys(srs_id));
-)";
-
 class PackageLayer : public FeatureLayer {
 public:
     PackageLayer(std::filesystem::path path, std::unique_ptr<SqliteDatabase> database,
                  const std::vector<FeatureColumn>& columns, const std::string& crsName)
         : path_(std::move(path)), database_(std::move(database)) {
-        database_->run(std::string("BEGIN;") + kPackageTables);
-        addReferences(crsName);
+        database_->run(std::string("BEGIN;") + kGeoPackageTables);
+        if (const std::uint32_t epsg = crs::epsgCodeOf(crsName); epsg != 0) reference_ = epsg;
+        addReferenceSystems(*database_, reference_, crsName);
         std::string table = "CREATE TABLE features(fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,geom POLYGON";
         for (const FeatureColumn& column : columns) {
             std::string quoted;
@@ -162,23 +149,6 @@ public:
     }
 
 private:
-    void addReferences(const std::string& crsName) {
-        const auto add = [&](const std::string& name, std::int64_t number, const std::string& organization,
-                             const std::string& definition) {
-            database_->insert("gpkg_spatial_ref_sys", {name, number, organization, number, definition, SqliteValue{}});
-        };
-        if (const std::uint32_t epsg = crs::epsgCodeOf(crsName); epsg != 0) reference_ = epsg;
-        add("Undefined Cartesian SRS", -1, "NONE", "undefined");
-        add("Undefined geographic SRS", 0, "NONE", "undefined");
-        add("WGS 84 geodetic", 4326, "EPSG",
-            "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS "
-            "84\",6378137,298.257223563,AUTHORITY[\"EPSG\",\"7030\"]],"
-            "AUTHORITY[\"EPSG\",\"6326\"]],PRIMEM[\"Greenwich\",0,AUTHORITY[\"EPSG\",\"8901\"]],UNIT[\"degree\","
-            "0.0174532925199433,AUTHORITY[\"EPSG\",\"9122\"]],AUTHORITY[\"EPSG\",\"4326\"]]");
-        // Readers take the definition from their own register, by the code.
-        if (reference_ > 0 && reference_ != 4326) add(crsName, reference_, "EPSG", "undefined");
-    }
-
     // A header with the extent, then well-known binary, all little-endian.
     std::vector<std::byte> blobOf(Ring outline) {
         std::array<double, 4> box{1e300, 1e300, -1e300, -1e300};

@@ -1,6 +1,7 @@
 #include <svt/writers/sheet_geopackage.hpp>
 
 #include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/sheets/geopackage_tables.hpp>
 #include <svt/writers/sheets/sqlite_database.hpp>
 
 #include <fmt/format.h>
@@ -17,19 +18,7 @@ namespace {
 using illustrate::PlanePoint;
 using PackageLine = std::vector<PlanePoint>;
 
-// Tables that the standard asks for.
-constexpr const char* kPackageTables = R"(
-PRAGMA application_id=0x47504B47; PRAGMA user_version=10300;
-CREATE TABLE gpkg_spatial_ref_sys(srs_name TEXT NOT NULL,srs_id INTEGER NOT NULL PRIMARY KEY,organization TEXT NOT NULL,
- organization_coordsys_id INTEGER NOT NULL,definition TEXT NOT NULL,description TEXT);
-CREATE TABLE gpkg_contents(table_name TEXT NOT NULL PRIMARY KEY,data_type TEXT NOT NULL,identifier TEXT UNIQUE,
- description TEXT DEFAULT '',last_change DATETIME NOT NULL,min_x DOUBLE,min_y DOUBLE,max_x DOUBLE,max_y DOUBLE,srs_id INTEGER,
- CONSTRAINT fk_gc_r_srs_id FOREIGN KEY(srs_id) REFERENCES gpkg_spatial_ref_sys(srs_id));
-CREATE TABLE gpkg_geometry_columns(table_name TEXT NOT NULL,column_name TEXT NOT NULL,geometry_type_name TEXT NOT NULL,
- srs_id INTEGER NOT NULL,z TINYINT NOT NULL,m TINYINT NOT NULL,CONSTRAINT pk_geom_cols PRIMARY KEY(table_name,column_name),
- CONSTRAINT uk_gc_table_name UNIQUE(table_name),
- CONSTRAINT fk_gc_tn FOREIGN KEY(table_name) REFERENCES gpkg_contents(table_name),
- CONSTRAINT fk_gc_srs FOREIGN KEY(srs_id) REFERENCES gpkg_spatial_ref_sys(srs_id));
+constexpr const char* kViewTable = R"(
 CREATE TABLE views(fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,name TEXT,kind TEXT,height DOUBLE,origin TEXT,u TEXT,v TEXT,
  normal TEXT);
 )";
@@ -104,8 +93,8 @@ public:
     }
 
     void write() {
-        database_.run(std::string("BEGIN;") + kPackageTables);
-        addReferences();
+        database_.run(std::string("BEGIN;") + kGeoPackageTables + kViewTable);
+        addReferenceSystems(database_, reference_, volume_.crsName);
         for (const char* const table : {"plan_polygons", "upright_polygons"})
             database_.run(std::string("CREATE TABLE ") + table + kPolygonColumns);
         for (const char* const table : {"plan_lines", "upright_lines"})
@@ -116,22 +105,6 @@ public:
     }
 
 private:
-    void addReferences() {
-        const auto add = [&](const std::string& name, std::int64_t number, const std::string& organization,
-                             const std::string& definition) {
-            database_.insert("gpkg_spatial_ref_sys", {name, number, organization, number, definition, SqliteValue{}});
-        };
-        add("Undefined Cartesian SRS", -1, "NONE", "undefined");
-        add("Undefined geographic SRS", 0, "NONE", "undefined");
-        add("WGS 84 geodetic", 4326, "EPSG",
-            "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS "
-            "84\",6378137,298.257223563,AUTHORITY[\"EPSG\",\"7030\"]],"
-            "AUTHORITY[\"EPSG\",\"6326\"]],PRIMEM[\"Greenwich\",0,AUTHORITY[\"EPSG\",\"8901\"]],UNIT[\"degree\","
-            "0.0174532925199433,AUTHORITY[\"EPSG\",\"9122\"]],AUTHORITY[\"EPSG\",\"4326\"]]");
-        // Readers take the definition from their own register, by the code.
-        if (reference_ > 0 && reference_ != 4326) add(volume_.crsName, reference_, "EPSG", "undefined");
-    }
-
     [[nodiscard]] static std::string_view kindName(illustrate::ViewKind kind) noexcept {
         return kind == illustrate::ViewKind::Plan      ? "plan"
                : kind == illustrate::ViewKind::Section ? "section"
