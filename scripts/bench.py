@@ -26,6 +26,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # write no cache files into scripts/
+import bench_commands
 import bench_ifc
 import bench_page
 import bench_plot
@@ -34,10 +35,13 @@ ROOT = Path(__file__).resolve().parent.parent
 BASELINE = ROOT / "bench" / "baseline.json"
 PAGE = ROOT / "docs" / "dev" / "performance.md"
 PLOT = ROOT / "docs" / "images" / "scaling.svg"
+DATA = Path(os.environ.get("SVT_DATA_DIR", ROOT / "../shared/data"))
+ORACLES = Path(os.environ.get("SVT_ORACLES", ROOT / "build" / "oracles"))
 BEGIN, END = "<!-- BEGIN bench -->", "<!-- END bench -->"
 TOLERANCE = 0.10
 BUSY = 0.1  # cores used by other processes during a part, above which its figures are marked as rough
-PARTS = ["read", "ifc", "voxelize", "render", "stages", "scaling", "profile"]
+PARTS = ["read", "ifc", "voxelize", "render", "stages", "scaling", "commands", "page", "profile"]
+QUICK_PARTS = ["read", "ifc", "voxelize", "render", "stages", "scaling"]
 
 
 def commit():
@@ -126,8 +130,15 @@ def run_ifc(program, quick):
     if not program.exists():
         return {"results": [], "skipped": [f"reading IFC: {program} is missing; build the target svt there"]}
     print("bench: ifc", file=sys.stderr)
-    rows, skipped = bench_ifc.rows_of(program, ROOT / "../shared/data", ROOT / "build" / "oracles",
+    rows, skipped = bench_ifc.rows_of(program, DATA, ORACLES,
                                       [] if quick else [45, 500], 3 if quick else 5)
+    return {"results": rows, "skipped": skipped}
+
+
+def run_from_outside(program, part):
+    """Whole commands, or the page in a browser."""
+    print(f"bench: {part}", file=sys.stderr)
+    rows, skipped = bench_commands.rows_of_commands(program, DATA, 7) if part == "commands" else bench_commands.rows_of_page()
     return {"results": rows, "skipped": skipped}
 
 
@@ -141,6 +152,8 @@ def run(build, parts, quick, figures):
             result = run_profile(program, build)
         elif part == "ifc":
             result = run_ifc(build / "bin" / "svt", quick)
+        elif part in ("commands", "page"):
+            result = run_from_outside(build / "bin" / "svt", part)
         else:
             result = run_part(program, build, part, quick)
         figures["parts"][part] = {"commit": commit(), **quiet.end(), **result}
@@ -219,7 +232,7 @@ def main():
     arguments = parser.parse_args()
     if arguments.quick and (arguments.update_docs or arguments.update_baseline):
         sys.exit("bench: the page and the baseline want a full run, not a quick one")
-    parts = arguments.only or (["profile"] if arguments.profile else PARTS[:-1] if arguments.quick else PARTS)
+    parts = arguments.only or (["profile"] if arguments.profile else QUICK_PARTS if arguments.quick else PARTS)
     store = arguments.build / ("bench-quick.json" if arguments.quick else "bench.json")
     keep = arguments.no_run or arguments.only or arguments.profile
     figures = json.loads(store.read_text()) if keep and store.exists() else {}

@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 preset=${1:?usage: $0 asan|tsan}
 # The programs whose tests start threads.
 targets=()
-[ "$preset" = tsan ] && for folder in core readers volume voxelize render analyze illustrate serve pipeline; do targets+=("svt_${folder}_test"); done
+[ "$preset" = tsan ] && for folder in core readers volume voxelize render analyze illustrate serve pipeline city; do targets+=("svt_${folder}_test"); done
 scripts/build.sh "$preset" "${targets[@]}"
 export SVT_DATA_DIR=${SVT_DATA_DIR:-$PWD/../shared/data}
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:allocator_may_return_null=1

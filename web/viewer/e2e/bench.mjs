@@ -1,5 +1,5 @@
 // Times of the page in the browser that is here: `npm run bench`. Needs `make viewer`; a machine that does nothing else.
-// Prints a table in Markdown: first image after navigation, frames while the view turns, still pictures, by kind of engine.
+// Prints a table in Markdown, or with --json one object for scripts/bench.py: first image after navigation, frames while the view turns, still pictures, by kind of engine.
 // Environment: SVT_BENCH_HEADED=1 shows the browser and leaves its graphics driver as it is, for machines with a graphics card.
 import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -29,20 +29,27 @@ const firstImage = async (page) => {
   return page.evaluate(() => performance.getEntriesByName("svt-first-image")[0].startTime);
 };
 
-/** First images: in a browser that has not seen the page, and loaded again. */
+const fine = (page) =>
+  page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine", null, { timeout: 120_000 });
+
+/** First images: in a browser that has not seen the page (timed from outside, and its finest picture too), and loaded again. */
 async function starts() {
-  const cold = [], warm = [];
+  const cold = [], finest = [], warm = [];
   for (let n = 0; n < kRounds; ++n) {
     const { context, close } = await browse(shape);
     const page = await context.newPage();
     await page.waitForTimeout(3_000);  // a browser that has started, and has never seen the page
-    await page.goto(server.url);
-    cold.push(await firstImage(page));
+    const begin = performance.now();
+    await page.goto(server.url, { waitUntil: "commit" });
+    await firstImage(page);
+    cold.push(performance.now() - begin);
+    await fine(page);
+    finest.push(performance.now() - begin);
     await page.reload();
     warm.push(await firstImage(page));
     await close();
   }
-  return { cold: median(cold), warm: median(warm) };
+  return { cold: median(cold), finest: median(finest), warm: median(warm) };
 }
 
 /** Frames by one kind of engine; null where it does not draw here. */
@@ -51,7 +58,7 @@ async function frames(kind) {
   const page = await context.newPage();
   await page.goto(`${server.url}?engine=${kind}`);
   await firstImage(page);
-  await page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine", null, { timeout: 120_000 });
+  await fine(page);
   const found = await page.evaluate(async () => {
     const s = document.querySelector("svt-app").session;
     const { engine, milliseconds: still } = s.report;
@@ -78,14 +85,26 @@ async function frames(kind) {
   return found.engine === kind ? found : null;
 }
 
-const { cold, warm } = await starts();
-console.log(`${name}, page of 1280 x 720, \`svt serve\` on the same machine.\n`);
-console.log(`First image after navigation, median of ${kRounds}: ${ms(cold)} in a browser that has not seen the page, ${ms(warm)} loaded again.\n`);
-console.log("| engine | driver | turning: frames a second | of pixels | still, 4 rays a pixel |\n| --- | --- | --- | --- | --- |");
-for (const kind of ["cpu", "webgl2"]) {
-  const found = await frames(kind);
-  if (!found) console.log(`| ${kind} | does not draw here | - | - | - |`);
-  else console.log(`| ${kind} | ${kind === "cpu" ? "-" : found.driver} | ${found.fps.toFixed(1)}${kind !== "cpu" && found.byCpu ? " (coarse, by the CPU)" : ""} | ${found.moving.join(" x ")} | ${found.size.join(" x ")} in ${ms(found.still)} |`);
+/** What scripts/bench.py reads: seconds, frames a second, and how much of the picture's width is cast while it turns. */
+function figures({ cold, finest, warm }, cpu, webgl2) {
+  return {
+    first_image_s: cold / 1e3, finest_s: finest / 1e3, again_s: warm / 1e3, turning_fps: cpu.fps,
+    turning_share: cpu.moving[0] / cpu.size[0], still_s: cpu.still / 1e3, ...(webgl2 ? { still_webgl2_s: webgl2.still / 1e3 } : {}),
+  };
 }
+
+function table({ cold, finest, warm }, engines) {
+  console.log(`${name}, page of 1280 x 720, \`svt serve\` on the same machine.\n`);
+  console.log(`First image after navigation, median of ${kRounds}: ${ms(cold)} in a browser that has not seen the page, finest after ${ms(finest)}; ${ms(warm)} loaded again.\n`);
+  console.log("| engine | driver | turning: frames a second | of pixels | still, 4 rays a pixel |\n| --- | --- | --- | --- | --- |");
+  for (const [kind, found] of Object.entries(engines)) {
+    if (!found) console.log(`| ${kind} | does not draw here | - | - | - |`);
+    else console.log(`| ${kind} | ${kind === "cpu" ? "-" : found.driver} | ${found.fps.toFixed(1)}${kind !== "cpu" && found.byCpu ? " (coarse, by the CPU)" : ""} | ${found.moving.join(" x ")} | ${found.size.join(" x ")} in ${ms(found.still)} |`);
+  }
+}
+
+const first = await starts(), engines = { cpu: await frames("cpu"), webgl2: await frames("webgl2") };
+if (process.argv.includes("--json")) console.log(JSON.stringify(figures(first, engines.cpu, engines.webgl2)));
+else table(first, engines);
 await server.close();
 rmSync(folder, { recursive: true, force: true });
