@@ -6,7 +6,7 @@
   scripts/bench.py --only render ...   these parts alone; the others keep the figures of their last run
   scripts/bench.py --profile           the same as --only profile: instructions and cache misses, counted by valgrind
   scripts/bench.py --no-run            the same with the figures of the last run
-  scripts/bench.py --update-docs       also rewrite the tables and the plot of docs/dev/performance.md
+  scripts/bench.py --update-docs       also rewrite the tables and the plot of docs/dev/performance.md, and the README's table
   scripts/bench.py --update-baseline   also store the figures as the new baseline
 
 Watched are ratios to the peers of the same run, times in units of a fixed piece of work of the same run, sizes in
@@ -34,6 +34,7 @@ import bench_plot
 ROOT = Path(__file__).resolve().parent.parent
 BASELINE = ROOT / "bench" / "baseline.json"
 PAGE = ROOT / "docs" / "dev" / "performance.md"
+README = ROOT / "README.md"
 PLOT = ROOT / "docs" / "images" / "scaling.svg"
 DATA = Path(os.environ.get("SVT_DATA_DIR", ROOT / "../shared/data"))
 ORACLES = Path(os.environ.get("SVT_ORACLES", ROOT / "build" / "oracles"))
@@ -206,13 +207,19 @@ def update_baseline(figures):
     print(f"bench: {BASELINE.relative_to(ROOT)} rewritten")
 
 
-def update_docs(figures):
-    text = PAGE.read_text()
+def replace_marked(path, tables):
+    """Replaces what stands between the marks of a page."""
+    text = path.read_text()
     if text.count(BEGIN) != 1 or text.count(END) != 1:
-        sys.exit(f"bench: {PAGE.relative_to(ROOT)} needs the marks {BEGIN} and {END}, once each")
+        sys.exit(f"bench: {path.relative_to(ROOT)} needs the marks {BEGIN} and {END}, once each")
     head, rest = text.split(BEGIN)
-    PAGE.write_text(f"{head}{BEGIN}\n{bench_page.page(figures, '../images/scaling.svg')}\n{END}{rest.split(END)[1]}")
-    print(f"bench: {PAGE.relative_to(ROOT)} rewritten")
+    path.write_text(f"{head}{BEGIN}\n{tables}\n{END}{rest.split(END)[1]}")
+    print(f"bench: {path.relative_to(ROOT)} rewritten")
+
+
+def update_docs(figures):
+    replace_marked(PAGE, bench_page.page(figures, "../images/scaling.svg"))
+    replace_marked(README, bench_page.beside_the_paper(figures))
     rows = [row for row in bench_page.all_rows(figures) if row["stage"] == "scaling"]
     if rows:
         PLOT.write_text(bench_plot.scaling_svg(rows))
