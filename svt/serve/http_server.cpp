@@ -178,23 +178,27 @@ std::string dateNow() {
 
 // Permissions of the page: run its own scripts, workers and WebAssembly, and contact this server; nothing from other
 // origins, no inline styles or scripts, and no embedding in other pages.
-constexpr std::string_view kSafetyHeaders =
-    "Content-Security-Policy: default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; "
-    "style-src 'self'; img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; base-uri 'none'; "
-    "form-action 'none'; frame-ancestors 'none'\r\n"
-    "Cross-Origin-Opener-Policy: same-origin\r\n"
-    "Cross-Origin-Embedder-Policy: require-corp\r\n"
-    "Cross-Origin-Resource-Policy: same-origin\r\n"
-    "Referrer-Policy: no-referrer\r\n"
-    "X-Content-Type-Options: nosniff\r\n";
+// \param origins  other servers that the page may ask, each with a blank before it
+std::string safetyHeaders(const std::string& origins) {
+    return "Content-Security-Policy: default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; "
+           "style-src 'self'; img-src 'self' data: blob:; font-src 'self'; connect-src 'self'" +
+           origins +
+           "; base-uri 'none'; "
+           "form-action 'none'; frame-ancestors 'none'\r\n"
+           "Cross-Origin-Opener-Policy: same-origin\r\n"
+           "Cross-Origin-Embedder-Policy: require-corp\r\n"
+           "Cross-Origin-Resource-Policy: same-origin\r\n"
+           "Referrer-Policy: no-referrer\r\n"
+           "X-Content-Type-Options: nosniff\r\n";
+}
 
-std::string headOf(const Reply& reply, bool isKept) {
+std::string headOf(const Reply& reply, bool isKept, const std::string& origins) {
     std::string text =
         fmt::format("HTTP/1.1 {} {}\r\nDate: {}\r\n", reply.status, reasonPhrase(reply.status), dateNow());
     if (!reply.type.empty()) text += fmt::format("Content-Type: {}\r\n", reply.type);
     if (reply.status != 304) text += fmt::format("Content-Length: {}\r\n", reply.body.data.size() + reply.skippedBody);
     for (const auto& [name, value] : reply.headers) text += fmt::format("{}: {}\r\n", name, value);
-    text += kSafetyHeaders;
+    text += safetyHeaders(origins);
     text += isKept ? "\r\n" : "Connection: close\r\n\r\n";
     return text;
 }
@@ -372,7 +376,7 @@ private:
     static void refuse(const Descriptor& socket) {
         Reply reply = Reply::refusal(503, "all connections are taken; try again");
         reply.headers.emplace_back("Retry-After", "1");
-        const std::string text = headOf(reply, false) + std::string(reply.body.text());
+        const std::string text = headOf(reply, false, {}) + std::string(reply.body.text());
         [[maybe_unused]] const auto sent = ::send(socket.get(), text.data(), text.size(), MSG_NOSIGNAL);
     }
 
@@ -574,7 +578,7 @@ private:
             reply.skippedBody = reply.body.data.size();
             reply.body = {};
         }
-        connection.out = headOf(reply, connection.isKept);
+        connection.out = headOf(reply, connection.isKept, site_.origins());
         connection.body = std::move(reply.body);
         connection.sent = 0;
         enter(connection, State::Writing, options_.stallSeconds, connection.body.data.size());

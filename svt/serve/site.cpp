@@ -45,9 +45,11 @@ constexpr Type kOtherType{"", "application/octet-stream", false};
 constexpr std::size_t kMinCompressed = 1000;
 
 // As the server's, see http_server.cpp, but for what only a header can say: who may embed the page.
-constexpr std::string_view kPagePolicy =
-    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; style-src 'self'; "
-    "img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; base-uri 'none'; form-action 'none'";
+std::string pagePolicy(const std::string& origins) {
+    return "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; style-src 'self'; "
+           "img-src 'self' data: blob:; font-src 'self'; connect-src 'self'" +
+           origins + "; base-uri 'none'; form-action 'none'";
+}
 
 std::string_view textOf(const Bytes& bytes) {
     return {reinterpret_cast<const char*>(bytes.data.data()), bytes.data.size()};
@@ -194,6 +196,27 @@ Result<void> moveInto(const fs::path& staging, const fs::path& folder, const std
     return {};
 }
 
+// "https://example.org:8080" of "https://example.org:8080/town"; empty of a folder, and of what no policy may have.
+std::string originOf(const std::string& location) {
+    if (!location.starts_with("http://") && !location.starts_with("https://")) return {};
+    const std::string origin = location.substr(0, location.find_first_of("/?#", location.find("//") + 2));
+    const auto isPlain = [](unsigned char c) {
+        return std::isalnum(c) != 0 || std::string_view(":/.-[]").find(char(c)) != std::string_view::npos;
+    };
+    return std::all_of(origin.begin(), origin.end(), isPlain) ? origin : std::string();
+}
+
+nlohmann::ordered_json addCity(Site& site, const SiteModel& model) {
+    std::string file = model.city;
+    if (const std::string origin = originOf(model.city); !origin.empty()) {
+        site.allowOrigin(origin);
+    } else {
+        file = "models/" + model.name + "/";
+        for (const auto& [name, bytes] : model.cityFiles) site.add("/" + file + name, bytes);
+    }
+    return {{"name", model.name}, {"file", file}, {"bytes", 0}, {"title", model.title}, {"city", true}};
+}
+
 }  // namespace
 
 void Site::add(const std::string& path, Bytes bytes) {
@@ -205,6 +228,10 @@ void Site::add(const std::string& path, Bytes bytes) {
     if (type.isCompressible) resource.gzip = compressed(bytes.data);
     resource.bytes = std::move(bytes);
     resources_.insert_or_assign(path, std::move(resource));
+}
+
+void Site::allowOrigin(const std::string& origin) {
+    if ((origins_ + " ").find(" " + origin + " ") == std::string::npos) origins_ += " " + origin;
 }
 
 Result<void> Site::addFolder(const fs::path& folder) {
@@ -288,6 +315,10 @@ Result<Site> viewerSite(const fs::path& viewer, std::span<const SiteModel> model
                           "the folder has no index.html, so it holds no viewer's page; `make viewer` builds it");
     nlohmann::ordered_json list = nlohmann::json::array();
     for (const SiteModel& model : models) {
+        if (!model.city.empty()) {
+            list.push_back(addCity(site, model));
+            continue;
+        }
         const std::string file = "models/" + model.name + ".svt";
         list.push_back(
             {{"name", model.name}, {"file", file}, {"bytes", model.svt.data.size()}, {"title", model.title}});
@@ -304,7 +335,8 @@ Result<void> addPageHead(Site& site, PagePreview preview) {
     const std::string_view text = page == nullptr ? std::string_view() : textOf(page->bytes);
     const std::size_t at = text.find(kHead);
     if (at == std::string_view::npos) return Error(Code::CannotOpen, "the viewer's index.html has no <head>");
-    std::string head = fmt::format("\n    <meta http-equiv=\"Content-Security-Policy\" content=\"{}\" />", kPagePolicy);
+    std::string head = fmt::format("\n    <meta http-equiv=\"Content-Security-Policy\" content=\"{}\" />",
+                                   attributeText(pagePolicy(site.origins())));
     const auto tag = [&](std::string_view property, const std::string& content) {
         head += fmt::format("\n    <meta property=\"{}\" content=\"{}\" />", property, attributeText(content));
     };

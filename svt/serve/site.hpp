@@ -13,6 +13,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace svt::serve {
 
@@ -46,19 +48,30 @@ public:
 
     [[nodiscard]] const std::map<std::string, Resource, std::less<>>& resources() const noexcept { return resources_; }
 
+    /// Lets the page fetch from another server: "https://example.org".
+    void allowOrigin(const std::string& origin);
+    /// All of them, each with a blank before it.
+    [[nodiscard]] const std::string& origins() const noexcept { return origins_; }
+
 private:
+    std::string origins_;
     std::map<std::string, Resource, std::less<>> resources_;
 };
 
-/// A volume that users of the page can open.
+/// A volume or a city that users of the page can open.
 struct SiteModel {
     std::string name;   ///< used in links; see uniqueNames()
     std::string title;  ///< display name
-    Bytes svt;
+    Bytes svt;          ///< empty of a city
+    /// Folder or address (http://, https://) of a city, which the page fetches piece by piece; else empty.
+    std::string city = {};
+    /// Files of a city's folder, by names relative to it; none at an address.
+    std::vector<std::pair<std::string, Bytes>> cityFiles = {};
 };
 
 /// The page of `viewer` with its data: the files of that folder, `/models/NAME.svt`, and `/models.json`, which lists
-/// them in order as {"models": [{"name", "file", "bytes", "title"}]}.
+/// them in order as {"models": [{"name", "file", "bytes", "title"}]}. The files of a city stand in `/models/NAME/`, which
+/// is its `file`, with `"city": true`; a city at an address has that address, whose server the page may then ask.
 /// \return the site, or the errors of addFolder(), or CannotOpen if the folder has no index.html
 [[nodiscard]] Result<Site> viewerSite(const std::filesystem::path& viewer, std::span<const SiteModel> models);
 

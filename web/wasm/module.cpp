@@ -1,5 +1,6 @@
 // Interface for JavaScript: one function that takes the name of a call, its arguments as a JSON array, and bytes. It
 // stores a reply, JSON or bytes, that must be read before the next call. See calls() for the calls.
+#include "city.hpp"
 #include "font.hpp"
 #include "replies.hpp"
 #include "walk.hpp"
@@ -50,6 +51,7 @@ struct Reply {
 };
 
 std::unique_ptr<Session> session;
+std::unique_ptr<CityPage> cityPage;
 Reply lastReply;
 
 /// Arguments of a call. They come from the page itself, so a wrong type is a programming error, not a bad user file.
@@ -231,16 +233,95 @@ Result<Reply> findInAttributes(const Arguments& arguments) {
 }
 Result<Reply> properties(const Arguments& arguments) { return replyOf(propertiesOf(*session, arguments.text(0))); }
 
+Json sceneCameraJson(illustrate::SceneCamera camera) {
+    illustrate::Scene scene;
+    scene.camera = std::move(camera);
+    return Json::parse(illustrate::writeScene(scene)).value("camera", Json::object());
+}
+
 // (query, preset or null, camera) -> camera
 Result<Reply> view(const Arguments& arguments) {
     const auto now = illustrate::parseScene(Json{{"camera", arguments.at(2)}}.dump(), "camera");
     if (!now) return now.error();
-    auto camera =
-        illustrate::makeView(arguments.text(0), arguments.text(1), now->camera, session->aspect(), session->volume());
+    auto camera = session->view(arguments.text(0), arguments.text(1), now->camera);
     if (!camera) return camera.error();
-    illustrate::Scene scene;
-    scene.camera = std::move(*camera);
-    return Reply(Json::parse(illustrate::writeScene(scene)).value("camera", Json::object()).dump());
+    return Reply(sceneCameraJson(std::move(*camera)).dump());
+}
+
+// Bytes that are needed first, as {needs: [[file, offset, size], ...]}; null: none are.
+Json needsJson() {
+    Json list = Json::array();
+    for (const city::CityBytes::Range& range : cityPage->bytes().wanted())
+        list.push_back({range.name, range.offset, range.size});
+    return list.empty() ? Json(nullptr) : Json{{"needs", std::move(list)}};
+}
+
+// ([[file, offset, size, bytes given, size of the file, why not], ...]) and the bytes, one after the other -> nothing
+Result<Reply> cityGive(const Arguments& arguments) {
+    std::size_t at = 0;
+    const auto bytes = arguments.bytes();
+    for (const Json& row : arguments.at(0)) {
+        const city::CityBytes::Range range{row.at(0).get<std::string>(), row.at(1).get<std::uint64_t>(),
+                                           row.at(2).get<std::uint64_t>()};
+        const auto size = row.at(3).get<std::size_t>();
+        if (row.at(5).is_string()) {
+            cityPage->bytes().refuse(range, row.at(5).get<std::string>());
+            continue;
+        }
+        const auto own = bytes.subspan(at, size);
+        at += size;
+        cityPage->bytes().give(range, std::string(reinterpret_cast<const char*>(own.data()), own.size()),
+                               row.at(4).get<std::uint64_t>());
+    }
+    return Reply(std::string("null"));
+}
+
+// (whether another city begins, scene or null, width, height, {pixels, memory, shown}) -> {needs}, or {info (null: nothing new),
+// key, tiles, bytes, pixels, finest, coarsest, lacks, heap}: then what the scene shows of the city is open
+Result<Reply> cityLook(const Arguments& arguments) {
+    if (!cityPage || arguments.at(0) == true) cityPage = std::make_unique<CityPage>();
+    CityWish wish;
+    if (arguments.at(1).is_object()) {
+        auto scene = arguments.scene(1);
+        if (!scene) return scene.error();
+        scene->width = arguments.pixels(2);
+        scene->height = arguments.pixels(3);
+        wish.scene = std::move(*scene);
+    }
+    const Json& options = arguments.at(4);
+    wish.shown = options.value("shown", std::string());
+    wish.pixels = options.value("pixels", 1.0);
+    wish.memoryBytes = static_cast<std::uint64_t>(std::max(0.0, options.value("memory", 0.0)));
+    auto look = cityPage->look(wish);
+    const Json needs = needsJson();
+    if (!look) return needs.is_null() ? Result<Reply>(look.error()) : Reply(needs.dump());
+    Json reply{{"info", nullptr},        {"key", look->key},          {"tiles", look->tiles},
+               {"bytes", look->bytes},   {"pixels", look->pixels},    {"lacks", look->lacks},
+               {"finest", look->finest}, {"coarsest", look->coarsest}};
+    if (look->session) {
+        session = std::move(look->session);
+        reply["info"] = Json::parse(infoOf(*session));
+        reply["info"]["source"] = "city.json";
+        reply["info"]["buildings"] = cityPage->city()->buildings();
+    }
+    reply["heap"] = std::uint64_t{__builtin_wasm_memory_size(0)} * 65536;
+    return Reply(reply.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+// () -> nothing: another worker shows the city now
+Result<Reply> cityDrop(const Arguments&) {
+    session.reset();
+    return Reply(std::string("null"));
+}
+
+// (id, camera, width / height) -> {needs}, or a camera that shows the building
+Result<Reply> cityFind(const Arguments& arguments) {
+    const auto now = illustrate::parseScene(Json{{"camera", arguments.at(1)}}.dump(), "camera");
+    if (!now) return now.error();
+    auto camera = cityPage->find(arguments.text(0), now->camera, std::max(0.01, arguments.number(2)));
+    const Json needs = needsJson();
+    if (!camera) return needs.is_null() ? Result<Reply>(camera.error()) : Reply(needs.dump());
+    return Reply(sceneCameraJson(std::move(*camera)).dump());
 }
 
 // (scene) -> PNG
@@ -341,13 +422,19 @@ constexpr Call kCalls[] = {{"open", open, false},
                            {"owners", owners},
                            {"stand", stand},
                            {"step", step},
-                           {"movedPlanes", movedPlanes}};
+                           {"movedPlanes", movedPlanes},
+                           {"cityGive", cityGive, false},
+                           {"cityLook", cityLook, false},
+                           {"cityDrop", cityDrop, false},
+                           {"cityFind", cityFind, false}};
 
 Result<Reply> run(std::string_view name, std::string_view json, std::span<const std::byte> bytes) {
     const Json values = Json::parse(json, nullptr, false);
     if (!values.is_array()) return Error(Code::BadArgument, "the arguments of a call are a JSON array");
     for (const Call& call : kCalls) {
         if (call.name != name) continue;
+        if (call.name.starts_with("city") && call.name != "cityLook" && !cityPage)
+            return Error(Code::BadArgument, "no city is open; open one first");
         if (call.needsVolume && !session) return Error(Code::BadArgument, "no volume is open; open one first");
         return call.run(Arguments(values, bytes));
     }

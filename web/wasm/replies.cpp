@@ -167,6 +167,32 @@ std::optional<Snapped> snapTo(const volume::VectorParts& parts, Vec3d from, doub
     return found;
 }
 
+// \param by  from the corner of the session's grid to that of the page's
+std::string propertiesIn(Session& session, std::uint32_t index, Vec3d by) {
+    const volume::SemanticVolume& volume = session.volume();
+    const auto found = volume.labels.labels.begin() + index;
+    const bool isClosed = found->filling == volume::Filling::Solid || found->filling == volume::Filling::TJunctions;
+    Box3d box = boxOf(session, index);
+    box.min = box.min + by;
+    box.max = box.max + by;
+    Json json = namesOf(*found);
+    json["attributes"] = Json::object();
+    for (const Attribute& attribute : found->attributes)
+        json["attributes"][attribute.name] =
+            attribute.unit.empty() ? toText(attribute.value) : toText(attribute.value) + " " + attribute.unit;
+    // Numbers once more as such, for readers who write them with a comma.
+    json["numbers"] = Json::object();
+    for (const Attribute& attribute : found->attributes)
+        if (const auto* number = std::get_if<double>(&attribute.value))
+            json["numbers"][attribute.name] = {{"value", *number}, {"unit", attribute.unit}};
+    json["voxelVolume"] = double(found->voxels) * volume.grid.voxelVolume();
+    json["modelVolume"] = isClosed ? Json(found->volume) : Json(nullptr);
+    json["surface"] = session.measures()[index].area;
+    json["box"] = {{"low", pointOf(box.min)}, {"high", pointOf(box.max)}};
+    json["neighbours"] = neighborsJson(session, index);
+    return textOf(json);
+}
+
 }  // namespace
 
 std::string infoOf(const Session& session) {
@@ -198,24 +224,12 @@ Result<std::string> propertiesOf(Session& session, const std::string& id) {
     if (found == labels.end())
         return Error(Code::NothingSelected, fmt::format("there is no feature with the id '{}'", id));
     const auto index = static_cast<std::uint32_t>(found - labels.begin());
-    const bool isClosed = found->filling == volume::Filling::Solid || found->filling == volume::Filling::TJunctions;
-    const Box3d box = boxOf(session, index);
-    Json json = namesOf(*found);
-    json["attributes"] = Json::object();
-    for (const Attribute& attribute : found->attributes)
-        json["attributes"][attribute.name] =
-            attribute.unit.empty() ? toText(attribute.value) : toText(attribute.value) + " " + attribute.unit;
-    // Numbers once more as such, for readers who write them with a comma.
-    json["numbers"] = Json::object();
-    for (const Attribute& attribute : found->attributes)
-        if (const auto* number = std::get_if<double>(&attribute.value))
-            json["numbers"][attribute.name] = {{"value", *number}, {"unit", attribute.unit}};
-    json["voxelVolume"] = double(found->voxels) * volume.grid.voxelVolume();
-    json["modelVolume"] = isClosed ? Json(found->volume) : Json(nullptr);
-    json["surface"] = session.measures()[index].area;
-    json["box"] = {{"low", pointOf(box.min)}, {"high", pointOf(box.max)}};
-    json["neighbours"] = neighborsJson(session, index);
-    return textOf(json);
+    const auto around = session.isOfParts() ? session.around(index) : nullptr;
+    if (around) {
+        const Vec3d by = around->volume().grid.origin() - volume.grid.origin();
+        return propertiesIn(*around, index, by);
+    }
+    return propertiesIn(session, index, {});
 }
 
 std::string pickOf(Session& session, double x, double y, double reach) {

@@ -1,7 +1,9 @@
 #include "session.hpp"
 
+#include <svt/analyze/selection.hpp>
 #include <svt/illustrate/color_by.hpp>
 #include <svt/illustrate/details.hpp>
+#include <svt/illustrate/view.hpp>
 #include <svt/image/png.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/pipeline/build_volume.hpp>
@@ -9,6 +11,7 @@
 #include <svt/render/frame_buffers.hpp>
 #include <svt/render/view_ray.hpp>
 #include <svt/volume/svt_file.hpp>
+#include <svt/volume/volume_part.hpp>
 
 #include <algorithm>
 #include <array>
@@ -87,12 +90,90 @@ render::CastOptions castOptions() {
 
 }  // namespace
 
-Session::Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findings)
+Session::Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findings, bool isOfParts)
     : volume_(std::move(volumes.front())),
       details_(std::make_move_iterator(volumes.begin() + 1), std::make_move_iterator(volumes.end())),
       findings_(std::move(findings)),
+      isOfParts_(isOfParts),
       painter_(volume_) {
-    for (const volume::SemanticVolume& detail : details_) painter_.addDetail(detail);
+    if (!isOfParts) {
+        for (const volume::SemanticVolume& detail : details_) painter_.addDetail(detail);
+        return;
+    }
+    painter_.tolerateNothing(&nothing_);
+    // Voxels of all but the nearest are at most a pixel wide.
+    const double finest = details_.empty() ? 0 : details_.back().grid.spacing().x;
+    for (const volume::SemanticVolume& part : details_) painter_.addPart(part, part.grid.spacing().x <= finest);
+}
+
+std::unique_ptr<Session> Session::ofParts(volume::SemanticVolume frame, std::vector<volume::SemanticVolume> parts) {
+    std::vector<volume::SemanticVolume> volumes;
+    volumes.push_back(std::move(frame));
+    for (volume::SemanticVolume& part : parts) volumes.push_back(std::move(part));
+    std::unique_ptr<Session> session(new Session(std::move(volumes), {}, true));
+    session->labelOfScalar_ = session->volume_.labels.labelOfScalar();
+    return session;
+}
+
+const volume::SemanticVolume& Session::volumeOf(std::uint32_t label) const {
+    const volume::Label& own = volume_.labels.labels[label];
+    for (const volume::SemanticVolume& part : details_) {
+        const Vec3i n = part.columns.dimension();
+        for (std::int32_t j = 0; j < n.y; ++j)
+            for (std::int32_t i = 0; i < n.x; ++i)
+                for (const auto& run : part.columns.column(i, j))
+                    if (run.scalar >= own.first && run.scalar < own.first + own.count) return part;
+    }
+    return volume_;
+}
+
+Result<illustrate::SceneCamera> Session::view(const std::string& query, const std::string& preset,
+                                              const illustrate::SceneCamera& now) const {
+    if (!isOfParts_ || query.empty()) return illustrate::makeView(query, preset, now, aspect(), volume_);
+    const auto selected = analyze::selectLabels(volume_.labels, query);
+    if (!selected) return selected.error();
+    for (const std::uint32_t label : *selected) {
+        const volume::SemanticVolume& part = volumeOf(label);
+        if (&part == &volume_) continue;
+        auto camera = illustrate::makeView(query, preset, now, aspect(), part);
+        if (!camera) return camera;
+        const Vec3d by = part.grid.origin() - volume_.grid.origin();
+        if (camera->eye) camera->eye = *camera->eye + by;
+        if (camera->target) camera->target = *camera->target + by;
+        return camera;
+    }
+    return Error(Code::NothingSelected, "what is selected is not among what is seen here");
+}
+
+std::unique_ptr<Session> Session::around(std::uint32_t label) const {
+    const volume::SemanticVolume& part = volumeOf(label);
+    if (&part == &volume_) return nullptr;
+    const volume::Label& own = volume_.labels.labels[label];
+    const Vec3i n = part.columns.dimension();
+    volume::IndexBox box{n, {0, 0, 0}};
+    for (std::int32_t j = 0; j < n.y; ++j)
+        for (std::int32_t i = 0; i < n.x; ++i) {
+            std::int32_t low = 0;
+            for (const auto& run : part.columns.column(i, j)) {
+                const auto high = static_cast<std::int32_t>(run.end);
+                if (run.scalar >= own.first && run.scalar < own.first + own.count) {
+                    box.begin = {std::min(box.begin.x, i), std::min(box.begin.y, j), std::min(box.begin.z, low)};
+                    box.end = {std::max(box.end.x, i + 1), std::max(box.end.y, j + 1), std::max(box.end.z, high)};
+                }
+                low = high;
+            }
+        }
+    for (int axis = 0; axis < 3; ++axis) {
+        box.begin[axis] = std::max(0, box.begin[axis] - 1);
+        box.end[axis] = std::min(n[axis], box.end[axis] + 1);
+    }
+    auto cropped = volume::croppedVolume(part, box);
+    if (!cropped) return nullptr;
+    std::vector<volume::SemanticVolume> volumes;
+    volumes.push_back(std::move(*cropped));
+    std::unique_ptr<Session> session(new Session(std::move(volumes), {}));
+    session->labelOfScalar_ = session->volume_.labels.labelOfScalar();
+    return session;
 }
 
 Result<std::unique_ptr<Session>> Session::open(std::span<const NamedBytes> files, const OpenOptions& options,
@@ -145,7 +226,9 @@ bool Session::isAir(Vec3d point) const {
 }
 
 Result<const render::Frame*> Session::draw(const illustrate::Scene& scene, bool isDraft) {
-    auto painting = isDraft ? painter_.paintDraft(scene, castOptions()) : painter_.paint(scene, castOptions());
+    // Parts are not drawn in drafts.
+    auto painting =
+        isDraft && !isOfParts_ ? painter_.paintDraft(scene, castOptions()) : painter_.paint(scene, castOptions());
     if (!painting) return painting.error();
     lastSpec_ = std::move(painting->spec);
     lastForms_ = illustrate::volumeForms(scene);

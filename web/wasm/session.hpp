@@ -50,13 +50,26 @@ public:
     [[nodiscard]] static Result<std::unique_ptr<Session>> open(std::span<const NamedBytes> files,
                                                                const OpenOptions& options, const Progress* progress);
 
+    /// What is seen of a city.
+    /// \param frame  its box, with the labels of all parts
+    /// \param parts  of joinLabels()
+    [[nodiscard]] static std::unique_ptr<Session> ofParts(volume::SemanticVolume frame,
+                                                          std::vector<volume::SemanticVolume> parts);
+    /// Whether the volume is a frame around parts.
+    [[nodiscard]] bool isOfParts() const noexcept { return isOfParts_; }
+    /// The volume in which a label has its voxels. Cost of parts: O(runs).
+    [[nodiscard]] const volume::SemanticVolume& volumeOf(std::uint32_t label) const;
+    /// A camera that shows what a query selects, see illustrate::makeView().
+    [[nodiscard]] Result<illustrate::SceneCamera> view(const std::string& query, const std::string& preset,
+                                                       const illustrate::SceneCamera& now) const;
+
     [[nodiscard]] const volume::SemanticVolume& volume() const noexcept { return volume_; }
     /// Findings of building the volume from a model.
     [[nodiscard]] const Diagnostics& findings() const noexcept { return findings_; }
     /// Why the volume has the spacing that it has; empty where it was not built here.
     [[nodiscard]] const std::string& spacingReason() const noexcept { return spacingReason_; }
     /// Number of volumes that are drawn with the first.
-    [[nodiscard]] std::size_t details() const noexcept { return details_.size(); }
+    [[nodiscard]] std::size_t details() const noexcept { return isOfParts_ ? 0 : details_.size(); }
 
     /// Gives the features their owners, as attributes `owner`; those of a table before are forgotten.
     /// \param table  CSV, see analyze::parseOwners()
@@ -95,12 +108,14 @@ public:
     /// All intervals along the ray through a position of the last picture, nearest first.
     [[nodiscard]] Result<std::vector<render::LabelInterval>> along(double x, double y);
 
+    /// A feature of parts with what is around it, as a volume of its own; null where it has no voxels of its own.
+    [[nodiscard]] std::unique_ptr<Session> around(std::uint32_t label) const;
     /// Contacts between features; computed on first use.
     [[nodiscard]] const std::vector<analyze::Contact>& contacts();
     [[nodiscard]] const std::vector<analyze::LabelMeasure>& measures();
 
 private:
-    Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findings);
+    Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findings, bool isOfParts = false);
     [[nodiscard]] volume::Scalar scalarAt(Vec3d point) const;
 
     [[nodiscard]] render_gl::PickedPixel firstAt(std::int32_t column, std::int32_t row);
@@ -112,7 +127,8 @@ private:
     std::vector<volume::SemanticVolume> details_;
     Diagnostics findings_;
     std::string spacingReason_;
-    bool hasOwners_ = false;
+    bool hasOwners_ = false, isOfParts_ = false;
+    std::vector<std::string> nothing_;  // queries that select nothing of what is seen of a city
     illustrate::ScenePainter painter_;
     std::optional<render::FrameSpec> lastSpec_;
     std::vector<illustrate::VolumeForm> lastForms_;

@@ -1,11 +1,8 @@
 #include <apps/cli/options/city_page.hpp>
 
-#include <apps/cli/output/messages.hpp>
-
 #include <svt/city/city_levels.hpp>
 #include <svt/city/city_view.hpp>
-
-#include <fmt/format.h>
+#include <svt/core/file.hpp>
 
 #include <algorithm>
 
@@ -17,6 +14,30 @@ bool isCity(const std::filesystem::path& input) {
     if (text.starts_with("http://") || text.starts_with("https://")) return true;
     std::error_code ignored;
     return std::filesystem::is_regular_file(input / "city.json", ignored);
+}
+
+Result<serve::SiteModel> cityModel(const std::filesystem::path& input, const std::string& name) {
+    const auto city = city::City::open(input);
+    if (!city) return city.error();
+    const std::string location = input.string();
+    const std::filesystem::path folder(location.substr(0, location.find_last_not_of('/') + 1));
+    serve::SiteModel model{name, folder.filename().string(), {}, location, {}};
+    if (model.title.empty() || model.title == ".") model.title = name;
+    if (location.starts_with("http://") || location.starts_with("https://")) return model;
+    std::vector<std::string> files{"city.json", "index.bin", "ids.bin", "packs.bin"};
+    std::error_code failed;
+    for (const auto& entry : std::filesystem::directory_iterator(input / "packs", failed))
+        if (entry.path().extension() == ".svtp") files.push_back("packs/" + entry.path().filename().string());
+    if (failed)
+        return Error(Code::CannotOpen, "the packs cannot be listed: " + failed.message(),
+                     {(input / "packs").string(), 0, 0, {}});
+    std::sort(files.begin(), files.end());
+    for (const std::string& file : files) {
+        auto bytes = MappedFile::open(input / file);
+        if (!bytes) return bytes.error();
+        model.cityFiles.emplace_back(file, serve::Bytes::of(std::move(*bytes)));
+    }
+    return model;
 }
 
 Result<volume::SemanticVolume> pageVolume(const std::filesystem::path& folder) {
@@ -37,17 +58,7 @@ Result<volume::SemanticVolume> pageVolume(const std::filesystem::path& folder) {
         for (const city::IndexEntry& entry : *entries) bytes += entry.size;
         if (bytes <= kMostBytes && extent / city::spacingOf(extract.detail, city->spacing()).x <= kMostSamples) break;
     }
-    auto volume = city::extractVolume(*city, extract);
-    if (!volume) return volume;
-    note(
-        fmt::format("the page shows all of the city at detail {} ({}), voxels of {:g} m; svt city extract takes a "
-                    "part at a finer one",
-                    extract.detail,
-                    extract.detail == 0   ? "all labels"
-                    : extract.detail == 1 ? "one label a building"
-                                          : "classes",
-                    volume->grid.spacing().x));
-    return volume;
+    return city::extractVolume(*city, extract);
 }
 
 }  // namespace svt::cli

@@ -1,8 +1,9 @@
 #pragma once
 /// \file
-/// Whether an input is a city, and all of it as one volume.
+/// Whether an input is a city, and what a page has of it.
 
 #include <svt/core/result.hpp>
+#include <svt/serve/site.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
 #include <filesystem>
@@ -12,7 +13,11 @@ namespace svt::cli {
 /// Whether an input is a city: the folder of one, or an address (http://, https://).
 [[nodiscard]] bool isCity(const std::filesystem::path& input);
 
-/// All of a city as one volume for the page, at the finest detail that it draws without streaming; tells which in a note.
+/// A city as a model of a page, which fetches it piece by piece.
+/// \return the model, or an error of City::open(); CannotOpen for a pack that cannot be read
+[[nodiscard]] Result<serve::SiteModel> cityModel(const std::filesystem::path& input, const std::string& name);
+
+/// All of a city as one volume of some megabytes: for previews, and for browsers that the server draws for.
 /// \return the volume, or an error of City::open(), extractVolume()
 [[nodiscard]] Result<volume::SemanticVolume> pageVolume(const std::filesystem::path& folder);
 

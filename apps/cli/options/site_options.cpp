@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 // A model as the bytes of a .svt; the temporary file is removed.
 Result<MappedFile> built(const fs::path& input, const BuildArguments& build, Diagnostics& diagnostics) {
     const TerminalProgress progress;
-    const auto volume = isCity(input) ? pageVolume(input) : loadVolume(input, build, progress.get(), diagnostics);
+    const auto volume = loadVolume(input, build, progress.get(), diagnostics);
     if (!volume) return volume.error();
     const PrivateFolder folder;
     if (folder.path().empty())
@@ -36,7 +36,8 @@ Result<MappedFile> built(const fs::path& input, const BuildArguments& build, Dia
 
 Result<serve::SiteModel> modelOf(const fs::path& input, const std::string& name, const BuildArguments& build,
                                  Diagnostics& diagnostics) {
-    auto file = isCity(input) ? built(input, build, diagnostics) : MappedFile::open(input);
+    if (isCity(input)) return cityModel(input, name);
+    auto file = MappedFile::open(input);
     if (!file) return file.error();
     if (!volume::looksLikeSvt(file->bytes())) file = built(input, build, diagnostics);
     if (!file) return file.error();
@@ -44,6 +45,10 @@ Result<serve::SiteModel> modelOf(const fs::path& input, const std::string& name,
     if (!opened) return opened.error();
     const std::string title = opened->modelName.empty() ? input.stem().string() : opened->modelName;
     return serve::SiteModel{name, title, serve::Bytes::of(std::move(*file))};
+}
+
+Result<volume::SemanticVolume> volumeOf(const serve::SiteModel& model) {
+    return model.city.empty() ? volume::readSvt(model.svt.data, model.name) : pageVolume(model.city);
 }
 
 // Keeps one model at a time in memory, ready to draw.
@@ -101,7 +106,7 @@ private:
         painter_.reset();
         volume_.reset();
         opened_ = nullptr;
-        auto volume = volume::readSvt(wanted->svt.data, wanted->name);
+        auto volume = volumeOf(*wanted);
         if (!volume) return volume.error();
         volume_ = std::move(*volume);
         painter_.emplace(*volume_, threads_);
@@ -149,7 +154,7 @@ Result<serve::PagePreview> pagePreview(std::span<const serve::SiteModel> models,
     if (!address.empty() && address.back() != '/') address += '/';
     preview.address = std::move(address);
     preview.size = {kWidth, kHeight, 0};
-    const auto volume = volume::readSvt(models.front().svt.data, models.front().name);
+    const auto volume = volumeOf(models.front());
     if (!volume) return volume.error();
     illustrate::Scene scene;
     scene.width = kWidth;

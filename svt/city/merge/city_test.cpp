@@ -1,9 +1,11 @@
 // From files to a city and back: the same bytes whatever builds it, and what is damaged is named.
 #include <svt/city/base/sha256.hpp>
+#include <svt/city/city_bytes.hpp>
 #include <svt/city/city_folder.hpp>
 #include <svt/city/city_levels.hpp>
 #include <svt/city/city_view.hpp>
 #include <svt/city/merge/index_file.hpp>
+#include <svt/city/store/store.hpp>
 #include <svt/city/tile/tile_builder.hpp>
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/samples/city_sample.hpp>
@@ -217,6 +219,53 @@ TEST_F(SmallCity, LosesNoBuildingAtAnyDetail) {
     EXPECT_EQ(top->front().offset, city.top().offset);
     EXPECT_EQ(top->front().pack, city.top().pack);
     EXPECT_TRUE(city.read(city.top()));
+}
+
+// A call whose bytes come later names them, and gives the same once they are there.
+TEST_F(SmallCity, IsReadFromBytesThatAreGivenLater) {
+    write(folder / "files", samples::CityProfile::Berlin, 2);
+    build(plan());
+    const City city = open();
+    const auto files = openStore((folder / "city").string());
+    CityBytes bytes;
+    int given = 0;
+    const auto give = [&](const std::vector<CityBytes::Range>& ranges) {
+        for (const CityBytes::Range& range : ranges) {
+            EXPECT_NE(range.name, "packs.bin");
+            bytes.give(range, *files->read(range.name, range.offset, range.size), *files->size(range.name));
+            ++given;
+        }
+        return !ranges.empty();
+    };
+    auto opened = City::open(bytes.store(), {});
+    while (!opened && give(bytes.wanted())) opened = City::open(bytes.store(), {});
+    ASSERT_TRUE(opened) << opened.error().toString();
+    EXPECT_EQ(given, 2);  // city.json and the begin of the index
+    auto entries = opened->find(0, {-1e9, -1e9, 1e9, 1e9});
+    while (!entries && give(bytes.wanted())) entries = opened->find(0, {-1e9, -1e9, 1e9, 1e9});
+    ASSERT_TRUE(entries);
+    ASSERT_FALSE(entries->empty());
+    // All members are asked for together.
+    for (const IndexEntry& entry : *entries) EXPECT_FALSE(opened->readBytes(entry));
+    EXPECT_TRUE(bytes.isWanting());
+    const auto wanted = bytes.wanted();
+    EXPECT_EQ(wanted.size(), entries->size());
+    EXPECT_FALSE(bytes.isWanting());
+    bytes.refuse(wanted.front(), "nobody answers");
+    give({wanted.begin() + 1, wanted.end()});
+    std::size_t refused = 0;
+    for (const IndexEntry& entry : *entries) {
+        const auto own = opened->readBytes(entry);
+        if (own)
+            EXPECT_EQ(*own, *city.readBytes(entry));
+        else
+            refused += own.error().message().find("nobody answers") != std::string::npos;
+    }
+    EXPECT_EQ(refused, 1u);
+    EXPECT_FALSE(bytes.isWanting());
+    bytes.forget();
+    EXPECT_FALSE(opened->readBytes(entries->front()));
+    EXPECT_TRUE(bytes.isWanting());
 }
 
 TEST_F(SmallCity, ExtractsByIdTileAndBox) {

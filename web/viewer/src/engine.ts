@@ -116,6 +116,8 @@ export interface VolumeInfo {
   /** Names of attributes, those of most features first. */
   attributes: string[];
   features: Feature[];
+  /** Of a city, all of them, seen or not. */
+  buildings?: number;
   /** Whether wireframes and meshes can be drawn. */
   hasEdges: boolean;
   hasMeshes: boolean;
@@ -198,6 +200,41 @@ export interface OpenOptions {
   memory?: number;
 }
 
+/** What is seen of a city, as tiles of several levels of detail. */
+export interface CityLook {
+  /** null: what is seen already will do. */
+  info: VolumeInfo | null;
+  /** Names the tiles that were chosen. */
+  key: string;
+  tiles: number;
+  /** Of the tiles' members. */
+  bytes: number;
+  /** Voxels are at most so many pixels wide. */
+  pixels: number;
+  finest: number;
+  coarsest: number;
+  /** Tiles that cannot be had: why. */
+  lacks: string[];
+  /** Bytes of the library's memory. */
+  heap: number;
+}
+
+export interface CityOptions {
+  /** Voxels may be so many pixels wide. */
+  pixels: number;
+  /** Bytes that decoded tiles may take, about. */
+  memory: number;
+  /** CityLook.key of what is seen already. */
+  shown: string;
+}
+
+/** Fetches bytes of a city's files. */
+export interface CityBytes {
+  get(wanted: readonly (readonly [file: string, offset: number, size: number])[]): Promise<
+    { range: readonly [file: string, offset: number, size: number]; bytes: Uint8Array; total: number; error: string | null }[]
+  >;
+}
+
 /** A section plane that lies in faces of the model, and is drawn so many metres beside them on the side that is kept. */
 export interface MovedPlane {
   text: string;
@@ -218,6 +255,13 @@ export interface Engine {
   refine(files: FileBytes[], onProgress: (step: string, done: number) => void, options?: OpenOptions): Promise<VolumeInfo>;
   /** Ends refine(); its promise is rejected with kCancelled. What was open stays. */
   cancelRefining(): void;
+
+  /** Opens a city with the one tile of its coarsest detail. */
+  openCity(files: CityBytes, options: CityOptions): Promise<CityLook>;
+  /** Fetches the tiles that a scene's camera sees, beside what is open, which can be drawn and asked meanwhile and is replaced at the end. */
+  followCity(files: CityBytes, scene: Scene, size: [number, number], options: CityOptions): Promise<CityLook>;
+  /** A camera that shows a building of the open city. Reads two ranges of ids.bin, and the building's tile. */
+  findInCity(files: CityBytes, id: string, camera: SceneCamera, aspect: number): Promise<SceneCamera>;
 
   /**
    * Draws into the engine's canvas at `width` x `height` pixels (the canvas is scaled by CSS).

@@ -91,7 +91,7 @@ async function start(): Promise<void> {
     if (await openKept(session, file, state)) return;
     session.awaited = { file, state };
   }
-  if (list.chosen) await openModel(session, list.chosen.name, file === null ? await linked : null, list.bytes);
+  if (list.chosen) await openModel(session, list.chosen.name, file === null ? await linked : null, list.bytes, list.files);
   if (list.note) session.tell(list.note);
   // Opening a model clears messages.
   if (isDamaged) session.fail({ message: t("badLink") });

@@ -1,5 +1,6 @@
 /** Opens listed models and user files. */
 
+import { CityFiles } from "./city/city_files";
 import type { ListedModel, Session } from "./session";
 import { keptFile } from "./state/kept_files";
 import type { ViewState } from "./state/view_state";
@@ -10,6 +11,8 @@ export interface ModelList {
   chosen: ListedModel | null;
   /** Pending download of the chosen model. */
   bytes: Promise<Response> | null;
+  /** Those of a chosen city, of which the first are coming. */
+  files: CityFiles | null;
   note: string | null;
 }
 
@@ -18,9 +21,11 @@ export async function readModels(wanted: string | null): Promise<ModelList> {
   const models = await listed();
   const chosen = models.find((model) => model.name === wanted) ?? models[0] ?? null;
   const note = wanted !== null && chosen && chosen.name !== wanted ? t("noModel", { name: wanted }) : null;
-  const bytes = chosen ? fetch(chosen.file) : null;
+  const files = chosen?.city ? filesOf(chosen) : null;
+  void files?.begin();
+  const bytes = chosen && !files ? fetch(chosen.file) : null;
   bytes?.catch(() => undefined);
-  return { models, chosen, bytes, note };
+  return { models, chosen, bytes, files, note };
 }
 
 async function listed(): Promise<ListedModel[]> {
@@ -35,9 +40,16 @@ async function listed(): Promise<ListedModel[]> {
   }
 }
 
-export async function openModel(session: Session, name: string, state: ViewState | null = null, coming: Promise<Response> | null = null): Promise<void> {
+function filesOf(model: ListedModel): CityFiles {
+  return new CityFiles(new URL(model.file.replace(/\/*$/, "/"), location.href).href);
+}
+
+export async function openModel(
+  session: Session, name: string, state: ViewState | null = null, coming: Promise<Response> | null = null, files: CityFiles | null = null,
+): Promise<void> {
   const model = session.models.find((m) => m.name === name);
   if (!model) return;
+  if (model.city && !session.isServerOnly) return openCity(session, model, state, files ?? filesOf(model));
   const title = model.title || model.name;
   const opening = session.startOpening(title);
   const { signal } = opening.abort;
@@ -60,6 +72,18 @@ export async function openModel(session: Session, name: string, state: ViewState
   const fileName = model.file.split("/").pop()!.split("?")[0]!;
   const again = async () => [{ name: fileName, bytes: await (await fetch(model.file)).arrayBuffer() }];
   if (await session.open(opening, [{ name: fileName, bytes: data }], again, state)) {
+    session.modelName = model.name;
+    session.isLocal = false;
+  }
+  session.changed();
+}
+
+async function openCity(session: Session, model: ListedModel, state: ViewState | null, files: CityFiles): Promise<void> {
+  const title = model.title || model.name;
+  const opening = session.startOpening(title);
+  session.progress = { text: t("loadingFile", { name: title }), share: -1 };
+  session.changed();
+  if (await session.openCity(opening, files, state)) {
     session.modelName = model.name;
     session.isLocal = false;
   }

@@ -2,6 +2,8 @@
 
 import { boxOf, withProjection, between, type Box } from "./camera/camera";
 import { PictureLoop, type Quality } from "./canvas/picture_loop";
+import { CityStream } from "./city/city_stream";
+import type { CityFiles } from "./city/city_files";
 import { kCancelled } from "./engine";
 import type {
   Engine, EngineError, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Pick, Point, Samples, SceneCamera, Stretch, VolumeInfo,
@@ -28,6 +30,8 @@ export interface ListedModel {
   file: string;
   bytes: number;
   title?: string;
+  /** A city, whose folder `file` is: it is fetched piece by piece. */
+  city?: boolean;
 }
 
 export interface Progress {
@@ -72,6 +76,8 @@ export class Session extends EventTarget {
     return this.models.find((model) => model.name === this.modelName)?.file ?? this.modelFile;
   }
   modelName = "";
+  /** null: what is open is no city. */
+  city: CityStream | null = null;
   /** File name for generated commands. */
   modelFile = "model.svt";
   /** Names of the files that were opened with it. */
@@ -299,9 +305,10 @@ export class Session extends EventTarget {
 
   /** Opens the model again that the library has lost. */
   private async bringBack(): Promise<boolean> {
-    if (!this.source || !this.engine) return false;
+    if (!(this.source || this.city) || !this.engine) return false;
     try {
-      await this.engine.open(await this.source(), () => undefined, this.openedWith);
+      if (this.city) return await this.reopenCity(this.city);
+      await this.engine.open(await this.source!(), () => undefined, this.openedWith);
       await this.owners.giveAgain();
       this.hasLostVolume = false;
       this.redraw();
@@ -359,6 +366,8 @@ export class Session extends EventTarget {
       const options = { draft: wantsDraft(files), memory: memoryOfPage() };
       const info = await this.engine.open(files, (step, share) => this.tellProgress(step, share), options);
       this.hasLostVolume = false;
+      this.city?.end();
+      this.city = null;
       this.modelFile = first!;
       this.otherFiles = others;
       this.source = source;
@@ -385,6 +394,73 @@ export class Session extends EventTarget {
       this.changed();
       await this.recover();
     }
+  }
+
+  /** Opens a city with its coarsest tile; then it follows the camera. As open(). */
+  async openCity(opening: Opening, files: CityFiles, state: ViewState | null): Promise<boolean> {
+    if (!this.engine || this.opening !== opening) return false;
+    this.status = "loading";
+    this.message = null;
+    this.isReading = true;
+    const city = new CityStream(this, files);
+    try {
+      this.refining.cancel();
+      this.city?.end();
+      const { info } = await city.open();
+      this.hasLostVolume = false;
+      this.city = city;
+      this.modelFile = "city";
+      this.otherFiles = [];
+      this.source = null;
+      this.openedWith = {};
+      this.owners.forget();
+      const lacks = this.message;
+      this.take(info!, state ?? { ...initialState(this.state.look), wireframe: null });
+      this.message = lacks;
+      city.begin();
+      return true;
+    } catch (error) {
+      if ((error as EngineError).code === kCancelled) return false;
+      this.status = this.info ? "ready" : "empty";
+      this.fail(error, t("failedTitle"));
+      return false;
+    } finally {
+      if (this.opening === opening) {
+        this.opening = null;
+        this.isReading = false;
+        this.progress = null;
+      }
+      this.changed();
+    }
+  }
+
+  private async reopenCity(city: CityStream): Promise<boolean> {
+    city.end();
+    this.city = new CityStream(this, city.files);
+    const { info } = await this.city.open();
+    this.hasLostVolume = false;
+    this.takeTiles(info!);
+    this.city.begin();
+    return true;
+  }
+
+  /** Other tiles of the city have taken the place of those before; the view stays. */
+  takeTiles(info: VolumeInfo): void {
+    this.info = info;
+    this.index = indexFeatures(info.features);
+    this.hidden = hiddenFlags(this.index, this.state.hide);
+    this.redraw();
+    void this.readProperties();
+    this.changed();
+  }
+
+  /** Goes to a building of the city. */
+  goToFound(id: string, { eye, target, fieldOfView }: SceneCamera): void {
+    if (!eye || !target) return;
+    const now = this.state.camera;
+    const camera: Camera = { eye, target, parallel: false, height: 10, fieldOfView: fieldOfView ?? now?.fieldOfView ?? kSceneMembers["/camera/fieldOfView"].default };
+    this.moveTo(withProjection(camera, now?.parallel ?? false));
+    this.select([id]);
   }
 
   private tellProgress(step: string, share: number): void {
@@ -414,7 +490,8 @@ export class Session extends EventTarget {
     this.info = info;
     this.box = boxOf(info);
     this.index = indexFeatures(info.features);
-    this.state = { ...state, selection: state.selection.filter((id) => this.index.byId.has(id)) };
+    // Of a city, what is selected may not be seen yet.
+    this.state = { ...state, selection: state.selection.filter((id) => this.city || this.index.byId.has(id)) };
     this.hidden = hiddenFlags(this.index, state.hide);
     this.history.clear();
     this.moved = [];
@@ -519,7 +596,7 @@ export class Session extends EventTarget {
   private async readProperties(): Promise<void> {
     const id = this.state.selection.length === 1 ? this.state.selection[0]! : null;
     if (this.properties?.id !== id) this.properties = null;
-    if (id === null || !this.engine || !this.info) return;
+    if (id === null || !this.engine || !this.info || (this.city && !this.index.byId.has(id))) return;
     try {
       const properties = await this.engine.properties(id);
       if (this.state.selection[0] === id) this.properties = properties;

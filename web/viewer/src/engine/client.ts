@@ -1,9 +1,10 @@
 /** The engine on the page's side: passes requests to the worker and shows its pictures on the canvas. */
 import { kCancelled } from "../engine";
 import type {
-  DrawingFormat, DrawingParts, Effects, Engine, EngineError, EngineKind, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Pick,
+  CityBytes, CityLook, CityOptions, DrawingFormat, DrawingParts, Effects, Engine, EngineError, EngineKind, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Pick,
   Point, Scene, SceneCamera, Stretch, VolumeInfo,
 } from "../engine";
+import { withBytes } from "./city_calls";
 import type { Answer, Calls, Request } from "./protocol";
 
 type Name = keyof Calls;
@@ -77,6 +78,8 @@ class WorkerEngine implements Engine {
   private main: Connection;
   /** Opens a finer volume meanwhile. */
   private second: Connection | null = null;
+  /** Has the open city, too, and prepares what of it is seen next. */
+  private spare: Connection | null = null;
   private isDrawing = false;
   private nextDraw: WaitingDraw | null = null;
   private readonly screen: ImageBitmapRenderingContext;
@@ -100,6 +103,7 @@ class WorkerEngine implements Engine {
     const made: Connection = new Connection((error) => {
       if (made === this.main) this.restart(error);
       else if (made === this.second) this.endSecond(error);
+      else if (made === this.spare) this.endSpare(error);
     });
     return made;
   }
@@ -110,6 +114,7 @@ class WorkerEngine implements Engine {
 
   open(files: FileBytes[], onProgress: (step: string, done: number) => void, options: OpenOptions = {}): Promise<VolumeInfo> {
     this.cancelRefining();
+    this.endSpare();
     return this.ask("open", [files, options], files.map(({ bytes }) => bytes), onProgress);
   }
 
@@ -128,6 +133,44 @@ class WorkerEngine implements Engine {
       if (this.second === second) this.endSecond(kGivenUp);
       throw error;
     }
+  }
+
+  openCity(files: CityBytes, options: CityOptions): Promise<CityLook> {
+    this.cancelRefining();
+    this.endSpare();
+    const { main } = this;
+    return withBytes((name, args, transfer) => main.ask(name, args, transfer), files, "cityLook", (round) => [round === 0, null, 0, 0, options]);
+  }
+
+  async followCity(files: CityBytes, scene: Scene, [width, height]: [number, number], options: CityOptions): Promise<CityLook> {
+    const spare = this.spare ?? (await this.startSpare());
+    const look = await withBytes((name, args, transfer) => spare.ask(name, args, transfer), files, "cityLook", () => [false, scene, width, height, options]);
+    if (!look.info || this.spare !== spare) return { ...look, info: null };
+    // Drawn once unseen, so that the first picture that is seen of it waits for nothing.
+    const { bitmap } = await spare.ask("draw", [scene, width, height]);
+    bitmap.close();
+    if (this.spare !== spare) return { ...look, info: null };
+    this.spare = this.main;
+    this.main = spare;
+    this.spare.ask("cityDrop", []).catch(() => undefined);
+    return look;
+  }
+
+  findInCity(files: CityBytes, id: string, camera: SceneCamera, aspect: number): Promise<SceneCamera> {
+    const { main } = this;
+    return withBytes((name, args, transfer) => main.ask(name, args, transfer), files, "cityFind", () => [id, camera, aspect]);
+  }
+
+  private async startSpare(): Promise<Connection> {
+    const spare = (this.spare = this.connect());
+    await spare.ask("start", ["cpu"]);
+    return spare;
+  }
+
+  private endSpare(error: EngineError = kGivenUp): void {
+    const { spare } = this;
+    this.spare = null;
+    spare?.close(error);
   }
 
   cancelRefining(): void {
@@ -154,6 +197,7 @@ class WorkerEngine implements Engine {
   /** The worker cannot be interrupted: it is replaced. */
   cancel(): void {
     this.cancelRefining();
+    this.endSpare();
     this.restart(kGivenUp);
   }
   pick(x: number, y: number, reach = 0): Promise<Pick | null> {

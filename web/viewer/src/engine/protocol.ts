@@ -1,5 +1,5 @@
 /** Messages between page and worker. A request has one answer, matched by id; open() reports progress before it. */
-import type { Effects, EngineError, EngineKind, Pick, Scene, SceneCamera, Stretch } from "../engine";
+import type { CityLook, CityOptions, Effects, EngineError, EngineKind, Pick, Scene, SceneCamera, Stretch } from "../engine";
 import type { DrawingFormat, DrawingParts, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Point, VolumeInfo } from "../engine";
 
 /** Arguments and result of each call. */
@@ -20,8 +20,20 @@ export interface Calls {
   stand: { args: [near: Point]; result: Point | null };
   step: { args: [eye: Point, by: Point]; result: Point };
   movedPlanes: { args: [scene: Scene]; result: MovedPlane[] };
+  cityLook: { args: [isNew: boolean, scene: Scene | null, width: number, height: number, options: CityOptions]; result: CityLook | CityNeeds };
+  cityFind: { args: [id: string, camera: SceneCamera, aspect: number]; result: SceneCamera | CityNeeds };
+  cityGive: { args: [given: GivenRow[], bytes: ArrayBuffer]; result: null };
+  cityDrop: { args: []; result: null };
   sheets: { args: [language: "en" | "de"]; result: string[] };
 }
+
+/** Ranges of a city's files that a call needs: give them, and call again. */
+export interface CityNeeds {
+  needs: [file: string, offset: number, size: number][];
+}
+
+/** A range, how many bytes of it are given, the size of the file, and why the range cannot be had. */
+export type GivenRow = [file: string, offset: number, size: number, given: number, total: number, error: string | null];
 
 export interface Drawn {
   bitmap: ImageBitmap;

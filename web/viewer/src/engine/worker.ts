@@ -2,8 +2,8 @@
 import createSvt, { type SvtModule } from "../../../../build/web/svt.js";
 import { Drawer } from "./drawer";
 import { isEngineError } from "./errors";
-import type { FileBytes } from "../engine";
-import type { Answer, Request } from "./protocol";
+import type { CityLook, FileBytes } from "../engine";
+import type { Answer, CityNeeds, Request } from "./protocol";
 
 /** Idle time of the page before longer work starts. */
 const idleMilliseconds = 700;
@@ -76,6 +76,13 @@ async function answer(request: Request): Promise<void> {
     }
     case "owners":
       return post({ id, result: json(svt.call(name, [args[1]], new Uint8Array(args[0]))) });
+    case "cityGive":
+      return post({ id, result: json(svt.call(name, [args[0]], new Uint8Array(args[1]))) });
+    case "cityLook": {
+      const look = json<CityLook | CityNeeds>(svt.call(name, args));
+      if (args[0] && "info" in look) drawerOf(svt).forgetPicture();
+      return post({ id, result: look });
+    }
     case "sheets":
       await drawerOf(svt).fetchFont();
     // falls through

@@ -41,6 +41,7 @@ export class TreePanel extends Part {
   declare listHeight: number;
   private open = new Set<number>();
   private seenIndex: unknown = null;
+  private seenCity: unknown = null;
   private seenSelection: unknown = null;
   private seenHidden: unknown = null;
   private counts!: SeenCounts;
@@ -113,8 +114,11 @@ export class TreePanel extends Part {
     }
     if (this.seenIndex !== index) {
       this.seenIndex = index;
+      // Other tiles of a city: what is being looked for stays.
+      const isSameCity = this.session.city !== null && this.seenCity === this.session.city;
+      this.seenCity = this.session.city;
       this.open = firstOpen(index);
-      this.search = this.answer = this.error = "";
+      if (!isSameCity) this.search = this.answer = this.error = "";
       this.byAttribute = new Set();
       this.edited = null;
       this.active = this.top = 0;
@@ -169,7 +173,7 @@ export class TreePanel extends Part {
             </div>`
           : nothing}
         ${this.search && this.tab === "structure"
-          ? html`<div class="small quiet" role="status">${this.rows.matches ? t("found", { n: this.rows.matches }) : t("nothingFound")}</div>`
+          ? html`<div class="small quiet" role="status">${this.rows.matches ? t("found", { n: this.rows.matches }) : session.city ? t("cityFind") : t("nothingFound")}</div>`
           : nothing}
       </header>
       <div id="panel" class="list" role="tabpanel" aria-labelledby="tab-${this.tab}" tabindex="-1" @scroll=${this.scrolled}>
@@ -337,7 +341,8 @@ export class TreePanel extends Part {
 
   private readonly searchKey = (event: KeyboardEvent): void => {
     if (event.key !== "ArrowDown" && event.key !== "Enter") return;
-    const { index } = this.session;
+    const { index, city } = this.session;
+    if (city && event.key === "Enter" && !this.rows.matches) return void city.find(this.search.trim());
     const words = this.search.toLowerCase();
     const first = this.rows.shown.find((i) => `${labelOf(index.features[i]!)} ${index.features[i]!.class}`.toLowerCase().includes(words)) ?? this.rows.shown[0];
     if (first === undefined) return;

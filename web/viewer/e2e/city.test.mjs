@@ -1,0 +1,143 @@
+// A city that the page fetches piece by piece: how much it asks for, what is seen, and servers that answer badly.
+import assert from "node:assert/strict";
+import { createReadStream, existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { createServer } from "node:http";
+import { tmpdir } from "node:os";
+import { extname, join } from "node:path";
+import { after, before, describe, it } from "node:test";
+import { browse, page as pageFolder, policy, svt, svtServe } from "./harness.mjs";
+
+const folder = mkdtempSync(join(tmpdir(), "svt-city-test-"));
+const at = (name) => join(folder, name);
+const kTypes = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".wasm": "application/wasm", ".json": "application/json" };
+const kId = "BLDG_0000000100000005";
+let browser, page;
+
+/** Serves the page with the city; `answer(path, first, last, bytes)` may give another answer to a request for a part. */
+function serveCity(answer = () => null) {
+  const server = createServer((request, response) => {
+    const path = decodeURIComponent(new URL(request.url, "http://x").pathname).replace(/^\/+/, "") || "index.html";
+    const own = path.startsWith("town/") ? at(path) : join(pageFolder, path);
+    if (path === "models.json") return response.end(JSON.stringify({ models: [{ name: "town", title: "town", file: "town/", bytes: 0, city: true }] }));
+    if (!existsSync(own) || !statSync(own).isFile()) return response.writeHead(404).end();
+    const headers = { "Content-Type": kTypes[extname(path)] ?? "application/octet-stream", "Content-Security-Policy": policy };
+    const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? "");
+    if (!range) {
+      response.writeHead(200, headers);
+      return createReadStream(own).pipe(response);
+    }
+    const all = readFileSync(own), first = Number(range[1]), last = Math.min(Number(range[2]), all.length - 1);
+    const part = all.subarray(first, last + 1);
+    const other = answer(path, first, last, part, all);
+    response.writeHead(other?.status ?? 206, { ...headers, "Content-Range": `bytes ${first}-${last}/${all.length}`, ...other?.headers });
+    response.end(other?.body ?? part);
+  });
+  return new Promise((done) =>
+    server.listen(0, "127.0.0.1", () =>
+      done({ url: `http://127.0.0.1:${server.address().port}/`, close: () => new Promise((r) => (server.closeAllConnections(), server.close(r))) }),
+    ),
+  );
+}
+
+const inPage = (body, value) => page.evaluate(([text, v]) => new Function("s", "v", `return (async () => (${text}))()`)(document.querySelector("svt-app").session, v), [body, value]);
+const complete = () => page.waitForFunction(() => document.querySelector("svt-app").session.city?.isComplete && document.querySelector("svt-app").session.quality === "fine", null, { timeout: 60_000 });
+
+async function open(url) {
+  await browser?.close().catch(() => {});
+  browser = await browse({ locale: "en-US", colorScheme: "light" });
+  page = await browser.context.newPage();
+  const asked = [];
+  page.on("request", (request) => request.headers().range && asked.push({ file: new URL(request.url()).pathname.replace(/^.*(town|models\/[^/]+)\//, ""), range: request.headers().range }));
+  await page.goto(url);
+  return asked;
+}
+
+before(() => {
+  svt("sample", "city", "--buildings", "1500", "--files", "2", "-o", at("files"));
+  svt("city", "plan", at("files"), "-o", at("town"), "--spacing", "0.5");
+  svt("city", "run", at("town"));
+});
+after(async () => {
+  await browser?.close().catch(() => {});
+  rmSync(folder, { recursive: true, force: true });
+});
+
+describe("A city on the page", () => {
+  it("is seen after 3 requests, and completely after few more", async () => {
+    const server = await svtServe(at("town"));
+    const asked = await open(server.url);
+    await page.waitForFunction(() => performance.getEntriesByName("svt-first-image").length > 0, null, { timeout: 30_000 });
+    const first = asked.slice(0, 3).map(({ file }) => file);
+    assert.equal(first[0], "city.json");
+    assert.deepEqual(first.slice(1).map((file) => file.replace(/\d+/, "N")).sort(), ["index.bin", "packs/N.svtp"]);
+    await complete();
+    const { requests, bytes } = await inPage("s.city.files.traffic");
+    assert.equal(requests, asked.length);
+    assert.ok(requests <= 12, `${requests} requests`);
+    assert.ok(bytes < 400_000, `${bytes} bytes`);
+    const seen = await inPage("({ look: { ...s.city.look, info: null }, buildings: s.info.buildings, drawn: s.report.width })");
+    assert.equal(seen.buildings, 1500);
+    assert.equal(seen.look.pixels, 1);
+    // Near the ground there are buildings with their attributes, and the address leads there again.
+    const size = await inPage("s.info.size");
+    await inPage("s.set({ camera: { ...s.state.camera, eye: v.eye, target: v.target } })", { eye: [size[0] / 2, size[1] / 2, 60], target: [size[0] / 2 + 60, size[1] / 2 + 80, 5] });
+    await page.waitForFunction(() => !document.querySelector("svt-app").session.city.isComplete);
+    await complete();
+    assert.equal((await inPage("s.city.look.finest")), 0);
+    assert.ok((await inPage("s.index.features.filter(({ class: c }) => c === 'Building').length")) > 10);
+    const picked = await inPage("s.engine.pick(0.5, 0.6)");
+    assert.ok(picked?.id, "nothing in the middle of the picture");
+    await page.waitForFunction(() => location.hash.includes("view="));
+    const camera = await inPage("s.state.camera");
+    await page.reload();
+    await complete();
+    assert.deepEqual(await inPage("s.state.camera"), camera);
+    await server.close();
+  });
+
+  it("finds a building by its id with two requests of ids.bin, and tells its properties", async () => {
+    const server = await serveCity();
+    const asked = await open(server.url);
+    await complete();
+    await page.fill("#search", kId);
+    await page.getByText("looks for this id in all of the city").waitFor();
+    await page.press("#search", "Enter");
+    await page.waitForFunction((id) => document.querySelector("svt-app").session.properties?.id === id, kId, { timeout: 30_000 });
+    assert.equal(asked.filter(({ file }) => file === "ids.bin").length, 2);
+    const properties = await inPage("s.properties");
+    assert.ok(properties.surface > 50 && properties.box.high[2] > properties.box.low[2], JSON.stringify(properties));
+    await page.fill("#search", "nobody");
+    await page.press("#search", "Enter");
+    await page.getByText("the city has no building with the id 'nobody'").waitFor();
+    await server.close();
+  });
+
+  it("shows the rest where tiles are damaged, cut off or missing", async () => {
+    // Every part of a pack but the top tile: one byte wrong; one byte too few, and no more.
+    const top = JSON.parse(readFileSync(at("town/city.json"), "utf8")).top;
+    const isTop = (path, first) => path.endsWith(`${String(top.pack).padStart(5, "0")}.svtp`) && first === top.offset;
+    for (const spoil of [
+      (part) => ({ body: Buffer.concat([part.subarray(0, 40), Buffer.from([part[40] ^ 255]), part.subarray(41)]) }),
+      (part, first, last, all) => ({ body: part.subarray(0, -1), headers: { "Content-Range": `bytes ${first}-${last - 1}/${all.length}` } }),
+      () => ({ status: 404, body: "" }),
+    ]) {
+      const server = await serveCity((path, first, last, part, all) => (path.startsWith("town/packs/") && !isTop(path, first) ? spoil(part, first, last, all) : null));
+      await open(server.url);
+      await page.getByText("tiles of the city cannot be shown").waitFor({ timeout: 30_000 });
+      await complete();
+      assert.equal(await inPage("s.status"), "ready");
+      await server.close();
+    }
+  });
+
+  it("names a server without ranges, and an index that is damaged", async () => {
+    const whole = await serveCity((path, first, last, part, all) => ({ status: 200, body: all }));
+    await open(whole.url);
+    await page.getByText("the server sends whole files where a part is asked for").first().waitFor({ timeout: 30_000 });
+    await whole.close();
+    const damaged = await serveCity((path, first, last, part) => (path.endsWith("index.bin") ? { body: Buffer.concat([part.subarray(0, 50), Buffer.from([part[50] ^ 1]), part.subarray(51)]) } : null));
+    await open(damaged.url);
+    await page.getByText("the root of the index is missing or damaged").waitFor({ timeout: 30_000 });
+    await damaged.close();
+  });
+});

@@ -1,0 +1,129 @@
+#include "city.hpp"
+
+#include <svt/city/city_levels.hpp>
+#include <svt/illustrate/details.hpp>
+#include <svt/illustrate/view.hpp>
+#include <svt/render/camera_rays.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace svt::web {
+namespace {
+
+city::CameraView viewOf(const render::FrameSpec& spec, const volume::Grid& grid) {
+    const render::CameraRays rays(spec, grid);
+    const auto basis = rays.basis();
+    city::CameraView view;
+    view.isPerspective = rays.isPerspective();
+    view.eye = spec.camera.eye;
+    view.forward = basis.forward;
+    view.right = basis.right;
+    view.up = basis.up;
+    view.halfWidth = basis.halfWidth;
+    view.halfHeight = basis.halfHeight;
+    view.pixel = rays.pixelSize(1);
+    return view;
+}
+
+// FNV-1a of where the tiles stand.
+std::string keyOf(const std::vector<city::IndexEntry>& entries) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (const city::IndexEntry& entry : entries)
+        for (const std::uint64_t number : {std::uint64_t{entry.pack}, entry.offset, entry.size})
+            hash = (hash ^ number) * 0x100000001b3u;
+    return fmt::format("{}-{:x}", entries.size(), hash);
+}
+
+}  // namespace
+
+Result<void> CityPage::open() {
+    if (city_) return {};
+    auto opened = city::City::open(bytes_.store(), {});
+    if (!opened) return opened.error();
+    auto frame = city::frameVolume(*opened);
+    if (!frame) return frame.error();
+    city_ = std::move(*opened);
+    frame_ = std::move(*frame);
+    return {};
+}
+
+Result<city::ChosenTiles> CityPage::choose(const CityWish& wish) {
+    if (!wish.scene) return city::ChosenTiles{{city_->top()}, city_->top().size, 1};
+    // The camera alone: queries and planes find nothing in the frame.
+    illustrate::Scene seen;
+    seen.camera = wish.scene->camera;
+    seen.width = wish.scene->width;
+    seen.height = wish.scene->height;
+    const auto spec = illustrate::makeFrameSpec(seen, frame_);
+    if (!spec) return spec.error();
+    city::CameraView view = viewOf(*spec, frame_.grid);
+    view.pixel *= std::max(1.0, wish.pixels);
+    return city::chooseTiles(*city_, view, wish.memoryBytes);
+}
+
+Result<CityPage::Look> CityPage::look(const CityWish& wish) {
+    if (auto opened = open(); !opened) return opened.error();
+    auto chosen = choose(wish);
+    if (!chosen) return chosen.error();
+    Look look;
+    look.pixels = chosen->pixels * std::max(1.0, wish.pixels);
+    look.key = keyOf(chosen->entries);
+    if (look.key == wish.shown) return look;
+    // All of them are asked for before any is decoded.
+    std::optional<Error> missing;
+    for (const city::IndexEntry& entry : chosen->entries)
+        if (auto read = city_->readBytes(entry); !read) missing = read.error();
+    if (missing && bytes_.isWanting()) return *missing;
+    auto parts = city::readTiles(*city_, *chosen);
+    if (!parts) {
+        // What is damaged or cannot be had is left out.
+        std::erase_if(chosen->entries, [&](const city::IndexEntry& entry) {
+            const auto volume = city_->read(entry);
+            if (!volume) look.lacks.push_back(volume.error().where().toString() + ": " + volume.error().message());
+            return !volume;
+        });
+        parts = city::readTiles(*city_, *chosen);
+    }
+    if (!parts) return parts.error();
+    bytes_.forget();
+    volume::SemanticVolume shown = frame_;
+    shown.modelName.clear();
+    if (auto joined = illustrate::joinLabels(shown, *parts); !joined) return joined.error();
+    look.tiles = chosen->entries.size();
+    for (const city::IndexEntry& entry : chosen->entries) look.bytes += entry.size;
+    if (!chosen->entries.empty()) {
+        look.coarsest = chosen->entries.front().detail;
+        look.finest = chosen->entries.back().detail;
+    }
+    look.session = Session::ofParts(std::move(shown), std::move(*parts));
+    return look;
+}
+
+Result<illustrate::SceneCamera> CityPage::find(const std::string& id, const illustrate::SceneCamera& now,
+                                               double aspect) {
+    if (auto opened = open(); !opened) return opened.error();
+    const auto places = city_->find(id);
+    if (!places) return places.error();
+    for (const city::City::Place& place : *places) {
+        const double side = city::tileSide(place.tile, 0, city_->spacing());
+        const auto entries = city_->find(
+            0, {place.tile.x * side, place.tile.y * side, (place.tile.x + 1) * side, (place.tile.y + 1) * side});
+        if (!entries) return entries.error();
+        for (const city::IndexEntry& entry : *entries) {
+            if (!(entry.tile == place.tile)) continue;
+            const auto tile = city_->read(entry);
+            if (!tile) return tile.error();
+            auto camera = illustrate::makeView("id=" + id, "", now, aspect, *tile);
+            if (!camera) continue;  // another id of the same hash
+            const Vec3d by = tile->grid.origin() - frame_.grid.origin();
+            if (camera->eye) camera->eye = *camera->eye + by;
+            if (camera->target) camera->target = *camera->target + by;
+            return camera;
+        }
+    }
+    return Error(Code::NothingSelected, fmt::format("the city has no building with the id '{}'", id));
+}
+
+}  // namespace svt::web
