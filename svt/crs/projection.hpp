@@ -56,4 +56,8 @@ private:
 /// Version of the PROJ library that is used, or empty for a build without it.
 [[nodiscard]] std::string projVersion();
 
+/// The definition of a code as PROJJSON, on one line; empty where PROJ is not there or does not know it.
+/// Cost: milliseconds.
+[[nodiscard]] std::string projJsonOf(int epsg);
+
 }  // namespace svt::crs

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Features with an outline in plan and values, one after the other: CSV, GeoJSON or GeoPackage, for tables and GIS.
+/// Features with an outline in plan and values, one after the other: CSV, GeoJSON, GeoPackage or GeoParquet, for tables
+/// and GIS.
 
 #include <svt/core/result.hpp>
 
@@ -27,8 +28,9 @@ struct FeatureColumn {
 /// A file that features are added to. Nothing is there before finish().
 class FeatureLayer {
 public:
-    /// \param path     ends in .csv (without outlines), .geojson or .gpkg (table `features`)
-    /// \param crsName  of the coordinates, which are written as they are; GeoJSON names it as its version of 2008 did
+    /// \param path     ends in .csv (without outlines), .geojson, .gpkg (table `features`) or .parquet (column `geometry`)
+    /// \param crsName  of the coordinates, which are written as they are; GeoJSON names it as its version of 2008 did,
+    ///                 GeoParquet has it as PROJJSON, which needs PROJ (none without it)
     /// \return the layer, or BadArgument for another ending; CannotWrite, DiskFull
     [[nodiscard]] static Result<std::unique_ptr<FeatureLayer>> create(const std::filesystem::path& path,
                                                                       std::vector<FeatureColumn> columns,

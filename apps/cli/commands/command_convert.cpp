@@ -1,4 +1,5 @@
 #include <apps/cli/city/city_input.hpp>
+#include <apps/cli/city/city_tiles.hpp>
 #include <apps/cli/city/feature_query.hpp>
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
@@ -22,20 +23,46 @@ struct ConvertArguments {
     BuildArguments build;
 };
 
+// A row a feature, of all or of those that are selected.
+int convertToTable(const ConvertArguments& arguments) {
+    FeatureQuery query;
+    query.input = arguments.input;
+    query.output = arguments.output;
+    query.query = !arguments.write.select.empty() ? arguments.write.select
+                  : isCity(arguments.input)       ? "class=Building"
+                                                  : "all";
+    query.box = arguments.write.box;
+    query.build = arguments.build;
+    return runFeatureQuery(query);
+}
+
+int convertCity(const ConvertArguments& arguments) {
+    const writers::VolumeFormat* format = writers::volumeFormatOf(arguments.output);
+    const std::string_view name = format == nullptr ? "" : format->name;
+    if (name == "objects" || name == "objectparquet") return convertToTable(arguments);
+    if (name != "tileset")
+        return fail(Error(Code::BadArgument,
+                          "a city becomes 3D Tiles (.3dtiles) or a table of its buildings (.csv, .geojson, .gpkg, "
+                          ".parquet) here; svt city extract takes a part, which becomes any format"));
+    const bool isPart = !arguments.write.select.empty() || !arguments.write.box.empty() || arguments.write.level > 1;
+    if (isPart || arguments.write.hasVoxels)
+        return fail(Error(Code::BadArgument,
+                          "--select, --box, --voxels and a --level over 1 are for the volume of a part; take it by svt "
+                          "city extract, and convert that"));
+    const auto city = city::City::open(arguments.input);
+    if (!city) return fail(city.error());
+    auto options = arguments.write.options({});
+    if (!options) return fail(options.error());
+    const TerminalProgress progress;
+    const auto bytes = writeCityTiles(*city, arguments.output, *options, arguments.write.level, arguments.build.threads,
+                                      progress.get());
+    return bytes ? static_cast<int>(kDone) : fail(bytes.error());
+}
+
 int runConvert(const ConvertArguments& arguments) {
-    if (isCity(arguments.input)) {
-        if (endingOf(arguments.output) != ".csv")
-            return fail(Error(Code::BadArgument,
-                              "a city becomes a table of its buildings here (.csv); svt query -o writes .geojson and "
-                              ".gpkg, and svt city extract takes a part, which becomes any format"));
-        FeatureQuery query;
-        query.input = arguments.input;
-        query.output = arguments.output;
-        query.query = arguments.write.select.empty() ? "class=Building" : arguments.write.select;
-        query.box = arguments.write.box;
-        query.build = arguments.build;
-        return runFeatureQuery(query);
-    }
+    const std::string ending = endingOf(arguments.output);
+    if (ending == ".geojson" || ending == ".gpkg") return convertToTable(arguments);
+    if (isCity(arguments.input)) return convertCity(arguments);
     Diagnostics diagnostics;
     const TerminalProgress progress;
     BuildArguments build = arguments.build;

@@ -599,10 +599,10 @@ constexpr Option kQuery[] = {
      .file = FileUse::ModelOrVolume},
     {.name = "-o,--output",
      .value = "FILE",
-     .help = "write rows with outline, height, volume and attributes: .csv, .geojson or .gpkg",
+     .help = "write rows with outline, height, volume and attributes: .csv, .geojson, .gpkg or .parquet",
      .group = "Features",
      .file = FileUse::Output,
-     .formats = "csv|geojson|gpkg"},
+     .formats = "csv|geojson|gpkg|objectparquet"},
     {.name = "--box",
      .kind = Number,
      .value = "X0,Y0,Z0,X1,Y1,Z1",
@@ -1087,7 +1087,7 @@ std::string_view volumeFormatNames() {
         std::string names;
         for (const writers::VolumeFormat& format : writers::volumeFormats())
             names += fmt::format("{}{}", names.empty() ? "" : "|", format.name);
-        return names;
+        return names + "|geojson|gpkg";  // features one by one: writers::FeatureLayer
     }();
     return kNames;
 }
@@ -1097,6 +1097,7 @@ std::string_view volumeFormatHelp() {
         std::vector<std::string_view> endings;
         for (const writers::VolumeFormat& format : writers::volumeFormats())
             for (const std::string_view ending : splitChoices(format.endings)) endings.push_back(ending);
+        endings.insert(endings.end(), {".geojson", ".gpkg"});
         return fmt::format("file to write; the extension selects the format: {}", fmt::join(endings, ", "));
     }();
     return kHelp;

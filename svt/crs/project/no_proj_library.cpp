@@ -5,6 +5,7 @@
 namespace svt::crs {
 
 std::string projVersion() { return {}; }
+std::string projJsonOf(int) { return {}; }
 
 namespace project {
 namespace {

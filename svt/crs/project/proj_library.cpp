@@ -36,6 +36,7 @@ struct Proj {
     decltype(&::proj_normalize_for_visualization) normalize_for_visualization = nullptr;
     decltype(&::proj_trans) trans = nullptr;
     decltype(&::proj_trans_generic) trans_generic = nullptr;
+    decltype(&::proj_as_projjson) as_projjson = nullptr;
     decltype(&::proj_info) info = nullptr;
 };
 
@@ -56,7 +57,8 @@ Result<Proj> loadProj() {
         find("proj_get_id_code", proj.get_id_code) && find("proj_crs_get_geodetic_crs", proj.crs_get_geodetic_crs) &&
         find("proj_create_crs_to_crs_from_pj", proj.create_crs_to_crs_from_pj) &&
         find("proj_normalize_for_visualization", proj.normalize_for_visualization) && find("proj_trans", proj.trans) &&
-        find("proj_trans_generic", proj.trans_generic) && find("proj_info", proj.info);
+        find("proj_trans_generic", proj.trans_generic) && find("proj_as_projjson", proj.as_projjson) &&
+        find("proj_info", proj.info);
     if (!isWhole) return Error(Code::CannotOpen, SVT_PROJ_LIBRARY " lacks functions of PROJ");
     return proj;
 }
@@ -209,5 +211,14 @@ Result<PlaceInDegrees> placeInDegrees(int source, Vec3d place) {
 }  // namespace project
 
 std::string projVersion() { return project::loadedProj() ? project::proj().info().version : std::string(); }
+
+std::string projJsonOf(int epsg) {
+    if (!project::loadedProj()) return {};
+    const project::Context context = project::makeContext();
+    const project::Object crs = project::makeCrs(context, epsg);
+    const char* const options[] = {"MULTILINE=NO", nullptr};
+    const char* const text = crs ? project::proj().as_projjson(context.get(), crs.get(), options) : nullptr;
+    return text != nullptr ? text : "";
+}
 
 }  // namespace svt::crs

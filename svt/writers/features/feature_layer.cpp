@@ -4,9 +4,12 @@
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 #include <svt/crs/crs_name.hpp>
+#include <svt/crs/projection.hpp>
+#include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/sheets/geopackage_tables.hpp>
 #include <svt/writers/sheets/sqlite_database.hpp>
 #include <svt/writers/tables/csv_text.hpp>
+#include <svt/writers/tables/parquet_stream.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -97,6 +100,17 @@ private:
     std::string head_;
 };
 
+// Well-known binary, little-endian. \param put  takes one value after the other
+template <class Put>
+void appendPolygon(Ring outline, const Put& put) {
+    put(char{1});
+    put(std::uint32_t{3});  // a polygon
+    put(std::uint32_t{1});  // of one ring
+    put(static_cast<std::uint32_t>(outline.size() + 1));
+    for (std::size_t n = 0; n <= outline.size(); ++n)
+        for (const double value : outline[n % outline.size()]) put(value);
+}
+
 class PackageLayer : public FeatureLayer {
 public:
     PackageLayer(std::filesystem::path path, std::unique_ptr<SqliteDatabase> database,
@@ -166,18 +180,100 @@ private:
         for (const char c : {'G', 'P', '\0', '\3'}) put(c);
         put(static_cast<std::int32_t>(reference_));
         for (const double value : {box[0], box[2], box[1], box[3]}) put(value);
-        put(char{1});
-        put(std::uint32_t{3});  // a polygon
-        put(std::uint32_t{1});  // of one ring
-        put(static_cast<std::uint32_t>(outline.size() + 1));
-        for (std::size_t n = 0; n <= outline.size(); ++n)
-            for (const double value : outline[n % outline.size()]) put(value);
+        appendPolygon(outline, put);
         return bytes;
     }
 
     std::filesystem::path path_;
     std::unique_ptr<SqliteDatabase> database_;
     std::int64_t reference_ = -1;
+    std::array<double, 4> bounds_{1e300, 1e300, -1e300, -1e300};
+};
+
+/// GeoParquet 1.1: outlines as well-known binary, the CRS as PROJJSON.
+class GeoParquetLayer : public FeatureLayer {
+public:
+    GeoParquetLayer(AtomicFile file, const std::vector<FeatureColumn>& columns, std::string crsName)
+        : file_(std::move(file)), crsName_(std::move(crsName)), stream_(parquetColumns(columns)) {
+        for (const FeatureColumn& column : columns) {
+            kinds_.push_back(column.kind);
+            rows_.push_back({column.name, {}});
+        }
+        rows_.push_back({kGeometry, {}});
+        text_ = stream_.begin();
+    }
+
+    Result<void> add(std::span<const FeatureCell> cells, Ring outline) override {
+        for (std::size_t n = 0; n < cells.size(); ++n) rows_[n].cells.push_back(cellOf(cells[n], kinds_[n]));
+        TableCell geometry;
+        if (outline.size() >= 3) {
+            for (const auto& [x, y] : outline)
+                bounds_ = {std::min(bounds_[0], x), std::min(bounds_[1], y), std::max(bounds_[2], x),
+                           std::max(bounds_[3], y)};
+            std::string bytes;
+            appendPolygon(outline, [&](auto value) { appendBytes(bytes, value); });
+            geometry = std::move(bytes);
+        }
+        rows_.back().cells.push_back(std::move(geometry));
+        return rows_.back().cells.size() < kGroupRows ? Result<void>() : flush();
+    }
+
+    Result<std::uint64_t> finish() override {
+        if (auto flushed = flush(); !flushed) return flushed.error();
+        Json geometry{{"encoding", "WKB"}, {"geometry_types", Json::array({"Polygon"})}};
+        geometry["crs"] = nullptr;
+        if (const auto epsg = static_cast<int>(crs::epsgCodeOf(crsName_)); epsg != 0)
+            if (const std::string text = crs::projJsonOf(epsg); !text.empty())
+                geometry["crs"] = Json::parse(text, nullptr, false);
+        if (bounds_[0] <= bounds_[2]) geometry["bbox"] = bounds_;
+        const Json geo{{"version", "1.1.0"}, {"primary_column", kGeometry}, {"columns", {{kGeometry, geometry}}}};
+        const std::pair<std::string, std::string> notes[] = {{"geo", geo.dump()}, {"crs", crsName_}, {"unit", "metre"}};
+        if (auto written = file_.write(stream_.end(notes)); !written) return written.error();
+        return file_.commit();
+    }
+
+private:
+    static constexpr std::size_t kGroupRows = 65536;
+    static constexpr const char* kGeometry = "geometry";
+
+    static std::vector<ParquetColumn> parquetColumns(const std::vector<FeatureColumn>& columns) {
+        std::vector<ParquetColumn> result;
+        for (const FeatureColumn& column : columns)
+            result.push_back({validText(column.name),
+                              column.kind == FeatureColumn::Kind::Text    ? ParquetType::Text
+                              : column.kind == FeatureColumn::Kind::Whole ? ParquetType::Whole
+                                                                          : ParquetType::Real,
+                              true, false});
+        result.push_back({kGeometry, ParquetType::Text, true, true});
+        return result;
+    }
+
+    static TableCell cellOf(const FeatureCell& cell, FeatureColumn::Kind kind) {
+        if (std::holds_alternative<std::monostate>(cell)) return {};
+        if (kind == FeatureColumn::Kind::Text)
+            return std::visit([](const auto& value) -> TableCell { return value; }, cell);
+        if (const auto* truth = std::get_if<bool>(&cell)) return std::int64_t{*truth ? 1 : 0};
+        if (const auto* whole = std::get_if<std::int64_t>(&cell)) return *whole;
+        if (const auto* number = std::get_if<double>(&cell); number != nullptr && kind == FeatureColumn::Kind::Number)
+            return *number;
+        return {};
+    }
+
+    Result<void> flush() {
+        const auto group = stream_.group(rows_);
+        if (!group) return group.error();
+        for (TableColumn& column : rows_) column.cells.clear();
+        text_ += *group;
+        auto written = file_.write(text_);
+        text_.clear();
+        return written;
+    }
+
+    AtomicFile file_;
+    std::string crsName_, text_;
+    ParquetStream stream_;
+    std::vector<FeatureColumn::Kind> kinds_;
+    std::vector<TableColumn> rows_;
     std::array<double, 4> bounds_{1e300, 1e300, -1e300, -1e300};
 };
 
@@ -193,11 +289,14 @@ Result<std::unique_ptr<FeatureLayer>> FeatureLayer::create(const std::filesystem
         return std::unique_ptr<FeatureLayer>(
             std::make_unique<PackageLayer>(path, std::move(*database), columns, crsName));
     }
-    if (ending != ".csv" && ending != ".geojson")
-        return Error(Code::BadArgument, "features are written as .csv, .geojson or .gpkg", {path.string(), 0, 0, {}});
+    if (ending != ".csv" && ending != ".geojson" && ending != ".parquet")
+        return Error(Code::BadArgument, "features are written as .csv, .geojson, .gpkg or .parquet",
+                     {path.string(), 0, 0, {}});
     auto file = AtomicFile::create(path);
     if (!file) return file.error();
     if (ending == ".csv") return std::unique_ptr<FeatureLayer>(std::make_unique<CsvLayer>(std::move(*file), columns));
+    if (ending == ".parquet")
+        return std::unique_ptr<FeatureLayer>(std::make_unique<GeoParquetLayer>(std::move(*file), columns, crsName));
     return std::unique_ptr<FeatureLayer>(std::make_unique<GeoJsonLayer>(std::move(*file), std::move(columns), crsName));
 }
 

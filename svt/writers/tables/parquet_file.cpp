@@ -1,8 +1,8 @@
 #include <svt/writers/dense/piece_writer.hpp>
-#include <svt/writers/tables/table.hpp>
-#include <svt/writers/tables/thrift_struct.hpp>
+#include <svt/writers/tables/parquet_stream.hpp>
 
 #include <svt/core/attribute.hpp>
+#include <svt/core/check.hpp>
 
 #include <fmt/format.h>
 
@@ -12,7 +12,6 @@ namespace svt::writers {
 namespace {
 
 // Numbers of parquet.thrift.
-enum class ParquetType : std::int32_t { Truth = 0, Whole = 2, Small = 4, Real = 5, Text = 6 };
 constexpr std::int32_t kPlain = 0, kRunLength = 3, kDataPage = 0, kUncompressed = 0, kUtf8 = 0;
 constexpr std::size_t kMostPageBytes = 0x7FFFFFFF;
 
@@ -70,7 +69,7 @@ std::string definitionLevels(const TableColumn& column) {
     return bytes + run;
 }
 
-std::string plainValues(const TableColumn& column, ParquetType type) {
+std::string plainValues(const TableColumn& column, ParquetType type, bool isBinary) {
     std::string bytes;
     std::vector<bool> truths;
     for (const TableCell& cell : column.cells) {
@@ -80,7 +79,7 @@ std::string plainValues(const TableColumn& column, ParquetType type) {
         if (type == ParquetType::Small) appendBytes(bytes, std::get<float>(cell));
         if (type == ParquetType::Truth) truths.push_back(std::get<bool>(cell));
         if (type != ParquetType::Text) continue;
-        const std::string text = textOf(cell);
+        const std::string text = isBinary ? std::get<std::string>(cell) : textOf(cell);
         appendBytes(bytes, static_cast<std::uint32_t>(text.size()));
         bytes += text;
     }
@@ -89,24 +88,22 @@ std::string plainValues(const TableColumn& column, ParquetType type) {
 
 }  // namespace
 
-Result<std::string> makeParquet(const Table& table) {
-    std::string file = "PAR1";
-    const auto rows = static_cast<std::int64_t>(table.rows());
-    std::vector<ThriftStruct> schema{
-        ThriftStruct().text(4, "schema").number32(5, static_cast<std::int32_t>(table.columns.size()))};
+std::string ParquetStream::begin() {
+    size_ = 4;
+    return "PAR1";
+}
+
+Result<std::string> ParquetStream::group(std::span<const TableColumn> columns) {
+    SVT_CHECK(columns.size() == columns_.size());
+    const auto rows = static_cast<std::int64_t>(columns.empty() ? 0 : columns.front().cells.size());
+    if (rows == 0) return std::string();
+    std::string bytes;
     std::vector<ThriftStruct> chunks;
     std::int64_t total = 0;
-    for (const TableColumn& column : table.columns) {
-        const ParquetType type = typeOf(column);
-        const bool isOptional = !std::all_of(column.cells.begin(), column.cells.end(), isPresent);
-        const std::string name = validText(column.name);
-        ThriftStruct element;
-        element.number32(1, static_cast<std::int32_t>(type)).number32(3, isOptional ? 1 : 0).text(4, name);
-        if (type == ParquetType::Text)
-            element.number32(6, kUtf8).inner(10, ThriftStruct().inner(1, ThriftStruct()));  // the logical type STRING
-        schema.push_back(element);
-
-        const std::string page = (isOptional ? definitionLevels(column) : std::string()) + plainValues(column, type);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+        const auto& [name, type, isOptional, isBinary] = columns_[c];
+        const std::string page =
+            (isOptional ? definitionLevels(columns[c]) : std::string()) + plainValues(columns[c], type, isBinary);
         if (page.size() > kMostPageBytes)
             return Error(Code::GridTooLarge, fmt::format("column '{}' has more than 2 GiB; use --select", name));
         const auto size = static_cast<std::int32_t>(page.size());
@@ -120,10 +117,10 @@ Result<std::string> makeParquet(const Table& table) {
                                                    .number32(3, kRunLength)
                                                    .number32(4, kRunLength))
                                      .end();
-        const auto begin = static_cast<std::int64_t>(file.size()),
-                   bytes = static_cast<std::int64_t>(head.size() + page.size());
-        if (rows > 0) file += head + page;
-        total += bytes;
+        const auto begin = static_cast<std::int64_t>(size_ + bytes.size()),
+                   length = static_cast<std::int64_t>(head.size() + page.size());
+        (bytes += head) += page;
+        total += length;
         chunks.push_back(
             ThriftStruct().number64(2, begin).inner(3, ThriftStruct()
                                                            .number32(1, static_cast<std::int32_t>(type))
@@ -131,21 +128,49 @@ Result<std::string> makeParquet(const Table& table) {
                                                            .list(3, std::vector<std::string>{name})
                                                            .number32(4, kUncompressed)
                                                            .number64(5, rows)
-                                                           .number64(6, bytes)
-                                                           .number64(7, bytes)
+                                                           .number64(6, length)
+                                                           .number64(7, length)
                                                            .number64(9, begin)));
     }
-    std::vector<ThriftStruct> groups, notes;
-    if (rows > 0) groups.push_back(ThriftStruct().list(1, chunks).number64(2, total).number64(3, rows));
-    for (const auto& [key, value] : table.notes)
+    groups_.push_back(ThriftStruct().list(1, chunks).number64(2, total).number64(3, rows));
+    rows_ += rows;
+    size_ += bytes.size();
+    return bytes;
+}
+
+std::string ParquetStream::end(std::span<const std::pair<std::string, std::string>> texts) const {
+    std::vector<ThriftStruct> schema{
+        ThriftStruct().text(4, "schema").number32(5, static_cast<std::int32_t>(columns_.size()))};
+    for (const ParquetColumn& column : columns_) {
+        ThriftStruct element;
+        element.number32(1, static_cast<std::int32_t>(column.type))
+            .number32(3, column.isOptional ? 1 : 0)
+            .text(4, column.name);
+        if (column.type == ParquetType::Text && !column.isBinary)
+            element.number32(6, kUtf8).inner(10, ThriftStruct().inner(1, ThriftStruct()));  // the logical type STRING
+        schema.push_back(element);
+    }
+    std::vector<ThriftStruct> notes;
+    for (const auto& [key, value] : texts)
         notes.push_back(ThriftStruct().text(1, validText(key)).text(2, validText(value)));
     ThriftStruct metadata;
-    metadata.number32(1, 1).list(2, schema).number64(3, rows).list(4, groups);
+    metadata.number32(1, 1).list(2, schema).number64(3, rows_).list(4, groups_);
     if (!notes.empty()) metadata.list(5, notes);
-    const std::string footer = metadata.text(6, "svt").end();
-    file += footer;
-    appendBytes(file, static_cast<std::uint32_t>(footer.size()));
-    return file + "PAR1";
+    std::string footer = metadata.text(6, "svt").end();
+    appendBytes(footer, static_cast<std::uint32_t>(footer.size()));
+    return footer + "PAR1";
+}
+
+Result<std::string> makeParquet(const Table& table) {
+    std::vector<ParquetColumn> columns;
+    for (const TableColumn& column : table.columns)
+        columns.push_back({validText(column.name), typeOf(column),
+                           !std::all_of(column.cells.begin(), column.cells.end(), isPresent), false});
+    ParquetStream stream(std::move(columns));
+    std::string file = stream.begin();
+    const auto group = stream.group(table.columns);
+    if (!group) return group.error();
+    return file + *group + stream.end(table.notes);
 }
 
 }  // namespace svt::writers

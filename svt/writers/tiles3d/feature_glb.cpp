@@ -20,37 +20,15 @@ using GltfJson = nlohmann::ordered_json;
 constexpr int kFloatType = 5126, kByteType = 5121, kIndexType = 5125, kVertices = 34962, kIndices = 34963;
 constexpr float kOpaque = 0.999f;
 
-/// The vertices of a primitive, each attribute in its own array.
-struct FlatMesh {
-    std::vector<Vec3f> positions, normals;
-    std::vector<std::array<std::uint8_t, 4>> colors;
-    std::vector<float> features;
-    std::vector<std::uint32_t> indices;
-};
-
 /// glTF has vertex colours linear.
 std::uint8_t linearByte(float value) {
     const double v = value <= 0.04045f ? value / 12.92 : std::pow((double(value) + 0.055) / 1.055, 2.4);
     return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0, 1.0) * 255));
 }
 
-/// World directions with y up.
-Vec3f withYUp(Vec3d v) noexcept {
-    return {static_cast<float>(v.x), static_cast<float>(v.z), static_cast<float>(-v.y + 0.0)};
-}
-
-std::uint64_t keyOf(std::uint32_t vertex, Vec3d normal) {
-    std::uint64_t key = vertex;
-    for (int axis = 0; axis < 3; ++axis)
-        key = key << 10 | static_cast<std::uint64_t>(std::lround((normal[axis] + 1) * 511));
-    return key;
-}
-
 void appendSurface(const LabelHulls& hulls, std::size_t surface, float feature, FlatMesh& mesh) {
     const volume::Label& label = hulls.label(surface);
-    const std::array<std::uint8_t, 4> color{
-        linearByte(label.color.x), linearByte(label.color.y), linearByte(label.color.z),
-        static_cast<std::uint8_t>(std::lround(std::clamp(label.opacity, 0.0f, 1.0f) * 255))};
+    const std::array<std::uint8_t, 4> color = linearColor(label.color, label.opacity);
     std::unordered_map<std::uint64_t, std::uint32_t> known;
     known.reserve(hulls.positions[surface].size() * 2);
     for (const auto& triangle : hulls.surfaces[surface].triangles) {
@@ -62,7 +40,7 @@ void appendSurface(const LabelHulls& hulls, std::size_t surface, float feature, 
         const Vec3d normal = across * (1 / size);
         for (std::size_t p = 0; p < 3; ++p) {
             const auto [vertex, isNew] =
-                known.try_emplace(keyOf(triangle[p], normal), static_cast<std::uint32_t>(mesh.positions.size()));
+                known.try_emplace(vertexKey(triangle[p], normal), static_cast<std::uint32_t>(mesh.positions.size()));
             if (isNew) {
                 mesh.positions.push_back(withYUp(points[p]));
                 mesh.normals.push_back(withYUp(normal));
@@ -110,6 +88,63 @@ GltfJson primitiveOf(const FlatMesh& mesh, std::size_t features, std::size_t mat
             {"extensions", {{"EXT_mesh_features", {{"featureIds", ids}}}}}};
 }
 
+/// The same in 20 bytes a vertex. \param node  receives the scale of the places, and is moved to their lower corner
+GltfJson quantizedPrimitive(const FlatMesh& mesh, std::size_t features, GltfBuffer& buffer, GltfJson& accessors,
+                            GltfJson& node) {
+    constexpr int kShortType = 5123, kSignedByteType = 5120;
+    constexpr float kSteps = 65535;
+    Vec3f min = mesh.positions.front(), max = min;
+    for (const Vec3f position : mesh.positions)
+        for (int axis = 0; axis < 3; ++axis) {
+            min[axis] = std::min(min[axis], position[axis]);
+            max[axis] = std::max(max[axis], position[axis]);
+        }
+    const float scale = std::max({max.x - min.x, max.y - min.y, max.z - min.z}) / kSteps;
+    std::vector<std::array<std::uint16_t, 4>> places;
+    std::vector<std::array<std::int8_t, 4>> normals;
+    std::vector<std::array<std::uint16_t, 2>> numbers;
+    std::array<std::uint16_t, 3> least{0xFFFF, 0xFFFF, 0xFFFF}, most{0, 0, 0};
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        std::array<std::uint16_t, 4> place{};
+        std::array<std::int8_t, 4> normal{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const int a = static_cast<int>(axis);
+            place[axis] = static_cast<std::uint16_t>(std::lround((mesh.positions[v][a] - min[a]) / scale));
+            normal[axis] = static_cast<std::int8_t>(std::lround(mesh.normals[v][a] * 127));
+            least[axis] = std::min(least[axis], place[axis]);
+            most[axis] = std::max(most[axis], place[axis]);
+        }
+        places.push_back(place);
+        normals.push_back(normal);
+        numbers.push_back({static_cast<std::uint16_t>(mesh.features[v]), 0});
+    }
+    const std::size_t first = accessors.size(), count = places.size();
+    accessors.push_back(accessor(addVertices(buffer, places), kShortType, count, "VEC3"));
+    accessors.back()["min"] = least;
+    accessors.back()["max"] = most;
+    accessors.push_back(accessor(addVertices(buffer, normals), kSignedByteType, count, "VEC3"));
+    accessors.back()["normalized"] = true;
+    accessors.push_back(accessor(addVertices(buffer, mesh.colors), kByteType, count, "VEC4"));
+    accessors.back()["normalized"] = true;
+    accessors.push_back(accessor(addVertices(buffer, numbers), kShortType, count, "SCALAR"));
+    const std::vector<std::uint16_t> small(mesh.indices.begin(), mesh.indices.end());
+    const bool isSmall = count < 65535;
+    const auto bytes = isSmall ? std::as_bytes(std::span(small)) : std::as_bytes(std::span(mesh.indices));
+    accessors.push_back(
+        accessor(buffer.add(bytes, 0, kIndices), isSmall ? kShortType : kIndexType, mesh.indices.size(), "SCALAR"));
+    const std::array<float, 3> corner{min.x, min.y, min.z};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        node["translation"][axis] = node["translation"][axis].get<double>() + double(corner[axis]);
+    node["scale"] = {scale, scale, scale};
+    const GltfJson ids =
+        GltfJson::array({{{"featureCount", features}, {"attribute", 0}, {"label", "component"}, {"propertyTable", 0}}});
+    return {{"attributes",
+             {{"POSITION", first}, {"NORMAL", first + 1}, {"COLOR_0", first + 2}, {"_FEATURE_ID_0", first + 3}}},
+            {"indices", first + 4},
+            {"material", 0},
+            {"extensions", {{"EXT_mesh_features", {{"featureIds", ids}}}}}};
+}
+
 GltfJson materialOf(bool isOpaque) {
     GltfJson material{{"name", isOpaque ? "opaque" : "clear"},
                       {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}};
@@ -151,6 +186,63 @@ GltfJson metadataOf(const LabelHulls& hulls, std::size_t begin, std::size_t end,
 }
 
 }  // namespace
+
+std::array<std::uint8_t, 4> linearColor(Vec3f color, float opacity) noexcept {
+    return {linearByte(color.x), linearByte(color.y), linearByte(color.z),
+            static_cast<std::uint8_t>(std::lround(std::clamp(opacity, 0.0f, 1.0f) * 255))};
+}
+
+Vec3f withYUp(Vec3d v) noexcept {
+    return {static_cast<float>(v.x), static_cast<float>(v.z), static_cast<float>(-v.y + 0.0)};
+}
+
+std::uint64_t vertexKey(std::uint32_t corner, Vec3d normal) noexcept {
+    std::uint64_t key = corner;
+    for (int axis = 0; axis < 3; ++axis)
+        key = key << 10 | static_cast<std::uint64_t>(std::lround((normal[axis] + 1) * 511));
+    return key;
+}
+
+Result<std::string> makeMeshGlb(const FlatMesh& opaque, const FlatMesh& clear, std::size_t features,
+                                const std::function<GltfJson(GltfBuffer&)>& metadata, Vec3d place,
+                                VertexStorage storage) {
+    const std::uint64_t bytes = opaque.sizeBytes() + clear.sizeBytes();
+    if (bytes > 0xF0000000u)
+        return Error(Code::GridTooLarge,
+                     fmt::format("a tile of {} bytes is more than a .glb can be; use --level", bytes));
+    GltfBuffer buffer;
+    GltfJson primitives = GltfJson::array(), accessors = GltfJson::array();
+    GltfJson materials = GltfJson::array();
+    GltfJson node{{"mesh", 0}};
+    if (storage == VertexStorage::Quantized || place != Vec3d{})
+        node["translation"] = {place.x, place.z, -place.y + 0.0};
+    for (const FlatMesh* mesh : {&opaque, &clear}) {
+        if (mesh->indices.empty()) continue;
+        primitives.push_back(storage == VertexStorage::Quantized
+                                 ? quantizedPrimitive(*mesh, features, buffer, accessors, node)
+                                 : primitiveOf(*mesh, features, materials.size(), buffer, accessors));
+        materials.push_back(materialOf(mesh == &opaque));
+    }
+    if (primitives.empty()) return Error(Code::NothingSelected, "the surfaces have no area");
+    GltfJson extension = metadata(buffer);
+    std::string binary = buffer.bytes();
+    binary.resize((binary.size() + 7) / 8 * 8, '\0');
+    GltfJson used = GltfJson::array({"EXT_mesh_features", "EXT_structural_metadata"});
+    if (storage == VertexStorage::Quantized) used.push_back("KHR_mesh_quantization");
+    GltfJson json{{"asset", {{"version", "2.0"}, {"generator", "svt"}}},
+                  {"extensionsUsed", std::move(used)},
+                  {"extensions", {{"EXT_structural_metadata", std::move(extension)}}},
+                  {"scene", 0},
+                  {"scenes", GltfJson::array({{{"nodes", {0}}}})},
+                  {"nodes", GltfJson::array({std::move(node)})},
+                  {"meshes", GltfJson::array({{{"primitives", std::move(primitives)}}})},
+                  {"materials", std::move(materials)},
+                  {"accessors", std::move(accessors)},
+                  {"bufferViews", buffer.views()},
+                  {"buffers", GltfJson::array({{{"byteLength", binary.size()}}})}};
+    if (storage == VertexStorage::Quantized) json["extensionsRequired"] = GltfJson::array({"KHR_mesh_quantization"});
+    return asGlbFile(json, binary);
+}
 
 std::string asGlbFile(const nlohmann::ordered_json& json, const std::string& binary) {
     std::string text = json.dump(-1, ' ', false, GltfJson::error_handler_t::replace);
@@ -195,35 +287,9 @@ Result<std::string> makeFeatureGlb(const LabelHulls& hulls, std::size_t begin, s
     FlatMesh opaque, clear;
     for (std::size_t s = begin; s < end; ++s)
         appendSurface(hulls, s, static_cast<float>(s - begin), hulls.label(s).opacity >= kOpaque ? opaque : clear);
-    const std::uint64_t bytes =
-        (opaque.positions.size() + clear.positions.size()) * 32 + (opaque.indices.size() + clear.indices.size()) * 4;
-    if (bytes > 0xF0000000u)
-        return Error(Code::GridTooLarge,
-                     fmt::format("a tile of {} bytes is more than a .glb can be; use --level", bytes));
-    GltfBuffer buffer;
-    GltfJson primitives = GltfJson::array(), accessors = GltfJson::array();
-    GltfJson materials = GltfJson::array();
-    for (const FlatMesh* mesh : {&opaque, &clear}) {
-        if (mesh->indices.empty()) continue;
-        primitives.push_back(primitiveOf(*mesh, end - begin, materials.size(), buffer, accessors));
-        materials.push_back(materialOf(mesh == &opaque));
-    }
-    if (primitives.empty()) return Error(Code::NothingSelected, "the surfaces have no area");
-    GltfJson metadata = metadataOf(hulls, begin, end, texts, buffer);
-    std::string binary = buffer.bytes();
-    binary.resize((binary.size() + 7) / 8 * 8, '\0');
-    GltfJson json{{"asset", {{"version", "2.0"}, {"generator", "svt"}}},
-                  {"extensionsUsed", {"EXT_mesh_features", "EXT_structural_metadata"}},
-                  {"extensions", {{"EXT_structural_metadata", std::move(metadata)}}},
-                  {"scene", 0},
-                  {"scenes", GltfJson::array({{{"nodes", {0}}}})},
-                  {"nodes", GltfJson::array({{{"mesh", 0}}})},
-                  {"meshes", GltfJson::array({{{"primitives", std::move(primitives)}}})},
-                  {"materials", std::move(materials)},
-                  {"accessors", std::move(accessors)},
-                  {"bufferViews", buffer.views()},
-                  {"buffers", GltfJson::array({{{"byteLength", binary.size()}}})}};
-    return asGlbFile(json, binary);
+    return makeMeshGlb(
+        opaque, clear, end - begin, [&](GltfBuffer& buffer) { return metadataOf(hulls, begin, end, texts, buffer); },
+        {}, VertexStorage::Full);
 }
 
 }  // namespace svt::writers

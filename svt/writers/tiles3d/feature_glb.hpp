@@ -4,10 +4,14 @@
 /// and a table with a row for each feature (EXT_structural_metadata).
 
 #include <svt/writers/hulls/label_hulls.hpp>
+#include <svt/writers/tiles3d/property_table.hpp>
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,6 +29,41 @@ struct FeatureTexts {
 /// \return the file; or GridTooLarge where it would reach the limit of 4 GiB
 [[nodiscard]] Result<std::string> makeFeatureGlb(const LabelHulls& hulls, std::size_t begin, std::size_t end,
                                                  const FeatureTexts& texts);
+
+/// The vertices of a primitive, each attribute in its own array; a vertex has the normal of its face.
+struct FlatMesh {
+    std::vector<Vec3f> positions, normals;            ///< y up
+    std::vector<std::array<std::uint8_t, 4>> colors;  ///< linear
+    std::vector<float> features;
+    std::vector<std::uint32_t> indices;
+
+    [[nodiscard]] std::uint64_t sizeBytes() const noexcept { return positions.size() * 32 + indices.size() * 4; }
+};
+
+/// A vertex colour of glTF, which has them linear, of a colour in sRGB.
+[[nodiscard]] std::array<std::uint8_t, 4> linearColor(Vec3f color, float opacity) noexcept;
+
+/// A direction of the world (z up) as glTF has it (y up).
+[[nodiscard]] Vec3f withYUp(Vec3d v) noexcept;
+
+/// A number that vertices share which are one: that of the corner, and the normal to a few bits.
+[[nodiscard]] std::uint64_t vertexKey(std::uint32_t corner, Vec3d normal) noexcept;
+
+/// How vertices are stored.
+enum class VertexStorage {
+    Full,      ///< 32 bytes: places and normals as floats
+    Quantized  ///< 20 bytes: places in 65535 steps of the longest side, normals in 127 (KHR_mesh_quantization); indices
+               ///< of two bytes where these suffice
+};
+
+/// Meshes as a .glb, each a primitive with a material, and the table of their features.
+/// \param clear     blended; may be empty, as `opaque`; none where quantized
+/// \param metadata  adds columns to the buffer, and returns the extension EXT_structural_metadata
+/// \param place     of the meshes, world directions, metres
+/// \return the file; GridTooLarge where it would reach the limit of 4 GiB; NothingSelected without triangles
+[[nodiscard]] Result<std::string> makeMeshGlb(const FlatMesh& opaque, const FlatMesh& clear, std::size_t features,
+                                              const std::function<nlohmann::ordered_json(GltfBuffer&)>& metadata,
+                                              Vec3d place, VertexStorage storage);
 
 /// A .glb of a document and its one buffer, which begins at a multiple of 8 bytes.
 [[nodiscard]] std::string asGlbFile(const nlohmann::ordered_json& json, const std::string& binary);

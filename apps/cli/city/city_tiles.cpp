@@ -1,0 +1,176 @@
+#include <apps/cli/city/city_tiles.hpp>
+
+#include <svt/city/city_levels.hpp>
+#include <svt/city/city_view.hpp>
+#include <svt/core/parallel.hpp>
+#include <svt/writers/city_tileset.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace svt::cli {
+namespace {
+
+using city::IndexEntry;
+using writers::TileContent;
+
+/// What a square of the quadtree is made of: tiles of detail 0 or 1, or the columns of a coarser one.
+struct Square {
+    writers::QuadtreeNode node;
+    int detail = 0;
+    std::vector<IndexEntry> tiles;
+    std::array<double, 4> rectangle{};
+};
+
+/// The quadtree: its root is the least one of 1024 m or more whose quarters are the tiles of the city.
+class CitySquares {
+public:
+    CitySquares(const city::City& city, int finest) : city_(city), finestDetail_(finest) {}
+
+    Result<void> find() {
+        auto entries = city::allTiles(city_, 0);
+        if (!entries) return entries.error();
+        auto coarse = city::allTiles(city_, 1);
+        if (!coarse) return coarse.error();
+        if (entries->empty()) return Error(Code::NothingSelected, "the city has no tiles");
+        layOut(*entries);
+        for (const IndexEntry& entry : finestDetail_ == 0 ? *entries : *coarse) add(entry, true);
+        for (const IndexEntry& entry : *coarse) add(entry, false);
+        return {};
+    }
+
+    [[nodiscard]] writers::CityTilesetFrame frame() const {
+        writers::CityTilesetFrame frame;
+        frame.corner = {double(west_), double(south_), city_.box().min.z};
+        frame.side = std::ldexp(1, rootLevel_);
+        frame.levels = rootLevel_ - finest_ + 1;
+        frame.crsName = city_.crsName();
+        return frame;
+    }
+    /// By level, the finest first, then row by row.
+    [[nodiscard]] std::vector<Square> squares() const {
+        std::vector<Square> result;
+        for (const auto& [key, square] : squares_) result.push_back(square);
+        return result;
+    }
+
+private:
+    void layOut(const std::vector<IndexEntry>& entries) {
+        std::int64_t east = INT64_MIN, north = INT64_MIN;
+        west_ = south_ = INT64_MAX;
+        for (const IndexEntry& entry : entries) {
+            const std::int64_t side = std::int64_t{1} << entry.tile.level;
+            west_ = std::min(west_, entry.tile.x * side);
+            south_ = std::min(south_, entry.tile.y * side);
+            east = std::max(east, (entry.tile.x + 1) * side);
+            north = std::max(north, (entry.tile.y + 1) * side);
+            finest_ = std::min(finest_, entry.tile.level);
+        }
+        constexpr std::int64_t kLargest = std::int64_t{1} << city::Plan::kTopLevel;
+        west_ = floorTo(west_, kLargest);
+        south_ = floorTo(south_, kLargest);
+        while (std::int64_t{1} << rootLevel_ < std::max(east - west_, north - south_)) ++rootLevel_;
+    }
+
+    static std::int64_t floorTo(std::int64_t value, std::int64_t step) {
+        return (value >= 0 ? value / step : -((-value + step - 1) / step)) * step;
+    }
+
+    // The finest detail, 1 at least, with at most 256 columns along a side of 2^level metres.
+    [[nodiscard]] int detailOf(int level) const {
+        int detail = 1;
+        while (detail < city_.topDetail() &&
+               std::ldexp(1, level) > city::kLevelCells * city::spacingOf(detail, city_.spacing()).x)
+            ++detail;
+        return detail;
+    }
+
+    // The square of a tile, or all around it.
+    void add(const IndexEntry& entry, bool isOwn) {
+        const std::int64_t side = std::int64_t{1} << entry.tile.level;
+        const std::int64_t x = entry.tile.x * side - west_, y = entry.tile.y * side - south_;
+        const int from = entry.tile.level + (isOwn ? 0 : 1), to = isOwn ? entry.tile.level : rootLevel_;
+        for (int level = from; level <= to; ++level) {
+            const writers::QuadtreeNode node{rootLevel_ - level, static_cast<std::uint32_t>(x >> level),
+                                             static_cast<std::uint32_t>(y >> level)};
+            Square& square = squares_[{level, node.y, node.x}];
+            square.node = node;
+            square.detail = isOwn ? finestDetail_ : detailOf(level);
+            const double size = std::ldexp(1, level);
+            const double west = double(west_) + node.x * size, south = double(south_) + node.y * size;
+            square.rectangle = {west, south, west + size, south + size};
+            if (square.detail < city::kFirstClassDetail) square.tiles.push_back(entry);
+        }
+    }
+
+    const city::City& city_;
+    int finestDetail_;
+    std::int64_t west_ = 0, south_ = 0;
+    int rootLevel_ = city::Plan::kTopLevel, finest_ = city::Plan::kTopLevel;
+    std::map<std::array<std::int64_t, 3>, Square> squares_;
+};
+
+Result<std::vector<volume::SemanticVolume>> volumesOf(const city::City& city, const Square& square) {
+    std::vector<volume::SemanticVolume> volumes;
+    for (const IndexEntry& entry : square.tiles) {
+        auto volume = city.read(entry);
+        if (!volume) return volume.error();
+        volumes.push_back(std::move(*volume));
+    }
+    if (square.detail < city::kFirstClassDetail) return volumes;
+    city::Extract extract;
+    extract.detail = square.detail;
+    extract.hasBox = true;
+    const auto& [west, south, east, north] = square.rectangle;
+    extract.box = {west, south, city.box().min.z - 1000, east, north, city.box().max.z + 1000};
+    auto volume = city::extractVolume(city, extract);
+    // A building may stand over the border of its tile, so that no column has its middle here.
+    if (!volume && volume.error().code() == Code::NothingSelected) return volumes;
+    if (!volume) return volume.error();
+    volumes.push_back(std::move(*volume));
+    return volumes;
+}
+
+}  // namespace
+
+Result<std::uint64_t> writeCityTiles(const city::City& city, const std::filesystem::path& path,
+                                     const writers::VolumeWriteOptions& options, int finest, int threads,
+                                     const Progress* progress) {
+    CitySquares found(city, finest);
+    if (auto done = found.find(); !done) return done.error();
+    writers::CityTilesetFrame frame = found.frame();
+    frame.source = path.filename().string();
+    frame.write = options;
+    frame.write.progress = progress;
+    auto tileset = writers::CityTileset::create(path, frame);
+    if (!tileset) return tileset.error();
+    const std::vector<Square> squares = found.squares();
+    const std::size_t batch = 2 * static_cast<std::size_t>(threads > 0 ? threads : hardwareThreads());
+    ProgressCounter counter(progress, "tiles", squares.size());
+    for (std::size_t begin = 0; begin < squares.size(); begin += batch) {
+        const std::size_t count = std::min(batch, squares.size() - begin);
+        std::vector<std::optional<Result<TileContent>>> made(count);
+        parallelFor(count, 1, threads, [&](std::size_t from, std::size_t to) {
+            for (std::size_t n = from; n < to; ++n) {
+                const Square& square = squares[begin + n];
+                const double error = square.detail == finest ? 0 : city::spacingOf(square.detail, city.spacing()).x;
+                const auto volumes = volumesOf(city, square);
+                made[n].emplace(volumes ? (*tileset)->make(*volumes, error) : Result<TileContent>(volumes.error()));
+            }
+        });
+        for (std::size_t n = 0; n < count; ++n) {
+            if (!*made[n]) return made[n]->error();
+            if (auto added = (*tileset)->add(squares[begin + n].node, **made[n]); !added) return added.error();
+            made[n].reset();
+            counter.add();
+        }
+        if (Progress::isCancelled(progress)) return Error(Code::Cancelled, "stopped between tiles; nothing was left");
+    }
+    return (*tileset)->finish();
+}
+
+}  // namespace svt::cli

@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// Apache Parquet in groups of rows, so that a table may be longer than memory. Plain encoding, not compressed.
+/// Source: the format's own parquet.thrift and Encodings.md.
+
+#include <svt/core/result.hpp>
+#include <svt/writers/tables/table.hpp>
+#include <svt/writers/tables/thrift_struct.hpp>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace svt::writers {
+
+/// Physical types: numbers of parquet.thrift.
+enum class ParquetType : std::int32_t { Truth = 0, Whole = 2, Small = 4, Real = 5, Text = 6 };
+
+struct ParquetColumn {
+    std::string name;  ///< valid UTF-8
+    ParquetType type = ParquetType::Text;
+    bool isOptional = false;  ///< cells may be empty
+    bool isBinary = false;    ///< of Text: bytes, not UTF-8
+};
+
+/// Pieces of a file, to be written one after the other: begin(), groups, end().
+class ParquetStream {
+public:
+    explicit ParquetStream(std::vector<ParquetColumn> columns) : columns_(std::move(columns)) {}
+
+    [[nodiscard]] std::string begin();
+    /// \param columns  as given at first, all of one length; cells of the column's type, numbers of Real of any kind
+    /// \return the bytes, none without rows; or GridTooLarge where a column would have 2 GiB
+    [[nodiscard]] Result<std::string> group(std::span<const TableColumn> columns);
+    /// \param texts  key/value metadata
+    [[nodiscard]] std::string end(std::span<const std::pair<std::string, std::string>> texts) const;
+
+private:
+    std::vector<ParquetColumn> columns_;
+    std::vector<ThriftStruct> groups_;
+    std::uint64_t size_ = 0;
+    std::int64_t rows_ = 0;
+};
+
+}  // namespace svt::writers

@@ -1,0 +1,48 @@
+#pragma once
+/// \file
+/// The squares of a quadtree that there are, and the files that say so: subtrees of 3D Tiles 1.1, each of some levels.
+
+#include <svt/core/vec.hpp>
+#include <svt/writers/city_tileset.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace svt::writers {
+
+/// Squares with content and all around them.
+class QuadtreeIndex {
+public:
+    static constexpr int kSubtreeLevels = 5;
+
+    struct Square {
+        Box3d box;         ///< of its content and of all below it
+        double error = 0;  ///< of its content, or the largest below it
+        bool hasContent = false;
+    };
+
+    void add(QuadtreeNode node, const Box3d& box, double error);
+    [[nodiscard]] bool isEmpty() const noexcept { return squares_.empty(); }
+    [[nodiscard]] const Square& root() const { return squares_.begin()->second; }
+
+    /// Boxes and errors of squares grow to those below them. To be called once, after the last add().
+    void close();
+    /// Hands over all subtrees: the square at the top, and the file.
+    [[nodiscard]] Result<void> forEachSubtree(
+        const std::function<Result<void>(QuadtreeNode, const std::string&)>& take) const;
+
+private:
+    // Level, then Morton number.
+    using Key = std::pair<int, std::uint64_t>;
+    [[nodiscard]] std::string subtreeAt(int level, std::uint64_t morton) const;
+
+    std::map<Key, Square> squares_;
+};
+
+/// Bit n of x is bit 2n, of y bit 2n + 1: the order of squares in subtrees.
+[[nodiscard]] std::uint64_t mortonOf(QuadtreeNode node) noexcept;
+
+}  // namespace svt::writers
