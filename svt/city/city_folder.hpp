@@ -26,6 +26,9 @@ struct IndexEntry {
     std::uint64_t offset = 0, size = 0;
     std::int32_t lowest = 0, highest = 0;  ///< metres above datum, rounded outwards
     std::uint32_t buildings = 0;
+    /// West, south, east, north of its samples in metres, rounded outwards; nothing (all 0) in cities of version 1.
+    std::array<std::int32_t, 4> rectangle{};
+    [[nodiscard]] bool hasRectangle() const noexcept { return rectangle[0] < rectangle[2]; }
 };
 
 /// What is done of a plan.
@@ -49,6 +52,9 @@ struct CityStatus {
 /// A merged city.
 class City {
 public:
+    /// Of city.json. Older ones are read, too.
+    static constexpr int kVersion = 2;
+
     /// Reads city.json and the root of the index.
     /// \param folder  or the address of one (http://, https://), which is read by requests for ranges
     /// \return the city, or BadCity where one of them is missing or damaged; PlanVersion; CannotOpen where a server does
@@ -76,6 +82,8 @@ public:
         std::string name;
         std::string color;  ///< "#rrggbb", by default
         std::uint64_t buildings = 0;
+        /// Classes of their parts (RoofSurface), and colours.
+        std::vector<std::pair<std::string, std::string>> parts;
     };
     [[nodiscard]] const std::vector<Class>& classes() const noexcept { return classes_; }
 

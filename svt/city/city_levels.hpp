@@ -30,8 +30,12 @@ inline constexpr int kCoverageSteps = 8;     ///< coverage is counted in eighths
 /// and at least 4 m where that is not finer than detail 1.
 [[nodiscard]] Vec3d spacingOf(int detail, double spacing) noexcept;
 
-/// What covers the columns of a label of detail 3 or up: classes and eighths, the one that covers most first. One class
-/// with all eighths where the label does not say (other details).
+/// The tile of the next coarser detail that a tile belongs to, with all that stands in it: of detail 0 itself, of detail 1
+/// the one whose square holds the middle of its own. Not that of the coarsest detail, which is one tile.
+[[nodiscard]] TileKey tileAbove(const TileKey& tile, int detail, double spacing) noexcept;
+
+/// What covers the columns of a label of detail 3 or up: classes ("Building", or "Building/RoofSurface" of parts) and eighths,
+/// the one that covers most first. Empty where the label does not say (other details).
 [[nodiscard]] std::vector<std::pair<std::string, int>> coverageOf(const volume::Label& label);
 
 }  // namespace svt::city

@@ -14,6 +14,7 @@
 #include <svt/city/city_folder.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace svt::city {
@@ -29,9 +30,11 @@ struct CameraView {
 
 /// What is chosen for a picture.
 struct ChosenTiles {
-    std::vector<IndexEntry> entries;  ///< by detail, the coarsest first, then along the Morton curve
-    std::uint64_t bytes = 0;          ///< of the members
-    double pixels = 1;                ///< voxels are at most as wide; above 1 where memory is short
+    std::vector<IndexEntry>
+        entries;              ///< by detail, the coarsest first, then along the Morton curve; the near ones last
+    std::size_t near = 0;     ///< so many of the finest detail have voxels wider than kNearPixels
+    std::uint64_t bytes = 0;  ///< of the members
+    double pixels = 1;        ///< voxels are at most as wide; above 1 where memory is short
 };
 
 /// The tiles that a camera sees, and those whose shadows it may see.
@@ -42,8 +45,20 @@ struct ChosenTiles {
 [[nodiscard]] Result<ChosenTiles> chooseTiles(const City& city, const CameraView& view, std::uint64_t memoryBytes,
                                               int finest = 0);
 inline constexpr std::uint64_t kBytesAByte = 60;
+inline constexpr double kNearPixels = 1.5;  ///< what is wider shows whether its slopes are flat
 
-/// Reads tiles and joins those of one detail. \return volumes, the coarsest first; or the errors of City::read(),
+/// What is seen in a picture of a view: metres along the view direction, by row from the top, infinity where nothing is.
+struct SeenDepths {
+    std::int32_t width = 0, height = 0;
+    std::span<const float> depth;
+};
+/// For each entry whether it, and its shadow, is behind what is seen in all of the pixels where it could be.
+[[nodiscard]] std::vector<bool> areHidden(const City& city, const CameraView& view, const SeenDepths& seen,
+                                          std::span<const IndexEntry> entries);
+/// The entries that are nearest to the eye: at least one, and then so many as have `share` of the bytes.
+[[nodiscard]] ChosenTiles nearestOf(const City& city, const CameraView& view, const ChosenTiles& chosen, double share);
+
+/// Reads tiles and joins those of one detail, near ones apart. \return volumes, the coarsest first, near ones last; or the errors of City::read(),
 /// GridTooLarge, TooManyLabels, Cancelled
 /// Memory: the volumes.
 [[nodiscard]] Result<std::vector<volume::SemanticVolume>> readTiles(const City& city, const ChosenTiles& chosen,
@@ -53,6 +68,10 @@ inline constexpr std::uint64_t kBytesAByte = 60;
 /// A volume without labels in the box of the city, with two samples along each axis: what positions of cameras, planes and
 /// regions refer to.
 [[nodiscard]] Result<volume::SemanticVolume> frameVolume(const City& city);
+
+/// A label for each class of the city and, below it, of its parts, with a scalar each and the ids "Building" and
+/// "Building/RoofSurface": what mixtures of coarse details are made of (coverageOf()).
+[[nodiscard]] volume::LabelTable classTable(const City& city);
 
 /// All entries of a detail, to be read one after the other.
 [[nodiscard]] Result<std::vector<IndexEntry>> allTiles(const City& city, int detail);

@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace svt::illustrate {
@@ -57,6 +58,15 @@ public:
     /// \param part       of joinLabels(); must outlive the painter
     /// \param hasSlopes  whether its slopes are seen; else its voxels are drawn, whose bricks are made in a third of the time
     void addPart(const volume::SemanticVolume& part, bool hasSlopes = true);
+
+    /// A scalar that stands for several others: a place too far away to tell them apart.
+    struct StyleMixture {
+        volume::Scalar scalar = 0;
+        std::vector<std::pair<volume::Scalar, float>> parts;  ///< others, and their shares
+    };
+    /// From now on these scalars look as the styles of a scene say of their parts: the mean, by share, of those that are
+    /// shown; hidden where none is.
+    void mixStyles(std::vector<StyleMixture> mixtures) { mixtures_ = std::move(mixtures); }
 
     /// Draws `scene`, with its name tags.
     /// \return picture and frame, or an error of makeFrameSpec(), extractShell() or castRays()
@@ -112,6 +122,7 @@ private:
         bool isPart = false, hasSlopes = true;
     };
     std::vector<Detail> details_;
+    std::vector<StyleMixture> mixtures_;
 };
 
 }  // namespace svt::illustrate

@@ -134,7 +134,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             svt::volume::Label label;
             label.className = std::string(text);
             label.attributes.push_back({std::string(text), std::int64_t(size), {}});
-            require(!coverageOf(label).empty());
+            for (const auto& [name, eighths] : coverageOf(label)) require(eighths >= 1 && eighths <= kCoverageSteps);
             (void)TileKey::fromString(std::string(text));
         }
     }

@@ -46,14 +46,20 @@ private:
     CityPicture(city::City city, volume::SemanticVolume frame, const BuildArguments& build, const Progress* progress)
         : city_(std::move(city)), frame_(std::move(frame)), build_(build), progress_(progress) {}
     Result<void> lookAround(illustrate::Scene& scene) const;
-    Result<void> read(const render::FrameSpec& spec);
+    Result<void> read();
+    [[nodiscard]] Result<illustrate::Painting> draw(const illustrate::Scene& scene, const render::CastOptions& options);
+    Result<void> leaveOutHidden(illustrate::Scene scene, const city::CameraView& view,
+                                const render::CastOptions& options);
+    [[nodiscard]] bool takeBack(const city::CameraView& view, const render::Frame& frame);
 
     city::City city_;
     volume::SemanticVolume frame_, shown_;
     BuildArguments build_;
     const Progress* progress_;
-    city::ChosenTiles chosen_, read_;
+    city::ChosenTiles chosen_;
+    std::vector<city::IndexEntry> leftOut_;  // chosen, but behind what is seen
     std::vector<volume::SemanticVolume> parts_;
+    std::vector<illustrate::ScenePainter::StyleMixture> mixtures_;
     std::vector<std::string> nothing_;
 };
 

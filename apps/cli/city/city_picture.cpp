@@ -1,5 +1,6 @@
 #include <apps/cli/city/city_input.hpp>
 
+#include <svt/city/city_levels.hpp>
 #include <svt/core/machine.hpp>
 #include <svt/illustrate/details.hpp>
 #include <svt/illustrate/view.hpp>
@@ -7,7 +8,8 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
+#include <cmath>
+#include <map>
 
 namespace svt::cli {
 namespace {
@@ -67,34 +69,123 @@ Result<void> CityPicture::lookAround(illustrate::Scene& scene) const {
     return {};
 }
 
-Result<void> CityPicture::read(const render::FrameSpec& spec) {
-    auto chosen = city::chooseTiles(city_, viewOf(spec, frame_.grid), tileMemory());
-    if (!chosen) return chosen.error();
-    chosen_ = std::move(*chosen);
+// Reads what is chosen, with one table of labels, and what their mixtures are made of.
+Result<void> CityPicture::read() {
     shown_ = frame_;
+    shown_.labels = city::classTable(city_);
     auto parts = city::readTiles(city_, chosen_, build_.threads, progress_);
     if (!parts) return parts.error();
     parts_ = std::move(*parts);
-    return illustrate::joinLabels(shown_, parts_);
+    std::map<std::string, std::vector<std::pair<std::string, int>>> coverage;
+    for (const volume::SemanticVolume& part : parts_) {
+        if (part.grid.spacing().x < city::spacingOf(city::kFirstClassDetail + 1, city_.spacing()).x) continue;
+        for (const volume::Label& label : part.labels.labels)
+            if (label.count > 0) coverage[label.id] = city::coverageOf(label);
+    }
+    if (auto joined = illustrate::joinLabels(shown_, parts_); !joined) return joined;
+    std::map<std::string, volume::Scalar> scalarOf;
+    for (const volume::Label& label : shown_.labels.labels)
+        if (label.count > 0) scalarOf.emplace(label.id, label.first);
+    mixtures_.clear();
+    for (const auto& [id, shares] : coverage) {
+        illustrate::ScenePainter::StyleMixture& mixture = mixtures_.emplace_back();
+        mixture.scalar = scalarOf.at(id);
+        for (const auto& [name, eighths] : shares)
+            if (const auto known = scalarOf.find(name); known != scalarOf.end())
+                mixture.parts.emplace_back(known->second, float(eighths));
+        // A class that city.json does not list: the label's own style.
+        if (mixture.parts.size() < shares.size()) mixtures_.pop_back();
+    }
+    return {};
+}
+
+Result<illustrate::Painting> CityPicture::draw(const illustrate::Scene& scene, const render::CastOptions& options) {
+    if (auto done = read(); !done) return done.error();
+    nothing_.clear();
+    illustrate::ScenePainter painter(shown_, build_.threads);
+    painter.tolerateNothing(&nothing_);
+    painter.reportTo(progress_);
+    painter.mixStyles(mixtures_);
+    for (const volume::SemanticVolume& part : parts_)
+        painter.addPart(part, chosen_.near > 0 && &part == &parts_.back());
+    return painter.paint(scene, options);
+}
+
+// Draws what is nearest small and plain, and leaves out of the choice what is behind it. In a street that is most of a city.
+Result<void> CityPicture::leaveOutHidden(illustrate::Scene scene, const city::CameraView& view,
+                                         const render::CastOptions& options) {
+    constexpr double kShare = 0.15;
+    constexpr int kSmaller = 2;
+    leftOut_.clear();
+    if (!view.isPerspective || view.eye.z > city_.box().max.z || chosen_.entries.size() < 4) return {};
+    const city::ChosenTiles all = chosen_;
+    chosen_ = city::nearestOf(city_, view, all, kShare);
+    chosen_.near = 0;
+    if (auto done = read(); !done) return done;
+    scene.width = std::max(1, scene.width / kSmaller);
+    scene.height = std::max(1, scene.height / kSmaller);
+    scene.samples = 1;
+    scene.names.clear();
+    scene.title.clear();
+    scene.colorBy.clear();
+    scene.insets.clear();
+    std::vector<std::string> ignored;
+    illustrate::ScenePainter painter(shown_, build_.threads);
+    painter.tolerateNothing(&ignored);
+    painter.mixStyles(mixtures_);
+    for (const volume::SemanticVolume& part : parts_) painter.addPart(part, false);
+    bool isOpaque = true;  // what is translucent hides nothing
+    const auto painting = painter.paint(scene, [&](auto volumes, const render::FrameSpec& spec) {
+        render::FrameSpec plain = spec;
+        plain.light.ambientOcclusion = 0;
+        plain.light.hasShadows = false;
+        plain.borders.strength = 0;
+        for (const render::Pass& pass : plain.passes)
+            for (const render::Style& style : pass.styles)
+                isOpaque = isOpaque && (style.opacity <= 0 || style.opacity >= 1);
+        return render::castRays(volumes, plain, options);
+    });
+    if (!painting) return painting.error();
+    chosen_ = all;
+    if (!isOpaque) return {};
+    const auto& depth = painting->frame.depth;
+    const auto hidden = city::areHidden(city_, view, {depth.width(), depth.height(), depth.pixels()}, chosen_.entries);
+    city::ChosenTiles seen;
+    for (std::size_t n = 0; n < hidden.size(); ++n) (hidden[n] ? leftOut_ : seen.entries).push_back(chosen_.entries[n]);
+    seen.pixels = all.pixels;
+    chosen_ = city::nearestOf(city_, view, seen, INFINITY);
+    return {};
+}
+
+// Takes back what was left out, but could be seen in a picture that is drawn without it. \return whether there is any
+bool CityPicture::takeBack(const city::CameraView& view, const render::Frame& frame) {
+    const auto& depth = frame.depth;
+    const auto hidden = city::areHidden(city_, view, {depth.width(), depth.height(), depth.pixels()}, leftOut_);
+    std::vector<city::IndexEntry> still;
+    for (std::size_t n = 0; n < hidden.size(); ++n) (hidden[n] ? still : chosen_.entries).push_back(leftOut_[n]);
+    const bool isAny = still.size() < leftOut_.size();
+    leftOut_ = std::move(still);
+    if (isAny) chosen_ = city::nearestOf(city_, view, chosen_, INFINITY);
+    return isAny;
 }
 
 Result<illustrate::Painting> CityPicture::paint(illustrate::Scene scene, const render::CastOptions& options) {
     if (auto looked = lookAround(scene); !looked) return looked.error();
-    nothing_.clear();
     // The camera alone: queries find nothing in the frame.
     std::vector<std::string> ignored;
-    illustrate::Scene view = scene;
-    view.colorBy.clear();
-    const auto spec = illustrate::makeFrameSpec(view, frame_, analyze::LabelRows(frame_.labels, &ignored));
+    illustrate::Scene plain = scene;
+    plain.colorBy.clear();
+    const auto spec = illustrate::makeFrameSpec(plain, frame_, analyze::LabelRows(frame_.labels, &ignored));
     if (!spec) return spec.error();
-    if (auto done = read(*spec); !done) return done.error();
-    illustrate::ScenePainter painter(shown_, build_.threads);
-    painter.tolerateNothing(&nothing_);
-    painter.reportTo(progress_);
-    // Voxels of all but the nearest are at most a pixel wide.
-    const double finest = parts_.empty() ? 0 : parts_.back().grid.spacing().x;
-    for (const volume::SemanticVolume& part : parts_) painter.addPart(part, part.grid.spacing().x <= finest);
-    return painter.paint(scene, options);
+    const city::CameraView view = viewOf(*spec, frame_.grid);
+    auto chosen = city::chooseTiles(city_, view, tileMemory());
+    if (!chosen) return chosen.error();
+    chosen_ = std::move(*chosen);
+    if (auto done = leaveOutHidden(scene, view, options); !done) return done.error();
+    for (;;) {
+        auto painting = draw(scene, options);
+        if (!painting || leftOut_.empty() || !takeBack(view, painting->frame)) return painting;
+    }
 }
 
 }  // namespace svt::cli

@@ -145,24 +145,39 @@ void addPlanes(const std::vector<volume::FacePlane>& planes, Vec3i begin, std::v
     }
 }
 
-// One table of all labels, each id once, and the columns of each volume with its numbers.
+// One table of all labels, each id once below its parent, and the columns of each volume with its numbers.
 volume::LabelTable unite(std::span<const volume::SemanticVolume> volumes, std::vector<ColumnVolume>& columns) {
-    std::map<std::pair<std::string, std::string>, volume::Label> sorted;
+    using Key = std::pair<std::string, std::string>;  // of a label without parent the second is empty
+    const auto keyOf = [](const volume::LabelTable& table, const volume::Label& label) {
+        return label.parent == volume::kNoLabel ? Key{label.id, {}} : Key{table.labels[label.parent].id, label.id};
+    };
+    std::map<Key, volume::Label> sorted;
     for (const volume::SemanticVolume& volume : volumes)
         for (const volume::Label& label : volume.labels.labels) {
-            const auto [at, isNew] = sorted.emplace(std::pair(label.className, label.id), label);
-            if (!isNew) at->second.volume += label.volume;
+            const auto [at, isNew] = sorted.emplace(keyOf(volume.labels, label), label);
+            if (isNew) continue;
+            volume::Label& own = at->second;
+            const double sum = own.volume + label.volume;
+            if (own.count == 0 && label.count > 0) own = label;
+            own.volume = sum;
         }
     volume::LabelTable table;
+    std::uint32_t root = 0;
+    Scalar next = 1;
     for (auto& [key, label] : sorted) {
-        label.first = static_cast<Scalar>(table.labels.size() + 1);
-        label.subtreeEnd = static_cast<std::uint32_t>(table.labels.size() + 1);
+        const auto number = static_cast<std::uint32_t>(table.labels.size());
+        if (key.second.empty()) root = number;
+        label.parent = key.second.empty() ? volume::kNoLabel : root;
+        label.first = label.count > 0 ? next : 0;
+        next += label.count;
+        label.subtreeEnd = number + 1;
         table.labels.push_back(label);
+        table.labels[root].subtreeEnd = number + 1;
     }
     for (const volume::SemanticVolume& volume : volumes) {
         std::vector<Scalar> newOf(volume.labels.scalarCount(), 0);
         for (const volume::Label& label : volume.labels.labels)
-            if (label.count > 0) newOf[label.first] = sorted.at({label.className, label.id}).first;
+            if (label.count > 0) newOf[label.first] = sorted.at(keyOf(volume.labels, label)).first;
         columns.push_back(volume::replaceScalars(volume.columns, newOf));
     }
     return table;

@@ -22,34 +22,35 @@ LevelBuilder::LevelBuilder(std::span<const ColumnRange> members, double spacing,
       crsName_(std::move(crsName)),
       threads_(threads),
       whole_(members.front()) {
-    for (const ColumnRange& member : members_)
-        for (const std::size_t axis : {0u, 1u}) {
-            whole_.first[axis] = std::min(whole_.first[axis], member.first[axis]);
-            whole_.last[axis] = std::max(whole_.last[axis], member.last[axis]);
-        }
+    for (const ColumnRange& member : members_) whole_.add(member);
     top_ = topDetail(whole_);
-    for (const ColumnRange& member : members_)
-        for (const Key& key : tilesOf(member)) ++open_[key].left;
+    const auto open = [&](const Key& key, const ColumnRange& below) {
+        Open& own = open_[key];
+        ++own.left;
+        own.range ? own.range->add(below) : void(own.range = below);
+    };
+    for (const ColumnRange& member : members_) open(tileOf(member), member);
     // A finer detail stands before the ones that are made of it.
     for (int detail = kFirstClassDetail; detail < top_; ++detail)
         for (auto at = open_.lower_bound({detail, 0, {}}); at != open_.end() && at->first.detail == detail; ++at)
-            ++open_[above(at->first)].left;
+            open(above(at->first), *at->second.range);
 }
 
-std::vector<LevelBuilder::Key> LevelBuilder::tilesOf(const ColumnRange& range) const {
-    std::vector<Key> keys;
-    if (top_ == kFirstClassDetail) return {above({kFirstClassDetail - 1, 0, {}})};
-    const auto tile = [](std::int64_t column) { return static_cast<std::int32_t>(column >> 1 >> 8); };
-    for (std::int32_t y = tile(range.first[1]); y <= tile(range.last[1]); ++y)
-        for (std::int32_t x = tile(range.first[0]); x <= tile(range.last[0]); ++x) {
-            const TileKey key{0, x, y};
-            keys.push_back({kFirstClassDetail, mortonOf(key), key});
-        }
-    return keys;
+void ColumnRange::add(const ColumnRange& other) {
+    for (const std::size_t axis : {0u, 1u}) {
+        first[axis] = std::min(first[axis], other.first[axis]);
+        last[axis] = std::max(last[axis], other.last[axis]);
+    }
+}
+
+LevelBuilder::Key LevelBuilder::tileOf(const ColumnRange& member) const {
+    if (top_ == kFirstClassDetail) return above({kFirstClassDetail - 1, 0, {}});
+    const TileKey tile = tileAbove(member.tile, kFirstClassDetail - 1, spacing_);
+    return {kFirstClassDetail, mortonOf(tile), tile};
 }
 
 LevelBuilder::Key LevelBuilder::above(const Key& key) const {
-    TileKey tile{key.tile.level + 1, key.tile.x >> 1, key.tile.y >> 1};
+    TileKey tile = tileAbove(key.tile, kFirstClassDetail, spacing_);
     if (key.detail + 1 == top_) {
         const auto cell = [&](std::size_t axis) {
             return static_cast<std::int32_t>(whole_.first[axis] >> (top_ - 1) >> 8);
@@ -60,14 +61,12 @@ LevelBuilder::Key LevelBuilder::above(const Key& key) const {
 }
 
 LevelSums LevelBuilder::emptySums(const Key& key) const {
-    if (key.detail < top_)
-        return LevelSums(key.detail, {std::int64_t{key.tile.x} * kLevelCells, std::int64_t{key.tile.y} * kLevelCells},
-                         {kLevelCells, kLevelCells});
-    const int shift = top_ - 1;
-    const std::array first{whole_.first[0] >> shift, whole_.first[1] >> shift};
-    return LevelSums(top_, first,
-                     {static_cast<std::int32_t>((whole_.last[0] >> shift) - first[0] + 1),
-                      static_cast<std::int32_t>((whole_.last[1] >> shift) - first[1] + 1)});
+    const ColumnRange& range = *open_.at(key).range;
+    const int shift = key.detail - 1;
+    const std::array first{range.first[0] >> shift, range.first[1] >> shift};
+    return LevelSums(key.detail, first,
+                     {static_cast<std::int32_t>((range.last[0] >> shift) - first[0] + 1),
+                      static_cast<std::int32_t>((range.last[1] >> shift) - first[1] + 1)});
 }
 
 template <class Source>
@@ -105,7 +104,7 @@ Result<void> LevelBuilder::add(std::span<const volume::SemanticVolume> volumes,
     std::vector<Ready> ready;
     for (const volume::SemanticVolume& volume : volumes) {
         const LevelSource source = LevelSource::from(volume, classes_);
-        for (const Key& key : tilesOf(members_[next_])) addTo(key, source, ready);
+        addTo(tileOf(members_[next_]), source, ready);
         ++next_;
     }
     std::vector<std::optional<Result<LevelMember>>> made(ready.size());

@@ -13,9 +13,12 @@
 
 namespace svt::city {
 
-/// Columns of detail 1, [first, last] along each axis, where a member may be filled.
+/// Columns of detail 1, [first, last] along each axis, where a member may be filled, and its tile.
 struct ColumnRange {
     std::array<std::int64_t, 2> first{}, last{};
+    TileKey tile{};
+
+    void add(const ColumnRange& other);
 };
 
 /// A tile of a coarse level as a `.svt`.
@@ -27,8 +30,9 @@ struct LevelMember {
 /// The detail whose single tile holds the whole city: the first where `whole` has at most 256 columns along each axis.
 [[nodiscard]] int topDetail(const ColumnRange& whole) noexcept;
 
-/// Tiles are open from the first member that meets them to the last one; then they become a `.svt`, and are added to the
-/// tile above. So memory is that of the tiles along the border of what is done: 2 MB each.
+/// A tile has all of the members below it, so that no building is cut: it may reach over its square. Tiles are open from the
+/// first member below them to the last one; then they become a `.svt`, and are added to the
+/// tile above. So memory is that of the tiles along the border of what is done: some 5 MB each.
 class LevelBuilder {
 public:
     /// \param members  where each member lies, in the order in which they come; at least one
@@ -52,6 +56,7 @@ private:
     };
     struct Open {
         std::uint32_t left = 0;  // members or tiles below that are still to come
+        std::optional<ColumnRange> range;
         std::optional<LevelSums> sums;
     };
     struct Ready {
@@ -59,7 +64,7 @@ private:
         LevelSums sums;
     };
 
-    [[nodiscard]] std::vector<Key> tilesOf(const ColumnRange& range) const;
+    [[nodiscard]] Key tileOf(const ColumnRange& member) const;
     [[nodiscard]] Key above(const Key& key) const;
     [[nodiscard]] LevelSums emptySums(const Key& key) const;
     template <class Source>

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 namespace svt::city {
 namespace {
@@ -30,11 +31,13 @@ volume::SemanticVolume boxes(std::array<std::int64_t, 3> first, Vec3i size, std:
     for (std::uint32_t l = 0; l < 5; ++l) {
         volume::Label label;
         label.id = "b" + std::to_string(l);
-        label.className = l == 1 ? "Bridge" : l == 3 ? "Tunnel" : "Building";
+        label.className = l == 1 ? "Bridge" : l == 2 ? "RoofSurface" : l == 3 ? "Tunnel" : "Building";
         label.color = l == 1 ? Vec3f{1, 0, 0} : l == 3 ? Vec3f{0, 0, 1} : Vec3f{0, 1, 0};
         label.first = l + 1;
         label.count = 1;
-        label.subtreeEnd = l + 1;
+        // The third is a part of the second.
+        label.parent = l == 2 ? 1 : volume::kNoLabel;
+        label.subtreeEnd = l == 1 ? 3 : l + 1;
         result.labels.labels.push_back(label);
         const std::int32_t x = next(std::uint32_t(size.x) - 8), y = next(std::uint32_t(size.y) - 8), top = 2 + next(9);
         for (std::int32_t k = 0; k < top; ++k)
@@ -55,51 +58,105 @@ Sample sampleOf(std::int64_t reach) {
                            y = (std::int64_t(n) * 104729) % (2 * reach) - reach;
         const Vec3i size{40 + std::int32_t(n % 3) * 4, 36, 12};
         sample.volumes.push_back(boxes({x, y, std::int64_t(n % 5) * 2 - 4}, size, n + 1));
-        sample.ranges.push_back({{x, y}, {x + size.x - 1, y + size.y - 1}});
+        const auto tile = [](std::int64_t first, std::int32_t n) { return std::int32_t((first + n / 2) >> 6); };
+        sample.ranges.push_back({{x, y}, {x + size.x - 1, y + size.y - 1}, {6, tile(x, size.x), tile(y, size.y)}});
     }
     return sample;
 }
 
+using Shares = std::map<std::string, std::int64_t>;
 struct Column {
     std::int64_t area = 0, low = 0, top = 0;
-    std::map<std::string, std::int64_t> areaOf;
+    Shares roof, side;
 };
+using Columns = std::map<std::pair<std::int64_t, std::int64_t>, Column>;
 
-// What a detail's columns are by definition.
-std::map<std::pair<std::int64_t, std::int64_t>, Column> count(const Sample& sample, int detail) {
-    std::map<std::pair<std::int64_t, std::int64_t>, Column> columns;
-    for (const volume::SemanticVolume& volume : sample.volumes) {
+std::string nameOf(const volume::SemanticVolume& volume, volume::Scalar scalar) {
+    const volume::Label& label = volume.labels.labels[scalar - 1];
+    if (label.parent == volume::kNoLabel) return label.className;
+    return volume.labels.labels[label.parent].className + "/" + label.className;
+}
+
+// What a detail's columns are by definition, by tile.
+std::map<std::string, Columns> count(const Sample& sample, int detail, bool isTop) {
+    std::map<std::string, Columns> tiles;
+    for (std::size_t v = 0; v < sample.volumes.size(); ++v) {
+        const volume::SemanticVolume& volume = sample.volumes[v];
+        const TileKey own = sample.ranges[v].tile;
+        const double side = 512 * std::pow(2, detail - 2);
+        const TileKey tile{detail - 2, std::int32_t(std::floor((own.x * 64 + 32) / side)),
+                           std::int32_t(std::floor((own.y * 64 + 32) / side))};
+        Columns& columns = tiles[isTop ? "top" : tile.toString()];
         const Vec3i n = volume.grid.dimension();
+        const auto at = [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+            const bool isIn = i >= 0 && j >= 0 && k >= 0 && i < n.x && j < n.y && k < n.z;
+            return isIn ? volume.columns.scalarAt(i, j, k) : 0;
+        };
         for (std::int32_t j = 0; j < n.y; ++j)
             for (std::int32_t i = 0; i < n.x; ++i) {
-                std::map<std::string, int> filled;
-                std::int64_t low = 0, top = 0;
-                std::string lowest;
-                for (std::int32_t k = 0; k < n.z; ++k) {
-                    const volume::Scalar scalar = volume.columns.scalarAt(i, j, k);
-                    if (scalar == 0) continue;
-                    const auto z = std::int64_t(std::floor(volume.grid.origin().z)) + k;
-                    if (filled.empty()) {
-                        low = z;
-                        lowest = volume.labels.labels[scalar - 1].className;
+                std::int32_t low = n.z, top = -1;
+                for (std::int32_t k = 0; k < n.z; ++k)
+                    if (at(i, j, k) != 0) {
+                        low = std::min(low, k);
+                        top = k;
                     }
-                    top = z + 1;
-                    ++filled[volume.labels.labels[scalar - 1].className];
-                }
-                if (filled.empty()) continue;
+                if (top < 0) continue;
                 const double cell = kSpacing * std::pow(2, detail);
                 Column& to = columns[{std::int64_t(std::floor((volume.grid.origin().x + i) / cell)),
                                       std::int64_t(std::floor((volume.grid.origin().y + j) / cell))}];
+                const auto ground = std::int64_t(std::floor(volume.grid.origin().z));
                 ++to.area;
-                to.low += low;
-                to.top += top;
-                std::string most = lowest;
-                for (const auto& [name, samples] : filled)
-                    if (samples > filled[most]) most = name;
-                ++to.areaOf[most];
+                to.low += ground + low;
+                to.top += ground + top + 1;
+                ++to.roof[nameOf(volume, at(i, j, top))];
+                for (std::int32_t k = low; k < top; ++k) {
+                    if (at(i, j, k) == 0) continue;
+                    const int open = (at(i - 1, j, k) == 0) + (at(i + 1, j, k) == 0) + (at(i, j - 1, k) == 0) +
+                                     (at(i, j + 1, k) == 0);
+                    if (open > 0) to.side[nameOf(volume, at(i, j, k))] += open;
+                }
             }
     }
-    return columns;
+    return tiles;
+}
+
+// Whether a label says what a column has. \param whole  what counts as all eighths
+void expectShares(const volume::Label& label, const Shares& shares, double whole, int detail) {
+    std::string most;
+    for (const auto& [name, area] : shares)
+        if (most.empty() || area > shares.at(most)) most = name;
+    if (detail == 2) {
+        EXPECT_EQ(label.id, most);
+        return;
+    }
+    const auto coverage = coverageOf(label);
+    ASSERT_EQ(coverage.size(), std::min<std::size_t>(4, shares.size())) << label.id;
+    EXPECT_EQ(coverage[0].first, most);
+    for (const auto& [name, eighths] : coverage) {
+        const double share = 8 * double(shares.at(name)) / whole;
+        EXPECT_LE(std::abs(eighths - std::clamp(share, 1.0, 8.0)), shares.size() > 1 ? 2.0 : 0.5) << label.id;
+    }
+}
+
+// Compares a column with its definition.
+void expectColumn(const volume::SemanticVolume& made, std::int32_t i, std::int32_t j, const Column& own, int detail) {
+    const auto runs = made.columns.column(i, j);
+    const std::vector<std::uint32_t> labelOf = made.labels.labelOfScalar();
+    const auto labelAt = [&](volume::Scalar scalar) -> const volume::Label& {
+        return made.labels.labels[labelOf[scalar]];
+    };
+    const bool isFloating = runs[0].scalar == 0;
+    const std::size_t highest = runs.size() - (runs.back().scalar == 0 ? 2 : 1);
+    const double step = made.grid.spacing().z, bottom = made.grid.origin().z - step / 2;
+    const double low = bottom + step * (isFloating ? runs[0].end : 0), high = bottom + step * runs[highest].end;
+    EXPECT_LE(std::abs(low - double(own.low) / double(own.area)), step / 2);
+    // At least one sample high.
+    if (high - low > step) EXPECT_LE(std::abs(high - double(own.top) / double(own.area)), step / 2);
+    expectShares(labelAt(runs[highest].scalar), own.roof, std::pow(4, detail - 1), detail);
+    if (runs[highest].end - (isFloating ? runs[0].end : 0) < 2 || own.side.empty()) return;
+    double faces = 0;
+    for (const auto& entry : own.side) faces += double(entry.second);
+    expectShares(labelAt(runs[isFloating ? 1 : 0].scalar), own.side, faces, detail);
 }
 
 using Members = std::map<std::pair<int, std::string>, std::vector<std::byte>>;
@@ -130,54 +187,39 @@ TEST(LevelBuilder, HoldsTheColumnsOfEachDetail) {
     std::vector<LevelMember> members;
     build(sample, 5, 1, &members);
     int top = 0;
-    std::map<int, std::map<std::pair<std::int64_t, std::int64_t>, Column>> expected;
-    std::map<int, std::size_t> tiles;
+    for (const LevelMember& made : members) top = std::max(top, made.member.detail);
+    ASSERT_GE(top, 4);
+    std::map<int, std::map<std::string, Columns>> expected;
+    for (int detail = 2; detail <= top; ++detail) expected[detail] = count(sample, detail, detail == top);
     for (const LevelMember& made : members) {
         const int detail = made.member.detail;
-        top = std::max(top, detail);
-        ++tiles[detail];
-        if (!expected.contains(detail)) expected[detail] = count(sample, detail);
         const auto volume = volume::readSvt(made.bytes);
         ASSERT_TRUE(volume) << volume.error().toString();
         EXPECT_EQ(volume->grid.spacing(), spacingOf(detail, kSpacing));
+        auto& tiles = expected[detail];
+        const auto tile = tiles.find(detail == top ? "top" : made.member.tile.toString());
+        ASSERT_TRUE(tile != tiles.end()) << made.member.tile.toString();
+        Columns columns = std::move(tile->second);
+        tiles.erase(tile);
         const Vec3i n = volume->grid.dimension();
-        EXPECT_LE(n.x, kLevelCells);
         for (std::int32_t j = 0; j < n.y; ++j)
             for (std::int32_t i = 0; i < n.x; ++i) {
                 const Vec3d at = volume->grid.origin() + scaled(Vec3d{double(i), double(j), 0}, volume->grid.spacing());
                 const double cell = volume->grid.spacing().x;
                 const std::pair key{std::int64_t(std::floor(at.x / cell)), std::int64_t(std::floor(at.y / cell))};
                 const auto runs = volume->columns.column(i, j);
-                const auto found = expected[detail].find(key);
+                const auto found = columns.find(key);
                 if (runs.size() == 1 && runs[0].scalar == 0) {
-                    EXPECT_TRUE(found == expected[detail].end());
+                    EXPECT_TRUE(found == columns.end());
                     continue;
                 }
-                ASSERT_TRUE(found != expected[detail].end());
-                const Column& own = found->second;
-                const bool isFloating = runs[0].scalar == 0;
-                const volume::Run& run = runs[isFloating ? 1 : 0];
-                const double step = volume->grid.spacing().z, bottom = volume->grid.origin().z - step / 2;
-                const double low = bottom + step * (isFloating ? runs[0].end : 0), high = bottom + step * run.end;
-                EXPECT_LE(std::abs(low - double(own.low) / double(own.area)), step / 2);
-                // At least one sample high.
-                if (high - low > step) EXPECT_LE(std::abs(high - double(own.top) / double(own.area)), step / 2);
-                const volume::Label& label = volume->labels.labels[run.scalar - 1];
-                const auto coverage = coverageOf(label);
-                for (const auto& [name, area] : own.areaOf) EXPECT_LE(area, own.areaOf.at(label.className)) << name;
-                if (detail == 2) continue;
-                ASSERT_EQ(coverage.size(), own.areaOf.size());
-                for (const auto& [name, eighths] : coverage) {
-                    const double share = 8 * double(own.areaOf.at(name)) / std::pow(4, detail - 1);
-                    EXPECT_LE(std::abs(eighths - std::clamp(share, 1.0, 8.0)), own.areaOf.size() > 1 ? 1.5 : 0.5)
-                        << name;
-                }
-                expected[detail].erase(found);
+                ASSERT_TRUE(found != columns.end());
+                expectColumn(*volume, i, j, found->second, detail);
+                columns.erase(found);
             }
+        EXPECT_TRUE(columns.empty()) << detail;
     }
-    EXPECT_GE(top, 4);
-    EXPECT_EQ(tiles[top], 1u);
-    for (int detail = 3; detail <= top; ++detail) EXPECT_TRUE(expected[detail].empty()) << detail;
+    for (int detail = 2; detail <= top; ++detail) EXPECT_TRUE(expected[detail].empty()) << detail;
 }
 
 TEST(LevelBuilder, GivesTheSameForAnyBatchesAndThreads) {

@@ -25,7 +25,7 @@ using Coverage = std::vector<std::pair<std::uint32_t, int>>;
 
 // What a tile's columns look like before they are numbered.
 struct Look {
-    Coverage coverage;
+    Coverage roof, side;  // of the highest sample, and of those below it
     std::int64_t low = 0, top = 0;
     double volume = 0;
 };
@@ -53,7 +53,8 @@ public:
         result.crsName = crsName;
         result.columns = columns(dimension);
         const auto counts = result.columns.countVoxels(result.labels.scalarCount());
-        for (volume::Label& label : result.labels.labels) label.voxels = counts[label.first];
+        for (volume::Label& label : result.labels.labels)
+            if (label.count > 0) label.voxels = counts[label.first];
         return result;
     }
 
@@ -65,9 +66,10 @@ private:
             for (std::int32_t i = 0; i < sums_.size[0]; ++i) {
                 Look& look = looks_[indexOf(i, j)];
                 lookAt(indexOf(i, j), look);
-                if (look.coverage.empty()) continue;
+                if (look.roof.empty()) continue;
                 const bool isFirst = scalarOf_.empty();
-                scalarOf_[look.coverage] = 0;
+                scalarOf_[look.roof] = 0;
+                if (look.top - look.low > 1) scalarOf_[look.side] = 0;
                 bottom_ = isFirst ? look.low : std::min(bottom_, look.low);
                 top_ = isFirst ? look.top : std::max(top_, look.top);
                 low_ = {std::min(low_[0], i), std::min(low_[1], j)};
@@ -79,19 +81,25 @@ private:
         return static_cast<std::size_t>(j) * static_cast<std::size_t>(sums_.size[0]) + static_cast<std::size_t>(i);
     }
 
-    void lookAt(std::size_t n, Look& look) const {
-        std::vector<std::pair<std::uint64_t, std::uint32_t>> areas;
-        std::int64_t area = 0;
-        for (const auto& [number, all] : sums_.areaOf) {
-            if (all[n] == 0) continue;
-            areas.emplace_back(all[n], number);
-            area += static_cast<std::int64_t>(all[n]);
-        }
-        if (areas.empty()) return;
+    using Areas = std::vector<std::pair<std::uint64_t, std::uint32_t>>;
+
+    // What a column has of classes, the most first, equally frequent ones by name.
+    [[nodiscard]] Areas areasAt(const LevelSums::ByClass& from, std::size_t n) const {
+        Areas areas;
+        for (const auto& [number, all] : from)
+            if (all[n] != 0) areas.emplace_back(all[n], number);
         std::sort(areas.begin(), areas.end(), [&](const auto& a, const auto& b) {
             if (a.first != b.first) return a.first > b.first;
             return classes_.names[a.second] < classes_.names[b.second];
         });
+        return areas;
+    }
+
+    void lookAt(std::size_t n, Look& look) const {
+        const Areas areas = areasAt(sums_.areaOf, n);
+        if (areas.empty()) return;
+        std::int64_t area = 0;
+        for (const auto& entry : areas) area += static_cast<std::int64_t>(entry.first);
         // The middle between samples counts up.
         const std::int64_t step = std::int64_t{1} << shift_;
         const auto mean = [&](std::int64_t sum) { return floorDiv(2 * sum + area * step, 2 * area * step); };
@@ -99,13 +107,17 @@ private:
         look.top = std::max(look.low + 1, mean(sums_.top[n]));
         const double sample = 2 * spacing_;
         look.volume = double(sums_.top[n] - sums_.low[n]) * sample * sample * sample;
-        look.coverage = coverage(areas);
+        look.roof = coverage(areas, std::ldexp(1.0, 2 * (sums_.detail - 1)));
+        const Areas sides = areasAt(sums_.sideOf, n);
+        double faces = 0;
+        for (const auto& entry : sides) faces += static_cast<double>(entry.first);
+        look.side = sides.empty() ? look.roof : coverage(sides, faces);
     }
 
-    [[nodiscard]] Coverage coverage(const std::vector<std::pair<std::uint64_t, std::uint32_t>>& areas) const {
+    // \param whole  what counts as all eighths
+    [[nodiscard]] Coverage coverage(const Areas& areas, double whole) const {
         constexpr std::size_t kMost = 4;
         if (sums_.detail == kFirstClassDetail) return {{areas[0].second, kCoverageSteps}};
-        const double whole = std::ldexp(1.0, 2 * (sums_.detail - 1));
         Coverage result;
         int sum = 0;
         for (std::size_t n = 0; n < std::min(kMost, areas.size()); ++n) {
@@ -130,32 +142,46 @@ private:
         return id;
     }
 
-    // One label a mixture that occurs, by name of the first class, then by id.
+    // A label for each class of buildings, and below it one for each mixture that occurs of whose parts the first is of such
+    // buildings, by id. At detail 2 the class alone is that label itself.
     void number(volume::LabelTable& table) {
         std::map<std::pair<std::string, std::string>, const Coverage*> sorted;
-        for (const auto& [coverage, scalar] : scalarOf_)
-            sorted[{classes_.names[coverage[0].first], idOf(coverage)}] = &coverage;
+        for (const auto& [coverage, scalar] : scalarOf_) {
+            const std::string& root = classes_.roots[coverage[0].first];
+            sorted[{root, {}}];
+            const std::string id = idOf(coverage);
+            sorted[{root, id == root ? std::string() : id}] = &coverage;
+        }
         std::map<Coverage, double> volumes;
         for (const Look& look : looks_)
-            if (!look.coverage.empty()) volumes[look.coverage] += look.volume;
+            if (!look.roof.empty()) volumes[look.roof] += look.volume;
+        std::uint32_t root = 0;
+        Scalar next = 1;
         for (const auto& [key, coverage] : sorted) {
-            volume::Label label;
-            label.className = key.first;
-            label.id = key.second;
-            label.name = sums_.detail == kFirstClassDetail ? std::string() : key.second;
+            const auto own = static_cast<std::uint32_t>(table.labels.size());
+            volume::Label& label = table.labels.emplace_back();
+            const bool isRoot = key.second.empty();
+            if (isRoot) root = own;
+            label.id = isRoot ? key.first : key.second;
+            label.className = isRoot ? key.first : partOf(classes_.names[(*coverage)[0].first]);
+            label.parent = isRoot ? volume::kNoLabel : root;
+            label.subtreeEnd = table.labels[root].subtreeEnd = own + 1;
+            if (coverage == nullptr) continue;
+            label.name = sums_.detail == kFirstClassDetail ? std::string() : label.id;
             label.filling = volume::Filling::Solid;
-            label.first = static_cast<Scalar>(table.labels.size() + 1);
+            label.first = next++;
             label.count = 1;
-            label.subtreeEnd = static_cast<std::uint32_t>(table.labels.size() + 1);
             label.volume = volumes[*coverage];
             label.color = colorOf(*coverage);
             if (sums_.detail != kFirstClassDetail)
                 for (const auto& [number, eighths] : *coverage)
                     label.attributes.push_back({classes_.names[number], std::int64_t{eighths}, {}});
             scalarOf_[*coverage] = label.first;
-            table.labels.push_back(std::move(label));
         }
     }
+
+    // "RoofSurface" of "Building/RoofSurface".
+    static std::string partOf(const std::string& name) { return name.substr(name.find('/') + 1); }
 
     [[nodiscard]] Vec3f colorOf(const Coverage& coverage) const {
         Vec3d sum;
@@ -191,12 +217,14 @@ private:
         const auto end = static_cast<std::uint32_t>(height);
         if (i >= sums_.size[0] || j >= sums_.size[1]) return {{end, 0}};
         const Look& look = looks_[indexOf(i, j)];
-        if (look.coverage.empty()) return {{end, 0}};
+        if (look.roof.empty()) return {{end, 0}};
         const auto low = static_cast<std::uint32_t>(look.low - bottom_),
                    top = static_cast<std::uint32_t>(look.top - bottom_);
+        const Scalar roof = scalarOf_.at(look.roof);
         std::vector<Run> runs;
         if (low > 0) runs.push_back({low, 0});
-        runs.push_back({top, scalarOf_.at(look.coverage)});
+        if (top - low > 1 && scalarOf_.at(look.side) != roof) runs.push_back({top - 1, scalarOf_.at(look.side)});
+        runs.push_back({top, roof});
         if (top < end) runs.push_back({end, 0});
         return runs;
     }
@@ -218,6 +246,14 @@ double tileSide(const TileKey& tile, int detail, double spacing) noexcept {
     return detail < kFirstClassDetail ? side : side * spacing * kLevelCells * (1 << kFirstClassDetail);
 }
 
+TileKey tileAbove(const TileKey& tile, int detail, double spacing) noexcept {
+    if (detail == 0) return tile;
+    if (detail >= kFirstClassDetail) return {tile.level + 1, tile.x >> 1, tile.y >> 1};
+    const double own = tileSide(tile, detail, spacing), above = tileSide({0, 0, 0}, kFirstClassDetail, spacing);
+    const auto cell = [&](std::int32_t at) { return static_cast<std::int32_t>(std::floor((at + 0.5) * own / above)); };
+    return {0, cell(tile.x), cell(tile.y)};
+}
+
 Vec3d spacingOf(int detail, double spacing) noexcept {
     const double side = std::ldexp(spacing, detail);
     if (detail < kFirstClassDetail) return {side, side, side};
@@ -230,18 +266,22 @@ std::vector<std::pair<std::string, int>> coverageOf(const volume::Label& label) 
         if (const auto* eighths = std::get_if<std::int64_t>(&attribute.value);
             eighths != nullptr && *eighths > 0 && *eighths <= kCoverageSteps)
             result.emplace_back(attribute.name, static_cast<int>(*eighths));
-    if (result.empty()) result.emplace_back(label.className, kCoverageSteps);
     return result;
 }
 
-std::uint32_t LevelClasses::add(const volume::Label& label) {
-    const auto [at, isNew] = numberOf.emplace(label.className, static_cast<std::uint32_t>(names.size()));
+std::uint32_t LevelClasses::add(const volume::Label& root, const volume::Label& label) {
+    const bool isRoot = &root == &label;
+    // A blank class has a name, too, so that no label is without id.
+    const std::string& own = root.className.empty() ? std::string("Feature") : root.className;
+    const std::string name = isRoot ? own : own + "/" + label.className;
+    const auto [at, isNew] = numberOf.emplace(name, static_cast<std::uint32_t>(names.size()));
     if (isNew) {
-        names.push_back(label.className);
+        names.push_back(name);
+        roots.push_back(own);
         colors.push_back(label.color);
         buildings.push_back(0);
     }
-    ++buildings[at->second];
+    buildings[at->second] += isRoot;
     return at->second;
 }
 
@@ -253,7 +293,8 @@ LevelSource LevelSource::from(const volume::SemanticVolume& volume, LevelClasses
     source.lowest = std::llround(origin.z / spacing.z - 0.5);
     source.classOf.assign(volume.labels.scalarCount(), 0);
     for (const volume::Label& label : volume.labels.labels) {
-        const std::uint32_t number = classes.add(label);
+        const bool isRoot = label.parent == volume::kNoLabel;
+        const std::uint32_t number = classes.add(isRoot ? label : volume.labels.labels[label.parent], label);
         for (Scalar s = 0; s < label.count; ++s) source.classOf[label.first + s] = number;
     }
     return source;
@@ -266,10 +307,52 @@ LevelSums::LevelSums(int detail, std::array<std::int64_t, 2> first, std::array<s
     top.resize(count);
 }
 
-std::vector<std::uint64_t>& LevelSums::areas(std::uint32_t number) {
-    std::vector<std::uint64_t>& area = areaOf[number];
-    if (area.empty()) area.resize(low.size());
-    return area;
+std::vector<std::uint64_t>& LevelSums::ofClass(ByClass& all, std::uint32_t number) const {
+    std::vector<std::uint64_t>& own = all[number];
+    if (own.empty()) own.resize(low.size());
+    return own;
+}
+
+namespace {
+
+// Calls face(scalar, count) for the filled samples of a column below `end` beside which `other` is empty.
+template <class Face>
+void forFaces(std::span<const Run> runs, std::span<const Run> other, std::uint32_t end, const Face& face) {
+    std::uint32_t from = 0;
+    std::size_t beside = 0;
+    for (const Run& run : runs)
+        while (from < std::min(run.end, end)) {
+            while (beside < other.size() && other[beside].end <= from) ++beside;
+            std::uint32_t to = std::min(run.end, end);
+            const bool isOpen = beside == other.size() || other[beside].scalar == 0;
+            if (beside < other.size()) to = std::min(to, other[beside].end);
+            if (isOpen && run.scalar != 0) face(run.scalar, to - from);
+            from = to;
+        }
+}
+
+}  // namespace
+
+void LevelSums::addColumn(const LevelSource& source, std::int32_t i, std::int32_t j) {
+    const std::span<const Run> runs = source.columns->column(i, j);
+    if (runs.size() == 1 && runs[0].scalar == 0) return;
+    const std::uint32_t bottom = runs[0].scalar == 0 ? runs[0].end : 0;
+    const std::size_t highest = runs.size() - (runs.back().scalar == 0 ? 2 : 1);
+    const std::uint32_t end = runs[highest].end;
+    const auto cell = [&](std::size_t axis, std::int32_t at) {
+        return ((source.first[axis] + at) >> (detail - 1)) - first[axis];
+    };
+    const auto to = static_cast<std::size_t>(cell(1, j) * size[0] + cell(0, i));
+    low[to] += source.lowest + bottom;
+    top[to] += source.lowest + end;
+    ++ofClass(areaOf, source.classOf[runs[highest].scalar])[to];
+    const Vec3i n = source.columns->dimension();
+    for (const auto& [x, y] : {std::pair{i - 1, j}, {i + 1, j}, {i, j - 1}, {i, j + 1}}) {
+        const bool isInside = x >= 0 && y >= 0 && x < n.x && y < n.y;
+        const auto other = isInside ? source.columns->column(x, y) : std::span<const Run>();
+        forFaces(runs, other, end - 1,
+                 [&](Scalar scalar, std::uint32_t count) { ofClass(sideOf, source.classOf[scalar])[to] += count; });
+    }
 }
 
 void LevelSums::add(const LevelSource& source) {
@@ -283,39 +366,8 @@ void LevelSums::add(const LevelSource& source) {
     };
     const auto [iBegin, iEnd] = range(0, n.x);
     const auto [jBegin, jEnd] = range(1, n.y);
-    std::vector<std::int64_t> filledOf;
-    std::vector<std::uint32_t> met;
     for (std::int32_t j = jBegin; j < jEnd; ++j)
-        for (std::int32_t i = iBegin; i < iEnd; ++i) {
-            const std::span<const Run> runs = source.columns->column(i, j);
-            if (runs.size() == 1 && runs[0].scalar == 0) continue;
-            std::uint32_t begin = 0, bottom = 0, end = 0;
-            bool isFilled = false;
-            met.clear();
-            for (const Run& run : runs) {
-                if (run.scalar != 0) {
-                    if (!isFilled) bottom = begin;
-                    isFilled = true;
-                    end = run.end;
-                    const std::uint32_t number = source.classOf[run.scalar];
-                    if (filledOf.size() <= number) filledOf.resize(number + 1);
-                    if (filledOf[number] == 0) met.push_back(number);
-                    filledOf[number] += run.end - begin;
-                }
-                begin = run.end;
-            }
-            std::uint32_t most = met[0];
-            for (const std::uint32_t number : met)
-                if (filledOf[number] > filledOf[most]) most = number;  // of equally many the lowest
-            for (const std::uint32_t number : met) filledOf[number] = 0;
-            const auto cell = [&](std::size_t axis, std::int32_t at) {
-                return ((source.first[axis] + at) >> (detail - 1)) - first[axis];
-            };
-            const auto to = static_cast<std::size_t>(cell(1, j) * size[0] + cell(0, i));
-            low[to] += source.lowest + bottom;
-            top[to] += source.lowest + end;
-            ++areas(most)[to];
-        }
+        for (std::int32_t i = iBegin; i < iEnd; ++i) addColumn(source, i, j);
 }
 
 void LevelSums::add(const LevelSums& finer) {
@@ -334,10 +386,14 @@ void LevelSums::add(const LevelSums& finer) {
         low[to] += finer.low[from];
         top[to] += finer.top[from];
     });
-    for (const auto& entry : finer.areaOf) {
-        std::vector<std::uint64_t>& own = areas(entry.first);
-        eachColumn([&](std::size_t to, std::size_t from) { own[to] += entry.second[from]; });
-    }
+    const auto addAll = [&](const ByClass& from, ByClass& to) {
+        for (const auto& entry : from) {
+            std::vector<std::uint64_t>& own = ofClass(to, entry.first);
+            eachColumn([&](std::size_t at, std::size_t n) { own[at] += entry.second[n]; });
+        }
+    };
+    addAll(finer.areaOf, areaOf);
+    addAll(finer.sideOf, sideOf);
 }
 
 Result<volume::SemanticVolume> LevelSums::volume(double spacing, const LevelClasses& classes,

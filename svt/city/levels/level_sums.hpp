@@ -15,14 +15,17 @@
 
 namespace svt::city {
 
-/// The classes of a city, numbered as they were met. The colour is that of the first building of the class.
+/// What a city is made of, numbered as it was met: classes of buildings ("Building"), and below them those of their parts
+/// ("Building/RoofSurface"). The colour is that of the first label.
 struct LevelClasses {
-    std::vector<std::string> names;
+    std::vector<std::string> names;  ///< as above
+    std::vector<std::string> roots;  ///< the class of the building
     std::vector<Vec3f> colors;
-    std::vector<std::uint64_t> buildings;
+    std::vector<std::uint64_t> buildings;  ///< 0 of parts
     std::map<std::string, std::uint32_t> numberOf;
 
-    std::uint32_t add(const volume::Label& label);
+    /// \param root  the building that the label is, or is a part of
+    std::uint32_t add(const volume::Label& root, const volume::Label& label);
 };
 
 /// A volume of detail 1 on the lattice of the city. Column (0, 0) is column `first` of the lattice, its lowest sample
@@ -42,8 +45,9 @@ struct LevelSums {
     std::array<std::int64_t, 2> first{};
     std::array<std::int32_t, 2> size{};
     std::vector<std::int64_t> low, top;  ///< sums of samples of detail 1
-    std::map<std::uint32_t, std::vector<std::uint64_t>>
-        areaOf;  ///< by class: columns of detail 1 that it fills most of
+    using ByClass = std::map<std::uint32_t, std::vector<std::uint64_t>>;
+    ByClass areaOf;  ///< columns of detail 1 whose highest sample is of the class
+    ByClass sideOf;  ///< faces of samples of detail 1 below the highest one, beside which nothing is in the same member
 
     LevelSums(int detail, std::array<std::int64_t, 2> first, std::array<std::int32_t, 2> size);
     void add(const LevelSource& source);
@@ -54,7 +58,8 @@ struct LevelSums {
                                                         const std::string& crsName) const;
 
 private:
-    [[nodiscard]] std::vector<std::uint64_t>& areas(std::uint32_t number);
+    [[nodiscard]] std::vector<std::uint64_t>& ofClass(ByClass& all, std::uint32_t number) const;
+    void addColumn(const LevelSource& source, std::int32_t i, std::int32_t j);
 };
 
 }  // namespace svt::city

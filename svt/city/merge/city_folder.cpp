@@ -34,6 +34,15 @@ bool readTop(const nlohmann::json& json, IndexEntry& top) {
     return true;
 }
 
+void readClass(const nlohmann::json& row, City::Class& to) {
+    to.name = row.at("class").get<std::string>();
+    to.color = row.at("color").get<std::string>();
+    to.buildings = row.at("buildings").get<std::uint64_t>();
+    if (!row.contains("parts")) return;
+    for (const auto& part : row.at("parts"))
+        to.parts.emplace_back(part.at("class").get<std::string>(), part.at("color").get<std::string>());
+}
+
 bool meets(const std::array<double, 4>& a, double west, double south, double east, double north) {
     return a[0] <= east && west <= a[2] && a[1] <= north && south <= a[3];
 }
@@ -57,10 +66,17 @@ bool isOf(const volume::Grid& grid, const IndexEntry& entry, double spacing, con
     if (entry.lowest < entry.highest &&
         (std::abs(low.z - entry.lowest) > slack || std::abs(high.z - entry.highest) > slack))
         return false;
+    if (entry.hasRectangle()) {
+        const std::array<double, 4> sides{low.x, low.y, high.x, high.y};
+        const double width = 1 + grid.spacing().x;  // from samples to their sides, and rounded outwards
+        for (std::size_t n = 0; n < sides.size(); ++n)
+            if (std::abs(sides[n] - entry.rectangle[n]) > width) return false;
+        return true;
+    }
     // The coarsest tile may reach over its square.
     const double reach = entry.detail < kFirstClassDetail ? 0 : std::max(all.max.x - all.min.x, all.max.y - all.min.y);
-    return low.x <= (entry.tile.x + 1) * side + reach && high.x >= entry.tile.x * side &&
-           low.y <= (entry.tile.y + 1) * side + reach && high.y >= entry.tile.y * side;
+    return low.x <= (entry.tile.x + 1) * side + reach && high.x >= entry.tile.x * side - reach &&
+           low.y <= (entry.tile.y + 1) * side + reach && high.y >= entry.tile.y * side - reach;
 }
 
 }  // namespace
@@ -84,7 +100,7 @@ Result<City> City::open(std::shared_ptr<const Store> store, const std::filesyste
     try {
         const auto json = nlohmann::json::parse(*text);
         if (json.at("format") != "svt-city") return city.damaged("city.json", "this is no city");
-        if (json.at("version").get<int>() != 1)
+        if (const int version = json.at("version").get<int>(); version < 1 || version > kVersion)
             return Error(Code::PlanVersion, "the city has a version that this program does not know",
                          {(folder / "city.json").string(), 0, 0, {}});
         city.crsName_ = json.at("crsName").get<std::string>();
@@ -99,9 +115,7 @@ Result<City> City::open(std::shared_ptr<const Store> store, const std::filesyste
         const auto box = json.at("box").get<std::array<double, 6>>();
         city.box_ = {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}};
         if (!readTop(json, city.top_)) return city.damaged("city.json", "the top tile is damaged");
-        for (const auto& row : json.at("classes"))
-            city.classes_.push_back({row.at("class").get<std::string>(), row.at("color").get<std::string>(),
-                                     row.at("buildings").get<std::uint64_t>()});
+        for (const auto& row : json.at("classes")) readClass(row, city.classes_.emplace_back());
     } catch (const nlohmann::json::exception&) {
         return city.damaged("city.json", "the file is damaged");
     }
@@ -159,6 +173,8 @@ Result<std::vector<IndexEntry>> City::find(int detail, const std::array<double, 
         open->insert(open->end(), below->rbegin(), below->rend());
     }
     std::erase_if(found, [&](const IndexEntry& entry) {
+        if (entry.hasRectangle())
+            return !meets(rectangle, entry.rectangle[0], entry.rectangle[1], entry.rectangle[2], entry.rectangle[3]);
         const double side = tileSide(entry.tile, entry.detail, spacing_);
         // What stands over the border of its tile is found by the pages alone.
         return !meets(rectangle, (entry.tile.x - 1) * side, (entry.tile.y - 1) * side, (entry.tile.x + 2) * side,

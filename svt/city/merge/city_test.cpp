@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <map>
 #include <thread>
 
 namespace svt::city {
@@ -168,13 +169,72 @@ TEST_F(SmallCity, HasABuildingOfEachAtDetailOne) {
         const auto coarse = city.read(entry);
         ASSERT_TRUE(coarse);
         EXPECT_EQ(coarse->grid.spacing(), (Vec3d{2, 2, 2}));
-        for (const volume::Label& label : coarse->labels.labels) {
+        const std::vector<volume::Label>& labels = coarse->labels.labels;
+        for (const volume::Label& label : labels) {
+            if (label.parent != volume::kNoLabel) {
+                EXPECT_EQ(labels[label.parent].parent, volume::kNoLabel);
+                EXPECT_GT(label.voxels, 0u);
+                EXPECT_NE(label.className, labels[label.parent].className);
+                continue;
+            }
             ++buildings;
-            EXPECT_GT(label.voxels, 0u) << label.id;
-            EXPECT_EQ(label.parent, volume::kNoLabel);
+            EXPECT_GT(label.volume, 0) << label.id;
         }
     }
     EXPECT_EQ(buildings, 96u);
+}
+
+// Cells by a second way to count: all samples of each, one by one.
+TEST_F(SmallCity, ShowsRoofsAndWallsAtDetailOne) {
+    write(folder / "files", samples::CityProfile::Berlin, 1);
+    build(plan());
+    const City city = open();
+    const auto fine = city.find(0, {-1e9, -1e9, 1e9, 1e9}), coarse = city.find(1, {-1e9, -1e9, 1e9, 1e9});
+    ASSERT_TRUE(fine && coarse && fine->size() == coarse->size());
+    std::map<std::string, std::size_t> cells;
+    for (std::size_t t = 0; t < fine->size(); ++t) {
+        const auto from = city.read((*fine)[t]), to = city.read((*coarse)[t]);
+        ASSERT_TRUE(from && to);
+        const std::vector<std::uint32_t> labelOf = from->labels.labelOfScalar(), shownOf = to->labels.labelOfScalar();
+        const auto rootOf = [](const volume::LabelTable& table, std::uint32_t label) {
+            while (table.labels[label].parent != volume::kNoLabel) label = table.labels[label].parent;
+            return label;
+        };
+        const Vec3i n = to->grid.dimension();
+        for (std::int32_t k = 0; k < n.z; ++k)
+            for (std::int32_t j = 0; j < n.y; ++j)
+                for (std::int32_t i = 0; i < n.x; ++i) {
+                    std::map<std::string, std::map<std::string, int>> counts;  // by id of the root, by class
+                    for (int c = 0; c < 8; ++c) {
+                        const volume::Scalar scalar =
+                            from->columns.scalarAt(2 * i + (c & 1), 2 * j + ((c >> 1) & 1), 2 * k + (c >> 2));
+                        if (scalar == 0) continue;
+                        const volume::Label& root = from->labels.labels[rootOf(from->labels, labelOf[scalar])];
+                        ++counts[root.id][from->labels.labels[labelOf[scalar]].className];
+                    }
+                    const volume::Scalar shown = to->columns.scalarAt(i, j, k);
+                    ASSERT_EQ(shown == 0, counts.empty());
+                    if (shown == 0) continue;
+                    const volume::Label& label = to->labels.labels[shownOf[shown]];
+                    const volume::Label& root = to->labels.labels[rootOf(to->labels, shownOf[shown])];
+                    ++cells[label.className];
+                    const auto sum = [](const std::map<std::string, int>& classes) {
+                        int all = 0;
+                        for (const auto& entry : classes) all += entry.second;
+                        return all;
+                    };
+                    for (const auto& [id, classes] : counts) ASSERT_LE(sum(classes), sum(counts[root.id]));
+                    const std::map<std::string, int>& own = counts[root.id];
+                    if (label.className == root.className) {
+                        ASSERT_EQ(own.size(), 1u) << "its body, where nothing else is";
+                        continue;
+                    }
+                    for (const auto& [name, samples] : own)
+                        if (name != root.className) ASSERT_LE(samples, own.at(label.className));
+                }
+    }
+    EXPECT_GT(cells["RoofSurface"], 1000u);
+    EXPECT_GT(cells["WallSurface"], 1000u);
 }
 
 // Each sample of detail 1 lies under a filled column of each coarser detail.

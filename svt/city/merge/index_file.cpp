@@ -61,6 +61,28 @@ void putEntry(std::string& to, const IndexEntry& entry, const IndexEntry& before
     putVarint(to, entry.buildings);
 }
 
+// Where samples lie: the corner from that of the entry before, and the size.
+void putRectangle(std::string& to, const std::array<std::int32_t, 4>& own, const std::array<std::int32_t, 4>& before) {
+    putSigned(to, std::int64_t{own[0]} - before[0]);
+    putSigned(to, std::int64_t{own[1]} - before[1]);
+    putVarint(to, static_cast<std::uint64_t>(std::int64_t{own[2]} - own[0]));
+    putVarint(to, static_cast<std::uint64_t>(std::int64_t{own[3]} - own[1]));
+}
+
+// \return whether it can be one
+bool takeRectangle(Taker& from, const std::array<std::int32_t, 4>& before, std::array<std::int32_t, 4>& own) {
+    const std::array<std::int64_t, 2> low{before[0] + takeSigned(from), before[1] + takeSigned(from)};
+    for (const std::size_t axis : {0u, 1u}) {
+        const std::uint64_t size = takeVarint(from);
+        constexpr std::int64_t kMost = 2'147'483'647;
+        if (low[axis] < -kMost || low[axis] > kMost || size > kMost || low[axis] + std::int64_t(size) > kMost)
+            return false;
+        own[axis] = static_cast<std::int32_t>(low[axis]);
+        own[axis + 2] = static_cast<std::int32_t>(low[axis] + std::int64_t(size));
+    }
+    return true;
+}
+
 void putRef(std::string& to, const PageRef& ref) {
     put(to, static_cast<std::uint8_t>(ref.detail));
     put(to, static_cast<std::uint8_t>(ref.isLeaf ? 0 : 1));
@@ -106,11 +128,15 @@ void addLeaves(const std::vector<PlacedEntry>& entries, Pages& pages) {
     for (std::size_t begin = 0; begin < entries.size();) {
         PageRef ref;
         ref.detail = entries[begin].entry.detail;
-        std::string rows;
+        std::string rows, rectangles;
+        std::array<std::int32_t, 4> before{};
         std::size_t end = begin;
-        for (; end < entries.size() && entries[end].entry.detail == ref.detail && rows.size() < kIndexPage - 80;
+        for (; end < entries.size() && entries[end].entry.detail == ref.detail &&
+               rows.size() + rectangles.size() < kIndexPage - 120;
              ++end) {
             putEntry(rows, entries[end].entry, entries[end == begin ? begin : end - 1].entry, end == begin);
+            putRectangle(rectangles, entries[end].rectangle, before);
+            before = entries[end].rectangle;
             PageRef own;
             own.rectangle = entries[end].rectangle;
             own.lowest = entries[end].entry.lowest;
@@ -122,7 +148,7 @@ void addLeaves(const std::vector<PlacedEntry>& entries, Pages& pages) {
         put(page, static_cast<std::uint8_t>(ref.detail));
         put(page, std::uint8_t{0});
         put(page, static_cast<std::uint16_t>(end - begin));
-        pages.add(ref, page + rows);
+        pages.add(ref, page + rows + rectangles);
         begin = end;
     }
 }
@@ -217,6 +243,13 @@ std::optional<std::vector<IndexEntry>> takeEntries(std::string_view page) {
         entry.buildings = static_cast<std::uint32_t>(takeVarint(from));
         entries.push_back(entry);
     }
+    // Cities of version 1 end here.
+    std::array<std::int32_t, 4> before{};
+    if (from.left() > 0)
+        for (IndexEntry& entry : entries) {
+            if (!from.isGood() || !takeRectangle(from, before, entry.rectangle)) return std::nullopt;
+            before = entry.rectangle;
+        }
     if (!from.isGood() || from.left() != 0) return std::nullopt;
     return entries;
 }

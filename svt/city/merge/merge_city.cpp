@@ -41,8 +41,15 @@ void addEntry(const PackMember& member, std::uint32_t pack, std::uint32_t buildi
     const auto down = [](double value) { return static_cast<std::int32_t>(std::floor(std::max(value, -2e9))); };
     const auto up = [](double value) { return static_cast<std::int32_t>(std::ceil(std::min(value, 2e9))); };
     to.entries.push_back(
-        {{member.tile, member.detail, pack, member.offset, member.size, down(member.box.min.z), up(member.box.max.z),
-          buildings},
+        {{member.tile,
+          member.detail,
+          pack,
+          member.offset,
+          member.size,
+          down(member.box.min.z),
+          up(member.box.max.z),
+          buildings,
+          {}},
          {down(member.box.min.x), down(member.box.min.y), up(member.box.max.x), up(member.box.max.y)}});
 }
 
@@ -56,7 +63,8 @@ void addPack(const Pack& pack, std::uint32_t number, double spacing, Merging& to
         } else if (member.detail == 1) {
             const auto column = [&](double side) { return std::llround(side / (2 * spacing)); };
             to.ranges.push_back({{column(member.box.min.x), column(member.box.min.y)},
-                                 {column(member.box.max.x) - 1, column(member.box.max.y) - 1}});
+                                 {column(member.box.max.x) - 1, column(member.box.max.y) - 1},
+                                 member.tile});
         }
         addEntry(member, number, buildings, to);
         to.box.add(member.box);
@@ -200,16 +208,29 @@ Json topJson(const Merging& merged) {
     return nullptr;
 }
 
+std::string colorText(Vec3f color) {
+    const auto byte = [](float value) { return static_cast<int>(std::lround(double(value) * 255)); };
+    return fmt::format("#{:02x}{:02x}{:02x}", byte(color.x), byte(color.y), byte(color.z));
+}
+
+// Classes of buildings, and in them those of their parts.
 Json classesJson(const LevelClasses& classes) {
-    constexpr std::size_t kMost = 64;  // so that city.json stays small
+    constexpr std::size_t kMost = 64;  // of both, so that city.json stays small
     Json json = Json::array();
+    std::size_t count = 0;
     for (const auto& [name, number] : classes.numberOf) {
-        if (json.size() == kMost) break;
-        const Vec3f color = classes.colors[number];
-        const auto byte = [](float value) { return static_cast<int>(std::lround(double(value) * 255)); };
+        const std::string& root = classes.roots[number];
+        if (name != root || count++ == kMost) continue;
+        Json parts = Json::array();
+        for (auto at = classes.numberOf.lower_bound(root + "/");
+             at != classes.numberOf.end() && at->first.starts_with(root + "/") && count < kMost; ++at, ++count)
+            parts.push_back(
+                {{"class", at->first.substr(root.size() + 1)}, {"color", colorText(classes.colors[at->second])}});
         json.push_back({{"class", name},
                         {"buildings", classes.buildings[number]},
-                        {"color", fmt::format("#{:02x}{:02x}{:02x}", byte(color.x), byte(color.y), byte(color.z))}});
+                        {"color", colorText(classes.colors[number])},
+                        {"parts", parts}});
+        if (count >= kMost) break;
     }
     return json;
 }
@@ -218,7 +239,7 @@ std::string cityJson(const Plan& plan, const CityStatus& status, const Merging& 
                      std::uint64_t idsBytes) {
     Json json;
     json["format"] = "svt-city";
-    json["version"] = 1;
+    json["version"] = City::kVersion;
     json["program"] = plan.program;
     json["plan"] = plan.digest;
     json["crs"] = plan.crs;

@@ -194,7 +194,7 @@ private:
         file_ = 0xFFFFFFFF;
         sum_ = Sha256();
         const CityOptions& options = plan_.options;
-        sum_.add(fmt::format("svt-city-pack 1\n{}\n{} {}\n", plan_.program, options.spacing, options.lod));
+        sum_.add(fmt::format("svt-city-pack 2\n{}\n{} {}\n", plan_.program, options.spacing, options.lod));
     }
     void end() {
         const Digest digest = sum_.finish();

@@ -1,8 +1,6 @@
 #include <svt/city/tile/tile_builder.hpp>
 
 #include <svt/city/base/sha256.hpp>
-#include <svt/volume/lod_pyramid.hpp>
-#include <svt/volume/volume_part.hpp>
 
 #include <fmt/format.h>
 
@@ -139,44 +137,6 @@ Result<std::optional<BuiltTile>> buildTile(const PackFeatures& features, std::sp
     for (std::uint32_t l = 0; l < labels.size(); ++l)
         if (labels[l].parent == volume::kNoLabel) tile.labels.push_back({idHash(labels[l].id), l});
     return std::optional(std::move(tile));
-}
-
-Result<volume::SemanticVolume> buildingsOf(const volume::SemanticVolume& full, int threads) {
-    volume::SemanticVolume result;
-    std::vector<volume::Scalar> buildingOf(full.labels.scalarCount(), 0);
-    for (const volume::Label& label : full.labels.labels) {
-        if (label.parent == volume::kNoLabel) {
-            volume::Label building;
-            building.id = label.id;
-            building.className = label.className;
-            building.name = label.name;
-            building.color = label.color;
-            building.filling = volume::Filling::Solid;
-            building.first = static_cast<volume::Scalar>(result.labels.labels.size() + 1);
-            building.count = 1;
-            building.subtreeEnd = static_cast<std::uint32_t>(result.labels.labels.size() + 1);
-            result.labels.labels.push_back(std::move(building));
-        }
-        const auto scalar = static_cast<volume::Scalar>(result.labels.labels.size());
-        for (volume::Scalar s = 0; s < label.count; ++s) buildingOf[label.first + s] = scalar;
-    }
-    const volume::ColumnVolume columns = volume::replaceScalars(full.columns, buildingOf);
-    auto levels = volume::buildLodPyramid(columns, full.grid, 1, threads);
-    if (!levels) return levels.error();
-    const volume::LodLevel& level = levels->front();
-    std::vector<volume::Scalar> most(level.mixtures.size(), 0);
-    for (std::size_t m = 0; m < most.size(); ++m)
-        if (level.mixtures[m].partCount > 0) most[m] = level.mixtures[m].parts[0].scalar;
-    result.columns = volume::replaceScalars(level.columns, most);
-    result.grid = level.grid;
-    result.crsName = full.crsName;
-    result.modelName = full.modelName;
-    const auto counts = result.columns.countVoxels(static_cast<volume::Scalar>(result.labels.labels.size() + 1));
-    for (volume::Label& label : result.labels.labels) {
-        label.voxels = counts[label.first];
-        label.volume = double(label.voxels) * result.grid.voxelVolume();
-    }
-    return result;
 }
 
 }  // namespace svt::city

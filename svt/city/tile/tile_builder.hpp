@@ -53,7 +53,8 @@ struct BuiltTile {
                                                          std::span<const std::uint32_t> chosen,
                                                          const CityOptions& options, int threads);
 
-/// One label a root of the tree, at twice the spacing: the root that fills most of what is filled of a cell.
+/// One label a root of the tree, and below it one a class of what it is made of, at twice the spacing: of the root that fills
+/// most of what is filled of a cell the class that fills most, its own body only where nothing else of it is there.
 [[nodiscard]] Result<volume::SemanticVolume> buildingsOf(const volume::SemanticVolume& full, int threads);
 
 /// The grid of the city's lattice around a box: samples at (n + 1/2) * spacing, from a multiple of four on.

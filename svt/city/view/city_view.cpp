@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -17,26 +18,73 @@ namespace svt::city {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// A building may stand over the border of its tile by half its length.
+// In cities of version 1: a building may stand over the border of its tile by half its length.
 constexpr double kOverhang = 30;
 constexpr double kMostPixels = 256;
 
-struct Square {
-    double west, south, east, north;
-};
-
-double sideOf(const City& city, const IndexEntry& entry) { return tileSide(entry.tile, entry.detail, city.spacing()); }
 double voxelOf(const City& city, int detail) { return spacingOf(detail, city.spacing()).x; }
 
-Square squareOf(const City& city, const IndexEntry& entry) {
-    const double side = sideOf(city, entry);
-    return {entry.tile.x * side, entry.tile.y * side, (entry.tile.x + 1) * side, (entry.tile.y + 1) * side};
+// Where the samples of an entry lie.
+Box3d boxOf(const City& city, const IndexEntry& entry) {
+    if (entry.detail == city.topDetail()) return city.box();
+    const double low = entry.lowest, high = entry.highest;
+    const auto& [west, south, east, north] = entry.rectangle;
+    if (entry.hasRectangle()) return {{double(west), double(south), low}, {double(east), double(north), high}};
+    const double side = tileSide(entry.tile, entry.detail, city.spacing());
+    const double around = kOverhang + voxelOf(city, entry.detail);
+    return {{entry.tile.x * side - around, entry.tile.y * side - around, low},
+            {(entry.tile.x + 1) * side + around, (entry.tile.y + 1) * side + around, high}};
 }
 
-bool overlap(const Square& a, const Square& b) {
-    constexpr double kSlack = 1e-6;
-    return a.west < b.east - kSlack && b.west < a.east - kSlack && a.south < b.north - kSlack &&
-           b.south < a.north - kSlack;
+// The box of an entry with the shadow that it may throw upon the lowest ground.
+Box3d boxWithShadow(const City& city, const CameraView& view, const IndexEntry& entry) {
+    Box3d box = boxOf(city, entry);
+    const Vec3d light = view.towardsLight;
+    if (light.z <= 0) return box;
+    constexpr double kMostShadow = 2000;
+    const double height = std::max(0.0, box.max.z - city.box().min.z);
+    const double reach = std::min(height / light.z, kMostShadow);
+    const Box3d own = box;
+    for (int corner = 0; corner < 4; ++corner) {
+        const Vec3d at{(corner & 1) != 0 ? own.min.x : own.max.x, (corner & 2) != 0 ? own.min.y : own.max.y, own.max.z};
+        box.add(at - light * reach);
+    }
+    return box;
+}
+
+Vec3d cornerOf(const Box3d& box, int corner) {
+    return {(corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
+            (corner & 4) != 0 ? box.max.z : box.min.z};
+}
+
+double distanceFrom(Vec3d eye, const Box3d& box) {
+    Vec3d nearest;
+    for (int axis = 0; axis < 3; ++axis) nearest[axis] = std::clamp(eye[axis], box.min[axis], box.max[axis]);
+    return length(nearest - eye);
+}
+
+// How many pixels a voxel of an entry is wide where it is nearest to the eye; not where its depth is least, which may be
+// aside.
+double pixelsOf(const City& city, const CameraView& view, const IndexEntry& entry) {
+    const double pixel = view.isPerspective ? view.pixel * distanceFrom(view.eye, boxOf(city, entry)) : view.pixel;
+    return voxelOf(city, entry.detail) / std::max(pixel, 1e-12);
+}
+
+void sortEntries(const City& city, const CameraView& view, ChosenTiles& chosen) {
+    std::vector<IndexEntry>& entries = chosen.entries;
+    int finest = std::numeric_limits<int>::max();
+    for (const IndexEntry& entry : entries) finest = std::min(finest, entry.detail);
+    const auto isNear = [&](const IndexEntry& entry) {
+        return entry.detail == finest && pixelsOf(city, view, entry) > kNearPixels;
+    };
+    std::sort(entries.begin(), entries.end(), [](const IndexEntry& a, const IndexEntry& b) {
+        return std::tuple(-a.detail, mortonOf(a.tile), a.tile.level) <
+               std::tuple(-b.detail, mortonOf(b.tile), b.tile.level);
+    });
+    const auto near = std::stable_partition(entries.begin(), entries.end(), [&](const auto& e) { return !isNear(e); });
+    chosen.near = static_cast<std::size_t>(entries.end() - near);
+    chosen.bytes = 0;
+    for (const IndexEntry& entry : entries) chosen.bytes += entry.size;
 }
 
 class Chooser {
@@ -55,96 +103,47 @@ public:
                 if (detail > finest_ && isTooCoarse(entry))
                     fine.push_back(entry);
                 else
-                    take(entry, chosen);
+                    chosen.entries.push_back(entry);
             open = below(fine);
             if (!open) return open.error();
         }
-        std::sort(chosen.entries.begin(), chosen.entries.end(), [](const IndexEntry& a, const IndexEntry& b) {
-            return std::tuple(-a.detail, mortonOf(a.tile), a.tile.level) <
-                   std::tuple(-b.detail, mortonOf(b.tile), b.tile.level);
-        });
+        sortEntries(city_, view_, chosen);
         return chosen;
     }
 
 private:
-    static void take(const IndexEntry& entry, ChosenTiles& chosen) {
-        chosen.entries.push_back(entry);
-        chosen.bytes += entry.size;
-    }
-
-    // The tiles of the next finer detail that take the place of `entries`, and are needed.
+    // The tiles of the next finer detail that take the place of `entries`, and are needed: those that belong to them, so that
+    // each building is drawn once, and whole.
     Result<std::vector<IndexEntry>> below(const std::vector<IndexEntry>& entries) const {
         std::vector<IndexEntry> found;
         if (entries.empty()) return found;
         std::array<double, 4> around{kInfinity, kInfinity, -kInfinity, -kInfinity};
-        std::vector<Square> squares;
+        std::set<std::tuple<int, std::int32_t, std::int32_t>> tiles;
         for (const IndexEntry& entry : entries) {
-            Square square = squareOf(city_, entry);
-            // The tile that holds all may reach over its square.
-            if (entry.detail == city_.topDetail()) {
-                const Box3d& all = city_.box();
-                square = {all.min.x - 1, all.min.y - 1, all.max.x + 1, all.max.y + 1};
-            }
-            squares.push_back(square);
-            around = {std::min(around[0], square.west), std::min(around[1], square.south),
-                      std::max(around[2], square.east), std::max(around[3], square.north)};
+            const Box3d box = boxOf(city_, entry);
+            tiles.emplace(entry.tile.level, entry.tile.x, entry.tile.y);
+            around = {std::min(around[0], box.min.x), std::min(around[1], box.min.y), std::max(around[2], box.max.x),
+                      std::max(around[3], box.max.y)};
         }
-        std::sort(squares.begin(), squares.end(), [](const Square& a, const Square& b) {
-            return std::tie(a.south, a.west) < std::tie(b.south, b.west);
-        });
-        auto finer = city_.find(entries.front().detail - 1, around);
+        const int detail = entries.front().detail;
+        auto finer = city_.find(detail - 1, around);
         if (!finer) return finer;
-        for (const IndexEntry& entry : *finer)
-            if (isNeeded(entry) && meetsAny(squareOf(city_, entry), squares)) found.push_back(entry);
+        for (const IndexEntry& entry : *finer) {
+            const TileKey above = tileAbove(entry.tile, entry.detail, city_.spacing());
+            const bool isBelow = detail == city_.topDetail() || tiles.contains({above.level, above.x, above.y});
+            if (isBelow && isNeeded(entry)) found.push_back(entry);
+        }
         return found;
     }
 
-    // \param squares  ordered by south
-    static bool meetsAny(const Square& square, const std::vector<Square>& squares) {
-        if (squares.empty()) return false;
-        const double side = squares.front().north - squares.front().south;
-        const auto first = std::partition_point(squares.begin(), squares.end(), [&](const Square& other) {
-            return other.south < square.south - std::max(side, other.north - other.south) - 1;
-        });
-        for (auto other = first; other != squares.end() && other->south < square.north; ++other)
-            if (overlap(square, *other)) return true;
-        return false;
-    }
-
-    Box3d boxOf(const IndexEntry& entry) const {
-        const Square square = squareOf(city_, entry);
-        const double around = kOverhang + voxelOf(city_, entry.detail);
-        Box3d box{{square.west - around, square.south - around, double(entry.lowest)},
-                  {square.east + around, square.north + around, double(entry.highest)}};
-        if (entry.detail == city_.topDetail()) box = city_.box();
-        return box;
-    }
-
     // Whether some of a box is in the picture, or the shadow that it may throw upon the lowest ground.
-    bool isNeeded(const IndexEntry& entry) const {
-        Box3d box = boxOf(entry);
-        const Vec3d light = view_.towardsLight;
-        if (light.z > 0) {
-            constexpr double kMostShadow = 2000;
-            const double height = std::max(0.0, box.max.z - city_.box().min.z);
-            const double reach = std::min(height / light.z, kMostShadow);
-            for (int corner = 0; corner < 4; ++corner) {
-                const Vec3d at{(corner & 1) != 0 ? box.min.x : box.max.x, (corner & 2) != 0 ? box.min.y : box.max.y,
-                               box.max.z};
-                box.add(at - light * reach);
-            }
-        }
-        return isSeen(box);
-    }
+    bool isNeeded(const IndexEntry& entry) const { return isSeen(boxWithShadow(city_, view_, entry)); }
 
     // Whether no plane of the picture's frustum has all of a box at its outer side.
     bool isSeen(const Box3d& box) const {
         std::array<int, 5> outside{};
         for (int corner = 0; corner < 8; ++corner) {
-            const Vec3d from =
-                Vec3d{(corner & 1) != 0 ? box.max.x : box.min.x, (corner & 2) != 0 ? box.max.y : box.min.y,
-                      (corner & 4) != 0 ? box.max.z : box.min.z} -
-                view_.eye;
+            const Vec3d from = cornerOf(box, corner) - view_.eye;
             const double depth = dot(from, view_.forward), scale = view_.isPerspective ? depth : 1;
             const double x = dot(from, view_.right), y = dot(from, view_.up);
             outside[0] += depth < 0;
@@ -156,18 +155,7 @@ private:
         return std::find(outside.begin(), outside.end(), 8) == outside.end();
     }
 
-    bool isTooCoarse(const IndexEntry& entry) const {
-        double pixel = view_.pixel;
-        if (view_.isPerspective) {
-            // The point of the box that is nearest to the eye; not that of least depth, which may be aside.
-            const Box3d box = boxOf(entry);
-            Vec3d nearest;
-            for (int axis = 0; axis < 3; ++axis)
-                nearest[axis] = std::clamp(view_.eye[axis], box.min[axis], box.max[axis]);
-            pixel *= length(nearest - view_.eye);
-        }
-        return voxelOf(city_, entry.detail) > pixel * pixels_;
-    }
+    bool isTooCoarse(const IndexEntry& entry) const { return pixelsOf(city_, view_, entry) > pixels_; }
 
     const City& city_;
     const CameraView& view_;
@@ -182,6 +170,60 @@ Result<ChosenTiles> chooseTiles(const City& city, const CameraView& view, std::u
         auto chosen = Chooser(city, view, finest, pixels).run();
         if (!chosen || chosen->bytes <= memoryBytes / kBytesAByte || pixels > kMostPixels) return chosen;
     }
+}
+
+std::vector<bool> areHidden(const City& city, const CameraView& view, const SeenDepths& seen,
+                            std::span<const IndexEntry> entries) {
+    constexpr double kAround = 10;  // metres that ambient light reaches
+    std::vector<bool> hidden;
+    for (const IndexEntry& entry : entries) {
+        Box3d box = boxWithShadow(city, view, entry);
+        for (const double by : {-kAround, kAround}) {
+            const Vec3d to = (by < 0 ? box.min : box.max) + Vec3d{by, by, by};
+            box.add(to);
+        }
+        double nearest = kInfinity, left = kInfinity, right = -kInfinity, low = kInfinity, high = -kInfinity;
+        for (int corner = 0; corner < 8; ++corner) {
+            const Vec3d from = cornerOf(box, corner) - view.eye;
+            const double depth = dot(from, view.forward), scale = view.isPerspective ? std::max(depth, 1e-9) : 1;
+            const double x = (dot(from, view.right) / (view.halfWidth * scale) + 1) / 2 * seen.width;
+            const double y = (1 - dot(from, view.up) / (view.halfHeight * scale)) / 2 * seen.height;
+            nearest = std::min(nearest, depth);
+            left = std::min(left, x);
+            right = std::max(right, x);
+            low = std::min(low, y);
+            high = std::max(high, y);
+        }
+        const auto within = [](double at, std::int32_t most) {
+            return static_cast<std::int32_t>(std::clamp(at, 0.0, double(most)));
+        };
+        const std::int32_t iBegin = within(left - 1, seen.width), iEnd = within(right + 2, seen.width),
+                           jBegin = within(low - 1, seen.height), jEnd = within(high + 2, seen.height);
+        bool isHidden = nearest > 0;
+        for (std::int32_t j = jBegin; j < jEnd && isHidden; ++j) {
+            const auto row = seen.depth.subspan(std::size_t(j) * std::size_t(seen.width) + std::size_t(iBegin),
+                                                std::size_t(iEnd - iBegin));
+            isHidden = std::all_of(row.begin(), row.end(), [&](float depth) { return double(depth) < nearest; });
+        }
+        hidden.push_back(isHidden);
+    }
+    return hidden;
+}
+
+ChosenTiles nearestOf(const City& city, const CameraView& view, const ChosenTiles& chosen, double share) {
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t n = 0; n < chosen.entries.size(); ++n)
+        order.emplace_back(distanceFrom(view.eye, boxOf(city, chosen.entries[n])), n);
+    std::sort(order.begin(), order.end());
+    ChosenTiles near;
+    near.pixels = chosen.pixels;
+    for (const auto& [distance, n] : order) {
+        if (!near.entries.empty() && double(near.bytes) >= share * double(chosen.bytes)) break;
+        near.entries.push_back(chosen.entries[n]);
+        near.bytes += chosen.entries[n].size;
+    }
+    sortEntries(city, view, near);
+    return near;
 }
 
 Result<std::vector<volume::SemanticVolume>> readTiles(const City& city, const ChosenTiles& chosen, int threads,
@@ -211,7 +253,8 @@ Result<std::vector<volume::SemanticVolume>> readTiles(const City& city, const Ch
     std::vector<volume::SemanticVolume> joined;
     for (std::size_t begin = 0, end = 0; begin < entries.size(); begin = end) {
         std::vector<volume::SemanticVolume> parts;
-        for (; end < entries.size() && entries[end].detail == entries[begin].detail; ++end)
+        const std::size_t far = entries.size() - chosen.near, most = begin < far ? far : entries.size();
+        for (; end < most && entries[end].detail == entries[begin].detail; ++end)
             parts.push_back(std::move(*read[end]));
         if (parts.size() == 1) {
             joined.push_back(std::move(parts.front()));
@@ -239,6 +282,32 @@ Result<volume::SemanticVolume> frameVolume(const City& city) {
     frame.columns = volume::ColumnVolume::fromDense(kSamples, nothing);
     frame.crsName = city.crsName();
     return frame;
+}
+
+volume::LabelTable classTable(const City& city) {
+    volume::LabelTable table;
+    const auto add = [&](const std::string& id, const std::string& name, const std::string& color) {
+        volume::Label& label = table.labels.emplace_back();
+        label.id = id;
+        label.className = name;
+        label.first = static_cast<volume::Scalar>(table.labels.size());
+        label.count = 1;
+        label.subtreeEnd = static_cast<std::uint32_t>(table.labels.size());
+        label.filling = volume::Filling::Solid;
+        unsigned red = 204, green = 204, blue = 204;
+        if (std::sscanf(color.c_str(), "#%2x%2x%2x", &red, &green, &blue) == 3)
+            label.color = {float(red) / 255, float(green) / 255, float(blue) / 255};
+    };
+    for (const City::Class& own : city.classes()) {
+        const auto root = static_cast<std::uint32_t>(table.labels.size());
+        add(own.name, own.name, own.color);
+        for (const auto& [name, color] : own.parts) {
+            add(own.name + "/" + name, name, color);
+            table.labels.back().parent = root;
+        }
+        table.labels[root].subtreeEnd = static_cast<std::uint32_t>(table.labels.size());
+    }
+    return table;
 }
 
 Result<std::vector<IndexEntry>> allTiles(const City& city, int detail) {

@@ -41,6 +41,26 @@ ScenePainter::Draw byCasting(const render::CastOptions& options) {
     };
 }
 
+void mix(const std::vector<ScenePainter::StyleMixture>& mixtures, render::Pass& pass) {
+    const std::vector<render::Style> before = pass.styles;
+    for (const ScenePainter::StyleMixture& mixture : mixtures) {
+        if (mixture.scalar >= pass.styles.size()) continue;
+        render::Style& own = pass.styles[mixture.scalar];
+        own.color = {0, 0, 0};
+        own.opacity = 0;
+        float all = 0;
+        for (const auto& [scalar, share] : mixture.parts) {
+            if (scalar >= before.size() || before[scalar].opacity <= 0) continue;
+            own.color = own.color + before[scalar].color * share;
+            own.opacity += before[scalar].opacity * share;
+            all += share;
+        }
+        if (all <= 0) continue;
+        own.color = own.color * (1 / all);
+        own.opacity = std::min(1.0f, own.opacity / all);
+    }
+}
+
 }  // namespace
 
 struct ScenePainter::Forms {
@@ -219,6 +239,7 @@ Result<Painting> ScenePainter::paintPlain(const Scene& scene, const Draw& draw) 
     ColorScale scale;
     auto spec = makeFrameSpec(scene, volume_, rows, &scale);
     if (!spec) return spec.error();
+    for (render::Pass& pass : spec->passes) mix(mixtures_, pass);
     const auto drawn = drawnVolumes(scene, *spec);
     if (!drawn) return drawn.error();
     return finish(scene, rows, scale, std::move(*spec), *drawn, draw);
