@@ -11,8 +11,13 @@
 ///     |        air      # wall#      room
 ///     +--------> x
 ///
-///     index[bx + nbx * (by + nby * bz)]   one entry per brick, of 16 bits if they suffice, else 32; with u same-label
-///                                         boxes and c boxes of coded bricks:
+///     the index has two steps: clusters of 4 x 4 x 4 bricks, x fastest, and bricks
+///       cluster        all its bricks are uniform and one same-label box has them all: the number of that box
+///                      otherwise: kMixedCluster, and where its list of bricks begins (`clusterWords`)
+///       list           64 bits: which bricks are coded; the count of coded bricks in the lists before; 64 bytes: by
+///                      brick, x fastest, the place of its entry in the table that follows: the distinct entries
+///
+///     with u same-label boxes and c boxes of coded bricks:
 ///       entry          kind     refers to
 ///       [0, u)         uniform  a same-label box: bounds in voxels and the scalar
 ///       [u, u + c)     coded    a box of coded bricks that share one code (BoxCoding)
@@ -28,8 +33,9 @@
 ///   steps as it meets labels, faces are flat even in close-up, and normals are those of planes.
 /// - Other bricks have a palette per brick, as in neuroglancer's compressed_segmentation, but with the indices as bit
 ///   planes: a brick of two labels takes 64 bytes, and the mask of the voxels with one label is a few word operations.
-///   Coded bricks have a palette brick as well, for access to single voxels; it is found by the rank of the brick in a
-///   bit vector.
+///   Coded bricks have a palette brick as well, for access to single voxels; it is found by the rank of the brick in the
+///   bit vector of its cluster.
+/// - Where nothing changes, a cluster takes 4 bytes, so the index grows with the surface, as all else does.
 /// - Equal palette bricks are stored once, and so are equal bit planes (walls repeat along their length).
 
 #include <svt/core/progress.hpp>
@@ -71,6 +77,7 @@ public:
     static constexpr std::size_t kMaxSides = 3 + kMaxPlanes;  ///< maximum of sides in a code: cuts and planes
 
     static constexpr std::int32_t kBrickSize = 8;
+    static constexpr std::int32_t kClusterSize = 4;  ///< bricks along an axis
     static constexpr std::uint64_t kMaxBricks = std::uint64_t{1} << 29;
 
     /// The index entry of one brick.
@@ -117,10 +124,12 @@ public:
 
     /// Entry of brick (bx, by, bz), which must lie inside.
     [[nodiscard]] Entry entry(std::int32_t bx, std::int32_t by, std::int32_t bz) const noexcept {
-        const std::size_t brick = brickIndex(bx, by, bz);
-        const std::uint32_t value = narrow_.empty() ? wide_[brick] : narrow_[brick];
+        const std::uint32_t cluster = clusters_[clusterIndex(bx, by, bz)];
+        if ((cluster & kMixedCluster) == 0) return {cluster, 0};
+        const std::uint32_t* list = listOf(cluster);
+        const std::uint32_t brick = brickInCluster(bx, by, bz), value = entryInList(list, brick);
         if (value < uniformBoxes_) return {value, 0};
-        if (value < boxes_.size()) return {value | Entry::kCoded, patternOf(brick)};
+        if (value < boxes_.size()) return {value | Entry::kCoded, codedPatterns_[rankOf(list, brick)]};
         const std::uint32_t pattern = value - static_cast<std::uint32_t>(boxes_.size());
         return {pattern | Entry::kVoxels, pattern};
     }
@@ -249,24 +258,26 @@ public:
     /// of boxes(), and `mixed(bx, number)` for each brick with palette brick `number`. Cost: O(runs + mixed bricks).
     template <class Uniform, class Mixed>
     void forRow(std::int32_t by, std::int32_t bz, const Uniform& uniform, const Mixed& mixed) const {
-        const std::size_t row = brickIndex(0, by, bz);
-        const std::uint32_t* coded = nullptr;  // palette brick of the next coded brick
         for (std::int32_t x = 0; x < brickCount_.x;) {
-            const std::size_t brick = row + static_cast<std::size_t>(x);
-            const std::uint32_t value = narrow_.empty() ? wide_[brick] : narrow_[brick];
-            if (value < uniformBoxes_) {
-                const std::int32_t end = std::min((boxes_[value].max[0] + 7) / 8, brickCount_.x);
-                uniform(x, end, std::size_t{value});
-                // The entries of these bricks may name other boxes, but all are uniform.
+            const std::uint32_t cluster = clusters_[clusterIndex(x, by, bz)];
+            if ((cluster & kMixedCluster) == 0) {
+                const std::int32_t end = std::min((boxes_[cluster].max[0] + 7) / 8, brickCount_.x);
+                uniform(x, end, std::size_t{cluster});
                 x = end;
-            } else {
-                if (value >= boxes_.size()) {
-                    mixed(x, value - boxes_.size());
+                continue;
+            }
+            const std::uint32_t* list = listOf(cluster);
+            for (const std::int32_t end = std::min((x | (kClusterSize - 1)) + 1, brickCount_.x); x < end;) {
+                const std::uint32_t brick = brickInCluster(x, by, bz), value = entryInList(list, brick);
+                if (value < uniformBoxes_) {
+                    const std::int32_t behind = std::min((boxes_[value].max[0] + 7) / 8, brickCount_.x);
+                    uniform(x, behind, std::size_t{value});
+                    // The entries of these bricks may name other boxes, but all are uniform.
+                    x = behind;
                 } else {
-                    if (coded == nullptr) coded = codedPatterns_.data() + rankOf(brick);
-                    mixed(x, std::size_t{*coded++});
+                    mixed(x++, std::size_t{value < boxes_.size() ? codedPatterns_[rankOf(list, brick)]
+                                                                 : value - static_cast<std::uint32_t>(boxes_.size())});
                 }
-                ++x;
             }
         }
     }
@@ -282,13 +293,13 @@ public:
         std::uint32_t paletteSize = 0;
         friend bool operator==(const PaletteBrick&, const PaletteBrick&) = default;
     };
+    static constexpr std::uint32_t kMixedCluster = 0x80000000u;
     /// All arrays as stored, for SIMD ray casters and for textures. Entries of the index are numbered as in the file
     /// comment; the boxes of coded bricks follow the same-label boxes in `boxes`, with the index of their code in the
-    /// field `scalar`. The index is `narrow` if 16 bits suffice for all entries, else `wide`; the other one is empty.
-    /// The index is padded by 8 bytes and `palettes` by 7 elements, so that 64 bits or 8 elements can be read anywhere.
+    /// field `scalar`. `palettes` is padded by 7 elements, so that 8 elements can be read anywhere.
     struct Arrays {
-        std::span<const std::uint16_t> narrow;
-        std::span<const std::uint32_t> wide;
+        Vec3i clusterCount{};
+        std::span<const std::uint32_t> clusters, clusterWords;
         std::size_t uniformBoxes = 0;
         std::span<const SameLabelBox> boxes;
         std::span<const BoxCoding> codes;
@@ -296,10 +307,20 @@ public:
         std::span<const Scalar> palettes;
         std::span<const std::uint64_t> words;
         std::span<const BrickPlane> planes;
+
+        /// Entry of brick (bx, by, bz), which must lie inside.
+        [[nodiscard]] std::uint32_t entry(std::int32_t bx, std::int32_t by, std::int32_t bz) const noexcept {
+            const std::uint32_t cluster = clusters[indexIn(clusterCount, bx, by, bz)];
+            if ((cluster & kMixedCluster) == 0) return cluster;
+            return entryInList(clusterWords.data() + (cluster & ~kMixedCluster), brickInCluster(bx, by, bz));
+        }
     };
     [[nodiscard]] Arrays arrays() const noexcept {
-        return {narrow_, wide_, uniformBoxes_, boxes_, codes_, bricks_, palettes_, bitPlanes_, planes_};
+        return {clusterCount_, clusters_, clusterWords_, uniformBoxes_, boxes_,
+                codes_,        bricks_,   palettes_,     bitPlanes_,    planes_};
     }
+    /// The entries of all bricks, x fastest, then y, then z: for textures.
+    [[nodiscard]] std::vector<std::uint32_t> flatIndex() const;
 
     /// 1 + the largest scalar.
     [[nodiscard]] std::uint64_t scalarCount() const noexcept { return scalarCount_; }
@@ -331,24 +352,39 @@ private:
         }
     }
 
-    [[nodiscard]] std::size_t brickIndex(std::int32_t bx, std::int32_t by, std::int32_t bz) const noexcept {
-        return static_cast<std::size_t>(bx) +
-               static_cast<std::size_t>(brickCount_.x) *
-                   (static_cast<std::size_t>(by) +
-                    static_cast<std::size_t>(brickCount_.y) * static_cast<std::size_t>(bz));
+    // Words of a cluster's list before the places of entries, and before the entries.
+    static constexpr std::size_t kListPlaces = 3, kListEntries = kListPlaces + 16;
+
+    [[nodiscard]] static std::size_t indexIn(Vec3i clusters, std::int32_t bx, std::int32_t by,
+                                             std::int32_t bz) noexcept {
+        return static_cast<std::size_t>(bx >> 2) +
+               static_cast<std::size_t>(clusters.x) *
+                   (static_cast<std::size_t>(by >> 2) +
+                    static_cast<std::size_t>(clusters.y) * static_cast<std::size_t>(bz >> 2));
     }
-    // Rank of a coded brick among all coded bricks: a bit vector with rank (Jacobson 1989), one count per word.
-    [[nodiscard]] std::uint32_t rankOf(std::size_t brick) const noexcept {
-        const std::uint64_t before = codedBricks_[brick / 64] & ((std::uint64_t{1} << (brick % 64)) - 1);
-        return codedBefore_[brick / 64] + static_cast<std::uint32_t>(std::popcount(before));
+    [[nodiscard]] std::size_t clusterIndex(std::int32_t bx, std::int32_t by, std::int32_t bz) const noexcept {
+        return indexIn(clusterCount_, bx, by, bz);
     }
-    [[nodiscard]] std::uint32_t patternOf(std::size_t brick) const noexcept { return codedPatterns_[rankOf(brick)]; }
+    [[nodiscard]] const std::uint32_t* listOf(std::uint32_t cluster) const noexcept {
+        return clusterWords_.data() + (cluster & ~kMixedCluster);
+    }
+    [[nodiscard]] static std::uint32_t brickInCluster(std::int32_t bx, std::int32_t by, std::int32_t bz) noexcept {
+        return static_cast<std::uint32_t>((bx & 3) | (by & 3) << 2 | (bz & 3) << 4);
+    }
+    [[nodiscard]] static std::uint32_t entryInList(const std::uint32_t* list, std::uint32_t brick) noexcept {
+        return list[kListEntries + ((list[kListPlaces + brick / 4] >> (8 * (brick % 4))) & 0xFFu)];
+    }
+    // Rank of a coded brick among all coded bricks: bit vectors with rank (Jacobson 1989), one count per cluster.
+    [[nodiscard]] static std::uint32_t rankOf(const std::uint32_t* list, std::uint32_t brick) noexcept {
+        const std::uint64_t coded = list[0] | std::uint64_t{list[1]} << 32;
+        return list[2] + static_cast<std::uint32_t>(std::popcount(coded & ((std::uint64_t{1} << brick) - 1)));
+    }
 
     Vec3i dimension_{};
     Vec3i brickCount_{};
     std::uint64_t scalarCount_ = 0;
-    std::vector<std::uint16_t> narrow_;
-    std::vector<std::uint32_t> wide_;
+    Vec3i clusterCount_{};
+    std::vector<std::uint32_t> clusters_, clusterWords_;
     std::size_t uniformBoxes_ = 0;
     std::vector<SameLabelBox> boxes_;
     std::vector<BoxCoding> codes_;
@@ -356,8 +392,6 @@ private:
     std::vector<PaletteBrick> bricks_;
     std::vector<Scalar> palettes_;
     std::vector<std::uint64_t> bitPlanes_;
-    std::vector<std::uint64_t> codedBricks_;    // bit vector over the bricks: 1 = coded
-    std::vector<std::uint32_t> codedBefore_;    // per word of codedBricks_: coded bricks before it
     std::vector<std::uint32_t> codedPatterns_;  // per coded brick, by rank: its palette brick
 };
 

@@ -60,8 +60,6 @@ PacketPasses::PacketPasses(const PreparedFrame& frame) {
         PacketPass packetPass = shared;
         const PreparedVolume& volume = frame.volumes[pass.volume];
         packetPass.volume = volume.bricks.arrays();
-        packetPass.bricksX = volume.bricks.brickCount().x;
-        packetPass.bricksY = volume.bricks.brickCount().y;
         for (int axis = 0; axis < 3; ++axis) packetPass.count[axis] = volume.bricks.dimension()[axis];
         packetPass.faces = faces_[pass.volume].data();
         packetPass.styleCount = static_cast<std::int64_t>(styles.size());

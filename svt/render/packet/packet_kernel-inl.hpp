@@ -114,11 +114,7 @@ private:
 
     HWY_INLINE void crossAt(Vec3i voxel) {
         const volume::BrickVolume::Arrays& volume = pass_.volume;
-        const auto bricksX = static_cast<std::size_t>(pass_.bricksX), bricksY = static_cast<std::size_t>(pass_.bricksY);
-        const std::size_t place =
-            static_cast<std::size_t>(voxel.x >> 3) +
-            bricksX * (static_cast<std::size_t>(voxel.y >> 3) + bricksY * static_cast<std::size_t>(voxel.z >> 3));
-        const std::size_t entry = volume.narrow.empty() ? volume.wide[place] : volume.narrow[place];
+        const std::size_t entry = volume.entry(voxel.x >> 3, voxel.y >> 3, voxel.z >> 3);
         Bounds bounds;
         if (entry < volume.boxes.size()) {
             const volume::SameLabelBox& box = volume.boxes[entry];

@@ -114,7 +114,6 @@ struct PacketOcclusion {
 /// A pass and its volume, read by all packets.
 struct PacketPass {
     volume::BrickVolume::Arrays volume;
-    double bricksX = 0, bricksY = 0;
     double count[3]{};                    ///< voxels
     const PacketStyle* styles = nullptr;  ///< by scalar; element styleCount is hidden and stands for all larger scalars
     std::int64_t styleCount = 0;

@@ -417,13 +417,21 @@ private:
         return toDoubles(hn::Lt(entry, hn::Set(DI(), static_cast<std::int64_t>(end))));
     }
     HWY_INLINE VI entryAt(const V3& brick, M lanes) const {
-        const D d;
-        const V place = hn::Add(
-            brick.x, hn::Mul(hn::Set(d, pass_.bricksX), hn::Add(brick.y, hn::Mul(hn::Set(d, pass_.bricksY), brick.z))));
-        const VI brick64 = toInt(hn::IfThenElseZero(lanes, place));
-        if (pass_.volume.narrow.empty())
-            return lowHalf(gatherBytes(pass_.volume.wide.data(), hn::ShiftLeft<2>(brick64)));
-        return bitsOf<0, 16>(gatherBytes(pass_.volume.narrow.data(), hn::ShiftLeft<1>(brick64)));
+        constexpr std::size_t kLanes = hn::MaxLanes(D());
+        alignas(64) std::int64_t x[kLanes], y[kLanes], z[kLanes], entries[kLanes];
+        const auto store = [&](V along, std::int64_t* to) {
+            hn::Store(toInt(hn::IfThenElseZero(lanes, along)), DI(), to);
+        };
+        store(brick.x, x);
+        store(brick.y, y);
+        store(brick.z, z);
+        for (std::size_t n = 0; n < hn::Lanes(D()); ++n) {
+            const bool isSame = n > 0 && x[n] == x[n - 1] && y[n] == y[n - 1] && z[n] == z[n - 1];
+            entries[n] = isSame ? entries[n - 1]
+                                : pass_.volume.entry(static_cast<std::int32_t>(x[n]), static_cast<std::int32_t>(y[n]),
+                                                     static_cast<std::int32_t>(z[n]));
+        }
+        return hn::Load(DI(), entries);
     }
 
     // Numbers of the planes of each lane's brick; kNoPlane: none.

@@ -132,12 +132,11 @@ VisibleHull::VisibleHull(const BrickVolume& volume, const PassTable& table, cons
     for (const Vec3d& direction : directionsOfPlanes(arrays)) directions.push_back(direction);
     const std::vector<std::uint8_t> visible = findVisible(arrays, table);
     const Vec3i count = volume.brickCount();
-    // Finds the first visible brick of a row from either end; hidden same-label boxes are skipped at once.
-    const auto find = [&](std::size_t row, std::int32_t from, std::int32_t end, std::int32_t step) {
+    // Finds the first visible brick of row (y, z) from either end; hidden same-label boxes are skipped at once.
+    const auto find = [&](std::int32_t y, std::int32_t z, std::int32_t from, std::int32_t end, std::int32_t step) {
         std::int32_t x = from;
         while ((end - x) * step > 0) {
-            const std::size_t brick = row + static_cast<std::size_t>(x);
-            const std::size_t entry = arrays.narrow.empty() ? arrays.wide[brick] : arrays.narrow[brick];
+            const std::size_t entry = arrays.entry(x, y, z);
             if (visible[entry] != 0) break;
             if (entry >= arrays.uniformBoxes)
                 x += step;
@@ -152,11 +151,10 @@ VisibleHull::VisibleHull(const BrickVolume& volume, const PassTable& table, cons
         Extents part(directions);
         for (std::size_t z = begin; z < end; ++z)
             for (std::int32_t y = 0; y < count.y; ++y) {
-                const std::size_t row = static_cast<std::size_t>(count.x) *
-                                        (static_cast<std::size_t>(y) + static_cast<std::size_t>(count.y) * z);
-                const std::int32_t first = find(row, 0, count.x, 1);
+                const auto row = static_cast<std::int32_t>(z);
+                const std::int32_t first = find(y, row, 0, count.x, 1);
                 if (first >= count.x) continue;
-                part.include(first, find(row, count.x - 1, -1, -1) + 1, y, static_cast<std::int32_t>(z));
+                part.include(first, find(y, row, count.x - 1, -1, -1) + 1, y, row);
             }
         const std::scoped_lock lock(mutex);
         extents.include(part);

@@ -63,14 +63,12 @@ Result<VolumeTextures> VolumeTextures::make(const BrickVolume& volume, const GlL
     made.middle = {made.dimension.x / 2, made.dimension.y / 2, made.dimension.z / 2};
     made.uniformBoxes = static_cast<std::uint32_t>(arrays.uniformBoxes);
     made.boxCount = static_cast<std::uint32_t>(arrays.boxes.size());
-    const std::size_t count = static_cast<std::size_t>(made.brickCount.x) *
-                              static_cast<std::size_t>(made.brickCount.y) * static_cast<std::size_t>(made.brickCount.z);
-    const auto isVoxels = [&](std::uint32_t value) { return value >= made.boxCount; };
-    const bool isNarrow = !arrays.narrow.empty();
-    made.hasVoxels =
-        isNarrow
-            ? std::any_of(arrays.narrow.begin(), arrays.narrow.begin() + static_cast<std::ptrdiff_t>(count), isVoxels)
-            : std::any_of(arrays.wide.begin(), arrays.wide.begin() + static_cast<std::ptrdiff_t>(count), isVoxels);
+    // Shaders read a flat index, of 16 bits if they suffice.
+    const std::vector<std::uint32_t> wide = volume.flatIndex();
+    const bool isNarrow = arrays.boxes.size() + arrays.bricks.size() <= 65536;
+    const std::vector<std::uint16_t> narrow =
+        isNarrow ? std::vector<std::uint16_t>(wide.begin(), wide.end()) : std::vector<std::uint16_t>();
+    made.hasVoxels = std::any_of(wide.begin(), wide.end(), [&](std::uint32_t value) { return value >= made.boxCount; });
     const std::vector<float> planes = planesFrom(made.middle, arrays.planes);
 
     const std::vector<std::uint32_t> patterns = made.hasVoxels ? patternsOf(volume) : std::vector<std::uint32_t>();
@@ -84,7 +82,7 @@ Result<VolumeTextures> VolumeTextures::make(const BrickVolume& volume, const GlL
     };
     const Upload uploads[]{
         {made.index, GLenum(isNarrow ? GL_R16UI : GL_R32UI),
-         isNarrow ? static_cast<const void*>(arrays.narrow.data()) : arrays.wide.data(), count, isNarrow ? 2u : 4u},
+         isNarrow ? static_cast<const void*>(narrow.data()) : wide.data(), wide.size(), isNarrow ? 2u : 4u},
         {made.boxes, GL_RGBA32UI, arrays.boxes.data(), arrays.boxes.size(), 16},
         {made.codes, GL_RG32UI, arrays.codes.data(), kCodeTexels * arrays.codes.size(), 8},
         {made.bricks, GL_RGBA32UI, arrays.bricks.data(), arrays.bricks.size(), 16},

@@ -2,6 +2,7 @@
 #include <svt/core/hash_index.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/volume/brick_volume.hpp>
+#include <svt/volume/bricks/brick_clusters.hpp>
 #include <svt/volume/bricks/code_boxes.hpp>
 #include <svt/volume/bricks/face_cuts.hpp>
 
@@ -16,12 +17,9 @@ namespace svt::volume {
 namespace {
 
 constexpr std::uint32_t kMixedBit = 0x80000000u;
-// Tag bits of index entries during construction. The other bits are a box of coded bricks, or a palette brick.
-constexpr std::uint32_t kCodedBit = 0x40000000u, kVoxelsBit = 0x80000000u;
-constexpr std::uint32_t kAnyMixed = kCodedBit | kVoxelsBit;
-// Parallel loops over bricks take at least so many rows of bricks, or 64 times as many bricks, at once.
-constexpr std::size_t kRowsAtOnce = 256, kBricksAtOnce = 64 * kRowsAtOnce;
+constexpr std::int32_t kClusterSize = BrickVolume::kClusterSize;
 constexpr std::int32_t kBricksPerTile = ColumnVolume::kTileSize / BrickVolume::kBrickSize;
+static_assert(kBricksPerTile % kClusterSize == 0);
 
 // The bricks of a tile. `entries` holds the distinct columns of bricks, bricksZ entries each. An entry is an index in
 // `scalars`, or with kMixedBit an index in `patterns`.
@@ -33,7 +31,10 @@ struct TileBricks {
     // Results of TileCoding:
     std::vector<BrickPlane> planes;
     TileBoxes boxes;
-    std::vector<std::uint32_t> codedPatterns;  // per coded brick, in order of places: its pattern
+    // The clusters of the tile, x fastest, as BrickClusters with the numbers of the tile.
+    std::vector<std::uint32_t> clusters;
+    std::vector<ClusterEntries> mixed;
+    std::vector<std::uint32_t> codedPatterns;  // per coded brick, by cluster: its pattern
 
     [[nodiscard]] std::uint32_t entryAt(std::int32_t x, std::int32_t y, std::int32_t z,
                                         std::int32_t bricksZ) const noexcept {
@@ -199,30 +200,16 @@ public:
                 }
     }
 
-    // Fills boxes, planes and codedPatterns of the tile. Returns the entries by place: index of the scalar, or
-    // kCodedBit and the box, or kVoxelsBit and the pattern.
-    std::vector<std::uint32_t> run(BrickFaces faces, std::span<const FacePlane> planes, const ColumnVolume& columns) {
+    // Fills boxes, planes, clusters and codedPatterns of the tile.
+    void run(BrickFaces faces, std::span<const FacePlane> planes, const ColumnVolume& columns) {
         codeIndex_.assign(places_.patternOf.size(), TileBoxes::kNone);
         if (faces == BrickFaces::Planes || (faces == BrickFaces::Slopes && !tile_.patterns.empty()))
             codeBricks(planes, faces == BrickFaces::Planes ? &columns : nullptr);
-        std::vector<std::uint32_t> index;
-        index.reserve(codeIndex_.size());
-        std::size_t place = 0;
-        for (std::int32_t z = 0; z < places_.count.z; ++z)
-            for (std::int32_t y = 0; y < places_.count.y; ++y)
-                for (std::int32_t x = 0; x < places_.count.x; ++x, ++place) {
-                    const std::uint32_t pattern = places_.patternOf[place];
-                    if (codeIndex_[place] != TileBoxes::kNone) {
-                        index.push_back(tile_.boxes.boxOf[place] | kCodedBit);
-                        tile_.codedPatterns.push_back(
-                            pattern != TilePlaces::kUniform ? pattern : uniformPattern(places_.scalarOf[place]));
-                    } else {
-                        index.push_back(pattern != TilePlaces::kUniform ? pattern | kVoxelsBit
-                                                                        : tile_.entryAt(x, y, z, places_.count.z));
-                    }
-                }
+        const Vec3i count = places_.count;
+        for (std::int32_t z = 0; z < count.z; z += kClusterSize)
+            for (std::int32_t y = 0; y < count.y; y += kClusterSize)
+                for (std::int32_t x = 0; x < count.x; x += kClusterSize) addCluster({x, y, z});
         tile_.entries = {};
-        return index;
     }
 
 private:
@@ -259,6 +246,43 @@ private:
         tile_.boxes = findCodeBoxes(places_, codeIndex_, coded.codes, tile_.planes);
     }
 
+    void addCluster(Vec3i first) {
+        const Vec3i count = places_.count;
+        const std::uint32_t corner = entryAt(first);
+        ClusterEntries entries;
+        bool isUniform = (corner & BrickTag::kBoxed) == 0;
+        for (std::int32_t n = 0; n < 64; ++n) {
+            const Vec3i at{std::min(first.x + (n & 3), count.x - 1), std::min(first.y + (n >> 2 & 3), count.y - 1),
+                           std::min(first.z + (n >> 4), count.z - 1)};
+            entries[std::size_t(n)] = entryAt(at);
+            isUniform = isUniform && entries[std::size_t(n)] == corner;
+        }
+        if (isUniform) {
+            tile_.clusters.push_back(corner);
+            return;
+        }
+        tile_.clusters.push_back(static_cast<std::uint32_t>(tile_.mixed.size()) | BrickClusters::kMixed);
+        tile_.mixed.push_back(entries);
+        for (std::int32_t n = 0; n < 64; ++n) {
+            if ((entries[std::size_t(n)] & BrickTag::kCoded) == 0) continue;
+            const std::size_t place =
+                places_.at(std::min(first.x + (n & 3), count.x - 1), std::min(first.y + (n >> 2 & 3), count.y - 1),
+                           std::min(first.z + (n >> 4), count.z - 1));
+            const std::uint32_t pattern = places_.patternOf[place];
+            tile_.codedPatterns.push_back(pattern != TilePlaces::kUniform ? pattern
+                                                                          : uniformPattern(places_.scalarOf[place]));
+        }
+    }
+
+    // Index of the scalar, or a box or pattern with its tag.
+    [[nodiscard]] std::uint32_t entryAt(Vec3i at) const noexcept {
+        const std::size_t place = places_.at(at.x, at.y, at.z);
+        if (codeIndex_[place] != TileBoxes::kNone) return tile_.boxes.boxOf[place] | BrickTag::kCoded;
+        const std::uint32_t pattern = places_.patternOf[place];
+        return pattern != TilePlaces::kUniform ? pattern | BrickTag::kVoxels
+                                               : tile_.entryAt(at.x, at.y, at.z, places_.count.z);
+    }
+
     std::uint32_t uniformPattern(Scalar scalar) {
         const auto [place, isNew] = uniform_.try_emplace(scalar, static_cast<std::uint32_t>(tile_.patterns.size()));
         if (isNew) tile_.patterns.push_back({{scalar}, std::vector<std::uint64_t>(8, 0)});
@@ -271,129 +295,25 @@ private:
     std::unordered_map<Scalar, std::uint32_t> uniform_;
 };
 
-// A box of bricks that are all uniform with one scalar.
-struct BrickBox {
-    Vec3i min, max;
-    std::uint32_t entry = 0;  // the index entry that all its bricks have
-};
-
-// Covers the uniform bricks with boxes, greedily: each box is grown from the first brick without a box, along x, then
-// y, then z, over all bricks of its scalar, including those of other boxes. So boxes may overlap, and a ray goes far in
-// each. A budget of tests bounds the cost; when it is spent, boxes grow only over bricks without a box.
-class BoxFinder {
-public:
-    BoxFinder(const std::vector<std::uint32_t>& index, Vec3i count, int threads) : index_(index), count_(count) {
-        findRuns(threads);
-        boxOf_.assign(index_.size(), kNone);
-        budget_ = 12 * static_cast<std::int64_t>(index_.size());
-        std::size_t brick = 0;
-        for (std::int32_t z = 0; z < count_.z; ++z)
-            for (std::int32_t y = 0; y < count_.y; ++y)
-                for (std::int32_t x = 0; x < count_.x; ++x, ++brick)
-                    if ((index_[brick] & kAnyMixed) == 0 && boxOf_[brick] == kNone) addBoxAt({x, y, z});
-    }
-
-    [[nodiscard]] const std::vector<BrickBox>& boxes() const noexcept { return boxes_; }
-    /// By brick; kNone for mixed ones.
-    [[nodiscard]] const std::vector<std::uint32_t>& boxOf() const noexcept { return boxOf_; }
-
-    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-
-private:
-    [[nodiscard]] std::size_t at(std::int32_t x, std::int32_t y, std::int32_t z) const noexcept {
-        return static_cast<std::size_t>(x) +
-               static_cast<std::size_t>(count_.x) *
-                   (static_cast<std::size_t>(y) + static_cast<std::size_t>(count_.y) * static_cast<std::size_t>(z));
-    }
-
-    // For each brick: the end along x of its run of equal entries.
-    void findRuns(int threads) {
-        runEnd_.resize(index_.size());
-        const auto width = static_cast<std::size_t>(count_.x);
-        parallelFor(index_.size() / width, kRowsAtOnce, threads, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t row = begin * width; row < end * width; row += width)
-                for (std::int32_t x = count_.x - 1, stop = count_.x; x >= 0; --x) {
-                    const std::size_t brick = row + static_cast<std::size_t>(x);
-                    if (x + 1 < count_.x && index_[brick + 1] != index_[brick]) stop = x + 1;
-                    runEnd_[brick] = static_cast<std::uint16_t>(stop);
-                }
-        });
-    }
-
-    // Can the bricks [box.min.x, box.max.x) of row (y, z) join the box?
-    [[nodiscard]] bool mayJoin(const BrickBox& box, std::int32_t y, std::int32_t z) {
-        const std::size_t first = at(box.min.x, y, z);
-        --budget_;
-        if (index_[first] != box.entry || runEnd_[first] < box.max.x) return false;
-        if (budget_ > 0) return true;
-        for (std::int32_t x = box.min.x; x < box.max.x; ++x)
-            if (boxOf_[first + static_cast<std::size_t>(x - box.min.x)] != kNone) return false;
-        return true;
-    }
-    [[nodiscard]] bool mayJoinLayer(const BrickBox& box, std::int32_t z) {
-        for (std::int32_t y = box.min.y; y < box.max.y; ++y)
-            if (!mayJoin(box, y, z)) return false;
-        return true;
-    }
-
-    void addBoxAt(Vec3i seed) {
-        const std::size_t brick = at(seed.x, seed.y, seed.z);
-        BrickBox box{seed, {seed.x + 1, seed.y + 1, seed.z + 1}, index_[brick]};
-        const auto isSame = [&](std::int32_t x) {
-            const std::size_t other = at(x, seed.y, seed.z);
-            return index_[other] == box.entry && (budget_ > 0 || boxOf_[other] == kNone);
-        };
-        while (box.max.x < count_.x && isSame(box.max.x)) ++box.max.x;
-        while (box.min.x > 0 && isSame(box.min.x - 1)) --box.min.x;
-        while (box.max.y < count_.y && mayJoin(box, box.max.y, seed.z)) ++box.max.y;
-        while (box.min.y > 0 && mayJoin(box, box.min.y - 1, seed.z)) --box.min.y;
-        while (box.max.z < count_.z && mayJoinLayer(box, box.max.z)) ++box.max.z;
-        while (box.min.z > 0 && mayJoinLayer(box, box.min.z - 1)) --box.min.z;
-        const auto number = static_cast<std::uint32_t>(boxes_.size());
-        // All bricks before the seed have a box already.
-        for (std::int32_t z = seed.z; z < box.max.z; ++z)
-            for (std::int32_t y = z == seed.z ? seed.y : box.min.y; y < box.max.y; ++y) {
-                std::uint32_t* row = boxOf_.data() + at(0, y, z);
-                // Boxes come in ascending order, and kNone is above them all: the least is the first.
-                for (std::int32_t x = box.min.x; x < box.max.x; ++x) row[x] = std::min(row[x], number);
-                budget_ -= (box.max.x - box.min.x) / 8;
-            }
-        boxes_.push_back(box);
-    }
-
-    const std::vector<std::uint32_t>& index_;
-    Vec3i count_;
-    std::int64_t budget_ = 0;
-    std::vector<std::uint16_t> runEnd_;
-    std::vector<std::uint32_t> boxOf_;
-    std::vector<BrickBox> boxes_;
-};
-
 }  // namespace
 
 // Merges the bricks of all tiles, in tile order, into one volume.
 class BrickMerger {
 public:
-    BrickMerger(BrickVolume& volume, std::int32_t tilesX) : volume_(volume), tilesX_(tilesX) {}
-
-    // Allocates the index; placeTile() and numberTile() fill it.
-    void begin(std::size_t tiles) {
-        const Vec3i count = volume_.brickCount_;
-        volume_.wide_.resize(volume_.brickIndex(0, 0, count.z));
-        numbers_.resize(tiles);
-    }
-    // Writes the entries of a tile, still with the numbers of the tile. Thread-safe for different tiles.
-    void placeTile(std::size_t tile, const std::vector<std::uint32_t>& index) {
-        std::size_t place = 0;
-        forEachPlace(tile, [&](std::size_t brick) { volume_.wide_[brick] = index[place++]; });
-    }
+    BrickMerger(BrickVolume& volume, std::int32_t tilesX, std::size_t tiles)
+        : volume_(volume), tilesX_(tilesX), numbers_(tiles) {}
 
     // Adds scalars, patterns, planes, codes and boxes of a tile to the volume, and records their numbers there.
-    void addTile(std::size_t number, TileBricks& tile) {
+    // Those of its clusters are left to takeTile().
+    void addTile(std::size_t number, const TileBricks& tile) {
         Numbers& numbers = numbers_[number];
         for (const Scalar scalar : tile.scalars) numbers.scalars.push_back(scalarNumber(scalar));
         for (const BrickPattern& pattern : tile.patterns) numbers.patterns.push_back(brickNumber(pattern));
         numbers.firstBox = static_cast<std::uint32_t>(codeBoxes_.size());
+        numbers.firstMixed = mixedCount_;
+        numbers.firstCoded = codedCount_;
+        mixedCount_ += tile.mixed.size();
+        codedCount_ += tile.codedPatterns.size();
         const auto firstCode = static_cast<std::uint32_t>(volume_.codes_.size());
         std::vector<std::uint32_t> planes;
         for (const BrickPlane& plane : tile.planes) planes.push_back(planeNumber(plane));
@@ -401,116 +321,150 @@ public:
         const Vec3i first = firstBrick(number);
         for (const CodeBox& found : tile.boxes.boxes)
             codeBoxes_.push_back(boxOf(first + found.min, first + found.max, firstCode + found.code));
-        numbers.codedPatterns = std::move(tile.codedPatterns);
+    }
+
+    // Allocates what takeTile() fills, once all tiles are added.
+    void beginClusters() {
+        clusters_.bricks = volume_.brickCount_;
+        clusters_.clusters = volume_.clusterCount_;
+        clusters_.entries.resize(clusters_.at(0, 0, clusters_.clusters.z));
+        clusters_.mixed.resize(mixedCount_);
+        volume_.codedPatterns_.resize(codedCount_);
+    }
+
+    // Takes the clusters of a tile, with the numbers of the volume. Thread-safe for different tiles.
+    void takeTile(std::size_t number, TileBricks& tile) {
+        const Numbers& numbers = numbers_[number];
+        const Vec3i first = firstBrick(number), bricks = volume_.brickCount_, count = volume_.clusterCount_;
+        const std::int32_t endX = (std::min(first.x + kBricksPerTile, bricks.x) + kClusterSize - 1) / kClusterSize,
+                           endY = (std::min(first.y + kBricksPerTile, bricks.y) + kClusterSize - 1) / kClusterSize;
+        std::size_t next = 0;
+        for (std::int32_t z = 0; z < count.z; ++z)
+            for (std::int32_t y = first.y / kClusterSize; y < endY; ++y)
+                for (std::int32_t x = first.x / kClusterSize; x < endX; ++x) {
+                    const std::uint32_t cluster = tile.clusters[next++];
+                    clusters_.entries[clusters_.at(x, y, z)] =
+                        (cluster & BrickClusters::kMixed) != 0
+                            ? cluster + static_cast<std::uint32_t>(numbers.firstMixed)
+                            : numbers.scalars[cluster];
+                }
+        for (std::size_t n = 0; n < tile.mixed.size(); ++n)
+            for (std::size_t brick = 0; brick < 64; ++brick) {
+                std::uint32_t entry = tile.mixed[n][brick];
+                if ((entry & BrickTag::kCoded) != 0)
+                    entry += numbers.firstBox;
+                else if ((entry & BrickTag::kVoxels) != 0)
+                    entry = numbers.patterns[entry & ~BrickTag::kVoxels] | BrickTag::kVoxels;
+                else
+                    entry = numbers.scalars[entry];
+                clusters_.mixed[numbers.firstMixed + n][brick] = entry;
+            }
+        for (std::size_t n = 0; n < tile.codedPatterns.size(); ++n)
+            volume_.codedPatterns_[numbers.firstCoded + n] = numbers.patterns[tile.codedPatterns[n]];
         tile = {};
     }
 
-    // Replaces the numbers of the tile by those of the volume. Thread-safe for different tiles.
-    void numberTile(std::size_t tile) {
-        const Numbers& numbers = numbers_[tile];
-        forEachPlace(tile, [&](std::size_t brick) {
-            std::uint32_t& entry = volume_.wide_[brick];
-            if ((entry & kCodedBit) != 0)
-                entry += numbers.firstBox;
-            else if ((entry & kVoxelsBit) != 0)
-                entry = numbers.patterns[entry & ~kVoxelsBit] | kVoxelsBit;
-            else
-                entry = numbers.scalars[entry];
+    // Makes the boxes, and the index in its final form.
+    Result<void> finish(int threads) {
+        codedOf_.resize(clusters_.mixed.size());
+        parallelFor(codedOf_.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t n = begin; n < end; ++n)
+                for (std::size_t brick = 0; brick < 64; ++brick)
+                    codedOf_[n] |= std::uint64_t{(clusters_.mixed[n][brick] & BrickTag::kCoded) != 0} << brick;
         });
-    }
-
-    void takeBoxes(const BoxFinder& finder, int threads) {
-        for (const BrickBox& found : finder.boxes())
-            volume_.boxes_.push_back(boxOf(found.min, found.max, scalars_[found.entry]));
+        for (const BrickBox& found : boxUniformBricks(clusters_, threads))
+            volume_.boxes_.push_back(boxOf(found.min, found.max, scalars_[found.scalar]));
         volume_.uniformBoxes_ = volume_.boxes_.size();
         volume_.boxes_.insert(volume_.boxes_.end(), codeBoxes_.begin(), codeBoxes_.end());
-        parallelFor(volume_.wide_.size(), kBricksAtOnce, threads, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t brick = begin; brick < end; ++brick) {
-                std::uint32_t& entry = volume_.wide_[brick];
-                if ((entry & kAnyMixed) == 0) entry = finder.boxOf()[brick];
-            }
-        });
-    }
-
-    // Converts the index from tagged entries to its final form, with 16 bits if they suffice.
-    void finishIndex(int threads) {
-        const auto uniform = static_cast<std::uint32_t>(volume_.uniformBoxes_);
-        const auto boxes = static_cast<std::uint32_t>(volume_.boxes_.size());
-        const auto finished = [&](std::uint32_t entry) {
-            if ((entry & kCodedBit) != 0) return (entry & ~kCodedBit) + uniform;
-            if ((entry & kVoxelsBit) != 0) return (entry & ~kVoxelsBit) + boxes;
-            return entry;
-        };
-        const std::size_t count = volume_.wide_.size();
-        if (boxes + volume_.bricks_.size() <= 65536) {
-            volume_.narrow_.resize(count + 4);
-            parallelFor(count, kBricksAtOnce, threads, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t brick = begin; brick < end; ++brick)
-                    volume_.narrow_[brick] = static_cast<std::uint16_t>(finished(volume_.wide_[brick]));
-            });
-            volume_.wide_ = {};
-        } else {
-            parallelFor(count, kBricksAtOnce, threads, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t brick = begin; brick < end; ++brick)
-                    volume_.wide_[brick] = finished(volume_.wide_[brick]);
-            });
-            volume_.wide_.insert(volume_.wide_.end(), 2, 0);
-        }
         volume_.palettes_.insert(volume_.palettes_.end(), 7, 0);
-    }
-
-    // Makes the bit vector of coded bricks and the table of their palette bricks, by rank.
-    void rankCoded(int threads) {
-        const std::size_t count = volume_.wide_.size(), words = count / 64 + 1;
-        volume_.codedBricks_.resize(words);
-        volume_.codedBefore_.resize(words);
-        parallelFor(words, kRowsAtOnce, threads, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t word = begin; word < end; ++word) {
-                std::uint64_t coded = 0;
-                for (std::size_t brick = 64 * word; brick < std::min(64 * word + 64, count); ++brick)
-                    coded |= std::uint64_t{(volume_.wide_[brick] & kCodedBit) != 0} << (brick % 64);
-                volume_.codedBricks_[word] = coded;
-            }
-        });
-        std::uint32_t before = 0;
-        for (std::size_t word = 0; word < words; ++word) {
-            volume_.codedBefore_[word] = before;
-            before += static_cast<std::uint32_t>(std::popcount(volume_.codedBricks_[word]));
-        }
-        volume_.codedPatterns_.resize(before);
-        parallelFor(numbers_.size(), 4, threads, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t tile = begin; tile < end; ++tile) {
-                const Numbers& numbers = numbers_[tile];
-                std::size_t next = 0;
-                forEachPlace(tile, [&](std::size_t brick) {
-                    if ((volume_.wide_[brick] & kCodedBit) != 0)
-                        volume_.codedPatterns_[volume_.rankOf(brick)] = numbers.patterns[numbers.codedPatterns[next++]];
-                });
-            }
-        });
+        return writeLists(threads);
     }
 
 private:
     // Per number of the tile, the number of the volume.
     struct Numbers {
-        std::vector<std::uint32_t> scalars, patterns, codedPatterns;
+        std::vector<std::uint32_t> scalars, patterns;
         std::uint32_t firstBox = 0;
+        std::size_t firstMixed = 0, firstCoded = 0;
     };
+
+    // Writes the lists of mixed clusters one after the other, and where each begins into the index.
+    Result<void> writeLists(int threads) {
+        constexpr std::size_t kAtOnce = 512;
+        const std::size_t count = clusters_.mixed.size(), parts = (count + kAtOnce - 1) / kAtOnce;
+        std::vector<std::uint32_t> sizeOf(count), codedBefore(count);
+        std::vector<std::vector<std::uint32_t>> words(parts);
+        std::uint32_t coded = 0;
+        for (std::size_t n = 0; n < count; ++n) {
+            codedBefore[n] = coded;
+            coded += static_cast<std::uint32_t>(std::popcount(codedOf_[n]));
+        }
+        parallelFor(parts, 1, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t part = begin; part < end; ++part)
+                for (std::size_t n = part * kAtOnce; n < std::min((part + 1) * kAtOnce, count); ++n)
+                    sizeOf[n] = writeList(clusters_.mixed[n], codedOf_[n], codedBefore[n], words[part]);
+        });
+        std::vector<std::uint32_t> begins(count);
+        std::size_t total = 0;
+        for (std::size_t n = 0; n < count; ++n) {
+            begins[n] = static_cast<std::uint32_t>(total);
+            total += sizeOf[n];
+        }
+        if (total >= BrickVolume::kMixedCluster)
+            return Error(Code::GridTooLarge,
+                         fmt::format("the index of the bricks takes {} words, over the limit of {}; "
+                                     "choose a coarser spacing or a coarser level of detail",
+                                     total, BrickVolume::kMixedCluster - 1));
+        volume_.clusterWords_.resize(total);
+        parallelFor(parts, 1, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t part = begin; part < end; ++part)
+                std::copy(words[part].begin(), words[part].end(),
+                          volume_.clusterWords_.begin() + std::ptrdiff_t(begins[part * kAtOnce]));
+        });
+        volume_.clusters_ = std::move(clusters_.entries);
+        parallelFor(volume_.clusters_.size(), 16384, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t cluster = begin; cluster < end; ++cluster) {
+                std::uint32_t& entry = volume_.clusters_[cluster];
+                if ((entry & BrickClusters::kMixed) != 0)
+                    entry = begins[entry & ~BrickClusters::kMixed] | BrickVolume::kMixedCluster;
+            }
+        });
+        return {};
+    }
+
+    // Appends the list of a cluster to `words`; returns how many they are.
+    std::uint32_t writeList(const ClusterEntries& entries, std::uint64_t coded, std::uint32_t codedBefore,
+                            std::vector<std::uint32_t>& words) const {
+        const auto uniform = static_cast<std::uint32_t>(volume_.uniformBoxes_);
+        const auto boxes = static_cast<std::uint32_t>(volume_.boxes_.size());
+        std::array<std::uint32_t, BrickVolume::kListEntries + 64> list{};
+        list[0] = static_cast<std::uint32_t>(coded);
+        list[1] = static_cast<std::uint32_t>(coded >> 32);
+        list[2] = codedBefore;
+        std::uint32_t distinct = 0;
+        std::uint32_t* const known = list.data() + BrickVolume::kListEntries;
+        for (std::uint32_t brick = 0; brick < 64; ++brick) {
+            std::uint32_t entry = entries[brick];
+            const std::uint32_t tag = entry & BrickTag::kBoxed;
+            entry &= ~BrickTag::kBoxed;
+            if (tag == BrickTag::kCoded) entry += uniform;
+            if (tag == BrickTag::kVoxels) entry += boxes;
+            std::uint32_t place = distinct;
+            while (place > 0 && known[place - 1] != entry) --place;
+            if (place == 0) {
+                known[distinct++] = entry;
+                place = distinct;
+            }
+            list[BrickVolume::kListPlaces + brick / 4] |= (place - 1) << (8 * (brick % 4));
+        }
+        const std::size_t size = BrickVolume::kListEntries + distinct;
+        words.insert(words.end(), list.begin(), list.begin() + std::ptrdiff_t(size));
+        return static_cast<std::uint32_t>(size);
+    }
 
     [[nodiscard]] Vec3i firstBrick(std::size_t tile) const noexcept {
         return {static_cast<std::int32_t>(tile) % tilesX_ * kBricksPerTile,
                 static_cast<std::int32_t>(tile) / tilesX_ * kBricksPerTile, 0};
-    }
-    template <class Body>
-    void forEachPlace(std::size_t tile, const Body& body) const {
-        const Vec3i first = firstBrick(tile), count = volume_.brickCount_;
-        const std::int32_t endX = std::min(first.x + kBricksPerTile, count.x),
-                           endY = std::min(first.y + kBricksPerTile, count.y);
-        for (std::int32_t z = 0; z < count.z; ++z)
-            for (std::int32_t y = first.y; y < endY; ++y) {
-                std::size_t brick = volume_.brickIndex(first.x, y, z);
-                for (std::int32_t x = first.x; x < endX; ++x) body(brick++);
-            }
     }
     [[nodiscard]] SameLabelBox boxOf(Vec3i min, Vec3i max, std::uint32_t value) const noexcept {
         SameLabelBox box;
@@ -620,6 +574,9 @@ private:
     BrickVolume& volume_;
     std::int32_t tilesX_;
     std::vector<Numbers> numbers_;  // by tile
+    std::size_t mixedCount_ = 0, codedCount_ = 0;
+    BrickClusters clusters_;
+    std::vector<std::uint64_t> codedOf_;  // by mixed cluster: its coded bricks
     std::vector<SameLabelBox> codeBoxes_;
     std::vector<Scalar> scalars_;
     std::unordered_map<Scalar, std::uint32_t> scalarNumbers_;
@@ -681,6 +638,7 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const 
             return Error(Code::GridTooLarge,
                          fmt::format("a dimension of {} is over the limit of 65535 for bricks", dimension[axis]));
         volume.brickCount_[axis] = (dimension[axis] + kBrickSize - 1) / kBrickSize;
+        volume.clusterCount_[axis] = (volume.brickCount_[axis] + kClusterSize - 1) / kClusterSize;
         bricks *= static_cast<std::uint64_t>(volume.brickCount_[axis]);
     }
     if (bricks > kMaxBricks)
@@ -693,8 +651,7 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const 
     const std::span<const ColumnTile> tiles = columns.tiles();
     std::vector<TileBricks> tileBricks(tiles.size());
     const auto tilesX = static_cast<std::size_t>(columns.tilesX());
-    BrickMerger merger(volume, columns.tilesX());
-    merger.begin(tiles.size());
+    BrickMerger merger(volume, columns.tilesX(), tiles.size());
     const PlanesByTile planes(options.planes, columns);
     ProgressCounter progress(options.progress, "prepare", tiles.size());
     parallelFor(tiles.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
@@ -704,7 +661,7 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const 
             tileBricks[n] = TileBricker(tiles[n], width, height, volume.brickCount_.z).make();
             TileCoding coding(tileBricks[n], {x * ColumnVolume::kTileSize, y * ColumnVolume::kTileSize, 0},
                               {(width + 7) / 8, (height + 7) / 8, volume.brickCount_.z});
-            merger.placeTile(n, coding.run(options.faces, planes.of(n), columns));
+            coding.run(options.faces, planes.of(n), columns);
             progress.add();
         }
     });
@@ -719,21 +676,30 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const 
                                                      "coarser spacing or a coarser level of detail",
                                                      words, 0xFFFFFFFFu));
     for (std::size_t n = 0; n < tileBricks.size(); ++n) merger.addTile(n, tileBricks[n]);
+    merger.beginClusters();
     parallelFor(tiles.size(), 4, options.threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t n = begin; n < end; ++n) merger.numberTile(n);
+        for (std::size_t n = begin; n < end; ++n) merger.takeTile(n, tileBricks[n]);
     });
-    merger.takeBoxes(BoxFinder(volume.wide_, volume.brickCount_, options.threads), options.threads);
-    merger.rankCoded(options.threads);
-    merger.finishIndex(options.threads);
+    if (auto finished = merger.finish(options.threads); !finished) return finished.error();
     return volume;
 }
 
+std::vector<std::uint32_t> BrickVolume::flatIndex() const {
+    const Arrays all = arrays();
+    std::vector<std::uint32_t> entries;
+    entries.reserve(static_cast<std::size_t>(brickCount_.x) * static_cast<std::size_t>(brickCount_.y) *
+                    static_cast<std::size_t>(brickCount_.z));
+    for (std::int32_t z = 0; z < brickCount_.z; ++z)
+        for (std::int32_t y = 0; y < brickCount_.y; ++y)
+            for (std::int32_t x = 0; x < brickCount_.x; ++x) entries.push_back(all.entry(x, y, z));
+    return entries;
+}
+
 std::size_t BrickVolume::sizeBytes() const noexcept {
-    return narrow_.size() * sizeof(std::uint16_t) + wide_.size() * sizeof(std::uint32_t) +
+    return clusters_.size() * sizeof(std::uint32_t) + clusterWords_.size() * sizeof(std::uint32_t) +
            boxes_.size() * sizeof(SameLabelBox) + codes_.size() * sizeof(BoxCoding) +
            planes_.size() * sizeof(BrickPlane) + bricks_.size() * sizeof(PaletteBrick) +
            palettes_.size() * sizeof(Scalar) + bitPlanes_.size() * sizeof(std::uint64_t) +
-           codedBricks_.size() * sizeof(std::uint64_t) + codedBefore_.size() * sizeof(std::uint32_t) +
            codedPatterns_.size() * sizeof(std::uint32_t);
 }
 

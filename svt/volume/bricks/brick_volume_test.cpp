@@ -105,9 +105,10 @@ TEST(BrickVolume, BoxesReachOverEachOther) {
     const Vec3i n{64, 64, 16};
     const BrickVolume bricks = bricksOf(n, dense(n, [](auto i, auto j, auto) { return i >= 16 && j >= 16 ? 1u : 0u; }));
     ASSERT_EQ(bricks.boxes().size(), 3u);
-    EXPECT_EQ(bricks.boxes()[0], (SameLabelBox{{0, 0, 0}, {64, 16, 16}, 0}));
-    EXPECT_EQ(bricks.boxes()[1], (SameLabelBox{{0, 0, 0}, {16, 64, 16}, 0}));
-    EXPECT_EQ(bricks.boxes()[2], (SameLabelBox{{16, 16, 0}, {64, 64, 16}, 1}));
+    // First from the cluster of one label, then from single bricks.
+    EXPECT_EQ(bricks.boxes()[0], (SameLabelBox{{16, 16, 0}, {64, 64, 16}, 1}));
+    EXPECT_EQ(bricks.boxes()[1], (SameLabelBox{{0, 0, 0}, {64, 16, 16}, 0}));
+    EXPECT_EQ(bricks.boxes()[2], (SameLabelBox{{0, 0, 0}, {16, 64, 16}, 0}));
 }
 
 TEST(BrickVolume, CheckerboardIsOnePaletteBrick) {
@@ -128,7 +129,83 @@ TEST(BrickVolume, EqualPatternsOfOtherLabelsShareTheirPlanes) {
     const BrickVolume a = bricksOf(n, few), b = bricksOf(n, many);
     EXPECT_EQ(a.paletteBrickCount(), 1u);
     EXPECT_EQ(b.paletteBrickCount(), 8u);
-    EXPECT_EQ(b.sizeBytes() - a.sizeBytes(), 7u * (16 + 2 * 4));  // seven more records and palettes, no more planes
+    EXPECT_EQ(b.arrays().bricks.size(), 8u);
+    EXPECT_EQ(b.arrays().palettes.size() - a.arrays().palettes.size(), 7u * 2);
+    EXPECT_EQ(b.arrays().words.size(), a.arrays().words.size());  // no more planes
+}
+
+// A volume of `size` samples along each axis, empty but for a small block of label 1 in its middle.
+BrickVolume blockIn(std::int32_t size) {
+    std::vector<ColumnTileData> tiles;
+    const std::int32_t tilesAcross = size / ColumnVolume::kTileSize, middle = tilesAcross / 2;
+    for (std::int32_t y = 0; y < tilesAcross; ++y)
+        for (std::int32_t x = 0; x < tilesAcross; ++x) {
+            ColumnTileBuilder builder(ColumnVolume::kTileSize);
+            const auto end = static_cast<std::uint32_t>(size);
+            const std::uint16_t air = builder.addColumn(std::vector<Run>{{end, 0}});
+            std::vector<std::uint16_t> row(ColumnVolume::kTileSize, air);
+            for (std::int32_t j = 0; j < ColumnVolume::kTileSize; ++j) {
+                std::vector<std::uint16_t> columns = row;
+                if (x == middle && y == middle && j >= 20 && j < 31)
+                    for (std::size_t i = 20; i < 31; ++i)
+                        columns[i] = builder.addColumn(std::vector<Run>{{end / 2, 0}, {end / 2 + 11, 1}, {end, 0}});
+                builder.addRow(columns);
+            }
+            tiles.push_back(builder.finish());
+        }
+    auto bricks = BrickVolume::fromColumns(ColumnVolume::fromTiles({size, size, size}, std::move(tiles)));
+    EXPECT_TRUE(bricks.hasValue());
+    return std::move(*bricks);
+}
+
+TEST(BrickVolume, TheIndexGrowsWithTheSurface) {
+    const BrickVolume small = blockIn(256), large = blockIn(2048);
+    const std::int32_t corner = 1024 + 20;
+    EXPECT_EQ(large.scalarAt(corner, corner, 1024), 1u);
+    EXPECT_EQ(large.scalarAt(corner - 1, corner, 1024), 0u);
+    EXPECT_EQ(large.scalarAt(2047, 2047, 2047), 0u);
+    // 512 times as many bricks, 4 bytes for 64 of them.
+    EXPECT_LT(large.sizeBytes(), small.sizeBytes() + 4u * 64 * 64 * 64 + 4096);
+    EXPECT_LT(large.boxes().size(), 16u);
+}
+
+TEST(BrickVolume, RowsAndTheFlatIndexSayWhatTheEntriesSay) {
+    const Vec3i n{141, 77, 61};
+    const auto scalars = dense(n, [](std::int32_t i, std::int32_t j, std::int32_t k) {
+        return Scalar(i / 37 + (j + k) / 41 * 5 + (i > 90 && k > 30 ? (i + j) % 3 : 0));
+    });
+    const BrickVolume bricks = bricksOf(n, scalars);
+    EXPECT_EQ(differences(bricks, scalars), 0u);
+    const Vec3i count = bricks.brickCount();
+    const std::vector<std::uint32_t> flat = bricks.flatIndex();
+    std::size_t place = 0, mixedBricks = 0;
+    for (std::int32_t z = 0; z < count.z; ++z)
+        for (std::int32_t y = 0; y < count.y; ++y) {
+            std::vector<int> visits(std::size_t(count.x), 0);
+            bricks.forRow(
+                y, z,
+                [&](std::int32_t begin, std::int32_t end, std::size_t box) {
+                    ASSERT_LE(end, count.x);
+                    for (std::int32_t x = begin; x < end; ++x) {
+                        ++visits[std::size_t(x)];
+                        ASSERT_FALSE(bricks.entry(x, y, z).isMixed());
+                        EXPECT_EQ(bricks.box(bricks.entry(x, y, z)).scalar, bricks.boxes()[box].scalar);
+                    }
+                },
+                [&](std::int32_t x, std::size_t number) {
+                    ++visits[std::size_t(x)];
+                    ++mixedBricks;
+                    ASSERT_TRUE(bricks.entry(x, y, z).isMixed());
+                    EXPECT_EQ(bricks.paletteBrickNumber(bricks.entry(x, y, z)), number);
+                });
+            for (std::int32_t x = 0; x < count.x; ++x, ++place) {
+                EXPECT_EQ(visits[std::size_t(x)], 1) << x << ' ' << y << ' ' << z;
+                EXPECT_EQ(flat[place], bricks.arrays().entry(x, y, z));
+                EXPECT_EQ(flat[place] >= bricks.boxes().size(), bricks.entry(x, y, z).isMixed());
+            }
+        }
+    EXPECT_GT(mixedBricks, 100u);
+    EXPECT_EQ(place, flat.size());
 }
 
 TEST(BrickVolume, DoesNotDependOnTheThreads) {
