@@ -46,8 +46,9 @@ configure_file(${WEB_SOURCES}/libpng/scripts/pnglibconf.h.prebuilt ${CMAKE_CURRE
 target_include_directories(web_PNG SYSTEM PUBLIC ${CMAKE_CURRENT_BINARY_DIR}/libpng)
 target_link_libraries(web_PNG PUBLIC ZLIB::ZLIB)
 
-# Highway 1.0.3 has no 64-bit floats for WASM; its portable vectors do, and the compiler turns them into SIMD.
+# Highway 1.0.3 has no 64-bit floats for WASM; its portable vectors do, and web/wasm/highway gives them SIMD.
 web_library(hwy::hwy highway highway/hwy/targets.cc highway/hwy/aligned_allocator.cc highway/hwy/per_target.cc)
+target_include_directories(web_hwy SYSTEM BEFORE PUBLIC ${PROJECT_SOURCE_DIR}/web/wasm/highway)
 target_compile_definitions(web_hwy PUBLIC HWY_COMPILE_ONLY_EMU128)
 
 # The parts of FreeType needed to draw glyphs of one TrueType font.

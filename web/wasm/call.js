@@ -21,7 +21,9 @@ Module["call"] = (name, args, bytes) => {
     if (bytes) HEAPU8.set(bytes, data);
     const failed = _svt_call(holdText(name), holdText(JSON.stringify(args)), data, size);
     const at = _svt_reply();
-    const reply = HEAPU8.subarray(at, at + _svt_reply_size());
+    // Memory that threads share is refused by much of what a browser does with bytes.
+    const isShared = !(HEAPU8.buffer instanceof ArrayBuffer);
+    const reply = isShared ? HEAPU8.slice(at, at + _svt_reply_size()) : HEAPU8.subarray(at, at + _svt_reply_size());
     if (failed) throw JSON.parse(new TextDecoder().decode(reply));
     return reply;
   } finally {

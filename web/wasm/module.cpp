@@ -5,6 +5,7 @@
 #include "replies.hpp"
 #include "walk.hpp"
 
+#include <svt/core/parallel.hpp>
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/illustrate/section_plane.hpp>
 #include <svt/illustrate/sheet_set.hpp>
@@ -398,12 +399,20 @@ Result<Reply> sheets(const Arguments& arguments) {
     return Reply(Json(*made).dump());
 }
 
+// () -> how many threads work together; those beside this one are started. 1 in the module without threads
+Result<Reply> threads(const Arguments&) {
+    const int count = hardwareThreads();
+    parallelFor(static_cast<std::size_t>(count), 1, 0, [](std::size_t, std::size_t) {});
+    return Reply(Json(count).dump());
+}
+
 struct Call {
     std::string_view name;
     Result<Reply> (*run)(const Arguments& arguments);
     bool needsVolume = true;
 };
 constexpr Call kCalls[] = {{"open", open, false},
+                           {"threads", threads, false},
                            {"font", font, false},
                            {"draw", draw},
                            {"drawGl", drawGl},

@@ -1,4 +1,7 @@
-/** The library as a module; `make web` writes to build/web: svt.js, svt.wasm, and DejaVuSans.ttf for names. */
+/**
+ * The library as a module; `make web` writes to build/web: svt.js, svt.wasm, and DejaVuSans.ttf for names. svt_threads.js is
+ * the same for pages that are isolated from other sites (COOP and COEP): its calls use all cores.
+ */
 export interface SvtModule {
   /**
    * Makes a call of web/wasm/module.cpp with its arguments. The reply, JSON as UTF-8 or bytes, is in the module's
@@ -15,6 +18,10 @@ export interface SvtModuleOptions {
   onProgress?: (step: string, done: number) => void;
   /** svt.wasm, if already loaded; else it is fetched from the folder of svt.js. */
   wasmBinary?: ArrayBuffer;
+  /** Where files of the module are, by name; else in the folder of svt.js. */
+  locateFile?: (name: string) => string;
+  /** Instantiates the module, if it is already being compiled, and passes the instance on. */
+  instantiateWasm?: (imports: WebAssembly.Imports, receive: (instance: WebAssembly.Instance, module: WebAssembly.Module) => void) => object;
 }
 
 export default function createSvt(options?: SvtModuleOptions): Promise<SvtModule>;

@@ -18,8 +18,8 @@ const kTypes = { ".html": "text/html", ".js": "text/javascript", ".css": "text/c
 export const policy =
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/** Serves the page and, from `files`, named files beside it. Resolves to { url, close }. */
-export function serve(files = {}) {
+/** Serves the page and, from `files`, named files beside it; `isIsolated`: as `svt serve`, so that threads can be used. Resolves to { url, close }. */
+export function serve(files = {}, isIsolated = false) {
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url, "http://x").pathname).replace(/^\/+/, "") || "index.html";
     const file = path in files ? files[path] : join(page, normalize(path));
@@ -33,6 +33,7 @@ export function serve(files = {}) {
       "Content-Security-Policy": policy,
       "X-Content-Type-Options": "nosniff",
       "Cache-Control": "no-cache",
+      ...(isIsolated ? { "Cross-Origin-Opener-Policy": "same-origin", "Cross-Origin-Embedder-Policy": "require-corp" } : {}),
     });
     if (isText) response.end(JSON.stringify(file));
     else createReadStream(file).pipe(response);

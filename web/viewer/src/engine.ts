@@ -247,6 +247,8 @@ export const kCancelled = "cancelled";
 /** Rejected promises carry an EngineError. One volume is open at a time. */
 export interface Engine {
   readonly kind: EngineKind;
+  /** Threads that draw together; 1 where the site does not isolate the page (COOP, COEP). */
+  readonly threads: number;
 
   /** Opens files from their bytes, whose ownership is transferred: several models become one; other volumes are drawn with the first file. */
   open(files: FileBytes[], onProgress: (step: string, done: number) => void, options?: OpenOptions): Promise<VolumeInfo>;

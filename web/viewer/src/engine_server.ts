@@ -29,6 +29,7 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
   const refuse = () => Promise.reject(kNotHere);
   return {
     kind: "cpu",
+    threads: 1,
     async open([file]) {
       const fileName = file!.name;
       model = fileName.replace(/\.[^.]+$/, "");

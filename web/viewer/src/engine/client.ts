@@ -4,7 +4,7 @@ import type {
   CityBytes, CityLook, CityOptions, DrawingFormat, DrawingParts, Effects, Engine, EngineError, EngineKind, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Pick,
   Point, Scene, SceneCamera, Stretch, VolumeInfo,
 } from "../engine";
-import { withBytes } from "./city_calls";
+import { kWithoutThreads } from "./protocol";
 import type { Answer, Calls, Request } from "./protocol";
 
 type Name = keyof Calls;
@@ -33,7 +33,7 @@ class Connection {
 
   /** @param died  called when the library has stopped; close() is up to the caller */
   constructor(private readonly died: (error: EngineError) => void) {
-    this.worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
+    this.worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module", name: mayUseThreads() ? "svt" : kWithoutThreads });
     this.worker.onmessage = (event: MessageEvent<Answer>) => this.take(event.data);
     this.worker.onerror = (event) => {
       event.preventDefault();
@@ -71,10 +71,16 @@ class Connection {
   }
 }
 
+/** `?threads=no` leaves them out, to compare. */
+function mayUseThreads(): boolean {
+  return new URLSearchParams(location.search).get("threads") !== "no";
+}
+
 const kGivenUp: EngineError = { code: kCancelled, message: kCancelled };
 
 class WorkerEngine implements Engine {
   kind: EngineKind = "cpu";
+  threads = 1;
   private main: Connection;
   /** Opens a finer volume meanwhile. */
   private second: Connection | null = null;
@@ -96,7 +102,7 @@ class WorkerEngine implements Engine {
 
   /** Resolves when the library is loaded. */
   async start(): Promise<void> {
-    this.kind = await this.ask("start", [this.wanted]);
+    ({ kind: this.kind, threads: this.threads } = await this.ask("start", [this.wanted]));
   }
 
   private connect(): Connection {

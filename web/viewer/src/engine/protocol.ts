@@ -2,9 +2,12 @@
 import type { CityLook, CityOptions, Effects, EngineError, EngineKind, Pick, Scene, SceneCamera, Stretch } from "../engine";
 import type { DrawingFormat, DrawingParts, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Point, VolumeInfo } from "../engine";
 
+/** The name of a worker that is to use no threads. */
+export const kWithoutThreads = "svt without threads";
+
 /** Arguments and result of each call. */
 export interface Calls {
-  start: { args: [wanted: EngineKind | null]; result: EngineKind };
+  start: { args: [wanted: EngineKind | null]; result: { kind: EngineKind; threads: number } };
   open: { args: [files: FileBytes[], options: OpenOptions]; result: VolumeInfo };
   draw: { args: [scene: Scene, width: number, height: number]; result: Drawn };
   compose: { args: [scene: Scene, effects: Effects]; result: Scene };

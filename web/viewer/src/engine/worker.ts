@@ -1,14 +1,15 @@
 /** The worker: owns the library and the open volume, and answers the page's requests in order. */
-import createSvt, { type SvtModule } from "../../../../build/web/svt.js";
+import type { SvtModule } from "../../../../build/web/svt.js";
 import { Drawer } from "./drawer";
 import { isEngineError } from "./errors";
-import type { CityLook, FileBytes } from "../engine";
-import type { Answer, CityNeeds, Request } from "./protocol";
+import { loadModule } from "./module";
+import type { FileBytes } from "../engine";
+import type { Answer, Request } from "./protocol";
 
 /** Idle time of the page before longer work starts. */
 const idleMilliseconds = 700;
 
-const loaded = createSvt({ onProgress: (step, done) => post({ id: current, step, done }) });
+const loaded = loadModule((step, done) => post({ id: current, step, done }));
 // Handled where it is awaited; an unhandled rejection must not end the worker.
 loaded.catch(() => undefined);
 
@@ -54,7 +55,7 @@ async function answer(request: Request): Promise<void> {
   switch (name) {
     case "start":
       drawer = new Drawer(svt, args[0]);
-      return post({ id, result: drawer.kind });
+      return post({ id, result: { kind: drawer.kind, threads: json(svt.call("threads", [])) } });
     case "open": {
       const [files, options] = args;
       const info = svt.call(name, [files.map((file) => file.name), files.map((file) => file.bytes.byteLength), options], joined(files));
