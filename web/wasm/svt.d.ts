@@ -20,6 +20,8 @@ export interface SvtModuleOptions {
   wasmBinary?: ArrayBuffer;
   /** Where files of the module are, by name; else in the folder of svt.js. */
   locateFile?: (name: string) => string;
+  /** Where svt_threads.js is, for its threads; else beside svt_threads.worker.js. */
+  mainScriptUrlOrBlob?: string;
   /** Instantiates the module, if it is already being compiled, and passes the instance on. */
   instantiateWasm?: (imports: WebAssembly.Imports, receive: (instance: WebAssembly.Instance, module: WebAssembly.Module) => void) => object;
 }
