@@ -289,6 +289,26 @@ TEST_F(SmallHouse, DepthIsInMillimetres) {
     EXPECT_GT(most - least, 1000);
 }
 
+// A member of a scene asks for no less than the option does.
+TEST_F(SmallHouse, LineDrawingsRefuseWhatTheyDoNotHaveFromScenesToo) {
+    const std::pair<const char*, const char*> members[] = {
+        {R"("sun":{"time":"2026-06-21 15:00","place":[49.1,8.4]})", "--sun"},
+        {R"("insets":[{"scene":{"camera":{"preset":"top"}}}])", "--inset"},
+        {R"("explode":3)", "--explode"},
+        {R"("passes":[{"cells":true}])", "--cells"},
+        {R"("look":"paper")", nullptr}};
+    for (const auto& [member, option] : members) {
+        std::ofstream(folder / "l.scene.json") << R"({"format":"svt-scene","version":1,)" << member << '}';
+        for (const char* output : {"l.svg", "l.pdf"}) {
+            const CommandResult result = runSvt(
+                folder.path(), {"render", "house.svt", "-o", output, "--size", "160x90", "--scene", "l.scene.json"});
+            EXPECT_EQ(result.exitCode != 0, option != nullptr) << result.toString();
+            EXPECT_EQ(std::filesystem::exists(folder / output), option == nullptr) << member;
+            if (option != nullptr) EXPECT_NE(result.err.find(option), std::string::npos) << result.toString();
+        }
+    }
+}
+
 TEST_F(SmallHouse, LastOfTwoColorsWins) {
     const auto isRed = [](const image::Rgba8& p) { return p.r > p.b + 60 && p.r > p.g + 60; };
     const auto isBlue = [](const image::Rgba8& p) { return p.b > p.r + 60 && p.b > p.g + 60; };

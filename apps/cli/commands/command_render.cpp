@@ -243,16 +243,27 @@ Result<void> writeLineView(const RenderArguments& arguments, const illustrate::L
     return {};
 }
 
+// What line drawings do not have, whether an option asks for it or a scene file.
+Result<void> checkForLines(const RenderArguments& arguments, const illustrate::Scene& scene) {
+    const bool hasCells = std::ranges::any_of(scene.passes, [](const auto& pass) { return pass.form.hasCells; });
+    const std::pair<bool, const char*> needs[] = {{!arguments.with.empty(), "--with"},
+                                                  {!scene.insets.empty(), "--inset (insets of a scene)"},
+                                                  {scene.explode != 0, "--explode (explode of a scene)"},
+                                                  {scene.sun.has_value(), "--sun (sun of a scene)"},
+                                                  {hasCells, "--cells (cells of a scene)"}};
+    std::vector<const char*> found;
+    for (const auto& [isGiven, option] : needs)
+        if (isGiven) found.push_back(option);
+    if (found.empty()) return {};
+    return Error(Code::BadArgument,
+                 fmt::format("line drawings do not have {}; leave it out, or write a .png", fmt::join(found, ", ")));
+}
+
 // Lines instead of pixels: the scene's camera, what it shows, and the plane that cuts it.
-int runLineDrawing(const RenderArguments& arguments, const Series& series) {
+int runLineDrawing(const RenderArguments& arguments, const Series& series, const illustrate::Scene& first) {
     if (arguments.gl || !arguments.labelOutput.empty() || !arguments.depthOutput.empty())
         return fail(Error(Code::BadArgument, "--gl, --labels and --depth are for PNG, not for line drawings"));
-    const auto& wanted = arguments.scene;
-    if (!arguments.with.empty() || !wanted.insets.empty() || wanted.explode || !wanted.sunTime.empty() ||
-        wanted.hasCells)
-        return fail(
-            Error(Code::BadArgument,
-                  "--with, --inset, --explode, --sun and --cells are for PNG and films, not for line drawings"));
+    if (auto checked = checkForLines(arguments, first); !checked) return fail(checked.error());
     Diagnostics diagnostics;
     TerminalProgress progress;
     BuildArguments build = arguments.build;
@@ -350,7 +361,7 @@ int runRender(const RenderArguments& arguments) {
     auto series = seriesOf(arguments, *first);
     if (!series) return fail(series.error());
     if (isCity(arguments.input)) return runCityRender(arguments, *series);
-    if (isLineDrawing(arguments.output)) return runLineDrawing(arguments, *series);
+    if (isLineDrawing(arguments.output)) return runLineDrawing(arguments, *series, *first);
     Diagnostics diagnostics;
     TerminalProgress progress;
     auto volume = loadVolume(arguments.input, withVectors(arguments.build, *first), progress.get(), diagnostics);

@@ -80,16 +80,23 @@ public:
     }
 
     [[nodiscard]] bool areApart() const {
-        for (std::size_t a = 0; a < bodies_.size(); ++a)
-            for (std::size_t b = a + 1; b < bodies_.size(); ++b)
-                if (meet(bodies_[a], bodies_[b], grid_)) return false;
-        return true;
+        std::size_t a = 0, b = 0;
+        return !findMeeting(a, b);
     }
     // Targets that stand in the opening of another one share it.
     void joinShared() {
         while (joinAny()) {
         }
     }
+    // Openings that meet become one, until all are apart.
+    void joinMeeting() {
+        std::size_t a = 0, b = 1;
+        while (findMeeting(a, b)) {
+            join(a, b);
+            joinShared();
+        }
+    }
+    [[nodiscard]] const std::vector<analyze::SampleBox>& targets() const noexcept { return targets_; }
     void joinToAtMost(std::size_t most) {
         while (bodies_.size() > most) {
             joinNearest();
@@ -118,6 +125,17 @@ private:
     }
     [[nodiscard]] Vec3d middleOf(std::size_t n) const {
         return grid_.worldFromIndex((toDouble(targets_[n].min) + toDouble(targets_[n].max)) * 0.5);
+    }
+    // The first two openings that meet; false: there are none.
+    bool findMeeting(std::size_t& first, std::size_t& second) const {
+        for (std::size_t a = 0; a < bodies_.size(); ++a)
+            for (std::size_t b = a + 1; b < bodies_.size(); ++b)
+                if (meet(bodies_[a], bodies_[b], grid_)) {
+                    first = a;
+                    second = b;
+                    return true;
+                }
+        return false;
     }
     void join(std::size_t a, std::size_t b) {
         targets_[a].add(targets_[b]);
@@ -220,13 +238,18 @@ std::vector<render::ConvexPart> cutawayParts(const Camera& camera, const volume:
     constexpr std::size_t kMostTargets = 64;
     if (targets.size() > kMostTargets)
         for (; targets.size() > 1; targets.pop_back()) targets.front().add(targets.back());
-    for (const double slope : kSlopes) {
-        Openings openings(camera, grid, targets, margin, slope);
-        openings.joinShared();
-        openings.joinToAtMost(most);
-        if (slope == kNarrowest || openings.areApart()) return openings.parts(slope != kCutawaySlope);
+    // As wide as keeps all apart; where even narrow ones meet, those that do are one, and the rest is tried again.
+    while (true) {
+        for (const double slope : kSlopes) {
+            Openings openings(camera, grid, targets, margin, slope);
+            openings.joinShared();
+            openings.joinToAtMost(most);
+            if (openings.areApart()) return openings.parts(slope != kCutawaySlope);
+            if (slope != kNarrowest) continue;
+            openings.joinMeeting();
+            targets = openings.targets();
+        }
     }
-    return {};
 }
 
 }  // namespace svt::illustrate

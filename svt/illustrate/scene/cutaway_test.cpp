@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 
 namespace svt::illustrate {
 namespace {
@@ -77,6 +78,27 @@ TEST_F(CutawayTest, NeighboursOpenLess) {
         // And what is before them is cut away: 2 m nearer to the eye.
         const Vec3d middle = grid_.worldFromIndex((toDouble(target.min) + toDouble(target.max)) * 0.5);
         EXPECT_EQ(countOf(parts, middle + normalized(camera_.eye - middle) * 2.0), 1);
+    }
+}
+
+// Targets anywhere, also one behind the other: where openings crossed, what stays between them would hang in the air.
+TEST_F(CutawayTest, NoTwoOpeningsMeetWhereverTheTargetsAre) {
+    std::uint32_t state = 7;
+    const auto next = [&](std::int32_t below) {
+        state = state * 1664525u + 1013904223u;
+        return static_cast<std::int32_t>(state >> 8) % below;
+    };
+    camera_.eye = {10, -30, 8};
+    for (int round = 0; round < 12; ++round) {
+        std::vector<SampleBox> targets;
+        for (int n = 0; n < 3 + round % 5; ++n) targets.push_back(boxAt(20 + next(150), 20 + next(150), 4 + next(12)));
+        const auto parts = partsOf(targets);
+        for (double x = 0.25; x < 20; x += 0.5)
+            for (double y = 0.25; y < 20; y += 0.5)
+                for (double z = 0.25; z < 3; z += 0.5)
+                    ASSERT_LE(countOf(parts, {x, y, z}), 1) << round << ": " << x << ", " << y << ", " << z;
+        for (const auto& target : targets)
+            EXPECT_EQ(countOf(parts, grid_.worldFromIndex((toDouble(target.min) + toDouble(target.max)) * 0.5)), 1);
     }
 }
 
