@@ -25,6 +25,16 @@ volume::Filling fillingOf(mesh::Closure closure) noexcept {
     return volume::Filling::None;
 }
 
+// Whether a label is a surface around a body above it in the tree.
+bool boundsBody(const volume::LabelTable& table, const std::vector<std::uint32_t>& objectOf,
+                const mesh::MeshSet& meshes, std::uint32_t label) {
+    if (!model::isBoundarySurface(table.labels[label].className)) return false;
+    for (std::uint32_t l = table.labels[label].parent; l != volume::kNoLabel; l = table.labels[l].parent)
+        if (objectOf[l] != volume::kNoLabel && meshes.objects[objectOf[l]].closure != mesh::Closure::Surface)
+            return true;
+    return false;
+}
+
 // Labels in tree order, without scalars, and the label of each feature.
 std::vector<std::uint32_t> numberFeatures(const model::BuildingModel& model, volume::LabelTable& table) {
     std::vector<std::uint32_t> labelOf(model.features.size(), volume::kNoLabel);
@@ -141,7 +151,8 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
     for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
         const std::uint32_t l = result.labelOfObject[o];
         const volume::Label& label = table.labels[l];
-        result.claims[o] = {label.first, static_cast<std::uint8_t>(model::classRank(label.className)), label.id};
+        result.claims[o] = {label.first, static_cast<std::uint8_t>(model::classRank(label.className)), label.id,
+                            boundsBody(table, objectOf, meshes, l)};
         if (hasPattern)
             for (volume::Scalar s = 0; s < label.count; ++s)
                 table.phaseColors[label.first + s] =

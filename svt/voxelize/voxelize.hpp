@@ -27,6 +27,10 @@ struct ObjectClaim {
     volume::Scalar scalar = 0;  ///< written to its voxels, > 0
     std::uint8_t rank = 0;      ///< where objects overlap, the lower rank wins, then the smaller volume, then the id
     std::string id;             ///< last tie-break
+    /// A surface around a body that is an object, too, such as a roof of a building with a solid. As a thin sheet it gets no
+    /// voxels that only separate what is in front of it from what is behind: the body does that, and beyond the edges of
+    /// its faces they would stick out.
+    bool boundsBody = false;
 };
 
 enum class SheetMode : std::uint8_t {

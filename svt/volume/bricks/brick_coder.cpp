@@ -135,19 +135,23 @@ void findExtreme(const SideMask& mask, int axis, bool isHighest, std::size_t& wo
     bit &= ~bit + 1;
 }
 
-// As codeBySides(). Where no cuts exist because of two changes, `conflict` tells which.
+// As codeBySides(), but more than kMaxPlanes planes take the places of cuts that the code does not have. Where no cuts
+// exist because of two changes, `conflict` tells which.
 std::optional<BrickCode> codeByPlanes(const BrickPattern& pattern, const Changes& changes,
                                       std::span<const BrickSide* const> planes, CutConflict& conflict) {
     BrickCode code;
     std::array<SideMask, BrickVolume::kMaxSides> sides;
-    std::size_t count = 0;
+    std::size_t count = 0, inCuts = std::min(planes.size(), BrickVolume::kMaxPlanes);
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         SideMask rest = changes[a];  // changes that no plane explains
         for (const BrickSide* plane : planes)
             for (std::size_t k = 0; k < 8; ++k) rest[k] &= ~plane->changes[a][k];
         const std::uint32_t cuts = placesOf(rest, axis);
-        if (cuts == 0) continue;
+        if (cuts == 0) {
+            if (inCuts < planes.size()) sides[count++] = planes[inCuts++]->mask;
+            continue;
+        }
         if ((cuts & (cuts - 1)) != 0) {
             conflict.axis = axis;
             for (const std::size_t n : {0, 1}) findExtreme(rest, axis, n == 1, conflict.word[n], conflict.bit[n]);
@@ -156,10 +160,21 @@ std::optional<BrickCode> codeByPlanes(const BrickPattern& pattern, const Changes
         code.cut[a] = static_cast<std::uint8_t>(std::countr_zero(cuts) + 1);
         sides[count++] = cutMask(axis, code.cut[a]);
     }
+    if (inCuts < planes.size()) return std::nullopt;
     const std::size_t cuts = count;
-    for (const BrickSide* plane : planes) sides[count++] = plane->mask;
+    for (const BrickSide* plane : planes.first(std::min(planes.size(), BrickVolume::kMaxPlanes)))
+        sides[count++] = plane->mask;
     if (!findSideScalars(pattern, std::span(sides).first(count), cuts, code.sideScalars)) return std::nullopt;
     return code;
+}
+
+// Names the planes of a code of codeByPlanes(), in the order in which they were given.
+void setPlanes(std::span<const std::uint32_t> numbers, BrickCode& code) {
+    const std::size_t own = std::min(numbers.size(), BrickVolume::kMaxPlanes);
+    std::copy(numbers.begin(), numbers.begin() + std::ptrdiff_t(own), code.plane.begin());
+    std::size_t next = own;
+    for (std::size_t axis = 0; axis < 3 && next < numbers.size(); ++axis)
+        if (code.cut[axis] == 0) code.cutPlane[axis] = numbers[next++];
 }
 
 }  // namespace
@@ -341,6 +356,8 @@ private:
     // Maximum candidates per brick: planes of the model, planes where surfaces meet, cuts; and those tried in triples.
     // At most 32 of all together.
     static constexpr std::size_t kMaxFaces = 12, kMaxAround = 8, kMaxCuts = 4, kMaxOfThree = 7;
+    // The same where sheets may be; planes of one code there, and sets of more than three that are tried.
+    static constexpr std::size_t kMaxOfSheets = 16, kMostPlanesOfSheets = 5, kMaxSetsOfSheets = 4000;
 
     // Mixed bricks that cuts alone do not code for certain, in the order of places.
     void findMixed() {
@@ -521,28 +538,83 @@ private:
     void codeByFaces(Vec3i at) {
         startCandidates(at);
         addFacePlanes(at, kMaxFaces);
-        if (sides_.empty()) return;
         if (isStep(at)) {
             // Cuts code it already. Prefer planes, unless the model has faces where the cuts are.
-            if (const auto own = codeBySides(patternAt(at), changes_); own && !hasCutsOfModel(*own, at))
-                tryCandidates(at, 0);
+            const auto own = codeBySides(patternAt(at), changes_);
+            if (!own || hasCutsOfModel(*own, at)) return;
+            if (!tryCandidates(at, 0)) codeBySheets(at);
             return;
         }
-        addCuts(at, kMaxFaces + kMaxCuts);
-        tryCandidates(at, 0);
+        if (!sides_.empty()) {
+            addCuts(at, kMaxFaces + kMaxCuts);
+            if (tryCandidates(at, 0)) return;
+        }
+        codeBySheets(at);
     }
 
-    // Whether the model has a face at each cut of the code; true if no faces are known.
+    // By planes of faces and of the backs of sheets. The voxels of a sheet are the samples behind its face that have a
+    // neighbour along an axis in front of it: they end on a plane, too, at the largest component of the normal behind the
+    // face. Where sheets meet, four planes and more do.
+    void codeBySheets(Vec3i at) {
+        startCandidates(at);
+        for (const ColumnFace& face : facesOfColumn_[std::size_t(at.x + kColumns * at.y)]) {
+            if (at.z < face.min || at.z > face.max) continue;
+            const Vec3d n = face.plane.normal;
+            const double depth = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+            for (const double behind : {0.0, depth, -depth}) {
+                if (sides_.size() == kMaxOfSheets) break;
+                BrickPlane plane = face.plane;
+                plane.offset += behind;
+                if (cutsBox(plane, at)) addCandidate(plane, sideMask(plane, at));
+            }
+        }
+        if (sides_.empty()) return;
+        mayBeSheet_ = true;
+        addCuts(at, kMaxOfSheets + kMaxCuts);
+        if (!tryCandidates(at, 0)) tryMoreThanThree(at);
+        mayBeSheet_ = false;
+    }
+
+    // Tries sets of four to six candidates, each of which explains a change that those before leave open.
+    void tryMoreThanThree(Vec3i at) {
+        std::array<std::size_t, BrickVolume::kMaxSides> set{};
+        std::size_t budget = kMaxSetsOfSheets;
+        (void)tryLarger(at, set, 0, 0, budget);
+    }
+    bool tryLarger(Vec3i at, std::array<std::size_t, BrickVolume::kMaxSides>& set, std::size_t count, std::size_t from,
+                   std::size_t& budget) {
+        for (std::size_t next = from; next < sides_.size(); ++next) {
+            set[count] = next;
+            const std::size_t size = count + 1;
+            if (size > BrickVolume::kMaxPlanes) {
+                if (budget == 0) return false;
+                --budget;
+                if (trySides(at, std::span(set).first(size))) return true;
+            }
+            if (size < kMostPlanesOfSheets && tryLarger(at, set, size, next + 1, budget)) return true;
+        }
+        return false;
+    }
+
+    // Whether the model has a face at each cut of the code, or, where sheets may be, a voxel beside; true if no faces are
+    // known.
     [[nodiscard]] bool hasCutsOfModel(const BrickCode& code, Vec3i at) const noexcept {
         if (!knowsFaces_) return true;
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
             if (code.cut[a] == 0) continue;
-            const auto& faces = cutPlanes_[a][std::size_t(8 * at[axis] + code.cut[a])];
-            if (std::none_of(faces.begin(), faces.end(), [&](const BrickRange& range) { return range.has(at); }))
-                return false;
+            const std::int32_t cut = 8 * at[axis] + code.cut[a], away = mayBeSheet_ ? 1 : 0;
+            bool isOfModel = false;
+            for (std::int32_t near = cut - away; near <= cut + away && !isOfModel; ++near)
+                isOfModel = hasFaceAt(a, near, at);
+            if (!isOfModel) return false;
         }
         return true;
+    }
+    [[nodiscard]] bool hasFaceAt(std::size_t axis, std::int32_t cut, Vec3i at) const noexcept {
+        if (cut < 0 || static_cast<std::size_t>(cut) >= cutPlanes_[axis].size()) return false;
+        const auto& faces = cutPlanes_[axis][static_cast<std::size_t>(cut)];
+        return std::any_of(faces.begin(), faces.end(), [&](const BrickRange& range) { return range.has(at); });
     }
 
     // Bricks of the tile, including max.
@@ -647,6 +719,9 @@ private:
     // Most sets of candidates fail for one of few reasons, so these are kept: of two changes that cannot both be at a cut,
     // the candidates that explain either.
     bool trySides(Vec3i at, std::initializer_list<std::size_t> candidates) {
+        return trySides(at, std::span(candidates.begin(), candidates.size()));
+    }
+    bool trySides(Vec3i at, std::span<const std::size_t> candidates) {
         std::uint32_t set = 0;
         for (const std::size_t candidate : candidates) set |= 1u << candidate;
         for (std::size_t n = 0; n < conflicts_.size(); ++n) {
@@ -654,7 +729,8 @@ private:
             if (n > 0) std::swap(conflicts_[n], conflicts_[n - 1]);
             return false;
         }
-        std::array<const BrickSide*, BrickVolume::kMaxPlanes> sides{};
+        std::array<const BrickSide*, BrickVolume::kMaxSides> sides{};
+        std::array<std::uint32_t, BrickVolume::kMaxSides> numbers{};
         std::size_t count = 0;
         for (const std::size_t candidate : candidates) sides[count++] = &sides_[candidate];
         CutConflict conflict;
@@ -662,7 +738,8 @@ private:
         if (conflict.axis >= 0) addConflict(conflict);
         if (!code || !hasCutsOfModel(*code, at)) return false;
         count = 0;
-        for (const std::size_t candidate : candidates) code->plane[count++] = numberOf(candidates_[candidate]);
+        for (const std::size_t candidate : candidates) numbers[count++] = numberOf(candidates_[candidate]);
+        setPlanes(std::span(numbers).first(count), *code);
         setCode(at, std::move(*code));
         return true;
     }
@@ -874,6 +951,7 @@ private:
     std::array<std::vector<std::vector<BrickRange>>, 3>
         cutPlanes_;  // across an axis: by cut, voxels from the tile's corner
     bool knowsFaces_, hasFacePlanes_ = false;
+    bool mayBeSheet_ = false;  // cuts may lie a voxel beside a face
     std::vector<Vec3i> mixed_;
     std::vector<std::array<std::optional<Heights>, 3>> heights_;
     std::vector<std::optional<Faces>> faces_;               // by pattern

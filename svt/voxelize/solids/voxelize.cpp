@@ -26,6 +26,7 @@ using volume::ColumnVolume;
 struct Claims {
     std::vector<PrioritizedClaim> ordered;
     std::vector<std::uint32_t> solidOrder, thinOrder;  // per object
+    std::vector<bool> boundsBody;
 };
 
 Claims orderClaims(const mesh::MeshSet& meshes, std::span<const ObjectClaim> claims) {
@@ -47,6 +48,7 @@ Claims orderClaims(const mesh::MeshSet& meshes, std::span<const ObjectClaim> cla
         return key(p) < key(q);
     });
     Claims result;
+    for (const ObjectClaim& claim : claims) result.boundsBody.push_back(claim.boundsBody);
     result.solidOrder.resize(claims.size());
     result.thinOrder.resize(claims.size());
     for (std::uint32_t order = 0; order < entries.size(); ++order) {
@@ -136,10 +138,12 @@ struct Geometry {
     std::vector<std::uint32_t> unfilled;
 };
 
-void addSheet(const IndexMesh& index, const volume::Grid& grid, std::uint32_t claim, const VoxelizeOptions& options,
-              ObjectParts& parts) {
-    (options.sheets == SheetMode::Thin ? addThinSheet : addConservativeSheet)(index, grid.dimension(), claim,
-                                                                              parts.boxes);
+void addSheet(const IndexMesh& index, const volume::Grid& grid, std::uint32_t claim, bool boundsBody,
+              const VoxelizeOptions& options, ObjectParts& parts) {
+    if (options.sheets == SheetMode::Thin)
+        addThinSheet(index, grid.dimension(), claim, boundsBody, parts.boxes);
+    else
+        addConservativeSheet(index, grid.dimension(), claim, parts.boxes);
     // Of faces closer together than voxels most boxes are the same; each would take 300 bytes in its tiles.
     constexpr std::size_t kMany = 1 << 16;
     if (parts.boxes.size() <= kMany) return;
@@ -156,7 +160,7 @@ void prepareObject(const mesh::MeshSet& meshes, const volume::Grid& grid, const 
     const IndexMesh index = makeIndexMesh(mesh, indexFromLocal);
     ObjectParts& parts = all.objects[object];
     if (mesh.closure == mesh::Closure::Surface) {
-        addSheet(index, grid, claims.thinOrder[object], options, parts);
+        addSheet(index, grid, claims.thinOrder[object], claims.boundsBody[object], options, parts);
         return;
     }
     const Vec3i dimension = grid.dimension();
@@ -278,7 +282,8 @@ Result<void> fillOpenShells(const mesh::MeshSet& meshes, const volume::Grid& gri
     if (auto fits = checkSheetVoxels(sheetVoxels); !fits) return fits.error();
     for (const std::uint32_t o : all.unfilled) {
         all.objects[o].faces = {};
-        addSheet(makeIndexMesh(meshes.objects[o], indexFromLocal), grid, claims.thinOrder[o], options, all.objects[o]);
+        addSheet(makeIndexMesh(meshes.objects[o], indexFromLocal), grid, claims.thinOrder[o], false, options,
+                 all.objects[o]);
     }
     return {};
 }

@@ -187,11 +187,27 @@ void addRod(const ThinFace& face, const IndexFromLocal& indexFromLocal, Vec3i di
     for (int s = 0; s <= steps; ++s) addNearest(from + way * (double(s) / steps), dimension, claim, boxes);
 }
 
+// The axes along which the normal is longest: mostly one; more where they are equal but for rounding, which differs from
+// triangle to triangle of a face.
+std::array<bool, 3> axesAcross(const IndexMesh& mesh, const mesh::Triangle& triangle) {
+    std::array<Vec3d, 3> corner;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const QuantaPoint& q = mesh.points[triangle.corners[c]];
+        corner[c] = {double(q[0]), double(q[1]), double(q[2])};
+    }
+    const Vec3d normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+    const double most = 0.99 * std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+    return {std::abs(normal.x) >= most, std::abs(normal.y) >= most, std::abs(normal.z) >= most};
+}
+
 }  // namespace
 
-void addThinSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
+void addThinSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, bool boundsBody,
+                  std::vector<ClaimedBox>& boxes) {
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
+        const std::array<bool, 3> isAlong = axesAcross(mesh, triangle);
         for (const ScanAxes& axes : kScanAxes) {
+            if (boundsBody && !isAlong[axes.z]) continue;
             ScanTriangle scan;
             if (!setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
                            mesh.points[triangle.corners[2]], axes, scan))

@@ -11,7 +11,10 @@ namespace svt::voxelize {
 /// Thin, 6-separating sheet (Cohen-Or & Kaufman 1995): wherever the surface passes between two samples that are
 /// neighbours along x, y or z, the sample behind the face gets a voxel. No path of 6-neighbours crosses the sheet. Two
 /// sheets at the same place that face opposite ways get different voxels. Clipped to `dimension`.
-void addThinSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, std::vector<ClaimedBox>& boxes);
+/// \param boundsBody  see ObjectClaim: neighbours along the longest component of a triangle's normal alone count. Within a
+///                    face these are all of its voxels; at its edges a path of 6-neighbours may pass
+void addThinSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, bool boundsBody,
+                  std::vector<ClaimedBox>& boxes);
 
 /// Conservative sheet: every voxel whose box touches the surface, by the separating axis test of triangle and box
 /// (Akenine-Moeller 2001).

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <set>
 #include <tuple>
@@ -45,10 +46,11 @@ mesh::ObjectMesh quadMesh(Vec3d a, Vec3d b, Vec3d c, Vec3d d) {
     return mesh;
 }
 
-std::set<Voxel> thinSheet(const mesh::ObjectMesh& mesh) {
+std::set<Voxel> thinSheet(const mesh::ObjectMesh& mesh, bool boundsBody = false) {
     const auto meshes = test::meshSetOf({mesh});
     std::vector<ClaimedBox> boxes;
-    addThinSheet(makeIndexMesh(meshes.objects[0], IndexFromLocal(meshes, unitGrid())), kDimension, 5, boxes);
+    addThinSheet(makeIndexMesh(meshes.objects[0], IndexFromLocal(meshes, unitGrid())), kDimension, 5, boundsBody,
+                 boxes);
     return voxelsOf(boxes);
 }
 
@@ -57,6 +59,23 @@ std::set<Voxel> conservativeSheet(const mesh::ObjectMesh& mesh) {
     std::vector<ClaimedBox> boxes;
     addConservativeSheet(makeIndexMesh(meshes.objects[0], IndexFromLocal(meshes, unitGrid())), kDimension, 5, boxes);
     return voxelsOf(boxes);
+}
+
+// A roof of a house that is turned in plan. Beyond its edge, where a wall stands, samples lie behind its plane, and neighbours
+// along x or y before it. Of a roof that bounds a body these are none of its voxels: they would stick out of the wall.
+TEST(AddThinSheet, ASurfaceAroundABodyDoesNotStickOutAtItsEdges) {
+    const Vec3d along{0.6, 0.8, 0}, across{-0.8, 0.6, 0.7}, low{8.1, 0.7, 1.2};
+    const auto roof = quadMesh(low, low + along * 14.3, low + along * 14.3 + across * 7.7, low + across * 7.7);
+    const auto isUnderRoof = [&](const Voxel& voxel) {
+        const double x = std::get<0>(voxel) - low.x, y = std::get<1>(voxel) - low.y;
+        const double u = 0.6 * x + 0.8 * y, v = -0.8 * x + 0.6 * y;
+        return u > -0.01 && u < 14.31 && v > -0.01 && v < 7.71;
+    };
+    const auto all = thinSheet(roof), bounding = thinSheet(roof, true);
+    EXPECT_GT(std::count_if(all.begin(), all.end(), [&](const Voxel& v) { return !isUnderRoof(v); }), 2);
+    EXPECT_EQ(std::count_if(bounding.begin(), bounding.end(), [&](const Voxel& v) { return !isUnderRoof(v); }), 0);
+    // Under the roof both are the same.
+    for (const Voxel& voxel : all) EXPECT_EQ(bounding.count(voxel) != 0, isUnderRoof(voxel));
 }
 
 TEST(AddThinSheet, TheSampleBehindTheFaceGetsTheVoxel) {
