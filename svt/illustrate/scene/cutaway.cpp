@@ -70,6 +70,51 @@ bool meet(const RoundBody& a, const RoundBody& b, const volume::Grid& grid) {
     return hasRimIn(a, b) || hasRimIn(b, a);
 }
 
+// A box of targets and all before it: between planes of sight through its outline. What stands behind and beside it stays,
+// and what carries it.
+render::ConvexPart shadowPart(const Camera& camera, const volume::Grid& grid, const analyze::SampleBox& target,
+                              double margin) {
+    const bool isPerspective = camera.projection == Camera::Projection::Perspective;
+    const View view = makeView(camera);
+    const std::array<Vec3d, 8> corners = cornersOf(target, grid);
+    const std::array<Vec3d, 3> axes = grid.axes();
+    const auto face = [&](int axis, bool isUpper) {
+        const Vec3d point = corners[isUpper ? std::size_t{1} << axis : 0];
+        const Vec3d normal = isUpper ? axes[std::size_t(axis)] : -axes[std::size_t(axis)];
+        return render::HalfSpace{normal, -dot(normal, point)};
+    };
+    const auto isSeen = [&](int axis, bool isUpper) {
+        const render::HalfSpace f = face(axis, isUpper);
+        return isPerspective ? dot(f.normal, camera.eye) + f.offset > 0 : dot(f.normal, view.forward) < 0;
+    };
+    Vec3d middle{};
+    for (const Vec3d& corner : corners) middle = middle + corner / 8;
+    render::ConvexPart sight;
+    for (int axis = 0; axis < 3; ++axis) {
+        const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+        for (int n = 0; n < 4; ++n) {  // edges along the axis
+            const bool isUpperB = (n & 1) != 0, isUpperC = (n & 2) != 0;
+            if (isSeen(b, isUpperB) == isSeen(c, isUpperC)) continue;
+            const Vec3d from = corners[std::size_t(isUpperB) << b | std::size_t(isUpperC) << c];
+            const Vec3d along = axes[std::size_t(axis)], away = isPerspective ? from - camera.eye : view.forward;
+            Vec3d inward = normalized(cross(along, away));
+            if (dot(inward, middle - from) < 0) inward = -inward;
+            const bool isBelow = inward.z > 0.3;
+            const Vec3d normal = isBelow ? inward : inward - view.forward * kNarrowest;
+            double least = std::numeric_limits<double>::infinity();  // so that all corners are within
+            for (const Vec3d& corner : corners) least = std::min(least, dot(normal, corner));
+            sight.halfSpaces.push_back({normal, (isBelow ? 0 : margin) - least});
+        }
+    }
+    for (int axis = 0; axis < 3; ++axis)
+        for (const bool isUpper : {false, true})
+            if (!isSeen(axis, isUpper)) {
+                const render::HalfSpace behind = face(axis, isUpper);
+                sight.halfSpaces.push_back({-behind.normal, -behind.offset});
+            }
+    return sight;
+}
+
 // Openings of targets.
 class Openings {
 public:
@@ -77,6 +122,7 @@ public:
              double slope)
         : camera_(camera), grid_(grid), margin_(margin), slope_(slope), targets_(std::move(targets)) {
         for (const auto& target : targets_) bodies_.push_back(bodyOf(target));
+        isGroup_.assign(targets_.size(), false);
     }
 
     [[nodiscard]] bool areApart() const {
@@ -88,18 +134,15 @@ public:
         while (joinAny()) {
         }
     }
-    // Openings that meet become one, until all are apart.
+    // Openings that meet become one, until all are apart: no longer a cone, which would take all around it.
     void joinMeeting() {
         std::size_t a = 0, b = 1;
-        while (findMeeting(a, b)) {
-            join(a, b);
-            joinShared();
-        }
+        while (findMeeting(a, b)) joinAsGroup(a, b);
     }
-    [[nodiscard]] const std::vector<analyze::SampleBox>& targets() const noexcept { return targets_; }
     void joinToAtMost(std::size_t most) {
         while (bodies_.size() > most) {
-            joinNearest();
+            const auto [a, b] = nearest();
+            join(a, b);
             joinShared();
         }
     }
@@ -107,6 +150,10 @@ public:
     [[nodiscard]] std::vector<render::ConvexPart> parts(bool endBehind) const {
         std::vector<render::ConvexPart> parts;
         for (std::size_t n = 0; n < bodies_.size(); ++n) {
+            if (isGroup_[n]) {
+                parts.push_back(shadowPart(camera_, grid_, targets_[n], margin_));
+                continue;
+            }
             render::ConvexPart& part = parts.emplace_back();
             part.rounds.push_back(bodies_[n]);
             if (!endBehind) continue;
@@ -142,6 +189,12 @@ private:
         targets_.erase(targets_.begin() + static_cast<std::ptrdiff_t>(b));
         bodies_.erase(bodies_.begin() + static_cast<std::ptrdiff_t>(b));
         bodies_[a] = bodyOf(targets_[a]);
+        isGroup_[a] = isGroup_[a] || isGroup_[b];
+        isGroup_.erase(isGroup_.begin() + static_cast<std::ptrdiff_t>(b));
+    }
+    void joinAsGroup(std::size_t a, std::size_t b) {
+        join(a, b);
+        isGroup_[a] = true;
     }
     bool joinAny() {
         for (std::size_t a = 0; a < bodies_.size(); ++a)
@@ -152,17 +205,16 @@ private:
                 }
         return false;
     }
-    void joinNearest() {
-        std::size_t first = 0, second = 1;
-        double nearest = std::numeric_limits<double>::infinity();
+    [[nodiscard]] std::pair<std::size_t, std::size_t> nearest() const {
+        std::pair<std::size_t, std::size_t> found{0, 1};
+        double least = std::numeric_limits<double>::infinity();
         for (std::size_t a = 0; a < bodies_.size(); ++a)
             for (std::size_t b = a + 1; b < bodies_.size(); ++b)
-                if (const double apart = length(middleOf(b) - middleOf(a)); apart < nearest) {
-                    nearest = apart;
-                    first = a;
-                    second = b;
+                if (const double apart = length(middleOf(b) - middleOf(a)); apart < least) {
+                    least = apart;
+                    found = {a, b};
                 }
-        join(first, second);
+        return found;
     }
 
     const Camera& camera_;
@@ -170,6 +222,7 @@ private:
     double margin_, slope_;
     std::vector<analyze::SampleBox> targets_;
     std::vector<RoundBody> bodies_;
+    std::vector<bool> isGroup_;  // targets whose openings met
 };
 
 }  // namespace
@@ -236,20 +289,23 @@ RoundBody cutawayBody(const Camera& camera, const volume::Grid& grid, const anal
 std::vector<render::ConvexPart> cutawayParts(const Camera& camera, const volume::Grid& grid,
                                              std::vector<analyze::SampleBox> targets, double margin, std::size_t most) {
     constexpr std::size_t kMostTargets = 64;
-    if (targets.size() > kMostTargets)
+    const bool isCrowd = targets.size() > kMostTargets;
+    if (isCrowd)
         for (; targets.size() > 1; targets.pop_back()) targets.front().add(targets.back());
-    // As wide as keeps all apart; where even narrow ones meet, those that do are one, and the rest is tried again.
-    while (true) {
-        for (const double slope : kSlopes) {
-            Openings openings(camera, grid, targets, margin, slope);
-            openings.joinShared();
-            openings.joinToAtMost(most);
-            if (openings.areApart()) return openings.parts(slope != kCutawaySlope);
-            if (slope != kNarrowest) continue;
-            openings.joinMeeting();
-            targets = openings.targets();
-        }
+    // As wide as keeps all apart.
+    for (const double slope : kSlopes) {
+        if (isCrowd) break;
+        Openings openings(camera, grid, targets, margin, slope);
+        openings.joinShared();
+        openings.joinToAtMost(most);
+        if (openings.areApart()) return openings.parts(slope != kCutawaySlope);
     }
+    if (isCrowd) return {shadowPart(camera, grid, targets.front(), margin)};
+    Openings openings(camera, grid, std::move(targets), margin, kNarrowest);
+    openings.joinShared();
+    openings.joinToAtMost(most);
+    openings.joinMeeting();
+    return openings.parts(true);
 }
 
 }  // namespace svt::illustrate

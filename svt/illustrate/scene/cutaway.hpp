@@ -31,11 +31,12 @@ inline constexpr double kCutawaySlope = 0.4663;
 
 /// The regions to cut away so that several targets are visible: one for each, and one for targets that stand in each other's.
 /// One target has that of cutawayBody(). Several open as wide as keeps them apart within the volume, so that what stays
-/// between them hangs together up to the viewer; narrow ones end behind their targets. Where even narrow ones meet, those
-/// that do become one: no two regions have a point of the volume in common.
+/// between them hangs together up to the viewer; narrow ones end behind their targets. Where even narrow ones meet, the
+/// targets become a group: their common box and what is before it are cut away, and nothing beside or behind it. No two
+/// regions share a point of the volume.
 /// \param targets  samples to enclose, of each target; at least one
 /// \param most     regions, >= 1: the targets that are nearest to each other are joined until there are no more
-/// Cost: O(targets^2) for up to 64 of them; more are one.
+/// Cost: O(targets^2) for up to 64 of them; more are a group.
 [[nodiscard]] std::vector<render::ConvexPart> cutawayParts(const render::Camera& camera, const volume::Grid& grid,
                                                            std::vector<analyze::SampleBox> targets, double margin,
                                                            std::size_t most);

@@ -102,6 +102,22 @@ TEST_F(CutawayTest, NoTwoOpeningsMeetWhereverTheTargetsAre) {
     }
 }
 
+// Many targets all over the place, on a floor of 0.5 m that carries them: before them all is cut away, but neither the floor
+// below and beside them nor what is behind.
+TEST_F(CutawayTest, AGroupKeepsWhatCarriesItAndWhatIsBehind) {
+    std::vector<SampleBox> targets;
+    for (std::int32_t n = 0; n < 80; ++n) targets.push_back(boxAt(30 + 7 * (n % 10), 60 + 7 * (n / 10), 6));
+    const auto parts = partsOf(targets);
+    ASSERT_EQ(parts.size(), 1u);
+    for (const auto& target : targets)
+        EXPECT_TRUE(contains(parts[0], grid_.worldFromIndex((toDouble(target.min) + toDouble(target.max)) * 0.5)));
+    EXPECT_TRUE(contains(parts[0], {6, 9, 2.9})) << "a roof over them";
+    EXPECT_FALSE(contains(parts[0], {6, 9, 0.2})) << "the floor below them";
+    EXPECT_FALSE(contains(parts[0], {6, 3, 0.2})) << "the floor before them";
+    EXPECT_FALSE(contains(parts[0], {6, 14, 0.8})) << "what is behind them";
+    EXPECT_FALSE(contains(parts[0], {15, 9, 0.8})) << "what is beside them";
+}
+
 TEST_F(CutawayTest, ThereAreNoMoreThanAskedFor) {
     EXPECT_EQ(partsOf({boxAt(20, 20, 10), boxAt(170, 20, 10), boxAt(20, 170, 10)}, 2).size(), 2u);
     EXPECT_EQ(partsOf({boxAt(20, 20, 10), boxAt(170, 20, 10), boxAt(20, 170, 10)}, 1).size(), 1u);

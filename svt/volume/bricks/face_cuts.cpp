@@ -72,7 +72,11 @@ std::optional<Places> placesOf(const SideList& list, const std::vector<BrickPlan
         std::size_t place = axis < 0 ? 3 : static_cast<std::size_t>(axis);
         if (isTaken[place]) place = 3;
         while (place < isTaken.size() && isTaken[place]) ++place;
-        if (place == isTaken.size()) return std::nullopt;
+        // More than three of them take places of cuts that are free.
+        if (place == isTaken.size())
+            for (place = 0; place < 3 && isTaken[place]; ++place) {
+            }
+        if (place == 3 && isTaken[3]) return std::nullopt;
         isTaken[places[s] = place] = true;
     }
     return places;
