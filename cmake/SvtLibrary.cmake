@@ -48,7 +48,7 @@ endfunction()
 # svt_optimize(<target> <folder>): how hard a folder is optimized, with the precompiled header that fits.
 function(svt_optimize target folder)
   if(EMSCRIPTEN AND folder IN_LIST SVT_SMALL_FOLDERS)
-    target_compile_options(${target} PRIVATE -Os)
+    target_compile_options(${target} PRIVATE ${SVT_SMALL})
     svt_precompile(${target} svt_precompiled_small)
   elseif(NOT EMSCRIPTEN AND CMAKE_BUILD_TYPE STREQUAL "Release" AND folder IN_LIST SVT_COLD_FOLDERS)
     target_compile_options(${target} PRIVATE -O1)

@@ -17,7 +17,7 @@ function(web_library alias include)
 endfunction()
 
 # Header-only Debian packages work for every target.
-# No threads, since web hosts do not always allow them; Emscripten provides OpenGL; without PROJ svt/crs knows less.
+# Threads are those of svt/core/parallel/parallel_web.cpp; Emscripten provides OpenGL; without PROJ svt/crs knows less.
 foreach(none TBB::tbb Threads::Threads EGL::EGL GLESv2::GLESv2 PROJ::proj)
   add_library(${none} INTERFACE IMPORTED)
 endforeach()
@@ -79,7 +79,7 @@ target_include_directories(web_GLU PRIVATE ${WEB_SOURCES}/glu/src/include)
 target_compile_options(web_GLU PRIVATE -include limits.h)  # missing in one of its source files
 
 foreach(library pugixml simdjson PNG Freetype GLU)
-  target_compile_options(web_${library} PRIVATE -Os)
+  target_compile_options(web_${library} PRIVATE ${SVT_SMALL})
 endforeach()
 
 set(DEJAVU_SANS /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf)
