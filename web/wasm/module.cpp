@@ -6,6 +6,7 @@
 #include "walk.hpp"
 
 #include <svt/core/parallel.hpp>
+#include <svt/illustrate/color_by.hpp>
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/illustrate/section_plane.hpp>
 #include <svt/illustrate/sheet_set.hpp>
@@ -170,6 +171,25 @@ Result<Reply> movedPlanes(const Arguments& arguments) {
 Result<Reply> font(const Arguments& arguments) {
     if (auto done = setFont(arguments.bytes()); !done) return done.error();
     return Reply(std::string("null"));
+}
+
+// (scene) -> what the colours of its colorBy mean: {title, isRamp, low, high, entries: [{text, count}], missing}
+Result<Reply> legend(const Arguments& arguments) {
+    const auto scene = arguments.scene(0);
+    if (!scene) return scene.error();
+    illustrate::ColorScale scale;
+    const analyze::LabelRows rows(session->volume().labels);
+    if (const auto spec = illustrate::makeFrameSpec(*scene, session->volume(), rows, &scale); !spec)
+        return spec.error();
+    Json entries = Json::array();
+    for (const auto& entry : scale.entries) entries.push_back({{"text", entry.text}, {"count", entry.count}});
+    return Reply(Json{{"title", scale.title},
+                      {"isRamp", scale.isRamp},
+                      {"low", scale.low},
+                      {"high", scale.high},
+                      {"entries", std::move(entries)},
+                      {"missing", scale.missing}}
+                     .dump());
 }
 
 // (scene, width, height, whether a draft will do) -> RGBA, row by row from the top
@@ -431,11 +451,8 @@ constexpr Call kCalls[] = {{"open", open, false},
                            {"owners", owners},
                            {"stand", stand},
                            {"step", step},
-                           {"movedPlanes", movedPlanes},
-                           {"cityGive", cityGive, false},
-                           {"cityLook", cityLook, false},
-                           {"cityDrop", cityDrop, false},
-                           {"cityFind", cityFind, false}};
+                           {"legend", legend},
+                           {"movedPlanes", movedPlanes}};
 
 Result<Reply> run(std::string_view name, std::string_view json, std::span<const std::byte> bytes) {
     const Json values = Json::parse(json, nullptr, false);

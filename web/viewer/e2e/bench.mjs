@@ -1,12 +1,13 @@
 // Times of the page in the browser that is here: `npm run bench`. Needs `make viewer`; a machine that does nothing else.
-// Prints a table in Markdown, or with --json one object for scripts/bench.py: first image after navigation, frames while the view turns, still pictures, by kind of engine.
+// Prints tables in Markdown: first and finest image after navigation, frames while the view turns, still pictures, by kind of
+// engine, with and without threads in turns. SVT_BENCH_PAGE=FOLDER: another built page, in turns with this one.
 // Environment: SVT_BENCH_HEADED=1 shows the browser and leaves its graphics driver as it is, for machines with a graphics card.
 import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { browse, dataDir, svt, svtServe } from "./harness.mjs";
 
-const kRounds = 5;
+const kRounds = Number(process.env.SVT_BENCH_ROUNDS ?? 5);
 const folder = mkdtempSync(join(tmpdir(), "svt-viewer-bench-"));
 const fzk = join(dataDir, "fzk_haus_citygml3.gml");
 const volume = join(folder, "house.svt");
@@ -29,39 +30,37 @@ const firstImage = async (page) => {
   return page.evaluate(() => performance.getEntriesByName("svt-first-image")[0].startTime);
 };
 
-const fine = (page) =>
-  page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine", null, { timeout: 120_000 });
+/** The finest picture of the whole building stands, by the page's clock. */
+const finest = async (page) => {
+  await page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine", null, { timeout: 60_000, polling: 20 });
+  return page.evaluate(() => performance.now());
+};
 
-/** First images: in a browser that has not seen the page (timed from outside, and its finest picture too), and loaded again. */
-async function starts() {
-  const cold = [], finest = [], warm = [];
-  for (let n = 0; n < kRounds; ++n) {
-    const { context, close } = await browse(shape);
-    const page = await context.newPage();
-    await page.waitForTimeout(3_000);  // a browser that has started, and has never seen the page
-    const begin = performance.now();
-    await page.goto(server.url, { waitUntil: "commit" });
-    await firstImage(page);
-    cold.push(performance.now() - begin);
-    await fine(page);
-    finest.push(performance.now() - begin);
-    await page.reload();
-    warm.push(await firstImage(page));
-    await close();
-  }
-  return { cold: median(cold), finest: median(finest), warm: median(warm) };
+/** First and finest images in a browser that has not seen the page, by its clock and from outside; first when loaded again. */
+async function start(url, into) {
+  const { context, close } = await browse(shape);
+  const page = await context.newPage();
+  await page.waitForTimeout(1_500);  // a browser that has started, and has never seen the page
+  const begin = performance.now();
+  await page.goto(url, { waitUntil: "commit" });
+  const cold = await firstImage(page), outside = performance.now() - begin;
+  const fine = await finest(page), fineOutside = performance.now() - begin;
+  await page.reload();
+  const warm = await firstImage(page);
+  for (const [name, value] of Object.entries({ cold, outside, fine, fineOutside, warm })) (into[name] ??= []).push(value);
+  await close();
 }
 
 /** Frames by one kind of engine; null where it does not draw here. */
-async function frames(kind) {
+async function frames(url, kind) {
   const { context, close } = await browse(shape);
   const page = await context.newPage();
-  await page.goto(`${server.url}?engine=${kind}`);
+  await page.goto(url);
   await firstImage(page);
   await fine(page);
   const found = await page.evaluate(async () => {
     const s = document.querySelector("svt-app").session;
-    const { engine, milliseconds: still } = s.report;
+    const { engine, milliseconds: still } = s.report, threads = s.engine.threads ?? 1;
     const times = [];
     const start = performance.now();
     let last = s.report, angle = 0;
@@ -77,7 +76,7 @@ async function frames(kind) {
     const context = new OffscreenCanvas(1, 1).getContext("webgl2");
     const info = context?.getExtension("WEBGL_debug_renderer_info");
     return {
-      engine, still, fps, byCpu: last.engine === "cpu", moving: [last.width, last.height], size: s.pictureSize,
+      engine, threads, still, fps, byCpu: last.engine === "cpu", moving: [last.width, last.height], size: s.pictureSize,
       driver: info ? context.getParameter(info.UNMASKED_RENDERER_WEBGL) : "none",
     };
   });
@@ -85,26 +84,24 @@ async function frames(kind) {
   return found.engine === kind ? found : null;
 }
 
-/** What scripts/bench.py reads: seconds, frames a second, and how much of the picture's width is cast while it turns. */
-function figures({ cold, finest, warm }, cpu, webgl2) {
-  return {
-    first_image_s: cold / 1e3, finest_s: finest / 1e3, again_s: warm / 1e3, turning_fps: cpu.fps,
-    turning_share: cpu.moving[0] / cpu.size[0], still_s: cpu.still / 1e3, ...(webgl2 ? { still_webgl2_s: webgl2.still / 1e3 } : {}),
-  };
+const other = process.env.SVT_BENCH_PAGE ? await svtServe(volume, "--viewer", process.env.SVT_BENCH_PAGE) : null;
+const kinds = [
+  ["threads", `${server.url}?engine=cpu`, "cpu"],
+  ["one thread", `${server.url}?engine=cpu&threads=no`, "cpu"],
+  ...(other ? [["other page", `${other.url}?engine=cpu`, "cpu"]] : []),
+];
+console.log(`${name}, page of 1280 x 720, \`svt serve\` on the same machine; medians of ${kRounds}, in turns.\n`);
+const times = kinds.map(() => ({}));
+for (let n = 0; n < kRounds; ++n) for (const [i, [, url]] of kinds.entries()) await start(url, times[i]);
+console.log("| CPU caster | first image, unseen browser | from outside | finest | from outside | first image, loaded again |\n| --- | --- | --- | --- | --- | --- |");
+for (const [i, [label]] of kinds.entries()) console.log(`| ${label} | ${["cold", "outside", "fine", "fineOutside", "warm"].map((of) => ms(median(times[i][of]))).join(" | ")} |`);
+console.log("\n| engine | driver | turning: frames a second | of pixels | still, 4 rays a pixel |\n| --- | --- | --- | --- | --- |");
+if (process.env.SVT_BENCH_GL !== "0") kinds.push(["webgl2", `${server.url}?engine=webgl2`, "webgl2"]);
+for (const [label, url, kind] of [...kinds, ...kinds.slice(0, 2)]) {
+  const found = await frames(url, kind);
+  if (!found) console.log(`| ${label} | does not draw here | - | - | - |`);
+  else console.log(`| ${label}${kind === "cpu" ? ` (${found.threads})` : ""} | ${kind === "cpu" ? "-" : found.driver} | ${found.fps.toFixed(1)}${kind !== "cpu" && found.byCpu ? " (coarse, by the CPU)" : ""} | ${found.moving.join(" x ")} | ${found.size.join(" x ")} in ${ms(found.still)} |`);
 }
-
-function table({ cold, finest, warm }, engines) {
-  console.log(`${name}, page of 1280 x 720, \`svt serve\` on the same machine.\n`);
-  console.log(`First image after navigation, median of ${kRounds}: ${ms(cold)} in a browser that has not seen the page, finest after ${ms(finest)}; ${ms(warm)} loaded again.\n`);
-  console.log("| engine | driver | turning: frames a second | of pixels | still, 4 rays a pixel |\n| --- | --- | --- | --- | --- |");
-  for (const [kind, found] of Object.entries(engines)) {
-    if (!found) console.log(`| ${kind} | does not draw here | - | - | - |`);
-    else console.log(`| ${kind} | ${kind === "cpu" ? "-" : found.driver} | ${found.fps.toFixed(1)}${kind !== "cpu" && found.byCpu ? " (coarse, by the CPU)" : ""} | ${found.moving.join(" x ")} | ${found.size.join(" x ")} in ${ms(found.still)} |`);
-  }
-}
-
-const first = await starts(), engines = { cpu: await frames("cpu"), webgl2: await frames("webgl2") };
-if (process.argv.includes("--json")) console.log(JSON.stringify(figures(first, engines.cpu, engines.webgl2)));
-else table(first, engines);
+await other?.close();
 await server.close();
 rmSync(folder, { recursive: true, force: true });

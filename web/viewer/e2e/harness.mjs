@@ -78,7 +78,7 @@ export function svt(...words) {
 
 /** `svt serve` with the built page. Resolves to { url, close }. */
 export function svtServe(...words) {
-  const child = spawn(command, ["serve", ...words, "--port", "0", "--viewer", page], { stdio: ["ignore", "pipe", "pipe"] });
+  const child = spawn(command, ["serve", ...(words.includes("--viewer") ? words : [...words, "--viewer", page]), "--port", "0"], { stdio: ["ignore", "pipe", "pipe"] });
   return new Promise((resolve, reject) => {
     let said = "";
     const heard = (chunk) => {

@@ -173,7 +173,14 @@ describe("search and colours", () => {
     await visit.settled();
     assert.equal(await inPage("s.message"), null);
     assert.notEqual(await picture(), plain);
+    const legend = visit.page.getByRole("list", { name: "Legend: ifcType" });
+    await legend.waitFor();
+    const rows = await legend.getByRole("listitem").allTextContents();
+    assert.ok(rows.some((row) => /^IfcWall\w*: \d+$/.test(row)), `the legend as text: ${rows.join("; ")}`);
+    await inPage("s.set({ colorBy: 'volume' })");
+    await visit.page.getByRole("list", { name: /^Legend: volume/ }).getByText(/^from [\d.,]+ to [\d.,]+$/).waitFor();
     await inPage("s.set({ colorBy: '' })");
+    await legend.waitFor({ state: "detached" });
   });
 });
 

@@ -183,7 +183,9 @@ describe("fingers", () => {
     const walk = (root) => {
       for (const e of root.querySelectorAll("*")) {
         if (e.shadowRoot) walk(e.shadowRoot);
-        if (!e.matches("button, select, input:not([type=checkbox], [type=file], [type=hidden]), label.check, a[href]") || e.getRootNode().host?.localName.startsWith("wa-")) continue;
+        // Of foreign parts, sliders: what a finger may move them by.
+        const isOwn = !e.getRootNode().host?.localName.startsWith("wa-") && e.matches("button, select, input:not([type=checkbox], [type=file], [type=hidden]), label.check, a[href]");
+        if (!isOwn && !e.matches("[part~=slider]")) continue;
         const box = e.getBoundingClientRect();
         if (!box.width || !box.height || e.matches(".skip, .twist") || !e.checkVisibility()) continue;
         found.push({ what: `${e.localName}#${e.id}.${e.className} ${e.getAttribute("aria-label") ?? e.textContent.trim().slice(0, 20)}`, width: box.width, height: box.height, left: box.left, right: box.right });

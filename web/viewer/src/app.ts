@@ -106,7 +106,7 @@ export class App extends Part {
     const { state } = s;
     return [
       s.status, s.progress, s.message, s.models, s.modelName, s.info, s.tool, s.along, state.selection, s.report, s.isServerOnly, s.isLegendShown, state.custom,
-      state.sections.length, state.effect, state.shell, state.wireframe, state.look, state.colorBy, state.measured.length, s.isWalking, s.engine, s.history.last, s.history.next, s.opening, s.refining.progress, s.refining.isCoarse, s.moved, s.languages,
+      state.sections.length, state.effect, state.shell, state.wireframe, state.look, state.colorBy, s.scale, state.measured.length, s.isWalking, s.engine, s.history.last, s.history.next, s.opening, s.refining.progress, s.refining.isCoarse, s.moved, s.languages,
     ];
   }
 
@@ -251,9 +251,21 @@ export class App extends Part {
   private status() {
     const { report } = this.session;
     // The legend of colours stands in the same corner.
-    if (!report || this.session.state.colorBy) return nothing;
+    if (!report) return nothing;
+    if (this.session.state.colorBy) return this.scale();
     const { width, height, milliseconds, engine } = report;
     return html`<div class="status">${t(engine === "cpu" ? "cpuKind" : "glKind")}<br />${t("frame", { width, height, ms: number(milliseconds, 0) })}</div>`;
+  }
+
+  /** The legend is drawn in the picture: the same as text. */
+  private scale() {
+    const { scale } = this.session;
+    if (!scale) return nothing;
+    const rows = scale.isRamp
+      ? [t("legendRange", { low: number(scale.low, 2), high: number(scale.high, 2) })]
+      : scale.entries.map(({ text, count }) => `${text}: ${count}`);
+    if (scale.missing) rows.push(t("legendMissing", { n: scale.missing }));
+    return html`<ul id="color-scale" class="visually-hidden" aria-label=${`${t("legend")}: ${scale.title}`}>${rows.map((row) => html`<li>${row}</li>`)}</ul>`;
   }
 
   private dock() {

@@ -241,6 +241,17 @@ export interface MovedPlane {
   by: number;
 }
 
+/** What the colours of `colorBy` mean: numbers from low to high, or entries. */
+export interface ColorScale {
+  title: string;
+  isRamp: boolean;
+  low: number;
+  high: number;
+  entries: { text: string; count: number }[];
+  /** Components without a value, which are gray. */
+  missing: number;
+}
+
 /** The code of an opening that was cancelled. */
 export const kCancelled = "cancelled";
 
@@ -306,6 +317,8 @@ export interface Engine {
   stand(near: Point): Promise<Point | null>;
   /** The eye after a step that glides along what is in the way. */
   step(eye: Point, by: Point): Promise<Point>;
+  /** What the colours of a scene with colorBy mean. */
+  legend(scene: Scene): Promise<ColorScale>;
   /** The planes of the scene that lie in faces of the model. */
   movedPlanes(scene: Scene): Promise<MovedPlane[]>;
   /** Plans, sections, elevations and tables on sheets, as SVG documents; as by `svt sheets`. */

@@ -63,6 +63,7 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
     setOwners: refuse,
     stand: refuse,
     step: (eye) => Promise.resolve(eye),
+    legend: refuse,
     movedPlanes: () => Promise.resolve([]),
   };
 }

@@ -1,23 +1,20 @@
 /** Start: engine and model are fetched at once, while the page is built. */
 
+import { canvas, creating, listing } from "./early";
 import "./ui/theme.css";
 import "./app";
 import type { App } from "./app";
-import { createEngine } from "./engine/client";
-import { openFiles, openKept, openModel, readModels } from "./opening";
+import { openFiles, openKept, openModel } from "./opening";
 import { Session } from "./session";
 import { stateOfHash } from "./state/link";
 import { initialState, type ViewState } from "./state/view_state";
 import { t } from "./texts";
 import { startTheme, theme } from "./ui/theme";
 import { createServerEngine } from "./engine_server";
-import type { Engine, EngineError, EngineKind } from "./engine";
+import type { Engine, EngineError } from "./engine";
 
 const session = new Session();
-const canvas = document.createElement("canvas");
-canvas.setAttribute("aria-hidden", "true");
 const starting = startEngine();
-const listing = readModels(new URLSearchParams(location.search).get("model"));
 
 startTheme(() => session.set({ look: theme() === "dark" ? "dark" : "plain" }));
 session.setLanguage();
@@ -46,16 +43,10 @@ function loadComponents(): void {
   session.addEventListener("change", look);
 }
 
-/** `?engine=cpu` or `webgl2` selects one renderer; without it the faster one is determined. */
-function wantedEngine(): EngineKind | null {
-  const wanted = new URLSearchParams(location.search).get("engine");
-  return wanted === "cpu" || wanted === "webgl2" ? wanted : null;
-}
-
 /** The library in the browser; else pictures from the server. */
 async function startEngine(): Promise<Engine> {
   try {
-    return await createEngine(canvas, wantedEngine());
+    return await creating;
   } catch (error) {
     const server = await createServerEngine(canvas);
     if (!server) throw error;

@@ -6,7 +6,7 @@ import { CityStream } from "./city/city_stream";
 import type { CityFiles } from "./city/city_files";
 import { kCancelled } from "./engine";
 import type {
-  Engine, EngineError, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Pick, Point, Samples, SceneCamera, Stretch, VolumeInfo,
+  ColorScale, Engine, EngineError, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Pick, Point, Samples, SceneCamera, Stretch, VolumeInfo,
 } from "./engine";
 import { kSceneMembers } from "./generated/scene_members";
 import { indexFeatures, labelOf, type FeatureIndex } from "./state/feature_index";
@@ -237,6 +237,7 @@ export class Session extends EventTarget {
     this.shownCamera = state.camera;
     this.refit(report.width / report.height);
     if (quality !== "moving") void this.findMoved(state);
+    if (quality === "fine") void this.findScale(state);
     this.changed();
   }
 
@@ -253,6 +254,16 @@ export class Session extends EventTarget {
     this.changed();
   }
   private seenSections: unknown = null;
+
+  /** What the colours of the picture mean, for those who cannot see its legend; null: they are no legend's. */
+  scale: ColorScale | null = null;
+
+  private async findScale(state: ViewState): Promise<void> {
+    const scale = state.colorBy && this.engine ? await this.composed(this.pictureSize).then((scene) => this.engine!.legend(scene)).catch(() => null) : null;
+    if (this.state !== state || JSON.stringify(scale) === JSON.stringify(this.scale)) return;
+    this.scale = scale;
+    this.changed();
+  }
 
   /** The view fitted to the whole building, and its aspect ratio; it is recomputed for another aspect ratio. */
   private fitted: { camera: Camera; aspect: number } | null = null;

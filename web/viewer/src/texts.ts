@@ -255,6 +255,8 @@ const kTexts = {
   scaleBar: ["Scale bar", "Maßstab"],
   northArrow: ["North arrow", "Nordpfeil"],
   legend: ["Legend", "Legende"],
+  legendRange: ["from {low} to {high}", "von {low} bis {high}"],
+  legendMissing: ["without a value: {n}", "ohne Wert: {n}"],
 
   measureHint: [
     "Click points in the picture. Near a corner or an edge of the model, the point is exactly there; with Ctrl it is not.",

@@ -1,7 +1,7 @@
 /** The engine on the page's side: passes requests to the worker and shows its pictures on the canvas. */
 import { kCancelled } from "../engine";
 import type {
-  CityBytes, CityLook, CityOptions, DrawingFormat, DrawingParts, Effects, Engine, EngineError, EngineKind, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Pick,
+  ColorScale, DrawingFormat, DrawingParts, Effects, Engine, EngineError, EngineKind, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Pick,
   Point, Scene, SceneCamera, Stretch, VolumeInfo,
 } from "../engine";
 import { kWithoutThreads } from "./protocol";
@@ -241,6 +241,9 @@ class WorkerEngine implements Engine {
   }
   step(eye: Point, by: Point): Promise<Point> {
     return this.ask("step", [eye, by]);
+  }
+  legend(scene: Scene): Promise<ColorScale> {
+    return this.ask("legend", [scene]);
   }
   movedPlanes(scene: Scene): Promise<MovedPlane[]> {
     return this.ask("movedPlanes", [scene]);

@@ -1,5 +1,5 @@
 /** Messages between page and worker. A request has one answer, matched by id; open() reports progress before it. */
-import type { CityLook, CityOptions, Effects, EngineError, EngineKind, Pick, Scene, SceneCamera, Stretch } from "../engine";
+import type { ColorScale, Effects, EngineError, EngineKind, Pick, Scene, SceneCamera, Stretch } from "../engine";
 import type { DrawingFormat, DrawingParts, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Point, VolumeInfo } from "../engine";
 
 /** The name of a worker that is to use no threads. */
@@ -22,6 +22,7 @@ export interface Calls {
   owners: { args: [table: ArrayBuffer, fileName: string]; result: null };
   stand: { args: [near: Point]; result: Point | null };
   step: { args: [eye: Point, by: Point]; result: Point };
+  legend: { args: [scene: Scene]; result: ColorScale };
   movedPlanes: { args: [scene: Scene]; result: MovedPlane[] };
   cityLook: { args: [isNew: boolean, scene: Scene | null, width: number, height: number, options: CityOptions]; result: CityLook | CityNeeds };
   cityFind: { args: [id: string, camera: SceneCamera, aspect: number]; result: SceneCamera | CityNeeds };

@@ -84,6 +84,7 @@ export const controls = css`
     button.small, .drawings button, button.go { min-height: 44px !important; }
     input[type="checkbox"] { width: 22px; height: 22px; }
     wa-slider { min-height: 44px; display: grid; align-content: center; --thumb-width: 24px; --thumb-height: 24px; }
+    wa-slider::part(slider) { margin-block: 0; padding-block: 20px; }
     .segments { display: flex; }
   }
   .visually-hidden { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }

@@ -1,0 +1,18 @@
+/** What a visit waits for, begun before anything else of the page is made ready: the library in its worker, and the list of models. */
+
+import { createEngine } from "./engine/client";
+import type { EngineKind } from "./engine";
+import { readModels } from "./opening";
+
+export const canvas = document.createElement("canvas");
+canvas.setAttribute("aria-hidden", "true");
+/** The library in the browser. */
+export const creating = createEngine(canvas, wantedEngine());
+creating.catch(() => undefined);
+export const listing = readModels(new URLSearchParams(location.search).get("model"));
+
+/** `?engine=cpu` or `webgl2` selects one renderer; without it the faster one is determined. */
+function wantedEngine(): EngineKind | null {
+  const wanted = new URLSearchParams(location.search).get("engine");
+  return wanted === "cpu" || wanted === "webgl2" ? wanted : null;
+}
