@@ -79,7 +79,7 @@ target_include_directories(web_GLU PRIVATE ${WEB_SOURCES}/glu/src/include)
 target_compile_options(web_GLU PRIVATE -include limits.h)  # missing in one of its source files
 
 foreach(library pugixml simdjson PNG Freetype GLU)
-  target_compile_options(web_${library} PRIVATE ${SVT_SMALL})
+  target_compile_options(web_${library} PRIVATE -Os)
 endforeach()
 
 set(DEJAVU_SANS /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf)

@@ -1,4 +1,5 @@
 #include <svt/core/deflate.hpp>
+#include <svt/core/parallel.hpp>
 #include <svt/core/text.hpp>
 #include <svt/serve/site.hpp>
 
@@ -196,30 +197,8 @@ Result<void> moveInto(const fs::path& staging, const fs::path& folder, const std
     return {};
 }
 
-// "https://example.org:8080" of "https://example.org:8080/town"; empty of a folder, and of what no policy may have.
-std::string originOf(const std::string& location) {
-    if (!location.starts_with("http://") && !location.starts_with("https://")) return {};
-    const std::string origin = location.substr(0, location.find_first_of("/?#", location.find("//") + 2));
-    const auto isPlain = [](unsigned char c) {
-        return std::isalnum(c) != 0 || std::string_view(":/.-[]").find(char(c)) != std::string_view::npos;
-    };
-    return std::all_of(origin.begin(), origin.end(), isPlain) ? origin : std::string();
-}
-
-nlohmann::ordered_json addCity(Site& site, const SiteModel& model) {
-    std::string file = model.city;
-    if (const std::string origin = originOf(model.city); !origin.empty()) {
-        site.allowOrigin(origin);
-    } else {
-        file = "models/" + model.name + "/";
-        for (const auto& [name, bytes] : model.cityFiles) site.add("/" + file + name, bytes);
-    }
-    return {{"name", model.name}, {"file", file}, {"bytes", 0}, {"title", model.title}, {"city", true}};
-}
-
-}  // namespace
-
-void Site::add(const std::string& path, Bytes bytes) {
+// What a path is answered with. Cost: that of compressing.
+Resource resourceOf(const std::string& path, Bytes bytes) {
     const Type& type = typeOf(path);
     Resource resource;
     resource.type = type.name;
@@ -227,7 +206,13 @@ void Site::add(const std::string& path, Bytes bytes) {
     resource.isImmutable = isNamedByContent(path);
     if (type.isCompressible) resource.gzip = compressed(bytes.data);
     resource.bytes = std::move(bytes);
-    resources_.insert_or_assign(path, std::move(resource));
+    return resource;
+}
+
+}  // namespace
+
+void Site::add(const std::string& path, Bytes bytes) {
+    resources_.insert_or_assign(path, resourceOf(path, std::move(bytes)));
 }
 
 void Site::allowOrigin(const std::string& origin) {
@@ -238,6 +223,7 @@ Result<void> Site::addFolder(const fs::path& folder) {
     const auto files = filesOf(folder);
     if (!files) return files.error();
     std::uint64_t total = 0;
+    std::vector<Bytes> contents;
     for (const Found& found : *files) {
         const auto file = MappedFile::open(found.file);
         if (!file) return file.error();
@@ -246,8 +232,13 @@ Result<void> Site::addFolder(const fs::path& folder) {
             return Error(Code::InputTooBig,
                          fmt::format("over {} MiB; is this the folder of the viewer?", kMaxFolderBytes >> 20),
                          Place{folder.string(), 0, 0, {}});
-        add(found.path, Bytes::of(std::string(file->text())));
+        contents.push_back(Bytes::of(std::string(file->text())));
     }
+    std::vector<Resource> made(contents.size());
+    parallelFor(contents.size(), 1, 0, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) made[n] = resourceOf((*files)[n].path, std::move(contents[n]));
+    });
+    for (std::size_t n = 0; n < made.size(); ++n) resources_.insert_or_assign((*files)[n].path, std::move(made[n]));
     return {};
 }
 
