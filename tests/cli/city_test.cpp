@@ -156,6 +156,46 @@ TEST_F(CityFolder, IsUpdated) {
     expectSame(3);
 }
 
+// A box as a building of CityJSON; x and y of its lower corner.
+std::string boxOfCityJson(const std::string& id, int x, int y) {
+    std::string corners;
+    for (const int z : {0, 10})
+        for (const auto& [i, j] : {std::pair{0, 0}, {20, 0}, {20, 20}, {0, 20}})
+            corners += (corners.empty() ? "[" : ",[") + std::to_string(x + i) + "," + std::to_string(y + j) + "," +
+                       std::to_string(z) + "]";
+    return R"({"type":"CityJSONFeature","id":")" + id + R"(","CityObjects":{")" + id +
+           R"(":{"type":"Building","geometry":[{"type":"Solid","lod":"1","boundaries":[[[[0,3,2,1]],[[4,5,6,7]],)" +
+           R"([[0,1,5,4]],[[1,2,6,5]],[[2,3,7,6]],[[3,0,4,7]]]]}]}},"vertices":[)" + corners + "]}\n";
+}
+
+// Two boxes share 2 x 20 x 10 m in a tile, two others 4 x 20 x 10 m over the border at 1024 m.
+TEST_F(CityFolder, FindsWhatTwoBuildingsClaim) {
+    std::string text = R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},)"
+                       R"("CityObjects":{},"vertices":[]})"
+                       "\n";
+    text += boxOfCityJson("west", 1002, 100) + boxOfCityJson("east", 1018, 100);
+    text += boxOfCityJson("first", 100, 100) + boxOfCityJson("second", 118, 100) + boxOfCityJson("alone", 200, 100);
+    std::filesystem::create_directories(folder / "files");
+    writeText(folder / "files/a.city.jsonl", text);
+    runWell({"city", "plan", "files", "-o", "city", "--spacing", "0.5", "-q"});
+    runWell({"city", "run", "city", "-q"});
+    EXPECT_EQ(runSvtForJson(folder.path(), {"city", "info", "city", "--json"}).at("tiles"), 2);
+    const auto pairs = [&](const std::string& query) {
+        std::map<std::string, double> found;
+        for (const auto& row : runSvtForJson(folder.path(), {"query", "city", query, "--overlaps", "--json"})) {
+            const std::string a = row.at("a"), b = row.at("b");
+            found[std::min(a, b) + " " + std::max(a, b)] = row.at("volume");
+        }
+        return found;
+    };
+    using Found = std::map<std::string, double>;
+    EXPECT_EQ(pairs("class=Building"), (Found{{"east west", 800}, {"first second", 400}}));
+    EXPECT_EQ(pairs("id=east"), (Found{{"east west", 800}}));
+    EXPECT_EQ(pairs("id=alone"), Found{});
+    // Of solids without holes none leaks.
+    EXPECT_EQ(runSvtForJson(folder.path(), {"query", "city", "all", "--leaks", "--json"}).size(), 0u);
+}
+
 TEST_F(CityFolder, RefusesWhatMakesNoSense) {
     plan();
     runWell({"city", "run", "city"});
@@ -298,6 +338,20 @@ TEST_F(CityInput, IsDrawnFromAnywhere) {
     runWell({"render", "city", "-o", "sun.png", "--size", "160x120", "--sun", "2026-06-21 15:00"});
     runWell({"render", "city", "-o", "lens.png", "--size", "160x120", "--lens", "view(0.5,0.5,0.35)", "--section",
              "z=abs(40)"});
+    // In detail 3 and coarser there are mixtures; they take the colours of the style, and are hidden with their classes.
+    const std::vector<std::string> whole{"render", "city", "--size", "40x30", "--samples", "1"};
+    const auto draw = [&](const char* name, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = whole;
+        arguments.insert(arguments.end(), {"-o", name});
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const CommandResult result = run(arguments);
+        EXPECT_EQ(result.exitCode, 0) << result.toString();
+        return result.toString();
+    };
+    draw("plain.png", {});
+    draw("blue.png", {"--color", "class=RoofSurface:#0000ff"});
+    EXPECT_NE(readText(folder / "plain.png"), readText(folder / "blue.png"));
+    EXPECT_NE(draw("hidden.png", {"--hide", "class~'Building|Surface|Window|Door|Closure|Installation'"}).find("nothing is visible"), std::string::npos);
     runWell({"render", "city", "-o", "again.png", "--size", "160x120", "--threads", "1"});
     EXPECT_EQ(readText(folder / "far.png"), readText(folder / "again.png")) << "for any number of threads";
     EXPECT_NE(readText(folder / "far.png"), readText(folder / "near.png"));

@@ -50,7 +50,7 @@ private:
     [[nodiscard]] Result<illustrate::Painting> draw(const illustrate::Scene& scene, const render::CastOptions& options);
     Result<void> leaveOutHidden(illustrate::Scene scene, const city::CameraView& view,
                                 const render::CastOptions& options);
-    [[nodiscard]] bool takeBack(const city::CameraView& view, const render::Frame& frame);
+    [[nodiscard]] bool takeBack(const city::CameraView& view, const illustrate::Painting& painting);
 
     city::City city_;
     volume::SemanticVolume frame_, shown_;

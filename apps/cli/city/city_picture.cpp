@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace svt::cli {
@@ -68,6 +69,27 @@ Result<void> CityPicture::lookAround(illustrate::Scene& scene) const {
     scene.camera = *camera;
     return {};
 }
+
+namespace {
+
+// Where a surface hides all that is behind it: the depths of a picture, infinity where what is seen is translucent.
+std::vector<float> hidingDepths(const render::Frame& frame, const render::FrameSpec& spec) {
+    std::vector<bool> isTranslucent;
+    for (const render::Pass& pass : spec.passes) {
+        isTranslucent.resize(std::max(isTranslucent.size(), pass.styles.size()), false);
+        for (std::size_t s = 0; s < pass.styles.size(); ++s)
+            if (pass.styles[s].opacity > 0 && pass.styles[s].opacity < 1) isTranslucent[s] = true;
+    }
+    const auto depths = frame.depth.pixels();
+    const auto labels = frame.label.pixels();
+    std::vector<float> hiding(depths.begin(), depths.end());
+    for (std::size_t n = 0; n < hiding.size(); ++n)
+        if (labels[n] < isTranslucent.size() && isTranslucent[labels[n]])
+            hiding[n] = std::numeric_limits<float>::infinity();
+    return hiding;
+}
+
+}  // namespace
 
 // Reads what is chosen, with one table of labels, and what their mixtures are made of.
 Result<void> CityPicture::read() {
@@ -134,22 +156,17 @@ Result<void> CityPicture::leaveOutHidden(illustrate::Scene scene, const city::Ca
     painter.tolerateNothing(&ignored);
     painter.mixStyles(mixtures_);
     for (const volume::SemanticVolume& part : parts_) painter.addPart(part, false);
-    bool isOpaque = true;  // what is translucent hides nothing
     const auto painting = painter.paint(scene, [&](auto volumes, const render::FrameSpec& spec) {
         render::FrameSpec plain = spec;
         plain.light.ambientOcclusion = 0;
         plain.light.hasShadows = false;
         plain.borders.strength = 0;
-        for (const render::Pass& pass : plain.passes)
-            for (const render::Style& style : pass.styles)
-                isOpaque = isOpaque && (style.opacity <= 0 || style.opacity >= 1);
         return render::castRays(volumes, plain, options);
     });
     if (!painting) return painting.error();
     chosen_ = all;
-    if (!isOpaque) return {};
-    const auto& depth = painting->frame.depth;
-    const auto hidden = city::areHidden(city_, view, {depth.width(), depth.height(), depth.pixels()}, chosen_.entries);
+    const std::vector<float> depth = hidingDepths(painting->frame, painting->spec);
+    const auto hidden = city::areHidden(city_, view, {scene.width, scene.height, depth}, chosen_.entries);
     city::ChosenTiles seen;
     for (std::size_t n = 0; n < hidden.size(); ++n) (hidden[n] ? leftOut_ : seen.entries).push_back(chosen_.entries[n]);
     seen.pixels = all.pixels;
@@ -158,9 +175,10 @@ Result<void> CityPicture::leaveOutHidden(illustrate::Scene scene, const city::Ca
 }
 
 // Takes back what was left out, but could be seen in a picture that is drawn without it. \return whether there is any
-bool CityPicture::takeBack(const city::CameraView& view, const render::Frame& frame) {
-    const auto& depth = frame.depth;
-    const auto hidden = city::areHidden(city_, view, {depth.width(), depth.height(), depth.pixels()}, leftOut_);
+bool CityPicture::takeBack(const city::CameraView& view, const illustrate::Painting& painting) {
+    const std::vector<float> depth = hidingDepths(painting.frame, painting.spec);
+    const city::SeenDepths seen{painting.spec.width, painting.spec.height, depth};
+    const auto hidden = city::areHidden(city_, view, seen, leftOut_);
     std::vector<city::IndexEntry> still;
     for (std::size_t n = 0; n < hidden.size(); ++n) (hidden[n] ? still : chosen_.entries).push_back(leftOut_[n]);
     const bool isAny = still.size() < leftOut_.size();
@@ -184,7 +202,7 @@ Result<illustrate::Painting> CityPicture::paint(illustrate::Scene scene, const r
     if (auto done = leaveOutHidden(scene, view, options); !done) return done.error();
     for (;;) {
         auto painting = draw(scene, options);
-        if (!painting || leftOut_.empty() || !takeBack(view, painting->frame)) return painting;
+        if (!painting || leftOut_.empty() || !takeBack(view, *painting)) return painting;
     }
 }
 

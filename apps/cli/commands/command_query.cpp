@@ -1,4 +1,5 @@
 #include <apps/cli/city/city_input.hpp>
+#include <apps/cli/city/city_overlaps.hpp>
 #include <apps/cli/city/feature_query.hpp>
 #include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
@@ -78,6 +79,16 @@ Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& sel
     return parcelTable(volume, selected, *parcels, threads);
 }
 
+int printTable(const Table& table, const QueryArguments& arguments) {
+    if (arguments.json)
+        print(table.toJson());
+    else if (arguments.csv)
+        table.printCsv();
+    else
+        table.printText();
+    return kDone;
+}
+
 int printReport(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
     const auto table = [&]() -> Result<Table> {
         const TerminalProgress progress;
@@ -88,13 +99,7 @@ int printReport(const volume::SemanticVolume& volume, const Labels& selected, co
     }();
     if (!table) return fail(table.error());
     if (table->rows.empty() && !selected.empty()) note("the report is empty: it has nothing of what the query selects");
-    if (arguments.json)
-        print(table->toJson());
-    else if (arguments.csv)
-        table->printCsv();
-    else
-        table->printText();
-    return kDone;
+    return printTable(*table, arguments);
 }
 
 int printOwners(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
@@ -115,13 +120,25 @@ int printOwners(const volume::SemanticVolume& volume, const Labels& selected, co
     return kDone;
 }
 
+int runCityOverlaps(const QueryArguments& arguments) {
+    const auto table = [&] {
+        const TerminalProgress progress;
+        return cityOverlaps(arguments.input, arguments.query, progress.get());
+    }();
+    if (!table) return fail(table.error());
+    if (table->rows.empty()) note("no two buildings of what the query selects claim the same space");
+    return printTable(*table, arguments);
+}
+
 // Of a city, or with options that are answered feature by feature.
 int runFeatures(const QueryArguments& arguments) {
+    if (isCity(arguments.input) && arguments.overlaps && !arguments.features.isAsked())
+        return runCityOverlaps(arguments);
     if (arguments.reportCount() > 0)
         return fail(Error(Code::BadArgument,
                           isCity(arguments.input)
                               ? "reports are of one volume; take a part of the city (svt city extract), or leave out "
-                                "--with, --neighbours, --along, --overlaps, --gaps, --areas, --owners and --parcels"
+                                "--with, --neighbours, --along, --gaps, --areas, --owners and --parcels"
                               : "-o, --box, --by, --cut, --sort, --first and --leaks go without reports; leave out "
                                 "--with, --neighbours, --along, --overlaps, --gaps, --areas, --owners and --parcels"));
     FeatureQuery query = arguments.features;
