@@ -98,6 +98,33 @@ TEST(Site, TypesAndCachingFollowTheName) {
     EXPECT_EQ(caching("/models/house.svt"), "no-cache");
 }
 
+// A folder's files stand beside the page; of an address the page may ask that server, and no other.
+TEST(Site, CitiesAreListedWithTheirFilesOrTheirAddress) {
+    const TemporaryFolder folder;
+    makeViewer(folder.path());
+    writeText(folder / "viewer/index.html", "<!doctype html><html><head><meta charset=\"utf-8\" /></head></html>");
+    const std::vector<SiteModel> models{
+        {"town",
+         "Town",
+         {},
+         "/data/town",
+         {{"city.json", Bytes::of("{}")}, {"packs/00000.svtp", Bytes::of("0123456789")}}},
+        {"far", "Far", {}, "https://example.org:8080/far?x=\"", {}}};
+    auto site = viewerSite(folder / "viewer", models);
+    ASSERT_TRUE(site) << site.error().toString();
+    const std::string list(site->find("/models.json")->bytes.text());
+    EXPECT_NE(list.find("\"file\": \"models/town/\""), std::string::npos) << list;
+    EXPECT_NE(list.find("\"file\": \"https://example.org:8080/far"), std::string::npos) << list;
+    EXPECT_NE(list.find("\"city\": true"), std::string::npos) << list;
+    const Reply part = site->reply(get("/models/town/packs/00000.svtp", {{"range", "bytes=2-4"}}));
+    EXPECT_EQ(part.status, 206);
+    EXPECT_EQ(part.body.text(), "234");
+    EXPECT_EQ(site->origins(), " https://example.org:8080");
+    ASSERT_TRUE(addPageHead(*site, {}));
+    EXPECT_NE(site->find("/index.html")->bytes.text().find("connect-src 'self' https://example.org:8080;"),
+              std::string_view::npos);
+}
+
 TEST(Site, WhatTheClientHasIsNotSentAgain) {
     Site site;
     site.add("/a.js", Bytes::of(longScript()));

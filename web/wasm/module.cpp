@@ -214,7 +214,7 @@ Result<Reply> drawGl(const Arguments& arguments) {
     return Reply(std::string("null"));
 }
 Result<Reply> dropGl(const Arguments&) {
-    session->dropGl();
+    if (session) session->dropGl();
     return Reply(std::string("null"));
 }
 
@@ -436,7 +436,7 @@ constexpr Call kCalls[] = {{"open", open, false},
                            {"font", font, false},
                            {"draw", draw},
                            {"drawGl", drawGl},
-                           {"dropGl", dropGl},
+                           {"dropGl", dropGl, false},
                            {"compose", compose, false},
                            {"pick", pick},
                            {"along", along},

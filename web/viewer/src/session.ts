@@ -426,7 +426,7 @@ export class Session extends EventTarget {
       this.openedWith = {};
       this.owners.forget();
       const lacks = this.message;
-      this.take(info!, state ?? { ...initialState(this.state.look), wireframe: null });
+      this.take({ ...info!, name: opening.name }, state ?? { ...initialState(this.state.look), wireframe: null });
       this.message = lacks;
       city.begin();
       return true;
@@ -457,7 +457,7 @@ export class Session extends EventTarget {
 
   /** Other tiles of the city have taken the place of those before; the view stays. */
   takeTiles(info: VolumeInfo): void {
-    this.info = info;
+    this.info = { ...info, name: this.info?.name ?? info.name };
     this.index = indexFeatures(info.features);
     this.hidden = hiddenFlags(this.index, this.state.hide);
     this.redraw();

@@ -102,7 +102,7 @@ export class CityStream {
       if (look.info) {
         session.takeTiles(look.info);
         this.take(look);
-      }
+      } else if (this.look) this.look = { ...this.look, pixels: look.pixels };
     } catch (error) {
       if ((error as EngineError).code === kCancelled || this.isEnded) return this.stop();
       // What stands stays; the next movement tries again.

@@ -150,11 +150,18 @@ class WorkerEngine implements Engine {
 
   async followCity(files: CityBytes, scene: Scene, [width, height]: [number, number], options: CityOptions): Promise<CityLook> {
     const spare = this.spare ?? (await this.startSpare());
-    const look = await withBytes((name, args, transfer) => spare.ask(name, args, transfer), files, "cityLook", () => [false, scene, width, height, options]);
-    if (!look.info || this.spare !== spare) return { ...look, info: null };
-    // Drawn once unseen, so that the first picture that is seen of it waits for nothing.
-    const { bitmap } = await spare.ask("draw", [scene, width, height]);
-    bitmap.close();
+    let look: CityLook;
+    try {
+      look = await withBytes((name, args, transfer) => spare.ask(name, args, transfer), files, "cityLook", () => [false, scene, width, height, options]);
+      if (!look.info || this.spare !== spare) return { ...look, info: null };
+      // Drawn once unseen, so that the first picture that is seen of it waits for nothing.
+      const { bitmap } = await spare.ask("draw", [scene, width, height]);
+      bitmap.close();
+    } catch (error) {
+      // Another one begins anew.
+      if (this.spare === spare) this.endSpare();
+      throw error;
+    }
     if (this.spare !== spare) return { ...look, info: null };
     this.spare = this.main;
     this.main = spare;

@@ -79,6 +79,9 @@ async function answer(request: Request): Promise<void> {
       return post({ id, result: json(svt.call(name, [args[1]], new Uint8Array(args[0]))) });
     case "cityGive":
       return post({ id, result: json(svt.call(name, [args[0]], new Uint8Array(args[1]))) });
+    case "cityDrop":
+      drawerOf(svt).forgetPicture();
+      return post({ id, result: json(svt.call(name, args)) });
     case "cityLook": {
       const look = json<CityLook | CityNeeds>(svt.call(name, args));
       if (args[0] && "info" in look) drawerOf(svt).forgetPicture();
