@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace svt::cli {
 namespace {
 
@@ -34,9 +36,11 @@ int runPublish(const PublishArguments& arguments) {
     if (auto added = serve::addPageHead(*site, std::move(*preview)); !added) return fail(added.error());
     const auto bytes = serve::writeSite(*site, arguments.output, arguments.mayReplace);
     if (!bytes) return fail(bytes.error());
+    const bool hasCity =
+        std::any_of(models->begin(), models->end(), [](const serve::SiteModel& model) { return !model.city.empty(); });
     if (!isQuiet())
-        fmt::print("{}: {} files, {:.1f} kB; any web server shows it\n", arguments.output.string(),
-                   site->resources().size(), double(*bytes) / 1000);
+        fmt::print("{}: {} files, {:.1f} kB; {} shows it\n", arguments.output.string(), site->resources().size(),
+                   double(*bytes) / 1000, hasCity ? "a web server that knows range requests" : "any web server");
     return kDone;
 }
 
