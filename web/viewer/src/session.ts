@@ -168,7 +168,10 @@ export class Session extends EventTarget {
   }
 
   describe(size: [number, number], samples?: Samples): Described {
-    return sceneOf(this.state, this.box, size, samples);
+    const described = sceneOf(this.state, this.box, size, samples);
+    // Tiles of a city are chosen by the pixel: levels of detail made of them would take time and memory for nothing.
+    if (this.city) described.scene.passes = described.scene.passes!.map((pass) => ({ level: 0, ...pass }));
+    return described;
   }
 
   /** Changes the view; the picture follows. */

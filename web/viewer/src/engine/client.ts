@@ -71,10 +71,8 @@ class Connection {
   }
 }
 
-/** `?threads=no` leaves them out, to compare. */
-function mayUseThreads(): boolean {
-  return new URLSearchParams(location.search).get("threads") !== "no";
-}
+/** Pixels of a picture that nobody sees. */
+const kUnseen = [48, 27] as const;
 
 const kGivenUp: EngineError = { code: kCancelled, message: kCancelled };
 
@@ -154,8 +152,8 @@ class WorkerEngine implements Engine {
     try {
       look = await withBytes((name, args, transfer) => spare.ask(name, args, transfer), files, "cityLook", () => [false, scene, width, height, options]);
       if (!look.info || this.spare !== spare) return { ...look, info: null };
-      // Drawn once unseen, so that the first picture that is seen of it waits for nothing.
-      const { bitmap } = await spare.ask("draw", [scene, width, height]);
+      // Drawn once unseen, so that the first picture that is seen of it waits for no bricks.
+      const { bitmap } = await spare.ask("draw", [scene, ...kUnseen]);
       bitmap.close();
     } catch (error) {
       // Another one begins anew.
