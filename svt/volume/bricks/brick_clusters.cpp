@@ -66,7 +66,7 @@ public:
 
 private:
     // Clusters that may be looked at for all boxes, and for one when these are spent.
-    static constexpr std::int64_t kMostLooks = std::int64_t{1} << 26, kLooksOfSmall = 256;
+    static constexpr std::int64_t kMostLooks = std::int64_t{1} << 24, kLooksOfSmall = 256;
 
     // The bricks of a mixed cluster that have a scalar, with one list for all clusters.
     struct ScalarBricks {

@@ -210,6 +210,7 @@ public:
             for (std::int32_t y = 0; y < count.y; y += kClusterSize)
                 for (std::int32_t x = 0; x < count.x; x += kClusterSize) addCluster({x, y, z});
         tile_.entries = {};
+        tile_.boxes.boxOf = {};
     }
 
 private:

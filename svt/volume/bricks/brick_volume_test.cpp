@@ -169,6 +169,15 @@ TEST(BrickVolume, TheIndexGrowsWithTheSurface) {
     EXPECT_LT(large.boxes().size(), 16u);
 }
 
+// Labels lie on each other, 16 bricks apart: boxes that grow over all the bricks between spend their budget on them.
+TEST(BrickVolume, EachFloorIsOneCodedBoxHoweverFarTheNextOneIs) {
+    const Vec3i n{64, 64, 1024};
+    const auto scalars = dense(n, [](auto, auto, std::int32_t k) { return Scalar((k + 61) / 128); });
+    const BrickVolume bricks = bricksOf(n, scalars);
+    EXPECT_EQ(differences(bricks, scalars), 0u);
+    EXPECT_EQ(bricks.arrays().boxes.size() - bricks.boxes().size(), 8u);
+}
+
 TEST(BrickVolume, RowsAndTheFlatIndexSayWhatTheEntriesSay) {
     const Vec3i n{141, 77, 61};
     const auto scalars = dense(n, [](std::int32_t i, std::int32_t j, std::int32_t k) {

@@ -17,6 +17,7 @@ public:
         std::int64_t coded = 0;
         for (const std::uint32_t code : codeIndex_) coded += code != TileBoxes::kNone ? 1 : 0;
         budget_ = 16 * coded;
+        leastBudget_ = -64 * coded;
         std::size_t place = 0;
         for (std::int32_t z = 0; z < places_.count.z; ++z)
             for (std::int32_t y = 0; y < places_.count.y; ++y)
@@ -108,6 +109,17 @@ private:
         return true;
     }
 
+    // Whether any of the bricks is coded and has no box yet.
+    [[nodiscard]] bool hasNew(Vec3i min, Vec3i max) const noexcept {
+        for (std::int32_t z = min.z; z < max.z; ++z)
+            for (std::int32_t y = min.y; y < max.y; ++y)
+                for (std::int32_t x = min.x; x < max.x; ++x) {
+                    const std::size_t place = places_.at(x, y, z);
+                    if (codeIndex_[place] != TileBoxes::kNone && result_.boxOf[place] == TileBoxes::kNone) return true;
+                }
+        return false;
+    }
+
     void addBoxAt(Vec3i seed) {
         const BrickCode& own = codes_[codeIndex_[places_.at(seed.x, seed.y, seed.z)]];
         code_ = {};
@@ -122,7 +134,7 @@ private:
                 Vec3i min = box.min, max = box.max;
                 min[axis] = at;
                 max[axis] = at + 1;
-                return budget_ > 0 && mayJoinAll(min, max);
+                return (budget_ > 0 || (budget_ > leastBudget_ && hasNew(min, max))) && mayJoinAll(min, max);
             };
             while (box.max[axis] < places_.count[axis] && layer(box.max[axis])) ++box.max[axis];
             while (box.min[axis] > 0 && layer(box.min[axis] - 1)) --box.min[axis];
@@ -153,7 +165,7 @@ private:
     const std::vector<BrickCode>& codes_;
     const std::vector<BrickPlane>& planes_;
     BoxCode code_;  // of the box being grown
-    std::int64_t budget_ = 0;
+    std::int64_t budget_ = 0, leastBudget_ = 0;
     TileBoxes result_;
 };
 

@@ -36,7 +36,8 @@ struct TileBoxes {
 
 /// Covers the coded bricks of a tile with boxes, greedily: each box is grown from the first brick without a box, along
 /// x, then y, then z, over all bricks for which its code gives the same labels as their own: coded bricks that its
-/// sides cut, and uniform bricks beside them. Boxes may overlap; a budget of tests bounds the cost.
+/// sides cut, and uniform bricks beside them. Boxes may overlap; a budget of tests bounds the cost: when it is spent, boxes
+/// grow only by layers that have a coded brick without a box.
 /// \param codeIndex  by place: index in `codes`, or TileBoxes::kNone
 [[nodiscard]] TileBoxes findCodeBoxes(const TilePlaces& places, const std::vector<std::uint32_t>& codeIndex,
                                       const std::vector<BrickCode>& codes, const std::vector<BrickPlane>& planes);
