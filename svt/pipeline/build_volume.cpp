@@ -1,3 +1,4 @@
+#include <svt/core/memory_pages.hpp>
 #include <svt/mesh/thickness.hpp>
 #include <svt/pipeline/build_volume.hpp>
 
@@ -370,12 +371,24 @@ Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions&
     return grid;
 }
 
-Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions& options, Diagnostics* log) {
+namespace {
+
+// What only meshes are made of. The tree, attributes, materials and lines stay.
+void dropGeometry(model::BuildingModel& model) {
+    model.polygons = {};
+    for (model::Feature& feature : model.features) feature.geometries = {};
+    returnFreeMemory();
+}
+
+// \param keepsGeometry  false: the model loses its geometry as soon as there are meshes, which takes half of the memory
+Result<BuildOutput> buildFrom(model::BuildingModel& model, const BuildOptions& options, bool keepsGeometry,
+                              Diagnostics* log) {
     BuildOutput output;
     BuildReport& report = output.report;
     auto start = Clock::now();
     auto prepared = prepare(model, options, log);
     if (!prepared) return prepared.error();
+    if (!keepsGeometry) dropGeometry(model);
     const auto& [meshes, grid, choice, labelled] = *prepared;
     report.seconds.mesh = secondsSince(start);
 
@@ -415,6 +428,12 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
     return output;
 }
 
+}  // namespace
+
+Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions& options, Diagnostics* log) {
+    return buildFrom(model, options, true, log);
+}
+
 Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, const BuildOptions& options,
                                 Diagnostics* log) {
     const auto start = Clock::now();
@@ -428,7 +447,7 @@ Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, co
     auto model = readModels(files, reading, log);
     if (!model) return model.error();
     const double readSeconds = secondsSince(start);
-    auto output = buildVolume(*model, options, log);
+    auto output = buildFrom(*model, options, false, log);
     if (!output) return output.error();
     output->report.seconds.read = readSeconds;
     output->report.seconds.total = secondsSince(start);

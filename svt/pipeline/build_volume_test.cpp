@@ -366,6 +366,28 @@ TEST_F(TwoFiles, BothHousesHaveTheSameVolumes) {
     EXPECT_GT(output->report.seconds.total, 0);
 }
 
+// From files, geometry is dropped as soon as there are meshes: nothing after them may need it.
+TEST_F(TwoFiles, FromFilesAsFromAModelInMemory) {
+    BuildOptions options = withSpacing(0.1);
+    options.vectors = {.edges = true, .meshes = true};
+    options.usePatterns = true;
+    Diagnostics ofFiles, ofModel;
+    const auto fromFiles = buildVolume(files_, options, &ofFiles);
+    auto model = readModels(files_, {}, &ofModel);
+    ASSERT_TRUE(fromFiles && model);
+    const std::size_t polygons = model->polygons.size();
+    const auto fromModel = buildVolume(*model, options, &ofModel);
+    ASSERT_TRUE(fromModel);
+    EXPECT_EQ(model->polygons.size(), polygons);
+    EXPECT_EQ(fromFiles->volume.labels, fromModel->volume.labels);
+    EXPECT_EQ(fromFiles->volume.columns, fromModel->volume.columns);
+    EXPECT_EQ(fromFiles->volume.vectors, fromModel->volume.vectors);
+    EXPECT_EQ(fromFiles->volume.planes, fromModel->volume.planes);
+    ASSERT_EQ(ofFiles.items().size(), ofModel.items().size());
+    for (std::size_t n = 0; n < ofFiles.items().size(); ++n)
+        EXPECT_EQ(ofFiles.items()[n].message, ofModel.items()[n].message);
+}
+
 TEST_F(TwoFiles, ThreeEqualFilesStayApart) {
     files_.push_back(files_[0]);
     const auto all = readModels(files_, {}, nullptr);

@@ -85,6 +85,14 @@ void append(const volume::VectorParts& from, std::uint32_t label, volume::Vector
             {label, {triangle.corners[0] + first, triangle.corners[1] + first, triangle.corners[2] + first}});
 }
 
+// Room for all triangles, since lists that grow are there twice at times.
+void reserve(const mesh::MeshSet& meshes, volume::VectorParts& parts) {
+    std::size_t points = 0;
+    for (const mesh::ObjectMesh& mesh : meshes.objects) points += mesh.vertices.size();
+    parts.points.reserve(points);
+    parts.triangles.reserve(meshes.triangleCount());
+}
+
 // The same of lines; false if a point is out of reach.
 bool appendLines(const LabelledLines& lines, Vec3d gridOrigin, volume::VectorParts& to) {
     for (std::size_t l = 0; l < lines.lines.size(); ++l) {
@@ -115,23 +123,31 @@ Result<volume::VectorParts> makeVectorParts(const mesh::MeshSet& meshes, std::sp
     const Vec3d fromGrid = meshes.origin - grid.origin();
     if (!choice.edges) lines = {};
     all.unit = unitFor(meshes, lines.lines, fromGrid);
-    std::vector<ObjectParts> objects;
-    for (const mesh::ObjectMesh& mesh : meshes.objects) objects.emplace_back(mesh, fromGrid, all.unit);
-    parallelFor(objects.size(), 8, threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t o = begin; o < end; ++o) {
-            // Triangles first: points that are numbered by their order take least in a file.
-            if (choice.meshes) objects[o].addTriangles();
-            if (choice.edges) objects[o].addEdges();
-        }
-    });
-    std::vector<std::uint32_t> order(objects.size());
+    std::vector<std::uint32_t> order(meshes.objects.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return labelOfObject[a] < labelOfObject[b]; });
-    const bool areInReach =
-        std::all_of(objects.begin(), objects.end(), [](const ObjectParts& object) { return object.isInReach(); });
+    if (choice.meshes) reserve(meshes, all);
+    // Some at a time, so that parts are not there twice.
+    constexpr std::size_t kBatch = 4096;
+    bool areInReach = true;
+    for (std::size_t first = 0; first < order.size() && areInReach; first += kBatch) {
+        std::vector<ObjectParts> objects;
+        for (std::size_t n = first; n < std::min(order.size(), first + kBatch); ++n)
+            objects.emplace_back(meshes.objects[order[n]], fromGrid, all.unit);
+        parallelFor(objects.size(), 8, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t o = begin; o < end; ++o) {
+                // Triangles first: points that are numbered by their order take least in a file.
+                if (choice.meshes) objects[o].addTriangles();
+                if (choice.edges) objects[o].addEdges();
+            }
+        });
+        areInReach =
+            std::all_of(objects.begin(), objects.end(), [](const ObjectParts& object) { return object.isInReach(); });
+        for (std::size_t o = 0; o < objects.size() && areInReach; ++o)
+            append(objects[o].parts(), labelOfObject[order[first + o]], all);
+    }
     if (areInReach) {
-        for (const std::uint32_t o : order) append(objects[o].parts(), labelOfObject[o], all);
         const std::size_t edges = all.segments.size();
         if (appendLines(lines, grid.origin(), all)) {
             if (all.segments.size() > edges)

@@ -1,9 +1,13 @@
 // A city from files to a volume of a part of it, as a user makes it.
 #include "run_command.hpp"
 
+#include <svt/core/vec.hpp>
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <sstream>
 
@@ -64,6 +68,112 @@ TEST_F(CityFolder, HasTheSameBytesHoweverItsTasksAreRun) {
         EXPECT_EQ(read("ids.bin"), ids);
         EXPECT_EQ(read("city.json"), json);
     }
+}
+
+// Runs a script of tests/formats with what SVT_ORACLES or build/oracles holds; false where the reader is not there.
+bool isReadByNode(const TemporaryFolder& folder, const std::string& script, const std::string& arguments,
+                  std::string& said) {
+    const char* told = std::getenv("SVT_ORACLES");
+    const std::string oracles = told != nullptr ? told : SVT_SOURCE_DIR "/build/oracles";
+    const std::string command = "cd '" + folder.path().string() + "' && node " SVT_SOURCE_DIR "/tests/formats/" +
+                                script + " " + oracles + " " + arguments + " > output.txt 2>&1";
+    const int status = std::system(command.c_str());
+    said = readText(folder / "output.txt");
+    if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) return false;
+    EXPECT_EQ(status, 0) << script << " " << arguments << ":\n" << said;
+    return true;
+}
+
+TEST_F(CityFolder, BecomesTilesWithAFeatureForEachBuilding) {
+    plan();
+    runWell({"city", "run", "city", "-q"});
+    runWell({"convert", "city", "city.3dtiles", "--threads", "1"});
+    const auto tiles = nlohmann::json::parse(readText(folder / "city.3dtiles/tileset.json"));
+    EXPECT_EQ(tiles.at("asset").at("version"), "1.1");
+    const auto& root = tiles.at("root");
+    EXPECT_EQ(root.at("implicitTiling").at("subdivisionScheme"), "QUADTREE");
+    EXPECT_TRUE(std::filesystem::exists(folder / "city.3dtiles/subtrees/0/0/0.subtree"));
+    // The frame is at the middle of the root, which stands on the corner that is told. By cs2cs, of the corner at
+    // 384000, 5811200 and 2048 m: echo 385024 5812224 34 | cs2cs EPSG:25833 EPSG:4978
+    const auto& corner = tiles.at("asset").at("extras").at("origin");
+    const double side = 2 * root.at("boundingVolume").at("box")[3].get<double>();
+    const Vec3d middle{corner[0].get<double>() + side / 2, corner[1].get<double>() + side / 2, 0};
+    EXPECT_EQ(std::fmod(corner[0].get<double>(), 1024), 0);
+    EXPECT_GE(side, 1024);
+    EXPECT_LT(std::hypot(middle.x - 385024, middle.y - 5812224), 3000);
+    // The same bytes for any number of threads.
+    runWell({"convert", "city", "again.3dtiles", "--threads", "3"});
+    std::size_t count = 0;
+    for (const auto& file : std::filesystem::recursive_directory_iterator(folder / "city.3dtiles")) {
+        if (!file.is_regular_file() || file.path().extension() == ".json") continue;
+        ++count;
+        const auto same = folder / "again.3dtiles" / std::filesystem::relative(file, folder / "city.3dtiles");
+        EXPECT_EQ(readText(file.path()), readText(same)) << same;
+    }
+    EXPECT_GE(count, 2u);
+    // What is there is kept; what is for volumes is refused, and so is what a city does not become.
+    EXPECT_EQ(run({"convert", "city", "city.3dtiles"}).exitCode, 5);
+    EXPECT_EQ(run({"convert", "city", "x.3dtiles", "--voxels"}).exitCode, 2);
+    EXPECT_EQ(run({"convert", "city", "x.3dtiles", "--select", "class=Building"}).exitCode, 2);
+    EXPECT_EQ(run({"convert", "city", "x.obj"}).exitCode, 2);
+    EXPECT_EQ(run({"convert", "city", "x.contacts.csv"}).exitCode, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.3dtiles"));
+    // At a given place, and of detail 1 as the finest.
+    runWell({"convert", "city", "one.3dtiles", "--level", "1", "--place", "49.1,8.44,110"});
+    std::string said;
+    if (!isReadByNode(folder, "city_tiles.mjs", "city.3dtiles 64", said)) GTEST_SKIP() << said;
+    isReadByNode(folder, "city_tiles.mjs", "one.3dtiles 64", said);
+}
+
+TEST_F(CityFolder, IsShownByCesium) {
+    plan();
+    runWell({"city", "run", "city", "-q"});
+    runWell({"convert", "city", "city.3dtiles"});
+    std::string said;
+    const auto tiles = nlohmann::json::parse(readText(folder / "city.3dtiles/tileset.json"));
+    const auto& box = tiles.at("root").at("boundingVolume").at("box");
+    const auto& corner = tiles.at("asset").at("extras").at("origin");
+    const std::string place = std::to_string(corner[0].get<double>() + box[3].get<double>()) + " " +
+                              std::to_string(corner[1].get<double>() + box[7].get<double>()) + " " +
+                              std::to_string(corner[2].get<double>() + box[2].get<double>());
+    const std::string command =
+        "echo " + place + " | cs2cs -f %.8f EPSG:25833 EPSG:4979 > '" + (folder / "place.txt").string() + "'";
+    if (std::system(command.c_str()) != 0) GTEST_SKIP() << "cs2cs is not there";
+    std::istringstream numbers(readText(folder / "place.txt"));
+    std::string latitude, longitude, height;
+    numbers >> latitude >> longitude >> height;
+    if (!isReadByNode(folder, "cesium.mjs", "city.3dtiles " + longitude + " " + latitude + " " + height + " Building",
+                      said))
+        GTEST_SKIP() << said;
+}
+
+TEST_F(CityFolder, BecomesTablesForGis) {
+    plan();
+    runWell({"city", "run", "city", "-q"});
+    for (const char* file : {"b.geojson", "b.gpkg", "b.parquet", "b.csv"}) runWell({"convert", "city", file});
+    const auto features = nlohmann::json::parse(readText(folder / "b.geojson")).at("features");
+    ASSERT_EQ(features.size(), 64u);
+    for (const auto& feature : features) {
+        const auto& properties = feature.at("properties");
+        EXPECT_EQ(properties.at("class"), "Building");
+        EXPECT_GT(properties.at("volume").get<double>(), 0);
+        EXPECT_GT(properties.at("height").get<double>(), 0);
+        EXPECT_TRUE(properties.contains("function")) << properties;
+        EXPECT_EQ(feature.at("geometry").at("type"), "Polygon");
+    }
+    EXPECT_EQ(readText(folder / "b.parquet").substr(0, 4), "PAR1");
+    // svt query has the same rows, also of one volume.
+    runWell({"query", "city", "class=Building", "-o", "q.parquet"});
+    EXPECT_EQ(readText(folder / "q.parquet"), readText(folder / "b.parquet"));
+    runWell({"city", "extract", "city", "-o", "one.svt", "--id", "BLDG_0000000100000005"});
+    runWell({"convert", "one.svt", "one.geojson", "--select", "class=Building"});
+    EXPECT_EQ(nlohmann::json::parse(readText(folder / "one.geojson")).at("features").size(), 1u);
+    const std::string gdal = "cd '" + folder.path().string() + "' && ogrinfo -so b.gpkg features > ogr.txt 2>&1";
+    if (std::system(gdal.c_str()) == 0) {
+        EXPECT_NE(readText(folder / "ogr.txt").find("Feature Count: 64"), std::string::npos);
+    }
+    std::string said;
+    if (!isReadByNode(folder, "geoparquet.mjs", "b.parquet b.geojson 25833", said)) GTEST_SKIP() << said;
 }
 
 // What the city holds of a building is what `svt build` makes of the file on the same grid.

@@ -1,4 +1,6 @@
 #include <svt/core/file.hpp>
+
+#include <svt/core/file/mappings.hpp>
 #include <svt/core/file/temporary_file.hpp>
 
 #include <fcntl.h>
@@ -130,7 +132,9 @@ Result<MappedFile> MappedFile::open(const fs::path& path, std::uint64_t maxBytes
     }
     ::close(descriptor);
     if (reason != 0) return cannotOpen(path, reason);
-    return MappedFile(std::span(static_cast<const std::byte*>(memory), size));
+    const std::span bytes(static_cast<const std::byte*>(memory), size);
+    rememberMapping(bytes);
+    return MappedFile(bytes);
 }
 
 MappedFile::MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
@@ -141,7 +145,9 @@ MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
 }
 
 MappedFile::~MappedFile() {
-    if (!bytes_.empty()) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+    if (bytes_.empty()) return;
+    forgetMapping(bytes_);
+    ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
 }
 
 fs::path withoutLinks(const fs::path& path) {

@@ -288,7 +288,11 @@ Result<MeshSet> buildMeshes(const BuildingModel& model, const MeshOptions& optio
     meshes.origin = polygons.origin;
     for (Work& object : work) meshes.objects.push_back(std::move(object.shell.mesh));
     parallelFor(meshes.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) finish(meshes.objects[i], options.measuresThickness);
+        for (std::size_t i = begin; i < end; ++i) {
+            finish(meshes.objects[i], options.measuresThickness);
+            meshes.objects[i].vertices.shrink_to_fit();  // lists that grew may be twice as long as what they hold
+            meshes.objects[i].triangles.shrink_to_fit();
+        }
     });
     turnSheets(sources, polygons, meshes);
     for (std::size_t i = 0; i < meshes.objects.size(); ++i) {

@@ -1,5 +1,6 @@
 #include <svt/readers/citygml/citygml_reader.hpp>
 
+#include <svt/core/memory_pages.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/readers/citygml/citygml_assembly.hpp>
 #include <svt/readers/citygml/citygml_chunk.hpp>
@@ -158,6 +159,11 @@ private:
             joinPart(chunks[i], std::move(parts[i]));
             line_ += lineCounts[i];
         }
+        // A large file is not in memory beside its model.
+        if (!chunks.empty())
+            forgetMappedBytes(
+                std::as_bytes(std::span(document_))
+                    .subspan(chunks.front().content.begin, chunks.back().content.end - chunks.front().content.begin));
         if (scanError) return *scanError;
         return {};
     }

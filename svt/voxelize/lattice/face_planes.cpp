@@ -51,24 +51,38 @@ volume::BrickPlane planeThrough(Vec3d normal, Vec3d point) noexcept {
     return plane;
 }
 
-std::vector<Facet> findFacets(const mesh::MeshSet& meshes, const IndexFromLocal& indexFromLocal) {
-    std::vector<Facet> facets;
-    for (const mesh::ObjectMesh& object : meshes.objects)
-        for (const mesh::Triangle& triangle : object.triangles) {
-            Facet facet;
-            for (std::size_t c = 0; c < 3; ++c)
-                facet.corners[c] = voxelSpace(indexFromLocal.point(object.vertices[triangle.corners[c]]));
-            const Vec3d across = cross(facet.corners[1] - facet.corners[0], facet.corners[2] - facet.corners[0]);
-            const double twice = length(across);
-            if (!(twice >= 2 * kSmallestFace)) continue;
-            facet.normal = across / twice;
-            facet.area = twice / 2;
-            if (indexFromLocal.keepsVertical()) facet.plane = triangle.plane;
-            facets.push_back(facet);
-        }
-    // Large triangles define their plane most precisely.
-    std::stable_sort(facets.begin(), facets.end(), [](const Facet& p, const Facet& q) { return p.area > q.area; });
-    return facets;
+// A triangle of an object in voxel space; nothing where it is too small.
+std::optional<Facet> facetOf(const mesh::ObjectMesh& object, const mesh::Triangle& triangle,
+                             const IndexFromLocal& indexFromLocal) {
+    Facet facet;
+    for (std::size_t c = 0; c < 3; ++c)
+        facet.corners[c] = voxelSpace(indexFromLocal.point(object.vertices[triangle.corners[c]]));
+    const Vec3d across = cross(facet.corners[1] - facet.corners[0], facet.corners[2] - facet.corners[0]);
+    const double twice = length(across);
+    if (!(twice >= 2 * kSmallestFace)) return std::nullopt;
+    facet.normal = across / twice;
+    facet.area = twice / 2;
+    if (indexFromLocal.keepsVertical()) facet.plane = triangle.plane;
+    return facet;
+}
+
+// Which triangle a facet is of. A facet has 120 bytes, so of millions only these 16 are kept, and facets made again.
+struct FacetPlace {
+    double area = 0;
+    std::uint32_t object = 0, triangle = 0;
+};
+
+// Large triangles define their plane most precisely: they come first, equally large ones in their order.
+std::vector<FacetPlace> findFacets(const mesh::MeshSet& meshes, const IndexFromLocal& indexFromLocal) {
+    std::vector<FacetPlace> places;
+    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o)
+        for (std::uint32_t t = 0; t < meshes.objects[o].triangles.size(); ++t)
+            if (const auto facet = facetOf(meshes.objects[o], meshes.objects[o].triangles[t], indexFromLocal))
+                places.push_back({facet->area, o, t});
+    std::sort(places.begin(), places.end(), [](const FacetPlace& p, const FacetPlace& q) {
+        return p.area != q.area ? p.area > q.area : std::tie(p.object, p.triangle) < std::tie(q.object, q.triangle);
+    });
+    return places;
 }
 
 // Finds the group of a nearly equal plane by a spatial hash over normal and height.
@@ -165,7 +179,9 @@ std::vector<volume::FacePlane> findFacePlanes(const mesh::MeshSet& meshes, const
     GroupsByPlace byPlace({n.x / 2.0, n.y / 2.0, n.z / 2.0});
     constexpr std::size_t kNone = ~std::size_t{0};
     std::vector<std::size_t> groupOf(meshes.planes.size(), kNone);
-    for (const Facet& facet : findFacets(meshes, indexFromLocal)) {
+    for (const FacetPlace& place : findFacets(meshes, indexFromLocal)) {
+        const mesh::ObjectMesh& object = meshes.objects[place.object];
+        const Facet facet = *facetOf(object, object.triangles[place.triangle], indexFromLocal);
         std::size_t group = kNone;
         if (facet.plane == mesh::kNoPlane) {
             group = byPlace.find(facet, groups);
