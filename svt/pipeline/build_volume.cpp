@@ -1,4 +1,4 @@
-#include <svt/core/memory_pages.hpp>
+#include <svt/core/machine.hpp>
 #include <svt/mesh/thickness.hpp>
 #include <svt/pipeline/build_volume.hpp>
 
@@ -373,22 +373,26 @@ Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions&
 
 namespace {
 
-// What only meshes are made of. The tree, attributes, materials and lines stay.
-void dropGeometry(model::BuildingModel& model) {
+// What only meshes and labels are made of. Ids, lines in the file and polylines stay.
+void dropContent(model::BuildingModel& model) {
     model.polygons = {};
-    for (model::Feature& feature : model.features) feature.geometries = {};
+    for (model::Feature& feature : model.features) {
+        feature.geometries = {};
+        feature.attributes = {};
+        feature.children = {};
+    }
     returnFreeMemory();
 }
 
-// \param keepsGeometry  false: the model loses its geometry as soon as there are meshes, which takes half of the memory
-Result<BuildOutput> buildFrom(model::BuildingModel& model, const BuildOptions& options, bool keepsGeometry,
+// \param keepsContent  false: the model loses what has become meshes and labels
+Result<BuildOutput> buildFrom(model::BuildingModel& model, const BuildOptions& options, bool keepsContent,
                               Diagnostics* log) {
     BuildOutput output;
     BuildReport& report = output.report;
     auto start = Clock::now();
     auto prepared = prepare(model, options, log);
     if (!prepared) return prepared.error();
-    if (!keepsGeometry) dropGeometry(model);
+    if (!keepsContent) dropContent(model);
     const auto& [meshes, grid, choice, labelled] = *prepared;
     report.seconds.mesh = secondsSince(start);
 

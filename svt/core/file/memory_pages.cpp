@@ -1,4 +1,4 @@
-#include <svt/core/memory_pages.hpp>
+#include <svt/core/machine.hpp>
 
 #include <svt/core/file/mappings.hpp>
 

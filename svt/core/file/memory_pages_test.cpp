@@ -1,5 +1,5 @@
 #include <svt/core/file.hpp>
-#include <svt/core/memory_pages.hpp>
+#include <svt/core/machine.hpp>
 #include <svt/core/temporary_folder_test.hpp>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include <svt/readers/citygml/citygml_reader.hpp>
 
-#include <svt/core/memory_pages.hpp>
+#include <svt/core/machine.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/readers/citygml/citygml_assembly.hpp>
 #include <svt/readers/citygml/citygml_chunk.hpp>
