@@ -1,18 +1,19 @@
 // Opens a folder of 3D Tiles in Cesium in headless Chromium: where on the globe it is, and what a click tells.
-//   node tests/formats/cesium.mjs ORACLES TILES LONGITUDE LATITUDE HEIGHT CLASS [PICTURE.png]
+//   node tests/formats/cesium.mjs ORACLES TILES LONGITUDE LATITUDE HEIGHT CLASS [PICTURE.png [RADII]]
 // ORACLES holds node_modules: npm install --prefix ORACLES cesium playwright-core@1.56.1. Exit code 77 where it or Chromium is not
-// there. LONGITUDE, LATITUDE, HEIGHT: of the middle, expected within some metres; CLASS: of components that must be seen.
+// there. LONGITUDE, LATITUDE, HEIGHT: of the middle, expected within some metres; CLASS: of components that must be seen;
+// RADII: how far away the camera is, 4.5 if not given.
 import assert from "node:assert/strict";
 import { cesiumIn, cesiumPage, needs, openLoaded, withPage } from "./browser_page.mjs";
 
-const [oracles, tiles, longitude, latitude, height, className, picture] = process.argv.slice(2);
+const [oracles, tiles, longitude, latitude, height, className, picture, radii = 4.5] = process.argv.slice(2);
 needs(oracles, cesiumIn(oracles));
 const script = `
     const tileset = await Cesium.Cesium3DTileset.fromUrl("/tiles/tileset.json");
     tileset.allTilesLoaded.addEventListener(() => { window.isLoaded = true; });
     viewer.scene.primitives.add(tileset);
     const { center, radius } = tileset.boundingSphere;
-    await viewer.zoomTo(tileset, new Cesium.HeadingPitchRange(0.6, -0.45, 4.5 * radius));
+    await viewer.zoomTo(tileset, new Cesium.HeadingPitchRange(0.6, -0.45, ${Number(radii)} * radius));
     const place = Cesium.Cartographic.fromCartesian(center);
     window.place = [Cesium.Math.toDegrees(place.longitude), Cesium.Math.toDegrees(place.latitude), place.height, radius];
 `;

@@ -233,7 +233,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kGroupRows = 65536;
+    static constexpr std::size_t kGroupRows = 16384;
     static constexpr const char* kGeometry = "geometry";
 
     static std::vector<ParquetColumn> parquetColumns(const std::vector<FeatureColumn>& columns) {
