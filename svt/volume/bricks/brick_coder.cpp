@@ -552,34 +552,42 @@ private:
         codeBySheets(at);
     }
 
-    // By planes of faces and of the backs of sheets. The voxels of a sheet are the samples behind its face that have a
-    // neighbour along an axis in front of it: they end on a plane, too, at the largest component of the normal behind the
-    // face. Where sheets meet, four planes and more do.
+    // By more planes of faces than three, then by those of the backs of sheets as well. The voxels of a sheet are the
+    // samples behind its face that have a neighbour along an axis in front of it: they end on a plane, too, at the largest
+    // component of the normal behind the face.
     void codeBySheets(Vec3i at) {
-        startCandidates(at);
+        for (const bool withBacks : {false, true}) {
+            startCandidates(at);
+            addSheetPlanes(at, withBacks);
+            if (sides_.empty()) continue;
+            mayBeSheet_ = withBacks;
+            addCuts(at, sides_.size() + kMaxCuts);
+            const bool isDone = (withBacks && tryCandidates(at, 0)) || tryMoreThanThree(at);
+            mayBeSheet_ = false;
+            if (isDone) return;
+        }
+    }
+    void addSheetPlanes(Vec3i at, bool withBacks) {
         for (const ColumnFace& face : facesOfColumn_[std::size_t(at.x + kColumns * at.y)]) {
             if (at.z < face.min || at.z > face.max) continue;
             const Vec3d n = face.plane.normal;
             const double depth = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
             for (const double behind : {0.0, depth, -depth}) {
-                if (sides_.size() == kMaxOfSheets) break;
+                if (sides_.size() == kMaxOfSheets || (behind != 0 && !withBacks)) break;
                 BrickPlane plane = face.plane;
                 plane.offset += behind;
                 if (cutsBox(plane, at)) addCandidate(plane, sideMask(plane, at));
             }
         }
-        if (sides_.empty()) return;
-        mayBeSheet_ = true;
-        addCuts(at, kMaxOfSheets + kMaxCuts);
-        if (!tryCandidates(at, 0)) tryMoreThanThree(at);
-        mayBeSheet_ = false;
     }
 
-    // Tries sets of four to six candidates, each of which explains a change that those before leave open.
-    void tryMoreThanThree(Vec3i at) {
+    // Tries sets of four and more candidates.
+    bool tryMoreThanThree(Vec3i at) {
         std::array<std::size_t, BrickVolume::kMaxSides> set{};
         std::size_t budget = kMaxSetsOfSheets;
-        (void)tryLarger(at, set, 0, 0, budget);
+        if (sides_.size() <= BrickVolume::kMaxPlanes) return false;
+        conflicts_.clear();
+        return tryLarger(at, set, 0, 0, budget);
     }
     bool tryLarger(Vec3i at, std::array<std::size_t, BrickVolume::kMaxSides>& set, std::size_t count, std::size_t from,
                    std::size_t& budget) {

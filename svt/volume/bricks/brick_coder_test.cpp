@@ -235,6 +235,31 @@ TEST(FacesOfTheModel, MeetByThrees) {
     EXPECT_EQ(bricks.planes().size(), 5u);
 }
 
+//            /\   two roofs as sheets: the samples behind a face that have a neighbour along an axis before it. What bounds
+//           /  \  them below are planes, too, which the model does not have; at the ridge four planes meet.
+TEST(FacesOfTheModel, CodeSheetsAndWhereTheyMeet) {
+    const Vec3i n{64, 64, 48};
+    const FacePlane left = faceThrough({-0.36, -0.48, 0.8}, {32.3, 31.8, 40.2}, n),
+                    right = faceThrough({0.36, 0.48, 0.8}, {32.3, 31.8, 40.2}, n);
+    const LabelAt roofs = [&](auto i, auto j, auto k) -> Scalar {
+        const double toLeft = heightOver(left, i, j, k), toRight = heightOver(right, i, j, k);
+        if (toLeft >= 0 || toRight >= 0) return 0;
+        return toLeft > -0.8 ? 1u : toRight > -0.8 ? 2u : 3u;
+    };
+    for (const BrickFaces faces : {BrickFaces::Planes, BrickFaces::Slopes}) {
+        const BrickVolume bricks = bricksOf(n, roofs, faces, {left, right});
+        const Coded found = expectCodesHold(bricks);
+        EXPECT_GT(found.mixed, 50u);
+        EXPECT_EQ(found.coded, found.mixed);
+        // Four oblique planes in one code: one of them in the place of a cut.
+        const auto codes = bricks.arrays().codes;
+        EXPECT_TRUE(std::any_of(codes.begin(), codes.end(), [](const BrickVolume::BoxCoding& code) {
+            return code.plane[2] != BrickVolume::kNoPlane && (code.cutAxes & 0x38) != 0;
+        }));
+        EXPECT_EQ(bricks.planes().size(), 4u);
+    }
+}
+
 TEST(FacesOfTheModel, DecideWhatARowOfVoxelsIs) {
     // At the border of a brick: the edge of a step, or the place where a slope leaves the brick. Two labels, one along
     // each half.
