@@ -17,6 +17,8 @@ draw() { # picture, volume, scene, size
 }
 draw section_beam house slab_and_beam 900x540
 draw cutaway house beam_cutaway 900x640
+$svt render "$work/house.svt" -o docs/images/cutaway_walls.png --size 900x640 --look paper --hide class=BuildingRoom \
+  --cutaway 'name~"Wand-Int"' --color 'name~"Wand-Int":red'
 draw lens house lens 900x640
 draw wireframe house wireframe 600x400
 draw storeys_apart house storeys_apart 900x640
@@ -29,6 +31,8 @@ draw hulls tower hulls_of_storeys 560x640
 mkdir "$work/plan"
 $svt sample house -o "$work/plan/house.gml"
 $svt build "$work/plan/house.gml" -o "$work/sample.svt" --spacing 0.05
+draw plan_names sample plan_with_names 900x640
+$svt render "$work/sample.svt" --scene examples/scenes/film.scene.json -o docs/images/film.webp
 $svt section "$work/sample.svt" -o docs/images/section.svg
 $svt section "$work/sample.svt" -o docs/images/section_beyond.svg --plane 'x>5' --beyond
 $svt section "$work/sample.svt" -o docs/images/plan_dimensions.svg --dimensions

@@ -289,6 +289,40 @@ TEST_F(SmallHouse, DepthIsInMillimetres) {
     EXPECT_GT(most - least, 1000);
 }
 
+// What is lit is as bright behind the walls of its house as it is alone.
+TEST_F(SmallHouse, GhostsDoNotDullWhatIsHighlighted) {
+    const std::string target = "id=house_chimney or class=BuildingFurniture";
+    std::vector<std::string> common{"--edges", "0",      "--samples", "1",        "--fit",
+                                    "all",     "--look", "dark",      "--labels", "labels.png"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.end(), common.begin(), common.end());
+        return more;
+    };
+    for (const char* context : {"ghost", "shell"}) {
+        const auto lit = draw(with({"--highlight", target, "--context", context}));
+        const auto labels = image::readGrayPng(folder / "labels.png");
+        ASSERT_TRUE(labels);
+        const auto alone = draw(with({"--show", target}));
+        const auto own = image::readGrayPng(folder / "labels.png");
+        ASSERT_TRUE(own);
+        std::size_t seen = 0;
+        for (std::int32_t y = 0; y < lit.height(); ++y)
+            for (std::int32_t x = 0; x < lit.width(); ++x) {
+                // Not at its outline, where a pixel has rays of both.
+                bool isInside = true;
+                for (int n = 0; n < 9 && isInside; ++n) {
+                    const std::int32_t i = x + n % 3 - 1, j = y + n / 3 - 1;
+                    isInside = i >= 0 && j >= 0 && i < lit.width() && j < lit.height() && own->at(i, j) != 0;
+                }
+                if (!isInside) continue;
+                EXPECT_EQ(lit.at(x, y), alone.at(x, y)) << context << ' ' << x << ' ' << y;
+                EXPECT_EQ(labels->at(x, y), own->at(x, y));
+                ++seen;
+            }
+        EXPECT_GT(seen, 20u);
+    }
+}
+
 // A member of a scene asks for no less than the option does.
 TEST_F(SmallHouse, LineDrawingsRefuseWhatTheyDoNotHaveFromScenesToo) {
     const std::pair<const char*, const char*> members[] = {
