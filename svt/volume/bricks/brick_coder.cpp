@@ -357,7 +357,7 @@ private:
     // At most 32 of all together.
     static constexpr std::size_t kMaxFaces = 12, kMaxAround = 8, kMaxCuts = 4, kMaxOfThree = 7;
     // The same where sheets may be; planes of one code there, and sets of more than three that are tried.
-    static constexpr std::size_t kMaxOfSheets = 16, kMostPlanesOfSheets = 5, kMaxSetsOfSheets = 4000;
+    static constexpr std::size_t kMaxOfSheets = 16, kMostPlanesOfSheets = 5, kMaxSetsOfSheets = 500;
 
     // Mixed bricks that cuts alone do not code for certain, in the order of places.
     void findMixed() {
