@@ -109,8 +109,11 @@ render::ConvexPart shadowPart(const Camera& camera, const volume::Grid& grid, co
     for (int axis = 0; axis < 3; ++axis)
         for (const bool isUpper : {false, true})
             if (!isSeen(axis, isUpper)) {
+                // Within the targets by a part of a voxel: what touches them there is not cut.
                 const render::HalfSpace behind = face(axis, isUpper);
-                sight.halfSpaces.push_back({-behind.normal, -behind.offset});
+                const Vec3d spacing = grid.spacing();
+                const double inset = 0.3 * std::min({spacing.x, spacing.y, spacing.z});
+                sight.halfSpaces.push_back({-behind.normal, -behind.offset - inset});
             }
     return sight;
 }

@@ -112,6 +112,7 @@ TEST_F(CutawayTest, AGroupKeepsWhatCarriesItAndWhatIsBehind) {
     for (const auto& target : targets)
         EXPECT_TRUE(contains(parts[0], grid_.worldFromIndex((toDouble(target.min) + toDouble(target.max)) * 0.5)));
     EXPECT_TRUE(contains(parts[0], {6, 9, 2.9})) << "a roof over them";
+    EXPECT_FALSE(contains(parts[0], {6, 9, 0.45})) << "the floor below them, up to its surface";
     EXPECT_FALSE(contains(parts[0], {6, 9, 0.2})) << "the floor below them";
     EXPECT_FALSE(contains(parts[0], {6, 3, 0.2})) << "the floor before them";
     EXPECT_FALSE(contains(parts[0], {6, 14, 0.8})) << "what is behind them";
