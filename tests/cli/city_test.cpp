@@ -461,7 +461,9 @@ TEST_F(CityInput, IsDrawnFromAnywhere) {
     draw("plain.png", {});
     draw("blue.png", {"--color", "class=RoofSurface:#0000ff"});
     EXPECT_NE(readText(folder / "plain.png"), readText(folder / "blue.png"));
-    EXPECT_NE(draw("hidden.png", {"--hide", "class~'Building|Surface|Window|Door|Closure|Installation'"}).find("nothing is visible"), std::string::npos);
+    EXPECT_NE(draw("hidden.png", {"--hide", "class~'Building|Surface|Window|Door|Closure|Installation'"})
+                  .find("nothing is visible"),
+              std::string::npos);
     runWell({"render", "city", "-o", "again.png", "--size", "160x120", "--threads", "1"});
     EXPECT_EQ(readText(folder / "far.png"), readText(folder / "again.png")) << "for any number of threads";
     EXPECT_NE(readText(folder / "far.png"), readText(folder / "near.png"));

@@ -452,7 +452,11 @@ constexpr Call kCalls[] = {{"open", open, false},
                            {"stand", stand},
                            {"step", step},
                            {"legend", legend},
-                           {"movedPlanes", movedPlanes}};
+                           {"movedPlanes", movedPlanes},
+                           {"cityGive", cityGive, false},
+                           {"cityLook", cityLook, false},
+                           {"cityDrop", cityDrop, false},
+                           {"cityFind", cityFind, false}};
 
 Result<Reply> run(std::string_view name, std::string_view json, std::span<const std::byte> bytes) {
     const Json values = Json::parse(json, nullptr, false);
