@@ -72,7 +72,7 @@ cp -r good other
 sed -i 's/"version": 1,/"version": 99,/' other/plan/plan.json
 refused 3 "E602" "$svt" city run other
 sed -i 's/"version": 99,/"version": 1,/' other/plan/plan.json
-sed -i 's/"version": 1,/"version": 99,/' other/city.json
+sed -i 's/"version": [0-9]*,/"version": 99,/' other/city.json
 refused 3 "E602" "$svt" city info other
 head -c 200 good/plan/plan.json >other/plan/plan.json
 refused 3 "E601" "$svt" city run other

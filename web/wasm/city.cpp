@@ -50,7 +50,7 @@ Result<void> CityPage::open() {
 }
 
 Result<city::ChosenTiles> CityPage::choose(const CityWish& wish) {
-    if (!wish.scene) return city::ChosenTiles{{city_->top()}, city_->top().size, 1};
+    if (!wish.scene) return city::ChosenTiles{{city_->top()}, std::size_t(city_->top().size), 1};
     // The camera alone: queries and planes find nothing in the frame.
     illustrate::Scene seen;
     seen.camera = wish.scene->camera;

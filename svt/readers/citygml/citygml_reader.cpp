@@ -162,7 +162,7 @@ private:
         // A large file is not in memory beside its model.
         if (!chunks.empty())
             forgetMappedBytes(
-                std::as_bytes(std::span(document_))
+                std::as_bytes(std::span(document_.data(), document_.size()))
                     .subspan(chunks.front().content.begin, chunks.back().content.end - chunks.front().content.begin));
         if (scanError) return *scanError;
         return {};
