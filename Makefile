@@ -57,7 +57,7 @@ test: setup
 web:
 	@scripts/setup.sh web
 	@scripts/web_dependencies.sh
-	@scripts/build.sh web svt_web
+	@scripts/build.sh web svt_web svt_web_threads
 
 bench:
 	@scripts/setup.sh peers

@@ -25,7 +25,7 @@ if [ ! -f "$lock" ] || [ package-lock.json -nt "$lock" ]; then
   quietly npm ci --no-audit --no-fund --ignore-scripts
   touch "$lock"
 fi
-if [ -f "../../$page/index.html" ] && [ -z "$(find . ../../$module ../../build/web/svt.js -path ./node_modules -prune -o -type f -newer "../../$page/index.html" -print -quit)" ]; then
+if [ -f "../../$page/index.html" ] && [ -z "$(find . ../../$module ../../build/web/svt.js ../../build/web/svt_threads.js -path ./node_modules -prune -o -type f -newer "../../$page/index.html" -print -quit)" ]; then
   exit 0
 fi
 quietly npx --no-install tsc

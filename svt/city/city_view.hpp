@@ -12,6 +12,7 @@
 /// like that within a volume.
 
 #include <svt/city/city_folder.hpp>
+#include <svt/render/frame_spec.hpp>
 
 #include <cstdint>
 #include <span>
@@ -27,6 +28,9 @@ struct CameraView {
     double pixel = 0.001;                  ///< height of a pixel: metres; of a perspective one at depth 1
     Vec3d towardsLight;                    ///< of a light that casts shadows, unit length; zero: there is none
 };
+
+/// What the camera of a frame sees of a frame's grid, and the light that casts shadows there.
+[[nodiscard]] CameraView cameraViewOf(const render::FrameSpec& spec, const volume::Grid& grid);
 
 /// What is chosen for a picture.
 struct ChosenTiles {

@@ -179,8 +179,9 @@ TEST_F(ServeTest, UploadsAreConverted) {
 TEST_F(ServeTest, ConversionsKeepToTheirLimits) {
     if (hasSanitizer) GTEST_SKIP() << "a sanitizer needs more address space than a conversion may have";
     Serving serving(folder.path(),
-                    {"serve", "--viewer", "page", "--port", "0", "--allow-uploads", "--convert-memory", "48"});
-    const auto answer = serving.ask("POST /api/convert?name=house.gml", readText(folder / "house.gml"));
+                    {"serve", "--viewer", "page", "--port", "0", "--allow-uploads", "--convert-memory", "64"});
+    runSvtWell(folder.path(), {"sample", "district", "--columns", "4", "--rows", "4", "-o", "houses.gml"});
+    const auto answer = serving.ask("POST /api/convert?name=houses.gml", readText(folder / "houses.gml"));
     EXPECT_EQ(answer.status, 422);
     EXPECT_EQ(answer.body.substr(0, 14), "{\"code\":\"E104\"") << answer.body;
     EXPECT_EQ(serving.ask("GET /").status, 200);

@@ -3,7 +3,6 @@
 #include <svt/city/city_levels.hpp>
 #include <svt/illustrate/details.hpp>
 #include <svt/illustrate/view.hpp>
-#include <svt/render/camera_rays.hpp>
 
 #include <fmt/format.h>
 
@@ -11,21 +10,6 @@
 
 namespace svt::web {
 namespace {
-
-city::CameraView viewOf(const render::FrameSpec& spec, const volume::Grid& grid) {
-    const render::CameraRays rays(spec, grid);
-    const auto basis = rays.basis();
-    city::CameraView view;
-    view.isPerspective = rays.isPerspective();
-    view.eye = spec.camera.eye;
-    view.forward = basis.forward;
-    view.right = basis.right;
-    view.up = basis.up;
-    view.halfWidth = basis.halfWidth;
-    view.halfHeight = basis.halfHeight;
-    view.pixel = rays.pixelSize(1);
-    return view;
-}
 
 // FNV-1a of where the tiles stand.
 std::string keyOf(const std::vector<city::IndexEntry>& entries) {
@@ -58,7 +42,7 @@ Result<city::ChosenTiles> CityPage::choose(const CityWish& wish) {
     seen.height = wish.scene->height;
     const auto spec = illustrate::makeFrameSpec(seen, frame_);
     if (!spec) return spec.error();
-    city::CameraView view = viewOf(*spec, frame_.grid);
+    city::CameraView view = city::cameraViewOf(*spec, frame_.grid);
     view.pixel *= std::max(1.0, wish.pixels);
     return city::chooseTiles(*city_, view, wish.memoryBytes);
 }

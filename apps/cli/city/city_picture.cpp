@@ -4,7 +4,6 @@
 #include <svt/core/machine.hpp>
 #include <svt/illustrate/details.hpp>
 #include <svt/illustrate/view.hpp>
-#include <svt/render/camera_rays.hpp>
 
 #include <fmt/format.h>
 
@@ -16,23 +15,6 @@ namespace svt::cli {
 namespace {
 
 constexpr std::uint64_t kTileMemory = 1'000'000'000;
-
-city::CameraView viewOf(const render::FrameSpec& spec, const volume::Grid& grid) {
-    const render::CameraRays rays(spec, grid);
-    const auto basis = rays.basis();
-    city::CameraView view;
-    view.isPerspective = rays.isPerspective();
-    view.eye = spec.camera.eye;
-    view.forward = basis.forward;
-    view.right = basis.right;
-    view.up = basis.up;
-    view.halfWidth = basis.halfWidth;
-    view.halfHeight = basis.halfHeight;
-    view.pixel = rays.pixelSize(1);
-    if (spec.light.hasShadows && spec.light.space == render::Light::Space::World && spec.light.key > 0)
-        view.towardsLight = normalized(spec.light.direction);
-    return view;
-}
 
 }  // namespace
 
@@ -195,7 +177,7 @@ Result<illustrate::Painting> CityPicture::paint(illustrate::Scene scene, const r
     plain.colorBy.clear();
     const auto spec = illustrate::makeFrameSpec(plain, frame_, analyze::LabelRows(frame_.labels, &ignored));
     if (!spec) return spec.error();
-    const city::CameraView view = viewOf(*spec, frame_.grid);
+    const city::CameraView view = city::cameraViewOf(*spec, frame_.grid);
     auto chosen = city::chooseTiles(city_, view, tileMemory());
     if (!chosen) return chosen.error();
     chosen_ = std::move(*chosen);

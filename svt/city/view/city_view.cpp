@@ -3,6 +3,7 @@
 #include <svt/city/city_levels.hpp>
 #include <svt/city/join/join_volumes.hpp>
 #include <svt/core/parallel.hpp>
+#include <svt/render/camera_rays.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -164,6 +165,23 @@ private:
 };
 
 }  // namespace
+
+CameraView cameraViewOf(const render::FrameSpec& spec, const volume::Grid& grid) {
+    const render::CameraRays rays(spec, grid);
+    const auto basis = rays.basis();
+    CameraView view;
+    view.isPerspective = rays.isPerspective();
+    view.eye = spec.camera.eye;
+    view.forward = basis.forward;
+    view.right = basis.right;
+    view.up = basis.up;
+    view.halfWidth = basis.halfWidth;
+    view.halfHeight = basis.halfHeight;
+    view.pixel = rays.pixelSize(1);
+    if (spec.light.hasShadows && spec.light.space == render::Light::Space::World && spec.light.key > 0)
+        view.towardsLight = normalized(spec.light.direction);
+    return view;
+}
 
 Result<ChosenTiles> chooseTiles(const City& city, const CameraView& view, std::uint64_t memoryBytes, int finest) {
     for (double pixels = 1;; pixels *= std::sqrt(2.0)) {

@@ -178,7 +178,7 @@ describe("search and colours", () => {
     const rows = await legend.getByRole("listitem").allTextContents();
     assert.ok(rows.some((row) => /^IfcWall\w*: \d+$/.test(row)), `the legend as text: ${rows.join("; ")}`);
     await inPage("s.set({ colorBy: 'volume' })");
-    await visit.page.getByRole("list", { name: /^Legend: volume/ }).getByText(/^from [\d.,]+ to [\d.,]+$/).waitFor();
+    await visit.page.getByRole("list", { name: /^Legend: volume/ }).getByText(/^from [\d.,]+ to [\d.,]+$/).waitFor({ state: "attached" });
     await inPage("s.set({ colorBy: '' })");
     await legend.waitFor({ state: "detached" });
   });

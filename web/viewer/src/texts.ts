@@ -27,7 +27,6 @@ const kTexts = {
   loadingFile: ["Loading {name}", "{name} wird geladen"],
   cityLacks: ["{n} tiles of the city cannot be shown, the rest is here. {first}", "{n} Kacheln der Stadt lassen sich nicht zeigen, der Rest ist da. {first}"],
   cityStopped: ["No finer tiles of the city", "Keine feineren Kacheln der Stadt"],
-  cityShown: ["{n} tiles, {bytes}", "{n} Kacheln, {bytes}"],
   cityFind: ["Enter looks for this id in all of the city.", "Mit der Eingabetaste in der ganzen Stadt nach dieser Kennung suchen."],
   cityNoRanges: [
     "{name}: the server sends whole files where a part is asked for. A city needs a server with range requests (svt serve, nginx, Apache, S3).",

@@ -6,7 +6,7 @@
 import type { CityLook, EngineError } from "../engine";
 import { kCancelled } from "../engine";
 import type { Session } from "../session";
-import { bytes as bytesText, t } from "../texts";
+import { t } from "../texts";
 import type { CityFiles } from "./city_files";
 
 /** Voxels may be so many pixels wide: of the first picture, of one that moves, of one that stands still. */
@@ -140,10 +140,5 @@ export class CityStream {
     } catch (error) {
       session.fail(error);
     }
-  }
-
-  /** "12 tiles, 340 kB". */
-  get text(): string {
-    return this.look ? t("cityShown", { n: this.look.tiles, bytes: bytesText(this.look.bytes) }) : "";
   }
 }
