@@ -226,6 +226,8 @@ export interface CityOptions {
   memory: number;
   /** CityLook.key of what is seen already. */
   shown: string;
+  /** Leaves out the features, which cityInfo() gives: they may be tens of thousands. */
+  isMoving?: boolean;
 }
 
 /** Fetches bytes of a city's files. */
@@ -273,6 +275,8 @@ export interface Engine {
   openCity(files: CityBytes, options: CityOptions): Promise<CityLook>;
   /** Fetches the tiles that a scene's camera sees, beside what is open, which can be drawn and asked meanwhile and is replaced at the end. */
   followCity(files: CityBytes, scene: Scene, size: [number, number], options: CityOptions): Promise<CityLook>;
+  /** What followCity() has opened, with its features; null where nothing is open. */
+  cityInfo(): Promise<VolumeInfo | null>;
   /** A camera that shows a building of the open city. Reads two ranges of ids.bin, and the building's tile. */
   findInCity(files: CityBytes, id: string, camera: SceneCamera, aspect: number): Promise<SceneCamera>;
 

@@ -58,6 +58,7 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
     refine: refuse,
     openCity: refuse,
     followCity: refuse,
+    cityInfo: refuse,
     findInCity: refuse,
     cancelRefining: () => undefined,
     setOwners: refuse,

@@ -97,11 +97,13 @@ export class CityStream {
     const { pixels } = this;
     try {
       const { scene } = session.describe(session.pictureSize, 1);
-      const look = await session.engine!.followCity(this.files, scene, session.pictureSize, { pixels, memory: this.memory, shown: this.key });
+      const look = await session.engine!.followCity(this.files, scene, session.pictureSize, { pixels, memory: this.memory, shown: this.key, isMoving: pixels > kStillPixels });
       if (this.isEnded) return;
       if (look.info) {
-        session.takeTiles(look.info);
         this.take(look);
+        this.isInfoDue = pixels > kStillPixels;
+        if (this.isInfoDue) session.redraw();
+        else session.takeTiles(look.info);
       } else if (this.look) this.look = { ...this.look, pixels: look.pixels };
     } catch (error) {
       if ((error as EngineError).code === kCancelled || this.isEnded) return this.stop();
@@ -111,12 +113,23 @@ export class CityStream {
     }
     const isSame = this.camera === camera && this.size === size;
     if (isSame && pixels === kStillPixels) {
-      this.isComplete = true;
+      await this.takeInfo();
+      this.isComplete = this.camera === camera && this.size === size;
       session.changed();
     } else if (pixels > kMovingPixels) this.pixels = kMovingPixels;
     else if (!isSame || pixels === kMovingPixels) await this.pause();
     if (this.pixels === kMovingPixels && isSame && performance.now() - this.changedAt >= kStillAfter) this.pixels = kStillPixels;
   }
+
+  /** Features of what was opened while the camera moved. */
+  private async takeInfo(): Promise<void> {
+    if (!this.isInfoDue) return;
+    const info = await this.session.engine!.cityInfo().catch(() => null);
+    if (this.isEnded || !info) return;
+    this.isInfoDue = false;
+    this.session.takeTiles(info);
+  }
+  private isInfoDue = false;
 
   private stop(): void {
     this.isComplete = true;

@@ -167,6 +167,10 @@ class WorkerEngine implements Engine {
     return look;
   }
 
+  cityInfo(): Promise<VolumeInfo | null> {
+    return this.ask("cityInfo", []);
+  }
+
   findInCity(files: CityBytes, id: string, camera: SceneCamera, aspect: number): Promise<SceneCamera> {
     const { main } = this;
     return withBytes((name, args, transfer) => main.ask(name, args, transfer), files, "cityFind", () => [id, camera, aspect]);

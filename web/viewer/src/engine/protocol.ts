@@ -27,6 +27,7 @@ export interface Calls {
   cityLook: { args: [isNew: boolean, scene: Scene | null, width: number, height: number, options: CityOptions]; result: CityLook | CityNeeds };
   cityFind: { args: [id: string, camera: SceneCamera, aspect: number]; result: SceneCamera | CityNeeds };
   cityGive: { args: [given: GivenRow[], bytes: ArrayBuffer]; result: null };
+  cityInfo: { args: []; result: VolumeInfo | null };
   cityDrop: { args: []; result: null };
   sheets: { args: [language: "en" | "de"]; result: string[] };
 }

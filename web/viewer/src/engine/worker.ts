@@ -3,8 +3,8 @@ import type { SvtModule } from "../../../../build/web/svt.js";
 import { Drawer } from "./drawer";
 import { isEngineError } from "./errors";
 import { loadModule } from "./module";
-import type { FileBytes } from "../engine";
-import type { Answer, Request } from "./protocol";
+import type { CityLook, FileBytes, VolumeInfo } from "../engine";
+import type { Answer, CityNeeds, Request } from "./protocol";
 
 /** Idle time of the page before longer work starts. */
 const idleMilliseconds = 700;
@@ -16,6 +16,8 @@ loaded.catch(() => undefined);
 let drawer: Drawer | null = null;
 /** Id of the current request. */
 let current = 0;
+/** What is open of a city. */
+let cityInfo: VolumeInfo | null = null;
 /** Failure of the library outside any request; reported to the next request. */
 let stopped: unknown = null;
 
@@ -81,11 +83,16 @@ async function answer(request: Request): Promise<void> {
       return post({ id, result: json(svt.call(name, [args[0]], new Uint8Array(args[1]))) });
     case "cityDrop":
       drawerOf(svt).forgetPicture();
+      cityInfo = null;
       return post({ id, result: json(svt.call(name, args)) });
+    case "cityInfo":
+      return post({ id, result: cityInfo });
     case "cityLook": {
       const look = json<CityLook | CityNeeds>(svt.call(name, args));
-      if (args[0] && "info" in look) drawerOf(svt).forgetPicture();
-      return post({ id, result: look });
+      if ("needs" in look) return post({ id, result: look });
+      if (args[0]) drawerOf(svt).forgetPicture();
+      if (look.info) cityInfo = look.info;
+      return post({ id, result: look.info && args[4].isMoving ? { ...look, info: { ...look.info, features: [] } } : look });
     }
     case "sheets":
       await drawerOf(svt).fetchFont();
