@@ -60,6 +60,7 @@ private:
     std::vector<city::IndexEntry> leftOut_;  // chosen, but behind what is seen
     std::vector<volume::SemanticVolume> parts_;
     std::vector<illustrate::ScenePainter::StyleMixture> mixtures_;
+    float gaps_ = 0;  // the share of what is empty in columns of coarse details that is not hidden by what stands there
     std::vector<std::string> nothing_;
 };
 

@@ -97,6 +97,9 @@ Result<void> CityPicture::read() {
         for (const auto& [name, eighths] : shares)
             if (const auto known = scalarOf.find(name); known != scalarOf.end())
                 mixture.parts.emplace_back(known->second, float(eighths));
+        int covered = 0;
+        for (const auto& [name, eighths] : shares) covered += eighths;
+        mixture.empty = float(city::kCoverageSteps - covered) * gaps_;
         // A class that city.json does not list: the label's own style.
         if (mixture.parts.size() < shares.size()) mixtures_.pop_back();
     }
@@ -181,6 +184,8 @@ Result<illustrate::Painting> CityPicture::paint(illustrate::Scene scene, const r
     auto chosen = city::chooseTiles(city_, view, tileMemory());
     if (!chosen) return chosen.error();
     chosen_ = std::move(*chosen);
+    // Between houses the ground is seen from above; from lower than some 30 degrees walls hide more and more of it.
+    gaps_ = static_cast<float>(std::clamp(-2 * view.forward.z, 0.0, 1.0));
     if (auto done = leaveOutHidden(scene, view, options); !done) return done.error();
     for (;;) {
         auto painting = draw(scene, options);

@@ -41,7 +41,9 @@ ScenePainter::Draw byCasting(const render::CastOptions& options) {
     };
 }
 
-void mix(const std::vector<ScenePainter::StyleMixture>& mixtures, render::Pass& pass) {
+void mix(const std::vector<ScenePainter::StyleMixture>& mixtures, const render::Background& background,
+         render::Pass& pass) {
+    const Vec3f behind = (background.top + background.bottom) * 0.5f;
     const std::vector<render::Style> before = pass.styles;
     for (const ScenePainter::StyleMixture& mixture : mixtures) {
         if (mixture.scalar >= pass.styles.size()) continue;
@@ -56,8 +58,9 @@ void mix(const std::vector<ScenePainter::StyleMixture>& mixtures, render::Pass& 
             all += share;
         }
         if (all <= 0) continue;
-        own.color = own.color * (1 / all);
         own.opacity = std::min(1.0f, own.opacity / all);
+        const float empty = background.alpha < 1 ? 0 : mixture.empty;
+        own.color = (own.color + behind * empty) * (1 / (all + empty));
     }
 }
 
@@ -239,7 +242,7 @@ Result<Painting> ScenePainter::paintPlain(const Scene& scene, const Draw& draw) 
     ColorScale scale;
     auto spec = makeFrameSpec(scene, volume_, rows, &scale);
     if (!spec) return spec.error();
-    for (render::Pass& pass : spec->passes) mix(mixtures_, pass);
+    for (render::Pass& pass : spec->passes) mix(mixtures_, spec->background, pass);
     const auto drawn = drawnVolumes(scene, *spec);
     if (!drawn) return drawn.error();
     return finish(scene, rows, scale, std::move(*spec), *drawn, draw);
