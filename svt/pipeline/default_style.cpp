@@ -2,7 +2,8 @@
 
 namespace svt::pipeline {
 
-// Later rules win: by class, then by the names of construction elements, then by IFC type and material. Rooms and other
+// Later rules win: by class, then by the names of construction elements, what they are for (function), then by IFC type with
+// its predefined type, and material. Rooms and other
 // spaces are thin coloured air, so that their contents are visible; whatever their names are.
 const char* const kDefaultStyleJson = R"json({
   "rules": [
@@ -34,14 +35,27 @@ const char* const kDefaultStyleJson = R"json({
     {"select": "class=BuildingConstructiveElement and name~'[Rr]after|Sparren'", "color": "#b98a52"},
     {"select": "class=BuildingConstructiveElement and name~'[Rr]oof|Dach'", "color": "#a8483a"},
 
+    {"select": "class=BuildingConstructiveElement and function~'[Ss]lab|[Dd]ecke|[Bb]odenplatte'", "color": "#a9a59c"},
+    {"select": "class=BuildingConstructiveElement and function~'[Ww]all|[Ww]and'", "color": "#dcc9a6"},
+    {"select": "class=BuildingConstructiveElement and function~'[Bb]eam|Unterzug'", "color": "#7c6f64"},
+    {"select": "class=BuildingConstructiveElement and function~'[Rr]after|Sparren'", "color": "#b98a52"},
+    {"select": "class=BuildingConstructiveElement and function~'[Rr]oof|Dach'", "color": "#a8483a"},
+
     {"select": "ifcType~Slab", "color": "#a9a59c"},
+    {"select": "ifcType~Slab and predefinedType=BASESLAB or ifcType~Footing or ifcType~Pile", "color": "#8d8a83"},
     {"select": "ifcType~Wall", "color": "#dcc9a6"},
     {"select": "ifcType~Beam", "color": "#7c6f64"},
+    {"select": "ifcType~Column", "color": "#9c9184"},
     {"select": "ifcType~Member", "color": "#b98a52"},
     {"select": "ifcType~Window", "color": "#7fa9c4"},
     {"select": "ifcType~Door", "color": "#8a5a33"},
     {"select": "ifcType~Stair or ifcType~Railing", "color": "#8f9aa3"},
-    {"select": "ifcType~Roof or ifcType=IfcSlab and name~'[Rr]oof|Dach'", "color": "#a8483a"},
+    {"select": "ifcType~Roof or ifcType=IfcSlab and (predefinedType=ROOF or name~'[Rr]oof|Dach')", "color": "#a8483a"},
+    {"select": "ifcType~Covering", "color": "#ddd6c8"},
+    {"select": "ifcType~Covering and predefinedType=CEILING", "color": "#ece8df"},
+    {"select": "ifcType~Covering and predefinedType=FLOORING", "color": "#b58d61"},
+    {"select": "ifcType~Covering and predefinedType=ROOFING", "color": "#a8483a"},
+    {"select": "ifcType~Covering and predefinedType=INSULATION", "color": "#e7d98c"},
     {"select": "material=brick", "color": "#c88d6b"},
     {"select": "material=concrete", "color": "#aaa69e"},
     {"select": "material=timber or material=wood", "color": "#b98a52"},
@@ -58,7 +72,7 @@ const char* const kDefaultPatternsJson = R"json({
      "pattern": {"type": "brick", "colors": ["#b9744f", "#e4ddd0"]}},
     {"select": "class=GroundSurface or class=FloorSurface or ifcType~Slab or material=concrete",
      "pattern": {"type": "concrete", "colors": ["#b3b0a8", "#8f8c85", "#75726c"]}},
-    {"select": "class=RoofSurface or ifcType~Roof or predefinedType=ROOF or material=tiles or (ifcType=IfcSlab or class=BuildingConstructiveElement) and name~'[Rr]oof|Dach'",
+    {"select": "class=RoofSurface or ifcType~Roof or predefinedType=ROOF or material=tiles or (ifcType=IfcSlab or class=BuildingConstructiveElement and not ifcType~Covering) and name~'[Rr]oof|Dach'",
      "pattern": {"type": "stripes", "size": 0.16, "line": 0.03, "colors": ["#a8483a", "#80372d"]}},
     {"select": "ifcType~Member or ifcType~Beam or material=timber or material=wood",
      "pattern": {"type": "wood-grain", "colors": ["#cf9f63", "#8f6232"]}},

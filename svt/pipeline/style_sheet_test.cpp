@@ -66,6 +66,56 @@ TEST(DefaultStyle, ClassesComeBeforeNames) {
     EXPECT_EQ(styles[2].color, *image::parseColor("#8a5a33"));
 }
 
+TEST(DefaultStyle, ElementsOfIfcAreToldApartByWhatTheyAre) {
+    struct Element {
+        const char *type, *predefined, *name, *color;
+        PatternKind pattern;
+    };
+    const Element elements[] = {
+        {"IfcWallStandardCase", "", "", "#dcc9a6", PatternKind::Brick},
+        {"IfcSlab", "FLOOR", "", "#a9a59c", PatternKind::Concrete},
+        {"IfcSlab", "BASESLAB", "", "#8d8a83", PatternKind::Concrete},
+        {"IfcSlab", "ROOF", "", "#a8483a", PatternKind::Stripes},
+        {"IfcSlab", "", "Dach-2", "#a8483a", PatternKind::Stripes},
+        {"IfcRoof", "", "", "#a8483a", PatternKind::Stripes},
+        {"IfcCovering", "CEILING", "", "#ece8df", PatternKind::None},
+        {"IfcCovering", "FLOORING", "Roof terrace", "#b58d61", PatternKind::None},
+        {"IfcColumn", "COLUMN", "", "#9c9184", PatternKind::None},
+    };
+    std::vector<std::vector<Attribute>> attributes;
+    for (const Element& element : elements) {
+        attributes.push_back({{"ifcType", std::string(element.type)}});
+        if (*element.predefined != 0) attributes.back().push_back({"predefinedType", std::string(element.predefined)});
+    }
+    std::vector<model::QueryRow> rows;
+    for (std::size_t n = 0; n < attributes.size(); ++n)
+        rows.push_back({elements[n].type,
+                        "BuildingConstructiveElement",
+                        elements[n].name,
+                        model::kNoRow,
+                        attributes[n],
+                        {},
+                        1,
+                        1});
+    const StyleSheet* sheets[] = {&defaultStyle(true)};
+    const auto styles = resolveStyles(rows, sheets, {});
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+        EXPECT_EQ(styles[n].color, *image::parseColor(elements[n].color)) << n;
+        EXPECT_EQ(styles[n].pattern.kind, elements[n].pattern) << n;
+    }
+}
+
+TEST(DefaultStyle, FunctionsComeBeforeNames) {
+    const std::vector<Attribute> none, wall{{"function", std::string("load-bearing wall")}};
+    const std::vector<model::QueryRow> rows{
+        {"a", "BuildingConstructiveElement", "Roof edge", model::kNoRow, none, {}, 1, 1},
+        {"b", "BuildingConstructiveElement", "Roof edge", model::kNoRow, wall, {}, 1, 1}};
+    const StyleSheet* sheets[] = {&defaultStyle(false)};
+    const auto styles = resolveStyles(rows, sheets, {});
+    EXPECT_EQ(styles[0].color, *image::parseColor("#a8483a"));
+    EXPECT_EQ(styles[1].color, *image::parseColor("#dcc9a6"));
+}
+
 TEST(ParseColor, HexShortHexAndNames) {
     EXPECT_EQ(*image::parseColor("#ff8000"), (Vec3f{1, 128 / 255.0f, 0}));
     EXPECT_EQ(*image::parseColor("#FF8000"), (Vec3f{1, 128 / 255.0f, 0}));

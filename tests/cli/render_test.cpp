@@ -136,6 +136,13 @@ const std::vector<Picture> kPictures{
      {"--look", "paper", "--hide", "class=BuildingRoom", "--cutaway", "id=house_hidden_beam", "--color",
       "id=house_hidden_beam:red"},
      {}},
+    {"many_targets",
+     {"--look", "paper", "--hide", "class=BuildingRoom", "--cutaway", "class=BuildingFurniture", "--color",
+      "class=BuildingFurniture:red"},
+     {}},
+    {"hulls", {"--shell", "storey", "--cut", "x>6 and y<5", "--look", "paper"}, {}},
+    {"cells", {"--section", "y<5", "--zoom", "3", "--cells"}, {}},
+    {"pattern_faces", {"--section", "x>6", "--section", "z>3.4", "--zoom", "2"}, {"--patterns"}, "224x126"},
     {"names",
      {"--look", "paper", "--hide", "class=BuildingRoom", "--section", "y<5", "--names", "name~'beam|slab'"},
      {}},
@@ -174,6 +181,18 @@ TEST_P(TowerSceneTest, LooksAsItsReference) {
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, TowerSceneTest,
                          ::testing::Values("two_flats", "two_flats_in_their_tower", "hulls_of_storeys"), nameOfScene);
+
+// Scenes with texts, which small pictures would not show.
+class SampleSceneTest : public SceneTest {};
+TEST_P(SampleSceneTest, LooksAsItsReference) {
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.05"});
+    Picture asked = picture();
+    asked.size = "450x320";
+    expectAsReference(folder.path(), asked);
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, SampleSceneTest,
+                         ::testing::Values("plan_with_names", "inset", "rooms_by_area", "storeys_apart"), nameOfScene);
 
 class SmallHouse : public ::testing::Test {
 protected:

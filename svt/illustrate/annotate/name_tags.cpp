@@ -255,7 +255,7 @@ std::vector<Leader> layOutLeaders(const NameTags& tags, double width, double hei
 
 std::size_t drawNameTags(const NameTags& tags, Vec3f color, Vec3f halo, image::Image<image::Rgba8>& image) {
     const double height = tags.textHeight, stroke = std::max(1.0, height / 14);
-    const std::vector<Leader> leaders = layOutLeaders(tags, image.width(), image.height());
+    const std::vector<Leader> leaders = layOutLeaders(tags, image.width() - tags.taken, image.height());
     // Outlines below all lines, lines below all texts.
     for (const auto& [extra, tone] : {std::pair(2.4 * stroke, halo), std::pair(stroke, color)})
         for (const Leader& leader : leaders) {

@@ -25,6 +25,7 @@ struct NameTags {
     std::vector<NameTag> tags;  ///< by label
     /// Range of pixel columns that are not background.
     double left = 0, right = 0;
+    double taken = 0;             ///< pixels at the right side that are not for names
     double textHeight = 0;        ///< pixels
     std::size_t hiddenCount = 0;  ///< selected labels with voxels of which nothing to speak of is seen
 };
@@ -59,7 +60,7 @@ struct Leader {
 /// Finds the places of the tags that do not stand inside: one below the other, on the side that is nearer to what they
 /// name. Where there is no room for all, those of the largest parts stay. No two leaders cross: from the top, each place
 /// takes the end from which all others lie below its line (Bekos, Kaufmann, Symvonis and Wolff 2007, straight leaders).
-/// \param width, height  of the picture, pixels
+/// \param width, height  of the picture without what is taken, pixels
 /// Cost: O(tags^2) of those that have room.
 [[nodiscard]] std::vector<Leader> layOutLeaders(const NameTags& tags, double width, double height);
 

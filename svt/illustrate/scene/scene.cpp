@@ -161,13 +161,14 @@ Result<render::Camera> cameraOf(const Scene& scene, const volume::Grid& grid, co
     options.projection =
         wanted.isParallel ? render::Camera::Projection::Orthographic : render::Camera::Projection::Perspective;
     options.verticalFovDegrees = wanted.fieldOfView;
-    if (!scene.names.empty()) options.sideMargin = nameMargin(scene.width, scene.height);
-    if (!scene.colorBy.empty() && scene.hasLegend)
-        options.sideMargin = std::max(options.sideMargin, legendMargin(scene.width, scene.height));
+    const double names = scene.names.empty() ? 0 : nameMargin(scene.width, scene.height);
+    const double legend = scene.colorBy.empty() || !scene.hasLegend ? 0 : legendMargin(scene.width, scene.height);
+    options.sideMargin = std::max({options.sideMargin, names, legend});
     const InsetMargins insets = insetMargins(scene);
     // Of a picture that is moved aside, so that the free parts of both sides are as wide as what stands there.
     const double left = std::max({options.sideMargin, options.margin, insets.left});
-    const double right = std::max({options.sideMargin, options.margin, insets.right});
+    // Names stand between what is shown and the legend.
+    const double right = std::max({options.sideMargin, std::min(0.5, names + legend), options.margin, insets.right});
     options.sideMargin = std::min(0.45, (left + right) / 2);
     auto camera = toShow.points.empty() ? render::cameraPreset(wanted.preset, toShow.grid, options)
                                         : render::cameraPreset(wanted.preset, toShow.points, grid.axes(), options);

@@ -27,8 +27,9 @@ TextColors textColors(const render::Background& background) {
 Result<void> addNames(const Scene& scene, const volume::SemanticVolume& volume, const analyze::LabelRows& rows,
                       Painting& painting) {
     if (scene.names.empty()) return {};
-    const auto tags = findNameTags(scene.names, volume, rows, painting.frame);
+    auto tags = findNameTags(scene.names, volume, rows, painting.frame);
     if (!tags) return tags.error();
+    if (!scene.colorBy.empty() && scene.hasLegend) tags->taken = legendMargin(scene.width, scene.height) * scene.width;
     const TextColors colors = textColors(painting.spec.background);
     const std::size_t drawn = drawNameTags(*tags, colors.text, colors.halo, painting.frame.color);
     painting.names = {drawn, tags->hiddenCount, tags->tags.size() - drawn};
