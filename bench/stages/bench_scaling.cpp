@@ -12,6 +12,10 @@
 namespace svt::bench {
 namespace {
 
+volume::BrickVolume::Options forPictures(const std::vector<volume::Plane>& planes) {
+    return {.faces = volume::BrickFaces::Slopes, .planes = planes};
+}
+
 constexpr int kWidth = 1280, kHeight = 720;
 
 // Failures were already reported when the drawable was made; only time counts here.
@@ -53,7 +57,7 @@ Result<Row> scalingRow(const Workload& workload, Vec3i dimension, const BenchOpt
     const auto measured = measureInTurns(
         {{"SVT", [&] { done(voxelize::voxelize(workload.meshes, drawable.grid, workload.labels.claims)); }},
          {"make bricks",
-          [&] { done(volume::BrickVolume::fromColumns(drawable.columns, {.planes = drawable.planes})); }},
+          [&] { done(volume::BrickVolume::fromColumns(drawable.columns, forPictures(drawable.planes))); }},
          {"opaque frame", [&] { done(render::castRays(drawable.bricks, drawable.grid, spec)); }}},
         fewRuns(options));
     Row row;
@@ -86,7 +90,7 @@ Result<Built> buildAndCast(const Input& input) {
     buildOptions.spacing = Vec3d{0.05, 0.05, 0.05};
     auto output = pipeline::buildVolume(files, buildOptions);
     if (!output) return output.error();
-    auto bricks = volume::BrickVolume::fromColumns(output->volume.columns, {.planes = output->volume.planes});
+    auto bricks = volume::BrickVolume::fromColumns(output->volume.columns, forPictures(output->volume.planes));
     if (!bricks) return bricks.error();
     auto spec = makeFrameSpec(output->volume.grid, opaqueStyles(output->volume.labels), kWidth, kHeight);
     if (!spec) return spec.error();
@@ -122,7 +126,7 @@ Result<void> benchDistrict(const BenchOptions& options, Report& report) {
     MeasureOptions once;
     once.leastRuns = once.mostRuns = 3;
     const auto measured = measureInTurns(
-        {{"make bricks", [&] { done(volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes})); }},
+        {{"make bricks", [&] { done(volume::BrickVolume::fromColumns(volume.columns, forPictures(volume.planes))); }},
          {"opaque frame", [&] { done(render::castRays(built->bricks, volume.grid, built->spec)); }}},
         once);
     Row row;
