@@ -12,7 +12,7 @@
 namespace svt::bench {
 namespace {
 
-volume::BrickVolume::Options forPictures(const std::vector<volume::Plane>& planes) {
+volume::BrickVolume::Options forPictures(const std::vector<volume::FacePlane>& planes) {
     return {.faces = volume::BrickFaces::Slopes, .planes = planes};
 }
 
