@@ -27,7 +27,7 @@
 /// The ideas (ours unless a source is named):
 /// - All bricks of a same-label box hold one scalar, so a ray crosses the whole box in one step. Boxes may overlap.
 ///   This is empty-space skipping by EQUAL LABEL instead of emptiness: a change of styles never rebuilds anything.
-/// - Most mixed bricks are coded, by at most one cut across each axis (between two voxels) and at most three planes:
+/// - Most mixed bricks are coded, by at most six planes or cuts across an axis (between two voxels; one for each axis):
 ///   the sides on which a point lies select its scalar (brick_coder.hpp). All 512 samples of a brick keep their label.
 /// - Bricks that one code describes, with uniform bricks beside them, share a box. So a ray crosses a wall in as many
 ///   steps as it meets labels, faces are flat even in close-up, and normals are those of planes.

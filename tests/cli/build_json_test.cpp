@@ -263,5 +263,31 @@ TEST_F(TwoBoxes, NoFileIsLeftBesideTheOutput) {
     EXPECT_EQ(folder.count(), 2);
 }
 
+TEST(BuildOnly, KeepsTheSelectedInTheBoxAroundThem) {
+    const TemporaryFolder folder;
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2"});
+    runSvtWell(folder.path(),
+               {"build", "house.gml", "-o", "f.svt", "--spacing", "0.2", "--only", "class=BuildingFurniture"});
+    const auto idsWithVoxels = [&](const char* file, const char* query) {
+        std::vector<std::string> ids;
+        for (const json& row : runSvtForJson(folder.path(), {"query", file, query, "--json"}))
+            if (row["voxels"].get<std::uint64_t>() > 0) ids.push_back(row["id"].get<std::string>());
+        return ids;
+    };
+    const auto kept = idsWithVoxels("f.svt", "all");
+    EXPECT_FALSE(kept.empty());
+    EXPECT_EQ(kept, idsWithVoxels("house.svt", "class=BuildingFurniture"));
+    EXPECT_LT(kept.size(), idsWithVoxels("house.svt", "all").size());
+    const auto dimensionOf = [&](const char* file) {
+        return runSvtForJson(folder.path(), {"info", file, "--json"})["grid"]["dimension"]
+            .get<std::vector<std::int64_t>>();
+    };
+    const auto part = dimensionOf("f.svt"), whole = dimensionOf("house.svt");
+    ASSERT_EQ(part.size(), 3u);
+    ASSERT_EQ(whole.size(), 3u);
+    for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_LT(part[axis], whole[axis]) << axis;
+}
+
 }  // namespace
 }  // namespace svt::test

@@ -10,6 +10,7 @@
 #include <svt/image/png.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -340,6 +341,71 @@ TEST_F(SmallHouse, GhostsDoNotDullWhatIsHighlighted) {
             }
         EXPECT_GT(seen, 20u);
     }
+}
+
+// What is lit stands out from what is around it.
+TEST_F(SmallHouse, WhatIsHighlightedIsSeenInAllLooks) {
+    const std::string target = "id=house_chimney or class=BuildingFurniture";
+    for (const char* look : {"plain", "paper", "blueprint", "dark"}) {
+        const std::vector<std::string> common{"--edges", "0",      "--samples", "1",        "--fit",
+                                              "all",     "--look", look,        "--labels", "labels.png"};
+        const auto with = [&](std::vector<std::string> more) {
+            more.insert(more.end(), common.begin(), common.end());
+            return more;
+        };
+        (void)draw(with({"--show", target}));
+        const auto own = image::readGrayPng(folder / "labels.png");
+        ASSERT_TRUE(own);
+        const auto lit = draw(with({"--highlight", target}));
+        // Of pixels of the target with eight neighbours of it, and of others at most 4 pixels beside it.
+        double sums[2][3] = {}, counts[2] = {};
+        for (std::int32_t y = 4; y < lit.height() - 4; ++y)
+            for (std::int32_t x = 4; x < lit.width() - 4; ++x) {
+                int near = 0, close = 0;
+                for (std::int32_t j = -4; j <= 4; ++j)
+                    for (std::int32_t i = -4; i <= 4; ++i) {
+                        if (own->at(x + i, y + j) == 0) continue;
+                        ++near;
+                        close += std::abs(i) <= 1 && std::abs(j) <= 1;
+                    }
+                if (close != 9 && (close != 0 || near == 0)) continue;
+                const std::size_t k = close == 9 ? 0 : 1;
+                const image::Rgba8 pixel = lit.at(x, y);
+                sums[k][0] += pixel.r;
+                sums[k][1] += pixel.g;
+                sums[k][2] += pixel.b;
+                counts[k] += 1;
+            }
+        ASSERT_GT(counts[0], 20) << look;
+        ASSERT_GT(counts[1], 20) << look;
+        double difference = 0;
+        for (std::size_t c = 0; c < 3; ++c)
+            difference = std::max(difference, std::abs(sums[0][c] / counts[0] - sums[1][c] / counts[1]));
+        EXPECT_GT(difference, 30) << look;
+    }
+}
+
+TEST_F(SmallHouse, NamesWithoutRoomAreCounted) {
+    const std::vector<std::string> arguments{"render", "house.svt", "-o",      "p.png",
+                                             "--size", "160x90",    "--names", "all"};
+    const CommandResult result = runSvt(folder.path(), arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.toString();
+    EXPECT_NE(result.err.find("found no place; a larger --size"), std::string::npos) << result.toString();
+    EXPECT_NE(result.err.find("of what is not seen are left out"), std::string::npos) << result.toString();
+}
+
+TEST_F(SmallHouse, TargetsOfACutawayThatAreNotSeenAreNamed) {
+    const auto notesOf = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"render", "house.svt", "-o", "p.png", "--size", "160x90", "--cutaway"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const CommandResult result = runSvt(folder.path(), arguments);
+        EXPECT_EQ(result.exitCode, 0) << result.toString();
+        return result.err;
+    };
+    EXPECT_EQ(notesOf({"id=house_chimney"}).find("cutaway:"), std::string::npos);
+    EXPECT_NE(notesOf({"id=house_chimney", "--hide", "id=house_chimney"}).find("cutaway: 1 of 1 are not seen"),
+              std::string::npos);
+    EXPECT_NE(notesOf({"all"}).find("are not seen, behind other targets"), std::string::npos);
 }
 
 // A member of a scene asks for no less than the option does.

@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace svt::illustrate {
 namespace {
@@ -156,6 +159,71 @@ TEST_F(ColorByTest, AreasAreGivenOrAttributes) {
     EXPECT_EQ(coloring->scale.low, 12.5);
     EXPECT_EQ(coloring->scale.high, 20);
     EXPECT_EQ(coloring->scale.missing, 1u);
+}
+
+TEST_F(ColorByTest, ALegendShowsTheColoursOfItsEntries) {
+    const auto byte = [](float c) { return static_cast<std::uint8_t>(std::lround(c * 255)); };
+    const ColorScale words = by("storey").scale, ramp = by("volume").scale;
+    ASSERT_FALSE(words.entries.empty());
+    const Vec3f first = words.entries[0].color;
+    const image::Rgba8 expected{byte(first.x), byte(first.y), byte(first.z), 255};
+    for (const std::int32_t size : {100, 300}) {
+        const image::Image<image::Rgba8> empty(size, size);
+        auto ofWords = empty, ofRamp = empty;
+        drawLegend(words, {0, 0, 0}, {1, 1, 1}, ofWords);
+        drawLegend(ramp, {0, 0, 0}, {1, 1, 1}, ofRamp);
+        EXPECT_NE(ofWords, empty) << size;
+        EXPECT_NE(ofRamp, empty) << size;
+        EXPECT_NE(ofWords, ofRamp) << size;
+        const auto found = std::count(ofWords.pixels().begin(), ofWords.pixels().end(), expected);
+        EXPECT_GT(found, 50) << size << ": a field of 1.2 by 0.84 heights of a text of 11 pixels";
+    }
+}
+
+using Rows3 = std::array<Vec3d, 3>;
+
+Vec3d times(const Rows3& rows, Vec3d v) { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
+
+// CIE Lab (D65) of an sRGB colour as it is seen by an eye, a matrix on linear RGB.
+Vec3d labSeenBy(const Rows3& eye, Vec3f color) {
+    const auto linear = [](float c) {
+        const auto v = static_cast<double>(c);
+        return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    };
+    const Vec3d seen = times(eye, {linear(color.x), linear(color.y), linear(color.z)});
+    constexpr Rows3 kXyz{Vec3d{0.4124564, 0.3575761, 0.1804375}, Vec3d{0.2126729, 0.7151522, 0.0721750},
+                         Vec3d{0.0193339, 0.1191920, 0.9503041}};
+    const Vec3d xyz =
+        times(kXyz, {std::clamp(seen.x, 0.0, 1.0), std::clamp(seen.y, 0.0, 1.0), std::clamp(seen.z, 0.0, 1.0)});
+    const auto f = [](double t) { return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116; };
+    const double fx = f(xyz.x / 0.95047), fy = f(xyz.y), fz = f(xyz.z / 1.08883);
+    return {116 * fy - 16, 500 * (fx - fy), 200 * (fy - fz)};
+}
+
+TEST_F(ColorByTest, NineWordsAreToldApartByAllEyes) {
+    std::vector<std::string> names;
+    for (int n = 0; n < 9; ++n) names.push_back("name " + std::to_string(n));
+    rows_.clear();
+    for (const std::string& name : names) rows_.push_back({name, "Room", name, kNoRow, {}, {}, 1, 1});
+    isShown_.assign(rows_.size(), 1);
+    const auto entries = by("name").scale.entries;
+    ASSERT_EQ(entries.size(), 9u);
+    // Without green, red, blue cones: Machado, Oliveira and Fernandes 2009, severity 1.
+    const std::pair<const char*, Rows3> eyes[] = {
+        {"deutan",
+         {Vec3d{0.367322, 0.860646, -0.227968}, Vec3d{0.280085, 0.672501, 0.047413},
+          Vec3d{-0.011820, 0.042940, 0.968881}}},
+        {"protan",
+         {Vec3d{0.152286, 1.052583, -0.204868}, Vec3d{0.114503, 0.786281, 0.099216},
+          Vec3d{-0.003882, -0.048116, 1.051998}}},
+        {"tritan",
+         {Vec3d{1.255528, -0.076749, -0.178779}, Vec3d{-0.078411, 0.930809, 0.147602},
+          Vec3d{0.004733, 0.691367, 0.303900}}}};
+    for (const auto& [name, eye] : eyes)
+        for (std::size_t a = 0; a < entries.size(); ++a)
+            for (std::size_t b = 0; b < a; ++b)
+                EXPECT_GT(length(labSeenBy(eye, entries[a].color) - labSeenBy(eye, entries[b].color)), 15)
+                    << name << ' ' << a << ' ' << b;
 }
 
 }  // namespace

@@ -94,5 +94,24 @@ TEST(Marks, PicturesOfAnySizeAreDrawnOn) {
     }
 }
 
+TEST(Marks, ATitleStandsAtTheUpperLeft) {
+    auto image = paper(600, 400);
+    drawTitle("A house", kBlack, kWhite, image);
+    const double height = 1.6 * nameHeight(400);
+    std::size_t dark = 0;
+    for (std::int32_t y = 0; y < 400; ++y)
+        for (std::int32_t x = 0; x < 600; ++x) {
+            if (!isDark(image, x, y)) continue;
+            ++dark;
+            EXPECT_GT(x, height / 2);
+            EXPECT_LT(x, 300);
+            EXPECT_LT(y, 2.5 * height);
+        }
+    EXPECT_GT(dark, 50u);
+    auto nothing = paper(600, 400);
+    drawTitle("", kBlack, kWhite, nothing);
+    EXPECT_EQ(nothing, paper(600, 400));
+}
+
 }  // namespace
 }  // namespace svt::illustrate

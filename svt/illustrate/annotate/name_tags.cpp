@@ -179,9 +179,8 @@ std::string shortened(const std::string& text, double width, double height) {
     std::string part = text;
     while (!part.empty()) {
         // By whole characters of UTF-8.
-        do part.pop_back();
-        while (!part.empty() && (static_cast<unsigned char>(part.back()) & 0xC0U) == 0x80U);
-        if (!part.empty() && static_cast<unsigned char>(part.back()) >= 0xC0U) part.pop_back();
+        while (part.size() > 1 && (static_cast<unsigned char>(part.back()) & 0xC0U) == 0x80U) part.pop_back();
+        part.pop_back();
         if (image::textWidth(part + "\u2026", height) <= width) break;
     }
     return part + "\u2026";

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace svt::illustrate {
@@ -156,6 +157,36 @@ TEST_F(NameTagsTest, QueriesMustSelectSomething) {
     const auto found = findNameTags({"id=bgi"}, volume_, volume_.labels, frame_);
     ASSERT_FALSE(found);
     EXPECT_EQ(found.error().code(), Code::NothingSelected);
+}
+
+// Whether no character of UTF-8 is cut.
+bool hasWholeCharacters(const std::string& text) {
+    for (std::size_t n = 0; n < text.size();) {
+        const auto lead = static_cast<unsigned char>(text[n]);
+        const std::size_t length = lead < 0x80U ? 1 : lead < 0xC0U ? 0 : lead < 0xE0U ? 2 : lead < 0xF0U ? 3 : 4;
+        if (length == 0 || n + length > text.size()) return false;
+        for (std::size_t k = 1; k < length; ++k)
+            if ((static_cast<unsigned char>(text[n + k]) & 0xC0U) != 0x80U) return false;
+        n += length;
+    }
+    return true;
+}
+
+TEST(ShortenedNames, EndInAnEllipsisFitAndKeepWholeCharacters) {
+    const std::string ellipsis = "\xE2\x80\xA6";
+    // Characters of one to four bytes.
+    const std::string name = "\xC3\xA4 very l\xC3\xB6ng \xE2\x82\xAC\xE2\x82\xAC n\xF0\x9F\x8F\xA0me";
+    const double height = 12, all = image::textWidth(name, height);
+    EXPECT_EQ(shortened(name, all, height), name);
+    EXPECT_EQ(shortened("", 0, height), "");
+    for (double width = image::textWidth(ellipsis, height); width < all - 1; width += 0.5) {
+        const std::string text = shortened(name, width, height);
+        EXPECT_LE(image::textWidth(text, height), width) << text;
+        EXPECT_TRUE(hasWholeCharacters(text)) << text;
+        ASSERT_TRUE(text.ends_with(ellipsis)) << text;
+        EXPECT_TRUE(name.starts_with(text.substr(0, text.size() - ellipsis.size()))) << text;
+    }
+    EXPECT_EQ(shortened(name, 0, height), ellipsis);
 }
 
 }  // namespace

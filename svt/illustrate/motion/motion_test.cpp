@@ -52,6 +52,14 @@ TEST(Motion, NumbersOfRegionsGoFromTheSceneToItsKeys) {
     EXPECT_FALSE(at(scene, 1).motion) << "a moment does not move";
 }
 
+TEST(Motion, ALensInBetweenIsInBetween) {
+    const Scene scene = sceneOf(R"json({"passes":[{"keep":"view(0.3,0.5,0.2)"}],"motion":{"seconds":2,"pace":"even",
+        "keys":[{"at":2,"scene":{"passes":[{"keep":"view(0.7,0.25,0.4)"}]}}]}})json");
+    EXPECT_EQ(at(scene, 0).passes[0].keep, "view(0.3,0.5,0.2)");
+    EXPECT_EQ(at(scene, 1).passes[0].keep, "view(0.5,0.375,0.3)");
+    EXPECT_EQ(at(scene, 2).passes[0].keep, "view(0.7,0.25,0.4)");
+}
+
 TEST(Motion, SmoothPaceIsGentleAtBothEndsAndHalfwayInTheMiddle) {
     const Scene scene = sceneOf(R"json({"passes":[{"cut":"z>0"}],"motion":{"seconds":1,
         "keys":[{"at":1,"scene":{"passes":[{"cut":"z>100"}]}}]}})json");
