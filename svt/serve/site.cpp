@@ -197,6 +197,27 @@ Result<void> moveInto(const fs::path& staging, const fs::path& folder, const std
     return {};
 }
 
+// "https://example.org:8080" of "https://example.org:8080/town"; empty of a folder, and of what no policy may have.
+std::string originOf(const std::string& location) {
+    if (!location.starts_with("http://") && !location.starts_with("https://")) return {};
+    const std::string origin = location.substr(0, location.find_first_of("/?#", location.find("//") + 2));
+    const auto isPlain = [](unsigned char c) {
+        return std::isalnum(c) != 0 || std::string_view(":/.-[]").find(char(c)) != std::string_view::npos;
+    };
+    return std::all_of(origin.begin(), origin.end(), isPlain) ? origin : std::string();
+}
+
+nlohmann::ordered_json addCity(Site& site, const SiteModel& model) {
+    std::string file = model.city;
+    if (const std::string origin = originOf(model.city); !origin.empty()) {
+        site.allowOrigin(origin);
+    } else {
+        file = "models/" + model.name + "/";
+        for (const auto& [name, bytes] : model.cityFiles) site.add("/" + file + name, bytes);
+    }
+    return {{"name", model.name}, {"file", file}, {"bytes", 0}, {"title", model.title}, {"city", true}};
+}
+
 // What a path is answered with. Cost: that of compressing.
 Resource resourceOf(const std::string& path, Bytes bytes) {
     const Type& type = typeOf(path);

@@ -1,6 +1,6 @@
 // Times of the page in the browser that is here: `npm run bench`. Needs `make viewer`; a machine that does nothing else.
 // Prints tables in Markdown: first and finest image after navigation, frames while the view turns, still pictures, by kind of
-// engine, with and without threads in turns. SVT_BENCH_PAGE=FOLDER: another built page, in turns with this one.
+// engine, with and without threads in turns; with --json one object for scripts/bench.py. SVT_BENCH_PAGE=FOLDER: another built page, in turns with this one.
 // Environment: SVT_BENCH_HEADED=1 shows the browser and leaves its graphics driver as it is, for machines with a graphics card.
 import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -57,7 +57,7 @@ async function frames(url, kind) {
   const page = await context.newPage();
   await page.goto(url);
   await firstImage(page);
-  await fine(page);
+  await page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine", null, { timeout: 120_000 });
   const found = await page.evaluate(async () => {
     const s = document.querySelector("svt-app").session;
     const { engine, milliseconds: still } = s.report, threads = s.engine.threads ?? 1;
@@ -90,18 +90,34 @@ const kinds = [
   ["one thread", `${server.url}?engine=cpu&threads=no`, "cpu"],
   ...(other ? [["other page", `${other.url}?engine=cpu`, "cpu"]] : []),
 ];
-console.log(`${name}, page of 1280 x 720, \`svt serve\` on the same machine; medians of ${kRounds}, in turns.\n`);
 const times = kinds.map(() => ({}));
 for (let n = 0; n < kRounds; ++n) for (const [i, [, url]] of kinds.entries()) await start(url, times[i]);
-console.log("| CPU caster | first image, unseen browser | from outside | finest | from outside | first image, loaded again |\n| --- | --- | --- | --- | --- | --- |");
-for (const [i, [label]] of kinds.entries()) console.log(`| ${label} | ${["cold", "outside", "fine", "fineOutside", "warm"].map((of) => ms(median(times[i][of]))).join(" | ")} |`);
-console.log("\n| engine | driver | turning: frames a second | of pixels | still, 4 rays a pixel |\n| --- | --- | --- | --- | --- |");
 if (process.env.SVT_BENCH_GL !== "0") kinds.push(["webgl2", `${server.url}?engine=webgl2`, "webgl2"]);
-for (const [label, url, kind] of [...kinds, ...kinds.slice(0, 2)]) {
-  const found = await frames(url, kind);
-  if (!found) console.log(`| ${label} | does not draw here | - | - | - |`);
-  else console.log(`| ${label}${kind === "cpu" ? ` (${found.threads})` : ""} | ${kind === "cpu" ? "-" : found.driver} | ${found.fps.toFixed(1)}${kind !== "cpu" && found.byCpu ? " (coarse, by the CPU)" : ""} | ${found.moving.join(" x ")} | ${found.size.join(" x ")} in ${ms(found.still)} |`);
+const engines = [];
+for (const [label, url, kind] of kinds) engines.push([label, kind, await frames(url, kind)]);
+
+/** What scripts/bench.py reads, of the page as it is served: seconds, frames a second, and how much of the picture's width is cast while it turns. */
+function figures() {
+  const cpu = engines[0][2], webgl2 = engines.find(([label]) => label === "webgl2")?.[2];
+  return {
+    first_image_s: median(times[0].outside) / 1e3, finest_s: median(times[0].fineOutside) / 1e3, again_s: median(times[0].warm) / 1e3,
+    turning_fps: cpu.fps, turning_share: cpu.moving[0] / cpu.size[0], still_s: cpu.still / 1e3, ...(webgl2 ? { still_webgl2_s: webgl2.still / 1e3 } : {}),
+  };
 }
+
+function table() {
+  console.log(`${name}, page of 1280 x 720, \`svt serve\` on the same machine; medians of ${kRounds}, in turns.\n`);
+  console.log("| CPU caster | first image, unseen browser | from outside | finest | from outside | first image, loaded again |\n| --- | --- | --- | --- | --- | --- |");
+  for (const [i, taken] of times.entries()) console.log(`| ${kinds[i][0]} | ${["cold", "outside", "fine", "fineOutside", "warm"].map((of) => ms(median(taken[of]))).join(" | ")} |`);
+  console.log("\n| engine | driver | turning: frames a second | of pixels | still, 4 rays a pixel |\n| --- | --- | --- | --- | --- |");
+  for (const [label, kind, found] of engines) {
+    if (!found) console.log(`| ${label} | does not draw here | - | - | - |`);
+    else console.log(`| ${label}${kind === "cpu" ? ` (${found.threads})` : ""} | ${kind === "cpu" ? "-" : found.driver} | ${found.fps.toFixed(1)}${kind !== "cpu" && found.byCpu ? " (coarse, by the CPU)" : ""} | ${found.moving.join(" x ")} | ${found.size.join(" x ")} in ${ms(found.still)} |`);
+  }
+}
+
+if (process.argv.includes("--json")) console.log(JSON.stringify(figures()));
+else table();
 await other?.close();
 await server.close();
 rmSync(folder, { recursive: true, force: true });

@@ -1,9 +1,10 @@
 /** The engine on the page's side: passes requests to the worker and shows its pictures on the canvas. */
 import { kCancelled } from "../engine";
 import type {
-  ColorScale, DrawingFormat, DrawingParts, Effects, Engine, EngineError, EngineKind, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Pick,
+  CityBytes, CityLook, CityOptions, ColorScale, DrawingFormat, DrawingParts, Effects, Engine, EngineError, EngineKind, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Pick,
   Point, Scene, SceneCamera, Stretch, VolumeInfo,
 } from "../engine";
+import { withBytes } from "./city_calls";
 import { kWithoutThreads } from "./protocol";
 import type { Answer, Calls, Request } from "./protocol";
 
@@ -69,6 +70,11 @@ class Connection {
     request.reject(answer.error);
     if (answer.isDead) this.died(answer.error);
   }
+}
+
+/** `?threads=no` leaves them out, to compare. */
+function mayUseThreads(): boolean {
+  return new URLSearchParams(location.search).get("threads") !== "no";
 }
 
 /** Pixels of a picture that nobody sees. */

@@ -1,5 +1,5 @@
 /** Messages between page and worker. A request has one answer, matched by id; open() reports progress before it. */
-import type { ColorScale, Effects, EngineError, EngineKind, Pick, Scene, SceneCamera, Stretch } from "../engine";
+import type { CityLook, CityOptions, ColorScale, Effects, EngineError, EngineKind, Pick, Scene, SceneCamera, Stretch } from "../engine";
 import type { DrawingFormat, DrawingParts, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Point, VolumeInfo } from "../engine";
 
 /** The name of a worker that is to use no threads. */
