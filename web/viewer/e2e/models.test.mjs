@@ -219,6 +219,12 @@ describe("tables and several models", () => {
     writeFileSync(at("two.scene.json"), JSON.stringify(scene));
     svt("render", at("a.svt"), "--with", at("part.svt"), "--scene", at("two.scene.json"), "-o", at("two.png"));
     assert.ok(Buffer.from(bytes, "base64").equals(readFileSync(at("two.png"))), "as svt render --with");
+    const seen = await inPage(`(async () => {
+      const ids = new Set();
+      for (let y = 0.05; y < 1; y += 0.05) for (let x = 0.05; x < 1; x += 0.05) ids.add((await s.engine.pick(x, y))?.id ?? "");
+      return [...ids];
+    })()`);
+    assert.ok(seen.some((id) => id.startsWith("house_")) && seen.some((id) => id.startsWith("tower_")), `objects of both are picked: ${seen.join(" ")}`);
     await visit.tool("share");
     await visit.page.click("#copy-command");
     await visit.eventually(async () => assert.match(await visit.page.evaluate(() => navigator.clipboard.readText()), /^svt render a\.svt .*--with part\.svt$/));

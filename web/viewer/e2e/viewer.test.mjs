@@ -696,7 +696,14 @@ describe("tools", () => {
     await eventually(async () => assert.match(page.url(), /view=/));
     const { inflateRawSync } = await import("node:zlib");
     await eventually(async () => assert.deepEqual(JSON.parse(inflateRawSync(Buffer.from(new URLSearchParams(new URL(page.url()).hash.slice(1)).get("view"), "base64url"))).measured, [a, b, c]));
+    // They stay until they are removed.
+    await page.reload();
+    await page.waitForFunction(() => document.querySelector("svt-app")?.session?.report);
+    await settled();
+    assert.deepEqual((await state()).measured, [a, b, c]);
+    await tool("measure");
     await page.getByRole("button", { name: "Clear" }).click();
+    assert.deepEqual((await state()).measured, []);
   });
 
   it("measure from corner to corner of the model", async () => {
@@ -724,6 +731,10 @@ describe("tools", () => {
     await page.waitForFunction(() => document.querySelector("svt-app").session.state.measured.length === 1);
     const plain = (await state()).measured[0];
     assert.ok(Math.hypot(...plain.map((v, i) => v - corner.on[i])) < 0.05, "with Ctrl the point is where the ray hits");
+    await click();
+    await page.waitForFunction(() => document.querySelector("svt-app").session.state.measured.length === 2);
+    const snapped = (await state()).measured[1];
+    assert.ok(Math.hypot(...snapped.map((v, i) => v - corner.point[i])) < 0.001, "without Ctrl it is the corner");
     assert.equal(await inPage("s.engine.pick(0.5, 0.5).then((p) => p?.snapped ?? null)"), null);
     await inPage("s.set({ measured: [] })");
   });
@@ -773,6 +784,22 @@ describe("keeping", () => {
     words[3] = at("by-command.png");
     svt(...words);
     assert.ok(readFileSync(at("by-command.png")).equals(readFileSync(at("view.png"))));
+  });
+
+  it("gives code that shows the view in another page", async () => {
+    await page.click("#copy-embedding");
+    const source = await eventually(async () => {
+      const code = await page.evaluate(() => navigator.clipboard.readText());
+      return /^<iframe .*src="([^"]+)"/.exec(code)?.[1] ?? assert.fail(code);
+    });
+    const shown = source.replaceAll("&amp;", "&");
+    const second = await browser.context.newPage();
+    await second.goto(shown);
+    await second.waitForFunction(() => document.querySelector("svt-app")?.session?.report);
+    assert.equal(await second.evaluate(() => document.querySelector("svt-app").session.state.look), "paper");
+    await second.close();
+    await page.bringToFront();
+    await page.getByRole("button", { name: "Dismiss" }).click();
   });
 
   it("gives a link that opens the same view", async () => {
