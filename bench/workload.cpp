@@ -78,8 +78,7 @@ std::string withoutGroups(const std::string& text) {
 
 std::filesystem::path dataDir() {
     const char* dir = std::getenv("SVT_DATA_DIR");
-    return dir != nullptr ? std::filesystem::path(dir)
-                          : std::filesystem::path(__FILE__).parent_path().parent_path() / SVT_BENCH_DATA_DIR;
+    return dir != nullptr ? std::filesystem::path(dir) : SVT_BENCH_DATA_DIR;
 }
 
 Result<std::vector<Input>> findInputs(const std::filesystem::path& scratch, std::vector<std::string>& skipped) {

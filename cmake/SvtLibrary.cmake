@@ -90,7 +90,12 @@ endfunction()
 # svt_test(<name> SOURCES ... LINK ...): a GoogleTest program, its cases registered with ctest.
 function(svt_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
-  add_executable(${name} ${ARG_SOURCES})
+  # The only source that names the path of the checkout, so that ccache finds all others for another checkout.
+  set(root ${CMAKE_BINARY_DIR}/source_root_test.cpp)
+  file(CONFIGURE OUTPUT ${root} CONTENT "namespace svt::test {\nextern const char* const kSourceRoot;\n\
+const char* const kSourceRoot = \"${PROJECT_SOURCE_DIR}\";\n}\n")
+  set_source_files_properties(${root} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  add_executable(${name} ${ARG_SOURCES} ${root})
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)  # as the precompiled header of tests
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest GTest::gtest_main)
   svt_warnings(${name})

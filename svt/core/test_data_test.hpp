@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Finds real models that are not part of the repository.
+/// Finds the checkout, and real models that are not part of the repository.
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,13 @@
 
 namespace svt::test {
 
+/// Root of the checkout that the test was built from; the build defines it (cmake/SvtLibrary.cmake).
+extern const char* const kSourceRoot;
+
 /// $SVT_DATA_DIR, else ../shared/data beside the checkout.
 inline std::filesystem::path dataDir() {
     if (const char* dir = std::getenv("SVT_DATA_DIR")) return dir;
-    return std::filesystem::path(__FILE__).parent_path() / "../../../shared/data";
+    return std::filesystem::path(kSourceRoot) / "../shared/data";
 }
 
 }  // namespace svt::test

@@ -991,8 +991,8 @@ void writeWorst(const TemporaryFolder& folder, const char* kind) {
 #else
     const std::string count = "20000";
 #endif
-    const std::string write = std::string("python3 " SVT_SOURCE_DIR "/scripts/worst_inputs.py ") + kind + " " + count +
-                              " '" + (folder / "worst.json").string() + "'";
+    const std::string write = std::string("python3 " + sourceRoot() + "/scripts/worst_inputs.py ") + kind + " " +
+                              count + " '" + (folder / "worst.json").string() + "'";
     ASSERT_EQ(std::system(write.c_str()), 0);
 }
 

@@ -74,8 +74,8 @@ TEST_F(CityFolder, HasTheSameBytesHoweverItsTasksAreRun) {
 bool isReadByNode(const TemporaryFolder& folder, const std::string& script, const std::string& arguments,
                   std::string& said) {
     const char* told = std::getenv("SVT_ORACLES");
-    const std::string oracles = told != nullptr ? told : SVT_SOURCE_DIR "/build/oracles";
-    const std::string command = "cd '" + folder.path().string() + "' && node " SVT_SOURCE_DIR "/tests/formats/" +
+    const std::string oracles = told != nullptr ? told : sourceRoot() + "/build/oracles";
+    const std::string command = "cd '" + folder.path().string() + "' && node " + sourceRoot() + "/tests/formats/" +
                                 script + " " + oracles + " " + arguments + " > output.txt 2>&1";
     const int status = std::system(command.c_str());
     said = readText(folder / "output.txt");

@@ -43,9 +43,9 @@ protected:
                    const std::string& scale = "1") {
         // The system's own interpreter: the readers are packages of the system.
         const std::string python = fs::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
-        const std::string command = "cd '" + folder.path().string() + "' && " + python +
-                                    " " SVT_SOURCE_DIR "/tests/scripts/read_volume.py " + reader + " " + file + " " +
-                                    reference + " " + scale + " > output.txt 2>&1";
+        const std::string command = "cd '" + folder.path().string() + "' && " + python + " " + sourceRoot() +
+                                    "/tests/scripts/read_volume.py " + reader + " " + file + " " + reference + " " +
+                                    scale + " > output.txt 2>&1";
         const int status = std::system(command.c_str());
         said = readText(folder / "output.txt");
         if (WEXITSTATUS(status) == 77) return false;
@@ -56,10 +56,10 @@ protected:
     /// Runs tests/formats/read_formats.mjs with what is installed in build/oracles; false where the reader is not.
     bool isReadByNode(const std::string& arguments) {
         const char* told = std::getenv("SVT_ORACLES");
-        const std::string oracles = told != nullptr ? told : SVT_SOURCE_DIR "/build/oracles";
-        const std::string command = "cd '" + folder.path().string() +
-                                    "' && node " SVT_SOURCE_DIR "/tests/formats/read_formats.mjs " + oracles + " " +
-                                    arguments + " > output.txt 2>&1";
+        const std::string oracles = told != nullptr ? told : sourceRoot() + "/build/oracles";
+        const std::string command = "cd '" + folder.path().string() + "' && node " + sourceRoot() +
+                                    "/tests/formats/read_formats.mjs " + oracles + " " + arguments +
+                                    " > output.txt 2>&1";
         const int status = std::system(command.c_str());
         said = readText(folder / "output.txt");
         if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) return false;
@@ -129,8 +129,8 @@ TEST_F(Convert, ParaViewOpensImageDataAndAllLevels) {
     for (const std::string file : {"fine.vti", "raw.vti", "fine.vtm"}) {
         runSvtWell(folder.path(), {"convert", "fine.svt", file, "--encoding", file == "raw.vti" ? "raw" : "gzip"});
         const std::string command = "cd '" + folder.path().string() + "' && '" + pvpython +
-                                    "' --force-offscreen-rendering " SVT_SOURCE_DIR "/tests/formats/read_paraview.py " +
-                                    file + " fine.nrrd > output.txt 2>&1";
+                                    "' --force-offscreen-rendering " + sourceRoot() +
+                                    "/tests/formats/read_paraview.py " + file + " fine.nrrd > output.txt 2>&1";
         EXPECT_EQ(std::system(command.c_str()), 0) << file << ":\n" << readText(folder / "output.txt");
         EXPECT_NE(readText(folder / "output.txt").find(" same; 3 names"), std::string::npos)
             << readText(folder / "output.txt");
@@ -192,9 +192,9 @@ TEST_F(Convert, VtkReadsTriangles) {
 TEST_F(Convert, ZarrOfOthersIsRead) {
     // By zarr-python with each of its compressors, and what must be refused.
     const std::string python = fs::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
-    const std::string svt = fs::path(SVT_COMMAND).string();
-    const std::string command = "cd '" + folder.path().string() + "' && " + python +
-                                " " SVT_SOURCE_DIR "/tests/scripts/zarr_of_others.py '" + svt + "' . > output.txt 2>&1";
+    const std::string svt = commandPath();
+    const std::string command = "cd '" + folder.path().string() + "' && " + python + " " + sourceRoot() +
+                                "/tests/scripts/zarr_of_others.py '" + svt + "' . > output.txt 2>&1";
     const int status = std::system(command.c_str());
     if (WEXITSTATUS(status) == 77) GTEST_SKIP() << readText(folder / "output.txt");
     EXPECT_EQ(status, 0) << readText(folder / "output.txt");
@@ -202,8 +202,8 @@ TEST_F(Convert, ZarrOfOthersIsRead) {
 
 TEST_F(Convert, ZarrVersion3OfOthersIsRead) {
     const char* told = std::getenv("SVT_ORACLES");
-    const std::string oracles = told != nullptr ? told : SVT_SOURCE_DIR "/build/oracles";
-    const std::string command = "node " SVT_SOURCE_DIR "/tests/formats/write_zarr.mjs " + oracles + " '" +
+    const std::string oracles = told != nullptr ? told : sourceRoot() + "/build/oracles";
+    const std::string command = "node " + sourceRoot() + "/tests/formats/write_zarr.mjs " + oracles + " '" +
                                 folder.path().string() + "' > '" + (folder / "output.txt").string() + "' 2>&1";
     const int status = std::system(command.c_str());
     if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) GTEST_SKIP() << readText(folder / "output.txt");
@@ -347,10 +347,10 @@ TEST_F(Convert, CesiumShowsTilesAtTheirPlaceAndTellsComponents) {
     runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2"});
     runSvtWell(folder.path(), {"convert", "house.svt", "house.3dtiles"});
     const char* told = std::getenv("SVT_ORACLES");
-    const std::string oracles = told != nullptr ? told : SVT_SOURCE_DIR "/build/oracles";
+    const std::string oracles = told != nullptr ? told : sourceRoot() + "/build/oracles";
     // The middle is at 500005.5, 5400003.85 and 104.2 m in zone 32 of UTM; by cs2cs:
     const std::string command =
-        "cd '" + folder.path().string() + "' && node " SVT_SOURCE_DIR "/tests/formats/cesium.mjs " + oracles +
+        "cd '" + folder.path().string() + "' && node " + sourceRoot() + "/tests/formats/cesium.mjs " + oracles +
         " house.3dtiles 9.0000748 48.7530476 104.2 BuildingConstructiveElement > output.txt 2>&1";
     const int status = std::system(command.c_str());
     said = readText(folder / "output.txt");
@@ -361,13 +361,13 @@ TEST_F(Convert, CesiumShowsTilesAtTheirPlaceAndTellsComponents) {
 
 TEST_F(Convert, CesiumShowsVoxelsAndTellsTheirLabels) {
     const char* told = std::getenv("SVT_ORACLES");
-    const std::string oracles = told != nullptr ? told : SVT_SOURCE_DIR "/build/oracles";
+    const std::string oracles = told != nullptr ? told : sourceRoot() + "/build/oracles";
     runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
     runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.1"});
     runSvtWell(folder.path(), {"convert", "house.svt", "house.nrrd", "--encoding", "raw"});
     runSvtWell(folder.path(), {"convert", "house.svt", "house.3dtiles", "--voxels"});
-    const std::string command = "cd '" + folder.path().string() +
-                                "' && node " SVT_SOURCE_DIR "/tests/formats/cesium_voxels.mjs " + oracles +
+    const std::string command = "cd '" + folder.path().string() + "' && node " + sourceRoot() +
+                                "/tests/formats/cesium_voxels.mjs " + oracles +
                                 " house.3dtiles house.nrrd voxels.png > output.txt 2>&1";
     const int status = std::system(command.c_str());
     said = readText(folder / "output.txt");
@@ -481,7 +481,7 @@ TEST_F(Convert, EveryFormatIsWrittenAndTheSameForAnyThreads) {
 bool writeSchemas(const fs::path& folder, const fs::path& data, const std::string& version) {
     const fs::path schemas = data / "schemas";
     if (!fs::exists(schemas / "all_citygml.xsd")) return false;
-    std::string ade = readText(fs::path(SVT_SOURCE_DIR) / ("docs/formats/citygml/svt-ade-" + version + ".xsd"));
+    std::string ade = readText(fs::path(sourceRoot()) / ("docs/formats/citygml/svt-ade-" + version + ".xsd"));
     std::string all = readText(schemas / "all_citygml.xsd");
     const auto replace = [](std::string& text, const std::string& from, const std::string& to) {
         for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
@@ -533,7 +533,7 @@ TEST_F(Convert, OtherKindsOfAFormatAreTheSameForAnyThreads) {
 
 fs::path dataFolder() {
     const char* told = std::getenv("SVT_DATA_DIR");
-    return told != nullptr ? fs::path(told) : fs::path(SVT_SOURCE_DIR) / "../shared/data";
+    return told != nullptr ? fs::path(told) : fs::path(sourceRoot()) / "../shared/data";
 }
 
 TEST_F(Convert, CityGmlIsValidAndComesBackBitForBit) {
@@ -630,7 +630,7 @@ std::string placeIn(const std::string& scene, const char* attribute) {
 
 TEST_F(Convert, BrowsersShowX3dAsWeDrawIt) {
     const char* told = std::getenv("SVT_ORACLES");
-    const std::string oracles = told != nullptr ? told : SVT_SOURCE_DIR "/build/oracles";
+    const std::string oracles = told != nullptr ? told : sourceRoot() + "/build/oracles";
     runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
     std::map<std::string, std::string> models{{"house", "house.gml"}};
     if (const fs::path ifc = dataFolder() / "fzk_haus.ifc"; fs::exists(ifc)) models["fzk"] = ifc.string();
@@ -647,8 +647,8 @@ TEST_F(Convert, BrowsersShowX3dAsWeDrawIt) {
                                            placeIn(text, "position"), "--target", placeIn(text, "centerOfRotation"),
                                            "--background", "#dbe3eb"});
             }
-            const std::string command = "cd '" + folder.path().string() +
-                                        "' && node " SVT_SOURCE_DIR "/tests/formats/x3d.mjs " + oracles +
+            const std::string command = "cd '" + folder.path().string() + "' && node " + sourceRoot() +
+                                        "/tests/formats/x3d.mjs " + oracles +
                                         (texture == "atlas" ? " x3dom " : " x_ite ") + scene + " " + scene + ".png " +
                                         ours + " > output.txt 2>&1";
             const int status = std::system(command.c_str());

@@ -142,7 +142,7 @@ TEST(Doctor, KnowsWhetherABrowserCanBeOpened) {
 TEST(Doctor, LooksForTheViewerBesideTheProgram) {
     const json viewer = answers()["viewer"];
     const fs::path folder = viewer["path"].get<std::string>();
-    EXPECT_EQ(folder, fs::canonical(SVT_COMMAND).parent_path().parent_path() / "share/svt/viewer");
+    EXPECT_EQ(folder, fs::canonical(commandPath()).parent_path().parent_path() / "share/svt/viewer");
     EXPECT_EQ(viewer["available"], fs::exists(folder / "index.html"));
     EXPECT_EQ(viewer["state"], viewer["available"] ? "ok" : "warning");
 }

@@ -50,8 +50,8 @@ public:
         fs::create_directories(folder_ / "bin");
         fs::create_directories(folder_ / "share/svt/viewer");
         std::error_code error;
-        fs::create_hard_link(SVT_COMMAND, folder_ / "bin/svt", error);
-        if (error) fs::copy_file(SVT_COMMAND, folder_ / "bin/svt");
+        fs::create_hard_link(commandPath(), folder_ / "bin/svt", error);
+        if (error) fs::copy_file(commandPath(), folder_ / "bin/svt");
         writeText(folder_ / "bin/xdg-open", "#!/bin/sh\n");
         fs::permissions(folder_ / "bin/xdg-open", fs::perms::owner_all);
         writeText(folder_ / "share/svt/viewer/index.html", "<!doctype html><head></head>");
@@ -123,7 +123,7 @@ ErrorExample exampleOf(const fs::path& page) {
 }
 
 TEST(Documents, CommandsOfTheReadmeWork) {
-    const fs::path readme = fs::path(SVT_SOURCE_DIR) / "README.md";
+    const fs::path readme = fs::path(sourceRoot()) / "README.md";
     if (!fs::exists(readme)) GTEST_SKIP() << "there is no README.md yet";
     const TemporaryFolder folder;
     for (const ShownCommand& command : commandsOf(readme)) expectWorks(folder.path(), command, readme);
@@ -131,7 +131,7 @@ TEST(Documents, CommandsOfTheReadmeWork) {
 
 std::vector<std::string> userPages() {
     std::vector<std::string> pages;
-    for (const auto& entry : fs::directory_iterator(fs::path(SVT_SOURCE_DIR) / "docs/user"))
+    for (const auto& entry : fs::directory_iterator(fs::path(sourceRoot()) / "docs/user"))
         if (entry.path().extension() == ".md") pages.push_back(entry.path().stem().string());
     std::sort(pages.begin(), pages.end());
     return pages;
@@ -157,7 +157,7 @@ void writeShownFiles(const fs::path& page, const TemporaryFolder& folder) {
 class UserPage : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(UserPage, ItsCommandsWork) {
-    const fs::path page = fs::path(SVT_SOURCE_DIR) / "docs/user" / (GetParam() + ".md");
+    const fs::path page = fs::path(sourceRoot()) / "docs/user" / (GetParam() + ".md");
     const TemporaryFolder folder;
     writeShownFiles(page, folder);
     for (const ShownCommand& command : commandsOf(page)) expectWorks(folder.path(), command, page);
@@ -173,13 +173,13 @@ INSTANTIATE_TEST_SUITE_P(Documents, UserPage, ::testing::ValuesIn(userPages()), 
 TEST(Documents, TheUserDocsShowCommands) {
     std::size_t count = 0;
     for (const std::string& page : userPages())
-        count += commandsOf(fs::path(SVT_SOURCE_DIR) / "docs/user" / (page + ".md")).size();
+        count += commandsOf(fs::path(sourceRoot()) / "docs/user" / (page + ".md")).size();
     EXPECT_GT(count, 100u);
 }
 
 std::vector<std::string> errorPages() {
     std::vector<std::string> pages;
-    for (const auto& entry : fs::directory_iterator(fs::path(SVT_SOURCE_DIR) / "docs/errors"))
+    for (const auto& entry : fs::directory_iterator(fs::path(sourceRoot()) / "docs/errors"))
         if (!exampleOf(entry.path()).commands.empty()) pages.push_back(entry.path().stem().string());
     std::sort(pages.begin(), pages.end());
     return pages;
@@ -188,7 +188,7 @@ std::vector<std::string> errorPages() {
 class ErrorPage : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(ErrorPage, ItsCommandsPrintItsMessages) {
-    const ErrorExample example = exampleOf(fs::path(SVT_SOURCE_DIR) / "docs/errors" / (GetParam() + ".md"));
+    const ErrorExample example = exampleOf(fs::path(sourceRoot()) / "docs/errors" / (GetParam() + ".md"));
     const bool needsFullDevice = example.commands.find("/dev/full") != std::string::npos;
     if (needsFullDevice && !fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
     const TemporaryFolder folder;
@@ -219,7 +219,7 @@ void expectLinksLeadToFiles(const fs::path& page) {
 
 TEST(Documents, EveryLinkLeadsToAFile) {
     for (const char* folder : {"docs/user", "docs/errors"}) {
-        const fs::path docs = fs::path(SVT_SOURCE_DIR) / folder;
+        const fs::path docs = fs::path(sourceRoot()) / folder;
         if (!fs::exists(docs)) GTEST_SKIP() << "there is no " << folder;
         for (const auto& entry : fs::directory_iterator(docs))
             if (entry.path().extension() == ".md") expectLinksLeadToFiles(entry.path());

@@ -52,7 +52,8 @@ void expectAsReference(const std::filesystem::path& folder, const Picture& pictu
     const auto actual = image::readPng(folder / "actual.png");
     ASSERT_TRUE(actual) << actual.error().toString();
 
-    const std::filesystem::path reference = std::filesystem::path(SVT_GOLDEN_DIR) / (picture.name + ".png");
+    const std::filesystem::path reference =
+        std::filesystem::path(sourceRoot()) / "tests/golden" / (picture.name + ".png");
     if (const char* update = std::getenv("SVT_UPDATE_GOLDEN"); update != nullptr && std::string(update) == "1") {
         std::filesystem::create_directories(reference.parent_path());
         std::filesystem::copy_file(folder / "actual.png", reference, std::filesystem::copy_options::overwrite_existing);
@@ -62,7 +63,7 @@ void expectAsReference(const std::filesystem::path& folder, const Picture& pictu
     ASSERT_TRUE(expected) << expected.error().toString() << "; SVT_UPDATE_GOLDEN=1 makes it";
     const image::ImageDifference difference = image::compareImages(*actual, *expected);
     if (difference.error < kInvisible) return;
-    const std::filesystem::path kept = SVT_PICTURE_DIR;
+    const std::filesystem::path kept = buildFolder() / "tests/pictures";
     std::filesystem::create_directories(kept);
     (void)image::writePng(kept / (picture.name + ".actual.png"), *actual);
     if (actual->width() == expected->width() && actual->height() == expected->height())
@@ -155,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(House, PictureTest, ::testing::ValuesIn(kPictures),
 class SceneTest : public ::testing::TestWithParam<const char*> {
 protected:
     Picture picture() const {
-        const std::string scene = std::string(SVT_SOURCE_DIR) + "/examples/scenes/" + GetParam() + ".scene.json";
+        const std::string scene = sourceRoot() + "/examples/scenes/" + GetParam() + ".scene.json";
         // Lines do not compress.
         const char* size = std::string(GetParam()) == "wireframe" ? "192x108" : "256x144";
         return {std::string("scene_") + GetParam(), {"--scene", scene}, {}, size};

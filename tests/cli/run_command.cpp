@@ -13,6 +13,8 @@
 #include <csignal>
 #include <thread>
 
+#include <svt/core/test_data_test.hpp>
+
 namespace svt::test {
 namespace {
 
@@ -43,8 +45,8 @@ void limit(int resource, std::uint64_t bytes) {
     ::setrlimit(static_cast<__rlimit_resource>(resource), &value);
 }
 
-[[noreturn]] void becomeSvt(const std::string& folder, std::vector<char*>& arguments, const Limits& limits,
-                            const std::string& tinyDisk, int out, int err) {
+[[noreturn]] void becomeSvt(const char* command, const std::string& folder, std::vector<char*>& arguments,
+                            const Limits& limits, const std::string& tinyDisk, int out, int err) {
     ::setpgid(0, 0);
     if (::chdir(folder.c_str()) != 0) ::_exit(kExecFailed);
     if (!tinyDisk.empty() && !mountTinyDisk(tinyDisk.c_str())) ::_exit(kMountFailed);
@@ -58,11 +60,27 @@ void limit(int resource, std::uint64_t bytes) {
         std::signal(SIGXFSZ, SIG_IGN);
         limit(RLIMIT_FSIZE, limits.fileBytes);
     }
-    ::execv(SVT_COMMAND, arguments.data());
+    ::execv(command, arguments.data());
     ::_exit(kExecFailed);
 }
 
 }  // namespace
+
+const std::string& sourceRoot() {
+    static const std::string root = kSourceRoot;
+    return root;
+}
+
+const std::filesystem::path& buildFolder() {
+    static const std::filesystem::path folder =
+        std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
+    return folder;
+}
+
+const std::string& commandPath() {
+    static const std::string path = (buildFolder() / "bin/svt").string();
+    return path;
+}
 
 std::string CommandResult::toString() const {
     std::string text = isTimeout     ? "killed after the time limit"
@@ -97,8 +115,9 @@ CommandResult runSvt(const std::filesystem::path& folder, const std::vector<std:
     const auto elapsed = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
+    const char* const command = commandPath().c_str();  // found before the fork
     const pid_t child = ::fork();
-    if (child == 0) becomeSvt(folderName, pointers, limits, tinyDisk, out, err);
+    if (child == 0) becomeSvt(command, folderName, pointers, limits, tinyDisk, out, err);
     ::close(out);
     ::close(err);
     int status = 0;
@@ -119,7 +138,7 @@ CommandResult runSvt(const std::filesystem::path& folder, const std::vector<std:
     if (WIFEXITED(status)) result.exitCode = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
     result.cannotMount = result.exitCode == kMountFailed;
-    EXPECT_NE(result.exitCode, kExecFailed) << SVT_COMMAND << " cannot be run in " << folder;
+    EXPECT_NE(result.exitCode, kExecFailed) << commandPath() << " cannot be run in " << folder;
     result.out = readText(streams / "out");
     result.err = readText(streams / "err");
     return result;

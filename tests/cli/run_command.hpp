@@ -14,6 +14,13 @@
 
 namespace svt::test {
 
+/// Root of the checkout that the test was built from.
+[[nodiscard]] const std::string& sourceRoot();
+/// Folder of the build that the running test belongs to.
+[[nodiscard]] const std::filesystem::path& buildFolder();
+/// The `svt` of that build.
+[[nodiscard]] const std::string& commandPath();
+
 struct Limits {
     double seconds = 10;                                 ///< wall-clock limit; a slower run is killed
     std::uint64_t memoryBytes = std::uint64_t{1} << 30;  ///< address space; no limit if a sanitizer needs more

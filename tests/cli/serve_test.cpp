@@ -35,6 +35,7 @@ public:
         for (std::string& text : arguments) pointers.push_back(text.data());
         pointers.push_back(nullptr);
         fs::create_directories(folder / "tmp");
+        const std::string& command = commandPath();  // found before the fork
         child_ = ::fork();
         if (child_ == 0) {
             ::dup2(::open((folder / "out").c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), 1);
@@ -42,7 +43,7 @@ public:
             ::setenv("TMPDIR", (folder / "tmp").c_str(), 1);
             if (!path.empty()) ::setenv("PATH", path.c_str(), 1);
             ::setenv("DISPLAY", ":99", 1);
-            if (::chdir(folder.c_str()) == 0) ::execv(SVT_COMMAND, pointers.data());
+            if (::chdir(folder.c_str()) == 0) ::execv(command.c_str(), pointers.data());
             ::_exit(126);
         }
         for (int i = 0; i < 3000 && port_ == 0; ++i) {

@@ -8,6 +8,8 @@
 #include <regex>
 #include <sstream>
 
+#include <svt/core/test_data_test.hpp>
+
 namespace svt {
 namespace {
 
@@ -35,7 +37,7 @@ TEST(Error, TagHasThreeDigits) {
 }
 
 TEST(Error, EveryCodeHasItsNameAndItsOwnNumber) {
-    std::ifstream header(std::filesystem::path(__FILE__).parent_path().parent_path() / "error.hpp");
+    std::ifstream header(std::filesystem::path(test::kSourceRoot) / "svt/core/error.hpp");
     ASSERT_TRUE(header);
     std::stringstream text;
     text << header.rdbuf();

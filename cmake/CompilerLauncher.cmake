@@ -1,0 +1,15 @@
+# Compiles through ccache where it is installed, and keeps the path of the checkout out of all objects: two clones of one
+# commit compile to the same bytes, so the second clone takes every object from the cache.
+#   paths in objects   relative to the root of the checkout; start gdb there
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(launcher ${CMAKE_COMMAND} -E env
+    CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
+    CCACHE_SLOPPINESS=pch_defines,time_macros  # the conditions of ccache for sources that include a precompiled header
+    ${CCACHE_PROGRAM})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
+  set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
+endif()
+# ccache passes paths below the checkout relative to the build folder, so both spellings are mapped.
+file(RELATIVE_PATH root_from_build ${CMAKE_BINARY_DIR} ${PROJECT_SOURCE_DIR})
+add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/= -ffile-prefix-map=${root_from_build}/=)
