@@ -9,6 +9,7 @@
 #   make python   the Python module svt: build/release/python, and a wheel in build/wheel
 #   make bench    times against VTK, OpenVDB and libcitygml (installs them)
 #   make check    format, layers, error pages
+#   make verify   every check, heavy ones too, with a report: build/verify/report.md (CHECKS="asan tidy" for some)
 #   make asan     all tests with the address and undefined-behaviour sanitizers
 #   make tsan     the thread sanitizer on what is parallel
 #   make tidy     clang-tidy over all sources
@@ -21,7 +22,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := build
-.PHONY: build demo demo-city install package npm python test web viewer bench check asan tsan tidy fuzz mutants clean setup
+.PHONY: verify build demo demo-city install package npm python test web viewer bench check asan tsan tidy fuzz mutants clean setup
 SECONDS ?= 60
 FOLDERS ?= volume voxelize mesh render readers
 COUNT ?= 30
@@ -66,6 +67,9 @@ bench:
 
 check: setup
 	@scripts/check.sh
+
+verify:
+	@scripts/verify.py $(CHECKS)
 
 asan tsan: setup
 	@scripts/sanitize.sh $@

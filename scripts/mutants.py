@@ -2,9 +2,10 @@
 """Changes sampled operators, constants and conditions of a folder's sources, one at a time, and lists the changes that
 none of the folder's own tests notices.
 
-    scripts/mutants.py FOLDER... [--count 30] [--seed 1] [--seconds 120] [--jobs 2] [--only PATTERN]
+    scripts/mutants.py FOLDER... | --changed [--count 30] [--seed 1] [--seconds 120] [--jobs 2] [--only PATTERN]
 
-FOLDER is one of svt/ (volume, voxelize, ...). Works in copies of the checkout, build/mutants/0, 1, ..., one for each job,
+FOLDER is one of svt/ (volume, voxelize, ...); --changed takes the folders whose sources changed most in the last 30
+commits, three at most. Works in copies of the checkout, build/mutants/0, 1, ..., one for each job,
 with builds of their own (-O1); the checkout itself is not touched. A change that does not compile counts for nothing; a
 test run that crashes or takes longer than --seconds has noticed. Tests end with the first that fails.
 Changes that cannot matter are explained in tests/equivalent_mutants.txt and left out.
@@ -127,15 +128,34 @@ def try_change(copy: pathlib.Path, change: Change, seconds: float) -> str:
         path.write_text(original, encoding="utf-8")
 
 
+def changed_folders() -> list[str]:
+    """The folders of svt/ with tests of their own that the last 30 commits changed most, three at most."""
+    count = subprocess.run(["git", "rev-list", "--count", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    base = f"HEAD~{min(30, int(count) - 1)}"
+    listed = subprocess.run(["git", "diff", "--numstat", base, "HEAD", "--", "svt/*.cpp"], cwd=ROOT, capture_output=True,
+                            text=True, check=True).stdout
+    lines: dict[str, int] = {}
+    for added, removed, path in (line.split("\t") for line in listed.splitlines()):
+        folder = path.split("/")[1]
+        if not path.endswith("_test.cpp") and any((ROOT / "svt" / folder).rglob("*_test.cpp")):
+            lines[folder] = lines.get(folder, 0) + int(added) + int(removed)
+    return sorted(lines, key=lambda folder: -lines[folder])[:3]
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folders", nargs="+")
+    parser.add_argument("folders", nargs="*")
+    parser.add_argument("--changed", action="store_true")
     parser.add_argument("--count", type=int, default=30, help="changes of each folder")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=120)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--only", default="", help="only sources whose path matches the regular expression")
     arguments = parser.parse_args()
+    if arguments.changed:
+        arguments.folders += changed_folders()
+    if not arguments.folders:
+        parser.error("name folders of svt/, or --changed")
     os.environ.setdefault("SVT_DATA_DIR", str(ROOT.parent / "shared" / "data"))
     equivalent = explained()
     chosen: list[Change] = []

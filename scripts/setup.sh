@@ -5,6 +5,8 @@
 #   scripts/setup.sh readers  also the programs that read our formats in tests, which are skipped without them
 #   scripts/setup.sh python   also the tools to build and test the Python module
 #   scripts/setup.sh slurm    also Slurm, for the test of job arrays (scripts/test_slurm.sh)
+#   scripts/setup.sh checks   also the tools of `make tidy` and `make fuzz`
+#   scripts/setup.sh packages also the tools that test the .deb files on a clean system
 #   scripts/setup.sh web      also the tools to build and test the WebAssembly module and the page
 set -euo pipefail
 
@@ -21,6 +23,7 @@ readers=(ffmpeg python3-nibabel python3-tifffile python3-zarr python3-vtk9 pytho
 web=(emscripten libfast-float-dev dpkg-dev chromium)
 slurm=(slurmctld slurmd slurm-client munge python3-yaml)
 python=(python3-dev pybind11-dev python3-numpy python3-scipy)
+debian=(debootstrap lintian dpkg-dev)
 checks=(clang clang-tidy clang-tools libclang-rt-14-dev)
 # A Node.js from another source has its own npm, which conflicts with Debian's.
 command -v node >/dev/null || web+=(nodejs)
@@ -30,6 +33,7 @@ command -v npm >/dev/null || web+=(npm)
 [ "${1:-}" = web ] && packages+=("${web[@]}")
 [ "${1:-}" = slurm ] && packages+=("${slurm[@]}")
 [ "${1:-}" = python ] && packages+=("${python[@]}")
+[ "${1:-}" = packages ] && packages+=("${debian[@]}")
 [ "${1:-}" = checks ] && packages+=("${checks[@]}")
 
 missing=()

@@ -4,7 +4,8 @@
     scripts/tidy.py [--only PATTERN] [--analyzer]
 
 It reads what the preset `tidy` compiles: several sources of a folder at once, with precompiled headers of clang, so that
-what they share is read once. What was clean is remembered in build/tidy/clean until it, a header or the checks change.
+what they share is read once. Units without findings are remembered for all checkouts of the user, in
+$XDG_CACHE_HOME/svt/tidy, by the digest of their preprocessed text, command and checks.
   --only PATTERN  only units with a source whose path matches the regular expression
   --analyzer      clang's path-sensitive analyzer instead, source by source: an hour and more
 """
@@ -15,13 +16,16 @@ import json
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDED = re.compile(r'#include "([^"]+\.cpp)"')
 # Tests may be slow, build texts by parts and leave results unused.
+CLEAN = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "svt" / "tidy"
 NOT_IN_TESTS = ("-performance-*,-modernize-use-nodiscard,-bugprone-suspicious-missing-comma,-bugprone-string-constructor,"
                 "-bugprone-macro-parentheses,-bugprone-integer-division")
 FINDING = re.compile(r"^(\S+?):(\d+):\d+: (warning|error): ")
@@ -45,6 +49,28 @@ def units_of(build: pathlib.Path) -> list[tuple[pathlib.Path, str, list[pathlib.
     return units
 
 
+def precompiled_headers(build: pathlib.Path) -> list[str]:
+    """The commands that compile headers for all units."""
+    entries = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
+    return [entry["command"] for entry in entries if "cmake_pch.hxx" in pathlib.Path(entry["file"]).name]
+
+
+def preprocessed(command: str, build: pathlib.Path) -> bytes:
+    """Text that the compiler sees, without the path of the checkout; the error where it cannot be read."""
+    words = [word for word in shlex.split(command.replace("-Xclang -emit-pch", "")) if word != "-c"]
+    if "-o" in words:
+        del words[words.index("-o"):words.index("-o") + 2]
+    done = subprocess.run([*words, "-E", "-o", "-"], cwd=build, capture_output=True)
+    return (done.stdout if done.returncode == 0 else done.stderr + os.urandom(16)).replace(str(ROOT).encode(), b"")
+
+
+def forget_old() -> None:
+    """Removes marks that no run has used for 60 days."""
+    for mark in CLEAN.glob("*"):
+        if time.time() - mark.stat().st_mtime > 60 * 86400:
+            mark.unlink(missing_ok=True)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", default="")
@@ -65,16 +91,18 @@ def main() -> int:
     subprocess.run(["cmake", "--build", str(build), "--target", *precompiled], cwd=ROOT, check=True, stdout=subprocess.DEVNULL,
                    env={**os.environ, "CCACHE_DISABLE": "1"})
 
-    headers = sorted(path for part in ("svt", "apps", "tests", "cmake") for path in (ROOT / part).rglob("*.hpp"))
-    common = hashlib.sha256(b"".join(path.read_bytes() for path in [ROOT / ".clang-tidy", *headers]))
-    clean = build / "clean"
-    clean.mkdir(exist_ok=True)
+    common = hashlib.sha256((ROOT / ".clang-tidy").read_bytes())
+    common.update(subprocess.run(["clang-tidy", "--version"], capture_output=True, check=True).stdout)
+    for command in precompiled_headers(build):
+        common.update(preprocessed(command, build))
+    CLEAN.mkdir(parents=True, exist_ok=True)
 
     def check(unit: pathlib.Path, command: str, sources: list[pathlib.Path]) -> list[str]:
         digest = common.copy()
-        digest.update(command.encode() + b"".join(path.read_bytes() for path in sources))
-        mark = clean / digest.hexdigest()
+        digest.update(command.replace(str(ROOT), "").encode() + bytes([arguments.analyzer]) + preprocessed(command, build))
+        mark = CLEAN / digest.hexdigest()
         if mark.exists():
+            mark.touch()
             return []
         tidy = ["clang-tidy", "-p", str(build), "--quiet"]
         if all(path.stem.endswith("_test") or path.is_relative_to(ROOT / "tests") for path in sources):
@@ -98,6 +126,7 @@ def main() -> int:
                 if finding not in found:
                     print(finding, flush=True)
             found.update(findings)
+    forget_old()
     print(f"tidy: {len(found)} findings")
     return 1 if found or not units else 0
 

@@ -33,7 +33,9 @@ TEST(MemoryPages, MappedBytesLeaveTheMemoryAndAreReadAgain) {
     EXPECT_EQ(file->text(), text);
     const std::size_t before = residentFileKilobytes();
     forgetMappedBytes(file->bytes().subspan(5, file->bytes().size() - 100));
-    if (before != 0) EXPECT_LT(residentFileKilobytes() + 15'000, before);
+    if (before != 0) {
+        EXPECT_LT(residentFileKilobytes() + 15'000, before);
+    }
     EXPECT_EQ(file->text(), text);
 }
 

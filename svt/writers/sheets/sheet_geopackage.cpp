@@ -196,8 +196,10 @@ private:
             std::vector<SqliteValue> row{table, std::string("features"), table, std::string(),
                                          std::string(kLastChange)};
             const PackageBounds& extent = extents_[table];
-            for (const double value : {extent.minX, extent.minY, extent.maxX, extent.maxY})
-                row.push_back(extent.isEmpty() ? SqliteValue() : SqliteValue(value));
+            for (const double value : {extent.minX, extent.minY, extent.maxX, extent.maxY}) {
+                SqliteValue& field = row.emplace_back();  // null where nothing has an extent
+                if (!extent.isEmpty()) field = value;
+            }
             row.emplace_back(reference);
             database_.insert("gpkg_contents", row);
             database_.insert("gpkg_geometry_columns",
