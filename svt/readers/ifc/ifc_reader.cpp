@@ -56,14 +56,17 @@ public:
         const Styles styles = readStyles(file_);
         model_.materials = styles.materials;
         structure_ = readStructure(file_);
-        if (structure_.order.empty())
+        if (structure_.order.empty()) {
+            file_.missing().report(name_, diagnostics_);
             return Error(Code::EmptyModel, "the file has no product: no building, storey, space or element", place());
+        }
         tellOfStructure();
         presentationLayers_ = readPresentationLayers(file_);
         const Properties properties(file_, units_);
         for (const std::size_t p : structure_.order) addFeature(structure_.products[p], p, properties);
         addGroups();
         if (auto done = readShapes(styles, properties); !done) return done.error();
+        file_.missing().report(name_, diagnostics_);
         tellOfProducts();
         return placeModel();
     }
@@ -240,11 +243,9 @@ private:
     // What of it could not be read is added to `leftOut`.
     [[nodiscard]] Transform placementOf(RecordIndex product, std::vector<std::string>& leftOut) const {
         std::string lost;
-        const Value value = file_.fieldsOf(product)[5];
-        const RecordIndex record = file_.follow(value);
-        if (record == kNoRecord && value.reference()) lost = "its placement, which the file lacks";
-        const Transform placement = file_.placement(record, lost);
+        const Transform placement = file_.placement(file_.follow(file_.fieldsOf(product)[5]), lost);
         if (!lost.empty()) leftOut.push_back(std::move(lost));
+        for (std::string& what : file_.missing().take()) leftOut.push_back("for its place, " + std::move(what));
         return placement;
     }
 
@@ -253,7 +254,10 @@ private:
                                ShapeReader& shapes, Shape& shape) {
         std::vector<Body> bodies;
         for (const RecordIndex record : records) {
-            if (record == kNoRecord) continue;
+            if (record == kNoRecord) {
+                shape.leftOut.push_back("an opening that the file lacks");
+                continue;
+            }
             const Shape opening = shapes.readShape(shapeOf(record));
             if (opening.bodies.empty() && opening.hasRepresentation)
                 shape.leftOut.push_back("an opening without a body");
@@ -288,13 +292,14 @@ private:
             if (++done % 64 == 0)
                 Progress::tell(options_.progress, "read", double(done) / double(structure_.order.size()));
             const Product& product = structure_.products[p];
+            file_.missing().take();  // what was read before is no part of this product's shape
             const RecordIndex definition = shapeOf(product.record);
-            if (definition == kNoRecord) continue;
+            if (definition == kNoRecord && !file_.missing().isAny()) continue;
             Shape shape = shapes.readShape(definition);
             const Transform placement = placementOf(product.record, shape.leftOut);
             if (!shape.bodies.empty()) cutOpenings(product, placement, shapes, shape);
             if (!shape.hasRepresentation) {
-                addLines(p, definition, placement);
+                addLines(p, definition, placement, std::move(shape.leftOut));
                 continue;
             }
             finishProduct(p, shape, placement, styles, properties);
@@ -303,13 +308,14 @@ private:
     }
 
     // Of a product without a body: its curves.
-    void addLines(std::size_t number, RecordIndex definition, const Transform& placement) {
-        std::vector<std::string> leftOut;
+    void addLines(std::size_t number, RecordIndex definition, const Transform& placement,
+                  std::vector<std::string> leftOut) {
         for (std::vector<Vec3d>& line : readLines(file_, definition, leftOut)) {
             for (Vec3d& p : line) p = map_.mapFromProject.point(placement.point(p));
             if (std::all_of(line.begin(), line.end(), [](Vec3d p) { return isFinite(p); }))
                 model_.lines.push_back({featureOf_[number], std::move(line)});
         }
+        for (std::string& what : file_.missing().take()) leftOut.push_back(std::move(what));
         if (leftOut.empty()) return;
         const model::Feature& feature = model_.features[featureOf_[number]];
         diagnostics_.add(Severity::Note, Code::ReadInPart,

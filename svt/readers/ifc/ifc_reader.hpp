@@ -36,7 +36,7 @@ namespace svt::readers {
 
 /// \return the model, or BadStep, UnknownVersion (a schema that is not IFC), EmptyModel (no product), InputTooBig,
 ///         Cancelled, or what georeference() returns. Findings: BadRecord, DuplicateId, MissingId, BadValue, UnknownElement,
-///         ReferenceCycle, ReadInPart, ShapeNotRead, LayersNotSplit, and ProductsRead and LayersSplit as the last.
+///         DanglingReference, ReferenceCycle, ReadInPart, ShapeNotRead, LayersNotSplit, and ProductsRead and LayersSplit as the last.
 /// Cost: one pass over the text, then O(what the products are made of); memory below five times the file for most.
 [[nodiscard]] Result<model::BuildingModel> readIfc(std::span<const std::byte> bytes, std::string_view name,
                                                    const ReadOptions& options, Diagnostics* diagnostics);

@@ -291,9 +291,9 @@ TEST(IfcReader, PlacementsThatCannotBeReadAreTold) {
         {"#40=IFCLINEARPLACEMENT($,#14,$);\n", "along a curve"},
         {"#40=IFCLOCALPLACEMENT(#41,#14);\n#41=IFCLOCALPLACEMENT(#40,#14);\n", "in a cycle"},
         {"#40=IFCLOCALPLACEMENT($,#999);\n", "which the file lacks"},
-        {"#40=IFCLOCALPLACEMENT(#999,#14);\n", "the placement above it"},
+        {"#40=IFCLOCALPLACEMENT(#999,#14);\n", "attribute 1 of #40"},
         {"#40=IFCDIRECTION((1.,0.,0.));\n", "of the type"},
-        {"", "its placement, which the file lacks"},
+        {"", "#40, to which attribute 6 of #100 IFCCOLUMN refers and which the file lacks"},
     };
     for (const auto& [placement, words] : cases) {
         Diagnostics log;

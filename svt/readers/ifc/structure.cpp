@@ -63,7 +63,8 @@ private:
                 break;
             case Entity::RelVoidsElement:
                 result_.openings[file_.follow(fields[4])].push_back(file_.follow(fields[5]));
-                hostOf_.emplace(file_.follow(fields[5]), file_.follow(fields[4]));
+                if (const RecordIndex opening = file_.follow(fields[5]); opening != kNoRecord)
+                    hostOf_.emplace(opening, file_.follow(fields[4]));
                 break;
             case Entity::RelProjectsElement:
                 result_.projections[file_.follow(fields[4])].push_back(file_.follow(fields[5]));

@@ -32,7 +32,7 @@ Fields::Fields(string_view values) noexcept {
     while (count_ < values_.size() && cursor.next(values_[count_])) ++count_;
 }
 
-IfcFile::IfcFile(const step::StepFile& file) : step_(file) {
+IfcFile::IfcFile(const step::StepFile& file) : step_(file), missing_(file) {
     for (const string_view type : file.typeNames()) {
         Entity entity = Entity::Other;
         for (std::size_t i = 1; i < std::size(kNames) && entity == Entity::Other; ++i)
@@ -47,9 +47,11 @@ IfcFile::IfcFile(const step::StepFile& file) : step_(file) {
     }
 }
 
-RecordIndex IfcFile::follow(Value reference) const noexcept {
+RecordIndex IfcFile::follow(Value reference) const {
     const auto id = reference.reference();
-    return id ? step_.find(*id) : kNoRecord;
+    const RecordIndex record = id ? step_.find(*id) : kNoRecord;
+    if (record == kNoRecord && reference.text().starts_with('#')) missing_.note(reference);
+    return record;
 }
 
 std::vector<RecordIndex> IfcFile::followAll(Value list) const {
@@ -94,7 +96,7 @@ std::optional<Vec3d> IfcFile::point(RecordIndex record) const noexcept {
     return coordinates(fieldsOf(record)[0]);
 }
 
-std::optional<Vec3d> IfcFile::direction(Value reference) const noexcept {
+std::optional<Vec3d> IfcFile::direction(Value reference) const {
     const RecordIndex record = follow(reference);
     if (entityOf(record) != Entity::Direction) return std::nullopt;
     step::ValueCursor cursor(fieldsOf(record)[0]);
@@ -108,7 +110,7 @@ std::optional<Vec3d> IfcFile::direction(Value reference) const noexcept {
     return length(ratios) > 0 ? std::optional(ratios) : std::nullopt;
 }
 
-Transform IfcFile::axes(RecordIndex record) const noexcept {
+Transform IfcFile::axes(RecordIndex record) const {
     const Fields fields = fieldsOf(record);
     const Vec3d origin = point(follow(fields[0])).value_or(Vec3d{});
     switch (entityOf(record)) {
@@ -124,7 +126,7 @@ Transform IfcFile::axes(RecordIndex record) const noexcept {
 
 // ISO 10303-42, base_axis: the second axis is made orthogonal to the first, and the third to both, but each keeps the side
 // that the file gives it, so a mirrored operator stays mirrored.
-Transform IfcFile::transformation(RecordIndex record) const noexcept {
+Transform IfcFile::transformation(RecordIndex record) const {
     const Fields fields = fieldsOf(record);
     const Entity entity = entityOf(record);
     const bool isFlat = entity == Entity::CartesianTransformationOperator2D ||
@@ -165,10 +167,9 @@ Transform IfcFile::placement(RecordIndex record, std::string& lost) const {
         }
         const Fields fields = fieldsOf(record);
         RecordIndex above = follow(fields[0]);
-        if (above == kNoRecord && fields[0].reference()) lost = "the placement above it, which the file lacks";
         switch (entityOf(record)) {
             case Entity::LocalPlacement:
-                if (follow(fields[1]) == kNoRecord) lost = "its place, which the file lacks";
+                if (fields[1].isNothing()) lost = "its place, which is not given";
                 result = axes(follow(fields[1])).after(result);
                 break;
             case Entity::GridPlacement:

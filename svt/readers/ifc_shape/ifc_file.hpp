@@ -5,6 +5,7 @@
 
 #include <svt/core/vec.hpp>
 #include <svt/readers/ifc_shape/transform.hpp>
+#include <svt/readers/step/missing_records.hpp>
 #include <svt/readers/step/step_file.hpp>
 #include <svt/readers/step/step_value.hpp>
 
@@ -104,23 +105,26 @@ public:
     [[nodiscard]] std::string_view typeName(RecordIndex record) const noexcept {
         return record == kNoRecord ? std::string_view() : step_.typeName(step_.records()[record]);
     }
-    /// The record that a value refers to; kNoRecord where there is none.
-    [[nodiscard]] RecordIndex follow(Value reference) const noexcept;
+    /// The record that a value refers to; kNoRecord where there is none. A reference to a record that the file lacks is
+    /// noted in missing(), by this and all that follow references.
+    [[nodiscard]] RecordIndex follow(Value reference) const;
     /// The records that a list refers to, those that are there.
     [[nodiscard]] std::vector<RecordIndex> followAll(Value list) const;
+    /// References followed so far that lead nowhere.
+    [[nodiscard]] step::MissingRecords& missing() const noexcept { return missing_; }
     /// Records of an entity in the order of the file.
     [[nodiscard]] std::vector<RecordIndex> all(Entity entity) const;
 
     // Geometry in metres. Two-dimensional things have z = 0.
     [[nodiscard]] double metres(Value length, double otherwise = 0) const noexcept;
     [[nodiscard]] double radians(Value angle, double otherwise = 0) const noexcept;
-    [[nodiscard]] std::optional<Vec3d> point(RecordIndex record) const noexcept;   ///< IfcCartesianPoint
-    [[nodiscard]] std::optional<Vec3d> coordinates(Value list) const noexcept;     ///< (1.,2.,3.), in metres
-    [[nodiscard]] std::optional<Vec3d> direction(Value reference) const noexcept;  ///< IfcDirection, as it is
+    [[nodiscard]] std::optional<Vec3d> point(RecordIndex record) const noexcept;  ///< IfcCartesianPoint
+    [[nodiscard]] std::optional<Vec3d> coordinates(Value list) const noexcept;    ///< (1.,2.,3.), in metres
+    [[nodiscard]] std::optional<Vec3d> direction(Value reference) const;          ///< IfcDirection, as it is
     /// IfcAxis2Placement2D or 3D, IfcAxis1Placement (z is the axis); identity for anything else.
-    [[nodiscard]] Transform axes(RecordIndex record) const noexcept;
+    [[nodiscard]] Transform axes(RecordIndex record) const;
     /// IfcCartesianTransformationOperator...
-    [[nodiscard]] Transform transformation(RecordIndex record) const noexcept;
+    [[nodiscard]] Transform transformation(RecordIndex record) const;
     /// IfcLocalPlacement, IfcGridPlacement (on straight axes) or IfcLinearPlacement (by its distance along a curve that
     /// readCurve() knows, else by its Cartesian position) and those above it, in the world of the project.
     /// \param lost  set to what of the way up could not be read, in words; unchanged if all was. There the placement is
@@ -138,6 +142,7 @@ private:
     bool readGridAxis(RecordIndex axis, double offset, Vec3d& from, Vec3d& along) const;
 
     const step::StepFile& step_;
+    mutable step::MissingRecords missing_;  // what was read of a file, not what it is
     std::vector<Entity> entityOfType_;
     std::unordered_map<RecordIndex, RecordIndex> placementOfAxis_;  // grid axis -> placement of its grid
 };

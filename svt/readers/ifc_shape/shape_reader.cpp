@@ -67,6 +67,11 @@ void ShapeReader::leaveOut(std::string what) {
     if (std::find(leftOut_.begin(), leftOut_.end(), what) == leftOut_.end()) leftOut_.push_back(std::move(what));
 }
 
+// References that led nowhere since the last call belong to what is read now.
+void ShapeReader::leaveOutMissing() {
+    for (std::string& what : file_.missing().take()) leaveOut(std::move(what));
+}
+
 Shape ShapeReader::readShape(RecordIndex definition) {
     Shape shape;
     leftOut_.clear();
@@ -77,7 +82,8 @@ Shape ShapeReader::readShape(RecordIndex definition) {
         if (rank > 0) ranked.emplace_back(-rank, representation);
     }
     std::stable_sort(ranked.begin(), ranked.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
-    shape.hasRepresentation = !ranked.empty();
+    leaveOutMissing();
+    shape.hasRepresentation = !ranked.empty() || !leftOut_.empty();
     std::vector<std::string> leftOut;
     for (std::size_t i = 0; i < ranked.size() && shape.bodies.empty(); ++i) {
         const int rank = ranked[i].first;
@@ -87,6 +93,7 @@ Shape ShapeReader::readShape(RecordIndex definition) {
             readRepresentation(ranked[i + 1].second, shape.bodies);
         if (rank == -1 && !shape.bodies.empty()) leaveOut("all but its bounding box, which stands for it");
     }
+    leaveOutMissing();
     shape.leftOut = std::move(leftOut_);
     leftOut_.clear();
     return shape;
@@ -245,6 +252,7 @@ void ShapeReader::readMappedItem(const Fields& fields, int depth, Bodies& bodies
     auto found = mapped_.find(map);
     if (found == mapped_.end()) {
         const Fields source = file_.fieldsOf(map);
+        leaveOutMissing();
         std::vector<std::string> outside;
         std::swap(outside, leftOut_);
         mapped_.emplace(map, std::make_shared<const Bodies>());  // a map that contains itself is empty there
@@ -254,6 +262,7 @@ void ShapeReader::readMappedItem(const Fields& fields, int depth, Bodies& bodies
         const Transform origin = file_.axes(file_.follow(source[0]));
         if (origin != Transform{})
             for (Body& body : made) body = transformed(body, origin.inverse());
+        leaveOutMissing();
         leftOutOfMap_[map] = leftOut_;
         std::swap(outside, leftOut_);
         found = mapped_.insert_or_assign(map, std::make_shared<const Bodies>(std::move(made))).first;
@@ -317,12 +326,13 @@ bool ShapeReader::readLoop(RecordIndex loop, std::vector<Vec3d>& ring, std::vect
     for (Value item; cursor.next(item);) {
         const Fields oriented = file_.fieldsOf(file_.follow(item));
         const RecordIndex edge = file_.follow(oriented[2]);
-        auto found = edges_.find(edge);
-        if (found == edges_.end()) {
+        std::vector<Vec3d> points;
+        if (const auto found = edges_.find(edge); found != edges_.end()) {
+            points = *found->second;
+        } else {
             const Fields curve = file_.fieldsOf(edge);
             const auto from = file_.point(file_.follow(file_.fieldsOf(file_.follow(curve[0]))[0]));
             const auto to = file_.point(file_.follow(file_.fieldsOf(file_.follow(curve[1]))[0]));
-            std::vector<Vec3d> points;
             std::string why;
             if (!from || !to) return false;
             if (file_.entityOf(edge) != Entity::EdgeCurve)
@@ -330,9 +340,9 @@ bool ShapeReader::readLoop(RecordIndex loop, std::vector<Vec3d>& ring, std::vect
             else if (!readCurveBetween(file_, file_.follow(curve[2]), *from, *to, curve[3].enumeration() != "F", points,
                                        why))
                 return false;
-            found = edges_.emplace(edge, std::make_shared<const std::vector<Vec3d>>(std::move(points))).first;
+            // What a reference was missing for is read again, so that each product with it says so.
+            if (!file_.missing().isAny()) edges_.emplace(edge, std::make_shared<const std::vector<Vec3d>>(points));
         }
-        std::vector<Vec3d> points = *found->second;
         if (oriented[3].enumeration() == "F") std::reverse(points.begin(), points.end());
         if (points.empty()) return false;
         ring.insert(ring.end(), points.begin(), points.end() - 1);

@@ -18,7 +18,8 @@ namespace svt::readers::ifc {
 struct Shape {
     std::vector<Body> bodies;
     std::vector<std::string> leftOut;  ///< what was not read, or not applied, and why; each once
-    bool hasRepresentation = false;    ///< there is something that could be a body
+    bool hasRepresentation =
+        false;  ///< there is something that could be a body, or a reference to it that leads nowhere
 };
 
 class ShapeReader {
@@ -57,6 +58,7 @@ private:
     void evaluate(std::string_view op, const Bodies& first, const Bodies& second, Bodies& bodies);
     void addSolid(std::vector<model::Polygon> faces, Bodies& bodies, RecordIndex item);
     void leaveOut(std::string what);
+    void leaveOutMissing();
 
     [[nodiscard]] std::vector<model::Polygon> readFaces(Value list);
     bool readFace(RecordIndex face, std::vector<model::Polygon>& faces);

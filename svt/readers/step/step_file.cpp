@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 
@@ -256,6 +258,17 @@ RecordIndex StepFile::find(std::uint32_t id) const noexcept {
     if (!byId_.empty()) return id < byId_.size() ? byId_[id] : kNoRecord;
     const auto found = std::lower_bound(sortedIds_.begin(), sortedIds_.end(), std::pair(id, RecordIndex{0}));
     return found != sortedIds_.end() && found->first == id ? found->second : kNoRecord;
+}
+
+RecordIndex StepFile::recordHolding(string_view part) const noexcept {
+    if (std::less<>{}(part.data(), text_.data()) || std::less<>{}(text_.data() + text_.size(), part.data()))
+        return kNoRecord;
+    const auto at = static_cast<std::uint64_t>(part.data() - text_.data());
+    const auto next =
+        std::upper_bound(records_.begin(), records_.end(), at,
+                         [](std::uint64_t offset, const Record& record) { return offset < record.values; });
+    if (next == records_.begin() || at > std::prev(next)->values + std::prev(next)->size) return kNoRecord;
+    return static_cast<RecordIndex>(next - records_.begin() - 1);
 }
 
 std::uint64_t StepFile::lineOf(const Record& record) const {

@@ -54,6 +54,9 @@ public:
     /// without large gaps, else O(log n).
     [[nodiscard]] RecordIndex find(std::uint32_t id) const noexcept;
 
+    /// The record whose values hold `part` of the text, a view of it; kNoRecord where none does. Cost: O(log n).
+    [[nodiscard]] RecordIndex recordHolding(std::string_view part) const noexcept;
+
     /// 1-based line in which a record stands. Cost: the first call counts all lines.
     [[nodiscard]] std::uint64_t lineOf(const Record& record) const;
 
