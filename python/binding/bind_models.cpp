@@ -25,11 +25,12 @@ struct FeatureReference {
 };
 
 std::shared_ptr<ModelObject> readModel(const Paths& paths, const std::string& crs, bool keepFarFeatures,
-                                       const py::object& report) {
+                                       bool allowTruncated, const py::object& report) {
     auto read = std::make_shared<ModelObject>();
     readers::ReadOptions options;
     options.crs = valueOf(cli::parseCrs(crs));
     options.keepFarFeatures = keepFarFeatures;
+    options.allowTruncated = allowTruncated;
     read->model = longCall(report, [&](const Progress* progress) {
         options.progress = progress;
         return pipeline::readModels(paths, options, &read->findings);
@@ -160,7 +161,8 @@ void bindModels(py::module_& module) {
             if (index >= m->model.features.size()) throw py::index_error("no feature " + std::to_string(index));
             return FeatureReference{m, static_cast<std::uint32_t>(index)};
         });
-    module.def("read", &readModel, py::arg("paths"), py::arg("crs"), py::arg("keep_far_features"), py::arg("progress"));
+    module.def("read", &readModel, py::arg("paths"), py::arg("crs"), py::arg("keep_far_features"),
+               py::arg("allow_truncated"), py::arg("progress"));
     module.def("build_files", &buildFiles, py::arg("paths"), py::arg("options"), py::arg("vectors"), py::arg("grid_of"),
                py::arg("progress"));
     module.def("build_model", &buildModel, py::arg("model"), py::arg("options"), py::arg("vectors"), py::arg("grid_of"),

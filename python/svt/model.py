@@ -73,7 +73,7 @@ class Model(Sequence):
 
 
 def read(paths: PathLike | Sequence[PathLike], *, crs: str | int = "", keep_far_features: bool = False,
-         progress: Progress = None) -> Model:
+         allow_truncated: bool = False, progress: Progress = None) -> Model:
     """Read a model: CityGML, CityJSON, CityJSONSeq or IFC, plain or gzip; the content tells which.
 
     Parameters
@@ -84,15 +84,17 @@ def read(paths: PathLike | Sequence[PathLike], *, crs: str | int = "", keep_far_
         EPSG code of a projection in metres that the model is brought to, such as 25832; default: as the file has it.
     keep_far_features
         Keep features that lie far away from all others.
+    allow_truncated
+        Read what is there of a file that was cut off (IFC, CityJSONSeq); a finding says so.
     progress
         Called with (stage, fraction).
 
     Raises
     ------
     svt.Error
-        E101 to E123, when the file cannot be read.
+        E101 to E137, when the file cannot be read.
     """
-    return Model(_native.read(paths_of(paths), str(crs or ""), keep_far_features, progress))
+    return Model(_native.read(paths_of(paths), str(crs or ""), keep_far_features, allow_truncated, progress))
 
 
 def sample(kind: str = "house", path: PathLike | None = None, *, seed: int = 1) -> str:

@@ -92,6 +92,7 @@ struct PlanOptions {
     std::string program;      ///< version of the program
     std::uint32_t tasks = 0;  ///< 0: by cost, some 5 minutes each, at most 1000
     int threads = 0;
+    bool allowTruncated = false;  ///< for ReadOptions::allowTruncated
     const Progress* progress = nullptr;
 };
 
@@ -104,7 +105,7 @@ struct PlanOptions {
 /// A feature belongs to the tile that holds the middle of its box. One that stands in a file before with the same id and
 /// text is left out (finding Replica, one a file). What refers to other features is told (LinkedFeature), what cannot be
 /// read or has no geometry is left out and told (FeatureSkipped).
-/// \return the plan, or the error of a file that cannot be cut; EmptyModel if nothing is left; BadArgument; CannotWrite,
+/// \return the plan, or the error of a file that cannot be cut into features; Truncated; EmptyModel if nothing is left; BadArgument; CannotWrite,
 ///         DiskFull; Cancelled
 /// Cost: about that of reading the files. Memory: 52 bytes a feature, and a few hundred MB.
 [[nodiscard]] Result<Plan> makePlan(std::span<const std::filesystem::path> files, const std::filesystem::path& folder,

@@ -45,6 +45,7 @@ enum class Code : std::uint16_t {
     ProductsRead = 134,       ///< how many products of a model were read, in part or not
     LayersNotSplit = 135,     ///< a product that was not split into the layers of its material, or not as a whole
     LayersSplit = 136,        ///< how many products were split into the layers of their material
+    Truncated = 137,          ///< a file that ends before its last part: it was cut off
     // 2xx: geometry
     TooFewPoints = 201,         ///< a ring of fewer than three distinct points
     BadCoordinate = 202,        ///< NaN, infinite or absurdly large coordinate

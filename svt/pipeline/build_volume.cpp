@@ -448,6 +448,7 @@ Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, co
     reading.splitLayers = options.splitLayers;
     reading.keepFarFeatures = options.keepFarFeatures;
     reading.extrudeFootprints = options.extrudeFootprints;
+    reading.allowTruncated = options.allowTruncated;
     auto model = readModels(files, reading, log);
     if (!model) return model.error();
     const double readSeconds = secondsSince(start);

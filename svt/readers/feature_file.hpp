@@ -63,7 +63,8 @@ public:
     [[nodiscard]] double progress() const noexcept;
 
     /// The next feature, in the order of the file.
-    /// \return false at the end; BadXml, BadJson, DtdRefused, CannotOpen (damaged gzip data), InputTooBig
+    /// \return false at the end; BadXml, BadJson, DtdRefused, Truncated (a last line of CityJSONSeq that is cut off, without
+    ///         allowTruncated of the options of open(); read() reports it with it), CannotOpen (damaged gzip data), InputTooBig
     Result<bool> next(FeatureText& feature);
 
     /// Hands over the features that stand at `spans` (ascending by `begin`), with their number in `spans`. May be called

@@ -101,6 +101,13 @@ std::string nested(std::string_view open, std::string_view close, std::size_t de
     return repeated(open, depth) + repeated(close, depth);
 }
 
+// A box, and then no more.
+const std::string kCutIfc =
+    "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\n"
+    "#3=IFCPROJECT('p',$,'P',$,$,$,$,(),#2);#2=IFCUNITASSIGNMENT((#1));#1=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);"
+    "#5=IFCWALL('w',$,'Wall',$,$,$,#6,$,$);#6=IFCPRODUCTDEFINITIONSHAPE($,$,(#7));\n"
+    "#7=IFCSHAPEREPRESENTATION($,'Body','CSG',(#8));#8=IFCBLOCK($,1.,2.,3.);\n";
+
 const std::vector<BadInput> kXml{
     {"NotXml", "a text that is no model", "bad.gml", [] { return "hello, world\n"; }, kBuild, kInput,
      "E103 UnknownFormat.*bad\\.gml"},
@@ -115,6 +122,37 @@ const std::vector<BadInput> kXml{
      kBuild, kInput, "E106 UnknownVersion.*AUTOMOTIVE_DESIGN"},
     {"IfcZipWithoutIfc", "a zip archive that is cut off", "bad.gml", [] { return "PK\x03\x04 and no more"; }, kBuild,
      kInput, "E101 CannotOpen: bad\\.gml: .*zip"},
+    {"CutIfc", "an IFC file that was cut off behind a record", "bad.gml", [] { return kCutIfc; }, kBuild, kInput,
+     "E137 Truncated: bad\\.gml:7: .*behind the record #8.*--allow-truncated"},
+    {"CutIfcChecked", "the same, checked", "bad.gml", [] { return kCutIfc; }, kCheck, kInput, "error E137 Truncated"},
+    {"CutIfcPlanned",
+     "the same, in a city",
+     "bad.ifc",
+     [] { return kCutIfc; },
+     {"city", "plan", "bad.ifc", "-o", "c"},
+     kInput,
+     "error E137 Truncated"},
+    {"CutIfcAllowed",
+     "the same, where that is allowed",
+     "bad.gml",
+     [] { return kCutIfc; },
+     {"check", "bad.gml", "--allow-truncated"},
+     kInvalid,
+     "warning E137 Truncated: bad\\.gml:7(.|\n)*1 of 1 products"},
+    {"CutIfcBuilt",
+     "the same, built",
+     "bad.gml",
+     [] { return kCutIfc; },
+     {"build", "bad.gml", "-o", "good.svt", "--spacing", "0.5", "--allow-truncated"},
+     kDone,
+     "warning E137 Truncated"},
+    {"CutIfcPlannedAllowed",
+     "the same, in a city that allows it",
+     "bad.ifc",
+     [] { return kCutIfc; },
+     {"city", "plan", "bad.ifc", "-o", "c", "--allow-truncated"},
+     kDone,
+     "warning E137 Truncated"},
     {"OtherXml", "well-formed XML that is no CityGML", "bad.gml", [] { return "<?xml version='1.0'?><kml/>"; }, kBuild,
      kInput, "E103 UnknownFormat"},
     {"Missing",
@@ -467,6 +505,17 @@ const std::vector<BadInput> kReferences{
 };
 INSTANTIATE_TEST_SUITE_P(References, BadInputTest, ::testing::ValuesIn(kReferences), nameOf);
 
+std::string cutSequence() {
+    const std::string head =
+        R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},"CityObjects":{},"vertices":[]})";
+    const auto feature = [](std::string_view id) {
+        return fmt::format(
+            R"({{"type":"CityJSONFeature","id":"{0}","CityObjects":{{"{0}":{{"type":"Building","geometry":[{{"type":"MultiSurface","lod":"2","boundaries":[[[0,3,2,1]],[[0,1,4]],[[1,2,4]],[[2,3,4]],[[3,0,4]]]}}]}}}},"vertices":[[0,0,0],[9,0,0],[9,9,0],[0,9,0],[5,5,9]]}})",
+            id);
+    };
+    return head + "\n" + feature("a") + "\n" + feature("b").substr(0, 200);
+}
+
 const std::vector<BadInput> kJson{
     {"DeepNesting", "arrays nested 10,000 deep", "bad.json", [] { return cityJson(nested("[", "]", 10000)); },
      kBuildJson, kLimit, "E104 InputTooBig|E105 BadJson.*deep"},
@@ -475,6 +524,30 @@ const std::vector<BadInput> kJson{
      "E104 InputTooBig.*512 levels"},
     {"Truncated", "a file cut in its middle", "bad.json", [] { return cityJson().substr(0, 300); }, kBuildJson, kInput,
      "E105 BadJson: bad\\.json"},
+    {"CutSequence", "a CityJSONSeq whose last line is cut", "bad.json", cutSequence, kBuildJson, kInput,
+     "E137 Truncated: bad\\.json:3: "},
+    {"CutSequenceChecked", "the same, checked", "bad.json", cutSequence, kCheckJson, kInput, "error E137 Truncated"},
+    {"CutSequencePlanned",
+     "the same, in a city",
+     "bad.json",
+     cutSequence,
+     {"city", "plan", "bad.json", "-o", "c"},
+     kInput,
+     "error E137 Truncated: bad\\.json:3: "},
+    {"CutSequenceAllowed",
+     "the same, where that is allowed",
+     "bad.json",
+     cutSequence,
+     {"check", "bad.json", "--allow-truncated"},
+     kInvalid,
+     "warning E137 Truncated: bad\\.json:3(.|\n)*error E105 BadJson: bad\\.json:3.*the line is left out"},
+    {"CutSequencePlannedAllowed",
+     "the same, in a city that allows it",
+     "bad.json",
+     cutSequence,
+     {"city", "plan", "bad.json", "-o", "c", "--allow-truncated"},
+     kDone,
+     "warning E606 FeatureSkipped: bad\\.json: "},
     {"NotCityJson", "JSON that is no CityJSON", "bad.json", [] { return "{\"a\": 1}"; }, kBuildJson, kInput,
      "E103 UnknownFormat"},
     {"UnknownVersion", "a version of CityJSON that is not known", "bad.json", [] { return cityJson({}, {}, "9.0"); },

@@ -27,7 +27,7 @@ struct CheckArguments {
     validate::ValidateOptions validation;
     double lod = -1;
     std::string crs;
-    bool json = false, verbose = false, keepFarFeatures = false, extrudeFootprints = false;
+    bool json = false, verbose = false, keepFarFeatures = false, extrudeFootprints = false, allowTruncated = false;
 };
 
 // Why the volume of an object cannot be told although its mesh is closed; Internal: it can. A polygon that is not valid
@@ -258,6 +258,7 @@ int runCheck(const CheckArguments& arguments) {
     reading.crs = *crs;
     reading.keepFarFeatures = arguments.keepFarFeatures;
     reading.extrudeFootprints = arguments.extrudeFootprints;
+    reading.allowTruncated = arguments.allowTruncated;
     const bool isText = !arguments.json && arguments.format == "text";
     if (isText && arguments.report.empty() && arguments.inputs.size() == 1 && isWorthBatches(arguments.inputs[0])) {
         const auto done = checkInBatches(
@@ -292,6 +293,7 @@ Action connectCheck(Command& command) {
     command.set("--crs", arguments->crs);
     command.set("--keep-far-features", arguments->keepFarFeatures);
     command.set("--extrude-footprints", arguments->extrudeFootprints);
+    command.set("--allow-truncated", arguments->allowTruncated);
     command.set("--json", arguments->json);
     command.set("--verbose", arguments->verbose);
     return [arguments] { return runCheck(*arguments); };

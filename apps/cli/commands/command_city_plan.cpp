@@ -60,6 +60,7 @@ Action connectCityPlan(Command& command) {
     command.set("--spacing", arguments->options.city.spacing);
     command.set("--lod", arguments->options.city.lod);
     command.set("--crs", arguments->crs);
+    command.set("--allow-truncated", arguments->options.allowTruncated);
     command.set("--tasks", arguments->options.tasks);
     command.set("--pack-seconds", arguments->options.city.packSeconds);
     command.set("--update", arguments->isUpdate);

@@ -63,6 +63,7 @@ void BuildArguments::connect(Command& command) {
     command.set("--crs", crs);
     command.set("--keep-far-features", keepFarFeatures);
     command.set("--extrude-footprints", extrudeFootprints);
+    command.set("--allow-truncated", allowTruncated);
     command.set("--layers", layers);
     command.set("--style", style);
     command.set("--patterns", patterns);
@@ -118,6 +119,7 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
     options.crs = *code;
     options.keepFarFeatures = keepFarFeatures;
     options.extrudeFootprints = extrudeFootprints;
+    options.allowTruncated = allowTruncated;
     options.splitLayers = layers;
     options.vectors = vectors;
     if (!style.empty()) {

@@ -20,7 +20,7 @@ struct BuildArguments {
     std::string dimension, spacing, axes, sheets, style, crs;
     double lod = -1;
     bool noBodies = false, patterns = false, noThin = false, keepFarFeatures = false, extrudeFootprints = false,
-         layers = false;
+         allowTruncated = false, layers = false;
     int threads = 0;
     pipeline::VectorChoice vectors;  ///< not an option of all commands
 

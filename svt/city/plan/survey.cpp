@@ -35,7 +35,7 @@ public:
         : path_(path), options_(options), survey_(survey), diagnostics_(diagnostics) {}
 
     Result<void> run() {
-        auto file = readers::FeatureFile::open(path_);
+        auto file = readers::FeatureFile::open(path_, reading());
         if (!file) return file.error();
         std::error_code failed;
         entry_ = {std::filesystem::absolute(path_, failed).lexically_normal().string(),
@@ -73,6 +73,7 @@ private:
         reading.likelyCrs = survey_.crs;
         reading.axisOrder = entry_.axisOrder;
         reading.keepFarFeatures = true;
+        reading.allowTruncated = options_.allowTruncated;
         return reading;
     }
 
@@ -114,12 +115,16 @@ private:
             return {};
         }
         if (!model) {
-            if (model.error().code() == Code::Cancelled) return model.error();
+            if (model.error().code() == Code::Cancelled || model.error().code() == Code::Truncated)
+                return model.error();
             skip(fmt::format("the feature at byte {} cannot be read: {}", batch.spans[0].begin,
                              model.error().message()));
             return {};
         }
         linked_ += findings.count(Code::DanglingReference);
+        for (const Diagnostic& item : findings.items())
+            if (item.code == Code::Truncated)
+                diagnostics_.add(item.severity, item.code, item.message, {path_.string(), 0, 0, {}});
         std::vector<Found> found = examine(*model, featureOf, batch.texts.size());
         for (std::size_t n = 0; n < found.size(); ++n) add(found[n], batch.spans[n], batch.texts[n]);
         Progress::tell(options_.progress, "plan", file.progress());

@@ -82,6 +82,7 @@ Result<model::BuildingModel> PackFeatures::model(std::span<const std::uint32_t> 
         options.crs = plan_->files[file].crs;
         options.axisOrder = plan_->files[file].axisOrder;
         options.keepFarFeatures = true;
+        options.allowTruncated = true;  // the plan has what of the file is to be read
         auto model = files_.at(file).read(views, options, nullptr);
         if (!model) return model.error();
         if (all)

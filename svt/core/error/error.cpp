@@ -42,6 +42,7 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(ProductsRead);
         SVT_CASE(LayersNotSplit);
         SVT_CASE(LayersSplit);
+        SVT_CASE(Truncated);
         SVT_CASE(TooFewPoints);
         SVT_CASE(BadCoordinate);
         SVT_CASE(ZeroArea);

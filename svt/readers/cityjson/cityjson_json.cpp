@@ -296,6 +296,22 @@ Result<json::element> JsonText::parseAgain(std::string_view text, const TextOrig
                  places.at(0));
 }
 
+bool isCutOff(std::string_view text) noexcept {
+    std::int64_t depth = 0;
+    bool isInString = false;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        const char c = text[at];
+        if (isInString) {
+            at += c == '\\';
+            isInString = c != '"';
+        } else {
+            isInString = c == '"';
+            depth += (c == '{' || c == '[') - (c == '}' || c == ']');
+        }
+    }
+    return isInString || depth > 0;
+}
+
 std::string shortened(std::string_view text) {
     if (text.size() <= kMessageBytes) return std::string(text);
     std::size_t end = kMessageBytes;

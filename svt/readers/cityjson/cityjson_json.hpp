@@ -58,6 +58,9 @@ private:
     json::parser parser_;
 };
 
+/// Whether `text` ends within a string, an object or an array. Cost: O(size).
+[[nodiscard]] bool isCutOff(std::string_view text) noexcept;
+
 /// `text` truncated at a character boundary to a length suitable for messages and generated ids.
 [[nodiscard]] std::string shortened(std::string_view text);
 

@@ -160,8 +160,10 @@ public:
             rest_ = text_.substr(begin + head.size());
         }
         if (auto done = readHead(head, headLine, hasLines); !done) return done.error();
-        if (hasLines)
+        if (hasLines) {
+            if (auto done = checkEnd(headLine); !done) return done.error();
             if (auto done = readLines(headLine); !done) return done.error();
+        }
         if (Progress::isCancelled(options_.progress)) return cancelled();
         if (auto done = linkObjects(std::move(objects_), name_, model_, anchors_, diagnostics_); !done)
             return done.error();
@@ -305,6 +307,22 @@ private:
                 objects_[i] = readCityObject(members[i].first, members[i].second, context);
         });
         if (Progress::isCancelled(options_.progress)) return cancelled();
+        return {};
+    }
+
+    /// A sequence is cut off where its last line is, which then has no line break either.
+    Result<void> checkEnd(std::uint64_t headLine) {
+        const std::size_t begin = rest_.rfind('\n') + 1;
+        if (!isCutOff(rest_.substr(begin))) return {};
+        const auto before = static_cast<std::uint64_t>(
+            std::count(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(begin), '\n'));
+        const std::string found = "the last line ends within its object: the file was cut off";
+        if (!options_.allowTruncated)
+            return Error(Code::Truncated,
+                         found + "; copy or export it again, or read what is there (--allow-truncated)",
+                         place(headLine + before));
+        diagnostics_.add(Severity::Warning, Code::Truncated, found + "; what is there was read",
+                         place(headLine + before));
         return {};
     }
 

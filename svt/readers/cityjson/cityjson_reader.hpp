@@ -38,6 +38,7 @@ namespace svt::readers {
 /// \param name   path or name for messages
 /// \param diagnostics  receives findings in file order; may be null
 /// \return the model (without features where CityObjects is empty), or BadJson with line and column, BadEncoding,
+///         Truncated (a sequence whose last line is cut off, without options.allowTruncated; a finding with it),
 ///         UnknownVersion, BadValue (transform), GeographicCrs, InputTooBig (bytes, depth, instanced templates,
 ///         polygons) or Cancelled
 /// Cost: linear in bytes; peak memory up to about 15 times the largest JSON text, in addition to

@@ -26,6 +26,7 @@ using features::TextStream;
 struct FeatureFile::State {
     std::filesystem::path path;
     FeatureFormat format = FeatureFormat::Whole;
+    bool allowsTruncated = false;
     TextStream stream;
     GmlMembers gml{{}};
     std::string head;                  // of CityJSON: its line
@@ -72,11 +73,11 @@ double FeatureFile::progress() const noexcept {
 }
 
 Result<FeatureFile> FeatureFile::open(const std::filesystem::path& path, const ReadOptions& options) {
-    static_cast<void>(options);
     auto stream = TextStream::open(path);
     if (!stream) return stream.error();
     auto state = std::make_unique<State>();
     state->path = path;
+    state->allowsTruncated = options.allowTruncated;
     state->stream = std::move(*stream);
     while (state->stream.window().size() < kShownBytes) {
         const auto more = state->stream.more();
@@ -176,6 +177,12 @@ Result<bool> FeatureFile::State::nextLine(FeatureText& feature) {
         const std::string_view text = stream.window().substr(0, end);
         feature = {{stream.base(), text.size()}, text, stream.line()};
         if (text.empty() && end == std::string_view::npos) return false;
+        if (end == std::string_view::npos && !allowsTruncated && features::skipJsonBlanks(text, 0) != text.size() &&
+            features::skipJson(text, 0) == features::kNoJson)
+            return Error(Code::Truncated,
+                         "the last line ends within its object: the file was cut off; copy or export it again, or read "
+                         "what is there (--allow-truncated)",
+                         {path.string(), stream.line(), 0, {}});
         stream.discard(stream.base() + text.size() + (end == std::string_view::npos ? 0 : 1));
         if (features::skipJsonBlanks(text, 0) != text.size()) return true;
         from = 0;
@@ -337,7 +344,9 @@ Result<model::BuildingModel> FeatureFile::read(std::span<const std::string_view>
         document += '\n';
     }
     Diagnostics found;
-    auto model = readModel(textBytes(document), name, options, lines.empty() ? diagnostics : &found);
+    ReadOptions reading = options;
+    reading.allowTruncated = true;  // next() has looked at the end of the file; these may be any lines
+    auto model = readModel(textBytes(document), name, reading, lines.empty() ? diagnostics : &found);
     const LineMap map(line, features, lines);
     if (!lines.empty() && diagnostics != nullptr) map.append(found, *diagnostics);
     if (!model) return model;

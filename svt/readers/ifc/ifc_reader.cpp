@@ -50,6 +50,7 @@ public:
                             "STEP files",
                             file_.step().schema().substr(0, 60)),
                 place());
+        if (auto done = checkEnd(); !done) return done.error();
         model_.source = name_;
         model_.format = *version;
         readProject();
@@ -75,6 +76,20 @@ private:
     [[nodiscard]] Place place() const { return {std::string(name_), 0, 0, {}}; }
     [[nodiscard]] std::uint64_t lineOf(RecordIndex record) const {
         return file_.step().lineOf(file_.step().records()[record]);
+    }
+
+    // Records that are missing at the end would be missing in silence.
+    Result<void> checkEnd() {
+        if (!file_.step().isTruncated()) return {};
+        const step::Record& last = file_.step().records().back();
+        const Place where{std::string(name_), file_.step().lineOf(last), 0, {}};
+        const std::string found =
+            fmt::format("the file ends behind the record #{}, without END-ISO-10303-21: it was cut off", last.id);
+        if (!options_.allowTruncated)
+            return Error(Code::Truncated,
+                         found + "; copy or export it again, or read what is there (--allow-truncated)", where);
+        diagnostics_.add(Severity::Warning, Code::Truncated, found + "; what is there was read", where);
+        return {};
     }
 
     void readProject() {

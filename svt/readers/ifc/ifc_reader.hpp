@@ -34,7 +34,7 @@ namespace svt::readers {
 /// True where the text begins with ISO-10303-21, after a byte order mark and blanks.
 [[nodiscard]] bool looksLikeIfc(std::span<const std::byte> head) noexcept;
 
-/// \return the model, or BadStep, UnknownVersion (a schema that is not IFC), EmptyModel (no product), InputTooBig,
+/// \return the model, or BadStep, Truncated (without options.allowTruncated; a finding with it), UnknownVersion (a schema that is not IFC), EmptyModel (no product), InputTooBig,
 ///         Cancelled, or what georeference() returns. Findings: BadRecord, DuplicateId, MissingId, BadValue, UnknownElement,
 ///         DanglingReference, ReferenceCycle, ReadInPart, ShapeNotRead, LayersNotSplit, and ProductsRead and LayersSplit as the last.
 /// Cost: one pass over the text, then O(what the products are made of); memory below five times the file for most.

@@ -224,6 +224,8 @@ Result<StepFile> StepFile::scan(string_view text, string_view name, Diagnostics&
     if (file.records_.empty())
         return Error(Code::BadStep, "the file has no record such as '#1=IFCPROJECT(...);'; it seems to be cut off",
                      {std::string(name), 1, 0, {}});
+    const Record& last = file.records_.back();
+    file.isTruncated_ = text.find("END-ISO-10303-21", last.values + last.size) == string_view::npos;
     file.makeIndex(name, diagnostics);
     return file;
 }

@@ -60,6 +60,9 @@ public:
     /// 1-based line in which a record stands. Cost: the first call counts all lines.
     [[nodiscard]] std::uint64_t lineOf(const Record& record) const;
 
+    /// Whether the text ends without END-ISO-10303-21: a part of the file is missing.
+    [[nodiscard]] bool isTruncated() const noexcept { return isTruncated_; }
+
     /// The names in FILE_SCHEMA, upper case as in the file: "IFC4X3_ADD2". Empty where the header has none.
     [[nodiscard]] const std::string& schema() const noexcept { return schema_; }
 
@@ -69,6 +72,7 @@ private:
 
     std::string_view text_;
     std::string schema_;
+    bool isTruncated_ = false;
     std::vector<Record> records_;
     std::vector<std::string_view> typeNames_;
     std::vector<RecordIndex> byId_;                                 // dense: id -> record

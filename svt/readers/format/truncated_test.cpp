@@ -1,0 +1,152 @@
+// A file that was cut off is an error wherever it was cut, unless the caller takes what is there.
+#include <svt/core/file.hpp>
+#include <svt/core/temporary_folder_test.hpp>
+#include <svt/readers/citygml/citygml_documents_test.hpp>
+#include <svt/readers/feature_file.hpp>
+#include <svt/readers/ifc/ifc_documents_test.hpp>
+#include <svt/readers/read_model.hpp>
+
+#include <gtest/gtest.h>
+
+namespace svt::readers {
+namespace {
+
+const std::string kCube =
+    R"({"type":"MultiSurface","lod":"2","boundaries":[[[0,3,2,1]],[[0,1,4]],[[1,2,4]],[[2,3,4]],[[3,0,4]]]})";
+const std::string kVertices = R"("vertices":[[0,0,0],[9,0,0],[9,9,0],[0,9,0],[5,5,9]])";
+const std::string kTransform = R"("transform":{"scale":[1,1,1],"translate":[0,0,0]})";
+
+std::string cityJson() {
+    return R"({"type":"CityJSON","version":"2.0",)" + kTransform +
+           R"(,"CityObjects":{"b":{"type":"Building","geometry":[)" + kCube + "]}}," + kVertices + "}";
+}
+
+std::string line(const std::string& id) {
+    return R"({"type":"CityJSONFeature","id":")" + id + R"(","CityObjects":{")" + id +
+           R"(":{"type":"Building","attributes":{"note":"a \" and \\"},"geometry":[)" + kCube + "]}}," + kVertices +
+           "}";
+}
+
+std::string sequence() {
+    return R"({"type":"CityJSON","version":"2.0",)" + kTransform + R"(,"CityObjects":{},"vertices":[]})" + "\n" +
+           line("a") + "\n" + line("b") + "\n";
+}
+
+std::string ifc() { return test::ifcWithItem("#200=IFCBLOCK(#14,1000.,2000.,3000.);"); }
+
+std::string cityGml() {
+    using namespace gmltest;
+    return cityModel(2, building("b", lod2Surfaces(2, multiSurface(surfaceMember(square("p"))))));
+}
+
+Result<model::BuildingModel> read(std::string_view text, bool allowTruncated = false, Diagnostics* log = nullptr) {
+    ReadOptions options;
+    options.allowTruncated = allowTruncated;
+    return readModel(std::as_bytes(std::span(text)), "cut", options, log);
+}
+
+// Cut behind each byte from `first` on but for the last ones, which say nothing new.
+void expectErrors(const std::string& text, std::size_t first, std::size_t last) {
+    ASSERT_TRUE(read(text)) << read(text).error().toString();
+    for (std::size_t size = first; size < last; ++size)
+        ASSERT_FALSE(read(std::string_view(text).substr(0, size))) << text.substr(0, size);
+}
+
+TEST(Truncated, IfcIsAnErrorWhereverItIsCut) {
+    const std::string text = ifc();
+    expectErrors(text, text.find("DATA;"), text.find("END-ISO") + std::string_view("END-ISO-10303-2").size());
+    const auto model = read(text.substr(0, text.rfind("ENDSEC")));
+    ASSERT_FALSE(model);
+    EXPECT_EQ(model.error().code(), Code::Truncated);
+    EXPECT_NE(model.error().message().find("behind the record #200"), std::string::npos) << model.error().message();
+    EXPECT_EQ(model.error().where().line,
+              std::size_t(std::count(text.begin(), text.begin() + text.find("#200=IFC"), '\n')) + 1);
+}
+
+TEST(Truncated, IfcIsReadAsFarAsItGoesWhereThatIsAllowed) {
+    const std::string text = ifc();
+    Diagnostics log;
+    const auto model = read(text.substr(0, text.rfind("ENDSEC")), true, &log);
+    ASSERT_TRUE(model);
+    EXPECT_EQ(model->features.back().id, "wall");
+    EXPECT_FALSE(model->features.back().geometries.empty());
+    EXPECT_EQ(log.count(Code::Truncated), 1u);
+    EXPECT_EQ(log.count(Severity::Warning), 1u);
+    Diagnostics cut;
+    ASSERT_TRUE(read(text.substr(0, text.find("#200=IFC")), true, &cut));
+    EXPECT_EQ(cut.count(Code::Truncated), 1u);
+    EXPECT_EQ(cut.count(Code::DanglingReference), 1u);
+    EXPECT_EQ(cut.count(Code::ShapeNotRead), 1u);
+}
+
+TEST(Truncated, ABrokenLastRecordIsNoCut) {
+    std::string text = ifc();
+    text.insert(text.rfind("ENDSEC"), "#201=IFCLABEL('open);\n");
+    Diagnostics log;
+    EXPECT_TRUE(read(text, false, &log));
+    EXPECT_EQ(log.count(Code::BadRecord), 1u);
+}
+
+TEST(Truncated, CityGmlAndCityJsonAreErrorsWhereverTheyAreCut) {
+    const std::string gml = cityGml(), json = cityJson();
+    expectErrors(gml, 0, gml.rfind('>'));
+    expectErrors(json, 0, json.rfind('}'));
+    EXPECT_FALSE(read(json.substr(0, json.size() - 1), true)) << "there is no part that could be read";
+    EXPECT_FALSE(read(gml.substr(0, gml.rfind('>')), true));
+}
+
+TEST(Truncated, SequencesAreErrorsBetweenTheirLines) {
+    const std::string text = sequence();
+    ASSERT_TRUE(read(text));
+    const std::size_t second = text.find('\n') + 1, third = text.find('\n', second) + 1;
+    for (std::size_t size = 1; size + 2 < text.size(); ++size) {
+        const auto model = read(std::string_view(text).substr(0, size));
+        const bool isWhole = size == second || size + 1 == second || size == third || size + 1 == third;
+        ASSERT_EQ(bool(model), isWhole) << text.substr(0, size);
+        if (size > third) EXPECT_EQ(model.error().code(), Code::Truncated);
+        if (size > third) EXPECT_EQ(model.error().where().line, 3u);
+    }
+    Diagnostics log;
+    const auto model = read(std::string_view(text).substr(0, text.size() - 40), true, &log);
+    ASSERT_TRUE(model);
+    EXPECT_EQ(model->features.size(), 1u);
+    EXPECT_EQ(log.count(Code::Truncated), 1u);
+    EXPECT_EQ(log.count(Code::BadJson), 1u);
+    // A damaged line is no cut.
+    std::string damaged = text;
+    damaged.replace(damaged.rfind("[5,5,9]"), 7, "[5,5 9]");
+    Diagnostics found;
+    EXPECT_TRUE(read(damaged, false, &found));
+    EXPECT_EQ(found.count(Code::Truncated), 0u);
+    EXPECT_EQ(found.count(Code::BadJson), 1u);
+}
+
+TEST(Truncated, RowsOfFeaturesEndWithTheErrorToo) {
+    const svt::test::TemporaryFolder folder;
+    const std::string text = sequence();
+    for (const bool isAllowed : {false, true}) {
+        ASSERT_TRUE(writeFileAtomically(folder / "cut.city.jsonl", std::string_view(text).substr(0, text.size() - 40)));
+        ReadOptions options;
+        options.allowTruncated = isAllowed;
+        auto file = FeatureFile::open(folder / "cut.city.jsonl", options);
+        ASSERT_TRUE(file);
+        FeatureText feature;
+        ASSERT_TRUE(file->next(feature));
+        const std::string first(feature.text);
+        EXPECT_TRUE(file->read(std::vector<std::string_view>{first}, options, nullptr));
+        const auto second = file->next(feature);
+        ASSERT_EQ(bool(second), isAllowed);
+        if (isAllowed) {
+            const std::string cut(feature.text);
+            Diagnostics log;
+            EXPECT_TRUE(file->read(std::vector<std::string_view>{cut}, {}, &log));
+            EXPECT_EQ(log.count(Code::BadJson), 1u);
+        } else {
+            EXPECT_EQ(second.error().code(), Code::Truncated);
+            EXPECT_EQ(second.error().where().line, 3u);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace svt::readers
