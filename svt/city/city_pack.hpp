@@ -42,15 +42,14 @@ public:
     [[nodiscard]] static Result<Pack> open(const std::filesystem::path& path, const std::string& content);
 
     [[nodiscard]] const std::vector<PackMember>& members() const noexcept { return members_; }
-    /// The volume of a member. \return the volume, or BadPack that tells what is wrong with it
+    /// The volume of a member, whose bytes are those of a `.svt` file.
+    /// \return the volume, or BadPack that tells what is wrong with it; CannotOpen
     [[nodiscard]] Result<volume::SemanticVolume> read(const PackMember& member) const;
-    /// The bytes of a member: a `.svt` file.
-    [[nodiscard]] std::span<const std::byte> bytesOf(const PackMember& member) const noexcept;
 
 private:
-    Pack(std::filesystem::path path, MappedFile file) : path_(std::move(path)), file_(std::move(file)) {}
+    Pack(std::filesystem::path path, PartFile file) : path_(std::move(path)), file_(std::move(file)) {}
     std::filesystem::path path_;
-    MappedFile file_;
+    PartFile file_;
     std::vector<PackMember> members_;
 };
 

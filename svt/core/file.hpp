@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// File access: read by memory mapping; written so that a failure leaves the old file untouched.
+/// File access: read so that other programs may change a file meanwhile; written so that a failure leaves the old file
+/// untouched.
 
 #include <svt/core/result.hpp>
 
@@ -16,15 +17,20 @@
 
 namespace svt {
 
-/// A regular file mapped read-only into memory. Move-only; the bytes stay valid for the lifetime of the object.
-/// Replacing the file by rename (as AtomicFile does) leaves the mapping intact. If another program truncates the
-/// file while it is mapped, access raises SIGBUS, as with every mapping.
+/// The bytes of a regular file in memory, read-only. Move-only; they stay valid for the lifetime of the object.
+/// Replacing the file by rename (as AtomicFile does) leaves them as they are.
 class MappedFile {
 public:
-    /// Maps the whole file; an empty file gives an empty span. Cost: O(1), pages are read when touched.
-    /// \return the file, or CannotOpen that says why: missing, a folder, no permission, a pipe or device
-    [[nodiscard]] static Result<MappedFile> open(const std::filesystem::path& path,
-                                                 std::uint64_t maxBytes = std::numeric_limits<std::uint64_t>::max());
+    static constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
+
+    /// Reads the whole file; what other programs do to it later does not matter. An empty file gives an empty span.
+    /// \return the file, or CannotOpen that says why: missing, a folder, no permission, a pipe or device, or a size that
+    ///         changes while it is read; InputTooBig for more than `maxBytes`, or than there is memory for
+    [[nodiscard]] static Result<MappedFile> open(const std::filesystem::path& path, std::uint64_t maxBytes = kNoLimit);
+    /// Maps the file, for one that may be larger than memory and is read from its begin to its end. If another program
+    /// shortens it, access raises SIGBUS, as with every mapping. Cost: O(1), pages are read when touched.
+    /// \return as open()
+    [[nodiscard]] static Result<MappedFile> map(const std::filesystem::path& path, std::uint64_t maxBytes = kNoLimit);
 
     MappedFile(MappedFile&& other) noexcept;
     MappedFile& operator=(MappedFile&& other) noexcept;
@@ -39,9 +45,37 @@ public:
     }
 
 private:
-    explicit MappedFile(std::span<const std::byte> bytes) noexcept : bytes_(bytes) {}
+    MappedFile() = default;
 
     std::span<const std::byte> bytes_;
+    std::unique_ptr<std::byte[]> own_;  // null of a mapping
+};
+
+/// A regular file of which parts are read. What another program cuts off is missing, or an error, and no signal.
+/// Replacing the file by rename leaves the open one as it is. Threads: parts may be read at once.
+class PartFile {
+public:
+    /// \return the file, or CannotOpen as MappedFile
+    [[nodiscard]] static Result<PartFile> open(const std::filesystem::path& path);
+
+    PartFile(PartFile&& other) noexcept;
+    PartFile& operator=(PartFile&& other) noexcept;
+    PartFile(const PartFile&) = delete;
+    PartFile& operator=(const PartFile&) = delete;
+    ~PartFile();
+
+    /// When it was opened.
+    [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
+    /// The bytes from `offset` on, `size` of them or as many as the file has there.
+    /// \return the bytes, or CannotOpen where the system fails to read
+    [[nodiscard]] Result<std::string> read(std::uint64_t offset, std::size_t size) const;
+
+private:
+    PartFile() = default;
+
+    std::filesystem::path path_;
+    std::uint64_t size_ = 0;
+    int descriptor_ = -1;
 };
 
 /// Where the symbolic links at `path` lead, one after the other, also where nothing is there; `path` itself if it is no

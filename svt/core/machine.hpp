@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -34,8 +33,8 @@ struct MemoryGrant {
 /// \return what is granted; empty where a system does not tell
 [[nodiscard]] std::optional<MemoryGrant> memoryGrant();
 
-/// From now on allocations fail (std::bad_alloc) that would take the data of this process beyond `bytes`. Mapped files
-/// do not count. Where a sanitizer watches, which takes address space of its own, memoryFigures() tells it alone.
+/// From now on allocations fail (std::bad_alloc) that would take the data of this process beyond `bytes`. Files of
+/// MappedFile::map() do not count. Where a sanitizer watches, which takes address space of its own, memoryFigures() tells it alone.
 /// \param by  what set the limit, for MemoryFigures::limitedBy
 void limitMemory(std::uint64_t bytes, std::string_view by);
 
@@ -107,9 +106,5 @@ private:
 /// structures of many small parts were freed, before other large ones are made. Cost: milliseconds for each GB.
 /// No effect on systems without such a call.
 void returnFreeMemory() noexcept;
-
-/// Bytes of a MappedFile that will hardly be read again: they leave the memory of the process, and are read from the file
-/// if they are needed after all. No effect on bytes that are none of a MappedFile. Threads: any.
-void forgetMappedBytes(std::span<const std::byte> bytes) noexcept;
 
 }  // namespace svt

@@ -30,10 +30,10 @@ struct Format {
 /// Reads a model file; gzip files are decompressed first. The attribute `svtClass` of a feature replaces its
 /// class: a way to express BuildingConstructiveElement in formats that lack it.
 /// \param diagnostics  receives findings that did not stop reading; may be null
-/// \return the model; CannotOpen (missing, unreadable, a folder, damaged gzip), UnknownFormat, InputTooBig for more
+/// \return the model; CannotOpen (missing, unreadable, a folder, a size that changes, damaged gzip), UnknownFormat, InputTooBig for more
 ///         than options.maxBytes, for gzip data that unpack to more than a third of the memory or to 100 times their
 ///         size, and for files that take more memory than there is; or an error of the reader of the format
-/// Cost: the file is mapped, not copied; see the readers. Do not truncate the file while it is read.
+/// Cost: the file is in memory beside its model; see the readers. What other programs do to it meanwhile does not matter.
 [[nodiscard]] Result<model::BuildingModel> readModel(const std::filesystem::path& path, const ReadOptions& options = {},
                                                      Diagnostics* diagnostics = nullptr);
 

@@ -33,7 +33,8 @@ Result<serve::SiteModel> cityModel(const std::filesystem::path& input, const std
                      {(input / "packs").string(), 0, 0, {}});
     std::sort(files.begin(), files.end());
     for (const std::string& file : files) {
-        auto bytes = MappedFile::open(input / file);
+        // All of a city may be larger than memory, and whoever writes one replaces its files.
+        auto bytes = MappedFile::map(input / file);
         if (!bytes) return bytes.error();
         model.cityFiles.emplace_back(file, serve::Bytes::of(std::move(*bytes)));
     }

@@ -21,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kHeadBytes = 4096;
+
 // A model as the bytes of a .svt; the temporary file is removed.
 Result<MappedFile> built(const fs::path& input, const BuildArguments& build, Diagnostics& diagnostics) {
     const TerminalProgress progress;
@@ -31,15 +33,18 @@ Result<MappedFile> built(const fs::path& input, const BuildArguments& build, Dia
         return Error(Code::CannotWrite, "there is no folder for temporary files; set TMPDIR to one");
     const fs::path file = folder.path() / "model.svt";
     if (const auto written = volume::writeSvt(*volume, file); !written) return written.error();
-    return MappedFile::open(file);
+    return MappedFile::map(file);  // nobody else knows it
 }
 
 Result<serve::SiteModel> modelOf(const fs::path& input, const std::string& name, const BuildArguments& build,
                                  Diagnostics& diagnostics) {
     if (isCity(input)) return cityModel(input, name);
-    auto file = MappedFile::open(input);
-    if (!file) return file.error();
-    if (!volume::looksLikeSvt(file->bytes())) file = built(input, build, diagnostics);
+    const auto head = PartFile::open(input);
+    if (!head) return head.error();
+    const auto begin = head->read(0, kHeadBytes);
+    if (!begin) return begin.error();
+    const bool isSvt = volume::looksLikeSvt(std::as_bytes(std::span(*begin)));
+    auto file = isSvt ? MappedFile::open(input) : built(input, build, diagnostics);
     if (!file) return file.error();
     const auto opened = volume::openSvt(file->bytes(), input.string());
     if (!opened) return opened.error();

@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view kHead{"svtpack\0", 8}, kTail{"svtpend\0", 8};
 constexpr std::uint32_t kPackVersion = 1;
 constexpr std::size_t kHeadBytes = 48, kTailBytes = 32, kAlignment = 8;
+constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
 
 Error badPack(const std::filesystem::path& path, std::string_view what) {
     return {Code::BadPack, fmt::format("{}; remove the file and run its task again", what), {path.string(), 0, 0, {}}};
@@ -113,12 +114,16 @@ Result<std::string> PackWriter::commit() {
 }
 
 Result<Pack> Pack::open(const std::filesystem::path& path, const std::string& content) {
-    auto file = MappedFile::open(path);
+    auto file = PartFile::open(path);
     if (!file) return file.error();
-    Pack pack(path, std::move(*file));
-    const std::string_view text = pack.file_.text();
-    if (text.size() < kHeadBytes + kTailBytes || !text.starts_with(kHead)) return badPack(path, "this is not a pack");
-    Taker head(text.substr(kHead.size()));
+    const std::uint64_t bytes = file->size();
+    if (bytes < kHeadBytes + kTailBytes) return badPack(path, "this is not a pack");
+    const std::uint64_t tailBegin = bytes - kTailBytes;
+    const auto headText = file->read(0, kHeadBytes), tailText = file->read(tailBegin, kTailBytes);
+    if (!headText) return headText.error();
+    if (!tailText) return tailText.error();
+    if (!headText->starts_with(kHead)) return badPack(path, "this is not a pack");
+    Taker head(std::string_view(*headText).substr(kHead.size()));
     if (head.take<std::uint32_t>() != kPackVersion)
         return Error(Code::PlanVersion, "the pack has a version that this program does not know",
                      {path.string(), 0, 0, {}});
@@ -127,12 +132,16 @@ Result<Pack> Pack::open(const std::filesystem::path& path, const std::string& co
     const std::string_view own = head.text(digest.size());
     if (!content.empty() && own != std::string_view(reinterpret_cast<const char*>(digest.data()), digest.size()))
         return badPack(path, "the pack is one of another plan, or of other files");
-    Taker tail(text.substr(text.size() - kTailBytes));
+    Taker tail(*tailText);
     const auto offset = tail.take<std::uint64_t>(), size = tail.take<std::uint64_t>(), sum = tail.take<std::uint64_t>();
-    if (tail.text(kTail.size()) != kTail || offset < kHeadBytes || offset > text.size() - kTailBytes ||
-        size != text.size() - kTailBytes - offset || sumOf(text.substr(offset, size)) != sum)
+    if (tail.text(kTail.size()) != kTail || offset < kHeadBytes || offset > tailBegin || size != tailBegin - offset)
         return badPack(path, "the directory of the pack is damaged, or its end is missing");
-    Taker from(text.substr(offset, size));
+    const auto directory = file->read(offset, static_cast<std::size_t>(size));
+    if (!directory) return directory.error();
+    if (directory->size() != size || sumOf(*directory) != sum)
+        return badPack(path, "the directory of the pack is damaged, or its end is missing");
+    Pack pack(path, std::move(*file));
+    Taker from(*directory);
     for (auto count = from.take<std::uint32_t>(); count > 0; --count) {
         PackMember member;
         if (!takeMember(from, offset, member)) return badPack(path, "the directory of the pack is damaged");
@@ -141,12 +150,10 @@ Result<Pack> Pack::open(const std::filesystem::path& path, const std::string& co
     return pack;
 }
 
-std::span<const std::byte> Pack::bytesOf(const PackMember& member) const noexcept {
-    return file_.bytes().subspan(member.offset, member.size);
-}
-
 Result<volume::SemanticVolume> Pack::read(const PackMember& member) const {
-    auto volume = volume::readSvt(bytesOf(member));
+    const auto bytes = file_.read(member.offset, static_cast<std::size_t>(member.size));
+    if (!bytes) return bytes.error();
+    auto volume = volume::readSvt(std::as_bytes(std::span(*bytes)));
     if (!volume)
         return badPack(path_, fmt::format("tile {}, detail {}, is damaged ({})", member.tile.toString(), member.detail,
                                           volume.error().message()));
@@ -213,10 +220,15 @@ Result<PackReport> provenReport(const std::filesystem::path& folder, const Plan&
     if (std::filesystem::file_size(path, failed) != report->bytes || failed)
         return open("the pack is missing, or has another size than its report says");
     if (!isProven) return report;
-    const auto file = MappedFile::open(path);
+    const auto file = PartFile::open(path);
     if (!file) return file.error();
-    if (hexOf(digestOf(file->text())) != report->sha256)
-        return open("the pack has another SHA-256 than its report says");
+    Sha256 sum;
+    for (std::uint64_t at = 0; at < file->size(); at += kPieceBytes) {
+        const auto piece = file->read(at, kPieceBytes);
+        if (!piece) return piece.error();
+        sum.add(*piece);
+    }
+    if (hexOf(sum.finish()) != report->sha256) return open("the pack has another SHA-256 than its report says");
     return report;
 }
 

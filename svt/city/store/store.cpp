@@ -2,11 +2,13 @@
 
 #include <svt/core/file.hpp>
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <mutex>
-#include <optional>
+#include <utility>
 
 namespace svt::city {
 namespace {
@@ -17,31 +19,41 @@ public:
 
     Result<std::string> read(const std::string& name, std::uint64_t offset, std::size_t size) const override {
         const auto file = open(name);
-        const std::string_view text = file ? file->text() : std::string_view();
-        const auto begin = static_cast<std::size_t>(std::min<std::uint64_t>(offset, text.size()));
-        return std::string(text.substr(begin, size));
+        if (!file) return file.error();
+        return *file != nullptr ? (*file)->read(offset, size) : Result<std::string>(std::string());
     }
     Result<std::uint64_t> size(const std::string& name) const override {
         const auto file = open(name);
-        return file ? std::uint64_t{file->text().size()} : std::uint64_t{0};
+        if (!file) return file.error();
+        return *file != nullptr ? (*file)->size() : std::uint64_t{0};
     }
     std::string place(const std::string& name) const override { return (folder_ / name).string(); }
 
 private:
+    using Open = std::shared_ptr<const PartFile>;
+    static constexpr std::size_t kMostOpen = 256;  // of 1024 that most systems grant a process
+
     // Kept open, so that a file that is replaced meanwhile stays as it was; null where it is missing.
-    const MappedFile* open(const std::string& name) const {
+    Result<Open> open(const std::string& name) const {
         const std::lock_guard lock(mutex_);
-        auto& file = files_[name];
-        if (!file) {
-            auto opened = MappedFile::open(folder_ / name);
-            if (opened) file.emplace(std::move(*opened));
-        }
-        return file ? &*file : nullptr;
+        if (const auto found = files_.find(name); found != files_.end()) return found->second;
+        const std::filesystem::path path = folder_ / name;
+        std::error_code failed;
+        if (!std::filesystem::exists(path, failed)) return Open();
+        auto opened = PartFile::open(path);
+        if (!opened) return opened.error();
+        const std::string which = fmt::format("{} {}", fileIdentity(path), opened->size());
+        if (seen_.emplace(name, which).first->second != which)
+            return Error(Code::BadCity, "the file was replaced while it was read; open the city again",
+                         {path.string(), 0, 0, {}});
+        if (files_.size() == kMostOpen) files_.clear();
+        return files_.emplace(name, std::make_shared<const PartFile>(std::move(*opened))).first->second;
     }
 
     std::filesystem::path folder_;
     mutable std::mutex mutex_;
-    mutable std::map<std::string, std::optional<MappedFile>> files_;
+    mutable std::map<std::string, Open> files_;
+    mutable std::map<std::string, std::string> seen_;  // file and size when it was first opened
 };
 
 }  // namespace

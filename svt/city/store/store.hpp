@@ -17,7 +17,8 @@ public:
     virtual ~Store() = default;
 
     /// Bytes [offset, offset + size) of a file, such as "packs/00000.svtp"; fewer where it ends, none where it is missing.
-    /// \return the bytes; CannotOpen where a server gives none or other ones, BadCity where it changed meanwhile
+    /// \return the bytes; CannotOpen where a server gives none or other ones, or a file cannot be read; BadCity where it
+    ///         changed meanwhile
     [[nodiscard]] virtual Result<std::string> read(const std::string& name, std::uint64_t offset,
                                                    std::size_t size) const = 0;
     /// Bytes of a file; 0 where it is missing.

@@ -1,7 +1,7 @@
 #include <svt/core/file.hpp>
 
-#include <svt/core/file/mappings.hpp>
 #include <svt/core/file/temporary_file.hpp>
+#include <svt/core/machine.hpp>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <memory>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -96,58 +98,139 @@ int openDescriptor(const char* path, int flags) noexcept {
     }
 }
 
-}  // namespace
+/// Closes what it was given.
+class Descriptor {
+public:
+    explicit Descriptor(int descriptor) noexcept : descriptor_(descriptor) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() { ::close(descriptor_); }
 
-Result<MappedFile> MappedFile::open(const fs::path& path, std::uint64_t maxBytes) {
+private:
+    int descriptor_;
+};
+
+/// Opens a regular file for reading and tells its size.
+Result<int> openInput(const fs::path& path, std::uint64_t maxBytes, std::uint64_t& size) {
     // Without O_NONBLOCK, opening a pipe without a writer would block forever.
     const int descriptor = openDescriptor(path.c_str(), O_RDONLY | O_NONBLOCK);
     if (descriptor < 0) return cannotOpen(path, errno);
+    const auto refuse = [&](Error error) {
+        ::close(descriptor);
+        return error;
+    };
     struct stat status {};
-    if (::fstat(descriptor, &status) != 0) {
-        const int reason = errno;
-        ::close(descriptor);
-        return cannotOpen(path, reason);
-    }
-    if (!S_ISREG(status.st_mode)) {
-        ::close(descriptor);
-        return cannotOpen(path, S_ISDIR(status.st_mode)
-                                    ? "this is a folder; give the name of a file in it"
-                                    : "this is a pipe or device, which cannot be mapped; copy it to a file first");
-    }
-    if (static_cast<std::uint64_t>(status.st_size) > maxBytes) {
-        ::close(descriptor);
-        return Error(Code::InputTooBig, fmt::format("the file has {} bytes, the limit is {}", status.st_size, maxBytes),
-                     Place{path.string(), 0, 0, {}});
-    }
-    if (static_cast<std::uint64_t>(status.st_size) > SIZE_MAX) {
-        ::close(descriptor);
-        return cannotOpen(path, EFBIG);
-    }
-    const auto size = static_cast<std::size_t>(status.st_size);
-    void* memory = nullptr;
-    int reason = 0;
-    if (size > 0) {
-        memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
-        if (memory == MAP_FAILED) reason = errno;
-    }
-    ::close(descriptor);
-    if (reason != 0) return cannotOpen(path, reason);
-    const std::span bytes(static_cast<const std::byte*>(memory), size);
-    rememberMapping(bytes);
-    return MappedFile(bytes);
+    if (::fstat(descriptor, &status) != 0) return refuse(cannotOpen(path, errno));
+    if (!S_ISREG(status.st_mode))
+        return refuse(cannotOpen(
+            path, S_ISDIR(status.st_mode) ? "this is a folder; give the name of a file in it"
+                                          : "this is a pipe or device, which cannot be read; copy it to a file first"));
+    size = static_cast<std::uint64_t>(status.st_size);
+    if (size > maxBytes)
+        return refuse(Error(Code::InputTooBig, fmt::format("the file has {} bytes, the limit is {}", size, maxBytes),
+                            Place{path.string(), 0, 0, {}}));
+    if (size > SIZE_MAX) return refuse(cannotOpen(path, EFBIG));
+    return descriptor;
 }
 
-MappedFile::MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+/// Fills `to` from the file at `offset` as far as the file goes; `count` bytes of it. Returns 0, or errno.
+int readAt(int descriptor, std::uint64_t offset, std::span<std::byte> to, std::size_t& count) noexcept {
+    for (count = 0; count < to.size();) {
+        const std::size_t size = std::min(to.size() - count, std::size_t{1} << 30);
+        const ::ssize_t got = ::pread(descriptor, to.data() + count, size, static_cast<::off_t>(offset + count));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return errno;
+        if (got == 0) break;
+        count += static_cast<std::size_t>(got);
+    }
+    return 0;
+}
+
+}  // namespace
+
+Result<MappedFile> MappedFile::open(const fs::path& path, std::uint64_t maxBytes) {
+    std::uint64_t size = 0;
+    const auto input = openInput(path, maxBytes, size);
+    if (!input) return input.error();
+    const Descriptor descriptor(*input);
+    MappedFile file;
+    try {
+        file.own_ = std::make_unique_for_overwrite<std::byte[]>(static_cast<std::size_t>(size));
+    } catch (const std::bad_alloc&) {
+        return Error(
+            Code::InputTooBig,
+            fmt::format("its {} are more than there is memory for; split the file, or grant more", bytesText(size)),
+            Place{path.string(), 0, 0, {}});
+    }
+    std::size_t count = 0;
+    if (const int reason = readAt(*input, 0, {file.own_.get(), static_cast<std::size_t>(size)}, count); reason != 0)
+        return cannotOpen(path, reason);
+    if (struct stat now{};
+        ::fstat(*input, &now) != 0 || count != size || static_cast<std::uint64_t>(now.st_size) != size)
+        return cannotOpen(path, fmt::format("the size of the file changed while it was read, from {} to {} bytes; wait "
+                                            "until the program that writes it is done",
+                                            size, now.st_size));
+    file.bytes_ = {file.own_.get(), static_cast<std::size_t>(size)};
+    return file;
+}
+
+Result<MappedFile> MappedFile::map(const fs::path& path, std::uint64_t maxBytes) {
+    std::uint64_t size = 0;
+    const auto input = openInput(path, maxBytes, size);
+    if (!input) return input.error();
+    const Descriptor descriptor(*input);
+    MappedFile file;
+    if (size == 0) return file;
+    void* memory = ::mmap(nullptr, static_cast<std::size_t>(size), PROT_READ, MAP_PRIVATE, *input, 0);
+    if (memory == MAP_FAILED) return cannotOpen(path, errno);
+    file.bytes_ = {static_cast<const std::byte*>(memory), static_cast<std::size_t>(size)};
+    return file;
+}
+
+MappedFile::MappedFile(MappedFile&& other) noexcept
+    : bytes_(std::exchange(other.bytes_, {})), own_(std::move(other.own_)) {}
 
 MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
     std::swap(bytes_, other.bytes_);
+    std::swap(own_, other.own_);
     return *this;
 }
 
 MappedFile::~MappedFile() {
-    if (bytes_.empty()) return;
-    forgetMapping(bytes_);
-    ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+    if (!bytes_.empty() && own_ == nullptr) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+}
+
+Result<PartFile> PartFile::open(const fs::path& path) {
+    PartFile file;
+    const auto input = openInput(path, MappedFile::kNoLimit, file.size_);
+    if (!input) return input.error();
+    file.descriptor_ = *input;
+    file.path_ = path;
+    return file;
+}
+
+PartFile::PartFile(PartFile&& other) noexcept
+    : path_(std::move(other.path_)), size_(other.size_), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+PartFile& PartFile::operator=(PartFile&& other) noexcept {
+    std::swap(path_, other.path_);
+    std::swap(size_, other.size_);
+    std::swap(descriptor_, other.descriptor_);
+    return *this;
+}
+
+PartFile::~PartFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Result<std::string> PartFile::read(std::uint64_t offset, std::size_t size) const {
+    std::string text(offset < size_ ? static_cast<std::size_t>(std::min<std::uint64_t>(size, size_ - offset)) : 0,
+                     '\0');
+    std::size_t count = 0;
+    if (const int reason = readAt(descriptor_, offset, std::as_writable_bytes(std::span(text)), count); reason != 0)
+        return cannotOpen(path_, reason);
+    text.resize(count);
+    return text;
 }
 
 fs::path withoutLinks(const fs::path& path) {

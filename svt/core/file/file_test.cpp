@@ -47,6 +47,79 @@ TEST(MappedFile, MovingKeepsTheBytes) {
     EXPECT_EQ(moved.text(), "second");
 }
 
+TEST(MappedFile, KeepsItsBytesWhereTheFileIsShortened) {
+    const TemporaryFolder folder;
+    const std::string text(1 << 20, 'x');
+    writeText(folder / "a", text);
+    const auto file = MappedFile::open(folder / "a");
+    ASSERT_TRUE(file);
+    fs::resize_file(folder / "a", 0);
+    EXPECT_EQ(file->text(), text);
+}
+
+TEST(MappedFile, ASizeThatChangesWhileItIsReadIsAnErrorAndNoSignal) {
+    const TemporaryFolder folder;
+    const std::string text(4 << 20, 'x');
+    writeText(folder / "a", text);
+    std::atomic<bool> isDone{false};
+    std::thread writer([&] {
+        while (!isDone)
+            for (const std::size_t size : {std::size_t{100}, text.size()}) fs::resize_file(folder / "a", size);
+    });
+    for (int i = 0; i < 200; ++i) {
+        const auto file = MappedFile::open(folder / "a");
+        if (file)
+            EXPECT_TRUE(file->bytes().size() == 100 || file->bytes().size() == text.size());
+        else
+            EXPECT_TRUE(mentions(file.error(), "E101 CannotOpen") && mentions(file.error(), "changed while"))
+                << file.error().toString();
+    }
+    isDone = true;
+    writer.join();
+}
+
+TEST(MappedFile, MapsAsItReads) {
+    const TemporaryFolder folder;
+    writeText(folder / "a", "text");
+    writeText(folder / "empty", "");
+    auto file = MappedFile::map(folder / "a");
+    ASSERT_TRUE(file);
+    EXPECT_EQ(file->text(), "text");
+    auto read = MappedFile::open(folder / "empty");
+    ASSERT_TRUE(read);
+    std::swap(*file, *read);
+    EXPECT_EQ(read->text(), "text");
+    EXPECT_TRUE(file->bytes().empty());
+    EXPECT_EQ(MappedFile::map(folder / "a", 3).error().code(), Code::InputTooBig);
+    EXPECT_EQ(MappedFile::map(folder / "b").error().code(), Code::CannotOpen);
+}
+
+TEST(PartFile, ReadsPartsAsFarAsTheFileGoes) {
+    const TemporaryFolder folder;
+    writeText(folder / "a", "0123456789");
+    auto opened = PartFile::open(folder / "a");
+    ASSERT_TRUE(opened);
+    const PartFile file = std::move(*opened);
+    EXPECT_EQ(file.size(), 10u);
+    EXPECT_EQ(*file.read(3, 4), "3456");
+    EXPECT_EQ(*file.read(8, 4), "89");
+    EXPECT_EQ(*file.read(10, 1), "");
+    EXPECT_EQ(*file.read(~std::uint64_t{0}, 1), "");
+    fs::resize_file(folder / "a", 5);
+    EXPECT_EQ(*file.read(3, 4), "34") << "what is cut off is missing";
+    EXPECT_FALSE(PartFile::open(folder / "b"));
+    EXPECT_FALSE(PartFile::open(folder.path()));
+}
+
+TEST(PartFile, KeepsAFileThatIsReplaced) {
+    const TemporaryFolder folder;
+    writeText(folder / "a", "first");
+    const auto file = PartFile::open(folder / "a");
+    ASSERT_TRUE(file);
+    ASSERT_TRUE(writeFileAtomically(folder / "a", "second"));
+    EXPECT_EQ(*file->read(0, 10), "first");
+}
+
 TEST(MappedFile, EmptyFileIsAnEmptySpan) {
     const TemporaryFolder folder;
     writeText(folder / "empty", "");

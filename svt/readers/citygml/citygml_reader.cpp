@@ -1,6 +1,5 @@
 #include <svt/readers/citygml/citygml_reader.hpp>
 
-#include <svt/core/machine.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/readers/citygml/citygml_assembly.hpp>
 #include <svt/readers/citygml/citygml_chunk.hpp>
@@ -159,11 +158,6 @@ private:
             joinPart(chunks[i], std::move(parts[i]));
             line_ += lineCounts[i];
         }
-        // A large file is not in memory beside its model.
-        if (!chunks.empty())
-            forgetMappedBytes(
-                std::as_bytes(std::span(document_.data(), document_.size()))
-                    .subspan(chunks.front().content.begin, chunks.back().content.end - chunks.front().content.begin));
         if (scanError) return *scanError;
         return {};
     }

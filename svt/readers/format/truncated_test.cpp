@@ -8,6 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
+#include <string>
+#include <thread>
+
 namespace svt::readers {
 namespace {
 
@@ -146,6 +151,28 @@ TEST(Truncated, RowsOfFeaturesEndWithTheErrorToo) {
             EXPECT_EQ(second.error().where().line, 3u);
         }
     }
+}
+
+TEST(Truncated, AFileThatShrinksWhileItIsReadEndsNoProgram) {
+    const svt::test::TemporaryFolder folder;
+    std::string records = "#200=IFCBLOCK(#14,1000.,2000.,3000.);\n";
+    for (int i = 1000; i < 20'000; ++i) records += "#" + std::to_string(i) + "=IFCCARTESIANPOINT((0.,0.,0.));\n";
+    const std::string text = test::ifcWithItem(records);
+    const auto path = folder / "house.ifc";
+    svt::test::writeText(path, text);
+    std::atomic<bool> isDone{false};
+    std::thread writer([&] {
+        while (!isDone) {
+            std::filesystem::resize_file(path, 1000);
+            svt::test::writeText(path, text);
+        }
+    });
+    for (int i = 0; i < 50; ++i) {
+        const auto model = readModel(path);
+        if (model) EXPECT_EQ(model->features.back().id, "wall");
+    }
+    isDone = true;
+    writer.join();
 }
 
 }  // namespace

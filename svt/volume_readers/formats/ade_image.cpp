@@ -152,7 +152,7 @@ Result<void> openBeside(const fs::path& path, pugi::xml_node texture, LabelImage
     const pugi::xml_node uri = childOf(texture, "imageURI");
     const auto beside = fileBeside(path, uri.child_value());
     if (!beside) return beside.error();
-    auto mapped = MappedFile::open(*beside);
+    auto mapped = MappedFile::map(*beside);
     if (!mapped) return mapped.error();
     auto samples = openNrrd(std::make_shared<const MappedFile>(std::move(*mapped)));
     if (!samples) return Error(samples.error().code(), samples.error().message(), Place{beside->string(), 0, 0, {}});

@@ -45,7 +45,7 @@ LabelFormat formatOf(const SharedFile& file) {
 }
 
 Result<SharedFile> openShared(const std::filesystem::path& path) {
-    auto file = MappedFile::open(path);
+    auto file = MappedFile::map(path);
     if (!file) return file.error();
     return std::make_shared<const MappedFile>(std::move(*file));
 }
