@@ -358,9 +358,11 @@ TEST(IfcReader, RefusesWhatIsNoIfc) {
     ASSERT_FALSE(other);
     EXPECT_EQ(other.error().code(), Code::UnknownVersion);
     EXPECT_NE(other.error().message().find("AUTOMOTIVE_DESIGN"), std::string::npos);
-    EXPECT_EQ(
-        readText("ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\n#1=IFCPERSON($);\n").error().code(),
-        Code::EmptyModel);
+    EXPECT_EQ(readText("ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\n#1=IFCPERSON($);\nENDSEC;\n"
+                       "END-ISO-10303-21;\n")
+                  .error()
+                  .code(),
+              Code::EmptyModel);
     EXPECT_TRUE(looksLikeIfc(std::as_bytes(std::span("\xEF\xBB\xBF\n ISO-10303-21;", 17))));
     EXPECT_FALSE(looksLikeIfc(std::as_bytes(std::span("<ifcXML>", 8))));
 }
