@@ -25,11 +25,14 @@ enum class InflateStatus : std::uint8_t {
 
 struct Inflated {
     InflateStatus status = InflateStatus::Done;
-    std::size_t taken = 0;         ///< bytes of the input that were read
+    std::size_t taken = 0;         ///< bytes of the input that were read; fewer than there are if others follow the end
     std::vector<std::byte> bytes;  ///< whole only if Done
 };
 
-/// Unpacks `packed`.
+/// CRC-32 as ZIP and gzip have it. \param before  that of the bytes before these
+[[nodiscard]] std::uint32_t zipChecksum(std::span<const std::byte> bytes, std::uint32_t before = 0) noexcept;
+
+/// Unpacks `packed`. Each gzip member is checked against the checksum and the size at its end.
 /// \param expectedBytes  guess of the size, to reserve memory; the buffer doubles beyond it
 /// \param maxBytes       limit of the size
 /// Cost: about 3 s per GB unpacked. Memory: twice the unpacked size at most, and at most `maxBytes`.

@@ -41,6 +41,11 @@ std::vector<std::byte> deflated(std::span<const std::byte> bytes, int level, int
 
 }  // namespace
 
+std::uint32_t zipChecksum(std::span<const std::byte> bytes, std::uint32_t before) noexcept {
+    if (bytes.empty()) return before;  // zlib takes a null pointer as a wish for the first value
+    return static_cast<std::uint32_t>(crc32_z(before, zlibBytes(bytes), bytes.size()));
+}
+
 Inflated inflateBytes(std::span<const std::byte> packed, DeflateFormat format, std::uint64_t expectedBytes,
                       std::uint64_t maxBytes) {
     z_stream stream{};

@@ -43,6 +43,14 @@ TEST(Deflate, PiecesAndMembersAreJoined) {
     EXPECT_EQ(inflateBytes(joined(gzipBytes(a), gzipBytes(b)), DeflateFormat::Gzip, 0, 1 << 20).bytes, joined(a, b));
 }
 
+TEST(Deflate, TheChecksumIsTheOneOfZip) {
+    const std::string text = "123456789";
+    EXPECT_EQ(zipChecksum(std::as_bytes(std::span(text))), 0xCBF43926u);
+    EXPECT_EQ(zipChecksum({}), 0u);
+    const auto bytes = std::as_bytes(std::span(text));
+    EXPECT_EQ(zipChecksum(bytes.subspan(4), zipChecksum(bytes.first(4))), 0xCBF43926u);
+}
+
 TEST(Deflate, TheLimitHoldsToTheByte) {
     const auto bytes = someBytes(10000, 4, 3);
     const auto packed = gzipBytes(bytes);

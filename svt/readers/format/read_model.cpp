@@ -76,7 +76,12 @@ Result<std::vector<std::byte>> decompressed(Bytes bytes, string_view name, std::
     Inflated unpacked =
         inflateBytes(bytes, DeflateFormat::Gzip, std::max<std::uint64_t>(4 * bytes.size(), 1 << 16), limit.bytes);
     switch (unpacked.status) {
-        case InflateStatus::Done: return std::move(unpacked.bytes);
+        case InflateStatus::Done:
+            if (unpacked.taken == bytes.size()) return std::move(unpacked.bytes);
+            return fail(Code::CannotOpen,
+                        fmt::format("{} bytes stand behind the end of the gzip data, at byte {}; copy "
+                                    "or download the file again",
+                                    bytes.size() - unpacked.taken, unpacked.taken));
         case InflateStatus::TooLong: return fail(Code::InputTooBig, limit.message);
         case InflateStatus::CutShort:
             return fail(Code::CannotOpen, "the gzip data ends too early; the file seems to be cut off");
@@ -165,28 +170,43 @@ Result<model::BuildingModel> withStatedClasses(Result<model::BuildingModel> mode
     return model;
 }
 
+// The bytes of a deflated file of an archive, not checked yet.
+Result<std::vector<std::byte>> unpackedMember(const ZipMember& member, string_view name, std::uint64_t maxBytes) {
+    const UnpackLimit limit = unpackLimit(member.packed.size(), maxBytes);
+    const auto fail = [&](Code code, std::string message) {
+        return Error(code, std::move(message), {std::string(name), 0, 0, {}});
+    };
+    // The size in the archive is a guess until it is unpacked.
+    Inflated unpacked =
+        inflateBytes(member.packed, DeflateFormat::Raw, std::min(member.size + 1, limit.bytes), limit.bytes);
+    switch (unpacked.status) {
+        case InflateStatus::Done:
+            if (unpacked.taken == member.packed.size()) return std::move(unpacked.bytes);
+            break;
+        case InflateStatus::TooLong: return fail(Code::InputTooBig, limit.message);
+        case InflateStatus::CutShort:
+            return fail(Code::CannotOpen, "the zip archive ends too early; it seems to be cut off");
+        case InflateStatus::Damaged: break;
+    }
+    return fail(Code::CannotOpen,
+                fmt::format("'{}' in the zip archive is damaged; copy or download the archive again", member.name));
+}
+
 // An IFC file in a zip archive (.ifczip).
 Result<model::BuildingModel> readZip(Bytes bytes, string_view name, const ReadOptions& options,
                                      Diagnostics* diagnostics) {
     constexpr string_view kExtensions[] = {".ifc"};
     const Result<ZipMember> member = findZipMember(bytes, name, kExtensions);
     if (!member) return member.error();
-    if (!member->isDeflated) return readPlain(member->packed, name, options, diagnostics);
-    const UnpackLimit limit = unpackLimit(member->packed.size(), options.maxBytes);
-    const auto fail = [&](Code code, std::string message) {
-        return Error(code, std::move(message), {std::string(name), 0, 0, {}});
-    };
-    // The size in the archive is a guess until it is unpacked.
-    const Inflated unpacked =
-        inflateBytes(member->packed, DeflateFormat::Raw, std::min(member->size + 1, limit.bytes), limit.bytes);
-    switch (unpacked.status) {
-        case InflateStatus::Done: return readPlain(unpacked.bytes, name, options, diagnostics);
-        case InflateStatus::TooLong: return fail(Code::InputTooBig, limit.message);
-        case InflateStatus::CutShort:
-            return fail(Code::CannotOpen, "the zip archive ends too early; it seems to be cut off");
-        case InflateStatus::Damaged: break;
+    std::vector<std::byte> unpacked;
+    if (member->isDeflated) {
+        auto inflated = unpackedMember(*member, name, options.maxBytes);
+        if (!inflated) return inflated.error();
+        unpacked = std::move(*inflated);
     }
-    return fail(Code::CannotOpen, fmt::format("'{}' in the zip archive is damaged", member->name));
+    const Bytes plain = member->isDeflated ? Bytes(unpacked) : member->packed;
+    if (auto checked = checkZipMember(*member, plain, name); !checked) return checked.error();
+    return readPlain(plain, name, options, diagnostics);
 }
 
 // Footprints become bodies where that is wanted.

@@ -93,6 +93,22 @@ TEST(ReadModel, DamagedOrHugeGzipIsRefused) {
     EXPECT_EQ(readBytes(gzipped(std::string(std::size_t{8} << 20, ' ')), options).code(), Code::InputTooBig);
 }
 
+TEST(ReadModel, AnyDamageOfGzipIsAnErrorOrChangesNothing) {
+    const std::string packed = gzipped(smallModel());
+    for (std::size_t at = 0; at < packed.size(); ++at) {
+        std::string damaged = packed;
+        damaged[at] = static_cast<char>(damaged[at] ^ (1 << at % 8));
+        const Reading reading = readBytes(damaged);
+        if (!reading.result) continue;
+        EXPECT_LT(at, 10u) << "of the header: time, level and system";
+        EXPECT_EQ(reading.result->features.size(), 1u);
+    }
+    for (const std::string& added : {std::string("x"), std::string(512, '\0'), std::string("\x1F\x8B"), smallModel()}) {
+        const Reading reading = readBytes(packed + added);
+        EXPECT_EQ(reading.code(), Code::CannotOpen) << added;
+    }
+}
+
 TEST(ReadModel, UnknownContentIsNamed) {
     struct Case {
         std::string_view content;

@@ -1,10 +1,12 @@
 #include <svt/readers/format/zip_member.hpp>
 
+#include <svt/core/deflate.hpp>
 #include <svt/core/text.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace svt::readers {
 namespace {
@@ -25,13 +27,103 @@ bool hasSignature(ZipBytes bytes, std::size_t at, std::uint32_t signature) noexc
     return at + 4 <= bytes.size() && number(bytes, at, 4) == signature;
 }
 
-// Offset of the end of the central directory, or npos.
-std::size_t findEnd(ZipBytes bytes) noexcept {
-    if (bytes.size() < kEndSize) return std::string_view::npos;
+// The end of the central directory, and how many bytes stand behind it and its comment.
+struct ZipEnd {
+    std::size_t offset = 0, beyond = 0;
+};
+
+// The record that ends where the file does, or else the last one that there is.
+std::optional<ZipEnd> findEnd(ZipBytes bytes) noexcept {
+    if (bytes.size() < kEndSize) return std::nullopt;
+    std::optional<ZipEnd> found;
     const std::size_t last = bytes.size() - kEndSize, first = last > kMaxComment ? last - kMaxComment : 0;
-    for (std::size_t at = last + 1; at-- > first;)
-        if (hasSignature(bytes, at, 0x06054B50)) return at;
-    return std::string_view::npos;
+    for (std::size_t at = last + 1; at-- > first;) {
+        if (!hasSignature(bytes, at, 0x06054B50)) continue;
+        const std::size_t comment = number(bytes, at + 20, 2), room = last - at;
+        if (comment == room) return ZipEnd{at, 0};
+        if (!found) found = ZipEnd{at, comment < room ? room - comment : 0};
+    }
+    return found;
+}
+
+// A file as the directory of the archive has it.
+struct DirectoryEntry {
+    std::string name;
+    std::uint32_t flags = 0, method = 0, checksum = 0, packed = 0, size = 0, local = 0;
+};
+
+// The files of the directory; nothing if it is damaged.
+std::optional<std::vector<DirectoryEntry>> readDirectory(ZipBytes bytes, std::size_t end) {
+    std::vector<DirectoryEntry> entries;
+    std::size_t at = number(bytes, end + 16, 4);
+    for (std::uint32_t left = number(bytes, end + 10, 2); left > 0; --left) {
+        if (at > end || end - at < kCentralSize || !hasSignature(bytes, at, 0x02014B50)) return std::nullopt;
+        const std::size_t nameSize = number(bytes, at + 28, 2);
+        const std::size_t next = at + kCentralSize + nameSize + number(bytes, at + 30, 2) + number(bytes, at + 32, 2);
+        if (next > end) return std::nullopt;
+        entries.push_back({std::string(reinterpret_cast<const char*>(bytes.data()) + at + kCentralSize, nameSize),
+                           number(bytes, at + 8, 2), number(bytes, at + 10, 2), number(bytes, at + 16, 4),
+                           number(bytes, at + 20, 4), number(bytes, at + 24, 4), number(bytes, at + 42, 4)});
+        at = next;
+    }
+    if (at != end) return std::nullopt;
+    return entries;
+}
+
+bool isWanted(const DirectoryEntry& entry, std::span<const std::string_view> extensions) {
+    const std::string lower = lowerAscii(entry.name);
+    const std::string_view file = std::string_view(lower).substr(lower.find_last_of("/\\") + 1);
+    if (file.starts_with("._") || lower.starts_with("__macosx/")) return false;
+    return std::any_of(extensions.begin(), extensions.end(),
+                       [&](std::string_view extension) { return lower.ends_with(extension); });
+}
+
+// The packed bytes of a file, where its own head has the name that the directory tells.
+std::optional<ZipBytes> packedBytes(ZipBytes bytes, std::size_t end, const DirectoryEntry& entry) noexcept {
+    const std::size_t local = entry.local;
+    if (local > end || end - local < kLocalSize || !hasSignature(bytes, local, 0x04034B50)) return std::nullopt;
+    const std::size_t nameSize = number(bytes, local + 26, 2), nameAt = local + kLocalSize;
+    const std::size_t begin = nameAt + nameSize + number(bytes, local + 28, 2);
+    if (begin > end || entry.packed > end - begin) return std::nullopt;
+    const std::string_view name(reinterpret_cast<const char*>(bytes.data()) + nameAt, nameSize);
+    if (name != entry.name) return std::nullopt;
+    return bytes.subspan(begin, entry.packed);
+}
+
+// "'a.ifc', 'b.ifc' and 3 more".
+std::string namesOf(const std::vector<DirectoryEntry>& entries) {
+    constexpr std::size_t kShown = 10;
+    std::string text;
+    for (std::size_t n = 0; n < std::min(entries.size(), kShown); ++n)
+        text += fmt::format("{}'{}'", n == 0 ? "" : ", ", entries[n].name.substr(0, 80));
+    if (entries.size() > kShown) text += fmt::format(" and {} more", entries.size() - kShown);
+    return text;
+}
+
+Error failed(Code code, std::string_view archive, std::string message) {
+    return {code, std::move(message), {std::string(archive), 0, 0, {}}};
+}
+
+// A file that can be unpacked.
+Result<ZipMember> openMember(ZipBytes bytes, std::size_t end, const DirectoryEntry& entry, std::string_view archive) {
+    constexpr std::uint32_t kInExtraField = 0xFFFFFFFFu;
+    if ((entry.flags & 1) != 0)
+        return failed(Code::CannotOpen, archive, fmt::format("'{}' in the zip archive is encrypted", entry.name));
+    if (entry.method != 0 && entry.method != 8)
+        return failed(Code::CannotOpen, archive,
+                      fmt::format("'{}' in the zip archive is packed by method {}, not deflate; unpack it first",
+                                  entry.name, entry.method));
+    if (entry.packed == kInExtraField || entry.size == kInExtraField || entry.local == kInExtraField)
+        return failed(Code::CannotOpen, archive,
+                      fmt::format("'{}' is in a ZIP64 archive, which cannot be read; unpack it first", entry.name));
+    const auto packed = packedBytes(bytes, end, entry);
+    if (!packed)
+        return failed(
+            Code::CannotOpen, archive,
+            fmt::format("'{}' in the zip archive is damaged: it does not stand where the directory says; copy "
+                        "or download the archive again",
+                        entry.name));
+    return ZipMember{entry.name, *packed, entry.size, entry.checksum, entry.method == 8};
 }
 
 }  // namespace
@@ -40,42 +132,39 @@ bool isZip(ZipBytes bytes) noexcept { return hasSignature(bytes, 0, 0x04034B50);
 
 Result<ZipMember> findZipMember(ZipBytes bytes, std::string_view archive,
                                 std::span<const std::string_view> extensions) {
-    const auto fail = [&](Code code, std::string message) {
-        return Error(code, std::move(message), {std::string(archive), 0, 0, {}});
+    const auto end = findEnd(bytes);
+    if (!end)
+        return failed(Code::CannotOpen, archive,
+                      "the zip archive has no directory at its end; the file seems to be cut off");
+    if (end->beyond != 0)
+        return failed(
+            Code::CannotOpen, archive,
+            fmt::format("{} bytes stand behind the end of the zip archive; copy or download it again", end->beyond));
+    auto entries = readDirectory(bytes, end->offset);
+    if (!entries) return failed(Code::CannotOpen, archive, "the directory of the zip archive is damaged");
+    std::erase_if(*entries, [&](const DirectoryEntry& entry) { return !isWanted(entry, extensions); });
+    if (entries->empty())
+        return failed(Code::UnknownFormat, archive,
+                      "this is a zip archive without an IFC file (.ifc); unpack it first");
+    if (entries->size() > 1)
+        return failed(Code::CannotOpen, archive,
+                      fmt::format("the zip archive holds {} models, and one is expected: {}; unpack it and read them "
+                                  "one by one",
+                                  entries->size(), namesOf(*entries)));
+    return openMember(bytes, end->offset, entries->front(), archive);
+}
+
+Result<void> checkZipMember(const ZipMember& member, ZipBytes unpacked, std::string_view archive) {
+    const auto damaged = [&](const std::string& what) {
+        return failed(Code::CannotOpen, archive,
+                      fmt::format("'{}' in the zip archive is damaged: {}; copy or download the archive again",
+                                  member.name, what));
     };
-    const std::size_t end = findEnd(bytes);
-    if (end == std::string_view::npos)
-        return fail(Code::CannotOpen, "the zip archive has no directory at its end; the file seems to be cut off");
-    std::size_t at = number(bytes, end + 16, 4);
-    for (std::uint32_t left = number(bytes, end + 10, 2); left > 0; --left) {
-        if (at > end || end - at < kCentralSize || !hasSignature(bytes, at, 0x02014B50)) break;
-        const std::size_t nameSize = number(bytes, at + 28, 2);
-        const std::size_t next = at + kCentralSize + nameSize + number(bytes, at + 30, 2) + number(bytes, at + 32, 2);
-        if (next > end) break;
-        const std::string name(reinterpret_cast<const char*>(bytes.data()) + at + kCentralSize, nameSize);
-        const std::string lower = lowerAscii(name);
-        const bool isWanted = std::any_of(extensions.begin(), extensions.end(),
-                                          [&](std::string_view extension) { return lower.ends_with(extension); });
-        if (!isWanted) {
-            at = next;
-            continue;
-        }
-        const std::uint32_t method = number(bytes, at + 10, 2);
-        if ((number(bytes, at + 8, 2) & 1) != 0)
-            return fail(Code::CannotOpen, fmt::format("'{}' in the zip archive is encrypted", name));
-        if (method != 0 && method != 8)
-            return fail(Code::CannotOpen,
-                        fmt::format("'{}' in the zip archive is packed by method {}, not deflate; unpack it first",
-                                    name, method));
-        const std::size_t local = number(bytes, at + 42, 4), packed = number(bytes, at + 20, 4);
-        if (local > end || end - local < kLocalSize || !hasSignature(bytes, local, 0x04034B50)) break;
-        const std::size_t begin = local + kLocalSize + number(bytes, local + 26, 2) + number(bytes, local + 28, 2);
-        if (begin > end || packed > end - begin) break;
-        return ZipMember{name, bytes.subspan(begin, packed), number(bytes, at + 24, 4), method == 8};
-    }
-    if (at > end || !hasSignature(bytes, at, 0x02014B50))
-        if (at != end) return fail(Code::CannotOpen, "the directory of the zip archive is damaged");
-    return fail(Code::UnknownFormat, "this is a zip archive without an IFC file (.ifc); unpack it first");
+    if (unpacked.size() != member.size)
+        return damaged(fmt::format("it has {} bytes, and the archive says {}", unpacked.size(), member.size));
+    if (const std::uint32_t checksum = zipChecksum(unpacked); checksum != member.checksum)
+        return damaged(fmt::format("its CRC-32 is {:08x}, and the archive says {:08x}", checksum, member.checksum));
+    return {};
 }
 
 }  // namespace svt::readers

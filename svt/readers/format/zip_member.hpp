@@ -17,17 +17,25 @@ namespace svt::readers {
 struct ZipMember {
     std::string name;
     std::span<const std::byte> packed;
-    std::uint64_t size = 0;   ///< as the archive says
-    bool isDeflated = false;  ///< else stored
+    std::uint64_t size = 0;      ///< unpacked, as the archive says
+    std::uint32_t checksum = 0;  ///< of the unpacked bytes, as the archive says
+    bool isDeflated = false;     ///< else stored
 };
 
 [[nodiscard]] bool isZip(std::span<const std::byte> bytes) noexcept;
 
-/// The first file of an archive whose name ends in one of `extensions` (lower case, with the dot).
+/// The one file of an archive whose name ends in one of `extensions` (lower case, with the dot). Companion files of macOS
+/// (`__MACOSX/`, `._name`) do not count.
 /// \param archive  in messages
-/// \return the member, or CannotOpen: damaged, encrypted, of another method than deflate, or UnknownFormat: no such file
+/// \return the member, or CannotOpen: damaged, encrypted, of another method than deflate, or with several such files;
+///         UnknownFormat: no such file
 /// Cost: O(files). No ZIP64.
 [[nodiscard]] Result<ZipMember> findZipMember(std::span<const std::byte> bytes, std::string_view archive,
                                               std::span<const std::string_view> extensions);
+
+/// Whether `unpacked` are the bytes that were put into the archive.
+/// \return success, or CannotOpen if the size or the checksum differs
+[[nodiscard]] Result<void> checkZipMember(const ZipMember& member, std::span<const std::byte> unpacked,
+                                          std::string_view archive);
 
 }  // namespace svt::readers

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace svt::readers {
 namespace {
@@ -27,24 +28,33 @@ std::string deflated(std::string_view text) {
     return {reinterpret_cast<const char*>(packed.data()), packed.size()};
 }
 
-// An archive with one file before the one that is asked for.
-std::string zipOf(const std::string& name, std::string_view text, int method, int flags = 0) {
+struct ArchiveFile {
+    std::string name;
+    std::string_view text;
+    int method = 8, flags = 0;
+};
+
+std::string zipOf(const std::vector<ArchiveFile>& files) {
     std::string archive, directory;
-    const auto add = [&](const std::string& file, std::string_view content, int how) {
-        const std::string packed = how == 8 ? deflated(content) : std::string(content);
-        const std::string common = little(std::uint64_t(flags), 2) + little(std::uint64_t(how), 2) + little(0, 4) +
-                                   little(0, 4) + little(packed.size(), 4) + little(content.size(), 4) +
-                                   little(file.size(), 2) + little(0, 2);
+    for (const ArchiveFile& file : files) {
+        const std::string packed = file.method == 8 ? deflated(file.text) : std::string(file.text);
+        const std::uint32_t checksum = zipChecksum(std::as_bytes(std::span(file.text.data(), file.text.size())));
+        const std::string common = little(std::uint64_t(file.flags), 2) + little(std::uint64_t(file.method), 2) +
+                                   little(0, 4) + little(checksum, 4) + little(packed.size(), 4) +
+                                   little(file.text.size(), 4) + little(file.name.size(), 2) + little(0, 2);
         directory += "PK\1\2" + little(20, 2) + little(20, 2) + common + little(0, 2) + little(0, 2) + little(0, 2) +
-                     little(0, 4) + little(archive.size(), 4) + file;
-        archive += "PK\3\4" + little(20, 2) + common + file + packed;
-    };
-    add("readme.txt", "hello", 0);
-    add(name, text, method);
+                     little(0, 4) + little(archive.size(), 4) + file.name;
+        archive += "PK\3\4" + little(20, 2) + common + file.name + packed;
+    }
     const std::size_t begin = archive.size();
     archive += directory;
-    return archive + "PK\5\6" + little(0, 4) + little(2, 2) + little(2, 2) + little(directory.size(), 4) +
-           little(begin, 4) + little(0, 2);
+    return archive + "PK\5\6" + little(0, 4) + little(files.size(), 2) + little(files.size(), 2) +
+           little(directory.size(), 4) + little(begin, 4) + little(0, 2);
+}
+
+// An archive with one file before the one that is asked for.
+std::string zipOf(const std::string& name, std::string_view text, int method, int flags = 0) {
+    return zipOf({{"readme.txt", "hello", 0, flags}, {name, text, method, flags}});
 }
 
 Result<model::BuildingModel> read(const std::string& bytes) {
@@ -65,9 +75,6 @@ TEST(ZipMember, WhatCannotBeUnpackedIsNamed) {
     EXPECT_NE(read(zipOf("a.ifc", kIfcText, 8, 1)).error().message().find("encrypted"), std::string::npos);
     EXPECT_NE(read(zipOf("a.ifc", kIfcText, 12)).error().message().find("method 12"), std::string::npos);
     EXPECT_EQ(read("PK\3\4 and no more").error().code(), Code::CannotOpen);
-    std::string damaged = zipOf("a.ifc", kIfcText, 8);
-    damaged[150] = static_cast<char>(damaged[150] ^ 0x55);
-    (void)read(damaged);  // an error or a model, but no crash
     ReadOptions few;
     few.maxBytes = 400;
     const std::string large = zipOf("a.ifc", std::string(kIfcText) + std::string(100000, ' '), 8);
@@ -80,6 +87,61 @@ TEST(ZipMember, WhatCannotBeUnpackedIsNamed) {
 TEST(ZipMember, AnyCutIsAnError) {
     const std::string whole = zipOf("a.ifc", kIfcText, 8);
     for (std::size_t size = 4; size < whole.size(); ++size) EXPECT_FALSE(read(whole.substr(0, size))) << size;
+}
+
+TEST(ZipMember, SeveralModelsAreNamed) {
+    const auto model = read(zipOf({{"north.ifc", kIfcText}, {"plan.pdf", "%PDF"}, {"east/South.IFC", kIfcText}}));
+    ASSERT_FALSE(model);
+    EXPECT_EQ(model.error().code(), Code::CannotOpen);
+    for (const char* part : {"2 models", "'north.ifc'", "'east/South.IFC'", "unpack"})
+        EXPECT_NE(model.error().message().find(part), std::string::npos) << model.error().message();
+}
+
+TEST(ZipMember, CompanionFilesOfMacOsAreNoModels) {
+    const auto model = read(zipOf({{"a.ifc", kIfcText}, {"__MACOSX/._a.ifc", "\0\5\x16\7"}, {"._b.ifc", "x"}}));
+    ASSERT_TRUE(model) << model.error().message();
+    EXPECT_EQ(model->features.size(), 1U);
+}
+
+// Everything that is read of a model, as text.
+std::string described(const model::BuildingModel& model) {
+    std::string text = model.format + " " + std::to_string(model.features.size());
+    for (const model::Feature& feature : model.features) text += " " + feature.id;
+    for (const model::Polygon& polygon : model.polygons)
+        for (const Vec3d& p : polygon.points)
+            text += " " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z);
+    return text;
+}
+
+TEST(ZipMember, AnyDamageIsAnErrorOrChangesNothing) {
+    for (const int method : {0, 8}) {
+        const std::string whole = zipOf("a.ifc", kIfcText, method);
+        const std::string expected = described(*read(whole));
+        int errors = 0;
+        for (std::size_t at = 0; at < whole.size(); ++at)
+            for (const int bit : {0, 3, 7}) {
+                std::string damaged = whole;
+                damaged[at] = static_cast<char>(damaged[at] ^ (1 << bit));
+                const auto model = read(damaged);
+                if (model) EXPECT_EQ(described(*model), expected) << "byte " << at << ", bit " << bit;
+                errors += model ? 0 : 1;
+            }
+        EXPECT_GT(errors, 100);
+        for (const char* added : {"x", "more bytes", "PK\5\6"}) EXPECT_FALSE(read(whole + added)) << added;
+    }
+}
+
+TEST(ZipMember, SizeAndChecksumOfTheArchiveHold) {
+    const std::string whole = zipOf({{"a.ifc", kIfcText, 0}});
+    const std::size_t entry = whole.find("PK\1\2");
+    for (const std::size_t field : {std::size_t{16}, std::size_t{20}, std::size_t{24}}) {
+        std::string damaged = whole;
+        damaged[entry + field] = static_cast<char>(damaged[entry + field] ^ 1);
+        const auto model = read(damaged);
+        ASSERT_FALSE(model) << field;
+        EXPECT_EQ(model.error().code(), Code::CannotOpen) << field;
+        EXPECT_NE(model.error().message().find("'a.ifc'"), std::string::npos) << model.error().message();
+    }
 }
 
 }  // namespace
