@@ -60,6 +60,7 @@ public:
                   std::back_inserter(part_.polygons));
         dropUnusedPolygons();
         noteUnknown();
+        noteUndeclared();
         noteEmpty();
         return finish();
     }
@@ -246,6 +247,16 @@ private:
             report(Severity::Note, Code::UnknownElement,
                    fmt::format("<{}> is not known and was skipped wherever it occurs", part_.unknownNames[i]),
                    part_.unknownOffsets[i], {});
+    }
+
+    void noteUndeclared() {
+        for (const Part::Prefix& prefix : part_.undeclared)
+            report(Severity::Warning, Code::BadXml,
+                   fmt::format(
+                       "the prefix '{0}' at <{1}> is not declared (xmlns:{0}), so names with it are in no namespace: "
+                       "what they stand for is not known, and may be missing from the model",
+                       prefix.name, prefix.element),
+                   prefix.offset, {});
     }
 
     void noteEmpty() {

@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <memory>
 #include <new>
+#include <system_error>
 
 namespace svt::readers::citygml {
 namespace {
@@ -58,6 +60,31 @@ std::string describe(const pugi::xml_parse_result& result) {
     }
 }
 
+// Whether XML 1.0 has a character (its production 2).
+bool isXmlCharacter(std::uint32_t code) noexcept {
+    if (code < 0x20) return code == 0x9 || code == 0xA || code == 0xD;
+    return code < 0xD800 || (code >= 0xE000 && code <= 0x10FFFF && code != 0xFFFE && code != 0xFFFF);
+}
+
+// References such as "&#0;" to what is no character: the parser ends a text there, or keeps it.
+void noteBadReferences(string_view content, std::uint64_t begin, Part& part) {
+    for (std::size_t at = content.find("&#"); at != string_view::npos; at = content.find("&#", at + 2)) {
+        const bool isHex = content.substr(at + 2).starts_with('x');
+        const char* const from = content.data() + at + (isHex ? 3 : 2);
+        const char* const end = content.data() + content.size();
+        std::uint32_t code = 0;
+        const auto [after, error] = std::from_chars(from, end, code, isHex ? 16 : 10);
+        const bool isTooLarge = error == std::errc::result_out_of_range;
+        if (after == from || after == end || *after != ';' || (!isTooLarge && isXmlCharacter(code))) continue;
+        part.findings.add(
+            Severity::Warning, Code::BadXml,
+            fmt::format("the reference '{}' stands for no character of XML: the id or text that holds it is "
+                        "damaged, or ends there",
+                        content.substr(at, static_cast<std::size_t>(after + 1 - content.data()) - at).substr(0, 40)),
+            begin + at);
+    }
+}
+
 }  // namespace
 
 Part parseChunk(string_view document, string_view rootTag, const xml::Chunk& chunk, string_view fileName) {
@@ -75,6 +102,7 @@ Part parseChunk(string_view document, string_view rootTag, const xml::Chunk& chu
         return part;
     }
 
+    noteBadReferences(content, chunk.content.begin, part);
     ChunkText text(document, chunk);
     pugi::xml_document tree;
     constexpr unsigned kOptions = pugi::parse_escapes | pugi::parse_cdata | pugi::parse_eol |
@@ -101,6 +129,8 @@ Part parseChunk(string_view document, string_view rootTag, const xml::Chunk& chu
         reader.readMember(member, continues);
         continues = false;
     });
+    for (const xml::NameScope::Undeclared& prefix : scope.undeclared())
+        part.addUndeclared({prefix.prefix, prefix.node.name(), text.offsetOf(prefix.node.name())});
     return part;
 }
 

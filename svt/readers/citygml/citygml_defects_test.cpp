@@ -185,6 +185,33 @@ TEST(CityGmlDefects, EncodingsAreConvertedOrRefused) {
     EXPECT_EQ(read(nul).code(), Code::BadEncoding);
 }
 
+TEST(CityGmlDefects, PrefixesWithoutDeclarationAreNamedOnce) {
+    const std::string surfaces = lod2Surfaces(2, multiSurface(surfaceMember(square("p"))));
+    const Reading reading =
+        readMembers(2, member("<bla:Building gml:id=\"a\">" + surfaces + "</bla:Building>") +
+                           member("<bla:Building gml:id=\"b\" xml:lang=\"de\"><oh:x/></bla:Building>") +
+                           member("<bldg:Building glm:id=\"c\">" + surfaces + "</bldg:Building>"));
+    ASSERT_TRUE(reading.result) << reading.result.error().toString();
+    EXPECT_EQ(reading.count(Code::BadXml), 3u) << reading.findings();
+    for (const char* part : {"'bla' at <bla:Building>", "'oh' at <oh:x>", "'glm' at <bldg:Building>"})
+        EXPECT_NE(reading.findings().find(part), std::string::npos) << reading.findings();
+    EXPECT_EQ(reading.first(Code::BadXml)->where.line, 3u);
+    EXPECT_EQ(reading.first(Code::BadXml)->severity, Severity::Warning);
+}
+
+TEST(CityGmlDefects, ReferencesToNoCharacterAreNamed) {
+    for (const char* bad :
+         {"&#0;", "&#000;", "&#x0;", "&#x1F;", "&#xD800;", "&#xFFFF;", "&#1114112;", "&#99999999999;"}) {
+        const Reading reading = readMembers(2, building(std::string("room-") + bad, "<gml:name>n</gml:name>"));
+        ASSERT_TRUE(reading.result) << bad << reading.result.error().toString();
+        ASSERT_EQ(reading.count(Code::BadXml), 1u) << bad << reading.findings();
+        EXPECT_NE(reading.findings().find(std::string("'") + bad + "'"), std::string::npos) << reading.findings();
+    }
+    const Reading good =
+        readMembers(2, building("b", "<gml:name>&#65;&#x9;&#10;&#xD;&#x10FFFF;&#128;&amp;#0;</gml:name>"));
+    EXPECT_EQ(good.count(Code::BadXml), 0u) << good.findings();
+}
+
 TEST(CityGmlDefects, HopelessFilesDoNotFillTheMemory) {
     std::string members;
     for (int i = 0; i < 5000; ++i)

@@ -89,6 +89,13 @@ void Part::addUnknown(std::string_view name, std::uint64_t offset) {
     unknownOffsets.push_back(offset);
 }
 
+void Part::addUndeclared(Prefix prefix) {
+    if (undeclared.size() >= kMaxNames) return;
+    for (const Prefix& known : undeclared)
+        if (known.name == prefix.name) return;
+    undeclared.push_back(std::move(prefix));
+}
+
 void Part::addCrsName(std::string_view name, std::string_view units, std::uint64_t offset) {
     if (name.empty() || crsNames.size() >= kMaxNames) return;
     for (const CrsName& known : crsNames)
@@ -130,6 +137,7 @@ void Part::join(Part&& next) {
     if (modelName.empty()) modelName = std::move(next.modelName);
     for (const CrsName& crs : next.crsNames) addCrsName(crs.name, crs.units, crs.offset);
     for (std::size_t i = 0; i < next.unknownNames.size(); ++i) addUnknown(next.unknownNames[i], next.unknownOffsets[i]);
+    for (Prefix& prefix : next.undeclared) addUndeclared(std::move(prefix));
 }
 
 }  // namespace svt::readers::citygml

@@ -130,6 +130,11 @@ struct Part {
     std::string modelName;
     std::vector<std::string> unknownNames;  ///< skipped elements, each name once
     std::vector<std::uint64_t> unknownOffsets;
+    struct Prefix {
+        std::string name, element;
+        std::uint64_t offset = 0;
+    };
+    std::vector<Prefix> undeclared;  ///< prefixes without a declaration, each once, with the first element
     Findings findings;
     std::optional<Error> error;
 
@@ -138,6 +143,7 @@ struct Part {
 
     /// Records an unknown element; each name is kept once.
     void addUnknown(std::string_view name, std::uint64_t offset);
+    void addUndeclared(Prefix prefix);
     void addCrsName(std::string_view name, std::string_view units, std::uint64_t offset);
 };
 

@@ -103,12 +103,12 @@ ElementAttributes attributesOf(const xml::NameScope& scope, pugi::xml_node node)
         const xml::QualifiedName name = xml::splitName(attribute.name());
         const string_view value = attribute.value();
         if (name.localName == "id" || name.localName == "gml_id") {
-            const bool isRight = name.localName == "id" && scope.ofAttribute(name.prefix) == Vocabulary::Gml;
+            const bool isRight = name.localName == "id" && scope.ofAttribute(name.prefix, node) == Vocabulary::Gml;
             if (!isRight && (!name.prefix.empty() || !result.id.empty())) continue;
             result.id = xml::trimmed(value);
             result.isIdMisspelled = !isRight;
         } else if (name.localName == "href") {
-            if (scope.ofAttribute(name.prefix) != Vocabulary::XLink && name.prefix != "xlink") continue;
+            if (scope.ofAttribute(name.prefix, node) != Vocabulary::XLink && name.prefix != "xlink") continue;
             result.href = xml::trimmed(value);
             result.hasHref = true;
         } else if (name.localName == "srsName") {

@@ -85,13 +85,25 @@ Vocabulary NameScope::lookUp(string_view prefix) const noexcept {
     return vocabulary;
 }
 
-Element NameScope::resolve(pugi::xml_node node) const noexcept {
-    const QualifiedName name = splitName(node.name());
-    return {node, lookUp(name.prefix), name.localName};
+void NameScope::noteUndeclared(string_view prefix, pugi::xml_node node) const {
+    constexpr std::size_t kMost = 64;
+    if (prefix.empty() || prefix == "xml" || undeclared_.size() >= kMost) return;
+    for (const Undeclared& known : undeclared_)
+        if (known.prefix == prefix) return;
+    undeclared_.push_back({std::string(prefix), node});
 }
 
-Vocabulary NameScope::ofAttribute(string_view prefix) const noexcept {
-    return prefix.empty() ? Vocabulary::None : lookUp(prefix);
+Element NameScope::resolve(pugi::xml_node node) const {
+    const QualifiedName name = splitName(node.name());
+    const Vocabulary vocabulary = lookUp(name.prefix);
+    if (vocabulary == Vocabulary::None) noteUndeclared(name.prefix, node);
+    return {node, vocabulary, name.localName};
+}
+
+Vocabulary NameScope::ofAttribute(string_view prefix, pugi::xml_node node) const {
+    const Vocabulary vocabulary = prefix.empty() ? Vocabulary::None : lookUp(prefix);
+    if (vocabulary == Vocabulary::None) noteUndeclared(prefix, node);
+    return vocabulary;
 }
 
 pugi::xml_node firstChildElement(pugi::xml_node parent) noexcept {

@@ -60,9 +60,16 @@ public:
     std::size_t enter(pugi::xml_node element);
     void leave(std::size_t mark);
 
-    [[nodiscard]] Element resolve(pugi::xml_node node) const noexcept;
-    /// Namespace of an attribute; None if it has no prefix.
-    [[nodiscard]] Vocabulary ofAttribute(std::string_view prefix) const noexcept;
+    [[nodiscard]] Element resolve(pugi::xml_node node) const;
+    /// Namespace of an attribute of `node`; None if it has no prefix.
+    [[nodiscard]] Vocabulary ofAttribute(std::string_view prefix, pugi::xml_node node) const;
+
+    /// A prefix that was met without a declaration, and the first element with it or with an attribute of it.
+    struct Undeclared {
+        std::string prefix;
+        pugi::xml_node node;
+    };
+    [[nodiscard]] const std::vector<Undeclared>& undeclared() const noexcept { return undeclared_; }
 
     /// Calls `visit(Element)` for each child element, with its declarations in scope.
     template <class Visit>
@@ -87,8 +94,10 @@ private:
         Vocabulary vocabulary = Vocabulary::None;
     };
     [[nodiscard]] Vocabulary lookUp(std::string_view prefix) const noexcept;
+    void noteUndeclared(std::string_view prefix, pugi::xml_node node) const;
 
     std::vector<Binding> bindings_;
+    mutable std::vector<Undeclared> undeclared_;
     mutable std::array<Remembered, 16> remembered_;
 };
 
