@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,13 +50,27 @@ struct CityStatus {
 [[nodiscard]] Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& plan, int threads = 0,
                                            const Progress* progress = nullptr);
 
+/// What city.json tells of the files beside it.
+struct CityProof {
+    struct File {
+        std::uint64_t bytes = 0;
+        std::string sha256;
+    };
+    File index, ids, packs;
+    std::uint64_t root = 0, fence = 0;  ///< checksums of the root of the index and of the fence of the ids
+    std::uint64_t idCount = 0;
+};
+
 /// A merged city.
 class City {
 public:
     /// Of city.json. Older ones are read, too.
     static constexpr int kVersion = 2;
 
-    /// Reads city.json and the root of the index.
+    /// Reads city.json and the root of the index, and proves what it reads: city.json by its digest, in a folder index.bin,
+    /// ids.bin and packs.bin by size and SHA-256 (of files over 64 MiB the size alone). The files of a server, and larger
+    /// ones, are proven page by page when they are read. Cities of earlier programs tell no digests; of them pages alone are
+    /// proven.
     /// \param folder  or the address of one (http://, https://), which is read by requests for ranges
     /// \return the city, or BadCity where one of them is missing or damaged; PlanVersion; CannotOpen where a server does
     ///         not answer, or not with the ranges that are asked for
@@ -107,6 +122,10 @@ private:
     struct Page;
     explicit City(std::filesystem::path folder) : folder_(std::move(folder)) {}
     [[nodiscard]] Error damaged(const char* file, std::string_view what) const;
+    Result<void> readJson(const std::string& text);
+    Result<void> readRoot();
+    Result<void> readPackSizes();
+    Result<void> proveFolder() const;
     Result<void> readEntries(const Page& page, std::vector<IndexEntry>& to) const;
 
     std::filesystem::path folder_;
@@ -119,6 +138,7 @@ private:
     IndexEntry top_;
     std::vector<Class> classes_;
     std::string root_;  // of the index
+    std::optional<CityProof> proof_;
     std::vector<std::uint64_t> packSizes_;
 };
 

@@ -4,6 +4,7 @@
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/city_levels.hpp>
 #include <svt/city/join/join_volumes.hpp>
+#include <svt/city/merge/city_proof.hpp>
 #include <svt/city/merge/index_file.hpp>
 #include <svt/city/store/store.hpp>
 #include <svt/core/file.hpp>
@@ -97,29 +98,55 @@ Result<City> City::open(std::shared_ptr<const Store> store, const std::filesyste
     const auto text = city.store_->read("city.json", 0, 1 << 20);
     if (!text) return text.error();
     if (text->empty()) return city.damaged("city.json", "the folder has no merged city");
+    if (auto read = city.readJson(*text); !read) return read.error();
+    if (auto proven = city.proveFolder(); !proven) return proven.error();
+    if (auto read = city.readRoot(); !read) return read.error();
+    if (auto read = city.readPackSizes(); !read) return read.error();
+    return city;
+}
+
+Result<void> City::readJson(const std::string& text) {
     try {
-        const auto json = nlohmann::json::parse(*text);
-        if (json.at("format") != "svt-city") return city.damaged("city.json", "this is no city");
+        const auto json = nlohmann::json::parse(text);
+        if (json.at("format") != "svt-city") return damaged("city.json", "this is no city");
         if (const int version = json.at("version").get<int>(); version < 1 || version > kVersion)
             return Error(Code::PlanVersion, "the city has a version that this program does not know",
-                         {(folder / "city.json").string(), 0, 0, {}});
-        city.crsName_ = json.at("crsName").get<std::string>();
-        city.plan_ = json.at("plan").get<std::string>();
-        city.spacing_ = json.at("details").at(0).at("spacing").get<double>();
-        city.buildings_ = json.at("buildings").get<std::uint64_t>();
-        city.tiles_ = json.at("tiles").get<std::uint64_t>();
-        city.packs_ = json.at("packs").at("count").get<std::uint32_t>();
-        city.packBytes_ = json.at("packs").at("bytes").get<std::uint64_t>();
-        city.missing_ = json.at("packs").at("missing").get<std::uint64_t>();
-        city.skipped_ = json.at("skippedFeatures").get<std::uint64_t>();
+                         {(folder_ / "city.json").string(), 0, 0, {}});
+        if (!hasOwnDigest(text, json))
+            return damaged("city.json", "the file is damaged or was changed: its digest is another one");
+        crsName_ = json.at("crsName").get<std::string>();
+        plan_ = json.at("plan").get<std::string>();
+        spacing_ = json.at("details").at(0).at("spacing").get<double>();
+        buildings_ = json.at("buildings").get<std::uint64_t>();
+        tiles_ = json.at("tiles").get<std::uint64_t>();
+        packs_ = json.at("packs").at("count").get<std::uint32_t>();
+        packBytes_ = json.at("packs").at("bytes").get<std::uint64_t>();
+        missing_ = json.at("packs").at("missing").get<std::uint64_t>();
+        skipped_ = json.at("skippedFeatures").get<std::uint64_t>();
         const auto box = json.at("box").get<std::array<double, 6>>();
-        city.box_ = {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}};
-        if (!readTop(json, city.top_)) return city.damaged("city.json", "the top tile is damaged");
-        for (const auto& row : json.at("classes")) readClass(row, city.classes_.emplace_back());
+        box_ = {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}};
+        if (!readTop(json, top_)) return damaged("city.json", "the top tile is damaged");
+        for (const auto& row : json.at("classes")) readClass(row, classes_.emplace_back());
+        proof_ = readProof(json);
     } catch (const nlohmann::json::exception&) {
-        return city.damaged("city.json", "the file is damaged");
+        return damaged("city.json", "the file is damaged");
     }
-    const auto read = city.store_->read("index.bin", 0, kIndexHead + kIndexPage);
+    return {};
+}
+
+Result<void> City::proveFolder() const {
+    if (!proof_ || !store_->isLocal()) return {};
+    for (const auto& [name, file] :
+         {std::pair{"index.bin", &proof_->index}, {"ids.bin", &proof_->ids}, {"packs.bin", &proof_->packs}}) {
+        const auto difference = differenceOf(*store_, name, *file);
+        if (!difference) return difference.error();
+        if (!difference->empty()) return damaged(name, *difference);
+    }
+    return {};
+}
+
+Result<void> City::readRoot() {
+    const auto read = store_->read("index.bin", 0, kIndexHead + kIndexPage);
     if (!read) return read.error();
     const std::string& head = *read;
     Taker from(head);
@@ -130,13 +157,22 @@ Result<City> City::open(std::shared_ptr<const Store> store, const std::filesyste
     if (magic != std::string_view("svtindx\0", 8) || version != 1 || !from.isGood() || size > kIndexPage ||
         size != std::uint64_t{refs} * PageRef::kBytes || from.left() < size ||
         idHash(head.substr(kIndexHead, size)) != sum)
-        return city.damaged("index.bin", "the root of the index is missing or damaged");
-    city.root_ = head.substr(kIndexHead, size);
-    const auto sizes = city.store_->read("packs.bin", 0, std::size_t{city.packs_} * kPackEntry);
+        return damaged("index.bin", "the root of the index is missing or damaged");
+    if (proof_ && proof_->root != sum)
+        return damaged("index.bin", "the index is not the one that city.json names: it is of another merge");
+    root_ = head.substr(kIndexHead, size);
+    return {};
+}
+
+Result<void> City::readPackSizes() {
+    const auto sizes = store_->read("packs.bin", 0, std::size_t{packs_} * kPackEntry);
     if (!sizes) return sizes.error();
+    // Nobody gives a page the digests of whole packs.
+    if (proof_ && !sizes->empty() && hexOf(digestOf(*sizes)) != proof_->packs.sha256)
+        return damaged("packs.bin", "the file is damaged or of another merge: its digest is not the one of city.json");
     for (Taker packs(*sizes); packs.left() >= kPackEntry; packs.text(kPackEntry - 8))
-        city.packSizes_.push_back(packs.take<std::uint64_t>());
-    return city;
+        packSizes_.push_back(packs.take<std::uint64_t>());
+    return {};
 }
 
 Result<void> City::readEntries(const Page& page, std::vector<IndexEntry>& to) const {
@@ -198,6 +234,8 @@ Result<std::vector<City::Place>> City::find(const std::string& id) const {
     if (magic != std::string_view("svtids\0\0", 8) || version != 1 || ofPage != kIdsOfPage || !from.isGood() ||
         fenceSize != pages * 8 || count > buildings_ + 1 || fenceSize > *fileSize)
         return damaged("ids.bin", "the index of ids is missing or damaged");
+    if (proof_ && (proof_->fence != sum || proof_->idCount != count))
+        return damaged("ids.bin", "the ids are not the ones that city.json names: they are of another merge");
     const auto read = store_->read(path, kIdHead, fenceSize);
     if (!read) return read.error();
     const std::string& fence = *read;

@@ -2,6 +2,7 @@
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/city_folder.hpp>
 #include <svt/city/levels/level_builder.hpp>
+#include <svt/city/merge/city_proof.hpp>
 #include <svt/city/merge/index_file.hpp>
 #include <svt/city/pack/pack_format.hpp>
 #include <svt/core/file.hpp>
@@ -235,8 +236,8 @@ Json classesJson(const LevelClasses& classes) {
     return json;
 }
 
-std::string cityJson(const Plan& plan, const CityStatus& status, const Merging& merged, std::uint64_t indexBytes,
-                     std::uint64_t idsBytes) {
+std::string cityJson(const Plan& plan, const CityStatus& status, const Merging& merged, std::string_view index,
+                     std::string_view ids) {
     Json json;
     json["format"] = "svt-city";
     json["version"] = City::kVersion;
@@ -262,10 +263,8 @@ std::string cityJson(const Plan& plan, const CityStatus& status, const Merging& 
     json["packs"]["firstMissing"] = named;
     json["skippedFeatures"] = status.skipped.size() + plan.skipped;
     json["replicas"] = plan.replicas;
-    json["index"] = {{"file", "index.bin"}, {"bytes", indexBytes}};
-    json["ids"] = {{"file", "ids.bin"}, {"bytes", idsBytes}};
-    json["packDigests"] = "packs.bin";
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    putProofs(json, index, ids, merged.packs);
+    return sealedJson(std::move(json));
 }
 
 }  // namespace
@@ -318,9 +317,8 @@ Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& pl
                                      {"index.bin", &index},
                                      {"ids.bin", &ids}})
         if (const auto written = writeFileAtomically(folder / name, *text); !written) return written.error();
-    // Last, so that a city whose merge was stopped is the one before.
-    const auto written =
-        writeFileAtomically(folder / "city.json", cityJson(plan, status, merged, index.size(), ids.size()));
+    // Last: while it is the one before, it names other files, and the city is merged again.
+    const auto written = writeFileAtomically(folder / "city.json", cityJson(plan, status, merged, index, ids));
     if (!written) return written.error();
     return status;
 }

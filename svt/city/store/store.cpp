@@ -27,6 +27,7 @@ public:
         if (!file) return file.error();
         return *file != nullptr ? (*file)->size() : std::uint64_t{0};
     }
+    bool isLocal() const noexcept override { return true; }
     std::string place(const std::string& name) const override { return (folder_ / name).string(); }
 
 private:

@@ -23,6 +23,8 @@ public:
                                                    std::size_t size) const = 0;
     /// Bytes of a file; 0 where it is missing.
     [[nodiscard]] virtual Result<std::uint64_t> size(const std::string& name) const = 0;
+    /// Whether files are on this machine, so that all of a file can be read.
+    [[nodiscard]] virtual bool isLocal() const noexcept { return false; }
     /// The file in messages.
     [[nodiscard]] virtual std::string place(const std::string& name) const = 0;
 };

@@ -1,0 +1,34 @@
+#pragma once
+/// \file
+/// What city.json tells of itself and of the files beside it, so that damage is named when a city is opened.
+
+#include <svt/city/city_folder.hpp>
+#include <svt/city/merge/index_file.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace svt::city {
+
+/// Files up to this size are compared with their SHA-256 when a folder is opened (a third of a second); of larger ones the
+/// size, and their pages when they are read.
+inline constexpr std::uint64_t kMostProvenBytes = std::uint64_t{64} << 20;
+
+/// `index`, `ids` and `packDigests` of city.json.
+void putProofs(nlohmann::ordered_json& json, std::string_view index, std::string_view ids, std::string_view packs);
+/// The text of city.json, with the SHA-256 of itself: that of the text with an empty `digest`.
+[[nodiscard]] std::string sealedJson(nlohmann::ordered_json json);
+/// Whether a text has the digest that it tells. True for one of earlier programs, which tells no digest at all.
+[[nodiscard]] bool hasOwnDigest(std::string_view text, const nlohmann::json& json);
+
+/// What is told of the files; nothing in cities of earlier programs. Throws what nlohmann throws.
+[[nodiscard]] std::optional<CityProof> readProof(const nlohmann::json& json);
+/// Compares a file with what is told of it.
+/// \return nothing, or what is wrong with it; or an error of the store
+[[nodiscard]] Result<std::string> differenceOf(const Store& store, const char* name, const CityProof::File& file);
+
+}  // namespace svt::city
