@@ -66,7 +66,7 @@ SharedVolume openVolume(const Path& path, const Path& labels, const py::object& 
         const bool isFolder = std::filesystem::is_directory(path, ignored);  // of Zarr
         if ((stream.gcount() > 0 || isFolder) && !volume::looksLikeSvt(bytes) &&
             volume_readers::looksLikeLabelVolume(path))
-            return volume_readers::readLabelVolume(path, {labels, 0, progress});
+            return volume_readers::readLabelVolume(path, {labels, 0, progress, nullptr});
         if (!labels.empty())
             return Error(Code::BadArgument,
                          "labels names the values of a label volume, and this file is none; leave it out",

@@ -6,6 +6,8 @@
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -51,5 +53,22 @@ void appendJsonLabel(std::string& json, const Label& label, JsonCharacters chara
 /// numbers.
 /// \return success, or BadVolume that names the label
 [[nodiscard]] Result<void> checkLabels(const LabelTable& labels);
+
+// ------------------------------------------------------------------------------------------------------- the seal
+// A volume in a format of others has checksums beside its table, so that damage is noticed where the format has none.
+
+/// CRC-32 of `svt.json` followed by `labels.json` of a volume.
+[[nodiscard]] std::uint32_t tableChecksum(const SemanticVolume& volume);
+/// CRC-32 of the samples, whatever the order of equal rows and columns in memory. Cost: as countVoxels().
+[[nodiscard]] std::uint32_t columnsChecksum(const ColumnVolume& columns);
+
+struct VolumeSeal {
+    std::uint32_t table = 0, columns = 0;
+};
+/// Both checksums as text, such as "svt-seal 01234567 89abcdef".
+/// \param columns  the samples that are written
+[[nodiscard]] std::string sealText(const SemanticVolume& volume, const ColumnVolume& columns);
+/// The seal that a text begins with; nothing for another text.
+[[nodiscard]] std::optional<VolumeSeal> readSeal(std::string_view text) noexcept;
 
 }  // namespace svt::volume

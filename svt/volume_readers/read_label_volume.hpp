@@ -6,6 +6,9 @@
 /// What becomes what:
 ///  - the sample values: with a table of `svt convert` in the file they are its scalars, and the volume is the one that was
 ///    written, bit for bit; with a table that is given (docs/user/build.md), or none, each value but 0 is a label;
+///  - what `svt convert` wrote and was damaged or changed since is refused: checksums of table and samples and the voxels of
+///    each label are compared. Where the grid is another one, the image was cut, and voxels are counted again. A table that
+///    is given is taken as it is;
 ///  - the grid: spacing and direction of the file, in metres (files that count in millimetres are brought to metres). A
 ///    grid that is mirrored or sheared is refused;
 ///  - NRRD: 8, 16 or 32 bits, raw or gzip, one file, segments of 3D Slicer as the table; VTI: cells or points, raw
@@ -13,6 +16,7 @@
 ///    or not, raw or by zlib, gzip, zstd, LZ4 or Blosc with one of them, the finest level of OME-NGFF; CityGML with a volume
 ///    by the extension that `svt convert` writes, all three kinds of texture.
 
+#include <svt/core/diagnostics.hpp>
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -28,6 +32,8 @@ struct LabelReadOptions {
     std::filesystem::path labels;        ///< table of labels (JSON); empty: that of the file, or a label per value
     std::uint64_t maxBytes = 0;          ///< memory that reading may take; 0: half of what is granted
     const Progress* progress = nullptr;  ///< stage "read"
+    /// What is odd: bytes in the header that cannot be read, a grid that is no longer the one that was written.
+    Diagnostics* diagnostics = nullptr;
 };
 
 /// Whether a file with these first bytes (64 KiB are enough) may be a label volume. CityGML is one if `path` has the
@@ -36,7 +42,8 @@ struct LabelReadOptions {
 
 /// Cost: O(samples). Memory: the columns, and two slices (of Zarr a band of chunks); never the dense volume.
 /// \return the volume, or CannotOpen; BadNrrd, BadImage or BadVolume with what is wrong; InputTooBig; BadDimension,
-///         GridTooLarge; BadJson for a table; Cancelled
+///         GridTooLarge; BadJson for a table; BadChecksum where table or
+///         samples are no longer those that were written; Cancelled
 [[nodiscard]] Result<volume::SemanticVolume> readLabelVolume(const std::filesystem::path& path,
                                                              const LabelReadOptions& options = {});
 

@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::ofstream stream(path, std::ios::binary);
         stream.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
     }
-    const auto volume = svt::volume_readers::readLabelVolume(path, {{}, std::uint64_t{256} << 20, nullptr});
+    const auto volume = svt::volume_readers::readLabelVolume(path, {{}, std::uint64_t{256} << 20, nullptr, nullptr});
     if (volume) (void)volume->columns.countVoxels(volume->labels.scalarCount());
     return 0;
 }

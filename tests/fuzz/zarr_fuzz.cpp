@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     write(array / (isVersion3 ? "zarr.json" : ".zarray"), parts[1]);
     // Whatever the metadata call the first chunk.
     for (const char* name : {"0/0/0", "0.0.0", "c/0/0/0"}) write(array / name, parts[2]);
-    const auto volume = svt::volume_readers::readLabelVolume(root, {{}, std::uint64_t{256} << 20, nullptr});
+    const auto volume = svt::volume_readers::readLabelVolume(root, {{}, std::uint64_t{256} << 20, nullptr, nullptr});
     if (volume) (void)volume->columns.countVoxels(volume->labels.scalarCount());
     return 0;
 }

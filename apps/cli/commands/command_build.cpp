@@ -101,7 +101,8 @@ Result<pipeline::BuildOutput> builtOf(const BuildCommandArguments& arguments, co
                      "the input is a label volume, which has its grid; leave out --dimension, --spacing, --axes and "
                      "--grid-of, or make it coarser by svt convert --level");
     const auto start = std::chrono::steady_clock::now();
-    auto read = volume_readers::readLabelVolume(arguments.inputs.front(), {arguments.labels, 0, options.progress});
+    auto read = volume_readers::readLabelVolume(arguments.inputs.front(),
+                                                {arguments.labels, 0, options.progress, &diagnostics});
     if (!read) return read.error();
     pipeline::BuildOutput output{std::move(*read), {}};
     for (const volume::Label& label : output.volume.labels.labels) output.report.objects += label.count > 0 ? 1 : 0;

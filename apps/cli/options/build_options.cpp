@@ -139,7 +139,8 @@ Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input, co
     stream.read(head.data(), head.size());
     const auto bytes = std::as_bytes(std::span(head).first(static_cast<std::size_t>(stream.gcount())));
     if (volume::looksLikeSvt(bytes)) return volume::readSvt(input);
-    if (volume_readers::looksLikeLabelVolume(input)) return volume_readers::readLabelVolume(input, {{}, 0, progress});
+    if (volume_readers::looksLikeLabelVolume(input))
+        return volume_readers::readLabelVolume(input, {{}, 0, progress, &diagnostics});
     std::optional<pipeline::StyleSheet> sheet;
     auto options = arguments.options(sheet);
     if (!options) return options.error();

@@ -1,4 +1,5 @@
 #include <svt/image/png.hpp>
+#include <svt/volume/volume_json.hpp>
 #include <svt/volume_readers/formats/label_formats.hpp>
 
 #include <fmt/format.h>
@@ -63,6 +64,8 @@ Result<fs::path> fileBeside(const fs::path& document, std::string_view reference
 /// The numbers of svt:image, without their head.
 ReadSamples pixelSamples(SharedFile file, std::string_view text) {
     return [file = std::move(file), text](std::span<std::byte> out) mutable -> Result<void> {
+        if (out.empty() && text.find_first_not_of(" \t\r\n") != std::string_view::npos)
+            return badAde("the image of the volume has more numbers than its dimension says, or something else");
         for (; !out.empty(); out = out.subspan(4)) {
             text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
             std::uint32_t value = 0;
@@ -80,6 +83,7 @@ ReadSamples pixelSamples(SharedFile file, std::string_view text) {
 ReadSamples sliceSamples(std::vector<fs::path> files, Vec3i dimension) {
     return
         [files = std::move(files), dimension, next = std::size_t{0}](std::span<std::byte> out) mutable -> Result<void> {
+            if (out.empty()) return {};
             if (next == files.size()) return badAde("the volume has fewer slices than its dimension says");
             const fs::path& path = files[next++];
             const auto slice = image::readGrayPng(path);
@@ -118,6 +122,10 @@ void readTargets(pugi::xml_node texture, LabelImage& image) {
     for (const pugi::xml_node node : texture.children()) {
         if (localName(node) != "metaDataProperty") continue;
         const std::string_view text = node.first_child().child_value();
+        if (volume::readSeal(text)) {
+            image.seal = text;
+            continue;
+        }
         const std::size_t begin = std::min(text.find('{'), text.size());
         const std::string_view json = text.substr(begin);
         (json.starts_with("{\"labels\"") ? image.labelsJson : image.headerJson) = json;

@@ -9,23 +9,6 @@
 #include <optional>
 
 namespace svt::volume_readers {
-namespace {
-
-// Voxels as they are in the array. A table of another volume, of which the array may be a part, has the volumes of meshes,
-// which hold where no voxel is missing.
-void countAgain(volume::SemanticVolume& volume, bool hasVolumes) {
-    const auto voxels = volume.columns.countVoxels(volume.labels.scalarCount());
-    for (volume::Label& label : volume.labels.labels) {
-        std::uint64_t count = 0;
-        for (volume::Scalar s = 0; s < label.count; ++s) count += voxels[label.first + s];
-        if (hasVolumes && count == label.voxels) continue;
-        label.voxels = count;
-        label.volume = static_cast<double>(count) * volume.grid.voxelVolume();
-    }
-}
-
-}  // namespace
-
 Result<volume::SemanticVolume> volumeFromArray(const LabelArray& array, std::string_view labelsJson,
                                                std::uint64_t maxBytes, const Progress* progress) {
     if (array.bits != 8 && array.bits != 16 && array.bits != 32)
@@ -57,11 +40,11 @@ Result<volume::SemanticVolume> volumeFromArray(const LabelArray& array, std::str
     };
     auto columns = readColumns(image, maxBytes, Code::BadArgument, progress);
     if (!columns) return columns.error();
-    auto volume = makeVolume(image, std::move(*columns), table ? &*table : nullptr, array.source);
-    if (!volume) return volume;
-    volume->grid = array.grid;  // exact, whatever its axes
-    countAgain(*volume, table && !table->labelsJson.empty());
-    return volume;
+    auto made = makeVolume(image, std::move(*columns), table ? &*table : nullptr, array.source);
+    if (!made) return made.error();
+    made->volume.grid = array.grid;  // exact, whatever its axes
+    countAgain(made->volume, table && !table->labelsJson.empty());
+    return std::move(made->volume);
 }
 
 }  // namespace svt::volume_readers

@@ -88,20 +88,33 @@ void readNiftiPlace(const NiftiHead& head, LabelImage& image) {
     for (int axis = 0; axis < 3; ++axis) image.origin[axis] = unit * head.real(268, 376, std::size_t(axis));
 }
 
-void readComments(std::string_view extensions, LabelImage& image) {
-    for (std::size_t at = 4; at + 8 <= extensions.size();) {
+void takeComment(std::string_view text, LabelImage& image) {
+    if (text.starts_with("{\"labels\""))
+        image.labelsJson = text;
+    else if (text.starts_with('{'))
+        image.headerJson = text;
+    else if (text.starts_with("svt-seal"))
+        image.seal = text;
+}
+
+/// What stands between the header and the samples: four bytes that tell whether extensions follow, and these.
+void readExtensions(std::string_view bytes, LabelImage& image) {
+    const auto isBlank = [](std::string_view text) { return text.find_first_not_of('\0') == std::string_view::npos; };
+    std::size_t at = 4;
+    while (bytes.size() >= 4 && bytes[0] != '\0' && at + 8 <= bytes.size()) {
         std::int32_t size = 0, code = 0;
-        std::memcpy(&size, extensions.data() + at, 4);
-        std::memcpy(&code, extensions.data() + at + 4, 4);
-        if (size < 16 || static_cast<std::size_t>(size) > extensions.size() - at) return;
-        std::string_view text = extensions.substr(at + 8, static_cast<std::size_t>(size) - 8);
-        text = text.substr(0, text.find('\0'));
-        if (code == kNiftiComment && text.starts_with("{\"labels\""))
-            image.labelsJson = text;
-        else if (code == kNiftiComment && text.starts_with('{'))
-            image.headerJson = text;
+        std::memcpy(&size, bytes.data() + at, 4);
+        std::memcpy(&code, bytes.data() + at + 4, 4);
+        if (size < 16 || static_cast<std::size_t>(size) > bytes.size() - at) break;
+        const std::string_view text = bytes.substr(at + 8, static_cast<std::size_t>(size) - 8);
+        if (code == kNiftiComment) takeComment(text.substr(0, text.find('\0')), image);
         at += static_cast<std::size_t>(size);
     }
+    if (at < bytes.size() && !isBlank(bytes.substr(at)))
+        image.warnings.push_back(fmt::format(
+            "{} bytes between the header of the NIfTI and its samples are no extension that can be read: the "
+            "header is damaged. A table of labels in them is not used; copy or download the file again",
+            bytes.size() - at));
 }
 
 /// Reads the header from the beginning of the unpacked file; `dataOffset` tells where the samples begin.
@@ -159,7 +172,7 @@ Result<LabelImage> openNifti(const SharedFile& file, bool isGzip) {
             if (auto done = read(std::as_writable_bytes(std::span(unpacked).subspan(544))); !done) return done.error();
         }
         const std::size_t size = unpacked.starts_with(std::string_view("\x1c\2", 2)) ? 540 : 348;
-        if (unpacked[size] != '\0') readComments(std::string_view(unpacked).substr(size), *image);
+        readExtensions(std::string_view(unpacked).substr(size), *image);
         if (auto checked = checkImage(*image, file->bytes().size(), true, Code::BadImage); !checked)
             return checked.error();
         image->read = std::move(read);
@@ -170,7 +183,7 @@ Result<LabelImage> openNifti(const SharedFile& file, bool isGzip) {
     if (!image) return image;
     if (offset > text.size()) return badNifti("the samples begin behind the end of the file: it is cut short");
     const std::size_t size = text.starts_with(std::string_view("\x1c\2", 2)) ? 540 : 348;
-    if (text[size] != '\0') readComments(text.substr(size, static_cast<std::size_t>(offset) - size), *image);
+    readExtensions(text.substr(size, static_cast<std::size_t>(offset) - size), *image);
     const auto stored = file->bytes().subspan(static_cast<std::size_t>(offset));
     if (auto checked = checkImage(*image, stored.size(), false, Code::BadImage); !checked) return checked.error();
     image->read = plainSamples(file, stored, Code::BadImage);

@@ -38,6 +38,9 @@ bool takeNumber(std::string_view& text, T& number) noexcept {
     return true;
 }
 
+/// Whether nothing but separators is left.
+bool isEnd(std::string_view text) noexcept { return text.find_first_not_of(" \t,()") == std::string_view::npos; }
+
 bool takeVector(std::string_view& text, Vec3d& v) noexcept {
     return takeNumber(text, v.x) && takeNumber(text, v.y) && takeNumber(text, v.z) && isFinite(v);
 }
@@ -76,10 +79,13 @@ Result<NrrdHeader> readNrrdHeader(std::string_view text) {
         const std::size_t colon = line.find(':');
         if (colon == std::string_view::npos)
             return badNrrd(fmt::format("header line '{}' has no colon", line.substr(0, 80)));
+        bool isTwice = false;
         if (line.substr(colon).starts_with(":="))
             header.keys[unescaped(line.substr(0, colon))] = unescaped(line.substr(colon + 2));
         else
-            header.fields[std::string(trimmed(line.substr(0, colon)))] = trimmed(line.substr(colon + 1));
+            isTwice = !header.fields.emplace(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1))).second;
+        if (isTwice)
+            return badNrrd(fmt::format("the field '{}' stands twice in the header", trimmed(line.substr(0, colon))));
     }
 }
 
@@ -118,13 +124,16 @@ Result<void> readNrrdPlace(const NrrdHeader& header, LabelImage& image) {
     if (!text.empty()) {
         for (Vec3d& step : image.steps)
             if (!takeVector(text, step)) return badNrrd("the space directions are not three vectors");
+        if (!isEnd(text)) return badNrrd("the space directions are more than three vectors");
     } else if (text = header.field("spacings"); !text.empty()) {
         for (int axis = 0; axis < 3; ++axis)
             if (!takeNumber(text, image.steps[std::size_t(axis)][axis]))
                 return badNrrd("the spacings are not three numbers");
+        if (!isEnd(text)) return badNrrd("the spacings are more than three numbers");
     }
     text = header.field("space origin");
-    if (!text.empty() && !takeVector(text, image.origin)) return badNrrd("the space origin is no vector");
+    if (!text.empty() && (!takeVector(text, image.origin) || !isEnd(text)))
+        return badNrrd("the space origin is no vector");
     const std::string_view space = header.field("space"), units = header.field("space units");
     const bool isMillimetres = units.empty() ? !space.empty() : units.find("mm") != std::string_view::npos;
     const double unit = isMillimetres ? 0.001 : 1;
@@ -141,6 +150,7 @@ void readTables(const NrrdHeader& header, LabelImage& image) {
         const std::string_view text = header.key(key);
         return text.empty() ? std::string_view("\"\"") : text;
     };
+    image.seal = header.key("svt_seal");
     if (!header.key("svt_label_0").empty()) {
         image.labelsJson = "{\"labels\":[";
         for (std::size_t l = 0;; ++l) {
@@ -150,7 +160,9 @@ void readTables(const NrrdHeader& header, LabelImage& image) {
             image.labelsJson += label;
         }
         const std::string_view colors = header.key("svt_phase_colors");
-        image.labelsJson += fmt::format("],\"overlaps\":[],\"phaseColors\":{}}}", colors.empty() ? "[]" : colors);
+        const std::string_view overlaps = header.key("svt_overlaps");
+        image.labelsJson += fmt::format("],\"overlaps\":{},\"phaseColors\":{}}}", overlaps.empty() ? "[]" : overlaps,
+                                        colors.empty() ? "[]" : colors);
         // The header has the exact grid; its names are empty and stand in keys of their own, as JSON strings of ASCII.
         image.headerJson = header.key("svt_header");
         if (image.headerJson.empty()) image.headerJson = R"({"crs": "","model": "","source": ""})";
@@ -190,6 +202,9 @@ Result<LabelImage> openNrrd(const SharedFile& file) {
     std::string_view sizes = header->field("sizes");
     for (int axis = 0; axis < 3; ++axis)
         if (!takeNumber(sizes, image.dimension[axis])) return badNrrd("the sizes are not three numbers");
+    if (!isEnd(sizes))
+        return badNrrd(fmt::format("the sizes are more than three numbers ('{}'), and the dimension is 3",
+                                   header->field("sizes").substr(0, 80)));
     for (const char* field : {"data file", "datafile"})
         if (!header->field(field).empty())
             return badNrrd(

@@ -102,11 +102,17 @@ Result<volume::SemanticVolume> readLabelVolume(const std::filesystem::path& path
     };
     const auto image = opened();
     if (!image) return at(image.error());
+    const auto warn = [&](const std::string& message) {
+        if (options.diagnostics != nullptr)
+            options.diagnostics->add(Severity::Warning, code, message, Place{path.string(), 0, 0, {}});
+    };
+    for (const std::string& warning : image->warnings) warn(warning);
     auto columns = readColumns(*image, maxBytes, code, options.progress);
     if (!columns) return at(columns.error());
     auto volume = makeVolume(*image, std::move(*columns), table ? &*table : nullptr, path);
     if (!volume) return at(volume.error());
-    return volume;
+    for (const std::string& warning : volume->warnings) warn(warning);
+    return std::move(volume->volume);
 }
 
 }  // namespace svt::volume_readers

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 
@@ -121,7 +122,16 @@ Result<void> readFirst(TiffBytes& bytes, const TiffPage& page, TiffStack& stack)
     image.bits = static_cast<int>(std::min<std::uint64_t>(page.value(bytes, 258, 1), 64));
     image.isSigned = format == 2;
     image.dimension = {static_cast<std::int32_t>(width), static_cast<std::int32_t>(height), 0};
-    if (page.count(34264) == 16) {
+    if (page.fields.count(34264) != 0) {
+        if (page.count(34264) != 16 || page.fields.at(34264).size != 8)
+            return badTiff(fmt::format(
+                "the matrix of the GeoTIFF (tag 34264) has {} numbers, 16 of 64 bits are expected", page.count(34264)));
+        for (std::uint64_t n = 0; n < 16; ++n)
+            if (!std::isfinite(page.real(bytes, 34264, n)) || (n >= 12 && page.real(bytes, 34264, n) != (n == 15)))
+                return badTiff(
+                    fmt::format("number {} of the matrix of the GeoTIFF (tag 34264) is {}, which no matrix "
+                                "has there; write the file again",
+                                n, page.real(bytes, 34264, n)));
         for (int row = 0; row < 3; ++row) {
             const auto first = static_cast<std::uint64_t>(4 * row);
             for (std::size_t c = 0; c < 3; ++c) image.steps[c][row] = page.real(bytes, 34264, first + c);
@@ -130,6 +140,7 @@ Result<void> readFirst(TiffBytes& bytes, const TiffPage& page, TiffStack& stack)
     }
     image.headerJson = page.text(bytes, 65080);
     image.labelsJson = page.text(bytes, 65081);
+    image.seal = page.text(bytes, 65082);
     return {};
 }
 

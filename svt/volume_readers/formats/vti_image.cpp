@@ -175,7 +175,11 @@ Result<LabelImage> openVti(const SharedFile& file) {
         const std::string_view name = field.attribute("Name").value();
         if (name == "svt_header") image.headerJson = stringOf(field.child_value());
         if (name == "svt_labels") image.labelsJson = stringOf(field.child_value());
+        if (name == "svt_seal") image.seal = stringOf(field.child_value());
     }
+    const std::size_t last = text.find_last_not_of(" \t\r\n");
+    if (!text.substr(0, last + 1).ends_with("</VTKFile>"))
+        return badVti("the file does not end with </VTKFile>: it is cut short, or something was added");
     const std::uint64_t offset = array.attribute("offset").as_ullong(~0ull);
     const auto bytes = file->bytes().subspan(mark + 1);
     if (offset > bytes.size()) return badVti("the samples begin behind the end of the file: it is cut short");

@@ -188,6 +188,7 @@ Result<ColumnVolume> readColumns(const LabelImage& image, std::uint64_t maxBytes
         if (auto done = collector.add(k, slice); !done) return done.error();
         if (k % 64 == 0) Progress::tell(progress, "read", double(k) / image.dimension.z);
     }
+    if (auto done = image.read({}); !done) return done.error();
     return collector.finish();
 }
 

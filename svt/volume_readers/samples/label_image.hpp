@@ -28,7 +28,8 @@ struct ToldLabel {
     Vec3f color{};
 };
 
-/// Takes the next bytes of the samples, exactly as many as there is room for.
+/// Takes the next bytes of the samples, exactly as many as there is room for. Without room, behind the last sample, it tells
+/// whether the samples end there, undamaged.
 using ReadSamples = std::function<Result<void>(std::span<std::byte>)>;
 
 /// Samples of other kinds, which are labels where they are whole numbers from 0 to 2^32 - 1: many programs save so.
@@ -44,9 +45,11 @@ struct LabelImage {
     std::array<Vec3d, 3> steps{Vec3d{1, 0, 0}, Vec3d{0, 1, 0},
                                Vec3d{0, 0, 1}};  ///< to the next sample along i, j, k, metres
     std::string headerJson, labelsJson;          ///< what `svt convert` left in the file, as in a .svt; empty: nothing
+    std::string seal;  ///< checksums of both and of the samples (volume::readSeal()), or empty
     std::vector<ToldLabel> told;
     std::string crsName;
     ReadSamples read;
+    std::vector<std::string> warnings;  ///< what is odd, but keeps nothing from being read
 
     /// Of samples of 8, 16 or 32 bits.
     [[nodiscard]] std::uint64_t sliceBytes() const noexcept {
@@ -67,7 +70,7 @@ using SharedFile = std::shared_ptr<const MappedFile>;
 /// \return nothing, or `code` with what was found
 [[nodiscard]] Result<void> checkImage(const LabelImage& image, std::uint64_t storedBytes, bool isCompressed, Code code);
 
-/// Samples that stand in the file as they are.
+/// Samples that stand in the file as they are, and nothing behind them.
 [[nodiscard]] ReadSamples plainSamples(SharedFile file, std::span<const std::byte> bytes, Code code);
 /// Samples in gzip members, one behind the other.
 [[nodiscard]] ReadSamples gzipSamples(SharedFile file, std::span<const std::byte> bytes, Code code);

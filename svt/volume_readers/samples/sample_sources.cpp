@@ -19,6 +19,10 @@ constexpr std::size_t kStep = std::size_t{1} << 30;  // zlib counts with 32 bits
 
 Bytef* zlibBytes(const std::byte* bytes) noexcept { return reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes)); }
 
+Error trailing(Code code, std::uint64_t count) {
+    return {code, fmt::format("{} bytes stand behind the samples: the file is damaged, or its sizes are wrong", count)};
+}
+
 /// gzip members as one stream.
 class GzipSource {
 public:
@@ -31,6 +35,7 @@ public:
     ~GzipSource() { inflateEnd(&stream_); }
 
     Result<void> read(std::span<std::byte> out) {
+        if (out.empty()) return finish();
         while (!out.empty()) {
             const std::size_t input = std::min(rest_.size(), kStep), room = std::min(out.size(), kStep);
             stream_.next_in = zlibBytes(rest_.data());
@@ -41,6 +46,7 @@ public:
             rest_ = rest_.subspan(input - stream_.avail_in);
             const std::size_t made = room - stream_.avail_out;
             out = out.subspan(made);
+            isBetween_ = status == Z_STREAM_END;
             if (status == Z_STREAM_END && !rest_.empty()) {
                 inflateReset(&stream_);
                 continue;
@@ -54,10 +60,32 @@ public:
     }
 
 private:
+    /// Reads to the end of the last member, whose checksum and size zlib compares.
+    Result<void> finish() {
+        while (!(isBetween_ && rest_.empty())) {
+            if (isBetween_ && rest_[0] != std::byte{0x1F}) return trailing(code_, rest_.size());
+            const std::size_t input = std::min(rest_.size(), kStep);
+            std::byte beyond{};
+            stream_.next_in = zlibBytes(rest_.data());
+            stream_.avail_in = static_cast<uInt>(input);
+            stream_.next_out = zlibBytes(&beyond);
+            stream_.avail_out = 1;
+            const int status = inflate(&stream_, Z_NO_FLUSH);
+            rest_ = rest_.subspan(input - stream_.avail_in);
+            if (stream_.avail_out == 0) return Error(code_, "the compressed samples are more than the sizes say");
+            isBetween_ = status == Z_STREAM_END;
+            if (isBetween_) inflateReset(&stream_);
+            if (status != Z_STREAM_END && (status != Z_OK || rest_.empty()))
+                return Error(code_, "the end of the compressed samples is damaged or cut short");
+        }
+        return {};
+    }
+
     SharedFile file_;
     std::span<const std::byte> rest_;
     Code code_;
     z_stream stream_{};
+    bool isBetween_ = false;  // members, or behind the last one
 };
 
 /// Blocks, unpacked one at a time.
@@ -67,6 +95,8 @@ public:
         : file_(std::move(file)), blocks_(std::move(blocks)), isCompressed_(isCompressed), code_(code) {}
 
     Result<void> read(std::span<std::byte> out) {
+        if (out.empty() && (block_ != blocks_.size() || at_ != bytes_.size()))
+            return Error(code_, "the samples are more than the sizes say");
         while (!out.empty()) {
             if (at_ == bytes_.size())
                 if (auto done = next(); !done) return done;
@@ -131,6 +161,7 @@ Result<void> checkImage(const LabelImage& image, std::uint64_t storedBytes, bool
 ReadSamples plainSamples(SharedFile file, std::span<const std::byte> bytes, Code code) {
     return [file = std::move(file), bytes, code](std::span<std::byte> out) mutable -> Result<void> {
         if (bytes.size() < out.size()) return Error(code, "the samples are fewer than the sizes say");
+        if (out.empty() && !bytes.empty()) return trailing(code, bytes.size());
         std::copy_n(bytes.begin(), out.size(), out.begin());
         bytes = bytes.subspan(out.size());
         return {};

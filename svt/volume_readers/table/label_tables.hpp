@@ -29,11 +29,21 @@ struct UserTable {
 /// The same from text. \return as above, without a place
 [[nodiscard]] Result<UserTable> parseUserTable(std::string_view text);
 
+struct MadeVolume {
+    volume::SemanticVolume volume;
+    std::vector<std::string> warnings;
+};
+
 /// The volume of an image whose samples are read.
 /// \param values  columns whose scalars are the values of the samples
-/// \return the volume, or BadVolume (a table that does not fit the values), BadJson, BadImage (a grid that is mirrored or
-///         sheared), TooManyLabels, BadDimension, GridTooLarge
-[[nodiscard]] Result<volume::SemanticVolume> makeVolume(const LabelImage& image, volume::ColumnVolume values,
-                                                        const UserTable* table, const std::filesystem::path& path);
+/// \return the volume, or BadVolume (a table that does not fit the values), BadChecksum (another table or other samples
+///         than were written), BadJson, BadImage (a grid that is mirrored or sheared), TooManyLabels, BadDimension,
+///         GridTooLarge
+[[nodiscard]] Result<MadeVolume> makeVolume(const LabelImage& image, volume::ColumnVolume values,
+                                            const UserTable* table, const std::filesystem::path& path);
+
+/// Counts the voxels of each label. Its volume becomes that of its voxels, but where `hasVolumes` is true and no voxel is
+/// missing: then it stays that of its mesh.
+void countAgain(volume::SemanticVolume& volume, bool hasVolumes);
 
 }  // namespace svt::volume_readers

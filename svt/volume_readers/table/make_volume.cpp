@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -78,16 +79,23 @@ bool isSamePlace(const volume::Grid& told, const volume::Grid& exact) {
     return true;
 }
 
-/// Names, and where it fits the exact grid, of what `svt convert` left in the file.
-void takeHeader(std::string_view text, volume::SemanticVolume& volume) {
-    if (text.empty() || text.size() > volume::kMaxHeaderBytes) return;
-    if (const auto header = volume::readHeaderJson(text)) {
-        if (isSamePlace(volume.grid, header->grid)) volume.grid = header->grid;
+/// The header that `svt convert` left in the file, where it is whole.
+std::optional<volume::SvtHeader> headerOf(const LabelImage& image) {
+    if (image.headerJson.empty() || image.headerJson.size() > volume::kMaxHeaderBytes) return std::nullopt;
+    auto header = volume::readHeaderJson(image.headerJson);
+    if (!header) return std::nullopt;
+    return std::move(*header);
+}
+
+/// The names of a header, or of a text that has names alone.
+void takeNames(const std::optional<volume::SvtHeader>& header, std::string_view text, volume::SemanticVolume& volume) {
+    if (header) {
         volume.crsName = header->crsName;
         volume.modelName = header->modelName;
         volume.source = header->source;
         return;
     }
+    if (text.size() > volume::kMaxHeaderBytes) return;
     const auto json = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
     if (!json.is_object()) return;
     const auto read = [&](const char* key, std::string& to) {
@@ -250,44 +258,163 @@ Result<void> takeTold(const std::vector<ToldLabel>& given, const UserTable* user
     return giveScalars(volume.labels, values, owners, volume.columns);
 }
 
-/// What of a table is counted in the voxels.
-void countVoxels(volume::SemanticVolume& volume) {
-    const auto voxels = volume.columns.countVoxels(volume.labels.scalarCount());
-    for (Label& label : volume.labels.labels) {
-        label.voxels = 0;
-        for (Scalar s = 0; s < label.count; ++s) label.voxels += voxels[label.first + s];
-        label.volume = static_cast<double>(label.voxels) * volume.grid.voxelVolume();
+/// What `svt convert` left in a file beside the samples.
+struct Stated {
+    std::optional<volume::SvtHeader> header;
+    volume::LabelTable labels;
+    std::optional<volume::VolumeSeal> seal;
+};
+
+constexpr std::string_view kRemedy =
+    "copy or convert the file again; if it was changed on purpose, give the table of its labels (--labels)";
+
+/// Reads labels and seal, and holds header and labels against the seal.
+/// eturn nothing for a file that `svt convert` did not write
+Result<std::optional<Stated>> readStated(const LabelImage& image, const std::optional<volume::SvtHeader>& header) {
+    Stated stated{header, {}, volume::readSeal(image.seal)};
+    if (image.labelsJson.empty()) {
+        if (!header && !stated.seal) return std::optional<Stated>();
+        return Error(Code::BadVolume,
+                     fmt::format("the table of labels that svt wrote into the file is missing; {}", kRemedy));
     }
+    auto labels = volume::readLabelsJson(image.labelsJson);
+    if (!labels)
+        return Error(labels.error().code(),
+                     fmt::format("the table of labels that svt wrote into the file is damaged ({}); {}",
+                                 labels.error().message(), kRemedy));
+    if (!stated.seal) {
+        stated.labels = std::move(*labels);
+        return std::optional(std::move(stated));
+    }
+    volume::SemanticVolume told;
+    told.labels = std::move(*labels);
+    takeNames(header, {}, told);
+    if (header) told.grid = header->grid;
+    if (!header || volume::tableChecksum(told) != stated.seal->table)
+        return Error(
+            Code::BadChecksum,
+            fmt::format("the header or the table of labels that svt wrote into the file is damaged or was changed: "
+                        "its CRC-32 is not {:08x}; {}",
+                        stated.seal->table, kRemedy));
+    stated.labels = std::move(told.labels);
+    return std::optional(std::move(stated));
+}
+
+/// The first labels whose voxels are not as many as the table says: "'R1' has 12 voxels, the table says 40, ...".
+std::string differencesOf(const volume::SemanticVolume& volume, std::size_t& count) {
+    constexpr std::size_t kShown = 5;
+    const auto voxels = volume.columns.countVoxels(volume.labels.scalarCount());
+    std::string text;
+    count = 0;
+    for (const Label& label : volume.labels.labels) {
+        std::uint64_t own = 0;
+        for (Scalar s = 0; s < label.count; ++s) own += voxels[label.first + s];
+        if (own == label.voxels || count++ >= kShown) continue;
+        text += fmt::format("{}'{}' has {} voxels, the table says {}", text.empty() ? "" : ", ", label.id.substr(0, 80),
+                            own, label.voxels);
+    }
+    if (count > kShown) text += fmt::format(", and {} more", count - kShown);
+    return text;
+}
+
+/// Whether the samples are those that the table was written with.
+Result<void> checkSamples(const volume::SemanticVolume& volume, const std::optional<volume::VolumeSeal>& seal) {
+    std::size_t count = 0;
+    const std::string differences = differencesOf(volume, count);
+    if (count > 0)
+        return Error(
+            Code::BadChecksum,
+            fmt::format("the samples are not those that svt wrote: of {} labels {} differ: {}. The file is damaged "
+                        "or was changed; {}",
+                        volume.labels.labels.size(), count, differences, kRemedy));
+    if (!seal || seal->columns == volume::columnsChecksum(volume.columns)) return {};
+    return Error(
+        Code::BadChecksum,
+        fmt::format("the samples are not those that svt wrote: their CRC-32 is not {:08x}, though each label has its "
+                    "voxels. The file is damaged or was changed; {}",
+                    seal->columns, kRemedy));
+}
+
+/// Whether each value has a label.
+Result<void> checkValues(const volume::SemanticVolume& volume) {
+    const std::vector<Scalar> found = valuesOf(volume.columns);
+    if (found.empty() || found.back() < volume.labels.scalarCount()) return {};
+    return Error(Code::BadVolume,
+                 fmt::format("a sample has the value {}, which no label of the table has; their last is {}",
+                             found.back(), volume.labels.scalarCount() - 1));
+}
+
+/// The volume of a table that is given, which is taken as it is.
+Result<void> takeGiven(const UserTable& table, volume::SemanticVolume& volume) {
+    if (table.labelsJson.empty()) {
+        if (auto done = takeTold(table.told, &table, volume); !done) return done;
+        countAgain(volume, false);
+        return {};
+    }
+    auto labels = volume::readLabelsJson(table.labelsJson);
+    if (!labels) return labels.error();
+    volume.labels = std::move(*labels);
+    if (auto done = checkValues(volume); !done) return done;
+    countAgain(volume, true);
+    return {};
+}
+
+/// The volume of a table that `svt convert` left in the file.
+Result<void> takeStated(Stated stated, MadeVolume& made) {
+    volume::SemanticVolume& volume = made.volume;
+    const bool isCut = stated.header && !isSamePlace(volume.grid, stated.header->grid);
+    if (stated.header && !isCut) volume.grid = stated.header->grid;
+    volume.labels = std::move(stated.labels);
+    if (auto done = checkValues(volume); !done) return done;
+    if (!isCut) return checkSamples(volume, stated.seal);
+    const Vec3i now = volume.grid.dimension(), before = stated.header->grid.dimension();
+    made.warnings.push_back(fmt::format(
+        "the grid is no longer the one that svt wrote ({} x {} x {} samples, now {} x {} x {}): the image was "
+        "cut, moved or damaged since. The grid of the file is taken, and voxels are counted again",
+        before.x, before.y, before.z, now.x, now.y, now.z));
+    countAgain(volume, true);
+    return {};
 }
 
 }  // namespace
 
-Result<volume::SemanticVolume> makeVolume(const LabelImage& image, volume::ColumnVolume values, const UserTable* table,
-                                          const std::filesystem::path& path) {
-    volume::SemanticVolume volume;
+void countAgain(volume::SemanticVolume& volume, bool hasVolumes) {
+    const auto voxels = volume.columns.countVoxels(volume.labels.scalarCount());
+    for (Label& label : volume.labels.labels) {
+        std::uint64_t count = 0;
+        for (Scalar s = 0; s < label.count; ++s) count += voxels[label.first + s];
+        if (hasVolumes && count == label.voxels) continue;
+        label.voxels = count;
+        label.volume = static_cast<double>(count) * volume.grid.voxelVolume();
+    }
+}
+
+Result<MadeVolume> makeVolume(const LabelImage& image, volume::ColumnVolume values, const UserTable* table,
+                              const std::filesystem::path& path) {
+    MadeVolume made;
+    volume::SemanticVolume& volume = made.volume;
     auto grid = gridOf(image);
     if (!grid) return grid.error();
     volume.grid = *grid;
     volume.crsName = image.crsName;
     volume.source = path.filename().string();
-    takeHeader(image.headerJson, volume);
     volume.columns = std::move(values);
-    const std::string& json = table != nullptr ? table->labelsJson : image.labelsJson;
-    if (json.empty()) {
-        if (auto done = takeTold(table != nullptr ? table->told : image.told, table, volume); !done)
-            return done.error();
-        countVoxels(volume);
-        return volume;
+    const auto header = headerOf(image);
+    takeNames(header, image.headerJson, volume);
+    if (table != nullptr) {
+        if (header && isSamePlace(volume.grid, header->grid)) volume.grid = header->grid;
+        if (auto done = takeGiven(*table, volume); !done) return done.error();
+        return made;
     }
-    auto labels = volume::readLabelsJson(json);
-    if (!labels) return labels.error();
-    volume.labels = std::move(*labels);
-    const std::vector<Scalar> found = valuesOf(volume.columns);
-    if (!found.empty() && found.back() >= volume.labels.scalarCount())
-        return Error(Code::BadVolume,
-                     fmt::format("a sample has the value {}, which no label of the table has; their last is {}",
-                                 found.back(), volume.labels.scalarCount() - 1));
-    return volume;
+    auto stated = readStated(image, header);
+    if (!stated) return stated.error();
+    if (*stated) {
+        if (auto done = takeStated(std::move(**stated), made); !done) return done.error();
+        return made;
+    }
+    if (auto done = takeTold(image.told, nullptr, volume); !done) return done.error();
+    countAgain(volume, false);
+    return made;
 }
 
 }  // namespace svt::volume_readers

@@ -73,6 +73,7 @@ public:
     [[nodiscard]] std::uint64_t bandBytes() const noexcept { return sliceBytes_ * std::min(chunk_[0], shape_[0]); }
 
     Result<void> read(std::span<std::byte> out) {
+        if (out.empty()) return {};
         if (at_ == band_.size())
             if (auto done = readBand(); !done) return done;
         if (out.size() > band_.size() - at_) return Error(Code::BadImage, "the samples are fewer than the sizes say");
@@ -281,10 +282,12 @@ std::vector<ToldLabel> toldLabels(const ZarrScale& scale) {
 
 /// What `svt convert` left: the exact grid where it is turned, which the metadata of OME-NGFF cannot say.
 void takeOwn(const ZarrJson& attributes, LabelImage& image) {
-    const auto own = attributes.find("svt");
-    if (own == attributes.end() || !own->is_object()) return;
+    const auto isOwn = [](const ZarrJson& value) { return value.is_object() && value.contains("labels.json"); };
+    const auto own = std::find_if(attributes.begin(), attributes.end(), isOwn);
+    if (own == attributes.end()) return;
     if (const auto header = own->find("svt.json"); header != own->end()) image.headerJson = header->dump();
     if (const auto labels = own->find("labels.json"); labels != own->end()) image.labelsJson = labels->dump();
+    image.seal = wordOf(*own, "seal");
     const auto header = volume::readHeaderJson(image.headerJson);
     if (!header || header->grid.isAxisParallel() || header->grid.dimension() != image.dimension) return;
     const Vec3d spacing = header->grid.spacing(), expected{spacing.x, spacing.y, spacing.z};

@@ -80,10 +80,11 @@ std::string beginningOfTexture(const volume::SemanticVolume& volume, int bits, c
                       "<svt:AppearanceVolumeProperties><svt:volumeData>\n"
                     : "<app:Appearance><app:theme>SVT</app:theme><svt:volumeDataMember>\n";
     text += fmt::format("<svt:{} gml:id=\"svt-volume\">\n", textureName(kind));
-    for (const std::string& json : {volume::writeHeaderJson(volume), volume::writeLabelsJson(volume.labels)})
+    for (const std::string& data : {volume::sealText(volume, volume.columns), volume::writeHeaderJson(volume),
+                                    volume::writeLabelsJson(volume.labels)})
         text +=
             fmt::format("<gml:metaDataProperty><gml:GenericMetaData>{}</gml:GenericMetaData></gml:metaDataProperty>\n",
-                        xmlContent(json));
+                        xmlContent(data));
     const std::string crs = volume.crsName.empty() ? "" : fmt::format(" srsName=\"{}\"", xmlAttribute(volume.crsName));
     text += fmt::format("<svt:scalarType>uint{}</svt:scalarType>\n<svt:dimension>{} {} {}</svt:dimension>\n", bits,
                         dimension.x, dimension.y, dimension.z);

@@ -130,7 +130,8 @@ std::string niftiComment(std::string_view text) {
 
 std::string niftiBeginning(const volume::SemanticVolume& volume, int bits) {
     const std::string extensions = std::string("\1\0\0\0", 4) + niftiComment(volume::writeHeaderJson(volume)) +
-                                   niftiComment(volume::writeLabelsJson(volume.labels));
+                                   niftiComment(volume::writeLabelsJson(volume.labels)) +
+                                   niftiComment(volume::sealText(volume, volume.columns));
     // Samples begin at a multiple of 16.
     const std::uint64_t offset1 = (kHeaderBytes1 + extensions.size() + 15) / 16 * 16;
     const std::uint64_t offset2 = (kHeaderBytes2 + extensions.size() + 15) / 16 * 16;

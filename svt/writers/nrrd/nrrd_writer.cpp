@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -85,7 +86,8 @@ volume::ColumnVolume oneScalarPerLabel(const volume::SemanticVolume& volume) {
     return volume::replaceScalars(volume.columns, firstOf);
 }
 
-std::string headerOf(const volume::SemanticVolume& volume, int bits, const NrrdOptions& options) {
+std::string headerOf(const volume::SemanticVolume& volume, const volume::ColumnVolume& columns, int bits,
+                     const NrrdOptions& options) {
     const volume::Grid& grid = volume.grid;
     const Vec3i dimension = grid.dimension();
     std::string header = "NRRD0004\n# Semantic volume texture; see the keys svt_*\n";
@@ -117,6 +119,12 @@ std::string headerOf(const volume::SemanticVolume& volume, int bits, const NrrdO
     for (const Vec3f color : volume.labels.phaseColors)
         json += fmt::format("{}[{},{},{}]", json.size() == 1 ? "" : ",", color.x, color.y, color.z);
     if (!volume.labels.phaseColors.empty()) appendKeyValue(header, "svt_phase_colors", json + "]");
+    json = "[";
+    for (const volume::Overlap& overlap : volume.labels.overlaps)
+        json += fmt::format("{}[{},{},{},{}]", json.size() == 1 ? "" : ",", overlap.a, overlap.b, overlap.voxels,
+                            overlap.isNested);
+    if (!volume.labels.overlaps.empty()) appendKeyValue(header, "svt_overlaps", json + "]");
+    appendKeyValue(header, "svt_seal", volume::sealText(volume, columns));
     appendKeyValue(header, "svt_label_count", fmt::format("{}", volume.labels.labels.size()));
     for (std::size_t l = 0; l < volume.labels.labels.size(); ++l) {
         json.clear();
@@ -144,10 +152,11 @@ Result<std::uint64_t> writeNrrd(const volume::SemanticVolume& volume, const std:
     if (!bits) return bits.error();
     auto file = AtomicFile::create(path);
     if (!file) return file.error();
-    if (auto written = file->write(headerOf(volume, *bits, options)); !written) return written.error();
-    const auto done = options.hasSegments ? writeData(oneScalarPerLabel(volume), *bits, options, *file)
-                                          : writeData(volume.columns, *bits, options, *file);
-    if (!done) return done.error();
+    std::optional<volume::ColumnVolume> merged;
+    if (options.hasSegments) merged = oneScalarPerLabel(volume);
+    const volume::ColumnVolume& columns = merged ? *merged : volume.columns;
+    if (auto written = file->write(headerOf(volume, columns, *bits, options)); !written) return written.error();
+    if (auto done = writeData(columns, *bits, options, *file); !done) return done.error();
     return file->commit();
 }
 

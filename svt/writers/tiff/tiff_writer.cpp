@@ -97,6 +97,7 @@ std::vector<TiffField> volumeFields(const volume::SemanticVolume& volume, TiffMe
     fields.push_back(numberField(34735, kShort, {1, 1, 0, 2, 1024, 0, 1, 1, 1025, 0, 1, 2}));
     fields.push_back(textField(65080, volume::writeHeaderJson(volume)));
     fields.push_back(textField(65081, volume::writeLabelsJson(volume.labels)));
+    fields.push_back(textField(65082, volume::sealText(volume, volume.columns)));
     return fields;
 }
 

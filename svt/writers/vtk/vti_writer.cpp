@@ -76,9 +76,11 @@ std::string vtkFieldData(const volume::SemanticVolume& volume) {
     fields.numbers("label_count", "UInt32", counts);
     fields.numbers("label_parent", "Int64", parents);
     fields.numbers("label_color", "Float32", colors, 3);
-    const std::string header = volume::writeHeaderJson(volume), labels = volume::writeLabelsJson(volume.labels);
+    const std::string header = volume::writeHeaderJson(volume), labels = volume::writeLabelsJson(volume.labels),
+                      seal = volume::sealText(volume, volume.columns);
     fields.strings("svt_header", {header});
     fields.strings("svt_labels", {labels});
+    fields.strings("svt_seal", {seal});
     return fields.text();
 }
 

@@ -7,7 +7,7 @@
 /// metres of the model's CRS. The label table is field data, one entry per label: `label_id`, `label_class` and
 /// `label_name` (strings), `label_first`, `label_count` (the cells of a label have first to first + count - 1),
 /// `label_parent` (its number, -1: none), `label_color` (sRGB, 0..1). `svt_header` and `svt_labels` hold the same as in a
-/// `.svt`, so that the file can become a volume again.
+/// `.svt`, `svt_seal` their checksums, so that the file can become a volume again.
 
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>

@@ -57,7 +57,8 @@ ZarrShape zarrShape(int version) noexcept { return version == 2 ? ZarrShape{64, 
 std::string zarrGroupJson(const volume::SemanticVolume& volume, std::span<const volume::Grid> levels, int version) {
     Json scales = multiscales(volume, levels), label = imageLabel(volume.labels);
     Json svt{{"svt.json", Json::parse(volume::writeHeaderJson(volume))},
-             {"labels.json", Json::parse(volume::writeLabelsJson(volume.labels))}};
+             {"labels.json", Json::parse(volume::writeLabelsJson(volume.labels))},
+             {"seal", volume::sealText(volume, volume.columns)}};
     if (version == 2) {
         scales["version"] = "0.4";
         label["version"] = "0.4";

@@ -1,0 +1,327 @@
+// Files that svt wrote, damaged: each becomes the same volume, or somebody is told.
+#include <svt/core/temporary_folder_test.hpp>
+#include <svt/volume/sample_volume_test.hpp>
+#include <svt/volume/volume_json.hpp>
+#include <svt/volume_readers/read_label_volume.hpp>
+#include <svt/writers/volume_formats.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace svt::volume_readers {
+namespace {
+
+namespace fs = std::filesystem;
+using svt::test::readText;
+using svt::test::TemporaryFolder;
+using svt::test::writeText;
+using volume::SemanticVolume;
+
+constexpr std::uint64_t kMemory = std::uint64_t{64} << 20;
+
+/// The sample volume, its grid along the axes of the world.
+SemanticVolume plainVolume(Vec3i dimension = {12, 9, 8}) {
+    SemanticVolume volume = volume::test::sampleVolume(dimension);
+    volume.grid = *volume::Grid::fromParts(dimension, {0.05, 0.1, 1.0 / 3.0}, {458877.03, 5438353.7, -0.1},
+                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    return volume;
+}
+
+/// What comes of reading: the volume, an error, or findings beside a volume.
+struct Answer {
+    std::optional<SemanticVolume> volume;
+    std::string told;
+
+    [[nodiscard]] bool isSilent(const SemanticVolume& expected) const {
+        return told.empty() && !volume::test::isSame(*volume, expected);
+    }
+};
+
+Answer ask(const fs::path& path) {
+    Diagnostics findings;
+    Answer answer;
+    auto read = readLabelVolume(path, {{}, kMemory, nullptr, &findings});
+    for (const Diagnostic& finding : findings.items()) answer.told += finding.toString() + "\n";
+    if (read)
+        answer.volume = std::move(*read);
+    else
+        answer.told += read.error().toString();
+    return answer;
+}
+
+/// A fixed sequence of numbers.
+class Sequence {
+public:
+    std::size_t below(std::size_t count) {
+        state_ = state_ * 6364136223846793005u + 1442695040888963407u;
+        return static_cast<std::size_t>((state_ >> 33) % count);
+    }
+
+private:
+    std::uint64_t state_ = 20240229;
+};
+
+/// Cuts, appends to and changes `file`, and asks for the volume at `path` each time.
+void damageAndAsk(const fs::path& file, const fs::path& path, const SemanticVolume& expected, int flips) {
+    const std::string whole = readText(file);
+    const auto expectTold = [&](const std::string& damaged, const std::string& what) {
+        writeText(file, damaged);
+        EXPECT_FALSE(ask(path).isSilent(expected)) << file.filename() << " " << what;
+    };
+    for (std::size_t step = 0; step < 24; ++step) {
+        const std::size_t at = whole.size() * step / 24;
+        expectTold(whole.substr(0, at), "cut at " + std::to_string(at));
+    }
+    for (const std::size_t less : {1, 2, 3, 9})
+        if (less < whole.size()) expectTold(whole.substr(0, whole.size() - less), "cut by " + std::to_string(less));
+    for (const std::string& more : {std::string("x"), std::string(16, '\0'), std::string(1000, '7'), whole})
+        expectTold(whole + more, "with " + std::to_string(more.size()) + " more bytes");
+    Sequence random;
+    for (int n = 0; n < flips; ++n) {
+        std::string damaged = whole;
+        const std::size_t at = random.below(whole.size()), bit = random.below(8);
+        damaged[at] = static_cast<char>(damaged[at] ^ (1 << bit));
+        expectTold(damaged, "byte " + std::to_string(at) + ", bit " + std::to_string(bit));
+    }
+    writeText(file, whole);
+    EXPECT_TRUE(ask(path).told.empty()) << ask(path).told;
+}
+
+TEST(Damage, OfAFileIsNeverReadInSilence) {
+    const TemporaryFolder folder;
+    for (const bool isCompressed : {false, true})
+        for (const char* name : {"v.nrrd", "v.seg.nrrd", "v.vti", "v.nii", "v.nii.gz", "v.tif", "v.ome.tif"}) {
+            writers::VolumeWriteOptions options;
+            options.isCompressed = isCompressed;
+            ASSERT_TRUE(writers::writeVolume(plainVolume(), folder / name, options));
+            const Answer whole = ask(folder / name);
+            ASSERT_TRUE(whole.volume && whole.told.empty()) << name << ": " << whole.told;
+            damageAndAsk(folder / name, folder / name, *whole.volume, 400);
+        }
+}
+
+TEST(Damage, OfATurnedGridIsNeverReadInSilence) {
+    const TemporaryFolder folder;
+    for (const char* name : {"v.nrrd", "v.vti", "v.nii", "v.tif"}) {
+        ASSERT_TRUE(writers::writeVolume(volume::test::sampleVolume({12, 9, 8}), folder / name));
+        const Answer whole = ask(folder / name);
+        ASSERT_TRUE(whole.volume && whole.told.empty()) << name << ": " << whole.told;
+        damageAndAsk(folder / name, folder / name, *whole.volume, 200);
+    }
+}
+
+/// All files of a folder, in the order of their names.
+std::vector<fs::path> filesOf(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file()) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+TEST(Damage, OfACityGmlDocumentAndWhatStandsBesideItIsNeverReadInSilence) {
+    for (const auto texture :
+         {writers::TextureKind::Pixel, writers::TextureKind::Image, writers::TextureKind::Composed}) {
+        const TemporaryFolder folder;
+        writers::VolumeWriteOptions options;
+        options.texture = texture;
+        ASSERT_TRUE(writers::writeVolume(plainVolume(), folder / "v.ade.gml", options));
+        const Answer whole = ask(folder / "v.ade.gml");
+        ASSERT_TRUE(whole.volume && whole.told.empty()) << whole.told;
+        for (const fs::path& file : filesOf(folder.path())) {
+            damageAndAsk(file, folder / "v.ade.gml", *whole.volume, file.extension() == ".gml" ? 400 : 60);
+            const std::string text = readText(file);
+            fs::remove(file);
+            EXPECT_FALSE(ask(folder / "v.ade.gml").volume) << file << " is gone";
+            writeText(file, text);
+        }
+    }
+}
+
+TEST(Damage, OfAZarrFolderIsNeverReadInSilence) {
+    for (const int version : {2, 3}) {
+        const TemporaryFolder folder;
+        writers::VolumeWriteOptions options;
+        options.zarrVersion = version;
+        ASSERT_TRUE(writers::writeVolume(plainVolume({40, 34, 66}), folder / "v.zarr", options));
+        const Answer whole = ask(folder / "v.zarr");
+        ASSERT_TRUE(whole.volume && whole.told.empty()) << whole.told;
+        for (const fs::path& file : filesOf(folder / "v.zarr")) {
+            damageAndAsk(file, folder / "v.zarr", *whole.volume, 120);
+            const std::string text = readText(file);
+            fs::remove(file);
+            EXPECT_FALSE(ask(folder / "v.zarr").isSilent(*whole.volume)) << file << " is gone";
+            writeText(file, text);
+        }
+    }
+}
+
+// ------------------------------------------------------------------------------------------------- what is told
+
+TEST(Damage, ALostChunkIsNamedByItsLabelsAndTheirVoxels) {
+    const TemporaryFolder folder;
+    const SemanticVolume volume = plainVolume();
+    ASSERT_TRUE(writers::writeVolume(volume, folder / "v.zarr"));
+    for (const fs::path& file : filesOf(folder / "v.zarr"))
+        if (file.filename() == "0") fs::remove(file);
+    const auto read = readLabelVolume(folder / "v.zarr");
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code(), Code::BadChecksum);
+    EXPECT_EQ(read.error().where().file, (folder / "v.zarr").string());
+    for (const std::string& part :
+         {std::string("of 5 labels 3 differ"),
+          std::string("'room-1' has 0 voxels, the table says ") + std::to_string(volume.labels.labels[1].voxels),
+          std::string("'wall'"), std::string("'room-2'"), std::string("--labels")})
+        EXPECT_NE(read.error().message().find(part), std::string::npos) << read.error().message();
+}
+
+std::string withoutLine(std::string text, std::string_view begin) {
+    const std::size_t at = text.find("\n" + std::string(begin));
+    return text.erase(at, text.find('\n', at + 1) - at);
+}
+
+/// A raw NRRD of svt.
+std::string nrrdOf(const SemanticVolume& volume, const TemporaryFolder& folder) {
+    writers::VolumeWriteOptions options;
+    options.isCompressed = false;
+    EXPECT_TRUE(writers::writeVolume(volume, folder / "raw.nrrd", options));
+    return readText(folder / "raw.nrrd");
+}
+
+TEST(Damage, FilesWithoutSealAreReadAndTheirVoxelsCompared) {
+    const TemporaryFolder folder;
+    const SemanticVolume volume = plainVolume();
+    std::string text = withoutLine(nrrdOf(volume, folder), "svt_seal");
+    writeText(folder / "v.nrrd", text);
+    const Answer whole = ask(folder / "v.nrrd");
+    ASSERT_TRUE(whole.volume) << whole.told;
+    EXPECT_TRUE(whole.volume->columns == volume.columns);
+    const std::size_t at = text.size() - 12 * 9 * 3;  // background of slice 5, row 0
+    ASSERT_EQ(text[at], '\0');
+    text[at] = 5;
+    writeText(folder / "v.nrrd", text);
+    const auto read = readLabelVolume(folder / "v.nrrd");
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code(), Code::BadChecksum);
+    EXPECT_NE(read.error().message().find("of 5 labels 1 differ: 'room-2' has"), std::string::npos)
+        << read.error().message();
+}
+
+TEST(Damage, ATableThatIsGivenIsTakenAsItIs) {
+    const TemporaryFolder folder;
+    const SemanticVolume volume = plainVolume();
+    std::string text = nrrdOf(volume, folder);
+    text[text.size() - 12 * 9 * 3] = 5;
+    writeText(folder / "v.nrrd", text);
+    ASSERT_FALSE(readLabelVolume(folder / "v.nrrd"));
+    writeText(folder / "labels.json", volume::writeLabelsJson(volume.labels));
+    const auto read = readLabelVolume(folder / "v.nrrd", {folder / "labels.json"});
+    ASSERT_TRUE(read) << read.error().toString();
+    EXPECT_EQ(read->labels.labels[3].voxels, volume.labels.labels[3].voxels + 1);
+    EXPECT_EQ(read->labels.labels[1].volume, volume.labels.labels[1].volume) << "of its mesh: no voxel is missing";
+    EXPECT_TRUE(read->grid == volume.grid);
+}
+
+TEST(Damage, AnImageThatWasCutIsToldAndCountedAgain) {
+    const TemporaryFolder folder;
+    const SemanticVolume volume = plainVolume();
+    std::string text = nrrdOf(volume, folder);
+    const std::size_t sizes = text.find("sizes: 12 9 8");
+    text.replace(sizes, 13, "sizes: 12 9 4");
+    text.resize(text.size() - 12 * 9 * 4);
+    writeText(folder / "v.nrrd", text);
+    const Answer cut = ask(folder / "v.nrrd");
+    ASSERT_TRUE(cut.volume) << cut.told;
+    EXPECT_NE(cut.told.find("12 x 9 x 8 samples, now 12 x 9 x 4"), std::string::npos) << cut.told;
+    const auto voxels = cut.volume->columns.countVoxels(6);
+    EXPECT_EQ(cut.volume->labels.labels[1].voxels, voxels[1]);
+    EXPECT_LT(voxels[1], volume.labels.labels[1].voxels);
+}
+
+TEST(Damage, HeadersOfNrrdThatContradictThemselvesAreRefused) {
+    const TemporaryFolder folder;
+    const std::string samples(8, '\1');
+    const auto messageOf = [&](const std::string& fields, const std::string& data) {
+        writeText(folder / "v.nrrd", "NRRD0004\ntype: uchar\ndimension: 3\nencoding: raw\n" + fields + "\n\n" + data);
+        const auto read = readLabelVolume(folder / "v.nrrd");
+        if (!read) EXPECT_EQ(read.error().code(), Code::BadNrrd) << read.error().toString();
+        return read ? std::string() : read.error().message();
+    };
+    EXPECT_EQ(messageOf("sizes: 2 2 2", samples), "");
+    EXPECT_NE(messageOf("sizes: 2 2 2 1", samples).find("more than three"), std::string::npos);
+    EXPECT_NE(messageOf("sizes: 2 2 2\nspacings: 1 1 1 1", samples).find("more than three"), std::string::npos);
+    EXPECT_NE(messageOf("sizes: 2 2 2\nspace directions: (1,0,0) (0,1,0) (0,0,1) (0,0,1)", samples).find("more than"),
+              std::string::npos);
+    EXPECT_NE(messageOf("sizes: 2 2 2\nspace origin: (1,0,0,7)", samples).find("origin"), std::string::npos);
+    EXPECT_NE(messageOf("sizes: 2 2 2\nsizes: 2 2 2", samples).find("twice"), std::string::npos);
+    EXPECT_NE(messageOf("sizes: 2 2 2", samples + "abc").find("3 bytes stand behind"), std::string::npos);
+    EXPECT_NE(messageOf("sizes: 2 2 3", samples).find("8 bytes of samples found, 12 expected"), std::string::npos);
+}
+
+TEST(Damage, TheEndOfGzipSamplesIsChecked) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(writers::writeVolume(plainVolume(), folder / "v.nrrd"));
+    const std::string whole = readText(folder / "v.nrrd");
+    ASSERT_NE(whole.find("encoding: gzip"), std::string::npos);
+    for (std::size_t back = 1; back <= 8; ++back) {
+        std::string damaged = whole;
+        damaged[whole.size() - back] = static_cast<char>(damaged[whole.size() - back] ^ 4);
+        writeText(folder / "v.nrrd", damaged);
+        EXPECT_NE(ask(folder / "v.nrrd").told.find("end of the compressed samples is damaged"), std::string::npos);
+        writeText(folder / "v.nrrd", whole.substr(0, whole.size() - back));
+        EXPECT_FALSE(ask(folder / "v.nrrd").volume);
+    }
+    writeText(folder / "v.nrrd", whole + "more");
+    EXPECT_NE(ask(folder / "v.nrrd").told.find("4 bytes stand behind"), std::string::npos)
+        << ask(folder / "v.nrrd").told;
+}
+
+TEST(Damage, MatricesOfGeoTiffThatAreNoneAreRefused) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(writers::writeVolume(plainVolume(), folder / "v.tif"));
+    const std::string whole = readText(folder / "v.tif");
+    const std::string tag("\xD8\x85\x0C\x00\x10\x00\x00\x00", 8);  // 34264, double, 16
+    const std::size_t entry = whole.find(tag);
+    ASSERT_NE(entry, std::string::npos);
+    std::uint32_t matrix = 0;
+    std::memcpy(&matrix, whole.data() + entry + 8, 4);
+    const auto answerOf = [&](std::size_t at, double value) {
+        std::string damaged = whole;
+        std::memcpy(damaged.data() + matrix + 8 * at, &value, 8);
+        writeText(folder / "v.tif", damaged);
+        return ask(folder / "v.tif");
+    };
+    for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+        for (const std::size_t at : {0, 3, 7, 10, 12, 15}) {
+            const Answer answer = answerOf(at, value);
+            EXPECT_FALSE(answer.volume) << at;
+            EXPECT_NE(answer.told.find("number " + std::to_string(at) + " of the matrix"), std::string::npos)
+                << answer.told;
+        }
+    EXPECT_FALSE(answerOf(0, 0).volume) << "singular";
+    EXPECT_FALSE(answerOf(15, 2).volume);
+    std::string damaged = whole;
+    damaged[entry + 4] = 12;
+    writeText(folder / "v.tif", damaged);
+    EXPECT_NE(ask(folder / "v.tif").told.find("has 12 numbers, 16"), std::string::npos) << ask(folder / "v.tif").told;
+}
+
+TEST(Damage, ATableThatTheHeaderOfNiftiHidesIsTold) {
+    const TemporaryFolder folder;
+    SemanticVolume volume = plainVolume();
+    volume.grid = *volume::Grid::fromParts({12, 9, 8}, {0.5, 0.5, 0.5}, {0, 0, 0}, volume.grid.axes());
+    ASSERT_TRUE(writers::writeVolume(volume, folder / "v.nii"));
+    std::string text = readText(folder / "v.nii");
+    ASSERT_EQ(text[348], '\1') << "NIfTI-1, with extensions";
+    text[348] = '\0';
+    writeText(folder / "v.nii", text);
+    const Answer answer = ask(folder / "v.nii");
+    ASSERT_TRUE(answer.volume) << answer.told;
+    EXPECT_NE(answer.told.find("no extension that can be read"), std::string::npos) << answer.told;
+}
+
+}  // namespace
+}  // namespace svt::volume_readers
