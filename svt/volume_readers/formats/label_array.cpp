@@ -34,6 +34,7 @@ Result<volume::SemanticVolume> volumeFromArray(const LabelArray& array, std::str
     image.crsName = array.crsName;
     std::size_t at = 0;
     image.read = [&](std::span<std::byte> out) -> Result<void> {
+        if (out.empty()) return {};
         std::memcpy(out.data(), array.samples.data() + at, out.size());
         at += out.size();
         return {};

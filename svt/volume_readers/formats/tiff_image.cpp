@@ -127,7 +127,8 @@ Result<void> readFirst(TiffBytes& bytes, const TiffPage& page, TiffStack& stack)
             return badTiff(fmt::format(
                 "the matrix of the GeoTIFF (tag 34264) has {} numbers, 16 of 64 bits are expected", page.count(34264)));
         for (std::uint64_t n = 0; n < 16; ++n)
-            if (!std::isfinite(page.real(bytes, 34264, n)) || (n >= 12 && page.real(bytes, 34264, n) != (n == 15)))
+            if (!std::isfinite(page.real(bytes, 34264, n)) ||
+                (n >= 12 && page.real(bytes, 34264, n) != (n == 15 ? 1.0 : 0.0)))
                 return badTiff(
                     fmt::format("number {} of the matrix of the GeoTIFF (tag 34264) is {}, which no matrix "
                                 "has there; write the file again",

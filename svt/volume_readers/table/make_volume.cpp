@@ -269,7 +269,8 @@ constexpr std::string_view kRemedy =
     "copy or convert the file again; if it was changed on purpose, give the table of its labels (--labels)";
 
 /// Reads labels and seal, and holds header and labels against the seal.
-/// eturn nothing for a file that `svt convert` did not write
+///
+eturn nothing for a file that `svt convert` did not write
 Result<std::optional<Stated>> readStated(const LabelImage& image, const std::optional<volume::SvtHeader>& header) {
     Stated stated{header, {}, volume::readSeal(image.seal)};
     if (image.labelsJson.empty()) {
@@ -365,6 +366,11 @@ Result<void> takeStated(Stated stated, MadeVolume& made) {
     const bool isCut = stated.header && !isSamePlace(volume.grid, stated.header->grid);
     if (stated.header && !isCut) volume.grid = stated.header->grid;
     volume.labels = std::move(stated.labels);
+    if (!stated.header)
+        made.warnings.emplace_back(
+            "the header that svt wrote into the file is missing or damaged: the grid is that of the format, and names "
+            "may be "
+            "missing");
     if (auto done = checkValues(volume); !done) return done;
     if (!isCut) return checkSamples(volume, stated.seal);
     const Vec3i now = volume.grid.dimension(), before = stated.header->grid.dimension();
