@@ -269,8 +269,7 @@ constexpr std::string_view kRemedy =
     "copy or convert the file again; if it was changed on purpose, give the table of its labels (--labels)";
 
 /// Reads labels and seal, and holds header and labels against the seal.
-///
-eturn nothing for a file that `svt convert` did not write
+/// \return nothing for a file that `svt convert` did not write
 Result<std::optional<Stated>> readStated(const LabelImage& image, const std::optional<volume::SvtHeader>& header) {
     Stated stated{header, {}, volume::readSeal(image.seal)};
     if (image.labelsJson.empty()) {
@@ -320,6 +319,7 @@ std::string differencesOf(const volume::SemanticVolume& volume, std::size_t& cou
 
 /// Whether the samples are those that the table was written with.
 Result<void> checkSamples(const volume::SemanticVolume& volume, const std::optional<volume::VolumeSeal>& seal) {
+    if (seal && seal->columns == volume::columnsChecksum(volume.columns)) return {};
     std::size_t count = 0;
     const std::string differences = differencesOf(volume, count);
     if (count > 0)
@@ -328,7 +328,7 @@ Result<void> checkSamples(const volume::SemanticVolume& volume, const std::optio
             fmt::format("the samples are not those that svt wrote: of {} labels {} differ: {}. The file is damaged "
                         "or was changed; {}",
                         volume.labels.labels.size(), count, differences, kRemedy));
-    if (!seal || seal->columns == volume::columnsChecksum(volume.columns)) return {};
+    if (!seal) return {};
     return Error(
         Code::BadChecksum,
         fmt::format("the samples are not those that svt wrote: their CRC-32 is not {:08x}, though each label has its "
