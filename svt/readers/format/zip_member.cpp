@@ -55,7 +55,8 @@ struct DirectoryEntry {
 // The files of the directory; nothing if it is damaged.
 std::optional<std::vector<DirectoryEntry>> readDirectory(ZipBytes bytes, std::size_t end) {
     std::vector<DirectoryEntry> entries;
-    std::size_t at = number(bytes, end + 16, 4);
+    const std::size_t begin = number(bytes, end + 16, 4), size = number(bytes, end + 12, 4);
+    std::size_t at = begin;
     for (std::uint32_t left = number(bytes, end + 10, 2); left > 0; --left) {
         if (at > end || end - at < kCentralSize || !hasSignature(bytes, at, 0x02014B50)) return std::nullopt;
         const std::size_t nameSize = number(bytes, at + 28, 2);
@@ -66,7 +67,7 @@ std::optional<std::vector<DirectoryEntry>> readDirectory(ZipBytes bytes, std::si
                            number(bytes, at + 20, 4), number(bytes, at + 24, 4), number(bytes, at + 42, 4)});
         at = next;
     }
-    if (at != end) return std::nullopt;
+    if (at - begin != size) return std::nullopt;
     return entries;
 }
 
