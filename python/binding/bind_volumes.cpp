@@ -57,6 +57,7 @@ py::object boxOf(const LabelReference& label) {
 }
 
 SharedVolume openVolume(const Path& path, const Path& labels, const py::object& report) {
+    Diagnostics findings;
     auto read = longCall(report, [&](const Progress* progress) -> Result<volume::SemanticVolume> {
         std::array<char, 4096> head{};
         std::ifstream stream(path, std::ios::binary);
@@ -66,14 +67,14 @@ SharedVolume openVolume(const Path& path, const Path& labels, const py::object& 
         const bool isFolder = std::filesystem::is_directory(path, ignored);  // of Zarr
         if ((stream.gcount() > 0 || isFolder) && !volume::looksLikeSvt(bytes) &&
             volume_readers::looksLikeLabelVolume(path))
-            return volume_readers::readLabelVolume(path, {labels, 0, progress, nullptr});
+            return volume_readers::readLabelVolume(path, {labels, 0, progress, &findings});
         if (!labels.empty())
             return Error(Code::BadArgument,
                          "labels names the values of a label volume, and this file is none; leave it out",
                          Place{path.string(), 0, 0, {}});
         return volume::readSvt(path);
     });
-    return std::make_shared<VolumeObject>(std::move(read));
+    return std::make_shared<VolumeObject>(std::move(read), std::move(findings));
 }
 
 volume::Grid gridOf(Vec3i dimension, const std::array<double, 3>& spacing, const std::array<double, 3>& origin,
