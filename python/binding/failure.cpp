@@ -1,6 +1,7 @@
 #include "failure.hpp"
 
-#include <cctype>
+#include <svt/core/text.hpp>
+
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,8 @@ py::object placeOf(const Place& place) {
         .attr("Place")(textOf(place.file), place.line, place.column, textOf(place.id));
 }
 
+bool isLowerCase(char c) { return isLetter(c) && lowerAscii(c) == c; }
+
 // Messages name options as the command has them, "--min-area 3"; in Python they are keywords, "min_area 3". What is told to
 // be typed, 'svt build --vectors edges', stays.
 std::string inKeywords(const std::string& message) {
@@ -20,16 +23,13 @@ std::string inKeywords(const std::string& message) {
     for (std::size_t at = 0; at < message.size(); ++at) {
         if (message.compare(at, 5, "'svt ") == 0) typed = message.find('\'', at + 1);
         const bool isOption = (typed == 0 || at > typed) && message.compare(at, 2, "--") == 0 &&
-                              at + 2 < message.size() &&
-                              std::islower(static_cast<unsigned char>(message[at + 2])) != 0 &&
+                              at + 2 < message.size() && isLowerCase(message[at + 2]) &&
                               (at == 0 || std::string_view(" '(").find(message[at - 1]) != std::string_view::npos);
         if (!isOption) {
             text += message[at];
             continue;
         }
-        for (at += 2;
-             at < message.size() && (std::islower(static_cast<unsigned char>(message[at])) != 0 || message[at] == '-');
-             ++at)
+        for (at += 2; at < message.size() && (isLowerCase(message[at]) || message[at] == '-'); ++at)
             text += message[at] == '-' ? '_' : message[at];
         --at;
     }

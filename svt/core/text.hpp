@@ -1,12 +1,15 @@
 #pragma once
 /// \file
-/// Text that comes from files: UTF-8 with every byte checked; digits, blanks and letter case of ASCII alone, whatever
-/// the locale.
+/// Text that comes from files and arguments: UTF-8 with every byte checked; digits, numbers, blanks and letter case of
+/// ASCII, whatever the locale of the process. scripts/check_banned_calls.py bans the calls that depend on the locale.
 
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace svt {
 
@@ -56,6 +59,31 @@ void appendUtf8(char32_t code, std::string& to);
 [[nodiscard]] constexpr bool isDigit(char c) noexcept { return c >= '0' && c <= '9'; }
 /// Space, tab or the end of a line: what separates words in XML, JSON and queries.
 [[nodiscard]] constexpr bool isBlank(char c) noexcept { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
+
+[[nodiscard]] constexpr bool isLetter(char c) noexcept { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+
+/// `text` without the blanks at its ends.
+[[nodiscard]] std::string_view withoutBlanks(std::string_view text) noexcept;
+
+/// The finite number that the whole of `text` spells: [+-] digits [. digits] [e [+-] digits]. The digits on one side of
+/// the point may be missing. Nothing for any other text: blanks, a comma, hexadecimal digits, "inf" and "nan", and
+/// numbers beyond the range of a double (1e999, 1e-400).
+[[nodiscard]] std::optional<double> parseNumber(std::string_view text) noexcept;
+/// Removes the longest such number from the beginning of `text` and returns it; otherwise `text` stays as it is.
+[[nodiscard]] std::optional<double> takeNumber(std::string_view& text) noexcept;
+/// Numbers separated by commas, with blanks around each; nothing if one of them is not a number.
+/// \param most  more numbers than this are refused as well
+[[nodiscard]] std::optional<std::vector<double>> parseNumbers(std::string_view text, std::size_t most);
+
+/// The integer that the whole of `text` spells, with a '-' in front only for signed types; nothing for other text and for
+/// numbers beyond the range of `Integer`.
+template <class Integer>
+[[nodiscard]] std::optional<Integer> parseInteger(std::string_view text, int base = 10) noexcept {
+    Integer value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
 
 /// A to Z become a to z; other bytes stay.
 [[nodiscard]] constexpr char lowerAscii(char c) noexcept {

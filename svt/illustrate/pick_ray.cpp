@@ -1,10 +1,11 @@
 #include <svt/illustrate/pick_ray.hpp>
 
+#include <svt/core/text.hpp>
+
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -32,22 +33,16 @@ Result<PickRay> parsePickRay(std::string_view text, const volume::Grid& grid) {
     const auto bad = [&](const std::string& reason) {
         return Error(Code::BadArgument, fmt::format("the ray '{}': {}", text, reason));
     };
-    const std::string copy(text);
-    const char* at = copy.c_str();
-    std::array<double, 6> numbers{};
-    for (std::size_t i = 0; i < 6; ++i) {
-        char* rest = nullptr;
-        const bool isSeparated = i == 0 || *at++ == (i == 3 ? ':' : ',');
-        if (isSeparated) numbers[i] = std::strtod(at, &rest);
-        if (!isSeparated || rest == at || !std::isfinite(numbers[i]) || (i == 5 && *rest != '\0'))
-            return bad(
-                "expected x,y,z:dx,dy,dz, such as 0,2.5,1:1,0,0 (a point in metres from the lower corner, and a "
-                "direction)");
-        at = rest;
-    }
-    const Vec3d direction{numbers[3], numbers[4], numbers[5]};
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const auto point = parseNumbers(text.substr(0, colon), 3);
+    const auto along = parseNumbers(text.substr(std::min(colon + 1, text.size())), 3);
+    if (!point || !along || point->size() != 3 || along->size() != 3)
+        return bad(
+            "expected x,y,z:dx,dy,dz, such as 0,2.5,1:1,0,0 (a point in metres from the lower corner, and a "
+            "direction)");
+    const Vec3d direction{(*along)[0], (*along)[1], (*along)[2]};
     if (!(length(direction) > 0)) return bad("the direction is zero; give one such as 1,0,0");
-    const PickRay ray{grid.origin() + Vec3d{numbers[0], numbers[1], numbers[2]}, normalized(direction)};
+    const PickRay ray{grid.origin() + Vec3d{(*point)[0], (*point)[1], (*point)[2]}, normalized(direction)};
     if (meetsVoxels(grid.indexFromWorld(ray.origin), grid.indexFromWorldDirection(ray.direction), grid.dimension()))
         return ray;
     const Vec3d size =

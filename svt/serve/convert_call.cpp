@@ -1,9 +1,10 @@
 #include <svt/serve/convert_call.hpp>
 
+#include <svt/core/text.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 #include <system_error>
 
@@ -17,7 +18,7 @@ std::string fileName(std::string_view wanted) {
     constexpr std::size_t kMaxLength = 100;
     std::string name;
     for (const char c : wanted.substr(0, kMaxLength)) {
-        const bool isKept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '_' || c == '-';
+        const bool isKept = isLetter(c) || isDigit(c) || c == '.' || c == '_' || c == '-';
         name += isKept ? c : '_';
     }
     name.erase(0, std::min(name.find_first_not_of(".-"), name.size()));

@@ -110,7 +110,7 @@ bool isNamedByContent(std::string_view path) noexcept {
     const std::string_view stem = name.substr(0, name.rfind('.'));
     if (stem.size() < kHash + 2 || stem[stem.size() - kHash - 1] != '-') return false;
     return std::all_of(stem.end() - kHash, stem.end(),
-                       [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-'; });
+                       [](char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '-'; });
 }
 
 bool acceptsGzip(std::string_view header) {
@@ -202,7 +202,8 @@ std::string originOf(const std::string& location) {
     if (!location.starts_with("http://") && !location.starts_with("https://")) return {};
     const std::string origin = location.substr(0, location.find_first_of("/?#", location.find("//") + 2));
     const auto isPlain = [](unsigned char c) {
-        return std::isalnum(c) != 0 || std::string_view(":/.-[]").find(char(c)) != std::string_view::npos;
+        return isLetter(char(c)) || isDigit(char(c)) ||
+               std::string_view(":/.-[]").find(char(c)) != std::string_view::npos;
     };
     return std::all_of(origin.begin(), origin.end(), isPlain) ? origin : std::string();
 }
@@ -381,7 +382,7 @@ std::vector<std::string> uniqueNames(std::span<const fs::path> files) {
         while (kExtensions.count(lowerExtension(bare.string())) != 0) bare = bare.stem();
         std::string name;
         for (const char c : bare.string()) {
-            const bool isKept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '_';
+            const bool isKept = isLetter(c) || isDigit(c) || c == '-' || c == '.' || c == '_';
             if (isKept || name.empty() || name.back() != '_') name += isKept ? c : '_';
         }
         if (name.find_first_not_of("._") == std::string::npos) name = "model";

@@ -1,6 +1,8 @@
 #include <apps/cli/city/engines.hpp>
 #include <apps/cli/output/version.hpp>
 
+#include <svt/core/text.hpp>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -109,7 +111,8 @@ Result<std::string> kubernetesJobs(const EngineJob& job, const city::Plan& plan)
     text += fmt::format(
         "  completionMode: Indexed\n  completions: {}\n  parallelism: {}\n  backoffLimitPerIndex: 3\n"
         "  maxFailedIndexes: {}\n",
-        plan.tasks, std::min<unsigned long>(std::stoul(settings->at("parallelism")), plan.tasks), plan.tasks);
+        plan.tasks, std::min(parseInteger<std::uint32_t>(settings->at("parallelism")).value_or(plan.tasks), plan.tasks),
+        plan.tasks);
     text += podTemplate(*settings, task);
     text += "---\n" + head(*settings, name + "-merge");
     text += "  suspend: true\n  backoffLimit: 3\n";

@@ -2,6 +2,7 @@
 #include <apps/cli/city/run_packs.hpp>
 
 #include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -90,8 +91,9 @@ std::uint32_t slurmTasks(const city::Plan& plan) {
     if (answer.exitCode != 0 || at == std::string::npos) return plan.tasks;
     const std::size_t digits = answer.text.find_first_of("0123456789", at + kKey.size());
     if (digits == std::string::npos) return plan.tasks;
-    const unsigned long most = std::strtoul(answer.text.c_str() + digits, nullptr, 10);
-    return static_cast<std::uint32_t>(std::clamp<unsigned long>(most, 1, plan.tasks));
+    const std::size_t end = answer.text.find_first_not_of("0123456789", digits);
+    const auto most = parseInteger<std::uint32_t>(answer.text.substr(digits, end - digits));
+    return most ? std::clamp<std::uint32_t>(*most, 1, plan.tasks) : plan.tasks;
 }
 
 std::vector<std::string> slurmArray(const EngineJob& job, const std::vector<std::uint32_t>& open, std::uint32_t tasks) {

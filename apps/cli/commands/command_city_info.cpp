@@ -5,6 +5,7 @@
 
 #include <svt/city/city_folder.hpp>
 #include <svt/city/city_levels.hpp>
+#include <svt/core/text.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
@@ -15,7 +16,8 @@ namespace {
 struct CityInfoArguments {
     std::filesystem::path folder, output;
     bool json = false;
-    std::vector<std::string> tiles, ids, box;
+    std::vector<std::string> tiles, ids;
+    std::vector<double> box;
     int detail = 0;
 };
 
@@ -30,8 +32,7 @@ int runCityExtract(const CityInfoArguments& arguments) {
         extract.tiles.push_back(*tile);
     }
     extract.hasBox = !arguments.box.empty();
-    for (std::size_t n = 0; n < arguments.box.size(); ++n)
-        extract.box[n] = std::strtod(arguments.box[n].c_str(), nullptr);
+    std::ranges::copy(arguments.box, extract.box.begin());
     for (std::size_t axis = 0; extract.hasBox && axis < 3; ++axis)
         if (!(extract.box[axis] <= extract.box[axis + 3]))
             return fail(Error(Code::BadArgument,

@@ -11,9 +11,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 
 namespace svt::cli {
@@ -24,14 +22,12 @@ Result<Vec3d> parseTriple(const std::string& text, std::string_view option, std:
     while (at <= text.size()) {
         std::size_t end = text.find_first_of(",x", at);
         if (end == std::string::npos) end = text.size();
-        const std::string part = text.substr(at, end - at);
-        char* rest = nullptr;
-        const double value = std::strtod(part.c_str(), &rest);
-        if (part.empty() || *rest != '\0' || count == 3)
+        const auto value = parseNumber(std::string_view(text).substr(at, end - at));
+        if (!value || count == 3)
             return Error(
                 Code::BadArgument,
                 fmt::format("{} '{}': expected one number or three such as 800,700,400 ({})", option, text, unit));
-        values[count++] = value;
+        values[count++] = *value;
         at = end + 1;
     }
     if (count == 1) return Vec3d{values[0], values[0], values[0]};
@@ -45,9 +41,8 @@ Result<int> parseCrs(const std::string& text) {
     if (text.empty()) return 0;
     std::string_view digits = text;
     if (equalsIgnoringCase(digits.substr(0, 5), "EPSG:")) digits.remove_prefix(5);
-    int code = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), code);
-    if (error != std::errc{} || end != digits.data() + digits.size() || code <= 0)
+    const int code = parseInteger<int>(digits).value_or(0);
+    if (code <= 0)
         return Error(
             Code::BadArgument,
             fmt::format("--crs '{}': expected the EPSG code of a projection in metres, such as EPSG:25832", text));

@@ -7,13 +7,13 @@
 #include <svt/core/check.hpp>
 #include <svt/core/edit_distance.hpp>
 #include <svt/core/machine.hpp>
+#include <svt/core/text.hpp>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -209,9 +209,7 @@ void Command::take(std::string_view option, Take take) {
 }
 
 double Command::number(const std::string& text) {
-    double value = 0;
-    std::from_chars(text.data(), text.data() + text.size(), value);  // faultOf() has seen it
-    return value;
+    return parseNumber(text).value_or(0);  // faultOf() has seen it
 }
 
 int runCommandLine(int argc, char** argv, std::span<const CommandAction> commands) {

@@ -4,6 +4,7 @@
 #include <apps/cli/output/messages.hpp>
 
 #include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
 #include <svt/image/color_text.hpp>
 #include <svt/render/camera_presets.hpp>
 
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace svt::cli {
 namespace {
@@ -65,19 +65,16 @@ Result<std::string> movedSection(const std::string& text, int frame, int frames)
                      fmt::format("--section '{}': expected two numbers such as z=0..6 for a plane that moves", text));
     };
     if (begin == std::string::npos) return bad();
-    char* rest = nullptr;
-    const std::string first = text.substr(begin + 1, dots - begin - 1), last = text.substr(dots + 2);
-    const double from = std::strtod(first.c_str(), &rest);
-    if (first.empty() || *rest != '\0') return bad();
-    const double to = std::strtod(last.c_str(), &rest);
-    if (last.empty() || *rest != '\0') return bad();
+    const auto from = parseNumber(std::string_view(text).substr(begin + 1, dots - begin - 1));
+    const auto to = parseNumber(std::string_view(text).substr(dots + 2));
+    if (!from || !to) return bad();
     if (frames < 2)
         return Error(
             Code::BadArgument,
             fmt::format("--section '{}' moves; --frames says in how many pictures, 2 or more; a film (-o P.webm) "
                         "has them anyway",
                         text));
-    return fmt::format("{}{:.6g}", text.substr(0, begin + 1), from + (to - from) * frame / (frames - 1));
+    return fmt::format("{}{:.6g}", text.substr(0, begin + 1), *from + (*to - *from) * frame / (frames - 1));
 }
 
 Result<void> addStyles(const SceneArguments& arguments, illustrate::ScenePass& pass) {
@@ -91,13 +88,12 @@ Result<void> addStyles(const SceneArguments& arguments, illustrate::ScenePass& p
     for (const std::string& text : arguments.opacity) {
         const auto parts = splitValue(text, "--opacity", "'class=BuildingRoom:0.2'");
         if (!parts) return parts.error();
-        char* rest = nullptr;
-        const double value = std::strtod(parts->second.c_str(), &rest);
-        if (*rest != '\0' || !(value >= 0 && value <= 1))
+        const auto value = parseNumber(parts->second);
+        if (!value || !(*value >= 0 && *value <= 1))
             return Error(Code::BadArgument,
                          fmt::format("--opacity '{}': {} is out of range; 0 to 1 (share of light stopped by 1 m)", text,
                                      parts->second));
-        pass.styles.push_back({parts->first, {}, static_cast<float>(value), {}, false});
+        pass.styles.push_back({parts->first, {}, static_cast<float>(*value), {}, false});
     }
     for (const std::string& text : arguments.hatchOf) {
         const auto parts = splitValue(text, "--hatch-of", "'class=WallSurface:insulation'");
@@ -276,7 +272,7 @@ bool SceneArguments::hasMovingSection() const {
 }
 
 void SceneArguments::connect(Command& command) {
-    dpiByDefault = std::atoi(std::string(command.byDefault("--dpi")).c_str());
+    dpiByDefault = parseInteger<int>(command.byDefault("--dpi")).value_or(dpiByDefault);
     command.set("--camera", camera);
     command.set("--around", around);
     command.set("--fit", fit);

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <system_error>
 
@@ -75,7 +74,7 @@ std::vector<OutputFile> outputsOf(std::span<const GivenOption> given) {
         if (option->file != FileUse::Output && option->file != FileUse::OutputFolder) continue;
         const auto formats = formatsOf(*option, valueOf(given, "--format"));
         const std::string_view number = option->numberedBy.empty() ? "" : valueOf(given, option->numberedBy);
-        const int count = number.empty() ? 1 : std::max(1, std::atoi(std::string(number).c_str()));
+        const int count = std::max(1, parseInteger<int>(number).value_or(1));
         for (const std::string& value : values)
             for (int n = 0; n < count; ++n)
                 outputs.push_back({numberedFile(userPath(value), n, count), longName(*option), formats, n == 0,

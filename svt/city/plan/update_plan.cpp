@@ -3,6 +3,7 @@
 #include <svt/city/city_pack.hpp>
 #include <svt/city/pack/pack_format.hpp>
 #include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
 
 #include <fmt/format.h>
 
@@ -122,11 +123,11 @@ void removeOthers(const fs::path& folder, const Plan& now) {
              entry.increment(failed)) {
             const fs::path path = entry->path();
             const std::string number = path.stem().string(), ending = path.extension().string();
-            const bool isNumbered = number.size() >= 5 && number.size() <= 10 &&
-                                    number.find_first_not_of("0123456789") == std::string::npos &&
-                                    (ending == ".svtp" || ending == ".json");
+            const auto pack = parseInteger<std::uint64_t>(number);
+            const bool isNumbered =
+                number.size() >= 5 && number.size() <= 10 && pack && (ending == ".svtp" || ending == ".json");
             std::error_code ignored;
-            if (isNumbered && std::stoull(number) >= now.packs) fs::remove(path, ignored);
+            if (isNumbered && *pack >= now.packs) fs::remove(path, ignored);
             if (number.starts_with("kept-")) fs::remove(path, ignored);
         }
 }

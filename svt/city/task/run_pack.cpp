@@ -2,6 +2,7 @@
 #include <svt/city/pack/pack_format.hpp>
 #include <svt/city/tile/tile_builder.hpp>
 #include <svt/core/machine.hpp>
+#include <svt/core/text.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <cstdlib>
 #include <mutex>
 #include <new>
 #include <system_error>
@@ -85,8 +85,9 @@ struct Said {
     }
 
 private:
+    // The number that `text` begins with, up to a blank.
     static std::uint64_t number(std::string_view text) {
-        return std::strtoull(std::string(text.substr(0, 20)).c_str(), nullptr, 10);
+        return parseInteger<std::uint64_t>(text.substr(0, text.find(' '))).value_or(0);
     }
     void read(std::string_view line) {
         const auto after = [&](std::string_view word) -> std::optional<std::string_view> {

@@ -3,12 +3,12 @@
 #include <svt/city/city_levels.hpp>
 #include <svt/city/join/join_volumes.hpp>
 #include <svt/core/parallel.hpp>
+#include <svt/core/text.hpp>
 #include <svt/render/camera_rays.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -312,9 +312,9 @@ volume::LabelTable classTable(const City& city) {
         label.count = 1;
         label.subtreeEnd = static_cast<std::uint32_t>(table.labels.size());
         label.filling = volume::Filling::Solid;
-        unsigned red = 204, green = 204, blue = 204;
-        if (std::sscanf(color.c_str(), "#%2x%2x%2x", &red, &green, &blue) == 3)
-            label.color = {float(red) / 255, float(green) / 255, float(blue) / 255};
+        if (color.size() != 7 || color[0] != '#') return;
+        if (const auto rgb = parseInteger<std::uint32_t>(std::string_view(color).substr(1), 16))
+            label.color = {float(*rgb >> 16) / 255, float(*rgb >> 8 & 255) / 255, float(*rgb & 255) / 255};
     };
     for (const City::Class& own : city.classes()) {
         const auto root = static_cast<std::uint32_t>(table.labels.size());

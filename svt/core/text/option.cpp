@@ -1,9 +1,9 @@
 #include <svt/core/option.hpp>
+#include <svt/core/text.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace svt {
@@ -38,10 +38,9 @@ std::string faultOf(const Option& option, std::string_view text) {
         return {};
     }
     if (option.kind != OptionKind::Whole && option.kind != OptionKind::Number) return {};
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
-        return fmt::format("'{}' is not a number", text);
+    const auto parsed = parseNumber(text);
+    if (!parsed) return fmt::format("'{}' is not a number", text);
+    const double number = *parsed;
     if (option.kind == OptionKind::Whole && number != std::floor(number))
         return fmt::format("'{}' is not a whole number", text);
     // Beyond 2^53 a double no longer tells neighbours apart.

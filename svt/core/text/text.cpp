@@ -1,6 +1,7 @@
 #include <svt/core/text.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace svt {
 
@@ -35,6 +36,43 @@ std::size_t findInvalidUtf8(std::string_view text) noexcept {
 
 std::size_t characterCount(std::string_view text) noexcept {
     return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string_view withoutBlanks(std::string_view text) noexcept {
+    while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+    return text;
+}
+
+std::optional<double> takeNumber(std::string_view& text) noexcept {
+    std::string_view number = text;
+    const bool isPositive = number.starts_with('+');
+    if (isPositive) number.remove_prefix(1);
+    const std::size_t first = !isPositive && number.starts_with('-') ? 1 : 0;
+    // from_chars also takes names such as "inf".
+    if (number.size() <= first || !(isDigit(number[first]) || number[first] == '.')) return std::nullopt;
+    double value = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    return value;
+}
+
+std::optional<double> parseNumber(std::string_view text) noexcept {
+    const auto value = takeNumber(text);
+    return text.empty() ? value : std::nullopt;
+}
+
+std::optional<std::vector<double>> parseNumbers(std::string_view text, std::size_t most) {
+    std::vector<double> numbers;
+    while (true) {
+        const std::size_t end = std::min(text.find(','), text.size());
+        const auto number = parseNumber(withoutBlanks(text.substr(0, end)));
+        if (!number || numbers.size() == most) return std::nullopt;
+        numbers.push_back(*number);
+        if (end == text.size()) return numbers;
+        text.remove_prefix(end + 1);
+    }
 }
 
 std::string lowerAscii(std::string_view text) {

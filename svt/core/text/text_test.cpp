@@ -42,6 +42,47 @@ TEST(Ascii, OnlyItsLettersChangeCase) {
     static_assert(lowerAscii('Q') == 'q' && lowerAscii('[') == '[' && lowerAscii('@') == '@');
 }
 
+TEST(Numbers, AreReadWhole) {
+    EXPECT_EQ(parseNumber("1.5"), 1.5);
+    EXPECT_EQ(parseNumber("-1.5e2"), -150.0);
+    EXPECT_EQ(parseNumber("+.5"), 0.5);
+    EXPECT_EQ(parseNumber("5."), 5.0);
+    EXPECT_EQ(parseNumber("-.25E-1"), -0.025);
+    EXPECT_EQ(parseNumber("0.1"), 0.1) << "rounded correctly";
+    for (const char* other :
+         {"",   "+",   "-",    ".",   "+-1",  "-+1",      "++1",   " 1",     "1 ",     "1,5",   "0x10", "1e",
+          "e1", "inf", "-inf", "nan", "+nan", "infinity", "1e999", "-1e999", "1e-400", "1.2.3", "one"})
+        EXPECT_FALSE(parseNumber(other)) << other;
+    EXPECT_FALSE(parseNumber(std::string_view("1\0", 2))) << "a zero byte is not the end";
+}
+
+TEST(Numbers, AreTakenFromTheBeginning) {
+    std::string_view text = "-1.5e1.5x";
+    EXPECT_EQ(takeNumber(text), -15.0);
+    EXPECT_EQ(text, ".5x");
+    EXPECT_EQ(takeNumber(text), 0.5);
+    EXPECT_EQ(text, "x");
+    EXPECT_FALSE(takeNumber(text));
+    EXPECT_EQ(text, "x") << "stays";
+}
+
+TEST(Numbers, AreListedWithCommas) {
+    using List = std::vector<double>;
+    EXPECT_EQ(parseNumbers("1, -2.5 ,3", 3), (List{1, -2.5, 3}));
+    EXPECT_FALSE(parseNumbers("1,2,3,4", 3));
+    for (const char* other : {"", ",", "1,", ",1", "1,,2", "1 2", "1;2", "1,x"})
+        EXPECT_FALSE(parseNumbers(other, 9)) << other;
+}
+
+TEST(Numbers, IntegersAreInRange) {
+    EXPECT_EQ(parseInteger<int>("-12"), -12);
+    EXPECT_EQ(parseInteger<std::uint8_t>("255"), 255);
+    EXPECT_EQ(parseInteger<unsigned>("ff80", 16), 0xFF80u);
+    EXPECT_FALSE(parseInteger<std::uint8_t>("256"));
+    for (const char* other : {"", "-", "+1", " 1", "1 ", "1.0", "x"}) EXPECT_FALSE(parseInteger<int>(other)) << other;
+    EXPECT_FALSE(parseInteger<unsigned>("-1"));
+}
+
 TEST(Rounding, NumbersBecomeOneTwoOrFive) {
     for (const double power : {0.001, 1.0, 100.0}) {
         EXPECT_DOUBLE_EQ(roundDownTo125(1.99 * power), 1 * power);

@@ -1,6 +1,7 @@
 #include <svt/crs/project/proj_library.hpp>
 
 #include <svt/core/machine.hpp>
+#include <svt/core/text.hpp>
 #include <svt/crs/project/way.hpp>
 
 #include <fmt/format.h>
@@ -205,7 +206,7 @@ Result<PlaceInDegrees> placeInDegrees(int source, Vec3d place) {
     if (operation) operation.reset(proj().normalize_for_visualization(context.get(), operation.get()));
     if (!operation || code == nullptr) return notKnown(context, source, Code::CannotProject);
     const PJ_COORD there = proj().trans(operation.get(), PJ_FWD, PJ_COORD{{place.x, place.y, 0, 0}});
-    return PlaceInDegrees{std::atoi(code), {there.xy.x, there.xy.y, 0}};
+    return PlaceInDegrees{parseInteger<int>(code).value_or(0), {there.xy.x, there.xy.y, 0}};
 }
 
 }  // namespace project

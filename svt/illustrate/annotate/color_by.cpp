@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <map>
 #include <set>
 #include <variant>
@@ -95,10 +94,8 @@ private:
 };
 
 std::optional<double> numberOf(const std::string& text) {
-    if (text.empty() || text.find_first_of("0123456789") == std::string::npos) return std::nullopt;
-    char* end = nullptr;
-    const double number = std::strtod(text.c_str(), &end);
-    if (*end != '\0' || !(number > -1e300 && number < 1e300)) return std::nullopt;
+    const auto number = parseNumber(withoutBlanks(text));
+    if (!number || !(*number > -1e300 && *number < 1e300)) return std::nullopt;
     return number;
 }
 

@@ -5,7 +5,6 @@
 #include <svt/model/classes.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -40,7 +39,7 @@ constexpr std::string_view kTrafficWords[] = {"hall", "gang", "lift", "vf"};
 constexpr std::string_view kTechnicalWords[] = {"tf", "hvac"};
 constexpr std::string_view kUseWords[] = {"bad", "wc", "essen", "flat", "room", "raum", "nuf", "halle"};
 
-bool isWordPart(char c) noexcept { return std::isalnum(static_cast<unsigned char>(c)) != 0 || (c & 0x80) != 0; }
+bool isWordPart(char c) noexcept { return isLetter(c) || isDigit(c) || (c & 0x80) != 0; }
 
 bool hasAny(std::string_view text, std::span<const std::string_view> parts, std::span<const std::string_view> words) {
     for (const std::string_view part : parts)

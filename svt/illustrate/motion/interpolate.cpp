@@ -1,10 +1,10 @@
 #include <svt/illustrate/motion/interpolate.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/image/color_text.hpp>
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <vector>
 
 namespace svt::illustrate {
@@ -18,14 +18,12 @@ struct Pieces {
     std::vector<double> numbers;
 };
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-
 // A number begins with a digit, or with a sign or point before one, where no name goes on.
 bool beginsNumber(std::string_view text, std::size_t at) {
     const auto digitAt = [&](std::size_t n) { return n < text.size() && isDigit(text[n]); };
     const char before = at == 0 ? ' ' : text[at - 1];
-    const bool isInName = isDigit(before) || before == '_' || before == '.' || before == '"' || before == '\'' ||
-                          (before >= 'a' && before <= 'z') || (before >= 'A' && before <= 'Z');
+    const bool isInName =
+        isDigit(before) || before == '_' || before == '.' || before == '"' || before == '\'' || isLetter(before);
     if (isInName) return false;
     if (text[at] == '-' || text[at] == '+')
         return digitAt(at + 1) || (at + 1 < text.size() && text[at + 1] == '.' && digitAt(at + 2));
@@ -40,10 +38,15 @@ Pieces cutAtNumbers(const std::string& text) {
             word += text[at++];
             continue;
         }
-        char* end = nullptr;
-        pieces.numbers.push_back(std::strtod(text.c_str() + at, &end));
+        std::string_view rest = std::string_view(text).substr(at);
+        const auto number = takeNumber(rest);
+        if (!number) {  // out of range
+            word += text[at++];
+            continue;
+        }
+        pieces.numbers.push_back(*number);
         pieces.words.push_back(std::exchange(word, {}));
-        at = static_cast<std::size_t>(end - text.c_str());
+        at = text.size() - rest.size();
     }
     pieces.words.push_back(word);
     return pieces;

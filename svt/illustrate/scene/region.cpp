@@ -1,7 +1,7 @@
-#include <svt/core/text.hpp>
 #include <svt/illustrate/scene/region.hpp>
 
 #include <svt/analyze/selection.hpp>
+#include <svt/core/text.hpp>
 #include <svt/illustrate/scene.hpp>
 #include <svt/illustrate/scene/cutaway.hpp>
 #include <svt/illustrate/section_plane.hpp>
@@ -9,9 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 #include <string>
 
@@ -27,6 +25,7 @@ using render::RoundBody;
 using Parts = std::vector<ConvexPart>;
 
 constexpr int kMaxDepth = 32;
+constexpr std::size_t kMostNumbers = 256;  // of a primitive
 
 // Twice the signed area of triangle a, b, c; positive if counter-clockwise.
 double twiceSignedArea(Vec3d a, Vec3d b, Vec3d c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
@@ -90,14 +89,13 @@ private:
     }
 
     void skipBlanks() {
-        while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
+        while (at_ < text_.size() && isBlank(text_[at_])) ++at_;
     }
     bool takeKeyword(std::string_view keyword) {
         skipBlanks();
         const std::size_t end = at_ + keyword.size();
         if (lowerAscii(text_.substr(at_, keyword.size())) != keyword) return false;
-        if (end < text_.size() && std::isspace(static_cast<unsigned char>(text_[end])) == 0 && text_[end] != '(')
-            return false;
+        if (end < text_.size() && !isBlank(text_[end]) && text_[end] != '(') return false;
         at_ = end;
         return true;
     }
@@ -181,7 +179,7 @@ private:
 
     Result<Parts> parsePrimitive() {
         const std::size_t begin = at_;
-        while (at_ < text_.size() && std::isalpha(static_cast<unsigned char>(text_[at_])) != 0) ++at_;
+        while (at_ < text_.size() && isLetter(text_[at_])) ++at_;
         const std::string name = lowerAscii(text_.substr(begin, at_ - begin));
         if (at_ == text_.size() || text_[at_] != '(' || name.empty()) {
             at_ = begin;
@@ -213,7 +211,7 @@ private:
                 quote = c;
             } else if (quote != 0 && c == quote) {
                 quote = 0;
-            } else if (quote == 0 && (std::isspace(static_cast<unsigned char>(c)) != 0 || c == ')')) {
+            } else if (quote == 0 && (isBlank(c) || c == ')')) {
                 break;
             } else {
                 plane += c;
@@ -251,23 +249,9 @@ private:
         return wrong("expected ')'");
     }
 
-    static std::optional<std::vector<double>> numbersOf(const std::string& text) {
-        std::vector<double> numbers;
-        const char* at = text.c_str();
-        while (true) {
-            char* rest = nullptr;
-            const double number = std::strtod(at, &rest);
-            if (rest == at || !std::isfinite(number) || numbers.size() >= 256) return std::nullopt;
-            numbers.push_back(number);
-            at = rest;
-            while (*at == ' ') ++at;
-            if (*at == '\0') return numbers;
-            if (*at++ != ',') return std::nullopt;
-        }
-    }
     Result<std::vector<double>> numbersOf(std::string_view name, const std::string& text, std::size_t count,
                                           const char* expected) const {
-        auto numbers = numbersOf(text);
+        auto numbers = parseNumbers(text, kMostNumbers);
         if (!numbers || numbers->size() != count)
             return bad(name, fmt::format("expected {}, found '{}'", expected, text));
         return std::move(*numbers);
@@ -310,7 +294,7 @@ private:
     Result<Parts> makePrism(const std::string& text) const {
         const std::size_t semicolon = text.find(';');
         const char* const expected = "x1,y1,x2,y2,x3,y3,...;z0,z1";
-        const auto plan = numbersOf(text.substr(0, semicolon));
+        const auto plan = parseNumbers(std::string_view(text).substr(0, semicolon), kMostNumbers);
         if (semicolon == std::string::npos || !plan || plan->size() < 6 || plan->size() % 2 != 0)
             return bad("prism", fmt::format("expected {}, found '{}'", expected, text));
         const auto heights = numbersOf("prism", text.substr(semicolon + 1), 2, expected);
@@ -365,7 +349,7 @@ private:
         const std::size_t semicolon = text.rfind(';');
         double margin = 0;
         if (semicolon != std::string::npos) {
-            const auto numbers = numbersOf(text.substr(semicolon + 1));
+            const auto numbers = parseNumbers(std::string_view(text).substr(semicolon + 1), kMostNumbers);
             if (!numbers || numbers->size() != 1 || (*numbers)[0] < 0)
                 return bad(name, fmt::format("expected a margin in metres behind ';', found '{}'",
                                              text.substr(semicolon + 1)));

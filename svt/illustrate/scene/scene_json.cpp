@@ -1,5 +1,6 @@
 #include <svt/illustrate/scene.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/illustrate/motion.hpp>
 #include <svt/illustrate/scene_members.hpp>
 #include <svt/image/color_text.hpp>
@@ -378,7 +379,7 @@ Json jsonOf(const Inset& inset) {
 }
 
 // The shortest decimal number that reads back as the same float.
-double shortest(float value) { return std::stod(fmt::format("{}", value)); }
+double shortest(float value) { return parseNumber(fmt::format("{}", value)).value_or(value); }
 
 Json jsonOf(const SceneStyle& style) {
     Json json{{"select", style.select}};

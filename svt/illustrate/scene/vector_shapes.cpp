@@ -1,9 +1,10 @@
 #include <svt/illustrate/scene/vector_shapes.hpp>
 
+#include <svt/core/text.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <span>
 
 namespace svt::illustrate {
@@ -35,9 +36,8 @@ Result<std::vector<std::uint32_t>> selectMeshes(const std::string& text, const v
                                                 const analyze::LabelRows& rows) {
     constexpr std::string_view kSize = "size<";
     if (!text.starts_with(kSize)) return analyze::selectLabels(rows, text);
-    char* rest = nullptr;
-    const double metres = std::strtod(text.c_str() + kSize.size(), &rest);
-    if (*rest != '\0' || rest == text.c_str() + kSize.size() || !(metres > 0))
+    const double metres = parseNumber(std::string_view(text).substr(kSize.size())).value_or(0);
+    if (!(metres > 0))
         return Error(Code::BadArgument,
                      fmt::format("meshes '{}': expected a length in metres, such as size<0.3", text));
     auto small = labelsSmallerThan(metres, volume);

@@ -3,6 +3,7 @@
 
 #include <svt/analyze/scalar_boxes.hpp>
 #include <svt/analyze/selection.hpp>
+#include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <optional>
 #include <span>
@@ -18,21 +18,6 @@
 
 namespace svt::illustrate {
 namespace {
-
-// Parses all of `text` as `count` finite numbers separated by commas; nothing if it is not.
-std::optional<std::array<double, 4>> parseNumbers(const std::string& text, std::size_t count) {
-    std::array<double, 4> numbers{};
-    const char* at = text.c_str();
-    for (std::size_t i = 0; i < count; ++i) {
-        if (i > 0 && *at++ != ',') return std::nullopt;
-        char* rest = nullptr;
-        numbers[i] = std::strtod(at, &rest);
-        if (rest == at || !std::isfinite(numbers[i])) return std::nullopt;
-        at = rest;
-    }
-    if (*at != '\0') return std::nullopt;
-    return numbers;
-}
 
 std::string unquoted(const std::string& text) {
     const bool isQuoted =
@@ -241,7 +226,7 @@ Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::Sema
     const std::size_t at = copy.find_first_of("=<>");
     if (at == 1 && std::string_view("xyz").find(copy[0]) != std::string_view::npos) {
         const bool isAbsolute = copy.compare(2, 4, "abs(") == 0 && copy.ends_with(')');
-        const auto value = parseNumbers(isAbsolute ? copy.substr(6, copy.size() - 7) : copy.substr(2), 1);
+        const auto value = parseNumber(isAbsolute ? text.substr(6, text.size() - 7) : text.substr(2));
         if (!value) return badSection(expected);
         const int number = copy[0] - 'x';
         const Vec3d axis = grid.axes()[static_cast<std::size_t>(number)];
@@ -251,19 +236,19 @@ Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::Sema
                             "metres from the lower corner",
                             copy[0]));
         const double from = isAbsolute ? dot(axis, grid.origin()) : 0;
-        plane = {axis * (copy[1] == '<' ? -1.0 : 1.0), grid.origin() + axis * ((*value)[0] - from)};
+        plane = {axis * (copy[1] == '<' ? -1.0 : 1.0), grid.origin() + axis * (*value - from)};
     } else if (copy.rfind("storey=", 0) == 0) {
         // Split at the last sign, if a number follows; names may contain signs.
         const std::size_t sign = copy.find_last_of("+-");
-        std::optional<std::array<double, 4>> above;
-        if (sign != std::string::npos) above = parseNumbers(copy.substr(sign), 1);
+        std::optional<double> above;
+        if (sign != std::string::npos) above = parseNumber(text.substr(sign));
         const auto heights =
             storeyHeights(unquoted(copy.substr(7, above ? sign - 7 : std::string::npos)), volume, rows);
         if (!heights) return heights.error();
-        plane = {grid.axes()[2], grid.origin() + grid.axes()[2] * (heights->first + (above ? (*above)[0] : 1.0))};
+        plane = {grid.axes()[2], grid.origin() + grid.axes()[2] * (heights->first + above.value_or(1.0))};
     } else {
-        const auto numbers = parseNumbers(copy, 4);
-        if (!numbers) return badSection(expected);
+        const auto numbers = parseNumbers(text, 4);
+        if (!numbers || numbers->size() != 4) return badSection(expected);
         const Vec3d normal{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
         if (!(length(normal) > 0)) return badSection("the normal is zero; give a direction that is cut away");
         plane = {normalized(normal), grid.origin() + normal * (-(*numbers)[3] / dot(normal, normal))};

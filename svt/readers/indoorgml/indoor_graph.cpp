@@ -1,12 +1,12 @@
 #include <svt/readers/indoorgml/indoor_graph.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/readers/gml/gml_numbers.hpp>
 #include <svt/readers/indoorgml/indoor_xml.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <optional>
 #include <set>
@@ -84,8 +84,16 @@ private:
                          document_.placeOf(node, model_.features[feature].id));
     }
 
+    // False if it is not a number.
+    static bool addWeight(const std::string& text, model::Feature& feature) {
+        const auto weight = parseNumber(text);
+        feature.attributes.push_back({"weight", weight ? AttributeValue(*weight) : AttributeValue(text), ""});
+        return weight.has_value();
+    }
+
     FeatureIndex addFeature(xml_node node, string_view className, FeatureIndex parent) {
         model::Feature feature;
+        bool hasBadWeight = false;
         feature.id = document_.uniqueId(node, localName(node));
         feature.className = className;
         feature.line = document_.placeOf(node, {}).line;
@@ -99,9 +107,12 @@ private:
                      name == "typeOfTopoExpression" || name == "comment")
                 feature.attributes.push_back({std::string(name), text, ""});
             else if (name == "weight")
-                feature.attributes.push_back({"weight", std::strtod(text.c_str(), nullptr), ""});
+                hasBadWeight = !addWeight(text, feature) || hasBadWeight;
         }
-        return model_.addFeature(std::move(feature), parent);
+        const FeatureIndex added = model_.addFeature(std::move(feature), parent);
+        if (hasBadWeight)
+            report(Code::BadValue, node, added, "the value of 'weight' is not a number; it is kept as text");
+        return added;
     }
 
     void readElements() {

@@ -140,6 +140,20 @@ std::vector<Vec3d> lineOf(const model::BuildingModel& model, const std::string& 
     return {};
 }
 
+TEST(IndoorGml, WeightsThatAreNotNumbersAreReported) {
+    for (const std::string bad : {"abc", "0x10", "2,5", "1 2"}) {
+        std::string edge = transition("t1", "sa", "sb");
+        edge.replace(edge.find("2.5"), 3, bad);
+        Diagnostics log;
+        const auto model = readText(document(cell("a", "core:CellSpace", box(0)) + cell("b", "core:CellSpace", box(2)),
+                                             layer("walk", state("sa", "", "1 1 1") + state("sb", "", "3 1 1"), edge)),
+                                    &log);
+        ASSERT_TRUE(model) << model.error().message();
+        EXPECT_EQ(attribute(featureOf(*model, "t1"), "weight"), bad);
+        EXPECT_EQ(std::ranges::count(log.items(), Code::BadValue, &Diagnostic::code), 1) << bad;
+    }
+}
+
 // Two rooms side by side in one layer, and the first once more in a second layer.
 TEST(IndoorGml, GraphsAreFeaturesWithLines) {
     Diagnostics log;

@@ -1,6 +1,7 @@
 #include <svt/writers/sheets/pdf_canvas.hpp>
 
 #include <svt/core/machine.hpp>
+#include <svt/core/text.hpp>
 #include <svt/image/text.hpp>
 #include <svt/writers/sheet_writer.hpp>
 #include <svt/writers/sheets/pdf_layers.hpp>
@@ -13,7 +14,6 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
-#include <cstdlib>
 #include <map>
 
 namespace svt::writers {
@@ -286,7 +286,7 @@ private:
     }
 
     void setColor(cairo_t* context, std::string_view color) const {
-        const auto number = std::strtoul(std::string(color.substr(1)).c_str(), nullptr, 16);
+        const auto number = parseInteger<std::uint32_t>(color.substr(1), 16).value_or(0);
         cairo_.set_source_rgb(context, static_cast<double>(number >> 16 & 255) / 255,
                               static_cast<double>(number >> 8 & 255) / 255, static_cast<double>(number & 255) / 255);
     }

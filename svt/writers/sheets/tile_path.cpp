@@ -2,7 +2,6 @@
 
 #include <svt/core/text.hpp>
 
-#include <cstdlib>
 #include <string>
 
 namespace svt::writers {
@@ -88,7 +87,7 @@ private:
             hasPoint = hasPoint || c == '.';
             digits += c;
         }
-        return std::strtod(digits.c_str(), nullptr);
+        return parseNumber(digits).value_or(0);
     }
 
     std::string_view text_;
