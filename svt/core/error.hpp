@@ -175,5 +175,7 @@ private:
 
 /// Stops the program: a Result was asked for its value, but is `error`.
 [[noreturn]] void valueMissing(const Error& error) noexcept;
+/// Stops the program: an error was taken out of a result that holds a value. For Result.
+[[noreturn]] void errorMissing() noexcept;
 
 }  // namespace svt

@@ -44,9 +44,15 @@ public:
     [[nodiscard]] T* operator->() { return &value(); }
     [[nodiscard]] const T* operator->() const { return &value(); }
 
-    /// The error. Requires !hasValue().
-    [[nodiscard]] const Error& error() const& { return *std::get_if<1>(&state_); }
-    [[nodiscard]] Error&& error() && { return std::move(*std::get_if<1>(&state_)); }
+    /// The error. Requires !hasValue(); otherwise the program stops.
+    [[nodiscard]] const Error& error() const& {
+        if (hasValue()) errorMissing();
+        return *std::get_if<1>(&state_);
+    }
+    [[nodiscard]] Error&& error() && {
+        if (hasValue()) errorMissing();
+        return std::move(*std::get_if<1>(&state_));
+    }
 
 private:
     void requireValue() const {
@@ -65,7 +71,11 @@ public:
 
     [[nodiscard]] bool hasValue() const noexcept { return !failed_; }
     [[nodiscard]] explicit operator bool() const noexcept { return hasValue(); }
-    [[nodiscard]] const Error& error() const { return error_; }
+    /// The error. Requires !hasValue(); otherwise the program stops.
+    [[nodiscard]] const Error& error() const {
+        if (hasValue()) errorMissing();
+        return error_;
+    }
 
 private:
     Error error_;

@@ -27,5 +27,13 @@ TEST(ResultDeathTest, AValueThatIsNotThereStopsWithTheErrorsText) {
     EXPECT_EQ(*Result<int>(5), 5);
 }
 
+TEST(ResultDeathTest, AnErrorThatIsNotThereStops) {
+    Result<int> good(5);
+    EXPECT_DEATH((void)good.error(), "!Result::hasValue\\(\\)");
+    EXPECT_DEATH((void)std::move(good).error(), "!Result::hasValue\\(\\)");
+    const Result<void> done;
+    EXPECT_DEATH((void)done.error(), "!Result::hasValue\\(\\)");
+}
+
 }  // namespace
 }  // namespace svt

@@ -150,4 +150,6 @@ void valueMissing(const Error& error) noexcept {
     checkFailed("Result::hasValue()", error.toString(), __FILE__, __LINE__);
 }
 
+void errorMissing() noexcept { checkFailed("!Result::hasValue()", "", __FILE__, __LINE__); }
+
 }  // namespace svt
