@@ -4,6 +4,7 @@
 
 #include <svt/model/classes.hpp>
 #include <svt/pipeline/labels.hpp>
+#include <svt/readers/model_joiner.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/voxelize/bodies.hpp>
 #include <svt/voxelize/face_planes.hpp>
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <unordered_set>
 
 namespace svt::pipeline {
 namespace {
@@ -265,73 +265,17 @@ void countObjects(const mesh::MeshSet& meshes, BuildReport& report) {
 
 }  // namespace
 
-void joinModel(model::BuildingModel& into, model::BuildingModel from, std::size_t number, Diagnostics* log) {
-    const auto firstFeature = static_cast<model::FeatureIndex>(into.features.size());
-    const auto firstPolygon = static_cast<model::PolygonIndex>(into.polygons.size());
-    const auto firstMaterial = static_cast<std::int32_t>(into.materials.size());
-    std::unordered_set<std::string> known;
-    for (const model::Feature& feature : into.features) known.insert(feature.id);
-    const bool isSameCrs =
-        into.crs.epsg != 0 && from.crs.epsg != 0 ? into.crs.epsg == from.crs.epsg : into.crs.name == from.crs.name;
-    if (!isSameCrs && log != nullptr)
-        log->add(Severity::Warning, Code::MixedCrs,
-                 fmt::format(
-                     "'{}' has the CRS '{}', the files before it '{}'; coordinates are used as they are; --crs brings "
-                     "all files to one",
-                     from.source, from.crs.name, into.crs.name),
-                 {from.source, 0, 0, {}});
-    for (model::Polygon& polygon : from.polygons) {
-        if (polygon.material >= 0) polygon.material += firstMaterial;
-        into.polygons.push_back(std::move(polygon));
-    }
-    const auto shift = [&](std::vector<model::SurfaceUse>& uses) {
-        for (model::SurfaceUse& use : uses) use.polygon += firstPolygon;
-    };
-    for (model::Feature& feature : from.features) {
-        if (!known.insert(feature.id).second) {
-            feature.id = fmt::format("{}@{}", feature.id, number + 1);
-            if (log != nullptr)
-                log->add(Severity::Warning, Code::DuplicateId,
-                         fmt::format("an id of an earlier file is used again; renamed to '{}'", feature.id),
-                         {from.source, feature.line, 0, feature.id});
-        }
-        if (feature.parent != model::kNoFeature) feature.parent += firstFeature;
-        for (model::FeatureIndex& child : feature.children) child += firstFeature;
-        for (model::Geometry& geometry : feature.geometries) {
-            shift(geometry.surfaces);
-            for (model::Solid& solid : geometry.solids) {
-                shift(solid.exterior);
-                for (auto& interior : solid.interiors) shift(interior);
-            }
-        }
-        into.features.push_back(std::move(feature));
-    }
-    for (model::Polyline& line : from.lines) {
-        line.feature += firstFeature;
-        into.lines.push_back(std::move(line));
-    }
-    for (const model::FeatureIndex root : from.roots) into.roots.push_back(root + firstFeature);
-    for (model::Membership& membership : from.memberships)
-        into.memberships.push_back(
-            {membership.group + firstFeature, membership.member + firstFeature, std::move(membership.role)});
-    into.materials.insert(into.materials.end(), from.materials.begin(), from.materials.end());
-}
-
 Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, readers::ReadOptions options,
                                         Diagnostics* log) {
     if (files.empty()) return Error(Code::BadArgument, "no input file");
-    model::BuildingModel all;
-    for (std::size_t f = 0; f < files.size(); ++f) {
-        auto model = readers::readModel(files[f], options, log);
+    readers::ModelJoiner joiner(log);
+    for (const std::filesystem::path& file : files) {
+        auto model = readers::readModel(file, options, log);
         if (!model) return model.error();
-        if (f == 0) {
-            options.likelyCrs = model->crs.epsg;
-            all = std::move(*model);
-        } else {
-            joinModel(all, std::move(*model), f, log);
-        }
+        joiner.add(std::move(*model));
+        options.likelyCrs = joiner.joined().crs.epsg;
     }
-    return all;
+    return std::move(joiner.joined());
 }
 
 Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions& options,

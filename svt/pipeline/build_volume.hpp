@@ -82,12 +82,6 @@ struct BuildOutput {
 [[nodiscard]] Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files,
                                                       readers::ReadOptions options, Diagnostics* log);
 
-/// Appends the features of `from` to `into`. An id that is there already gets `@` and `number` + 1 as suffix; that, and
-/// CRSs that differ, are warnings. Cost: O(features of both).
-/// \param number  of the file, 0-based
-/// \param log     may be null
-void joinModel(model::BuildingModel& into, model::BuildingModel from, std::size_t number, Diagnostics* log);
-
 /// The grid requested by `options` for the meshes.
 /// \param choice  receives the spacing where none was requested; may be null
 [[nodiscard]] Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions& options,

@@ -7,6 +7,7 @@
 #include <svt/image/png.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/pipeline/build_volume.hpp>
+#include <svt/readers/model_joiner.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/render/frame_buffers.hpp>
 #include <svt/render/view_ray.hpp>
@@ -34,14 +35,11 @@ Result<void> build(std::span<const NamedBytes> files, const OpenOptions& options
                    Diagnostics& findings, Loaded& into) {
     readers::ReadOptions reading;
     reading.progress = progress;
-    std::optional<model::BuildingModel> all;
-    for (std::size_t n = 0; n < files.size(); ++n) {
-        auto model = readers::readModel(files[n].bytes, files[n].name, reading, &findings);
+    readers::ModelJoiner joiner(&findings);
+    for (const NamedBytes& file : files) {
+        auto model = readers::readModel(file.bytes, file.name, reading, &findings);
         if (!model) return model.error();
-        if (all)
-            pipeline::joinModel(*all, std::move(*model), n, &findings);
-        else
-            all = std::move(*model);
+        joiner.add(std::move(*model));
     }
     pipeline::BuildOptions building;
     if (!options.isDraft) building.vectors = {.edges = true, .meshes = true, .isRequired = false};
@@ -50,7 +48,7 @@ Result<void> build(std::span<const NamedBytes> files, const OpenOptions& options
     else if (options.memoryBytes != 0)
         building.memoryBytes = std::min(building.memoryBytes, options.memoryBytes);
     building.progress = progress;
-    auto output = pipeline::buildVolume(*all, building, &findings);
+    auto output = pipeline::buildVolume(joiner.joined(), building, &findings);
     if (!output) return output.error();
     if (output->report.spacing) into.spacingReason = output->report.spacing->reason;
     into.volumes.push_back(std::move(output->volume));

@@ -1,6 +1,7 @@
 #include <svt/city/tile/tile_builder.hpp>
 
 #include <svt/city/base/sha256.hpp>
+#include <svt/readers/model_joiner.hpp>
 
 #include <fmt/format.h>
 
@@ -70,9 +71,8 @@ SkippedFeature PackFeatures::skipped(std::uint32_t feature, std::string reason) 
 }
 
 Result<model::BuildingModel> PackFeatures::model(std::span<const std::uint32_t> features, int threads) const {
-    std::optional<model::BuildingModel> all;
-    std::size_t number = 0;
-    for (std::size_t begin = 0; begin < features.size(); ++number) {
+    readers::ModelJoiner joiner(nullptr);
+    for (std::size_t begin = 0; begin < features.size();) {
         const std::uint32_t file = features_[features[begin]].file;
         std::vector<std::string_view> views;
         for (; begin < features.size() && features_[features[begin]].file == file; ++begin)
@@ -85,13 +85,10 @@ Result<model::BuildingModel> PackFeatures::model(std::span<const std::uint32_t> 
         options.allowTruncated = true;  // the plan has what of the file is to be read
         auto model = files_.at(file).read(views, options, nullptr);
         if (!model) return model.error();
-        if (all)
-            pipeline::joinModel(*all, std::move(*model), number, nullptr);
-        else
-            all = std::move(*model);
+        joiner.add(std::move(*model));
     }
-    if (!all) return Error(Code::EmptyModel, "no features");
-    return std::move(*all);
+    if (joiner.count() == 0) return Error(Code::EmptyModel, "no features");
+    return std::move(joiner.joined());
 }
 
 Result<volume::Grid> latticeGrid(const Box3d& box, double spacing) {

@@ -1,0 +1,77 @@
+#include <svt/readers/model_joiner.hpp>
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace svt::readers {
+
+void ModelJoiner::add(model::BuildingModel from) {
+    if (++count_ == 1) {
+        all_ = std::move(from);
+        return;
+    }
+    if (count_ == 2)
+        for (const model::Feature& feature : all_.features) {
+            known_.insert(feature.id);
+            ++lookups_;
+        }
+    const bool isSameCrs =
+        all_.crs.epsg != 0 && from.crs.epsg != 0 ? all_.crs.epsg == from.crs.epsg : all_.crs.name == from.crs.name;
+    if (!isSameCrs && log_ != nullptr)
+        log_->add(Severity::Warning, Code::MixedCrs,
+                  fmt::format(
+                      "'{}' has the CRS '{}', the files before it '{}'; coordinates are used as they are; --crs brings "
+                      "all files to one",
+                      from.source, from.crs.name, all_.crs.name),
+                  {from.source, 0, 0, {}});
+    append(std::move(from));
+}
+
+void ModelJoiner::keepIdUnique(model::Feature& feature, const std::string& source) {
+    ++lookups_;
+    if (known_.insert(feature.id).second) return;
+    feature.id = fmt::format("{}@{}", feature.id, count_);
+    known_.insert(feature.id);
+    if (log_ != nullptr)
+        log_->add(Severity::Warning, Code::DuplicateId,
+                  fmt::format("an id of an earlier file is used again; renamed to '{}'", feature.id),
+                  {source, feature.line, 0, feature.id});
+}
+
+void ModelJoiner::append(model::BuildingModel from) {
+    const auto firstFeature = static_cast<model::FeatureIndex>(all_.features.size());
+    const auto firstPolygon = static_cast<model::PolygonIndex>(all_.polygons.size());
+    const auto firstMaterial = static_cast<std::int32_t>(all_.materials.size());
+    for (model::Polygon& polygon : from.polygons) {
+        if (polygon.material >= 0) polygon.material += firstMaterial;
+        all_.polygons.push_back(std::move(polygon));
+    }
+    const auto shift = [&](std::vector<model::SurfaceUse>& uses) {
+        for (model::SurfaceUse& use : uses) use.polygon += firstPolygon;
+    };
+    for (model::Feature& feature : from.features) {
+        keepIdUnique(feature, from.source);
+        if (feature.parent != model::kNoFeature) feature.parent += firstFeature;
+        for (model::FeatureIndex& child : feature.children) child += firstFeature;
+        for (model::Geometry& geometry : feature.geometries) {
+            shift(geometry.surfaces);
+            for (model::Solid& solid : geometry.solids) {
+                shift(solid.exterior);
+                for (auto& interior : solid.interiors) shift(interior);
+            }
+        }
+        all_.features.push_back(std::move(feature));
+    }
+    for (model::Polyline& line : from.lines) {
+        line.feature += firstFeature;
+        all_.lines.push_back(std::move(line));
+    }
+    for (const model::FeatureIndex root : from.roots) all_.roots.push_back(root + firstFeature);
+    for (model::Membership& membership : from.memberships)
+        all_.memberships.push_back(
+            {membership.group + firstFeature, membership.member + firstFeature, std::move(membership.role)});
+    all_.materials.insert(all_.materials.end(), from.materials.begin(), from.materials.end());
+}
+
+}  // namespace svt::readers

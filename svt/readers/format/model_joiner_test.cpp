@@ -1,0 +1,56 @@
+#include <svt/readers/model_joiner.hpp>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace svt::readers {
+namespace {
+
+model::BuildingModel modelOf(const std::string& source, std::initializer_list<const char*> ids) {
+    model::BuildingModel model;
+    model.source = source;
+    for (const char* id : ids) {
+        model::Feature feature;
+        feature.id = id;
+        feature.className = "Building";
+        model.roots.push_back(model.addFeature(std::move(feature), model::kNoFeature));
+    }
+    return model;
+}
+
+TEST(ModelJoiner, KeepsIdsApart) {
+    Diagnostics log;
+    ModelJoiner joiner(&log);
+    joiner.add(modelOf("a", {"x", "y"}));
+    joiner.add(modelOf("b", {"x", "z"}));
+    joiner.add(modelOf("c", {"z", "x", "w"}));
+    std::vector<std::string> ids;
+    for (const model::Feature& feature : joiner.joined().features) ids.push_back(feature.id);
+    EXPECT_EQ(ids, (std::vector<std::string>{"x", "y", "x@2", "z", "z@3", "x@3", "w"}));
+    EXPECT_EQ(log.count(Code::DuplicateId), 3u);
+    EXPECT_EQ(joiner.count(), 3u);
+}
+
+TEST(ModelJoiner, OneModelStaysAsItIs) {
+    ModelJoiner joiner(nullptr);
+    joiner.add(modelOf("a", {"x", "x"}));
+    EXPECT_EQ(joiner.joined().features[1].id, "x") << "ids of one file are its reader's";
+    EXPECT_EQ(joiner.joined().source, "a");
+    EXPECT_EQ(joiner.lookups(), 0u);
+}
+
+// The ids of earlier files are collected once, not anew for each file.
+TEST(ModelJoiner, LooksUpEachIdOnce) {
+    ModelJoiner joiner(nullptr);
+    for (int file = 0; file < 200; ++file) {
+        const std::string a = fmt::format("a{}", file), b = fmt::format("b{}", file);
+        joiner.add(modelOf("f", {a.c_str(), b.c_str()}));
+    }
+    EXPECT_EQ(joiner.joined().features.size(), 400u);
+    EXPECT_EQ(joiner.lookups(), 400u);
+}
+
+}  // namespace
+}  // namespace svt::readers
