@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Writes what is made from the declarations of options (`svt describe json`): the tables of options in docs/user,
-the table of formats in docs/user/convert.md, docs/formats/scene.schema.json, docs/formats/sheets.schema.json, and web/viewer/src/generated/scene_members.ts, from which the viewer page has the
-ranges, choices, defaults and help of its controls.
+the table of formats in docs/user/convert.md, docs/formats/scene.schema.json, docs/formats/sheets.schema.json, and in
+web/viewer/src/generated scene_members.ts, from which the viewer page has the ranges, choices, defaults and help of its
+controls, and model_endings.ts, the endings of files that it opens.
 
     scripts/update_options.py [--svt build/release/bin/svt] [--check]
 
@@ -19,6 +20,14 @@ ROOT = Path(__file__).resolve().parent.parent
 BEGIN, END = "<!-- BEGIN options -->", "<!-- END options -->"
 FORMATS_BEGIN, FORMATS_END = "<!-- BEGIN formats -->", "<!-- END formats -->"
 PLAIN_KINDS = {"whole": "whole number", "number": "number", "text": "text"}
+PAGE_ENDINGS = """\
+/**
+ * The endings of model files, as the readers of the library declare them.
+ * Written by scripts/update_options.py; a change by hand is lost.
+ */
+
+export const kModelEndings = %s as const;
+"""
 PAGE_MEMBERS_BEGIN = """\
 /**
  * The members of a scene as svt/illustrate/scene/scene_members.cpp declares them, by JSON pointer with * for any index.
@@ -206,6 +215,11 @@ def page_members(described: dict) -> str:
     return PAGE_MEMBERS_BEGIN + "".join(map(page_member, described["sceneMembers"])) + PAGE_MEMBERS_END
 
 
+def page_endings(described: dict) -> str:
+    endings = dict.fromkeys(ending for row in described["modelFormats"] for ending in row["endings"])
+    return PAGE_ENDINGS % json.dumps(list(endings))
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--svt", default=str(ROOT / "build/release/bin/svt"))
@@ -217,6 +231,7 @@ def main() -> int:
         ROOT / "docs/formats/scene.schema.json": scene_schema(described),
         ROOT / "docs/formats/sheets.schema.json": sheets_schema(described),
         ROOT / "web/viewer/src/generated/scene_members.ts": page_members(described),
+        ROOT / "web/viewer/src/generated/model_endings.ts": page_endings(described),
     }
     for command in described["commands"]:
         path = ROOT / "docs/user" / f"{command['name']}.md"

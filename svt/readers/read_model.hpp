@@ -12,12 +12,14 @@
 #include <filesystem>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace svt::readers {
 
 /// One format. readModel() tries formats() in order and uses the first that matches.
 struct Format {
-    std::string_view name;  ///< "CityGML"
+    std::string_view name;     ///< "CityGML"
+    std::string_view endings;  ///< of its files, lower case, '|' between them: ".gml|.xml". Detection ignores them.
     /// Whether a file with these first bytes (up to 1 MiB) has this format.
     bool (*looksLike)(std::span<const std::byte> head) noexcept;
     Result<model::BuildingModel> (*read)(std::span<const std::byte> bytes, std::string_view name,
@@ -26,6 +28,12 @@ struct Format {
 
 /// All readable formats.
 [[nodiscard]] std::span<const Format> formats() noexcept;
+
+/// The endings of all formats, each once, in their order. The only list of them: commands, folders of cities and the page
+/// take it.
+[[nodiscard]] std::vector<std::string_view> modelEndings();
+/// Whether a file's name ends as a model's does, in any case, or so with ".gz" behind it.
+[[nodiscard]] bool hasModelEnding(const std::filesystem::path& path);
 
 /// Reads a model file; gzip files are decompressed first. The attribute `svtClass` of a feature replaces its
 /// class: a way to express BuildingConstructiveElement in formats that lack it.

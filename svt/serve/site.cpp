@@ -372,14 +372,16 @@ Result<void> addPageHead(Site& site, PagePreview preview) {
     return {};
 }
 
-std::vector<std::string> uniqueNames(std::span<const fs::path> files) {
-    static const std::set<std::string, std::less<>> kExtensions{".svt",   ".gml", ".xml",  ".citygml", ".json",
-                                                                ".jsonl", ".gz",  ".city", ".ifc"};
+std::vector<std::string> uniqueNames(std::span<const fs::path> files, std::span<const std::string_view> extensions) {
+    const auto isOfModels = [&](const std::string& extension) {
+        return extension == ".gz" || extension == ".city" ||
+               std::ranges::find(extensions, extension) != extensions.end();
+    };
     std::vector<std::string> names;
     std::set<std::string> taken;  // in lower case: some file systems ignore case
     for (const fs::path& file : files) {
         fs::path bare = file.filename();
-        while (kExtensions.count(lowerExtension(bare.string())) != 0) bare = bare.stem();
+        while (isOfModels(lowerExtension(bare.string()))) bare = bare.stem();
         std::string name;
         for (const char c : bare.string()) {
             const bool isKept = isLetter(c) || isDigit(c) || c == '-' || c == '.' || c == '_';

@@ -89,9 +89,11 @@ struct PagePreview {
 /// \return CannotOpen if /index.html has no <head>
 [[nodiscard]] Result<void> addPageHead(Site& site, PagePreview preview);
 
-/// Model names derived from file names: without folder and extension, only letters, digits, '.', '_' and '-', made
+/// Model names derived from file names: without folder and extensions, only letters, digits, '.', '_' and '-', made
 /// unique by numbers.
-[[nodiscard]] std::vector<std::string> uniqueNames(std::span<const std::filesystem::path> files);
+/// \param extensions  of models, lower case, with the dot; ".gz", and ".city" of "a.city.json", are left out as well
+[[nodiscard]] std::vector<std::string> uniqueNames(std::span<const std::filesystem::path> files,
+                                                   std::span<const std::string_view> extensions);
 
 /// Whether writeSite() may write into a folder: it is not there, is empty, or mayReplace.
 /// \return nothing, or CannotWrite

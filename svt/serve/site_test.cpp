@@ -196,9 +196,10 @@ TEST(Site, ModelsAreListedInTheirOrder) {
 
 TEST(Site, NamesAreToldApart) {
     const std::vector<fs::path> files{"a/house.gml", "b/House.svt", "house.city.json", "Geb\xC3\xA4ude 1.gml.gz",
-                                      "..svt",       "x/"};
-    EXPECT_EQ(uniqueNames(files),
-              (std::vector<std::string>{"house", "House-2", "house-3", "Geb_ude_1", "model", "model-2"}));
+                                      "..svt",       "x/",          "HOUSE.IFCZIP",    "other.png"};
+    const std::vector<std::string_view> extensions{".svt", ".gml", ".json", ".ifczip"};
+    EXPECT_EQ(uniqueNames(files, extensions), (std::vector<std::string>{"house", "House-2", "house-3", "Geb_ude_1",
+                                                                        "model", "model-2", "HOUSE-4", "other.png"}));
 }
 
 TEST(PublishedSite, FolderHoldsWhatIsServed) {

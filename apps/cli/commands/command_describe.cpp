@@ -8,6 +8,7 @@
 
 #include <svt/illustrate/scene_members.hpp>
 #include <svt/illustrate/sheet_set.hpp>
+#include <svt/readers/read_model.hpp>
 #include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
@@ -63,6 +64,8 @@ Json describedJson() {
                                          {"endings", splitChoices(format.endings)},
                                          {"holds", format.holds},
                                          {"readers", format.readers}});
+    for (const readers::Format& format : readers::formats())
+        json["modelFormats"].push_back({{"name", format.name}, {"endings", splitChoices(format.endings)}});
     return json;
 }
 

@@ -1,6 +1,7 @@
 #include <apps/cli/options/catalog.hpp>
 
 #include <svt/illustrate/scene_members.hpp>
+#include <svt/readers/read_model.hpp>
 #include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
@@ -933,6 +934,9 @@ constexpr Option kSheets[] = {
 
 // city-...
 
+// Stands for the endings readers::modelEndings(), from which the help is made.
+constexpr std::string_view kModelFiles = "model files";
+
 constexpr Option kCityFolder[] = {
     {.name = "folder",
      .value = "DIR",
@@ -943,8 +947,7 @@ constexpr Option kCityFolder[] = {
 constexpr Option kCityPlan[] = {
     {.name = "input",
      .value = "FILE",
-     .help =
-         "model files (CityGML, CityJSON, CityJSONSeq, IFC, IndoorGML, also with gzip), and folders with such files",
+     .help = kModelFiles,
      .isRequired = true,
      .mayRepeat = true,
      .file = FileUse::Model},
@@ -1110,6 +1113,12 @@ std::string_view volumeFormatHelp() {
     return kHelp;
 }
 
+std::string_view modelFilesHelp() {
+    static const std::string kHelp = fmt::format("model files ({}, each also with .gz), and folders with such files",
+                                                 fmt::join(readers::modelEndings(), ", "));
+    return kHelp;
+}
+
 }  // namespace
 
 std::span<const CommandText> commandTexts() {
@@ -1191,6 +1200,7 @@ std::vector<Option> optionsOf(const CommandText& command) {
                 option.formats = volumeFormatNames();
                 option.help = volumeFormatHelp();
             }
+            if (option.help == kModelFiles) option.help = modelFilesHelp();
             options.push_back(option);
         }
     return options;

@@ -8,6 +8,7 @@
 #include <svt/core/file.hpp>
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/image/png.hpp>
+#include <svt/readers/read_model.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
@@ -139,7 +140,9 @@ Result<fs::path> SiteArguments::viewerFolder() const { return findViewerFolder(v
 Result<std::vector<serve::SiteModel>> SiteArguments::load(const std::vector<fs::path>& inputs) const {
     BuildArguments withEdges = build;
     withEdges.vectors = {.edges = true, .meshes = true, .isRequired = false};
-    const std::vector<std::string> names = serve::uniqueNames(inputs);
+    std::vector<std::string_view> endings = readers::modelEndings();
+    endings.emplace_back(".svt");
+    const std::vector<std::string> names = serve::uniqueNames(inputs, endings);
     std::vector<serve::SiteModel> models;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         Diagnostics diagnostics;

@@ -651,5 +651,17 @@ TEST_F(SmallCity, ReadsCitiesOfEarlierProgramsWhichTellNoDigests) {
     EXPECT_EQ(city.find("NL.IMBAG.Pand.0000030000000005")->size(), 1u);
 }
 
+TEST(CityInputs, AreAllFilesThatReadersTake) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"a.gml", "b.ifczip", "c.CityJSON", "d.ifc.gz", "readme.txt", "e.zip"})
+        test::writeText(folder / name, "");
+    const std::filesystem::path input = folder.path();
+    const auto files = cityInputs(std::span(&input, 1));
+    ASSERT_TRUE(files) << files.error().toString();
+    std::vector<std::string> names;
+    for (const std::filesystem::path& file : *files) names.push_back(file.filename().string());
+    EXPECT_EQ(names, (std::vector<std::string>{"a.gml", "b.ifczip", "c.CityJSON", "d.ifc.gz"}));
+}
+
 }  // namespace
 }  // namespace svt::city

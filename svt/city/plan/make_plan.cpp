@@ -4,7 +4,7 @@
 #include <svt/city/plan/plan_files.hpp>
 #include <svt/city/plan/survey.hpp>
 #include <svt/core/file.hpp>
-#include <svt/core/text.hpp>
+#include <svt/readers/read_model.hpp>
 
 #include <fmt/format.h>
 
@@ -20,14 +20,6 @@ constexpr std::uint64_t kTileCost = 4'000'000, kTaskCost = 300'000'000;  // micr
 constexpr std::uint32_t kPackTiles = 2000;
 constexpr std::uint32_t kMaxTasks = 1000;  // the index of Slurm's arrays ends there by default
 constexpr std::int32_t kMaxTileSamples = 8192;
-
-bool isModelFile(const std::filesystem::path& path) {
-    std::string name = lowerAscii(path.filename().string());
-    if (name.ends_with(".gz")) name.resize(name.size() - 3);
-    for (const std::string_view ending : {".gml", ".xml", ".citygml", ".json", ".jsonl", ".cityjson", ".ifc"})
-        if (name.ends_with(ending)) return true;
-    return false;
-}
 
 // The features of all tiles in their order, as numbers of surveyed ones.
 class Tiling {
@@ -258,11 +250,13 @@ Result<std::vector<std::filesystem::path>> cityInputs(std::span<const std::files
         std::vector<fs::path> below;
         for (fs::recursive_directory_iterator entry(input, failed), end; !failed && entry != end;
              entry.increment(failed))
-            if (entry->is_regular_file(failed) && isModelFile(entry->path())) below.push_back(entry->path());
+            if (entry->is_regular_file(failed) && readers::hasModelEnding(entry->path()))
+                below.push_back(entry->path());
         if (failed || below.empty())
             return Error(Code::CannotOpen,
-                         "the folder cannot be read, or has no file that ends as a model does (.gml, .xml, .citygml, "
-                         ".json, .jsonl, .cityjson, .ifc, each also with .gz)",
+                         fmt::format("the folder cannot be read, or has no file that ends as a model does ({}, each "
+                                     "also with .gz)",
+                                     fmt::join(readers::modelEndings(), ", ")),
                          {input.string(), 0, 0, {}});
         std::sort(below.begin(), below.end());
         files.insert(files.end(), below.begin(), below.end());

@@ -1,6 +1,7 @@
 #include <svt/core/deflate.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/machine.hpp>
+#include <svt/core/option.hpp>
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/readers/citygml/citygml_reader.hpp>
@@ -31,10 +32,10 @@ using Bytes = std::span<const std::byte>;
 constexpr std::size_t kHeadBytes = 1 << 20;
 
 constexpr Format kFormats[] = {
-    {"CityGML 1.0 to 3.0", looksLikeCityGml, readCityGml},
-    {"CityJSON and CityJSONSeq", looksLikeCityJson, readCityJson},
-    {"IFC 2x3 to 4.3 (STEP)", looksLikeIfc, readIfc},
-    {"IndoorGML", looksLikeIndoorGml, readIndoorGml},
+    {"CityGML 1.0 to 3.0", ".gml|.xml|.citygml", looksLikeCityGml, readCityGml},
+    {"CityJSON and CityJSONSeq", ".json|.jsonl|.cityjson", looksLikeCityJson, readCityJson},
+    {"IFC 2x3 to 4.3 (STEP)", ".ifc|.ifczip", looksLikeIfc, readIfc},
+    {"IndoorGML", ".gml|.xml", looksLikeIndoorGml, readIndoorGml},
 };
 
 string_view asText(Bytes bytes) noexcept { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
@@ -228,6 +229,22 @@ Result<model::BuildingModel> readAny(Bytes bytes, string_view name, const ReadOp
 }  // namespace
 
 std::span<const Format> formats() noexcept { return kFormats; }
+
+std::vector<string_view> modelEndings() {
+    std::vector<string_view> endings;
+    for (const Format& format : kFormats)
+        for (const string_view ending : splitChoices(format.endings))
+            if (std::ranges::find(endings, ending) == endings.end()) endings.push_back(ending);
+    return endings;
+}
+
+bool hasModelEnding(const std::filesystem::path& path) {
+    std::string name = lowerAscii(path.filename().string());
+    if (name.ends_with(".gz")) name.resize(name.size() - 3);
+    for (const string_view ending : modelEndings())
+        if (name.ends_with(ending)) return true;
+    return false;
+}
 
 Result<model::BuildingModel> readModel(Bytes bytes, string_view name, const ReadOptions& options,
                                        Diagnostics* diagnostics) {

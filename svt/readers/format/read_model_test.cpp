@@ -154,5 +154,15 @@ TEST(ReadModel, RealFilesOfAllFormatsAreRead) {
     EXPECT_TRUE(readModel(json));
 }
 
+TEST(ModelEndings, AreThoseOfTheFormatsOnce) {
+    const auto endings = modelEndings();
+    EXPECT_EQ(endings, (std::vector<std::string_view>{".gml", ".xml", ".citygml", ".json", ".jsonl", ".cityjson",
+                                                      ".ifc", ".ifczip"}));
+    for (const char* name : {"a.gml", "a/b.city.json", "B.IFCZIP", "b.ifc.gz", "c.citygml", "d.cityjson", "e.jsonl"})
+        EXPECT_TRUE(hasModelEnding(name)) << name;
+    for (const char* name : {"gml", "a.png", "a.gml.zip", "a.gz", "a.gml.gz.gz", "a.gml/"})
+        EXPECT_FALSE(hasModelEnding(name)) << name;
+}
+
 }  // namespace
 }  // namespace svt::readers

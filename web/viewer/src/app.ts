@@ -140,7 +140,7 @@ export class App extends Part {
         ${this.isDropping ? html`<div class="dropping">${t("dropNow")}</div>` : nothing}
       </main>
       <div class="visually-hidden" role="status" aria-live="polite" id="said">${this.spoken}</div>
-      <input type="file" id="file" hidden multiple accept=${[...kFileKinds, ".gz", ".csv"].join(",")} aria-label=${t("openHint")} @change=${this.chosen} />
+      <input type="file" id="file" hidden multiple accept=${[...kFileKinds, ".gz", ".csv"].join(",")} aria-label=${t("openHint", { kinds: kFileKinds.join(", ") })} @change=${this.chosen} />
       <svt-help .session=${session}></svt-help>
     `;
   }
@@ -164,7 +164,7 @@ export class App extends Part {
             ${this.toggle("info", t("panelProperties"), this.isSelectionShown && (this.hasSelection || !this.isSmall), () => this.showSheet("selection"))}`
         : nothing}
       ${hasModel && !session.isServerOnly ? html`${this.stepButton("undo", session.history.last, () => session.undo())}${this.stepButton("redo", session.history.next, () => session.redo())}` : nothing}
-      <button class="bare" id="open" aria-label=${t("openHint")} title=${t("openHint")} @click=${() => this.choose()}>${icon("open")}</button>
+      <button class="bare" id="open" aria-label=${t("openHint", { kinds: kFileKinds.join(", ") })} title=${t("openHint", { kinds: kFileKinds.join(", ") })} @click=${() => this.choose()}>${icon("open")}</button>
       <button class="bare" id="theme" aria-label=${t("theme")} title=${t("theme")} @click=${() => this.switchTheme()}>${icon(theme() === "dark" ? "sun" : "moon")}</button>
       ${session.languages.length > 2
         ? html`<select class="languages" id="languages" aria-label=${t("languages")} @change=${(e: Event) => void session.chooseLanguage((e.target as HTMLSelectElement).value)}>${session.languages.map(

@@ -1,6 +1,7 @@
 /** Opens listed models and user files. */
 
 import { CityFiles } from "./city/city_files";
+import { kModelEndings } from "./generated/model_endings";
 import type { ListedModel, Session } from "./session";
 import { keptFile } from "./state/kept_files";
 import type { ViewState } from "./state/view_state";
@@ -109,8 +110,8 @@ async function received(response: Response, expected: number, signal: AbortSigna
   }
 }
 
-/** What the library reads: volumes, CityGML and IndoorGML, CityJSON and its sequences, IFC; each also compressed by gzip. */
-export const kFileKinds = [".svt", ".gml", ".xml", ".citygml", ".json", ".jsonl", ".cityjson", ".ifc", ".ifczip"];
+/** What the library reads: volumes and models; each also compressed by gzip. */
+export const kFileKinds = [".svt", ...kModelEndings];
 
 /** Opens files of the user: several models become one, a table gives owners to what is open, or is opened with them. */
 export async function openFiles(session: Session, files: File[]): Promise<void> {

@@ -1,6 +1,7 @@
 /** Shown before anything is open: an introduction, and a drop area for building files. */
 
 import { css, html } from "lit";
+import { kModelEndings } from "../generated/model_endings";
 import { t } from "../texts";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
@@ -20,7 +21,7 @@ export class StartPanel extends Part {
       <div class="drop">
         <span class="mark">${icon("section", 56)}</span>
         <h1>${t("dropTitle")}</h1>
-        <p>${t("dropText")}</p>
+        <p>${t("dropText", { kinds: kModelEndings.join(", ") })}</p>
         <button class="loud" @click=${() => this.dispatchEvent(new Event("svt-choose", { bubbles: true, composed: true }))}>${icon("open", 18)}${t("choose")}</button>
       </div>
       <p class="small">${t("startFeatures")}</p>
