@@ -8,7 +8,7 @@
 #   make viewer   the page that shows buildings, with that module: build/release/share/svt/viewer
 #   make python   the Python module svt: build/release/python, and a wheel in build/wheel
 #   make bench    times against VTK, OpenVDB and libcitygml (installs them)
-#   make check    format, layers, error pages
+#   make check    format, layers, error pages, banned calls
 #   make verify   every check, heavy ones too, with a report: build/verify/report.md (CHECKS="asan tidy" for some)
 #   make asan     all tests with the address and undefined-behaviour sanitizers
 #   make tsan     the thread sanitizer on what is parallel

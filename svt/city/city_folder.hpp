@@ -132,7 +132,7 @@ private:
     std::shared_ptr<const Store> store_;
     double spacing_ = 0;
     std::string crsName_, plan_;
-    std::uint64_t buildings_ = 0, tiles_ = 0, packBytes_ = 0, missing_ = 0, skipped_ = 0, indexBytes_ = 0;
+    std::uint64_t buildings_ = 0, tiles_ = 0, packBytes_ = 0, missing_ = 0, skipped_ = 0;
     std::uint32_t packs_ = 0;
     Box3d box_;
     IndexEntry top_;
