@@ -43,7 +43,7 @@ private:
 SharedFrame draw(const SharedVolume& volume, const py::dict& given, const py::object& report) {
     PictureKeywords keywords;
     const cli::SceneArguments& arguments = keywords.take(given);
-    const illustrate::Scene scene = valueOf(arguments.toScene(0, 1));
+    const illustrate::Scene scene = valueOf(arguments.toScene(1));
     auto made = std::make_shared<FrameObject>();
     made->dpi = arguments.printedDpi();
     auto painting = longCall(report, [&](const Progress* progress) {

@@ -4,6 +4,7 @@
 
 #include <svt/illustrate/scene.hpp>
 
+#include <span>
 #include <string>
 
 namespace svt::illustrate {
@@ -19,6 +20,12 @@ namespace svt::illustrate {
 ///         BadCamera where a named view that turns cannot be made
 /// Cost: O(members of the scene and its keys); where a named view turns, also that of visiblePoints().
 [[nodiscard]] Result<Scene> sceneAt(const Scene& scene, double seconds, const volume::SemanticVolume& volume);
+
+/// Lets the cuts of the passes go to `cuts` until a time, evenly unless the scene has keys already: adds a key.
+/// \param cuts     one for each pass; those that differ from the scene's move
+/// \param seconds  above 0, within the motion
+/// \return success, or BadArgument where a key of the scene already gives one of these cuts
+[[nodiscard]] Result<void> addCutKey(Scene& scene, std::span<const std::string> cuts, double seconds);
 
 /// Checks that the scene can be made at each of its keys.
 /// \return success, or BadScene that names the member as "/motion/keys/N/scene/..."

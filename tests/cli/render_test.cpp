@@ -9,6 +9,9 @@
 #include <svt/image/image.hpp>
 #include <svt/image/png.hpp>
 
+#include <sys/inotify.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -517,6 +520,66 @@ TEST(Motion, PicturesOfASeriesAreThoseOfTheScene) {
                    {"render", "house.svt", "-o", "one.png", "--cut", plane, "--size", "160x90", "--fit", "all"});
         EXPECT_TRUE(same(file, "one.png")) << file;
     }
+}
+
+TEST(Motion, AMovingSectionIsKeptInTheWrittenScene) {
+    const TemporaryFolder folder;
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.25"});
+    const auto same = [&](const std::string& a, const std::string& b) {
+        const auto first = MappedFile::open(folder.path() / a), second = MappedFile::open(folder.path() / b);
+        return first && second && first->text() == second->text();
+    };
+    const std::vector<std::vector<std::string>> cases{{"--section", "z=6..1"},
+                                                      {"--section", "z=6..1", "--section", "y<3", "--turn", "90"},
+                                                      {"--section", "z=4..1", "--lens", "box(0,0,0,5,5,5)"}};
+    for (const auto& sections : cases) {
+        std::vector<std::string> command{"render", "house.svt", "-o", "a.png",         "--size",
+                                         "160x90", "--frames",  "3",  "--write-scene", "move.scene.json"};
+        command.insert(command.end(), sections.begin(), sections.end());
+        runSvtWell(folder.path(), command);
+        runSvtWell(folder.path(),
+                   {"render", "house.svt", "-o", "b.png", "--scene", "move.scene.json", "--frames", "3"});
+        for (const char* picture : {"_0000.png", "_0001.png", "_0002.png"})
+            EXPECT_TRUE(same("a" + std::string(picture), "b" + std::string(picture))) << sections[1] << picture;
+        EXPECT_FALSE(same("a_0000.png", "a_0002.png")) << "it moves";
+    }
+    runSvtWell(folder.path(),
+               {"render", "house.svt", "-o", "a.png", "--size", "160x90", "--frames", "3", "--section", "z=6..1"});
+    for (const auto& [file, plane] :
+         {std::pair("a_0000.png", "z=6"), std::pair("a_0001.png", "z=3.5"), std::pair("a_0002.png", "z=1")}) {
+        runSvtWell(folder.path(),
+                   {"render", "house.svt", "-o", "one.png", "--section", plane, "--size", "160x90", "--fit", "all"});
+        EXPECT_TRUE(same(file, "one.png")) << file;
+    }
+}
+
+TEST(Motion, TheSceneFileIsReadOnce) {
+    const TemporaryFolder folder;
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.5"});
+    const auto file = folder.path() / "move.scene.json";
+    std::ofstream(file) << R"({"size":[64,36],"motion":{"turn":360}})";
+    const int events = ::inotify_init1(IN_NONBLOCK);
+    if (events < 0) GTEST_SKIP() << "no inotify on this machine";
+    ASSERT_GE(::inotify_add_watch(events, file.c_str(), IN_OPEN | IN_CLOSE_NOWRITE), 0);
+    const auto opened = [&](const char* frames) {
+        runSvtWell(folder.path(),
+                   {"render", "house.svt", "-o", "p.png", "--scene", "move.scene.json", "--frames", frames});
+        int count = 0;
+        alignas(inotify_event) char buffer[16384];
+        for (ssize_t bytes = 0; (bytes = ::read(events, buffer, sizeof buffer)) > 0;)
+            for (const char* at = buffer; at < buffer + bytes;) {
+                const auto* event = reinterpret_cast<const inotify_event*>(at);
+                count += (event->mask & IN_OPEN) != 0;
+                at += sizeof(inotify_event) + event->len;
+            }
+        return count;
+    };
+    const int few = opened("2");
+    EXPECT_GT(few, 0);
+    EXPECT_EQ(opened("7"), few);
+    ::close(events);
 }
 
 TEST(Motion, FilmsThatCannotBeAreRefusedBeforeTheWork) {

@@ -90,10 +90,10 @@ struct Series {
     std::optional<Film> film;
 };
 
-// \param first  the scene at the beginning
-Result<Series> seriesOf(const RenderArguments& arguments, const illustrate::Scene& first) {
+// \param moving  the scene with its motion
+Result<Series> seriesOf(const RenderArguments& arguments, const illustrate::Scene& moving) {
     Series series;
-    const illustrate::Motion motion = first.motion.value_or(illustrate::Motion{});
+    const illustrate::Motion motion = moving.motion.value_or(illustrate::Motion{});
     if (!isFilm(arguments.output)) {
         if (arguments.frames == 1 && arguments.scene.turn)
             return Error(Code::BadArgument,
@@ -110,7 +110,7 @@ Result<Series> seriesOf(const RenderArguments& arguments, const illustrate::Scen
                      "--frames is for pictures one by one; --seconds and --rate say how many a film has");
     if (!arguments.labelOutput.empty() || !arguments.depthOutput.empty())
         return Error(Code::BadArgument, "--labels and --depth are for PNG, not for films");
-    if (!arguments.scene.hasMovingSection() && motion.turn == 0 && motion.keys.empty())
+    if (motion.turn == 0 && motion.keys.empty())
         return Error(Code::BadArgument,
                      "nothing moves in this film; let the camera go around (--turn 360), a section move "
                      "(--section z=6..1), or give a scene with motion");
@@ -260,10 +260,10 @@ Result<void> checkForLines(const RenderArguments& arguments, const illustrate::S
 }
 
 // Lines instead of pixels: the scene's camera, what it shows, and the plane that cuts it.
-int runLineDrawing(const RenderArguments& arguments, const Series& series, const illustrate::Scene& first) {
+int runLineDrawing(const RenderArguments& arguments, const Series& series, const illustrate::Scene& moving) {
     if (arguments.gl || !arguments.labelOutput.empty() || !arguments.depthOutput.empty())
         return fail(Error(Code::BadArgument, "--gl, --labels and --depth are for PNG, not for line drawings"));
-    if (auto checked = checkForLines(arguments, first); !checked) return fail(checked.error());
+    if (auto checked = checkForLines(arguments, moving); !checked) return fail(checked.error());
     Diagnostics diagnostics;
     TerminalProgress progress;
     BuildArguments build = arguments.build;
@@ -277,9 +277,7 @@ int runLineDrawing(const RenderArguments& arguments, const Series& series, const
     for (int frame = 0; frame < arguments.frames; ++frame) {
         progress.beginPart(frame, arguments.frames);
         Progress::tell(progress.get(), "lines", 0);
-        const auto still = arguments.scene.toScene(frame, arguments.frames);
-        if (!still) return fail(still.error());
-        const auto scene = illustrate::sceneAt(*still, frame * series.seconds, *volume);
+        const auto scene = illustrate::sceneAt(moving, frame * series.seconds, *volume);
         if (!scene) return fail(scene.error());
         const auto spec = illustrate::makeFrameSpec(*scene, *volume);
         if (!spec) return fail(spec.error());
@@ -289,7 +287,7 @@ int runLineDrawing(const RenderArguments& arguments, const Series& series, const
             return fail(written.error());
         if (view->drawing.beyond.empty() && view->drawing.components.empty()) note("nothing is visible");
         if (frame == 0 && !arguments.sceneOutput.empty())
-            if (auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(*still)); !written)
+            if (auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(moving)); !written)
                 return fail(written.error());
     }
     return kDone;
@@ -315,7 +313,7 @@ Result<void> checkForCity(const RenderArguments& arguments) {
 }
 
 // Pictures of a city: for each of them, its tiles are chosen and read.
-int runCityRender(const RenderArguments& arguments, Series& series) {
+int runCityRender(const RenderArguments& arguments, Series& series, const illustrate::Scene& moving) {
     if (auto checked = checkForCity(arguments); !checked) return fail(checked.error());
     TerminalProgress progress;
     auto picture = CityPicture::open(arguments.input, arguments.build, progress.get());
@@ -326,9 +324,7 @@ int runCityRender(const RenderArguments& arguments, Series& series) {
     options.isAdaptive = true;
     for (int frame = 0; frame < series.count; ++frame) {
         progress.beginPart(frame, series.count);
-        const auto still = arguments.scene.toScene(frame, series.count);
-        if (!still) return fail(still.error());
-        const auto scene = illustrate::sceneAt(*still, frame * series.seconds, picture->frame());
+        const auto scene = illustrate::sceneAt(moving, frame * series.seconds, picture->frame());
         if (!scene) return fail(scene.error());
         const auto painting = picture->paint(*scene, options);
         if (!painting) return fail(painting.error());
@@ -348,23 +344,22 @@ int runCityRender(const RenderArguments& arguments, Series& series) {
     if (series.film)
         if (auto written = series.film->finish(progress.get()); !written) return fail(written.error());
     if (arguments.sceneOutput.empty()) return kDone;
-    const auto first = arguments.scene.toScene(0, series.count);
-    if (!first) return fail(first.error());
-    const auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(*first));
+    const auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(moving));
     return written ? static_cast<int>(kDone) : fail(written.error());
 }
 
 int runRender(const RenderArguments& arguments) {
     // Validate the request before any long work.
-    const auto first = arguments.scene.toScene(0, isFilm(arguments.output) ? 2 : arguments.frames);
-    if (!first) return fail(first.error());
-    auto series = seriesOf(arguments, *first);
+    const auto moving =
+        arguments.scene.toScene(isFilm(arguments.output) ? std::nullopt : std::optional(arguments.frames));
+    if (!moving) return fail(moving.error());
+    auto series = seriesOf(arguments, *moving);
     if (!series) return fail(series.error());
-    if (isCity(arguments.input)) return runCityRender(arguments, *series);
-    if (isLineDrawing(arguments.output)) return runLineDrawing(arguments, *series, *first);
+    if (isCity(arguments.input)) return runCityRender(arguments, *series, *moving);
+    if (isLineDrawing(arguments.output)) return runLineDrawing(arguments, *series, *moving);
     Diagnostics diagnostics;
     TerminalProgress progress;
-    auto volume = loadVolume(arguments.input, withVectors(arguments.build, *first), progress.get(), diagnostics);
+    auto volume = loadVolume(arguments.input, withVectors(arguments.build, *moving), progress.get(), diagnostics);
     if (!volume) printDiagnostics(diagnostics, arguments.verbose);
     if (!volume) return fail(volume.error());
     const auto details = addInputs(arguments, progress.get(), diagnostics, *volume);
@@ -388,9 +383,7 @@ int runRender(const RenderArguments& arguments) {
     int empty = 0;
     for (int frame = 0; frame < series->count; ++frame) {
         progress.beginPart(frame, series->count);
-        const auto still = arguments.scene.toScene(frame, series->count);
-        if (!still) return fail(still.error());
-        auto scene = illustrate::sceneAt(*still, frame * series->seconds, *volume);
+        auto scene = illustrate::sceneAt(*moving, frame * series->seconds, *volume);
         if (!scene) return fail(scene.error());
         if (arguments.gl) takeFinest(*scene);
         const auto painting = arguments.gl ? painter.paint(*scene, drawByGl) : painter.paint(*scene, options);
@@ -407,7 +400,7 @@ int runRender(const RenderArguments& arguments) {
     if (series->film)
         if (auto written = series->film->finish(progress.get()); !written) return fail(written.error());
     if (!arguments.sceneOutput.empty()) {
-        const auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(*first));
+        const auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(*moving));
         if (!written) return fail(written.error());
     }
     for (const std::string& message : nothing) note(message);

@@ -5,6 +5,7 @@
 
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
+#include <svt/illustrate/motion.hpp>
 #include <svt/image/color_text.hpp>
 #include <svt/render/camera_presets.hpp>
 
@@ -55,26 +56,34 @@ Result<void> parseSize(const std::string& text, int dpi, Scene& scene) {
     return {};
 }
 
-// Interpolates "z=0..6" for the frame; other texts are unchanged.
-Result<std::string> movedSection(const std::string& text, int frame, int frames) {
-    const std::size_t dots = text.find("..");
-    if (dots == std::string::npos) return text;
-    const std::size_t begin = text.find_last_of("=<>+", dots);
-    const auto bad = [&] {
-        return Error(Code::BadArgument,
-                     fmt::format("--section '{}': expected two numbers such as z=0..6 for a plane that moves", text));
-    };
-    if (begin == std::string::npos) return bad();
-    const auto from = parseNumber(std::string_view(text).substr(begin + 1, dots - begin - 1));
-    const auto to = parseNumber(std::string_view(text).substr(dots + 2));
-    if (!from || !to) return bad();
-    if (frames < 2)
-        return Error(
-            Code::BadArgument,
-            fmt::format("--section '{}' moves; --frames says in how many pictures, 2 or more; a film (-o P.webm) "
-                        "has them anyway",
-                        text));
-    return fmt::format("{}{:.6g}", text.substr(0, begin + 1), *from + (*to - *from) * frame / (frames - 1));
+// Sections at the beginning and at the end of their way.
+struct SectionEnds {
+    std::vector<std::string> first, last;
+    std::string moving;  // one of those that move; empty: none
+};
+
+// "z=0..6" goes from z=0 to z=6; other texts stay.
+Result<SectionEnds> endsOf(const std::vector<std::string>& sections) {
+    SectionEnds ends;
+    for (const std::string& text : sections) {
+        const std::size_t dots = text.find("..");
+        if (dots == std::string::npos) {
+            ends.first.push_back(text);
+            ends.last.push_back(text);
+            continue;
+        }
+        const std::size_t begin = std::min(text.find_last_of("=<>+", dots), text.size() - 1) + 1;
+        const std::string from = text.substr(std::min(begin, dots), dots - std::min(begin, dots));
+        const std::string to = text.substr(dots + 2);
+        if (begin > dots || !parseNumber(from) || !parseNumber(to))
+            return Error(
+                Code::BadArgument,
+                fmt::format("--section '{}': expected two numbers such as z=0..6 for a plane that moves", text));
+        ends.first.push_back(text.substr(0, dots));
+        ends.last.push_back(text.substr(0, begin) + to);
+        ends.moving = text;
+    }
+    return ends;
 }
 
 Result<void> addStyles(const SceneArguments& arguments, illustrate::ScenePass& pass) {
@@ -136,18 +145,14 @@ std::string quoted(const std::string& plane) {
     return needsQuotes ? fmt::format("'{}'", plane) : plane;
 }
 
-Result<void> addPass(const SceneArguments& arguments, int frame, int frames, Scene& scene) {
+Result<void> addPass(const SceneArguments& arguments, const std::vector<std::string>& sections, Scene& scene) {
     illustrate::ScenePass& pass = scene.passes.front();
     pass.show.insert(pass.show.end(), arguments.show.begin(), arguments.show.end());
     pass.hide.insert(pass.hide.end(), arguments.hide.begin(), arguments.hide.end());
     if (auto added = addStyles(arguments, pass); !added) return added;
     if (auto added = addVectors(arguments, pass); !added) return added;
     std::string section;
-    for (const std::string& text : arguments.sections) {
-        const auto moved = movedSection(text, frame, frames);
-        if (!moved) return moved.error();
-        section = either(section, quoted(*moved));
-    }
+    for (const std::string& text : sections) section = either(section, quoted(text));
     if (!arguments.keep.empty()) pass.keep = arguments.keep;
     if (!arguments.cut.empty()) pass.cut = either(pass.cut, fmt::format("({})", arguments.cut));
     // With a lens, sections cut only inside it.
@@ -202,13 +207,37 @@ Result<Scene> readScene(const std::filesystem::path& file) {
 
 int SceneArguments::printedDpi() const { return dpi ? *dpi : size && isMetric(*size) ? dpiByDefault : 0; }
 
-Result<Scene> SceneArguments::toScene(int frame, int frames) const {
-    Scene scene;
+Result<Scene> SceneArguments::toScene(std::optional<int> pictures) const {
+    Scene file;
     if (!sceneFile.empty()) {
         auto read = readScene(sceneFile);
         if (!read) return read;
-        scene = std::move(*read);
+        file = std::move(*read);
     }
+    const auto ends = endsOf(sections);
+    if (!ends) return ends.error();
+    const bool isSeries = pictures.value_or(2) > 1;
+    if (!ends->moving.empty() && !isSeries)
+        return Error(Code::BadArgument,
+                     fmt::format("--section '{}' moves; --frames says in how many pictures, 2 or more; a film "
+                                 "(-o P.webm) has them anyway",
+                                 ends->moving));
+    auto scene = stillScene(file, ends->first, isSeries);
+    if (!scene || ends->moving.empty()) return scene;
+    const auto last = stillScene(file, ends->last, isSeries);
+    if (!last) return last;
+    std::vector<std::string> cuts;
+    for (const illustrate::ScenePass& pass : last->passes) cuts.push_back(pass.cut);
+    const illustrate::Motion motion = scene->motion.value_or(illustrate::Motion{});
+    // The last picture of a film is one picture before its end.
+    const double seconds =
+        pictures ? motion.seconds : std::max(1, illustrate::pictureCount(motion) - 1) / double(motion.rate);
+    if (auto added = illustrate::addCutKey(*scene, cuts, std::min(seconds, motion.seconds)); !added)
+        return Error(Code::BadArgument, "--section: " + added.error().message());
+    return scene;
+}
+
+Result<Scene> SceneArguments::stillScene(Scene scene, const std::vector<std::string>& still, bool isSeries) const {
     if (size)
         if (auto parsed = parseSize(*size, dpi.value_or(dpiByDefault), scene); !parsed) return parsed.error();
     if (samples) scene.samples = *samples;
@@ -217,7 +246,7 @@ Result<Scene> SceneArguments::toScene(int frame, int frames) const {
     if (!around.empty()) scene.camera.around = around;
     if (fit) scene.camera.fit = *fit == "all" ? illustrate::Fit::All : illustrate::Fit::Visible;
     // A series is seen by one camera, whatever each of its pictures shows.
-    if (!fit && frames > 1) scene.camera.fit = illustrate::Fit::All;
+    if (!fit && isSeries) scene.camera.fit = illustrate::Fit::All;
     if (isParallel) scene.camera.isParallel = true;
     if (fov) scene.camera.fieldOfView = *fov;
     if (zoom) scene.camera.zoom = *zoom;
@@ -240,7 +269,7 @@ Result<Scene> SceneArguments::toScene(int frame, int frames) const {
     if (hasNorthArrow) scene.hasNorthArrow = true;
     if (!colorBy.empty()) scene.colorBy = colorBy;
     scene.names.insert(scene.names.end(), names.begin(), names.end());
-    if (auto added = addPass(*this, frame, frames, scene); !added) return added.error();
+    if (auto added = addPass(*this, still, scene); !added) return added.error();
     if (insets.size() + scene.insets.size() > 4)
         return Error(Code::BadArgument,
                      fmt::format("{} insets; a picture has 4 corners", insets.size() + scene.insets.size()));
@@ -264,11 +293,6 @@ Result<Scene> SceneArguments::toScene(int frame, int frames) const {
                                                         scene.motion->seconds, scene.motion->keys.back().at));
     }
     return scene;
-}
-
-bool SceneArguments::hasMovingSection() const {
-    return std::any_of(sections.begin(), sections.end(),
-                       [](const std::string& text) { return text.find("..") != std::string::npos; });
 }
 
 void SceneArguments::connect(Command& command) {

@@ -32,10 +32,14 @@ struct SceneArguments {
     void connect(Command& command);
     /// Resolution to store in the picture for printing; 0: none.
     [[nodiscard]] int printedDpi() const;
-    /// The scene of frame `frame` of `frames`: sections such as z=0..6 move from one end to the other.
-    [[nodiscard]] Result<illustrate::Scene> toScene(int frame, int frames) const;
-    /// Whether some section moves.
-    [[nodiscard]] bool hasMovingSection() const;
+    /// The scene. Sections such as z=0..6 are keys of its motion: the plane is at its end in the last picture.
+    /// \param pictures  drawn one by one; none: a film
+    [[nodiscard]] Result<illustrate::Scene> toScene(std::optional<int> pictures) const;
+
+private:
+    /// `scene` with all options; these sections do not move.
+    [[nodiscard]] Result<illustrate::Scene> stillScene(illustrate::Scene scene, const std::vector<std::string>& still,
+                                                       bool isSeries) const;
 };
 
 }  // namespace svt::cli

@@ -12,10 +12,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// A number as the text writes it.
+struct Number {
+    double value = 0;
+    std::string text;
+};
+
 // A text cut at its numbers: the words around them, one more than there are numbers.
 struct Pieces {
     std::vector<std::string> words;
-    std::vector<double> numbers;
+    std::vector<Number> numbers;
 };
 
 // A number begins with a digit, or with a sign or point before one, where no name goes on.
@@ -44,9 +50,10 @@ Pieces cutAtNumbers(const std::string& text) {
             word += text[at++];
             continue;
         }
-        pieces.numbers.push_back(*number);
+        const std::size_t end = text.size() - rest.size();
+        pieces.numbers.push_back({*number, text.substr(at, end - at)});
         pieces.words.push_back(std::exchange(word, {}));
-        at = text.size() - rest.size();
+        at = end;
     }
     pieces.words.push_back(word);
     return pieces;
@@ -74,7 +81,10 @@ std::string textBetween(const std::string& from, const std::string& to, double s
     std::string text;
     for (std::size_t n = 0; n < a.words.size(); ++n) {
         text += a.words[n];
-        if (n < a.numbers.size()) text += fmt::format("{:.6g}", mix(a.numbers[n], b.numbers[n], share));
+        if (n == a.numbers.size()) break;
+        const Number &x = a.numbers[n], &y = b.numbers[n];
+        // A number that stays may be part of a name: "1." of "storey=1.OG+0".
+        text += x.text == y.text ? x.text : fmt::format("{:.6g}", mix(x.value, y.value, share));
     }
     return text;
 }

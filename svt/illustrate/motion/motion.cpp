@@ -211,6 +211,34 @@ Result<Scene> sceneAt(const Scene& scene, double seconds, const volume::Semantic
     return now;
 }
 
+Result<void> addCutKey(Scene& scene, std::span<const std::string> cuts, double seconds) {
+    Motion& motion = scene.motion ? *scene.motion : scene.motion.emplace();
+    if (motion.keys.empty()) motion.pace = Motion::Pace::Even;
+    std::vector<std::size_t> moved;
+    for (std::size_t n = 0; n < std::min(cuts.size(), scene.passes.size()); ++n)
+        if (cuts[n] != scene.passes[n].cut) moved.push_back(n);
+    for (const Motion::Key& key : motion.keys) {
+        const Json json = Json::parse(key.scene, nullptr, false);
+        for (const std::size_t n : moved)
+            if (json.contains(Pointer(fmt::format("/passes/{}/cut", n))))
+                return Error(
+                    Code::BadArgument,
+                    fmt::format("the cut '{}' is to move to '{}', but the motion of the scene moves it already "
+                                "(key at {} s)",
+                                scene.passes[n].cut, cuts[n], key.at));
+    }
+    auto key = std::ranges::lower_bound(motion.keys, seconds, {}, &Motion::Key::at);
+    if (key == motion.keys.end() || key->at != seconds) key = motion.keys.insert(key, {seconds, "{}"});
+    Json json = Json::parse(key->scene, nullptr, false);
+    for (const std::size_t n : moved) {
+        Json& passes = json["passes"];
+        while (passes.size() <= n) passes.push_back(Json::object());
+        passes[n]["cut"] = cuts[n];
+    }
+    key->scene = json.dump();
+    return {};
+}
+
 Result<void> checkMotion(const Scene& scene, const std::string& name) {
     if (!scene.motion) return {};
     const Json base = Json::parse(writeScene(withoutMotion(scene)));

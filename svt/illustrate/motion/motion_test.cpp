@@ -174,7 +174,39 @@ TEST(Motion, OnlyNumbersOfEqualTextsGo) {
     EXPECT_EQ(textBetween("storey(EG1)", "storey(EG2)", 0.5), "storey(EG1)") << "a digit of a name is none of a number";
     EXPECT_EQ(textBetween("z>6", "y>1", 0.5), "z>6");
     EXPECT_EQ(textBetween("storey='Floor 1'+1.1", "storey='Floor 1'+2.1", 0.5), "storey='Floor 1'+1.6");
+    EXPECT_EQ(textBetween("storey=1.OG+0", "storey=1.OG+2", 0.5), "storey=1.OG+1") << "what is equal stays as it is";
     EXPECT_EQ(textBetween("", "z>1", 0.5), "");
+}
+
+TEST(Motion, CutsMoveToAKey) {
+    Scene scene = sceneOf(R"json({"passes":[{"cut":"y<3"},{"cut":"z=6"}]})json");
+    ASSERT_TRUE(addCutKey(scene, std::vector<std::string>{"y<3", "z=1"}, 4));
+    ASSERT_TRUE(scene.motion);
+    EXPECT_EQ(scene.motion->pace, Motion::Pace::Even);
+    EXPECT_EQ(at(scene, 0).passes[1].cut, "z=6");
+    EXPECT_EQ(at(scene, 1).passes[1].cut, "z=4.75");
+    EXPECT_EQ(at(scene, 4).passes[1].cut, "z=1");
+    EXPECT_EQ(at(scene, 1).passes[0].cut, "y<3");
+    EXPECT_EQ(sceneOf(writeScene(scene)), scene);
+}
+
+TEST(Motion, CutKeysStandBetweenThoseOfTheScene) {
+    const std::string json = R"json({"passes":[{"cut":"z=6"}],"motion":{"seconds":4,"keys":[
+        {"at":1,"scene":{"explode":1}},{"at":2,"scene":{"explode":2}},{"at":4,"scene":{"explode":0}}]}})json";
+    for (const double seconds : {2.0, 3.0}) {
+        Scene scene = sceneOf(json);
+        ASSERT_TRUE(addCutKey(scene, std::vector<std::string>{"z=1"}, seconds));
+        EXPECT_EQ(scene.motion->keys.size(), seconds == 2 ? 3u : 4u);
+        EXPECT_EQ(scene.motion->pace, Motion::Pace::Smooth) << "that of the scene";
+        EXPECT_EQ(at(scene, 2).explode, 2);
+        EXPECT_EQ(at(scene, seconds).passes[0].cut, "z=1");
+        EXPECT_EQ(sceneOf(writeScene(scene)), scene);
+    }
+    Scene moving = sceneOf(R"json({"passes":[{"cut":"z=6"}],"motion":{"seconds":4,"keys":[
+        {"at":1,"scene":{"passes":[{"cut":"z=2"}]}}]}})json");
+    const auto added = addCutKey(moving, std::vector<std::string>{"z=1"}, 4);
+    ASSERT_FALSE(added);
+    EXPECT_EQ(added.error().code(), Code::BadArgument);
 }
 
 }  // namespace
