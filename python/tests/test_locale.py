@@ -5,7 +5,6 @@ import pathlib
 import subprocess
 import unittest
 
-import numpy as np
 
 import svt
 from common import house, house_file, path
@@ -17,9 +16,9 @@ def answers():
     """What numbers in texts lead to, and texts with numbers."""
     volume = house()
     section = volume.section("z=1.25")
-    frame = volume.render(size="96x64", section=["y<2.5"], opacity=["class=BuildingRoom:0.22"], cut="box(0.5, 0.5, 0.5, 2.5, 2.5, 2.5)",
+    picture = volume.render(size="96x64", section=["y<2.5"], opacity=["class=BuildingRoom:0.22"], cut="box(0.5, 0.5, 0.5, 2.5, 2.5, 2.5)",
                           hatch_spacing=0.15)
-    built = svt.build(house_file(), spacing="0.5,0.25,0.5")
+    built = svt.build(house_file(), spacing=(0.5, 0.25, 0.5))
     volume.save(path("house.nrrd"))
     return {
         "svg": section.to_svg(),
@@ -27,7 +26,7 @@ def answers():
         "geojson": section.to_geojson(),
         "csv": section.to_csv(),
         "area": section.area,
-        "pixels": np.asarray(frame.color).tobytes(),
+        "pixels": picture.tobytes(),
         "spacing": built.spacing,
         "query": [label.id for label in volume.query("volume>0.75")],
         "nrrd": pathlib.Path(path("house.nrrd")).read_bytes(),

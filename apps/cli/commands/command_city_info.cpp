@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace svt::cli {
 namespace {
 
@@ -32,7 +34,7 @@ int runCityExtract(const CityInfoArguments& arguments) {
         extract.tiles.push_back(*tile);
     }
     extract.hasBox = !arguments.box.empty();
-    std::ranges::copy(arguments.box, extract.box.begin());
+    std::copy(arguments.box.begin(), arguments.box.end(), extract.box.begin());
     for (std::size_t axis = 0; extract.hasBox && axis < 3; ++axis)
         if (!(extract.box[axis] <= extract.box[axis + 3]))
             return fail(Error(Code::BadArgument,

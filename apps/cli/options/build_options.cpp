@@ -22,7 +22,7 @@ Result<Vec3d> parseTriple(const std::string& text, std::string_view option, std:
     while (at <= text.size()) {
         std::size_t end = text.find_first_of(",x", at);
         if (end == std::string::npos) end = text.size();
-        const auto value = parseNumber(std::string_view(text).substr(at, end - at));
+        const auto value = parseNumber(withoutBlanks(std::string_view(text).substr(at, end - at)));
         if (!value || count == 3)
             return Error(
                 Code::BadArgument,

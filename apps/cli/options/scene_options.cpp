@@ -75,7 +75,7 @@ Result<SectionEnds> endsOf(const std::vector<std::string>& sections) {
         const std::size_t begin = std::min(text.find_last_of("=<>+", dots), text.size() - 1) + 1;
         const std::string from = text.substr(std::min(begin, dots), dots - std::min(begin, dots));
         const std::string to = text.substr(dots + 2);
-        if (begin > dots || !parseNumber(from) || !parseNumber(to))
+        if (begin > dots || !parseNumber(withoutBlanks(from)) || !parseNumber(to))
             return Error(
                 Code::BadArgument,
                 fmt::format("--section '{}': expected two numbers such as z=0..6 for a plane that moves", text));
@@ -97,7 +97,7 @@ Result<void> addStyles(const SceneArguments& arguments, illustrate::ScenePass& p
     for (const std::string& text : arguments.opacity) {
         const auto parts = splitValue(text, "--opacity", "'class=BuildingRoom:0.2'");
         if (!parts) return parts.error();
-        const auto value = parseNumber(parts->second);
+        const auto value = parseNumber(withoutBlanks(parts->second));
         if (!value || !(*value >= 0 && *value <= 1))
             return Error(Code::BadArgument,
                          fmt::format("--opacity '{}': {} is out of range; 0 to 1 (share of light stopped by 1 m)", text,

@@ -227,8 +227,9 @@ Result<void> addCutKey(Scene& scene, std::span<const std::string> cuts, double s
                                 "(key at {} s)",
                                 scene.passes[n].cut, cuts[n], key.at));
     }
-    auto key = std::ranges::lower_bound(motion.keys, seconds, {}, &Motion::Key::at);
-    if (key == motion.keys.end() || key->at != seconds) key = motion.keys.insert(key, {seconds, "{}"});
+    auto key = std::lower_bound(motion.keys.begin(), motion.keys.end(), seconds,
+                                [](const Motion::Key& before, double at) { return before.at < at; });
+    if (key == motion.keys.end() || key->at != seconds) key = motion.keys.insert(key, Motion::Key{seconds, "{}"});
     Json json = Json::parse(key->scene, nullptr, false);
     for (const std::size_t n : moved) {
         Json& passes = json["passes"];

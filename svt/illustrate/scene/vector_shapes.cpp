@@ -36,7 +36,7 @@ Result<std::vector<std::uint32_t>> selectMeshes(const std::string& text, const v
                                                 const analyze::LabelRows& rows) {
     constexpr std::string_view kSize = "size<";
     if (!text.starts_with(kSize)) return analyze::selectLabels(rows, text);
-    const double metres = parseNumber(std::string_view(text).substr(kSize.size())).value_or(0);
+    const double metres = parseNumber(withoutBlanks(std::string_view(text).substr(kSize.size()))).value_or(0);
     if (!(metres > 0))
         return Error(Code::BadArgument,
                      fmt::format("meshes '{}': expected a length in metres, such as size<0.3", text));

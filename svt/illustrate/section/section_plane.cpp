@@ -226,7 +226,7 @@ Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::Sema
     const std::size_t at = copy.find_first_of("=<>");
     if (at == 1 && std::string_view("xyz").find(copy[0]) != std::string_view::npos) {
         const bool isAbsolute = copy.compare(2, 4, "abs(") == 0 && copy.ends_with(')');
-        const auto value = parseNumber(isAbsolute ? text.substr(6, text.size() - 7) : text.substr(2));
+        const auto value = parseNumber(withoutBlanks(isAbsolute ? text.substr(6, text.size() - 7) : text.substr(2)));
         if (!value) return badSection(expected);
         const int number = copy[0] - 'x';
         const Vec3d axis = grid.axes()[static_cast<std::size_t>(number)];
