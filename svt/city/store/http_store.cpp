@@ -78,13 +78,6 @@ struct Answer {
     long status = 0;
 };
 
-std::string_view withoutBlanks(std::string_view text) {
-    const auto isBlank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; };
-    while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
-    while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
-    return text;
-}
-
 std::size_t takeBody(char* bytes, std::size_t one, std::size_t count, void* to) {
     auto& answer = *static_cast<Answer*>(to);
     if (count * one > answer.most - answer.body.size()) {
