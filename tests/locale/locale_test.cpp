@@ -30,6 +30,7 @@
 #include <fstream>
 #include <locale>
 #include <map>
+#include <span>
 #include <sstream>
 
 namespace svt::test {
@@ -188,7 +189,7 @@ private:
             if (!isGood(std::string("moved ") + name, moved)) continue;
             const auto painting = painter.paint(*moved);
             if (!isGood(std::string("picture ") + name, painting)) continue;
-            const auto pixels = std::as_bytes(painting->frame.color.pixels());
+            const auto pixels = std::as_bytes(std::span(painting->frame.color.pixels()));
             add(std::string("picture ") + name,
                 std::string(reinterpret_cast<const char*>(pixels.data()), pixels.size()));
         }
@@ -234,14 +235,10 @@ private:
         for (const writers::VolumeFormat& format : writers::volumeFormats()) {
             const fs::path path =
                 folder_ / ("volume" + std::string(format.endings.substr(0, format.endings.find('|'))));
-            if (!isGood(std::string(format.name), writers::writeVolume(volume, path, options))) continue;
-            if (!fs::is_directory(path)) add(std::string(format.name), bytesOf(path));
-            if (!fs::is_directory(path)) continue;
-            for (const auto& entry : fs::recursive_directory_iterator(path))
-                if (entry.is_regular_file())
-                    add(fmt::format("{} {}", format.name, fs::relative(entry.path(), path).string()),
-                        bytesOf(entry.path()));
+            isGood(std::string(format.name), writers::writeVolume(volume, path, options));
         }
+        for (const auto& entry : fs::recursive_directory_iterator(folder_))
+            if (entry.is_regular_file()) add(fs::relative(entry.path(), folder_).string(), bytesOf(entry.path()));
     }
 
     fs::path folder_;
