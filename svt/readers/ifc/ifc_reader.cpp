@@ -25,6 +25,7 @@ namespace {
 using namespace ifc;
 using std::string_view;
 
+constexpr std::size_t kMaxLeftOut = 1000;  // reasons of one product; the first five are told
 constexpr string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 // "IFC4X3_ADD2" -> "IFC4X3", and what people call it.
@@ -57,6 +58,7 @@ public:
         const Styles styles = readStyles(file_);
         model_.materials = styles.materials;
         structure_ = readStructure(file_);
+        if (file_.guard().isFileSpent()) return tooMuch();
         if (structure_.order.empty()) {
             file_.missing().report(name_, diagnostics_);
             return Error(Code::EmptyModel, "the file has no product: no building, storey, space or element", place());
@@ -64,10 +66,14 @@ public:
         tellOfStructure();
         presentationLayers_ = readPresentationLayers(file_);
         const Properties properties(file_, units_);
-        for (const std::size_t p : structure_.order) addFeature(structure_.products[p], p, properties);
+        for (const std::size_t p : structure_.order) {
+            addFeature(structure_.products[p], p, properties);
+            if (file_.guard().isFileSpent()) return tooMuch();
+        }
         addGroups();
         if (auto done = readShapes(styles, properties); !done) return done.error();
         file_.missing().report(name_, diagnostics_);
+        tellOfCircles();
         tellOfProducts();
         return placeModel();
     }
@@ -92,6 +98,15 @@ private:
         return {};
     }
 
+    [[nodiscard]] Error tooMuch() const {
+        return {
+            Code::InputTooBig,
+            fmt::format("the file stands for {}: its records refer to the same ones too often; export it with shapes "
+                        "of their own, or split it",
+                        file_.guard().whatIsSpent()),
+            place()};
+    }
+
     void readProject() {
         RecordIndex project = kNoRecord;
         for (RecordIndex i = 0; i < file_.step().records().size() && project == kNoRecord; ++i)
@@ -106,14 +121,37 @@ private:
     }
 
     void tellOfStructure() {
-        if (structure_.hasCycle)
-            diagnostics_.add(Severity::Warning, Code::ReferenceCycle,
-                             "products contain each other in a circle; they stand at the top of the tree", place());
+        for (const std::string& circle : structure_.circles)
+            diagnostics_.add(
+                Severity::Warning, Code::ReferenceCycle,
+                fmt::format("products contain, cut or fill each other in a circle: {}; what closes it is left out",
+                            circle),
+                place());
         for (const auto& [type, count] : structure_.unknownClasses)
             diagnostics_.add(
                 Severity::Note, Code::UnknownElement,
                 fmt::format("the class {} is not known; its {} products are read as GenericOccupiedSpace", type, count),
                 place());
+    }
+
+    void tellOfCircles() {
+        for (const ReadGuard::Circle& circle : file_.guard().circles())
+            diagnostics_.add(
+                Severity::Warning, Code::ReferenceCycle,
+                fmt::format("records refer to each other in a circle: {}; what closes it is left out", circle.text),
+                {std::string(name_), lineOf(circle.first), 0, {}});
+    }
+
+    // Attributes beyond the budget of a product are left out, and said.
+    void finishAttributes(const model::Feature& feature) {
+        ReadGuard& guard = file_.guard();
+        for (const Attribute& attribute : feature.attributes) guard.takeElements(elementsOf(attribute));
+        if (guard.isSpent() && !guard.isFileSpent())
+            diagnostics_.add(
+                Severity::Warning, Code::ReadInPart,
+                fmt::format("the attributes of this product were read in part: they have {}", guard.whatIsSpent()),
+                {std::string(name_), feature.line, 0, feature.id});
+        guard.endProduct();
     }
 
     std::string uniqueId(const Fields& fields, const Product& product) {
@@ -126,7 +164,9 @@ private:
         }
         if (ids_.insert(id).second) return id;
         const std::string wanted = id;
-        for (int i = 2; !ids_.insert(id).second; ++i) id = fmt::format("{}_{}", wanted, i);
+        // Goes on where the last one with this id found a free number.
+        for (int& i = nextNumber_.emplace(wanted, 2).first->second; !ids_.insert(id).second; ++i)
+            id = fmt::format("{}_{}", wanted, i);
         diagnostics_.add(Severity::Warning, Code::DuplicateId,
                          fmt::format("the GlobalId '{}' is used again; renamed to '{}'", wanted, id),
                          {std::string(name_), lineOf(product.record), 0, id});
@@ -134,6 +174,7 @@ private:
     }
 
     void addFeature(const Product& product, std::size_t number, const Properties& properties) {
+        file_.guard().beginProduct();
         const Fields fields = file_.fieldsOf(product.record);
         model::Feature feature;
         feature.id = uniqueId(fields, product);
@@ -162,6 +203,7 @@ private:
                 feature.attributes.push_back({"fills", std::move(*id), ""});
         addPresentationLayers(product, feature);
         properties.append(product.record, feature.attributes);
+        finishAttributes(feature);
         const auto parent = product.parent == Product::kNoProduct ? model::kNoFeature : featureOf_[product.parent];
         featureOf_.resize(structure_.products.size(), model::kNoFeature);
         featureOf_[number] = model_.addFeature(std::move(feature), parent);
@@ -204,7 +246,7 @@ private:
         std::string names;
         const auto add = [&](RecordIndex record) {
             const auto found = presentationLayers_.find(record);
-            if (found == presentationLayers_.end()) return;
+            if (found == presentationLayers_.end() || !file_.guard().takeSteps(names.size())) return;
             if (("; " + names + "; ").find("; " + found->second + "; ") == std::string::npos)
                 names += (names.empty() ? "" : "; ") + found->second;
         };
@@ -281,6 +323,7 @@ private:
             const Transform relative = intoProduct.after(placementOf(record, lost));
             for (const std::string& what : lost) shape.leftOut.push_back("of an opening: " + what);
             for (const Body& body : opening.bodies) bodies.push_back(transformed(body, relative));
+            if (shape.leftOut.size() > kMaxLeftOut) shape.leftOut.resize(kMaxLeftOut);
         }
         return bodies;
     }
@@ -308,24 +351,34 @@ private:
                 Progress::tell(options_.progress, "read", double(done) / double(structure_.order.size()));
             const Product& product = structure_.products[p];
             file_.missing().take();  // what was read before is no part of this product's shape
+            file_.guard().beginProduct();
             const RecordIndex definition = shapeOf(product.record);
             if (definition == kNoRecord && !file_.missing().isAny()) continue;
             Shape shape = shapes.readShape(definition);
             const Transform placement = placementOf(product.record, shape.leftOut);
             if (!shape.bodies.empty()) cutOpenings(product, placement, shapes, shape);
-            if (!shape.hasRepresentation) {
+            if (file_.guard().isFileSpent()) return tooMuch();
+            // What was read until the budget was spent is no shape of the product, nor may it stay in memory.
+            if (file_.guard().isSpent()) shape = {{}, {file_.guard().whatIsSpent()}, true};
+            if (shape.hasRepresentation)
+                finishProduct(p, shape, placement, styles, properties);
+            else
                 addLines(p, definition, placement, std::move(shape.leftOut));
-                continue;
-            }
-            finishProduct(p, shape, placement, styles, properties);
+            if (file_.guard().isFileSpent()) return tooMuch();
         }
+        file_.guard().endProduct();
         return {};
     }
 
     // Of a product without a body: its curves.
     void addLines(std::size_t number, RecordIndex definition, const Transform& placement,
                   std::vector<std::string> leftOut) {
-        for (std::vector<Vec3d>& line : readLines(file_, definition, leftOut)) {
+        std::vector<std::vector<Vec3d>> lines = readLines(file_, definition, leftOut);
+        if (file_.guard().isSpent()) {
+            lines.clear();
+            leftOut = {file_.guard().whatIsSpent()};
+        }
+        for (std::vector<Vec3d>& line : lines) {
             for (Vec3d& p : line) p = map_.mapFromProject.point(placement.point(p));
             if (std::all_of(line.begin(), line.end(), [](Vec3d p) { return isFinite(p); }))
                 model_.lines.push_back({featureOf_[number], std::move(line)});
@@ -415,6 +468,13 @@ private:
             tell("was not split into its layers: " + layered->why);
             return false;
         }
+        std::uint64_t copied = 0;
+        for (const Attribute& attribute : model_.features[product].attributes) copied += elementsOf(attribute);
+        if (!file_.guard().affords(copied * layered->layers.size())) {
+            tell("was not split into its layers: they have " + file_.guard().whatIsSpent());
+            return false;
+        }
+        file_.guard().takeElements(copied * layered->layers.size());
         ++split_;
         if (layered->moved > 0)
             tell(fmt::format("has its layers beside its body; they were moved onto it, by {:.4g} m", layered->moved));
@@ -499,6 +559,7 @@ private:
     MapPlace map_;
     Structure structure_;
     std::unordered_set<std::string> ids_;
+    std::unordered_map<std::string, int> nextNumber_;  // of an id that is used more than once
     std::unordered_map<RecordIndex, std::string> presentationLayers_;
     std::vector<model::FeatureIndex> featureOf_;  // by product
     std::unordered_map<RecordIndex, model::FeatureIndex> groupFeature_;

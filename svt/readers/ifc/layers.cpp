@@ -74,7 +74,8 @@ std::optional<Stack> extrusionStack(const IfcFile& file, RecordIndex definition)
         const std::vector<RecordIndex> items = file.followAll(fields[3]);
         if (fields[1].string().value_or("") != "Body" || items.empty()) continue;
         RecordIndex item = items.front();
-        for (int depth = 0; depth < 48; ++depth) {
+        ReadGuard::Scope scope(file.guard());
+        while (scope.enter(item)) {
             const Entity entity = file.entityOf(item);
             if (entity != Entity::BooleanResult && entity != Entity::BooleanClippingResult) break;
             item = file.follow(file.fieldsOf(item)[1]);
@@ -88,7 +89,7 @@ std::optional<Stack> extrusionStack(const IfcFile& file, RecordIndex definition)
 }
 
 // All of `faces` between two planes; nothing where that is not closed.
-std::optional<Polygons> between(const Polygons& faces, Vec3d direction, double low, double high) {
+std::optional<Polygons> between(const Polygons& faces, Vec3d direction, double low, double high, ReadGuard& guard) {
     const Transform axes = axesFrom({}, direction, {1, 0, 0});
     Box3d box = boundsOf(faces);
     const Vec3d center = box.center();
@@ -106,7 +107,7 @@ std::optional<Polygons> between(const Polygons& faces, Vec3d direction, double l
     for (const auto& [a, b, c, d] : {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4},
                                      std::array{2, 6, 7, 3}, std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}})
         addFace(slab, {{corner(a), corner(b), corner(c), corner(d)}});
-    return evaluateBoolean(BooleanOperator::Intersection, {faces, slab});
+    return evaluateBoolean(BooleanOperator::Intersection, {faces, slab}, guard);
 }
 
 class LayerSplitter {
@@ -206,9 +207,9 @@ private:
 
     void addBetween(double low, double high, std::vector<Body>& into) {
         for (const Body& body : shape_.bodies) {
-            auto part = between(body.faces, stack_.direction, low, high);
-            if (!part)
-                result_.why = "a layer would not be closed";
+            auto part = between(body.faces, stack_.direction, low, high, file_.guard());
+            if (!part || !file_.guard().takeElements(pointCount(*part)))
+                result_.why = file_.guard().isSpent() ? file_.guard().whatIsSpent() : "a layer would not be closed";
             else if (!part->empty())
                 into.push_back({std::move(*part), true, body.material});
         }

@@ -10,26 +10,24 @@
 namespace svt::readers::ifc {
 namespace {
 
-constexpr int kMaxLineDepth = 16;
-constexpr std::size_t kMaxLineItems = 500'000;     // of a product, with repetitions
-constexpr std::size_t kMaxLinePoints = 2'000'000;  // of a product: mapped items may repeat what they show
+constexpr std::size_t kMaxLeftOut = 1000;  // the first is told
 
 class LineReader {
 public:
     LineReader(const IfcFile& file, std::vector<std::string>& leftOut) : file_(file), leftOut_(leftOut) {}
 
-    void readItem(RecordIndex item, const Transform& place, int depth) {
-        if (depth > kMaxLineDepth || ++items_ > kMaxLineItems || points_ > kMaxLinePoints)
-            return leaveOut("items that nest too deep, or without end");
+    void readItem(RecordIndex item, const Transform& place) {
+        ReadGuard::Scope scope(file_.guard());
+        if (!scope.enter(item)) return leaveOut(scope.why());
         const Fields fields = file_.fieldsOf(item);
         switch (file_.entityOf(item)) {
             case Entity::GeometricSet:
             case Entity::GeometricCurveSet:
-                for (const RecordIndex element : file_.followAll(fields[0])) readItem(element, place, depth + 1);
+                for (const RecordIndex element : file_.followAll(fields[0])) readItem(element, place);
                 return;
             case Entity::AnnotationFillArea:
-                readItem(file_.follow(fields[0]), place, depth + 1);
-                for (const RecordIndex inner : file_.followAll(fields[1])) readItem(inner, place, depth + 1);
+                readItem(file_.follow(fields[0]), place);
+                for (const RecordIndex inner : file_.followAll(fields[1])) readItem(inner, place);
                 return;
             case Entity::MappedItem: {
                 const Fields source = file_.fieldsOf(file_.follow(fields[0]));
@@ -37,10 +35,12 @@ public:
                 const Transform inner =
                     place.after(file_.transformation(file_.follow(fields[1]))).after(origin.inverse());
                 for (const RecordIndex shown : file_.followAll(file_.fieldsOf(file_.follow(source[1]))[3]))
-                    readItem(shown, inner, depth + 1);
+                    readItem(shown, inner);
                 return;
             }
-            default: readLine(item, place);
+            default:
+                scope.leave();  // readCurve() enters it
+                readLine(item, place);
         }
     }
 
@@ -48,6 +48,7 @@ public:
 
 private:
     void leaveOut(std::string what) {
+        if (leftOut_.size() == kMaxLeftOut) return;
         if (std::find(leftOut_.begin(), leftOut_.end(), what) == leftOut_.end()) leftOut_.push_back(std::move(what));
     }
 
@@ -58,13 +59,11 @@ private:
         for (Vec3d& p : points) p = place.point(p);
         if (points.size() < 2 || !std::all_of(points.begin(), points.end(), [](Vec3d p) { return isFinite(p); }))
             return;
-        points_ += points.size();
         lines.push_back(std::move(points));
     }
 
     const IfcFile& file_;
     std::vector<std::string>& leftOut_;
-    std::size_t points_ = 0, items_ = 0;
 };
 
 }  // namespace
@@ -73,7 +72,7 @@ std::vector<std::vector<Vec3d>> readLines(const IfcFile& file, RecordIndex defin
                                           std::vector<std::string>& leftOut) {
     LineReader reader(file, leftOut);
     for (const RecordIndex representation : file.followAll(file.fieldsOf(definition)[2]))
-        for (const RecordIndex item : file.followAll(file.fieldsOf(representation)[3])) reader.readItem(item, {}, 0);
+        for (const RecordIndex item : file.followAll(file.fieldsOf(representation)[3])) reader.readItem(item, {});
     return std::move(reader.lines);
 }
 

@@ -10,7 +10,6 @@ namespace {
 using std::string_view;
 
 constexpr std::size_t kMaxText = 4096;
-constexpr int kMaxNesting = 4;  // of complex properties
 
 bool endsWith(string_view text, string_view tail) noexcept { return text.ends_with(tail); }
 
@@ -75,16 +74,13 @@ std::string joined(Value list) {
     return text;
 }
 
-void replaceOrAdd(std::vector<Attribute>& attributes, Attribute attribute) {
-    const auto same = std::find_if(attributes.begin(), attributes.end(),
-                                   [&](const Attribute& known) { return known.name == attribute.name; });
-    if (same == attributes.end())
-        attributes.push_back(std::move(attribute));
-    else
-        *same = std::move(attribute);
-}
-
 }  // namespace
+
+std::uint64_t elementsOf(const Attribute& attribute) noexcept {
+    constexpr std::uint64_t kOfEach = 4, kBytesOfPoint = 24;
+    const auto* text = std::get_if<std::string>(&attribute.value);
+    return kOfEach + (attribute.name.size() + (text != nullptr ? text->size() : 0)) / kBytesOfPoint;
+}
 
 Properties::Properties(const IfcFile& file, const Units& units) : file_(file), units_(units) {
     const auto relate = [&](const Fields& fields, std::unordered_map<RecordIndex, Records>& map) {
@@ -105,6 +101,17 @@ const Properties::Records& Properties::of(const std::unordered_map<RecordIndex, 
     static const Records kNone;
     const auto found = map.find(key);
     return found == map.end() ? kNone : found->second;
+}
+
+void Properties::replaceOrAdd(std::vector<Attribute>& attributes, Attribute attribute) const {
+    ReadGuard& guard = file_.guard();
+    if (!guard.takeSteps(attributes.size()) || !guard.takeElements(elementsOf(attribute))) return;
+    const auto same = std::find_if(attributes.begin(), attributes.end(),
+                                   [&](const Attribute& known) { return known.name == attribute.name; });
+    if (same == attributes.end())
+        attributes.push_back(std::move(attribute));
+    else
+        *same = std::move(attribute);
 }
 
 void Properties::append(RecordIndex object, std::vector<Attribute>& attributes) const {
@@ -136,8 +143,10 @@ void Properties::appendSet(RecordIndex set, std::vector<Attribute>& attributes) 
         appendProperty(name.empty() ? std::string() : name + ".", member, attributes);
 }
 
-void Properties::appendProperty(const std::string& prefix, RecordIndex property, std::vector<Attribute>& attributes,
-                                int depth) const {
+void Properties::appendProperty(const std::string& prefix, RecordIndex property,
+                                std::vector<Attribute>& attributes) const {
+    ReadGuard::Scope scope(file_.guard());
+    if (!scope.enter(property)) return;
     const Fields fields = file_.fieldsOf(property);
     Attribute attribute{prefix + fields[0].string().value_or(""), std::string(), ""};
     if (attribute.name.size() == prefix.size()) return;
@@ -177,9 +186,8 @@ void Properties::appendProperty(const std::string& prefix, RecordIndex property,
             break;
         }
         case Entity::ComplexProperty:
-            if (depth < kMaxNesting)
-                for (const RecordIndex part : file_.followAll(fields[3]))
-                    appendProperty(attribute.name + ".", part, attributes, depth + 1);
+            for (const RecordIndex part : file_.followAll(fields[3]))
+                appendProperty(attribute.name + ".", part, attributes);
             break;
         case Entity::QuantityLength: quantity(units_.length, "m"); break;
         case Entity::QuantityArea: quantity(units_.area, "m2"); break;
@@ -193,6 +201,8 @@ void Properties::appendProperty(const std::string& prefix, RecordIndex property,
 
 // The materials, or layers with their materials, that a material definition is made of.
 Properties::Records Properties::layersOf(RecordIndex material) const {
+    ReadGuard::Scope scope(file_.guard());
+    if (!scope.enter(material)) return {};
     const Fields fields = file_.fieldsOf(material);
     switch (file_.entityOf(material)) {
         case Entity::MaterialLayerSetUsage:
@@ -216,9 +226,11 @@ void Properties::appendMaterial(RecordIndex material, std::vector<Attribute>& at
         if (file_.entityOf(of) != Entity::Material) continue;
         const std::string name = file_.fieldsOf(of)[0].string().value_or("");
         if (name.empty()) continue;
-        if (("; " + names + "; ").find("; " + name + "; ") == std::string::npos)
+        // What is longer is cut off below.
+        if (names.size() <= kMaxText && ("; " + names + "; ").find("; " + name + "; ") == std::string::npos)
             names += (names.empty() ? "" : "; ") + name;
-        if (isLayer) layers += fmt::format("{}{} {:.6g} m", layers.empty() ? "" : "; ", name, file_.metres(fields[1]));
+        if (isLayer && layers.size() <= kMaxText)
+            layers += fmt::format("{}{} {:.6g} m", layers.empty() ? "" : "; ", name, file_.metres(fields[1]));
     }
     if (!names.empty()) attributes.push_back({"material", names.substr(0, kMaxText), ""});
     if (!layers.empty()) attributes.push_back({"materialLayers", layers.substr(0, kMaxText), ""});

@@ -11,6 +11,9 @@
 
 namespace svt::readers::ifc {
 
+/// What an attribute counts in the budget of a file: it takes about as much memory as so many points.
+[[nodiscard]] std::uint64_t elementsOf(const Attribute& attribute) noexcept;
+
 /// Which sets, types, materials and classifications each object has. Made once from the relations of a file.
 class Properties {
 public:
@@ -33,8 +36,8 @@ private:
     using Records = std::vector<RecordIndex>;
 
     void appendSet(RecordIndex set, std::vector<Attribute>& attributes) const;
-    void appendProperty(const std::string& prefix, RecordIndex property, std::vector<Attribute>& attributes,
-                        int depth = 0) const;
+    void appendProperty(const std::string& prefix, RecordIndex property, std::vector<Attribute>& attributes) const;
+    void replaceOrAdd(std::vector<Attribute>& attributes, Attribute attribute) const;
     void appendMaterial(RecordIndex material, std::vector<Attribute>& attributes) const;
     [[nodiscard]] Records layersOf(RecordIndex material) const;
     [[nodiscard]] static const Records& of(const std::unordered_map<RecordIndex, Records>& map, RecordIndex key);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <unordered_set>
 
 namespace svt::readers::ifc {
 namespace {
@@ -62,14 +63,18 @@ private:
                     setParent(element, file_.follow(fields[5]), false);
                 break;
             case Entity::RelVoidsElement:
+                if (isOfItself(fields)) break;
                 result_.openings[file_.follow(fields[4])].push_back(file_.follow(fields[5]));
                 if (const RecordIndex opening = file_.follow(fields[5]); opening != kNoRecord)
                     hostOf_.emplace(opening, file_.follow(fields[4]));
                 break;
             case Entity::RelProjectsElement:
+                if (isOfItself(fields)) break;
                 result_.projections[file_.follow(fields[4])].push_back(file_.follow(fields[5]));
                 break;
-            case Entity::RelFillsElement: fills_.emplace_back(file_.follow(fields[4]), file_.follow(fields[5])); break;
+            case Entity::RelFillsElement:
+                if (!isOfItself(fields)) fills_.emplace_back(file_.follow(fields[4]), file_.follow(fields[5]));
+                break;
             case Entity::RelAssignsToGroup: {
                 Structure::Group group{file_.follow(fields[6]), {}};
                 if (group.record == kNoRecord) break;
@@ -83,13 +88,41 @@ private:
         }
     }
 
+    // A relation of a product to itself, which is told.
+    bool isOfItself(const Fields& fields) {
+        const RecordIndex product = file_.follow(fields[4]);
+        if (product == kNoRecord || product != file_.follow(fields[5])) return false;
+        result_.circles.push_back(file_.guard().nameCircle({product}));
+        return true;
+    }
+
     // A part of something is found there, whatever contains it too.
     void setParent(RecordIndex child, RecordIndex parent, bool isPart) {
         const std::size_t c = productOf(child), p = productOf(parent);
-        if (c == Product::kNoProduct || p == Product::kNoProduct || c == p) return;
+        if (c == Product::kNoProduct || p == Product::kNoProduct) return;
+        if (c == p) {
+            result_.circles.push_back(file_.guard().nameCircle({child}));
+            return;
+        }
         Product& product = result_.products[c];
         if (product.parent == Product::kNoProduct || (isPart && !isPart_[c])) product.parent = p;
         if (isPart) isPart_[c] = true;
+    }
+
+    // The circle that the parents of a product lead into.
+    void tellCircle(std::size_t product) {
+        std::vector<RecordIndex> path;
+        std::unordered_map<std::size_t, std::size_t> steps;
+        // What an earlier walk came through leads to a circle that is told.
+        while (product != Product::kNoProduct && onWay_.insert(product).second) {
+            steps.emplace(product, path.size());
+            path.push_back(result_.products[product].record);
+            product = result_.products[product].parent;
+        }
+        const auto closes = steps.find(product);
+        if (closes == steps.end()) return;
+        path.erase(path.begin(), path.begin() + std::ptrdiff_t(closes->second));
+        result_.circles.push_back(file_.guard().nameCircle(std::move(path)));
     }
 
     // Depth first from the products without parent; those on a cycle become such.
@@ -131,7 +164,7 @@ private:
         for (const std::size_t root : roots) place(root);
         for (std::size_t p = 0; p < products.size(); ++p) {
             if (!isFeature(p) || isPlaced[p]) continue;
-            result_.hasCycle = true;
+            tellCircle(p);
             products[p].parent = Product::kNoProduct;
             place(p);
         }
@@ -144,6 +177,7 @@ private:
     Structure result_;
     std::unordered_map<RecordIndex, std::size_t> numberOf_;
     std::unordered_map<std::size_t, bool> isPart_;
+    std::unordered_set<std::size_t> onWay_;                // products that tellCircle() came through
     std::unordered_map<RecordIndex, RecordIndex> hostOf_;  // opening -> what it voids, by the first relation
     std::vector<std::pair<RecordIndex, RecordIndex>> fills_;
 };

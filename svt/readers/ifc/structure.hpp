@@ -35,7 +35,7 @@ struct Structure {
     };
     std::vector<Group> groups;  ///< zones, systems and groups, in the order of the file
     std::vector<std::pair<std::string, std::size_t>> unknownClasses;  ///< type names with a shape that no table names
-    bool hasCycle = false;  ///< products that contain themselves; they stand at the top
+    std::vector<std::string> circles;  ///< products that contain each other, or cut themselves; ignored
 };
 
 [[nodiscard]] Structure readStructure(const IfcFile& file);

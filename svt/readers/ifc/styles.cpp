@@ -26,6 +26,8 @@ public:
     }
 
 private:
+    static constexpr std::uint64_t kElementsPerMaterial = 4;  // as much memory as so many points
+
     void readMaterial(const Fields& fields) {
         const RecordIndex owner = file_.follow(fields[3]);
         for (const RecordIndex representation : file_.followAll(fields[2]))
@@ -41,7 +43,7 @@ private:
         const auto first = static_cast<std::int32_t>(styles_.materials.size());
         const double opacity = fields[1].number().value_or(1);
         step::ValueCursor colors(file_.fieldsOf(file_.follow(fields[2]))[0]);
-        for (Value color; colors.next(color);) {
+        for (Value color; colors.next(color) && file_.guard().takeElements(kElementsPerMaterial);) {
             const std::vector<Value> parts = step::itemsOf(color);
             model::Material material;
             const auto part = [&](std::size_t i) {

@@ -23,7 +23,9 @@ double prefixFactor(string_view prefix) noexcept {
 }
 
 // Factor of a unit to that of SI; the prefix of a square metre counts twice.
-std::optional<double> unitFactor(const IfcFile& file, RecordIndex unit, int depth = 0) {
+std::optional<double> unitFactor(const IfcFile& file, RecordIndex unit) {
+    ReadGuard::Scope scope(file.guard());
+    if (!scope.enter(unit)) return std::nullopt;
     const Fields fields = file.fieldsOf(unit);
     switch (file.entityOf(unit)) {
         case Entity::SIUnit: {
@@ -37,8 +39,8 @@ std::optional<double> unitFactor(const IfcFile& file, RecordIndex unit, int dept
         case Entity::ConversionBasedUnitWithOffset: {
             const Fields measure = file.fieldsOf(file.follow(fields[3]));
             const auto value = measure[0].number();
-            if (depth > 8 || !value || !(*value > 0)) return std::nullopt;
-            const auto base = unitFactor(file, file.follow(measure[1]), depth + 1);
+            if (!value || !(*value > 0)) return std::nullopt;
+            const auto base = unitFactor(file, file.follow(measure[1]));
             return base ? std::optional(*value * *base) : std::nullopt;
         }
         default: return std::nullopt;

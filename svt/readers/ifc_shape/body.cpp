@@ -153,6 +153,12 @@ Vec3d newellNormal(const model::Polygon& face) noexcept {
     return sum;
 }
 
+std::uint64_t pointCount(const std::vector<model::Polygon>& faces) noexcept {
+    std::uint64_t count = 0;
+    for (const model::Polygon& face : faces) count += face.points.size();
+    return count;
+}
+
 Box3d boundsOf(const std::vector<model::Polygon>& faces) noexcept {
     Box3d box;
     for (const model::Polygon& face : faces)

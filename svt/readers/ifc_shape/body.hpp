@@ -45,6 +45,8 @@ void turnOver(std::vector<model::Polygon>& faces);
 /// Newell's normal of the exterior ring; its length is twice the area.
 [[nodiscard]] Vec3d newellNormal(const model::Polygon& face) noexcept;
 
+[[nodiscard]] std::uint64_t pointCount(const std::vector<model::Polygon>& faces) noexcept;
+
 [[nodiscard]] Box3d boundsOf(const std::vector<model::Polygon>& faces) noexcept;
 
 }  // namespace svt::readers::ifc

@@ -112,6 +112,11 @@ struct Surface {
         }
     }
 
+    // About what parameters() takes.
+    [[nodiscard]] std::uint64_t stepsPerPoint() const noexcept {
+        return spline ? 40 * (spline->surface.u.degree + 1) * (spline->surface.v.degree + 1) : 1 + curve.size();
+    }
+
     double base = 0;  // radius of a cone at v = 0
 
 private:
@@ -314,7 +319,7 @@ void addRectangle(double lowU, double highU, double lowV, double highV, std::uin
 }
 
 constexpr int kMaxStrips = 512;
-constexpr std::uint64_t kMaxFaceSteps = 500'000'000;
+constexpr std::uint64_t kMaxFaceSteps = 500'000'000, kSplineSteps = 2'000'000;
 
 // Every second strip between lines of equal parameter as the inside of a channel.
 void addStrips(const Surface& surface, const Layout& layout, std::vector<FlatSegment>& segments) {
@@ -372,19 +377,21 @@ void addCell(std::vector<std::vector<Vec3d>> rings, bool isTurned, std::vector<m
 }  // namespace
 
 bool addCurvedFace(const IfcFile& file, RecordIndex record, const std::vector<std::vector<Vec3d>>& rings,
-                   std::vector<model::Polygon>& faces, std::uint64_t& budget) {
+                   std::vector<model::Polygon>& faces) {
+    ReadGuard& guard = file.guard();
     const Entity kind = file.entityOf(record);
     const bool isSpline = kind == Entity::BSplineSurfaceWithKnots || kind == Entity::RationalBSplineSurfaceWithKnots;
     // To measure a spline takes about this, more for a high degree.
-    const std::uint64_t measuring = isSpline ? 2'000'000 : 0;
-    if (budget <= measuring) return false;
-    budget -= measuring;
+    if (isSpline && !guard.takeSteps(kSplineSteps)) return false;
     const auto surface = isSpline                                   ? readSpline(file, record)
                          : kind == Entity::SurfaceOfRevolution      ? readRevolution(file, record)
                          : kind == Entity::SurfaceOfLinearExtrusion ? readExtrusion(file, record)
                                                                     : readSurface(file, record);
     Layout layout;
-    if (!surface || !layOut(*surface, rings, layout)) return false;
+    std::uint64_t points = 0;
+    for (const auto& ring : rings) points += ring.size();
+    if (!surface || !guard.takeSteps(points * surface->stepsPerPoint()) || !layOut(*surface, rings, layout))
+        return false;
     const bool isTurned = twiceArea(layout.rings[0]) < 0;
     for (std::size_t r = 1; r < layout.rings.size(); ++r)
         if ((twiceArea(layout.rings[r]) < 0) == isTurned) {
@@ -400,11 +407,14 @@ bool addCurvedFace(const IfcFile& file, RecordIndex record, const std::vector<st
         return static_cast<std::uint8_t>(1 + (windings[1] > 0 ? 1 : 0) + (windings[2] > 0 ? 2 : 0));
     };
     const std::size_t before = faces.size();
-    const std::uint64_t granted = std::min(kMaxFaceSteps, budget);
+    const std::uint64_t granted = std::min(kMaxFaceSteps, guard.stepsLeft());
     std::uint64_t left = granted;
     std::vector<FlatFace> cells = overlay(segments, 3, stateOf, left);
-    budget -= granted - std::min(left, granted);
+    guard.takeSteps(granted - std::min(left, granted));
     for (FlatFace& cell : cells) {
+        std::uint64_t corners = 0;
+        for (const auto& ring : cell.rings) corners += ring.size();
+        if (!guard.takeSteps(corners * (points + surface->curve.size()))) break;
         for (auto& ring : cell.rings)
             for (Vec3d& p : ring) p = placeOf(*surface, layout, p);
         addCell(std::move(cell.rings), isTurned, faces);

@@ -21,10 +21,9 @@ namespace svt::readers::ifc {
 /// Chords across a B-spline surface stay within kChordError of it, as far as 32 strips each way do.
 /// \param surface  cylinder, cone, sphere, torus, surface of linear extrusion or revolution, or B-spline surface
 /// \param rings    exterior one first, as the face sees them
-/// \param budget   steps that are left for all faces of a file, some nanoseconds each; taken from
-/// \return false where the surface is of another kind, a ring goes around it or through its pole or apex, or the budget is
-///         spent
+/// \return false where the surface is of another kind, a ring goes around it or through its pole or apex, or the budget of
+///         file.guard() is spent
 [[nodiscard]] bool addCurvedFace(const IfcFile& file, RecordIndex surface, const std::vector<std::vector<Vec3d>>& rings,
-                                 std::vector<model::Polygon>& faces, std::uint64_t& budget);
+                                 std::vector<model::Polygon>& faces);
 
 }  // namespace svt::readers::ifc

@@ -11,7 +11,6 @@
 namespace svt::readers::ifc {
 namespace {
 
-constexpr int kMaxCurveDepth = 32;
 constexpr std::size_t kMaxPoints = 1'000'000;
 
 // Joins `part` to `points`; a first point equal to the last one is left out.
@@ -69,6 +68,7 @@ bool readIndexedPolyCurve(const IfcFile& file, const Fields& fields, std::vector
             appendArcThrough(at[0], at[1], at[2], points);
         else
             appendPart(at, points);
+        if (points.size() > kMaxPoints) return false;
     }
     return points.size() >= 2;
 }
@@ -128,6 +128,78 @@ bool readTrimmedConic(const IfcFile& file, RecordIndex basis, Trim from, Trim to
     return true;
 }
 
+double distanceToSegment(Vec3d p, Vec3d a, Vec3d b, double& share) noexcept {
+    const Vec3d ab = b - a;
+    const double size = dot(ab, ab);
+    share = size > 0 ? std::clamp(dot(p - a, ab) / size, 0.0, 1.0) : 0;
+    return length(p - (a + ab * share));
+}
+
+// Where a point lies on a polyline: number of its segment plus the share of it.
+double parameterOf(const std::vector<Vec3d>& line, Vec3d p) noexcept {
+    double best = kInfinity, parameter = 0;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        double share = 0;
+        const double distance = distanceToSegment(p, line[i], line[i + 1], share);
+        if (distance < best) {
+            best = distance;
+            parameter = double(i) + share;
+        }
+    }
+    return parameter;
+}
+
+// The part of a line of two or more points between two points on it.
+std::vector<Vec3d> partBetween(std::vector<Vec3d> whole, Vec3d from, Vec3d to, bool isForward) {
+    if (!isForward) std::reverse(whole.begin(), whole.end());
+    const bool isClosed = length(whole.front() - whole.back()) < 1e-6;
+    const double begin = parameterOf(whole, from);
+    double end = parameterOf(whole, to);
+    const double count = double(whole.size() - 1);
+    if (isClosed && end <= begin + 1e-9) end += count;
+    std::vector<Vec3d> part{from};
+    for (double i = std::floor(begin) + 1; i < end; i += 1)
+        part.push_back(whole[std::size_t(i >= count ? i - count : i)]);
+    part.push_back(to);
+    return part;
+}
+
+bool isOnSurface(Entity entity) noexcept {
+    return entity == Entity::SurfaceCurve || entity == Entity::SeamCurve || entity == Entity::IntersectionCurve;
+}
+
+// readCurveBetween() of a curve whose points are known; none: they are read. Each curve is read once only, for a chain of
+// curves that trim each other would else double the work with each.
+bool readBetween(const IfcFile& file, RecordIndex curve, std::vector<Vec3d> whole, Vec3d from, Vec3d to, bool isForward,
+                 std::vector<Vec3d>& points, std::string& why) {
+    ReadGuard::Scope scope(file.guard());
+    const Entity entity = file.entityOf(curve);
+    if (entity == Entity::Line) {
+        appendPart({from, to}, points);
+        return true;
+    }
+    std::vector<Vec3d> part;
+    if (isOnSurface(entity)) {
+        if (!scope.enter(curve)) {
+            why = scope.why();
+            return false;
+        }
+        return readBetween(file, file.follow(file.fieldsOf(curve)[0]), std::move(whole), from, to, isForward, points,
+                           why);
+    }
+    if (entity == Entity::Circle || entity == Entity::Ellipse) {
+        if (!readTrimmedConic(file, curve, {from, {}}, {to, {}}, isForward, true, part)) return false;
+    } else {
+        if (whole.empty() && !readCurve(file, curve, whole, why)) return false;
+        if (whole.size() < 2) return false;
+        part = partBetween(std::move(whole), from, to, isForward);
+    }
+    part.front() = from;
+    part.back() = to;
+    appendPart(part, points);
+    return true;
+}
+
 bool readTrimmedCurve(const IfcFile& file, const Fields& fields, std::vector<Vec3d>& points, std::string& why) {
     const RecordIndex basis = file.follow(fields[0]);
     const Trim from = readTrim(file, fields[1]), to = readTrim(file, fields[2]);
@@ -150,9 +222,9 @@ bool readTrimmedCurve(const IfcFile& file, const Fields& fields, std::vector<Vec
         default: {
             // The whole curve where the trims are its ends, as they are nearly always; the part between two points else.
             std::vector<Vec3d> whole;
-            if (!readCurve(file, basis, whole, why, 1) || whole.size() < 2) return false;
+            if (!readCurve(file, basis, whole, why) || whole.size() < 2) return false;
             if (from.point && to.point)
-                return readCurveBetween(file, basis, *from.point, *to.point, isForward, points, why);
+                return readBetween(file, basis, std::move(whole), *from.point, *to.point, isForward, points, why);
             why = "a trimmed curve by parameters of another curve than a line or conic";
             return false;
         }
@@ -163,6 +235,8 @@ bool readBSpline(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& poi
     const auto spline = readBSplineCurve(file, curve);
     if (!spline) return false;
     const KnotVector& knots = spline->knots;
+    // Each of 17 points of a span is a sum over the square of the order.
+    if (!file.guard().takeSteps(17 * knots.count * (knots.degree + 1) * (knots.degree + 1))) return false;
     std::vector<Vec3d> sampled;
     for (std::size_t span = knots.degree; span < knots.count; ++span) {
         const double low = knots.knots[span], high = knots.knots[span + 1];
@@ -175,12 +249,12 @@ bool readBSpline(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& poi
     return points.size() >= 2;
 }
 
-bool readComposite(const IfcFile& file, const Fields& fields, std::vector<Vec3d>& points, std::string& why, int depth) {
+bool readComposite(const IfcFile& file, const Fields& fields, std::vector<Vec3d>& points, std::string& why) {
     std::vector<std::vector<Vec3d>> pieces;
     for (const RecordIndex segment : file.followAll(fields[0])) {
         const Fields part = file.fieldsOf(segment);
         std::vector<Vec3d> piece;
-        if (!readCurve(file, file.follow(part[2]), piece, why, depth + 1)) return false;
+        if (!readCurve(file, file.follow(part[2]), piece, why)) return false;
         if (part[1].enumeration() == "F") std::reverse(piece.begin(), piece.end());
         if (!piece.empty()) pieces.push_back(std::move(piece));
     }
@@ -200,27 +274,6 @@ bool readComposite(const IfcFile& file, const Fields& fields, std::vector<Vec3d>
     }
     for (const std::vector<Vec3d>& piece : pieces) appendPart(piece, points);
     return points.size() >= 2;
-}
-
-double distanceToSegment(Vec3d p, Vec3d a, Vec3d b, double& share) noexcept {
-    const Vec3d ab = b - a;
-    const double size = dot(ab, ab);
-    share = size > 0 ? std::clamp(dot(p - a, ab) / size, 0.0, 1.0) : 0;
-    return length(p - (a + ab * share));
-}
-
-// Where a point lies on a polyline: number of its segment plus the share of it.
-double parameterOf(const std::vector<Vec3d>& line, Vec3d p) noexcept {
-    double best = kInfinity, parameter = 0;
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        double share = 0;
-        const double distance = distanceToSegment(p, line[i], line[i + 1], share);
-        if (distance < best) {
-            best = distance;
-            parameter = double(i) + share;
-        }
-    }
-    return parameter;
 }
 
 }  // namespace
@@ -248,12 +301,14 @@ void appendArc(const Transform& axes, double radiusX, double radiusY, double fro
     }
 }
 
-bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points, std::string& why, int depth) {
-    const Entity entity = file.entityOf(curve);
-    if (depth > kMaxCurveDepth) {
-        why = "curves that refer to each other in a circle";
+bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points, std::string& why) {
+    ReadGuard::Scope scope(file.guard());
+    if (!scope.enter(curve)) {
+        why = scope.why();
         return false;
     }
+    const Entity entity = file.entityOf(curve);
+    const std::size_t before = points.size();
     const Fields fields = file.fieldsOf(curve);
     bool isRead = false;
     switch (entity) {
@@ -267,7 +322,7 @@ bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& point
             break;
         case Entity::IndexedPolyCurve: isRead = readIndexedPolyCurve(file, fields, points); break;
         case Entity::CompositeCurve:
-        case Entity::CompositeCurveOnSurface: isRead = readComposite(file, fields, points, why, depth); break;
+        case Entity::CompositeCurveOnSurface: isRead = readComposite(file, fields, points, why); break;
         case Entity::TrimmedCurve: isRead = readTrimmedCurve(file, fields, points, why); break;
         case Entity::Circle:
         case Entity::Ellipse:
@@ -281,46 +336,23 @@ bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& point
         case Entity::RationalBSplineCurveWithKnots: isRead = readBSpline(file, curve, points); break;
         case Entity::SurfaceCurve:
         case Entity::SeamCurve:
-        case Entity::IntersectionCurve: return readCurve(file, file.follow(fields[0]), points, why, depth + 1);
+        case Entity::IntersectionCurve: return readCurve(file, file.follow(fields[0]), points, why);
         default:
             if (why.empty()) why = fmt::format("the curve {}", file.typeName(curve).substr(0, 60));
             return false;
     }
     isRead = isRead && points.size() <= kMaxPoints;
+    if (!file.guard().takeElements(points.size() - before)) {
+        why = file.guard().whatIsSpent();
+        return false;
+    }
     if (!isRead && why.empty()) why = fmt::format("values of a curve {}", entityName(entity));
     return isRead;
 }
 
 bool readCurveBetween(const IfcFile& file, RecordIndex curve, Vec3d from, Vec3d to, bool isForward,
                       std::vector<Vec3d>& points, std::string& why) {
-    const Entity entity = file.entityOf(curve);
-    if (entity == Entity::Line) {
-        appendPart({from, to}, points);
-        return true;
-    }
-    if (entity == Entity::SurfaceCurve || entity == Entity::SeamCurve || entity == Entity::IntersectionCurve)
-        return readCurveBetween(file, file.follow(file.fieldsOf(curve)[0]), from, to, isForward, points, why);
-    std::vector<Vec3d> part;
-    if (entity == Entity::Circle || entity == Entity::Ellipse) {
-        if (!readTrimmedConic(file, curve, {from, {}}, {to, {}}, isForward, true, part)) return false;
-    } else {
-        std::vector<Vec3d> whole;
-        if (!readCurve(file, curve, whole, why, 1) || whole.size() < 2) return false;
-        if (!isForward) std::reverse(whole.begin(), whole.end());
-        const bool isClosed = length(whole.front() - whole.back()) < 1e-6;
-        const double begin = parameterOf(whole, from);
-        double end = parameterOf(whole, to);
-        const double count = double(whole.size() - 1);
-        if (isClosed && end <= begin + 1e-9) end += count;
-        part.push_back(from);
-        for (double i = std::floor(begin) + 1; i < end; i += 1)
-            part.push_back(whole[std::size_t(i >= count ? i - count : i)]);
-        part.push_back(to);
-    }
-    part.front() = from;
-    part.back() = to;
-    appendPart(part, points);
-    return true;
+    return readBetween(file, curve, {}, from, to, isForward, points, why);
 }
 
 void closeRing(std::vector<Vec3d>& points, double distance) {

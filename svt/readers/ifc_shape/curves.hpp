@@ -29,9 +29,9 @@ void appendArc(const Transform& axes, double radiusX, double radiusY, double fro
 /// Points of a curve in its order; of a closed one the last equals the first.
 /// Reads polylines, indexed poly curves, composite and trimmed curves, circles, ellipses, B-splines, and the 3D curve of a
 /// curve on a surface. Metres; curves in 2D have z = 0.
-/// \return false where the curve, or a part of it, is of another kind or makes no sense; `why` says which
-[[nodiscard]] bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points, std::string& why,
-                             int depth = 0);
+/// \return false where the curve, or a part of it, is of another kind or makes no sense, or file.guard() ends it; `why`
+///         says which
+[[nodiscard]] bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points, std::string& why);
 
 /// Points of the part of a curve between two points on it, as an edge uses it. Lines are two points.
 /// \param isForward  whether the edge runs with the curve

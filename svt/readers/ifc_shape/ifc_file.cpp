@@ -21,8 +21,6 @@ constexpr string_view kNames[] = {"Other",
 };
 // NOLINTEND(bugprone-suspicious-missing-comma)
 
-constexpr int kMaxPlacements = 256;
-
 }  // namespace
 
 string_view entityName(Entity entity) noexcept { return kNames[static_cast<std::size_t>(entity)]; }
@@ -32,7 +30,7 @@ Fields::Fields(string_view values) noexcept {
     while (count_ < values_.size() && cursor.next(values_[count_])) ++count_;
 }
 
-IfcFile::IfcFile(const step::StepFile& file) : step_(file), missing_(file) {
+IfcFile::IfcFile(const step::StepFile& file) : step_(file), missing_(file), guard_(file) {
     for (const string_view type : file.typeNames()) {
         Entity entity = Entity::Other;
         for (std::size_t i = 1; i < std::size(kNames) && entity == Entity::Other; ++i)
@@ -160,9 +158,10 @@ Transform IfcFile::transformation(RecordIndex record) const {
 
 Transform IfcFile::placement(RecordIndex record, std::string& lost) const {
     Transform result;
-    for (int level = 0; record != kNoRecord; ++level) {
-        if (level == kMaxPlacements) {
-            lost = fmt::format("placements above the {}th, or in a cycle", kMaxPlacements);
+    ReadGuard::Scope scope(guard_);
+    while (record != kNoRecord) {
+        if (!scope.enter(record)) {
+            lost = scope.why();
             break;
         }
         const Fields fields = fieldsOf(record);

@@ -6,6 +6,7 @@
 #include <svt/core/vec.hpp>
 #include <svt/readers/ifc_shape/transform.hpp>
 #include <svt/readers/step/missing_records.hpp>
+#include <svt/readers/step/read_guard.hpp>
 #include <svt/readers/step/step_file.hpp>
 #include <svt/readers/step/step_value.hpp>
 
@@ -19,6 +20,7 @@
 namespace svt::readers::ifc {
 
 using step::kNoRecord;
+using step::ReadGuard;
 using step::RecordIndex;
 using step::Value;
 
@@ -98,9 +100,14 @@ public:
     [[nodiscard]] Entity entityOf(RecordIndex record) const noexcept {
         return record == kNoRecord ? Entity::Other : entityOfType_[step_.records()[record].type];
     }
+    /// None once the budget of guard() is spent: this is where the steps of reading are counted.
     [[nodiscard]] Fields fieldsOf(RecordIndex record) const noexcept {
-        return Fields(record == kNoRecord ? std::string_view() : step_.valuesOf(step_.records()[record]));
+        if (record == kNoRecord || !guard_.takeSteps(kStepsPerRecord + step_.records()[record].size))
+            return Fields(std::string_view());
+        return Fields(step_.valuesOf(step_.records()[record]));
     }
+    /// Bounds what is read of the file: every function that follows references from record to record asks it.
+    [[nodiscard]] ReadGuard& guard() const noexcept { return guard_; }
     /// Type name as the file has it, such as IFCPOLYLINE; empty for kNoRecord.
     [[nodiscard]] std::string_view typeName(RecordIndex record) const noexcept {
         return record == kNoRecord ? std::string_view() : step_.typeName(step_.records()[record]);
@@ -128,7 +135,7 @@ public:
     /// IfcLocalPlacement, IfcGridPlacement (on straight axes) or IfcLinearPlacement (by its distance along a curve that
     /// readCurve() knows, else by its Cartesian position) and those above it, in the world of the project.
     /// \param lost  set to what of the way up could not be read, in words; unchanged if all was. There the placement is
-    ///              that of the levels that could: a cycle, or more than 256 levels, ends it
+    ///              that of the levels that could: a circle ends it
     [[nodiscard]] Transform placement(RecordIndex record, std::string& lost) const;
 
     /// IfcAxis2PlacementLinear at a distance along a curve that readCurve() knows: x along it, y to its left.
@@ -138,11 +145,15 @@ public:
     double angleUnit = 1;   ///< radians
 
 private:
+    static constexpr std::uint64_t kStepsPerRecord = 64;
+
     [[nodiscard]] std::optional<Transform> gridAxes(RecordIndex placement, RecordIndex& above) const;
     bool readGridAxis(RecordIndex axis, double offset, Vec3d& from, Vec3d& along) const;
 
     const step::StepFile& step_;
-    mutable step::MissingRecords missing_;  // what was read of a file, not what it is
+    // Of what was read of a file, not of what it is.
+    mutable step::MissingRecords missing_;
+    mutable ReadGuard guard_;
     std::vector<Entity> entityOfType_;
     std::unordered_map<RecordIndex, RecordIndex> placementOfAxis_;  // grid axis -> placement of its grid
 };

@@ -306,7 +306,7 @@ std::vector<FlatFace> overlay(std::span<const FlatSegment> segments, std::uint32
     if (!take(std::uint64_t(segments.size()) * segments.size() / 4)) return {};
     Overlay cut(segments, channelCount, stateOf);
     if (cut.isTooMuch()) budget = 0;
-    if (!take(std::uint64_t(cut.edgeCount()) * cut.edgeCount())) return {};
+    if (!take(std::uint64_t(cut.edgeCount()) * (cut.edgeCount() + channelCount))) return {};
     return cut.run();
 }
 

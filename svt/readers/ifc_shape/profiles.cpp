@@ -11,8 +11,6 @@
 namespace svt::readers::ifc {
 namespace {
 
-constexpr int kMaxProfileDepth = 16;
-
 using Ring = std::vector<Vec3d>;
 
 // A corner of an outline, rounded by an arc that touches both sides.
@@ -270,12 +268,13 @@ void transformRegion(Region& region, const Transform& transform) {
 }
 
 bool readDerived(const IfcFile& file, RecordIndex profile, const Fields& fields, std::vector<Region>& regions,
-                 std::string& why, int depth) {
+                 std::string& why) {
     std::vector<Region> parent;
-    if (!readProfile(file, file.follow(fields[2]), parent, why, depth + 1)) return false;
+    if (!readProfile(file, file.follow(fields[2]), parent, why)) return false;
     Transform transform = file.transformation(file.follow(fields[3]));
     if (file.entityOf(profile) == Entity::MirroredProfileDef) transform = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}};
     for (Region& region : parent) {
+        if (!file.guard().takeElements(region.pointCount())) break;
         transformRegion(region, transform);
         if (orient(region)) regions.push_back(std::move(region));
     }
@@ -303,18 +302,19 @@ bool readRegion(const IfcFile& file, RecordIndex profile, const Fields& fields, 
 
 }  // namespace
 
-bool readProfile(const IfcFile& file, RecordIndex profile, std::vector<Region>& regions, std::string& why, int depth) {
-    if (depth > kMaxProfileDepth) {
-        why = "profiles that refer to each other in a circle";
+bool readProfile(const IfcFile& file, RecordIndex profile, std::vector<Region>& regions, std::string& why) {
+    ReadGuard::Scope scope(file.guard());
+    if (!scope.enter(profile)) {
+        why = scope.why();
         return false;
     }
     const Fields fields = file.fieldsOf(profile);
     const Entity entity = file.entityOf(profile);
     if (entity == Entity::DerivedProfileDef || entity == Entity::MirroredProfileDef)
-        return readDerived(file, profile, fields, regions, why, depth);
+        return readDerived(file, profile, fields, regions, why);
     if (entity == Entity::CompositeProfileDef) {
         for (const RecordIndex part : file.followAll(fields[2]))
-            if (!readProfile(file, part, regions, why, depth + 1)) return false;
+            if (!readProfile(file, part, regions, why)) return false;
         return !regions.empty();
     }
     const bool isKnown = entity >= Entity::RectangleProfileDef && entity <= Entity::CenterLineProfileDef &&
@@ -330,6 +330,10 @@ bool readProfile(const IfcFile& file, RecordIndex profile, std::vector<Region>& 
     }
     if (!orient(region)) {
         why = fmt::format("a profile {} without area", entityName(entity));
+        return false;
+    }
+    if (!file.guard().takeElements(region.pointCount())) {
+        why = file.guard().whatIsSpent();
         return false;
     }
     regions.push_back(std::move(region));

@@ -14,7 +14,11 @@ namespace {
 
 using Regions = std::vector<Region>;
 
-constexpr std::size_t kMaxSectionPoints = 20'000'000;  // of all sections of a solid
+std::size_t pointCount(const Regions& regions) noexcept {
+    std::size_t count = 0;
+    for (const Region& region : regions) count += region.pointCount();
+    return count;
+}
 
 // Where a section stands: x and y of the profile, and what they are measured from.
 struct Station {
@@ -113,7 +117,9 @@ bool addAlong(const IfcFile& file, const Fields& fields, std::vector<Station>& s
         return false;
     }
     const bool isVertical = fields[3].enumeration() == "T";
+    const auto canLookUp = [&](std::size_t times) { return file.guard().takeSteps(times * directrix.points.size()); };
     for (const RecordIndex position : file.followAll(fields[2])) {
+        if (!canLookUp(1)) return false;
         const Fields place = file.fieldsOf(position), point = file.fieldsOf(file.follow(place[0]));
         const auto distance = point[0].number();
         if (file.entityOf(position) != Entity::Axis2PlacementLinear || !distance ||
@@ -139,9 +145,11 @@ bool addAlong(const IfcFile& file, const Fields& fields, std::vector<Station>& s
     std::vector<Station> all;
     std::vector<Regions> between;
     for (std::size_t s = 0; s < stations.size(); ++s) {
+        if (!canLookUp(1)) return false;
         for (std::size_t p = 0; s > 0 && p < directrix.points.size(); ++p) {
             const double from = stations[s - 1].distance, to = stations[s].distance, at = directrix.lengths[p];
             if (!(at > from + 1e-6 && at < to - 1e-6)) continue;
+            if (!canLookUp(3) || !file.guard().takeElements(pointCount(sections[s]))) return false;
             const double share = (at - from) / (to - from);
             Station corner = directrix.at(at, isVertical);
             const auto offset = [&](const Station& station) {
@@ -188,17 +196,21 @@ std::vector<std::vector<model::Polygon>> readSectioned(const IfcFile& file, Reco
         return {};
     }
     if (isSpine ? !addSpine(file, fields, stations, sections.size(), why)
-                : !addAlong(file, fields, stations, sections, why))
+                : !addAlong(file, fields, stations, sections, why)) {
+        if (file.guard().isSpent()) why = file.guard().whatIsSpent();
         return {};
+    }
     std::vector<std::vector<model::Polygon>> bodies;
+    std::uint64_t made = 0;
     for (std::size_t r = 0; r < sections.front().size(); ++r) {
-        if (sections.front()[r].outer.size() * sections.size() > kMaxSectionPoints) {
-            why = "a sectioned solid of more than 20 million corners";
+        if (!file.guard().affords(made + sections.front()[r].pointCount() * 6 * sections.size())) {
+            why = file.guard().whatIsSpent();
             return {};
         }
         Regions rings;
         for (std::size_t s = 0; s < sections.size(); ++s) rings.push_back(placed(sections[s][r], stations[s]));
         std::vector<model::Polygon> faces = loft(rings);
+        made += pointCount(faces);
         if (!faces.empty()) bodies.push_back(std::move(faces));
     }
     if (bodies.empty()) why = fmt::format("an {} whose measures make no body", file.typeName(item));

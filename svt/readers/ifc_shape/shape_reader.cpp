@@ -16,12 +16,7 @@ namespace {
 
 using Polygons = std::vector<model::Polygon>;
 
-constexpr int kMaxItemDepth = 48;
-constexpr std::size_t kMaxChain = 10'000;  // booleans of one kind in a row
-constexpr std::size_t kFreeBooleans = 1000;
-constexpr std::uint64_t kFreeFaceSteps = 1'000'000'000, kFaceStepsPerRecord = 200'000;  // of curved faces
-constexpr std::uint64_t kMaxExpandedPoints =
-    200'000'000;  // of mapped items: some bytes of the file stand for a whole shape
+constexpr std::size_t kMaxLeftOut = 1000;  // reasons of one product; the first five are told
 
 bool isIn(std::string_view word, std::initializer_list<std::string_view> words) noexcept {
     return std::find(words.begin(), words.end(), word) != words.end();
@@ -58,18 +53,28 @@ void turnLoop(std::vector<Vec3d>& ring, std::vector<std::size_t>& ends) {
 
 ShapeReader::ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem,
                          std::unordered_map<RecordIndex, std::vector<std::int32_t>> materialOfFaces)
-    : file_(file),
-      materialOfItem_(std::move(materialOfItem)),
-      materialOfFaces_(std::move(materialOfFaces)),
-      faceBudget_(kFreeFaceSteps + kFaceStepsPerRecord * file.step().records().size()) {}
+    : file_(file), materialOfItem_(std::move(materialOfItem)), materialOfFaces_(std::move(materialOfFaces)) {}
 
 void ShapeReader::leaveOut(std::string what) {
+    if (leftOut_.size() == kMaxLeftOut || !file_.guard().takeSteps(leftOut_.size())) return;
     if (std::find(leftOut_.begin(), leftOut_.end(), what) == leftOut_.end()) leftOut_.push_back(std::move(what));
 }
 
 // References that led nowhere since the last call belong to what is read now.
 void ShapeReader::leaveOutMissing() {
     for (std::string& what : file_.missing().take()) leaveOut(std::move(what));
+}
+
+// What is past the budget is left out with all of its product, which is said there.
+void ShapeReader::add(Body body, Bodies& bodies) {
+    if (file_.guard().takeElements(pointCount(body.faces))) bodies.push_back(std::move(body));
+}
+
+// Whether what takes so many points can be made; else that is left out.
+bool ShapeReader::affords(std::uint64_t points) {
+    if (file_.guard().affords(points)) return true;
+    leaveOut(file_.guard().whatIsSpent());
+    return false;
 }
 
 Shape ShapeReader::readShape(RecordIndex definition) {
@@ -100,20 +105,21 @@ Shape ShapeReader::readShape(RecordIndex definition) {
 }
 
 void ShapeReader::readRepresentation(RecordIndex representation, Bodies& bodies) {
-    for (const RecordIndex item : file_.followAll(file_.fieldsOf(representation)[3])) readItem(item, 0, bodies);
+    for (const RecordIndex item : file_.followAll(file_.fieldsOf(representation)[3])) readItem(item, bodies);
 }
 
-void ShapeReader::readItem(RecordIndex item, int depth, Bodies& bodies) {
-    if (depth > kMaxItemDepth) return leaveOut("items that refer to each other in a circle, or nest too deep");
+void ShapeReader::readItem(RecordIndex item, Bodies& bodies) {
+    ReadGuard::Scope scope(file_.guard());
+    if (!scope.enter(item)) return leaveOut(scope.why());
     const std::size_t first = bodies.size();
-    readKnownItem(item, file_.fieldsOf(item), depth, bodies);
+    readKnownItem(item, file_.fieldsOf(item), bodies);
     const auto style = materialOfItem_.find(item);
     if (style == materialOfItem_.end()) return;
     for (std::size_t b = first; b < bodies.size(); ++b)
         if (bodies[b].material < 0) bodies[b].material = style->second;
 }
 
-void ShapeReader::readKnownItem(RecordIndex item, const Fields& fields, int depth, Bodies& bodies) {
+void ShapeReader::readKnownItem(RecordIndex item, const Fields& fields, Bodies& bodies) {
     switch (file_.entityOf(item)) {
         case Entity::ExtrudedAreaSolid:
         case Entity::ExtrudedAreaSolidTapered:
@@ -140,16 +146,16 @@ void ShapeReader::readKnownItem(RecordIndex item, const Fields& fields, int dept
         case Entity::OpenShell:
         case Entity::ClosedShell: {
             Body body{readFaces(fields[0]), file_.entityOf(item) == Entity::ClosedShell, -1};
-            if (!body.faces.empty()) bodies.push_back(std::move(body));
+            if (!body.faces.empty()) add(std::move(body), bodies);
             return;
         }
         case Entity::TriangulatedFaceSet:
         case Entity::TriangulatedIrregularNetwork:
         case Entity::PolygonalFaceSet: return readFaceSet(item, fields, bodies);
-        case Entity::MappedItem: return readMappedItem(fields, depth, bodies);
+        case Entity::MappedItem: return readMappedItem(fields, bodies);
         case Entity::BooleanResult:
-        case Entity::BooleanClippingResult: return readBoolean(fields, depth, bodies);
-        case Entity::CsgSolid: return readItem(file_.follow(fields[0]), depth + 1, bodies);
+        case Entity::BooleanClippingResult: return readBoolean(fields, bodies);
+        case Entity::CsgSolid: return readItem(file_.follow(fields[0]), bodies);
         case Entity::Block:
         case Entity::RectangularPyramid:
         case Entity::RightCircularCone:
@@ -168,7 +174,7 @@ void ShapeReader::addSolid(Polygons faces, Bodies& bodies, RecordIndex item) {
     if (faces.empty())
         leaveOut(fmt::format("an {} whose measures make no body", file_.typeName(item)));
     else
-        bodies.push_back({std::move(faces), true, -1});
+        add({std::move(faces), true, -1}, bodies);
 }
 
 void ShapeReader::readSweep(RecordIndex item, const Fields& fields, Bodies& bodies) {
@@ -179,14 +185,19 @@ void ShapeReader::readSweep(RecordIndex item, const Fields& fields, Bodies& bodi
     const Transform position = file_.axes(file_.follow(fields[1]));
     if (entity == Entity::RevolvedAreaSolid) {
         const Transform axis = file_.axes(file_.follow(fields[2]));
-        for (const Region& region : regions)
+        for (const Region& region : regions) {
+            if (!affords(region.pointCount() * 4 * (kMaxSegments + 1))) return;
             addSolid(transformed(revolve(region, axis, file_.radians(fields[3])), position), bodies, item);
+        }
         return;
     }
     const Vec3d sweep = normalized(file_.direction(fields[2]).value_or(Vec3d{0, 0, 1})) * file_.metres(fields[3]);
     const bool isTapered = entity == Entity::ExtrudedAreaSolidTapered;
     if (isTapered && (!readProfile(file_, file_.follow(fields[4]), ends, why) || ends.size() != regions.size()))
         return leaveOut(why.empty() ? "a tapered solid between unlike profiles" : why);
+    std::uint64_t points = 0;
+    for (const Region& region : regions) points += 8 * region.pointCount();
+    if (!affords(points)) return;
     for (std::size_t r = 0; r < regions.size(); ++r)
         addSolid(
             transformed(isTapered ? extrudeTapered(regions[r], ends[r], sweep) : extrude(regions[r], sweep), position),
@@ -217,17 +228,20 @@ void ShapeReader::readDirectedSweep(RecordIndex item, const Fields& fields, Bodi
     if (!isWhole)
         leaveOut("the ends of a swept profile, which stand at parameters of its curve: it has the whole curve");
     const Transform position = file_.axes(file_.follow(fields[1]));
-    for (const Region& region : regions)
+    for (const Region& region : regions) {
+        if (!affords(region.pointCount() * 6 * line.size())) return;
         addSolid(transformed(sweepAlong(region, line, reference), position), bodies, item);
+    }
 }
 
 void ShapeReader::readDisk(const Fields& fields, Bodies& bodies) {
     std::vector<Vec3d> line;
     std::string why;
     if (!readCurve(file_, file_.follow(fields[0]), line, why)) return leaveOut(why);
+    if (!affords(line.size() * 2 * 6 * kMaxDiskSegments)) return;
     Polygons faces = sweepDisk(std::move(line), file_.metres(fields[1]), file_.metres(fields[2]));
     if (faces.empty()) return leaveOut("a swept disk without length or radius");
-    bodies.push_back({std::move(faces), true, -1});
+    add({std::move(faces), true, -1}, bodies);
 }
 
 void ShapeReader::readPrimitive(RecordIndex item, const Fields& fields, Bodies& bodies) {
@@ -247,35 +261,41 @@ void ShapeReader::readPrimitive(RecordIndex item, const Fields& fields, Bodies& 
     }
 }
 
-void ShapeReader::readMappedItem(const Fields& fields, int depth, Bodies& bodies) {
+// The items of a representation map, read once.
+void ShapeReader::readMap(RecordIndex map) {
+    leaveOutMissing();
+    const Fields source = file_.fieldsOf(map);
+    const RecordIndex shown = file_.follow(source[1]);
+    ReadGuard::Scope scope(file_.guard());
+    if (!scope.enter(map) || !scope.enter(shown)) return leaveOut(scope.why());
+    std::vector<std::string> outside;
+    std::swap(outside, leftOut_);
+    Bodies made;
+    for (const RecordIndex item : file_.followAll(file_.fieldsOf(shown)[3])) readItem(item, made);
+    const Transform origin = file_.axes(file_.follow(source[0]));
+    if (origin != Transform{})
+        for (Body& body : made) body = transformed(body, origin.inverse());
+    leaveOutMissing();
+    std::swap(outside, leftOut_);
+    // What one product could not afford is no part of what others have of the map.
+    if (file_.guard().isSpent()) return leaveOut(file_.guard().whatIsSpent());
+    leftOutOfMap_[map] = std::move(outside);
+    mapped_.emplace(map, std::make_shared<const Bodies>(std::move(made)));
+}
+
+void ShapeReader::readMappedItem(const Fields& fields, Bodies& bodies) {
     const RecordIndex map = file_.follow(fields[0]);
-    auto found = mapped_.find(map);
-    if (found == mapped_.end()) {
-        const Fields source = file_.fieldsOf(map);
-        leaveOutMissing();
-        std::vector<std::string> outside;
-        std::swap(outside, leftOut_);
-        mapped_.emplace(map, std::make_shared<const Bodies>());  // a map that contains itself is empty there
-        Bodies made;
-        for (const RecordIndex item : file_.followAll(file_.fieldsOf(file_.follow(source[1]))[3]))
-            readItem(item, depth + 1, made);
-        const Transform origin = file_.axes(file_.follow(source[0]));
-        if (origin != Transform{})
-            for (Body& body : made) body = transformed(body, origin.inverse());
-        leaveOutMissing();
-        leftOutOfMap_[map] = leftOut_;
-        std::swap(outside, leftOut_);
-        found = mapped_.insert_or_assign(map, std::make_shared<const Bodies>(std::move(made))).first;
-    }
+    if (mapped_.find(map) == mapped_.end()) readMap(map);
+    const auto found = mapped_.find(map);
+    if (found == mapped_.end()) return;
     for (const std::string& what : leftOutOfMap_[map]) leaveOut(what);
     const Transform target = file_.transformation(file_.follow(fields[1]));
     if (!(std::abs(target.determinant()) > 1e-30)) return leaveOut("a mapped item with a scale of 0");
     const std::shared_ptr<const Bodies> source = found->second;
-    for (const Body& body : *source) {
-        for (const model::Polygon& face : body.faces) expanded_ += face.points.size();
-        if (expanded_ > kMaxExpandedPoints) return leaveOut("mapped items beyond 200 million points in all");
-        bodies.push_back(transformed(body, target));
-    }
+    std::uint64_t points = 0;
+    for (const Body& body : *source) points += pointCount(body.faces);
+    if (!affords(points)) return;
+    for (const Body& body : *source) add(transformed(body, target), bodies);
 }
 
 void ShapeReader::readBrep(RecordIndex item, const Fields& fields, Bodies& bodies) {
@@ -290,13 +310,13 @@ void ShapeReader::readBrep(RecordIndex item, const Fields& fields, Bodies& bodie
             faces.insert(faces.end(), hollow.begin(), hollow.end());
         }
     }
-    bodies.push_back({std::move(faces), true, -1});
+    add({std::move(faces), true, -1}, bodies);
 }
 
 void ShapeReader::readSurfaceModel(const Fields& fields, Bodies& bodies) {
     for (const RecordIndex shell : file_.followAll(fields[0])) {
         Body body{readFaces(file_.fieldsOf(shell)[0]), file_.entityOf(shell) == Entity::ClosedShell, -1};
-        if (!body.faces.empty()) bodies.push_back(std::move(body));
+        if (!body.faces.empty()) add(std::move(body), bodies);
     }
 }
 
@@ -344,7 +364,7 @@ bool ShapeReader::readLoop(RecordIndex loop, std::vector<Vec3d>& ring, std::vect
             if (!file_.missing().isAny()) edges_.emplace(edge, std::make_shared<const std::vector<Vec3d>>(points));
         }
         if (oriented[3].enumeration() == "F") std::reverse(points.begin(), points.end());
-        if (points.empty()) return false;
+        if (points.empty() || !affords(ring.size() + points.size())) return false;
         ring.insert(ring.end(), points.begin(), points.end() - 1);
         edgeEnds.push_back(ring.size());
     }
@@ -366,7 +386,7 @@ bool ShapeReader::readFace(RecordIndex face, Polygons& faces) {
         const Fields of = file_.fieldsOf(bound);
         std::vector<Vec3d> ring;
         std::vector<std::size_t> ends;
-        if (!readLoop(file_.follow(of[0]), ring, ends)) return false;
+        if (!readLoop(file_.follow(of[0]), ring, ends) || !file_.guard().takeElements(ring.size())) return false;
         if (of[1].enumeration() == "F") turnLoop(ring, ends);
         const bool isOuter = file_.entityOf(bound) == Entity::FaceOuterBound && !hasOuter;
         hasOuter = hasOuter || isOuter;
@@ -379,7 +399,7 @@ bool ShapeReader::readFace(RecordIndex face, Polygons& faces) {
     const bool isSpline =
         surface == Entity::BSplineSurfaceWithKnots || surface == Entity::RationalBSplineSurfaceWithKnots;
     if (isCurved && !isSpline && addRuledFace(rings, edgeEnds, faces)) return true;
-    if (isCurved && addCurvedFace(file_, file_.follow(fields[1]), rings, faces, faceBudget_)) return true;
+    if (isCurved && addCurvedFace(file_, file_.follow(fields[1]), rings, faces)) return true;
     if (isCurved) leaveOut(fmt::format("the curvature of a face on {}", file_.typeName(file_.follow(fields[1]))));
     const auto areaOf = [](const std::vector<Vec3d>& ring) {
         Vec3d sum{};
@@ -467,7 +487,7 @@ void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bo
             body.faces.back().material = colors->second[number];
         ++number;
     };
-    for (Value face; cursor.next(face);) {
+    for (Value face; cursor.next(face) && !file_.guard().isSpent();) {
         if (isTriangles) {
             add({ringOf(face)});
             continue;
@@ -480,10 +500,12 @@ void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bo
             for (Value ring; inner.next(ring);) rings.push_back(ringOf(ring));
         }
         add(rings);
+        // Faces may be listed any number of times.
+        if (!body.faces.empty()) file_.guard().takeElements(body.faces.back().points.size());
     }
     if (isWrong) leaveOut(fmt::format("corners of an {} with an index that is out of range", file_.typeName(item)));
     if (body.faces.empty()) return leaveOut(fmt::format("an {} without faces", file_.typeName(item)));
-    bodies.push_back(std::move(body));
+    add(std::move(body), bodies);
 }
 
 // A plain, boxed or polygonal half-space, as a closed body that reaches beyond `around`.
@@ -511,7 +533,7 @@ bool ShapeReader::readHalfSpace(RecordIndex item, const Box3d& around, Bodies& b
         const double middle = dot(around.center() - position.origin, position.z), reach = length(around.size()) + 1;
         for (Vec3d& p : region.outer) p.z = middle - reach;
         auto both = evaluateBoolean(BooleanOperator::Intersection,
-                                    {transformed(extrude(region, {0, 0, 2 * reach}), position), half});
+                                    {transformed(extrude(region, {0, 0, 2 * reach}), position), half}, file_.guard());
         if (!both) {
             leaveOut("a polygonal half-space that is not closed");
             return false;
@@ -523,8 +545,7 @@ bool ShapeReader::readHalfSpace(RecordIndex item, const Box3d& around, Bodies& b
 }
 
 // The second operand of a boolean as closed bodies; false, and said, where it is none.
-bool ShapeReader::readOperand(RecordIndex operand, std::string_view op, const Box3d& around, int depth,
-                              Bodies& bodies) {
+bool ShapeReader::readOperand(RecordIndex operand, std::string_view op, const Box3d& around, Bodies& bodies) {
     const auto refuse = [&](std::string_view why) {
         leaveOut(fmt::format("the {} with an {}: {}", op, file_.typeName(operand), why));
         return false;
@@ -537,7 +558,7 @@ bool ShapeReader::readOperand(RecordIndex operand, std::string_view op, const Bo
             if (!readHalfSpace(operand, around, bodies)) return refuse("it cannot be read");
             break;
         default:
-            readItem(operand, depth + 1, bodies);
+            readItem(operand, bodies);
             if (bodies.empty()) return refuse("it cannot be read");
     }
     if (std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !isClosed(body.faces); }))
@@ -545,26 +566,35 @@ bool ShapeReader::readOperand(RecordIndex operand, std::string_view op, const Bo
     return true;
 }
 
-// ((a - b) - c) - d is a - (b, c, d), and unions likewise: a chain of many results, as some programs write them for the
-// openings of a wall, is evaluated at once, whatever its depth.
-void ShapeReader::readBoolean(const Fields& fields, int depth, Bodies& bodies) {
-    // Each is evaluated once but where results share operands: some 50 records could stand for 2^48 evaluations.
-    if (++booleans_ > kFreeBooleans + 2 * file_.step().records().size())
-        return leaveOut("booleans that use each other's results too often");
+// Follows results of one kind down to what the innermost applies to; all of them are in the scope then.
+bool ShapeReader::readChain(const Fields& fields, Chain& chain, ReadGuard::Scope& scope) {
     const std::string_view op = fields[0].enumeration();
-    std::vector<RecordIndex> operands{file_.follow(fields[2])};
-    RecordIndex base = file_.follow(fields[1]);
-    for (std::size_t length = 1; op != "INTERSECTION"; ++length) {
-        const Entity entity = file_.entityOf(base);
+    chain = {file_.follow(fields[1]), {file_.follow(fields[2])}};
+    while (op != "INTERSECTION") {
+        const Entity entity = file_.entityOf(chain.base);
         if (entity != Entity::BooleanResult && entity != Entity::BooleanClippingResult) break;
-        const Fields inner = file_.fieldsOf(base);
+        const Fields inner = file_.fieldsOf(chain.base);
         if (inner[0].enumeration() != op) break;
-        if (length == kMaxChain) return leaveOut("booleans that refer to each other in a circle, or nest too deep");
-        operands.push_back(file_.follow(inner[2]));
-        base = file_.follow(inner[1]);
+        if (!scope.enter(chain.base)) {
+            leaveOut(scope.why());
+            return false;
+        }
+        chain.operands.push_back(file_.follow(inner[2]));
+        chain.base = file_.follow(inner[1]);
     }
+    return true;
+}
+
+// ((a - b) - c) - d is a - (b, c, d), and unions likewise: a chain of many results, as some programs write them for the
+// openings of a wall, is evaluated at once, however long it is.
+void ShapeReader::readBoolean(const Fields& fields, Bodies& bodies) {
+    const std::string_view op = fields[0].enumeration();
+    ReadGuard::Scope scope(file_.guard());
+    Chain chain;
+    if (!readChain(fields, chain, scope)) return;
+    const std::vector<RecordIndex>& operands = chain.operands;
     Bodies first, second;
-    readItem(base, depth + 1, first);
+    readItem(chain.base, first);
     if (first.empty() && op != "UNION") return;
     if (std::any_of(first.begin(), first.end(), [](const Body& body) { return !isClosed(body.faces); })) {
         leaveOut(fmt::format("the {} with an {}: the body that it is applied to is not closed", op,
@@ -577,10 +607,12 @@ void ShapeReader::readBoolean(const Fields& fields, int depth, Bodies& bodies) {
     bool isRead = true;
     for (auto operand = operands.rbegin(); operand != operands.rend(); ++operand) {
         Bodies part;
-        if (readOperand(*operand, op, around, depth, part))
+        if (readOperand(*operand, op, around, part))
             second.insert(second.end(), part.begin(), part.end());
         else
             isRead = false;
+        // The operand of an outer result does not stand in the inner ones.
+        scope.leave();
     }
     // An intersection with a half-space that takes nothing in is nothing; a difference with one is all.
     if (second.empty() && (op != "INTERSECTION" || !isRead)) {
@@ -595,18 +627,18 @@ void ShapeReader::evaluate(std::string_view op, const Bodies& first, const Bodie
     for (const Body& body : second) operands.push_back(body.faces);
     if (op == "UNION") {
         for (const Body& body : first) operands.push_back(body.faces);
-        auto joined = evaluateBoolean(BooleanOperator::Union, operands);
+        auto joined = evaluateBoolean(BooleanOperator::Union, operands, file_.guard());
         if (!joined) {
             bodies.insert(bodies.end(), second.begin(), second.end());
             bodies.insert(bodies.end(), first.begin(), first.end());
         } else if (!joined->empty()) {
-            bodies.push_back({std::move(*joined), true, (first.empty() ? second : first).front().material});
+            add({std::move(*joined), true, (first.empty() ? second : first).front().material}, bodies);
         }
         return;
     }
     // The second operand as one body.
     if (op == "INTERSECTION" && operands.size() > 1) {
-        auto joined = evaluateBoolean(BooleanOperator::Union, operands);
+        auto joined = evaluateBoolean(BooleanOperator::Union, operands, file_.guard());
         if (!joined) {
             leaveOut("the INTERSECTION with parts that cannot be joined");
             bodies.insert(bodies.end(), first.begin(), first.end());
@@ -618,13 +650,13 @@ void ShapeReader::evaluate(std::string_view op, const Bodies& first, const Bodie
     for (const Body& body : first) {
         std::vector<Polygons> all{body.faces};
         all.insert(all.end(), operands.begin(), operands.end());
-        auto result =
-            evaluateBoolean(op == "INTERSECTION" ? BooleanOperator::Intersection : BooleanOperator::Difference, all);
+        auto result = evaluateBoolean(
+            op == "INTERSECTION" ? BooleanOperator::Intersection : BooleanOperator::Difference, all, file_.guard());
         if (!result) {
             leaveOut(fmt::format("a {}: its result is not closed", op));
             bodies.push_back(body);
         } else if (!result->empty()) {
-            bodies.push_back({std::move(*result), true, body.material});
+            add({std::move(*result), true, body.material}, bodies);
         }
     }
 }
@@ -634,20 +666,21 @@ void ShapeReader::subtract(Shape& shape, const Bodies& openings) {
         if (std::find(shape.leftOut.begin(), shape.leftOut.end(), what) == shape.leftOut.end())
             shape.leftOut.push_back(std::move(what));
     };
-    std::vector<Polygons> closed;
+    std::vector<std::pair<Box3d, const Polygons*>> closed;
     for (const Body& opening : openings) {
         if (isClosed(opening.faces))
-            closed.push_back(opening.faces);
+            closed.emplace_back(boundsOf(opening.faces), &opening.faces);
         else
             leave("an opening whose body is not closed");
     }
     if (closed.empty()) return;
     Bodies result;
     for (Body& body : shape.bodies) {
+        if (!file_.guard().takeSteps(10 * closed.size())) return leave(file_.guard().whatIsSpent());
         const Box3d box = boundsOf(body.faces);
         std::vector<Polygons> all{body.faces};
-        for (const Polygons& opening : closed)
-            if (boundsOf(opening).overlaps(box)) all.push_back(opening);
+        for (const auto& [around, opening] : closed)
+            if (around.overlaps(box)) all.push_back(*opening);
         if (all.size() == 1) {
             result.push_back(std::move(body));
             continue;
@@ -657,7 +690,7 @@ void ShapeReader::subtract(Shape& shape, const Bodies& openings) {
             result.push_back(std::move(body));
             continue;
         }
-        auto cut = evaluateBoolean(BooleanOperator::Difference, all);
+        auto cut = evaluateBoolean(BooleanOperator::Difference, all, file_.guard());
         if (!cut) {
             leave("openings: the body would not be closed with them");
             result.push_back(std::move(body));

@@ -41,10 +41,17 @@ public:
 private:
     using Bodies = std::vector<Body>;
 
+    // ((a - b) - c) - d, from d inwards.
+    struct Chain {
+        RecordIndex base = kNoRecord;       // a
+        std::vector<RecordIndex> operands;  // d, c, b
+    };
+
     void readRepresentation(RecordIndex representation, Bodies& bodies);
-    void readItem(RecordIndex item, int depth, Bodies& bodies);
-    void readKnownItem(RecordIndex item, const Fields& fields, int depth, Bodies& bodies);
-    void readMappedItem(const Fields& fields, int depth, Bodies& bodies);
+    void readItem(RecordIndex item, Bodies& bodies);
+    void readKnownItem(RecordIndex item, const Fields& fields, Bodies& bodies);
+    void readMappedItem(const Fields& fields, Bodies& bodies);
+    void readMap(RecordIndex map);
     void readSweep(RecordIndex item, const Fields& fields, Bodies& bodies);
     void readDirectedSweep(RecordIndex item, const Fields& fields, Bodies& bodies);
     void readDisk(const Fields& fields, Bodies& bodies);
@@ -52,13 +59,16 @@ private:
     void readSurfaceModel(const Fields& fields, Bodies& bodies);
     void readFaceSet(RecordIndex item, const Fields& fields, Bodies& bodies);
     void readPrimitive(RecordIndex item, const Fields& fields, Bodies& bodies);
-    void readBoolean(const Fields& fields, int depth, Bodies& bodies);
+    void readBoolean(const Fields& fields, Bodies& bodies);
+    bool readChain(const Fields& fields, Chain& chain, ReadGuard::Scope& scope);
     bool readHalfSpace(RecordIndex item, const Box3d& around, Bodies& bodies);
-    bool readOperand(RecordIndex operand, std::string_view op, const Box3d& around, int depth, Bodies& bodies);
+    bool readOperand(RecordIndex operand, std::string_view op, const Box3d& around, Bodies& bodies);
     void evaluate(std::string_view op, const Bodies& first, const Bodies& second, Bodies& bodies);
+    void add(Body body, Bodies& bodies);
     void addSolid(std::vector<model::Polygon> faces, Bodies& bodies, RecordIndex item);
     void leaveOut(std::string what);
     void leaveOutMissing();
+    [[nodiscard]] bool affords(std::uint64_t points);
 
     [[nodiscard]] std::vector<model::Polygon> readFaces(Value list);
     bool readFace(RecordIndex face, std::vector<model::Polygon>& faces);
@@ -73,9 +83,6 @@ private:
     std::unordered_map<RecordIndex, std::vector<std::string>> leftOutOfMap_;            // what was left out of it
     std::unordered_map<RecordIndex, std::shared_ptr<const std::vector<Vec3d>>> edges_;  // points of edge curves
     std::vector<std::string> leftOut_;                                                  // of the shape that is read
-    std::uint64_t expanded_ = 0;                                                        // points of mapped items
-    std::uint64_t faceBudget_;  // steps left for curved faces of the file
-    std::size_t booleans_ = 0;  // evaluated in the file
 };
 
 }  // namespace svt::readers::ifc

@@ -14,7 +14,8 @@ namespace {
 using Polygons = std::vector<model::Polygon>;
 
 constexpr std::uint64_t kMaxFacePairs = 200'000'000;
-constexpr std::uint64_t kMaxSteps = 3'000'000'000;  // of cutting planes, some seconds
+constexpr std::uint64_t kMaxSteps = 3'000'000'000;  // some seconds
+constexpr std::uint64_t kStepsOfEach = 100'000;     // of the smallest boolean
 constexpr double kWeld = 1e-7;
 
 struct Plane {
@@ -86,7 +87,8 @@ Box3d grown(Box3d box, double by) noexcept {
 
 class Boolean {
 public:
-    Boolean(BooleanOperator op, const std::vector<Polygons>& operands) : op_(op) {
+    Boolean(BooleanOperator op, const std::vector<Polygons>& operands, std::uint64_t& budget)
+        : op_(op), budget_(budget) {
         for (const Polygons& faces : operands) {
             sources_.push_back(flattened(faces));
             operands_.push_back(makeOperand(sources_.back()));
@@ -96,16 +98,21 @@ public:
     std::optional<Polygons> run() {
         std::uint64_t faces = 0;
         for (const Operand& operand : operands_) faces += operand.faces.size();
-        if (faces * faces > kMaxFacePairs) return std::nullopt;
+        if (faces * faces > kMaxFacePairs || !take(kStepsOfEach + faces * faces)) return std::nullopt;
         findPlanes();
         for (const Plane& plane : planes_) {
-            evaluate(plane);
+            if (take(operands_.size())) evaluate(plane);
             if (budget_ == 0) return std::nullopt;
         }
         return conform();
     }
 
 private:
+    bool take(std::uint64_t steps) {
+        budget_ = steps > budget_ ? 0 : budget_ - steps;
+        return budget_ > 0;
+    }
+
     // The plane of each face, shared by all faces whose points lie on it.
     void findPlanes() {
         for (std::uint32_t o = 0; o < operands_.size(); ++o)
@@ -197,6 +204,7 @@ private:
     // The section of an operand just below (side 0) or just above (side 1) a plane, in the axes of the plane.
     void cut(const Plane& plane, std::uint32_t o, std::uint32_t side, std::vector<FlatSegment>& segments) {
         const Operand& operand = operands_[o];
+        if (!take(operand.vertices.size() + 4 * operand.faces.size())) return;
         distances_.clear();
         for (const Vec3d p : operand.vertices) {
             const double d = plane.distance(p);
@@ -326,7 +334,7 @@ private:
     };
 
     BooleanOperator op_;
-    std::uint64_t budget_ = kMaxSteps;
+    std::uint64_t& budget_;  // steps left
     std::vector<Polygons> sources_;
     std::vector<Operand> operands_;
     std::vector<Plane> planes_;
@@ -338,7 +346,17 @@ private:
 }  // namespace
 
 std::optional<Polygons> evaluateBoolean(BooleanOperator op, const std::vector<Polygons>& operands) {
-    return Boolean(op, operands).run();
+    std::uint64_t left = kMaxSteps;
+    return Boolean(op, operands, left).run();
+}
+
+std::optional<Polygons> evaluateBoolean(BooleanOperator op, const std::vector<Polygons>& operands,
+                                        step::ReadGuard& guard) {
+    const std::uint64_t granted = std::min(kMaxSteps, guard.stepsLeft());
+    std::uint64_t left = granted;
+    auto result = Boolean(op, operands, left).run();
+    guard.takeSteps(granted - left + (left == 0 ? 1 : 0));
+    return result;
 }
 
 Polygons halfSpaceAround(const Box3d& around, Vec3d onPlane, Vec3d inside) {

@@ -14,6 +14,7 @@
 /// openings, are no special case. Points within kSnap of a plane lie on it.
 
 #include <svt/readers/ifc_shape/body.hpp>
+#include <svt/readers/step/read_guard.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -33,6 +34,10 @@ enum class BooleanOperator : std::uint8_t {
 /// Cost: O(faces^2), and for each plane O(n^2) in the pieces of cuts through it.
 [[nodiscard]] std::optional<std::vector<model::Polygon>> evaluateBoolean(
     BooleanOperator op, const std::vector<std::vector<model::Polygon>>& operands);
+
+/// The same within the budget of a file; nothing also where that is spent.
+[[nodiscard]] std::optional<std::vector<model::Polygon>> evaluateBoolean(
+    BooleanOperator op, const std::vector<std::vector<model::Polygon>>& operands, step::ReadGuard& guard);
 
 /// A box that takes in all of `around` on one side of a plane, with one face on the plane.
 /// \param inside  direction from the plane to the side of the half-space, not zero

@@ -13,7 +13,6 @@ using Polygons = std::vector<model::Polygon>;
 using Ring = std::vector<Vec3d>;
 
 constexpr int kDiskSegments = 24;  // at least, of the section of a bar
-constexpr int kMaxDiskSegments = 64;
 
 Ring moved(const Ring& ring, Vec3d by) {
     Ring result = ring;

@@ -9,6 +9,8 @@
 
 namespace svt::readers::ifc {
 
+inline constexpr int kMaxDiskSegments = 64;  ///< of the section of a bar
+
 /// The prism between a region and the same region moved by `sweep`, which may point to either side of z = 0.
 /// \return the closed faces; none where `sweep` lies in the plane of the region
 [[nodiscard]] std::vector<model::Polygon> extrude(const Region& region, Vec3d sweep);

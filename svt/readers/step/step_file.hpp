@@ -43,6 +43,7 @@ public:
     [[nodiscard]] const std::vector<Record>& records() const noexcept {
         return records_;
     }  ///< in the order of the file
+    [[nodiscard]] std::size_t sizeBytes() const noexcept { return text_.size(); }
     /// Upper-case names of the types, by the order in which they first occur.
     [[nodiscard]] const std::vector<std::string_view>& typeNames() const noexcept { return typeNames_; }
     [[nodiscard]] std::string_view typeName(const Record& record) const noexcept { return typeNames_[record.type]; }
