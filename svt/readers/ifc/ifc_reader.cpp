@@ -25,7 +25,6 @@ namespace {
 using namespace ifc;
 using std::string_view;
 
-constexpr std::size_t kMaxLeftOut = 1000;  // reasons of one product; the first five are told
 constexpr string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 // "IFC4X3_ADD2" -> "IFC4X3", and what people call it.

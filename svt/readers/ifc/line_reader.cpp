@@ -10,8 +10,6 @@
 namespace svt::readers::ifc {
 namespace {
 
-constexpr std::size_t kMaxLeftOut = 1000;  // the first is told
-
 class LineReader {
 public:
     LineReader(const IfcFile& file, std::vector<std::string>& leftOut) : file_(file), leftOut_(leftOut) {}

@@ -74,6 +74,9 @@ enum class Entity : std::uint16_t {
 #undef X
 };
 
+/// So many reasons why something of a product is left out are kept; few of them are told.
+inline constexpr std::size_t kMaxLeftOut = 1000;
+
 /// "IfcPolyline"
 [[nodiscard]] std::string_view entityName(Entity entity) noexcept;
 

@@ -14,7 +14,7 @@ namespace {
 
 using Regions = std::vector<Region>;
 
-std::size_t pointCount(const Regions& regions) noexcept {
+std::size_t cornerCount(const Regions& regions) noexcept {
     std::size_t count = 0;
     for (const Region& region : regions) count += region.pointCount();
     return count;
@@ -149,7 +149,7 @@ bool addAlong(const IfcFile& file, const Fields& fields, std::vector<Station>& s
         for (std::size_t p = 0; s > 0 && p < directrix.points.size(); ++p) {
             const double from = stations[s - 1].distance, to = stations[s].distance, at = directrix.lengths[p];
             if (!(at > from + 1e-6 && at < to - 1e-6)) continue;
-            if (!canLookUp(3) || !file.guard().takeElements(pointCount(sections[s]))) return false;
+            if (!canLookUp(3) || !file.guard().takeElements(cornerCount(sections[s]))) return false;
             const double share = (at - from) / (to - from);
             Station corner = directrix.at(at, isVertical);
             const auto offset = [&](const Station& station) {

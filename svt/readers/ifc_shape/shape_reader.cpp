@@ -16,8 +16,6 @@ namespace {
 
 using Polygons = std::vector<model::Polygon>;
 
-constexpr std::size_t kMaxLeftOut = 1000;  // reasons of one product; the first five are told
-
 bool isIn(std::string_view word, std::initializer_list<std::string_view> words) noexcept {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
