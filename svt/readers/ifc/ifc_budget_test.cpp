@@ -164,13 +164,15 @@ TEST(IfcBudget, PropertiesOfProperties) {
         << outcome.findings;
 }
 
-// 2,000 properties of 2,000 walls.
+// 600 properties of 2,000 walls.
 TEST(IfcBudget, PropertiesOfManyProductsAreRefused) {
     std::string text, properties, walls;
     for (int i = 0; i < 2000; ++i) {
-        text += fmt::format("#{}=IFCPROPERTYSINGLEVALUE('p{}',$,IFCREAL(1.),$);\n", 10000 + i, i) +
-                fmt::format("#{}=IFCWALL('w{}',$,$,$,$,#15,$,$,$);\n", 20000 + i, i);
-        properties += fmt::format("{}#{}", i == 0 ? "" : ",", 10000 + i);
+        text += fmt::format("#{}=IFCWALL('w{}',$,$,$,$,#15,$,$,$);\n", 20000 + i, i);
+        if (i < 600) {
+            text += fmt::format("#{}=IFCPROPERTYSINGLEVALUE('p{}',$,IFCREAL(1.),$);\n", 10000 + i, i);
+            properties += fmt::format("{}#{}", i == 0 ? "" : ",", 10000 + i);
+        }
         walls += fmt::format("{}#{}", i == 0 ? "" : ",", 20000 + i);
     }
     text += fmt::format(
