@@ -69,7 +69,8 @@ struct Option {
 /// The range of a number in words, without unit: "0 to 16", "at least 1"; empty where there is none.
 [[nodiscard]] std::string rangeText(const Option& option);
 
-/// What is wrong with `text` as a value of `option`: not of its kind, out of range, none of its choices; empty: nothing.
+/// The fault of `text` as a value of `option`: empty, not of its kind, out of range or not one of its choices. An empty
+/// result means no fault. Where leastCount is 0, the caller leaves out the value; an empty text is a fault there too.
 [[nodiscard]] std::string faultOf(const Option& option, std::string_view text);
 
 }  // namespace svt

@@ -34,6 +34,7 @@ std::vector<std::string> splitValues(const Option& option, const std::string& te
 
 // What is wrong with what was given for an option, value by value; empty: nothing.
 std::string faultOfValues(const Option& option, const std::string& text) {
+    if (text.empty()) return option.leastCount == 0 ? std::string() : faultOf(option, text);
     const std::vector<std::string> values = splitValues(option, text);
     const auto count = static_cast<int>(values.size());
     if (option.count > 1 && (count < option.leastCount || count > option.count))
@@ -108,7 +109,7 @@ std::string suggestionFor(const CLI::App& app, const std::string& word) {
 int flushed(int exitCode) {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exitCode;
     if (errno == EPIPE) return kNoReader;
-    fmt::print(stderr, "svt: error: stdout cannot be written\n");
+    printMessage("svt: error: stdout cannot be written\n");
     return exitCode == kDone ? kOutput : exitCode;
 }
 
@@ -152,12 +153,29 @@ struct Parser {
     }
 };
 
+// CLI11 takes the word after "--look=" as its value, and reads "--wireframe ''" as "--wireframe".
+// \return the fault of the first such option; empty: there is none
+std::string faultOfEmptyValues(std::span<const std::string> words) {
+    const auto text = std::ranges::find(commandTexts(), words.empty() ? "" : words.front(), &CommandText::name);
+    if (text == commandTexts().end()) return {};
+    const std::vector<Option> options = optionsOf(*text);
+    for (std::size_t n = 1; n < words.size() && words[n] != "--"; ++n)
+        for (const Option& option : options) {
+            const std::string name(longName(option));
+            if (option.kind == OptionKind::Flag || !name.starts_with("--")) continue;
+            const bool isEmpty = n + 1 < words.size() && words[n + 1].empty();
+            if (words[n] == name + "=" || (option.leastCount == 0 && words[n] == name && isEmpty))
+                return fmt::format("{}: {}", name, faultOf(option, ""));
+        }
+    return {};
+}
+
 int reportUsage(const CLI::App& app, const CLI::ParseError& error) {
     std::string message = error.what();
     for (const std::string& word : app.remaining(true)) message += suggestionFor(app, word);
     const auto chosen = app.get_subcommands();
-    fmt::print(stderr, "svt: {}\nsvt: see 'svt {}--help'\n", message,
-               chosen.empty() ? "" : chosen.front()->get_name() + " ");
+    printMessage(fmt::format("svt: {}\nsvt: see 'svt {}--help'\n", message,
+                             chosen.empty() ? "" : chosen.front()->get_name() + " "));
     return kUsage;
 }
 
@@ -219,6 +237,10 @@ int runCommandLine(int argc, char** argv, std::span<const CommandAction> command
         const bool isAsked = words.size() > 1 && (words[1] == "--help" || words[1] == "-h");
         fmt::print(isAsked ? stdout : stderr, "svt {}: one of\n{}", words.front(), below);
         return isAsked ? flushed(kDone) : kUsage;
+    }
+    if (const std::string fault = faultOfEmptyValues(words); !fault.empty()) {
+        printMessage(fmt::format("svt: {}\nsvt: see 'svt {} --help'\n", fault, words.front()));
+        return kUsage;
     }
     try {
         parser.app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // as CLI11 takes them: last first

@@ -41,26 +41,29 @@ int exitCodeOf(Code code) noexcept {
 void beQuiet() noexcept { isQuiet_ = true; }
 bool isQuiet() noexcept { return isQuiet_; }
 
+void printMessage(std::string_view text) noexcept {
+    static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
+
 int fail(const Error& error) {
     TerminalProgress::hide();
-    fmt::print(stderr, "svt: error {}\n", error.toString());
+    printMessage(fmt::format("svt: error {}\n", error.toString()));
     return exitCodeOf(error.code());
 }
 
 void note(std::string_view text) {
     if (isQuiet()) return;
     TerminalProgress::hide();
-    fmt::print(stderr, "svt: {}\n", text);
+    printMessage(fmt::format("svt: {}\n", text));
 }
 
 int failOfMemory() {
     TerminalProgress::hide();
     const auto grant = memoryGrant();
-    fmt::print(
-        stderr,
+    printMessage(fmt::format(
         "svt: error: out of memory: the work needs more than {}; choose a coarser --spacing, give a smaller model, "
         "or grant more\n",
-        grant ? grant->text : "there is");
+        grant ? grant->text : "there is"));
     return kLimit;
 }
 
@@ -74,14 +77,14 @@ void printDiagnostics(const Diagnostics& diagnostics, bool isVerbose) {
         const bool isSummary = item.code == Code::ProductsRead;
         if (!isVerbose && !isSummary && (item.severity == Severity::Note || shown == kShown)) continue;
         if (!isSummary) ++shown;
-        fmt::print(stderr, "svt: {}\n", item.toString());
+        printMessage(fmt::format("svt: {}\n", item.toString()));
     }
     if (isQuiet()) return;
     const std::size_t serious = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error);
     const std::size_t notes = diagnostics.count(Severity::Note) - diagnostics.count(Code::ProductsRead);
     if (!isVerbose && serious > std::size_t(shown))
-        fmt::print(stderr, "svt: {} more warnings; --verbose shows them\n", serious - std::size_t(shown));
-    if (!isVerbose && notes != 0) fmt::print(stderr, "svt: {} notes; --verbose shows them\n", notes);
+        printMessage(fmt::format("svt: {} more warnings; --verbose shows them\n", serious - std::size_t(shown)));
+    if (!isVerbose && notes != 0) printMessage(fmt::format("svt: {} notes; --verbose shows them\n", notes));
 }
 
 }  // namespace svt::cli

@@ -33,6 +33,9 @@ void beQuiet() noexcept;
 /// Prints "svt: error ..." to stderr and returns the exit code.
 int fail(const Error& error);
 
+/// Prints a text to stderr as it is. Never throws: a message that nobody can receive is no reason to stop.
+void printMessage(std::string_view text) noexcept;
+
 /// Prints "svt: ..." to stderr, unless quiet.
 void note(std::string_view text);
 

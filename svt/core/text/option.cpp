@@ -30,7 +30,22 @@ std::string rangeText(const Option& option) {
     return hasMost ? fmt::format("at most {}", option.most) : std::string();
 }
 
+namespace {
+
+// The fault of a value without characters, and what to give in its place.
+std::string emptyFault(const Option& option) {
+    const std::string wanted = !option.choices.empty()
+                                   ? fmt::format("one of {}", fmt::join(splitChoices(option.choices), ", "))
+                               : !option.value.empty()           ? std::string(option.value)
+                               : option.kind == OptionKind::Text ? "a text"
+                                                                 : "a number";
+    return fmt::format("the value is empty; give {}{}", wanted, option.isRequired ? "" : ", or leave the option out");
+}
+
+}  // namespace
+
 std::string faultOf(const Option& option, std::string_view text) {
+    if (text.empty()) return emptyFault(option);
     if (!option.choices.empty()) {
         const auto choices = splitChoices(option.choices);
         if (std::ranges::find(choices, text) == choices.end())

@@ -34,5 +34,19 @@ TEST(Option, ValuesAreHeldAgainstKindRangeAndChoices) {
     EXPECT_EQ(faultOf(sheets, "thick"), "'thick' is not possible; possible are thin, conservative");
 }
 
+TEST(Option, AnEmptyTextIsAFaultWithItsRemedy) {
+    EXPECT_EQ(faultOf({.name = "--section", .value = "PLANE", .help = ""}, ""),
+              "the value is empty; give PLANE, or leave the option out");
+    EXPECT_EQ(faultOf({.name = "-o,--output", .value = "F.svt", .help = "", .isRequired = true}, ""),
+              "the value is empty; give F.svt");
+    EXPECT_EQ(faultOf({.name = "--title", .help = ""}, ""), "the value is empty; give a text, or leave the option out");
+    EXPECT_EQ(faultOf({.name = "--fov", .kind = OptionKind::Number, .help = ""}, ""),
+              "the value is empty; give a number, or leave the option out");
+    EXPECT_EQ(faultOf({.name = "--sheets", .choices = "thin|conservative", .help = ""}, ""),
+              "the value is empty; give one of thin, conservative, or leave the option out");
+    EXPECT_EQ(faultOf({.name = "--wireframe", .value = "QUERY", .help = "", .leastCount = 0}, ""),
+              "the value is empty; give QUERY, or leave the option out");
+}
+
 }  // namespace
 }  // namespace svt
