@@ -8,6 +8,7 @@
 #include <apps/cli/options/write_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 
+#include <svt/core/file.hpp>
 #include <svt/volume/svt_file.hpp>
 #include <svt/volume/volume_json.hpp>
 #include <svt/volume_readers/label_array.hpp>
@@ -16,8 +17,6 @@
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
-
-#include <fstream>
 
 namespace svt::python {
 namespace {
@@ -59,14 +58,7 @@ py::object boxOf(const LabelReference& label) {
 SharedVolume openVolume(const Path& path, const Path& labels, const py::object& report) {
     Diagnostics findings;
     auto read = longCall(report, [&](const Progress* progress) -> Result<volume::SemanticVolume> {
-        std::array<char, 4096> head{};
-        std::ifstream stream(path, std::ios::binary);
-        stream.read(head.data(), head.size());
-        const auto bytes = std::as_bytes(std::span(head).first(static_cast<std::size_t>(stream.gcount())));
-        std::error_code ignored;
-        const bool isFolder = std::filesystem::is_directory(path, ignored);  // of Zarr
-        if ((stream.gcount() > 0 || isFolder) && !volume::looksLikeSvt(bytes) &&
-            volume_readers::looksLikeLabelVolume(path))
+        if (!volume::isSvtFile(path) && volume_readers::looksLikeLabelVolume(path))
             return volume_readers::readLabelVolume(path, {labels, 0, progress, &findings});
         if (!labels.empty())
             return Error(Code::BadArgument,

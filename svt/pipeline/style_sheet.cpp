@@ -1,5 +1,6 @@
 #include <svt/pipeline/style_sheet.hpp>
 
+#include <svt/core/file.hpp>
 #include <svt/image/color_text.hpp>
 #include <svt/pipeline/default_style.hpp>
 
@@ -10,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iterator>
 #include <utility>
 
@@ -182,17 +182,10 @@ Vec3f shade(Vec3f color, std::size_t phase) {
 }
 
 Result<std::string> readText(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
-        return Error(Code::CannotOpen, "the style file is missing or cannot be read", {file.string(), 0, 0, {}});
-    std::string text;
-    constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
-    text.resize(kMaxBytes + 1);
-    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > kMaxBytes)
-        return Error(Code::InputTooBig, "the style file is over 16 MiB", {file.string(), 0, 0, {}});
-    return text;
+    constexpr std::uint64_t kMaxBytes = std::uint64_t{16} << 20;
+    const auto mapped = MappedFile::open(file, kMaxBytes);
+    if (!mapped) return mapped.error();
+    return std::string(mapped->text());
 }
 
 // The text as JSON with an array of rules; these are not checked.

@@ -65,5 +65,7 @@ struct SvtBlocks {
 
 /// Whether a file that begins with `head` (at least 61 bytes) has the signature of a `.svt`.
 [[nodiscard]] bool looksLikeSvt(std::span<const std::byte> head) noexcept;
+/// looksLikeSvt() of the first bytes of a regular file; false where there is none.
+[[nodiscard]] bool isSvtFile(const std::filesystem::path& path);
 
 }  // namespace svt::volume

@@ -23,6 +23,21 @@ struct DescribeArguments {
     std::string what, command;
 };
 
+// What a command does with the file that an option names.
+std::string_view fileText(FileUse use) noexcept {
+    switch (use) {
+        case FileUse::None: return {};
+        case FileUse::Model:
+        case FileUse::ModelOrVolume:
+        case FileUse::Style:
+        case FileUse::OtherInput: return "input";
+        case FileUse::InputFolder: return "inputFolder";
+        case FileUse::Output: return "output";
+        case FileUse::OutputFolder: return "outputFolder";
+    }
+    return {};
+}
+
 Json optionJson(const Option& option) {
     constexpr std::string_view kKinds[] = {"flag", "whole", "number", "text", "object", "list"};
     Json json{{"name", option.name}, {"kind", kKinds[static_cast<std::size_t>(option.kind)]}};
@@ -47,6 +62,7 @@ Json optionJson(const Option& option) {
     if (option.leastCount != 1) json["leastCount"] = option.leastCount;
     if (option.isRequired) json["required"] = true;
     if (option.mayRepeat) json["repeats"] = true;
+    text("file", fileText(option.file));
     return json;
 }
 

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 
 namespace svt::cli {
 
@@ -129,11 +128,7 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
 Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input, const BuildArguments& arguments,
                                           const Progress* progress, Diagnostics& diagnostics,
                                           const volume::Grid* grid) {
-    std::array<char, 4096> head{};
-    std::ifstream stream(input, std::ios::binary);
-    stream.read(head.data(), head.size());
-    const auto bytes = std::as_bytes(std::span(head).first(static_cast<std::size_t>(stream.gcount())));
-    if (volume::looksLikeSvt(bytes)) return volume::readSvt(input);
+    if (volume::isSvtFile(input)) return volume::readSvt(input);
     if (volume_readers::looksLikeLabelVolume(input))
         return volume_readers::readLabelVolume(input, {{}, 0, progress, &diagnostics});
     std::optional<pipeline::StyleSheet> sheet;

@@ -83,6 +83,44 @@ std::vector<OutputFile> outputsOf(std::span<const GivenOption> given) {
     return outputs;
 }
 
+// A pipe gives its bytes once, a device may give them without end; opening a pipe may wait forever.
+std::string_view nameOfStream(fs::file_type type) noexcept {
+    switch (type) {
+        case fs::file_type::fifo: return "a pipe";
+        case fs::file_type::socket: return "a socket";
+        case fs::file_type::character:
+        case fs::file_type::block: return "a device";
+        default: return {};
+    }
+}
+
+// Inputs are files, and folders where an option takes them. What is missing is reported by who reads it.
+Result<void> checkInputs(std::span<const GivenOption> given) {
+    for (const auto& [option, values] : given) {
+        const FileUse use = option->file;
+        if (use == FileUse::None || use == FileUse::Output || use == FileUse::OutputFolder) continue;
+        for (const std::string& value : values) {
+            std::error_code ignored;
+            const fs::path path = userPath(value);
+            const fs::file_type type = fs::status(path, ignored).type();
+            if (const std::string_view name = nameOfStream(type); !name.empty())
+                return errorAt(
+                    path, Code::CannotOpen,
+                    fmt::format("'{}' reads a file, and this is {}; copy its content to a file, and give that",
+                                longName(*option), name));
+            if (use == FileUse::InputFolder && type == fs::file_type::regular)
+                return errorAt(
+                    path, Code::CannotOpen,
+                    fmt::format("'{}' reads a folder, and this is a file; give a folder", longName(*option)));
+            if ((use == FileUse::Style || use == FileUse::OtherInput) && type == fs::file_type::directory)
+                return errorAt(path, Code::CannotOpen,
+                               fmt::format("'{}' reads a file, and this is a folder; give the name of a file in it",
+                                           longName(*option)));
+        }
+    }
+    return {};
+}
+
 bool isRegular(const fs::path& path) {
     std::error_code ignored;
     return fs::is_regular_file(path, ignored);
@@ -91,9 +129,7 @@ bool isRegular(const fs::path& path) {
 // A device, a pipe or a socket, which is written as it is.
 bool isStream(const fs::path& path) {
     std::error_code ignored;
-    const fs::file_type type = fs::status(path, ignored).type();
-    return type == fs::file_type::character || type == fs::file_type::fifo || type == fs::file_type::socket ||
-           type == fs::file_type::block;
+    return !nameOfStream(fs::status(path, ignored).type()).empty();
 }
 
 bool isInside(const fs::path& path, const fs::path& folder) {
@@ -220,6 +256,7 @@ fs::path numberedFile(const fs::path& file, int number, int count) {
 }
 
 Result<void> checkFiles(std::span<const GivenOption> given) {
+    if (auto checked = checkInputs(given); !checked) return checked;
     const std::vector<Input> inputs = inputsOf(given);
     const std::vector<OutputFile> outputs = outputsOf(given);
     const bool mayChooseFormat = std::ranges::any_of(

@@ -21,6 +21,8 @@ struct GivenOption {
 };
 
 /// Checks the files that the options name:
+/// - an input is no pipe, socket or device, which could be read without end or wait forever (/dev/stdin may lead to a
+///   file); folders are given only where an option takes them
 /// - an output ends as its formats do; with several formats it must have an ending, unless --format tells the format
 /// - no output is a file that is read (by device and inode, through links; with the files that a style names), no two
 ///   outputs are one file, and no output takes the place of a file of another kind, told by its first 4 KiB
@@ -28,7 +30,7 @@ struct GivenOption {
 /// - options that say how a model becomes a volume are not given where only volumes are read
 /// Devices and pipes may be written as they are. Nothing is changed, but for leftovers of killed writers (AtomicFile).
 /// \param given  all options that were given
-/// \return nothing, or BadArgument (an ending, an option without meaning), WouldDestroy, CannotWrite, DiskFull
+/// \return nothing, or CannotOpen (an input), BadArgument (an ending, an option without meaning), WouldDestroy, CannotWrite, DiskFull
 [[nodiscard]] Result<void> checkFiles(std::span<const GivenOption> given);
 
 /// The ending of a file's name in lower case, with its dot: ".png"; empty if it has none.

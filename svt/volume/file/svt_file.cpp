@@ -195,6 +195,13 @@ bool looksLikeSvt(std::span<const std::byte> head) noexcept {
            text.substr(kMimeOffset, kMimeType.size()) == kMimeType;
 }
 
+bool isSvtFile(const std::filesystem::path& path) {
+    const auto file = PartFile::open(path);
+    if (!file) return false;
+    const auto head = file->read(0, 4096);
+    return head && looksLikeSvt(std::as_bytes(std::span(*head)));
+}
+
 namespace {
 
 // Hands the entries of a volume's file to `write`.

@@ -1,3 +1,4 @@
+#include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 #include <svt/image/png.hpp>
 #include <svt/writers/x3d/texture_files.hpp>
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 #include <system_error>
 
@@ -60,12 +60,9 @@ Result<void> checkPixelCount(Vec3i dimension, std::uint64_t maxVoxels) {
 
 Result<void> checkSibling(const fs::path& file, std::string_view begin) {
     std::error_code ignored;
-    if (!fs::exists(file, ignored) || (fs::is_regular_file(file, ignored) && fs::file_size(file, ignored) == 0))
-        return {};
-    std::string head(begin.size(), '\0');
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-    if (stream && head == begin) return {};
+    if (!fs::exists(file, ignored)) return {};
+    const auto there = MappedFile::open(file);
+    if (there && (there->bytes().empty() || there->text().starts_with(begin))) return {};
     return Error(Code::WouldDestroy,
                  "the file is to hold the samples beside the document, and what is there is something else; give the "
                  "document another name, or remove the file",

@@ -1,0 +1,181 @@
+// The command in hostile surroundings: every declared option without characters, every input that is not a
+// file.
+#include <tests/cli/run_command.hpp>
+#include <tests/cli/small_model.hpp>
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace svt::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Arguments = std::vector<std::string>;
+
+constexpr int kUsage = 2, kInput = 3, kOutput = 5;
+
+// The commands with their options, as `svt describe json` prints them.
+const json& declaredCommands() {
+    static const json commands = [] {
+        const TemporaryFolder folder;
+        return runSvtForJson(folder.path(), {"describe", "json"}).at("commands");
+    }();
+    return commands;
+}
+
+// "--output" of "-o,--output".
+std::string longNameOf(const json& option) {
+    const std::string name = option.at("name");
+    return name.substr(name.find(',') + 1);
+}
+
+// A command line that gives `option` the value `value`, behind any values for the arguments before it.
+Arguments given(const json& command, const json& option, const std::string& value) {
+    Arguments arguments{command.at("name")};
+    if (longNameOf(option).starts_with("--")) {
+        arguments.insert(arguments.end(), {longNameOf(option), value});
+        return arguments;
+    }
+    for (const json& other : command.at("options")) {
+        if (other == option) break;
+        if (longNameOf(other).starts_with("-")) continue;
+        arguments.push_back(other.contains("choices") ? std::string(other.at("choices").front()) : "0");
+    }
+    arguments.push_back(value);
+    return arguments;
+}
+
+TEST(EmptyValues, AreRefusedForEveryOptionOfEveryCommand) {
+    const TemporaryFolder folder;
+    int tried = 0;
+    for (const json& command : declaredCommands())
+        for (const json& option : command.at("options")) {
+            if (option.at("kind") == "flag") continue;
+            const CommandResult result = runSvt(folder.path(), given(command, option, ""));
+            const std::string fault = longNameOf(option) + ": the value is empty; give ";
+            EXPECT_EQ(result.exitCode, kUsage) << command.at("name") << ": " << result.toString();
+            EXPECT_NE(result.err.find(fault), std::string::npos) << command.at("name") << ": " << result.toString();
+            ++tried;
+        }
+    EXPECT_GT(tried, 200) << "the declarations were not read";
+    EXPECT_EQ(folder.count(), 0);
+}
+
+TEST(EmptyValues, AreRefusedAfterAnEqualsSign) {
+    const TemporaryFolder folder;
+    for (const char* option : {"--look=", "--section=", "--output=", "--size=", "--wireframe=", "--fov="}) {
+        const CommandResult result = runSvt(folder.path(), {"render", "a.svt", option, "b.png"});
+        const std::string name(option, std::string_view(option).size() - 1);
+        EXPECT_EQ(result.exitCode, kUsage) << result.toString();
+        EXPECT_NE(result.err.find("svt: " + name + ": the value is empty"), std::string::npos) << result.toString();
+    }
+}
+
+// An argument for each option that `command` requires, and `path` for `option`.
+Arguments complete(const json& command, const json& option, const std::string& path) {
+    Arguments arguments{command.at("name")};
+    for (const json& other : command.at("options")) {
+        if (other != option && !other.value("required", false)) continue;
+        std::string value = "all";  // a query
+        if (other == option)
+            value = path;
+        else if (other.contains("choices"))
+            value = other.at("choices").front();
+        else if (other.value("file", "").starts_with("output"))
+            value = other.at("value") == "FILE" ? "o.nrrd" : other.at("value") == "DIR" ? "o" : other.at("value");
+        else if (other.value("file", "").starts_with("input"))
+            value = "two.gml";
+        else if (other.at("kind") == "whole")
+            value = "0";
+        if (longNameOf(other).starts_with("--")) arguments.push_back(longNameOf(other));
+        arguments.push_back(value);
+    }
+    return arguments;
+}
+
+// Something that is no file, in a folder.
+struct NoFile {
+    const char* path;
+    const char* name;  // regular expression of what the message calls it
+};
+
+class NoFiles : public ::testing::Test {
+protected:
+    NoFiles() {
+        writeText(folder / "two.gml", twoBoxes());
+        EXPECT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+        fs::create_directory(folder / "folder");
+        socket_ = ::socket(AF_UNIX, SOCK_STREAM, 0);
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        // A path of a socket has 107 characters at most; the folder's name may be longer.
+        const std::string name = "/proc/self/cwd/socket";
+        name.copy(address.sun_path, name.size());
+        const fs::path before = fs::current_path();
+        fs::current_path(folder.path());
+        EXPECT_EQ(::bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+        fs::current_path(before);
+    }
+    ~NoFiles() override { ::close(socket_); }
+
+    TemporaryFolder folder;
+
+private:
+    int socket_ = -1;
+};
+
+TEST_F(NoFiles, AreRefusedByEveryInputOfEveryCommand) {
+    int tried = 0;
+    for (const json& command : declaredCommands())
+        for (const json& option : command.at("options")) {
+            const std::string use = option.value("file", "");
+            if (!use.starts_with("input")) continue;
+            for (const auto& [path, name] : {NoFile{"pipe", "a pipe"}, NoFile{"socket", "a socket"},
+                                             NoFile{"/dev/zero", "a device"}, NoFile{"/dev/null", "a device"}}) {
+                const CommandResult result = runSvt(folder.path(), complete(command, option, path));
+                EXPECT_EQ(result.exitCode, kInput) << command.at("name") << ": " << result.toString();
+                EXPECT_NE(result.err.find(std::string("E101 CannotOpen: ") + path), std::string::npos)
+                    << result.toString();
+                EXPECT_NE(result.err.find(name), std::string::npos) << result.toString();
+                ++tried;
+            }
+            // An empty folder is neither a file, nor a city, nor a page.
+            const CommandResult result = runSvt(folder.path(), complete(command, option, "folder"));
+            EXPECT_EQ(result.exitCode, kInput) << command.at("name") << ": " << result.toString();
+            EXPECT_NE(result.err.find("folder"), std::string::npos) << result.toString();
+        }
+    EXPECT_GT(tried, 100) << "the declarations were not read";
+}
+
+TEST_F(NoFiles, StandAsFilesOfAStyleAndBesideAnOutput) {
+    writeText(folder / "s.style.json",
+              R"({"rules": [{"select": "all", "pattern": {"type": "image", "file": "pipe"}}]})");
+    const CommandResult style =
+        runSvt(folder.path(), {"build", "two.gml", "-o", "o.svt", "--spacing", "0.5", "--style", "s.style.json"});
+    EXPECT_EQ(style.exitCode, kInput) << style.toString();
+    runSvtWell(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "0.5"});
+    ASSERT_EQ(::mkfifo((folder / "o.nrrd").c_str(), 0600), 0);
+    const CommandResult beside = runSvt(folder.path(), {"convert", "two.svt", "o.x3d", "--texture", "image"});
+    EXPECT_EQ(beside.exitCode, kOutput) << beside.toString();
+}
+
+TEST_F(NoFiles, StdinIsAnInputWhereAFileStandsBehindIt) {
+    const std::string command = "'" + commandPath() + "' check /dev/stdin < '" + (folder / "two.gml").string() +
+                                "' > '" + (folder / "out").string() + "' 2>&1";
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 0) << readText(folder / "out");
+    const std::string piped = "cat '" + (folder / "two.gml").string() + "' | '" + commandPath() +
+                              "' check /dev/stdin > '" + (folder / "out").string() + "' 2>&1";
+    EXPECT_EQ(WEXITSTATUS(std::system(piped.c_str())), kInput);
+    EXPECT_NE(readText(folder / "out").find("a pipe"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace svt::test
