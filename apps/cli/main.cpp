@@ -2,6 +2,8 @@
 #include <apps/cli/options/command_line.hpp>
 #include <apps/cli/output/messages.hpp>
 
+#include <svt/core/machine.hpp>
+
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -41,6 +43,8 @@ constexpr CommandAction kCommands[] = {
 }  // namespace
 
 int main(int argc, char** argv) {
+    svt::openStandardStreams();
+    svt::cleanUpOnSignals();
     try {
         return runCommandLine(argc, argv, kCommands);
     } catch (const std::bad_alloc&) {
@@ -51,7 +55,7 @@ int main(int argc, char** argv) {
         // No memory for the stack of a thread.
         if (error.code() == std::errc::resource_unavailable_try_again || error.code() == std::errc::not_enough_memory)
             return failOfMemory();
-        fmt::print(stderr, "svt: error: stdout cannot be written: {}\n", error.code().message());
+        printMessage(fmt::format("svt: error: stdout cannot be written: {}\n", error.code().message()));
         return kOutput;
     } catch (const std::exception& error) {
         return fail(svt::Error(svt::Code::Internal,

@@ -8,7 +8,6 @@
 #include <apps/cli/options/write_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 
-#include <svt/core/file.hpp>
 #include <svt/volume/svt_file.hpp>
 #include <svt/volume/volume_json.hpp>
 #include <svt/volume_readers/label_array.hpp>

@@ -8,14 +8,49 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace svt {
+
+/// A temporary file, a folder or a child process that a signal removes or ends with this process. A library leaves signals
+/// to its host: nothing is remembered until a program calls cleanUpOnSignals() (machine.hpp). Move-only; the destructor forgets it.
+/// Threads: any. In a copy of this process (fork) nothing is remembered of what its parent made.
+class Unfinished {
+public:
+    Unfinished() = default;
+
+    /// Calls `make` and remembers what it makes. A signal ends the process before or after the call, never within it.
+    /// \param make  makes a file or a folder and returns its path; an empty path is not remembered
+    [[nodiscard]] static Unfinished path(const std::function<std::filesystem::path()>& make);
+
+    /// Calls `start` and remembers the child process. On a signal it receives SIGTERM, and is killed 5 s later.
+    /// \param start  returns the id of the process; numbers below 1 are not remembered
+    [[nodiscard]] static Unfinished process(const std::function<int()>& start);
+
+    Unfinished(Unfinished&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+    Unfinished& operator=(Unfinished&& other) noexcept {
+        std::swap(id_, other.id_);
+        return *this;
+    }
+    Unfinished(const Unfinished&) = delete;
+    Unfinished& operator=(const Unfinished&) = delete;
+    ~Unfinished() { forget(); }
+
+    /// Call it after the file has its final name or is removed, or after the process has ended.
+    void forget() noexcept;
+
+private:
+    explicit Unfinished(std::uint64_t id) noexcept : id_(id) {}
+
+    std::uint64_t id_ = 0;  // 0: nothing
+};
 
 /// The bytes of a regular file in memory, read-only. Move-only; they stay valid for the lifetime of the object.
 /// Replacing the file by rename (as AtomicFile does) leaves them as they are.
@@ -85,7 +120,7 @@ private:
 /// Writes to a temporary file next to `target` and renames it to `target` in commit(), so readers see either the old
 /// file or the complete new one. Without commit() the temporary file is removed and the old file stays.
 /// The temporary file is locked (flock) while the writer lives. What a process left that was killed has no lock; the
-/// first writer of a process in a folder removes it there.
+/// first writer of a process in a folder removes it there. Signals remove it too (cleanUpOnSignals()).
 /// Symbolic links are followed and kept; so are the permissions of an existing file. A target that is not a regular
 /// file (/dev/stdout, a pipe) is written directly.
 /// Threads: one object must be used by one thread at a time.
@@ -126,6 +161,7 @@ private:
     std::filesystem::path path_;       // as given by the caller, for messages
     std::filesystem::path target_;     // with symbolic links resolved
     std::filesystem::path temporary_;  // empty if the target is written directly
+    Unfinished unfinished_;            // the temporary file
     std::vector<std::byte> buffer_;
     std::uint64_t size_ = 0;
     int descriptor_ = -1;
@@ -159,7 +195,8 @@ private:
 /// as '/' does.
 [[nodiscard]] std::filesystem::path userPath(std::string text);
 
-/// A temporary folder that only this user can read, removed with its contents by the destructor.
+/// A temporary folder that only this user can read, removed with its contents by the destructor, and by
+/// signals (cleanUpOnSignals()).
 class PrivateFolder {
 public:
     PrivateFolder();
@@ -171,6 +208,7 @@ public:
 
 private:
     std::filesystem::path path_;
+    Unfinished unfinished_;
 };
 
 }  // namespace svt

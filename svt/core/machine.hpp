@@ -80,6 +80,18 @@ using Say = std::function<void(std::string_view)>;
 /// \param seconds  after this time the copy is ended
 [[nodiscard]] OwnProcessResult inOwnProcess(double seconds, const std::function<void(const Say&)>& work);
 
+/// For programs, at their start: HUP, INT, TERM and PIPE remove and end what is unfinished, and then end this process
+/// as they do by default. Signals that are ignored stay so. Writing beyond the file size limit (XFSZ) becomes an error of
+/// the write. No effect on systems without signals.
+void cleanUpOnSignals();
+
+/// Ends a child process and its group: SIGTERM, so that it can clean up, and SIGKILL after 5 s. Waits for its end.
+void endProcess(int process) noexcept;
+
+/// For programs, at their start: opens /dev/null for each of stdin, stdout and stderr that is closed. Else the first
+/// files that are opened would take their numbers, and receive messages.
+void openStandardStreams() noexcept;
+
 /// A shared library that is loaded when it is first needed, for what few runs need and all would pay for at their start.
 /// Stays loaded until the process ends: what others keep of it stays valid.
 class SharedLibrary {

@@ -1,3 +1,5 @@
+#include <svt/core/file.hpp>
+#include <svt/core/machine.hpp>
 #include <svt/serve/child_process.hpp>
 
 #include <fcntl.h>
@@ -37,8 +39,7 @@ void limit(int resource, std::uint64_t value) noexcept {
     ::dup2(nothing, 0);
     ::dup2(nothing, 1);
     ::dup2(errors, 2);
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
     std::signal(SIGXFSZ, SIG_IGN);  // writing past the file size limit becomes an error instead of a signal
     limit(RLIMIT_AS, limits.memoryBytes);
     limit(RLIMIT_FSIZE, limits.fileBytes);
@@ -72,8 +73,12 @@ ChildResult runChild(const std::vector<std::string>& arguments, const std::files
     for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
     pointers.push_back(nullptr);
     const pid_t parent = ::getpid();
-    const pid_t child = ::fork();
-    if (child == 0) execChild(pointers.data(), folder.c_str(), limits, pipe[1], parent);
+    pid_t child = -1;
+    const Unfinished unfinished = Unfinished::process([&] {
+        child = ::fork();
+        if (child == 0) execChild(pointers.data(), folder.c_str(), limits, pipe[1], parent);
+        return child;
+    });
     ::close(pipe[1]);
     ::fcntl(pipe[0], F_SETFL, O_NONBLOCK);
 
@@ -89,9 +94,13 @@ ChildResult runChild(const std::vector<std::string>& arguments, const std::files
         result.isTimeout = std::chrono::steady_clock::now() >= end;
         result.isCancelled = Progress::isCancelled(&stop);
         if (!result.isTimeout && !result.isCancelled) continue;
-        ::kill(-child, SIGKILL);
-        ::kill(child, SIGKILL);  // in case it has no process group yet
-        ::waitpid(child, &status, 0);
+        if (result.isCancelled) {
+            endProcess(child);
+        } else {
+            ::kill(-child, SIGKILL);
+            ::kill(child, SIGKILL);  // in case it has no process group yet
+            ::waitpid(child, &status, 0);
+        }
         break;
     }
     if (child > 0) ::kill(-child, SIGKILL);  // its descendants

@@ -182,16 +182,27 @@ Error cannotWrite(const fs::path& path, std::string message) {
 // A staging folder, removed with its contents by the destructor.
 struct Staging {
     fs::path path;
+    Unfinished unfinished;
     ~Staging() {
         std::error_code ignored;
         if (!path.empty()) fs::remove_all(path, ignored);
     }
 };
 
+// Not while a signal removes the folder above.
+std::error_code makeFolders(const fs::path& folder) {
+    std::error_code error;
+    static_cast<void>(Unfinished::path([&] {
+        fs::create_directories(folder, error);
+        return fs::path();
+    }));
+    return error;
+}
+
 Result<void> moveInto(const fs::path& staging, const fs::path& folder, const std::string& path) {
     std::error_code error;
     const fs::path target = folder / path.substr(1);
-    fs::create_directories(target.parent_path(), error);
+    error = makeFolders(target.parent_path());
     if (!error) fs::rename(staging / path.substr(1), target, error);
     if (error) return cannotWrite(target, error.message());
     return {};
@@ -412,18 +423,25 @@ Result<std::uint64_t> writeSite(const Site& site, const fs::path& folder, bool m
     if (auto checked = checkSiteFolder(folder, mayReplace); !checked) return checked.error();
     std::error_code error;
     const bool isThere = fs::exists(folder, error);
-    fs::create_directories(folder, error);
+    const Unfinished made = Unfinished::path([&] {
+        fs::create_directories(folder, error);
+        return isThere ? fs::path() : folder;
+    });
     if (error) return cannotWrite(folder, "the folder cannot be made: " + error.message());
 
-    std::string pattern = (folder / ".svt-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr)
+    Staging staging;
+    staging.unfinished = Unfinished::path([&] {
+        std::string pattern = (folder / ".svt-XXXXXX").string();
+        if (::mkdtemp(pattern.data()) != nullptr) staging.path = pattern;
+        return staging.path;
+    });
+    if (staging.path.empty())
         return cannotWrite(folder, "no permission to write here; change the permissions or choose another folder");
     std::uint64_t total = 0;
     const auto write = [&]() -> Result<void> {
-        const Staging staging{pattern};
         for (const auto& [path, resource] : site.resources()) {
             const fs::path file = staging.path / path.substr(1);
-            fs::create_directories(file.parent_path(), error);
+            makeFolders(file.parent_path());
             const auto written = writeFileAtomically(file, resource.bytes.data);
             if (!written) return written.error();
             total += *written;

@@ -56,10 +56,7 @@ void limit(int resource, std::uint64_t bytes) {
     ::dup2(err, 2);
     if (!hasSanitizer) limit(RLIMIT_AS, limits.memoryBytes);
     limit(RLIMIT_CORE, 0);
-    if (limits.fileBytes != 0) {
-        std::signal(SIGXFSZ, SIG_IGN);
-        limit(RLIMIT_FSIZE, limits.fileBytes);
-    }
+    if (limits.fileBytes != 0) limit(RLIMIT_FSIZE, limits.fileBytes);
     ::execv(command, arguments.data());
     ::_exit(kExecFailed);
 }

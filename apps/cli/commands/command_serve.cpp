@@ -108,12 +108,12 @@ int runServe(const ServeArguments& arguments) {
     auto server = serve::HttpServer::listen(std::move(*site), std::move(routes), options);
     if (!server) return fail(server.error());
     signalTarget = &*server;
-    std::signal(SIGINT, onSignal);
-    std::signal(SIGTERM, onSignal);
+    auto* const formerInterrupt = std::signal(SIGINT, onSignal);
+    auto* const formerTerm = std::signal(SIGTERM, onSignal);
     announce(arguments, options, server->port());
     server->run();
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+    std::signal(SIGINT, formerInterrupt);
+    std::signal(SIGTERM, formerTerm);
     signalTarget = nullptr;
     return kDone;
 }

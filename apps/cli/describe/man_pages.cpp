@@ -20,6 +20,7 @@ constexpr std::string_view kExitCodes[][2] = {
     {"6", "no graphics driver (render \\-\\-gl), or no cairo library (sheets as PDF)"},
     {"8", "a limit or the memory is exceeded"},
     {"9", "cancelled"},
+    {"129, 130, 143", "ended by the signal HUP, INT or TERM"},
 };
 
 // Text as roff shows it: dashes that can be copied, no line that begins a request.

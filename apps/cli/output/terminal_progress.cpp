@@ -31,10 +31,17 @@ constexpr double kFirstSeconds = 1;
 constexpr auto kInterval = std::chrono::milliseconds(200);
 
 std::atomic<bool>* interruptTarget = nullptr;
+void (*formerHandler)(int) = SIG_DFL;
 
 void onInterrupt(int) {
     if (interruptTarget != nullptr) interruptTarget->store(true);
-    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGINT, formerHandler);  // a second Ctrl-C ends the program
+}
+
+// Unless the shell of a job in the background has it ignored.
+void takeInterrupts() {
+    formerHandler = std::signal(SIGINT, onInterrupt);
+    if (formerHandler == SIG_IGN) std::signal(SIGINT, SIG_IGN);
 }
 
 double secondsSince(Clock::time_point time) { return std::chrono::duration<double>(Clock::now() - time).count(); }
@@ -127,14 +134,14 @@ private:
         text += durationText(seconds);
         if (fraction_ >= kLeastShare && fraction_ < 1 && seconds >= kLeastSeconds)
             text += fmt::format(", {} left", durationText(seconds * (1 - fraction_) / fraction_));
-        fmt::print(stderr, "\r{:<{}}", text, width_);
+        std::fputs(fmt::format("\r{:<{}}", text, width_).c_str(), stderr);  // never throws, as fmt::print() does
         std::fflush(stderr);
         width_ = text.size();
     }
 
     void erase() {
         if (width_ == 0) return;
-        fmt::print(stderr, "\r{:{}}\r", "", width_);
+        std::fputs(fmt::format("\r{:{}}\r", "", width_).c_str(), stderr);
         std::fflush(stderr);
         width_ = 0;
     }
@@ -156,14 +163,14 @@ TerminalProgress::Line* TerminalProgress::Line::current = nullptr;
 
 TerminalProgress::TerminalProgress() {
     interruptTarget = &progress_.cancel;
-    std::signal(SIGINT, onInterrupt);
+    takeInterrupts();
     if (!isErrorTerminal() || isQuiet()) return;
     line_ = std::make_unique<Line>(progress_.cancel);
     progress_.report = [this](std::string_view stage, double fraction) { line_->report(stage, fraction); };
 }
 
 TerminalProgress::~TerminalProgress() {
-    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGINT, formerHandler);
     interruptTarget = nullptr;
 }
 

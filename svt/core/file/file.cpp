@@ -277,6 +277,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
         return cannotMake(target, file.target_, reason);
     file.descriptor_ = temporary.descriptor;
     file.temporary_ = std::move(temporary.path);
+    file.unfinished_ = std::move(temporary.unfinished);
     if (exists && ::fchmod(file.descriptor_, status.st_mode & 07777) != 0) return file.fail(errno);
     return file;
 }
@@ -287,6 +288,7 @@ AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
     std::swap(path_, other.path_);
     std::swap(target_, other.target_);
     std::swap(temporary_, other.temporary_);
+    std::swap(unfinished_, other.unfinished_);
     std::swap(buffer_, other.buffer_);
     std::swap(size_, other.size_);
     std::swap(descriptor_, other.descriptor_);
@@ -305,6 +307,7 @@ void AtomicFile::discard() noexcept {
     if (!hasFileLocks()) close();
     if (!temporary_.empty()) ::unlink(temporary_.c_str());
     temporary_.clear();
+    unfinished_.forget();
     close();
     buffer_.clear();
 }
@@ -370,6 +373,7 @@ Result<std::uint64_t> AtomicFile::commit() {
     if ((isDirect || !hasFileLocks()) && !close()) return fail(errno);
     if (!isDirect && ::rename(temporary_.c_str(), target_.c_str()) != 0) return fail(errno);
     temporary_.clear();
+    unfinished_.forget();
     // After fsync, closing has nothing more to write, and the file has its name.
     close();
     return size_;

@@ -61,10 +61,15 @@ fs::path userPath(std::string text) { return text; }
 PrivateFolder::PrivateFolder() {
     std::error_code error;
     std::string pattern = (fs::temp_directory_path(error) / "svt-XXXXXX").string();
-    if (!error && ::mkdtemp(pattern.data()) != nullptr) path_ = pattern;
+    if (error) return;
+    unfinished_ = Unfinished::path([&] {
+        if (::mkdtemp(pattern.data()) != nullptr) path_ = pattern;
+        return path_;
+    });
 }
 
-PrivateFolder::PrivateFolder(PrivateFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+PrivateFolder::PrivateFolder(PrivateFolder&& other) noexcept
+    : path_(std::exchange(other.path_, {})), unfinished_(std::move(other.unfinished_)) {}
 
 PrivateFolder::~PrivateFolder() {
     std::error_code ignored;

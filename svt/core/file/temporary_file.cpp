@@ -100,14 +100,19 @@ int openTemporaryFile(const fs::path& folder, TemporaryFile& file) {
         if (const fs::path at = folder.empty() ? fs::path(".") : folder; isFirstWrite(at)) removeLeftovers(at);
     for (;;) {
         fs::path path = folder / temporaryName();
-        const int descriptor = openRetrying(path.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
-        if (descriptor < 0 && errno == EEXIST) continue;
-        if (descriptor < 0) return errno;
+        int descriptor = -1, reason = 0;
+        Unfinished unfinished = Unfinished::path([&] {
+            descriptor = openRetrying(path.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
+            reason = errno;
+            return descriptor < 0 ? fs::path() : path;
+        });
+        if (descriptor < 0 && reason == EEXIST) continue;
+        if (descriptor < 0) return reason;
         // Between open() and the lock, removeLeftovers() of another writer may have found the file: then that one holds
         // the lock, or has removed the name, and this one takes the next.
         const Lock lock = tryLock(descriptor);
         if (lock == Lock::Impossible || (lock == Lock::Held && isNameOf(path, descriptor))) {
-            file = {descriptor, std::move(path)};
+            file = {descriptor, std::move(path), std::move(unfinished)};
             return 0;
         }
         ::close(descriptor);

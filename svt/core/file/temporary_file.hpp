@@ -3,6 +3,8 @@
 /// The temporary files of AtomicFile: named so that they are known again, locked while their writer lives, and removed
 /// when it was killed.
 
+#include <svt/core/file.hpp>
+
 #include <cstddef>
 #include <filesystem>
 
@@ -12,6 +14,7 @@ namespace svt {
 struct TemporaryFile {
     int descriptor = -1;
     std::filesystem::path path;
+    Unfinished unfinished;  // until it is renamed or removed
 };
 
 /// Whether a process that still runs keeps a file from being taken for a leftover: false where the system has no locks

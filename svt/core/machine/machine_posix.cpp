@@ -1,5 +1,6 @@
 #include <svt/core/machine.hpp>
 
+#include <svt/core/file.hpp>
 #include <svt/core/machine/control_group.hpp>
 
 #include <fcntl.h>
@@ -195,11 +196,15 @@ OwnProcessResult inOwnProcess(double seconds, const std::function<void(const Say
     std::array<int, 2> pipe{};
     if (::pipe(pipe.data()) != 0) return {{}, "no pipe could be made"};
     std::fflush(nullptr);  // what is buffered belongs to this process alone
-    const pid_t child = ::fork();
-    if (child == 0) {
-        ::close(pipe[0]);
-        workInCopy(pipe[1], work);
-    }
+    pid_t child = -1;
+    Unfinished unfinished = Unfinished::process([&] {
+        child = ::fork();
+        if (child == 0) {
+            ::close(pipe[0]);
+            workInCopy(pipe[1], work);
+        }
+        return child;
+    });
     ::close(pipe[1]);
     if (child < 0) {
         ::close(pipe[0]);
@@ -210,6 +215,7 @@ OwnProcessResult inOwnProcess(double seconds, const std::function<void(const Say
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
+    unfinished.forget();
     ::close(pipe[0]);
     result.fault = isAnswered ? faultOf(status) : fmt::format("no answer within {:g} s", seconds);
     return result;

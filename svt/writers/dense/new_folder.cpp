@@ -9,6 +9,19 @@
 namespace svt::writers {
 namespace fs = std::filesystem;
 
+namespace {
+
+// Not while a signal removes the folder above.
+void makeFolders(const fs::path& folder) {
+    static_cast<void>(Unfinished::path([&] {
+        std::error_code ignored;  // writing the file will fail
+        fs::create_directories(folder, ignored);
+        return fs::path();
+    }));
+}
+
+}  // namespace
+
 NewFolder::NewFolder(fs::path place) : place_(std::move(place)), folder_(place_) { folder_ += ".part"; }
 
 NewFolder::~NewFolder() {
@@ -25,16 +38,18 @@ Result<void> NewFolder::create() {
         return at(Code::WouldDestroy,
                   fmt::format("'{}' is there, as of a command that was ended or is at work; remove it",
                               folder_.filename().string()));
-    if (!fs::create_directories(folder_, failed))
-        return at(Code::CannotWrite, "the folder cannot be made: " + failed.message());
-    isMade_ = true;
+    unfinished_ = Unfinished::path([&] {
+        isMade_ = fs::create_directories(folder_, failed);
+        return isMade_ ? folder_ : fs::path();
+    });
+    if (!isMade_) return at(Code::CannotWrite, "the folder cannot be made: " + failed.message());
     return {};
 }
 
 Result<void> NewFolder::write(const std::string& name, std::string_view text) {
     const fs::path file = folder_ / name;
     std::error_code failed;
-    fs::create_directories(file.parent_path(), failed);
+    makeFolders(file.parent_path());
     std::ofstream stream(file, std::ios::binary);
     stream.write(text.data(), static_cast<std::streamsize>(text.size()));
     stream.close();
@@ -53,6 +68,7 @@ Result<std::uint64_t> NewFolder::commit() {
     fs::rename(folder_, place_, failed);
     if (failed) return at(Code::CannotWrite, "the folder cannot take its place: " + failed.message());
     isMade_ = false;
+    unfinished_.forget();
     return size_;
 }
 

@@ -2,6 +2,7 @@
 /// \file
 /// A folder that appears when all of its files are written.
 
+#include <svt/core/file.hpp>
 #include <svt/core/result.hpp>
 
 #include <cstdint>
@@ -33,6 +34,7 @@ private:
     std::filesystem::path place_, folder_;
     std::uint64_t size_ = 0;
     bool isMade_ = false;
+    Unfinished unfinished_;
 };
 
 }  // namespace svt::writers
