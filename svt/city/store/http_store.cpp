@@ -72,7 +72,7 @@ const Result<Curl>& loadedCurl() {
 
 // What a server answers.
 struct Answer {
-    std::string body, contentRange;
+    std::string body, contentRange, retryAfter;
     std::size_t most = 0;  // more is not taken
     bool isTooLong = false;
     long status = 0;
@@ -91,10 +91,16 @@ std::size_t takeBody(char* bytes, std::size_t one, std::size_t count, void* to) 
 std::size_t takeHeader(char* bytes, std::size_t one, std::size_t count, void* to) {
     auto& answer = *static_cast<Answer*>(to);
     const std::string_view line(bytes, count * one);
-    if (line.starts_with("HTTP/")) answer.contentRange.clear();  // of a redirection
-    constexpr std::string_view kName = "content-range:";
-    if (line.size() > kName.size() && lowerAscii(std::string(line.substr(0, kName.size()))) == kName)
-        answer.contentRange = std::string(withoutBlanks(line.substr(kName.size())));
+    if (line.starts_with("HTTP/")) {  // of a redirection
+        answer.contentRange.clear();
+        answer.retryAfter.clear();
+    }
+    const auto take = [&](std::string_view name, std::string& value) {
+        if (line.size() > name.size() && lowerAscii(std::string(line.substr(0, name.size()))) == name)
+            value = std::string(withoutBlanks(line.substr(name.size())));
+    };
+    take("content-range:", answer.contentRange);
+    take("retry-after:", answer.retryAfter);
     return count * one;
 }
 
@@ -118,8 +124,8 @@ bool parseContentRange(std::string_view text, ContentRange& range) {
 
 class HttpStore : public Store {
 public:
-    HttpStore(std::string address, std::shared_ptr<Traffic> traffic)
-        : address_(std::move(address)), traffic_(std::move(traffic)) {
+    HttpStore(std::string address, std::shared_ptr<Traffic> traffic, RetryClock clock)
+        : address_(std::move(address)), traffic_(std::move(traffic)), clock_(std::move(clock)) {
         while (address_.ends_with('/')) address_.pop_back();
     }
     ~HttpStore() override {
@@ -131,11 +137,15 @@ public:
     Result<std::string> read(const std::string& name, std::uint64_t offset, std::size_t size) const override {
         if (size == 0) return std::string();
         if (!loadedCurl()) return loadedCurl().error();
-        constexpr int kAttempts = 3;
         for (int attempt = 1;; ++attempt) {
-            bool mayTryAgain = false;
-            auto bytes = ask(name, offset, size, mayTryAgain);
-            if (bytes || !mayTryAgain || attempt == kAttempts) return bytes;
+            Retry retry;
+            auto bytes = ask(name, offset, size, retry);
+            if (bytes || !retry.isUseful || attempt == kMostAttempts) return bytes;
+            const double seconds = retrySeconds(attempt, retry.after, clock_.now());
+            if (seconds > kLongestRetrySeconds)
+                return wrong(name,
+                             fmt::format("the server is busy and asks to wait {:.0f} s; try it again then", seconds));
+            clock_.wait(seconds);
         }
     }
     Result<std::uint64_t> size(const std::string& name) const override {
@@ -146,11 +156,17 @@ public:
     std::string place(const std::string& name) const override { return address_ + "/" + name; }
 
 private:
+    // Whether a request is worth sending again, and what the server says of the time.
+    struct Retry {
+        bool isUseful = false;
+        std::string after;
+    };
+
     Error wrong(const std::string& name, std::string message, Code code = Code::CannotOpen) const {
         return {code, std::move(message), {place(name), 0, 0, {}}};
     }
 
-    Result<std::string> ask(const std::string& name, std::uint64_t offset, std::size_t size, bool& mayTryAgain) const {
+    Result<std::string> ask(const std::string& name, std::uint64_t offset, std::size_t size, Retry& retry) const {
         const Curl& curl = *loadedCurl();
         Curl::Handle* handle = takeHandle();
         if (handle == nullptr) return wrong(name, "libcurl gives no connection");
@@ -164,7 +180,8 @@ private:
         const int failed = curl.perform(handle);
         curl.get(handle, Curl::kResponseCode, &answer.status);
         giveBack(handle, answer.body.size());
-        mayTryAgain = (failed != 0 && !answer.isTooLong) || answer.status == 429 || answer.status >= 500;
+        retry.isUseful = (failed != 0 && !answer.isTooLong) || answer.status == 429 || answer.status >= 500;
+        retry.after = answer.retryAfter;
         if (answer.status == 404 || answer.status == 410 || answer.status == 416) return std::string();
         if (failed != 0 && !answer.isTooLong)
             return wrong(name, fmt::format("the server does not answer ({}); try it later, or check the address",
@@ -249,6 +266,7 @@ private:
 
     std::string address_;
     std::shared_ptr<Traffic> traffic_;
+    RetryClock clock_;
     mutable std::mutex mutex_;
     mutable std::vector<Curl::Handle*> idle_;
     mutable std::map<std::string, std::uint64_t> sizes_;
@@ -256,8 +274,8 @@ private:
 
 }  // namespace
 
-std::shared_ptr<const Store> openHttpStore(std::string address, std::shared_ptr<Traffic> traffic) {
-    return std::make_shared<HttpStore>(std::move(address), std::move(traffic));
+std::shared_ptr<const Store> openHttpStore(std::string address, std::shared_ptr<Traffic> traffic, RetryClock clock) {
+    return std::make_shared<HttpStore>(std::move(address), std::move(traffic), std::move(clock));
 }
 
 }  // namespace svt::city

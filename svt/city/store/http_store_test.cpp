@@ -13,6 +13,7 @@
 #include <functional>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace svt::city {
 namespace {
@@ -159,31 +160,87 @@ TEST(HttpStore, NoticesAFileThatChanges) {
     EXPECT_EQ(bytes.error().code(), Code::BadCity);
 }
 
-TEST(HttpStore, TriesAgainAndGivesUp) {
-    int failures = 2;
-    const std::string text = textOf(1000);
-    const TinyServer server([&](std::size_t first, std::size_t last) {
-        return failures-- > 0 ? answerOf(503, "") : rangeOf(text, first, last);
-    });
-    const auto store = openHttpStore(server.address());
-    const auto bytes = store->read("index.bin", 3, 4);
-    ASSERT_TRUE(bytes) << bytes.error().toString();
-    EXPECT_EQ(*bytes, text.substr(3, 4));
-    failures = 100;
-    EXPECT_FALSE(store->read("index.bin", 3, 4));
-    EXPECT_EQ(server.requests(), 6);
-    // Refused: not tried again.
-    const TinyServer closed([&](std::size_t, std::size_t) { return answerOf(403, ""); });
-    const auto refused = openHttpStore(closed.address())->read("index.bin", 0, 4);
+// A clock that stands still and notes how long it was to wait.
+struct TestClock {
+    std::vector<double> waits;
+    RetryClock clock() {
+        return {[this](double seconds) { waits.push_back(seconds); }, [] { return std::int64_t{784111777}; }};
+    }
+};
+
+TEST(HttpStore, TriesAgainLaterEachTimeAndGivesUp) {
+    for (const int status : {429, 500, 503}) {
+        int failures = 2;
+        const std::string text = textOf(1000);
+        const TinyServer server([&](std::size_t first, std::size_t last) {
+            return failures-- > 0 ? answerOf(status, "") : rangeOf(text, first, last);
+        });
+        TestClock time;
+        const auto store = openHttpStore(server.address(), {}, time.clock());
+        const auto bytes = store->read("index.bin", 3, 4);
+        ASSERT_TRUE(bytes) << bytes.error().toString();
+        EXPECT_EQ(*bytes, text.substr(3, 4));
+        EXPECT_EQ(server.requests(), 3);
+        EXPECT_EQ(time.waits, (std::vector<double>{0.25, 0.5}));
+        time.waits.clear();
+        failures = 100;
+        EXPECT_FALSE(store->read("index.bin", 3, 4));
+        EXPECT_EQ(server.requests(), 3 + kMostAttempts);
+        EXPECT_EQ(time.waits, (std::vector<double>{0.25, 0.5, 1}));
+    }
+}
+
+TEST(HttpStore, RefusalsAreNotTriedAgain) {
+    const TinyServer closed([&](std::size_t, std::size_t) { return answerOf(403, "", "Retry-After: 1\r\n"); });
+    TestClock time;
+    const auto refused = openHttpStore(closed.address(), {}, time.clock())->read("index.bin", 0, 4);
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message().find("status 403"), std::string::npos) << refused.error().message();
     EXPECT_EQ(closed.requests(), 1);
+    EXPECT_TRUE(time.waits.empty());
+}
+
+TEST(HttpStore, WaitsAsLongAsTheServerAsks) {
+    const std::string text = textOf(100);
+    std::vector<std::string> headers{"Retry-After: 7\r\n", "retry-after:  Sun, 06 Nov 1994 08:49:49 GMT \r\n", ""};
+    std::size_t asked = 0;
+    const TinyServer server([&](std::size_t first, std::size_t last) {
+        return asked < headers.size() ? answerOf(503, "", headers[asked++]) : rangeOf(text, first, last);
+    });
+    TestClock time;
+    ASSERT_TRUE(openHttpStore(server.address(), {}, time.clock())->read("index.bin", 3, 4));
+    EXPECT_EQ(time.waits, (std::vector<double>{7, 12, 1}));
+}
+
+TEST(HttpStore, DoesNotWaitForEver) {
+    const TinyServer server([](std::size_t, std::size_t) { return answerOf(503, "", "Retry-After: 3600\r\n"); });
+    TestClock time;
+    const auto bytes = openHttpStore(server.address(), {}, time.clock())->read("index.bin", 3, 4);
+    ASSERT_FALSE(bytes);
+    EXPECT_NE(bytes.error().message().find("asks to wait 3600 s"), std::string::npos) << bytes.error().message();
+    EXPECT_EQ(server.requests(), 1);
+    EXPECT_TRUE(time.waits.empty());
+}
+
+TEST(HttpStore, ReadsWhatRetryAfterSays) {
+    constexpr std::int64_t kNow = 784111777;  // Sun, 06 Nov 1994 08:49:37 GMT
+    EXPECT_EQ(retrySeconds(1, "", kNow), 0.25);
+    EXPECT_EQ(retrySeconds(5, "", kNow), 4);
+    EXPECT_EQ(retrySeconds(1, "120", kNow), 120);
+    EXPECT_EQ(retrySeconds(1, "0", kNow), 0.25);
+    EXPECT_EQ(retrySeconds(3, "Sun, 06 Nov 1994 08:49:36 GMT", kNow), 1) << "in the past";
+    EXPECT_EQ(retrySeconds(1, "Mon, 07 Nov 1994 08:49:37 GMT", kNow), 86400);
+    for (const char* bad : {"-5", "1.5", "soon", "5 s", "99999999999999999999", "Sun, 06 Now 1994 08:49:50 GMT",
+                            "Sun, 36 Nov 1994 08:49:50 GMT", "Sun, 06 Nov 1994 08:49:50 GMT+1"})
+        EXPECT_EQ(retrySeconds(1, bad, kNow), 0.25) << bad;
 }
 
 TEST(HttpStore, SaysThatNobodyAnswers) {
-    const auto bytes = openHttpStore("http://127.0.0.1:1/town")->read("city.json", 0, 10);
+    TestClock time;
+    const auto bytes = openHttpStore("http://127.0.0.1:1/town", {}, time.clock())->read("city.json", 0, 10);
     ASSERT_FALSE(bytes);
     EXPECT_NE(bytes.error().message().find("does not answer"), std::string::npos) << bytes.error().message();
+    EXPECT_EQ(time.waits, (std::vector<double>{0.25, 0.5, 1}));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 /// \file
 /// Where the files of a city are read from: a folder, or a server that answers HTTP requests for ranges.
 
+#include <svt/city/store/retry.hpp>
 #include <svt/core/result.hpp>
 
 #include <cstddef>
@@ -44,6 +45,10 @@ struct Traffic {
 ///
 /// A server must answer with the range that was asked for (206 and Content-Range). One that sends whole files, other
 /// ranges or fewer bytes is named, and not read on; so is a file whose size changes between two requests.
-[[nodiscard]] std::shared_ptr<const Store> openHttpStore(std::string address, std::shared_ptr<Traffic> traffic = {});
+///
+/// Requests without an answer, and those with status 429 or 500 and up, are sent again after retrySeconds(), up to
+/// kMostAttempts times.
+[[nodiscard]] std::shared_ptr<const Store> openHttpStore(std::string address, std::shared_ptr<Traffic> traffic = {},
+                                                         RetryClock clock = machineClock());
 
 }  // namespace svt::city

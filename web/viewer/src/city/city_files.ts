@@ -4,6 +4,7 @@
  */
 
 import { t } from "../texts";
+import { kMostAttempts, retryMs } from "./retry";
 
 export type WantedRange = readonly [file: string, offset: number, size: number];
 
@@ -39,7 +40,6 @@ interface Coming {
 const kGap = 32 << 10;
 const kLargestRequest = 1 << 20;
 const kAtOnce = 6;
-const kAttempts = 3;
 /** What a first request of these files brings: all of them, or what a first view needs. */
 const kBegin: Record<string, number> = { "index.bin": 48 << 10, "ids.bin": 64 << 10 };
 const kIndexAhead = 64 << 10;
@@ -55,10 +55,11 @@ export class CityFiles {
   private running = 0;
   private readonly waiting: (() => void)[] = [];
 
-  /** @param address  of the folder; @param keptBytes  limit of what is kept */
+  /** @param address  of the folder; @param keptBytes  limit of what is kept; @param wait  between two attempts */
   constructor(
     private readonly address: string,
     private readonly keptBytes = 16e6,
+    private readonly wait = (ms: number) => new Promise<void>((done) => setTimeout(done, ms)),
   ) {}
 
   /** Fetches what a first picture needs: city.json, then the begin of the index and the tile of the coarsest detail. */
@@ -127,10 +128,12 @@ export class CityFiles {
     ++this.running;
     try {
       for (let attempt = 1; ; ++attempt) {
-        const { answer, mayTryAgain } = await this.ask(file, offset, size);
+        const { answer, mayTryAgain, retryAfter } = await this.ask(file, offset, size);
         if (answer.block) this.blocks.push(answer.block);
-        if (!mayTryAgain || attempt === kAttempts) return answer;
-        await new Promise((done) => setTimeout(done, 250 * attempt));
+        if (!mayTryAgain || attempt === kMostAttempts) return answer;
+        const ms = retryMs(attempt, retryAfter, Date.now());
+        if (ms === null) return answer;
+        await this.wait(ms);
       }
     } finally {
       --this.running;
@@ -138,17 +141,18 @@ export class CityFiles {
     }
   }
 
-  private async ask(file: string, offset: number, size: number): Promise<{ answer: Answer; mayTryAgain: boolean }> {
-    const failed = (error: string, mayTryAgain = false) => ({ answer: { block: null, error }, mayTryAgain });
+  private async ask(file: string, offset: number, size: number): Promise<{ answer: Answer; mayTryAgain: boolean; retryAfter: string | null }> {
+    const failed = (error: string, mayTryAgain = false, retryAfter: string | null = null) => ({ answer: { block: null, error }, mayTryAgain, retryAfter });
+    const given = (block: Block) => ({ answer: { block, error: null }, mayTryAgain: false, retryAfter: null });
     ++this.traffic.requests;
     let response: Response, bytes: Uint8Array | null;
     try {
       response = await fetch(new URL(file, this.address), { headers: { Range: `bytes=${offset}-${offset + size - 1}` }, cache: "no-store" });
       if (response.status === 404 || response.status === 410 || response.status === 416) {
         await response.body?.cancel();
-        return { answer: { block: { file, offset, bytes: new Uint8Array(0), total: response.status === 416 ? offset : 0 }, error: null }, mayTryAgain: false };
+        return given({ file, offset, bytes: new Uint8Array(0), total: response.status === 416 ? offset : 0 });
       }
-      if (!response.ok) return failed(t("notLoaded", { name: file, status: response.status }), response.status === 429 || response.status >= 500);
+      if (!response.ok) return failed(t("notLoaded", { name: file, status: response.status }), response.status === 429 || response.status >= 500, response.headers.get("Retry-After"));
       if (response.status === 200 && offset > 0) {
         await response.body?.cancel();
         return failed(t("cityNoRanges", { name: file }));
@@ -164,7 +168,7 @@ export class CityFiles {
     const known = this.sizes.get(file);
     if (known !== undefined && known !== total) return failed(t("cityChanged", { name: file }));
     if (total !== kUnknown) this.sizes.set(file, total);
-    return { answer: { block: { file, offset, bytes, total }, error: null }, mayTryAgain: false };
+    return given({ file, offset, bytes, total });
   }
 }
 

@@ -1,0 +1,63 @@
+#include <svt/city/store/retry.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace svt::city {
+namespace {
+
+constexpr double kFirstRetrySeconds = 0.25;
+
+// "Sun, 06 Nov 1994 08:49:37 GMT", the only form of a date that servers may send.
+std::optional<std::int64_t> secondsOfDate(std::string_view text) {
+    constexpr std::array<std::string_view, 12> kMonths{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                                       "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+    int day = 0, year = 0, hour = 0, minute = 0, second = 0, end = 0;
+    std::array<char, 4> month{};
+    const std::string copy(text);
+    if (std::sscanf(copy.c_str(), "%*3s, %2d %3s %4d %2d:%2d:%2d GMT%n", &day, month.data(), &year, &hour, &minute,
+                    &second, &end) != 6 ||
+        end != static_cast<int>(copy.size()))
+        return std::nullopt;
+    const auto* const found = std::ranges::find(kMonths, std::string_view(month.data()));
+    if (found == kMonths.end()) return std::nullopt;
+    const std::chrono::year_month_day date(std::chrono::year(year),
+                                           std::chrono::month(static_cast<unsigned>(found - kMonths.begin()) + 1),
+                                           std::chrono::day(static_cast<unsigned>(day)));
+    if (!date.ok()) return std::nullopt;
+    const std::int64_t days = std::chrono::sys_days(date).time_since_epoch().count();
+    return ((days * 24 + hour) * 60 + minute) * 60 + second;
+}
+
+// What a server asks for; 0: nothing that can be read.
+double askedSeconds(std::string_view retryAfter, std::int64_t now) {
+    std::uint32_t seconds = 0;
+    const char* const end = retryAfter.data() + retryAfter.size();
+    const auto [at, failed] = std::from_chars(retryAfter.data(), end, seconds);
+    if (failed == std::errc() && at == end) return seconds;
+    if (const auto date = secondsOfDate(retryAfter)) return static_cast<double>(std::max<std::int64_t>(0, *date - now));
+    return 0;
+}
+
+}  // namespace
+
+RetryClock machineClock() {
+    return {[](double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); },
+            [] {
+                using namespace std::chrono;
+                return std::int64_t{duration_cast<seconds>(system_clock::now().time_since_epoch()).count()};
+            }};
+}
+
+double retrySeconds(int attempt, std::string_view retryAfter, std::int64_t now) {
+    return std::max(std::ldexp(kFirstRetrySeconds, attempt - 1), askedSeconds(retryAfter, now));
+}
+
+}  // namespace svt::city

@@ -1,0 +1,21 @@
+/** When a failed request is sent again: later each time, or when the server asks for it. As svt/city/store/retry.hpp has it. */
+
+/** Requests for one range, the first one included. */
+export const kMostAttempts = 4;
+const kFirstRetryMs = 250;
+/** The page does not wait longer than this on behalf of a server. */
+const kLongestRetryMs = 60_000;
+
+/**
+ * Milliseconds until the next request; null: the server asks for more than the page waits.
+ * @param attempt  number of requests so far, from 1
+ * @param retryAfter  value of the header Retry-After: seconds or a date; null or malformed: ignored
+ * @param now  milliseconds since 1970
+ */
+export function retryMs(attempt: number, retryAfter: string | null, now: number): number | null {
+  const text = retryAfter?.trim() ?? "";
+  const date = /^[A-Z][a-z]{2}, \d{2} [A-Z][a-z]{2} \d{4} \d{2}:\d{2}:\d{2} GMT$/.test(text) ? Date.parse(text) : NaN;
+  const asked = /^\d{1,9}$/.test(text) ? 1000 * Number(text) : Number.isNaN(date) ? 0 : date - now;
+  const wait = Math.max(kFirstRetryMs * 2 ** (attempt - 1), asked);
+  return wait > kLongestRetryMs ? null : wait;
+}
