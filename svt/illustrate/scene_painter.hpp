@@ -63,7 +63,8 @@ public:
     struct StyleMixture {
         volume::Scalar scalar = 0;
         std::vector<std::pair<volume::Scalar, float>> parts;  ///< others, and their shares
-        float empty = 0;                                      ///< the share of none: there the background is seen
+        float empty =
+            0;  ///< the share of none: there the background is seen, fully from above and less the flatter the view
     };
     /// From now on these scalars look as the styles of a scene say of their parts: the mean, by share, of those that are
     /// shown, and of the background where there is one; hidden where none is shown.

@@ -1,7 +1,6 @@
 #include "city.hpp"
 
 #include <svt/city/city_levels.hpp>
-#include <svt/illustrate/details.hpp>
 #include <svt/illustrate/view.hpp>
 
 #include <fmt/format.h>
@@ -72,16 +71,15 @@ Result<CityPage::Look> CityPage::look(const CityWish& wish) {
     }
     if (!parts) return parts.error();
     bytes_.forget();
-    volume::SemanticVolume shown = frame_;
-    shown.modelName.clear();
-    if (auto joined = illustrate::joinLabels(shown, *parts); !joined) return joined.error();
+    auto joined = city::joinTiles(*city_, frame_, *chosen, std::move(*parts));
+    if (!joined) return joined.error();
     look.tiles = chosen->entries.size();
     for (const city::IndexEntry& entry : chosen->entries) look.bytes += entry.size;
     if (!chosen->entries.empty()) {
         look.coarsest = chosen->entries.front().detail;
         look.finest = chosen->entries.back().detail;
     }
-    look.session = Session::ofParts(std::move(shown), std::move(*parts));
+    look.session = Session::ofTiles(std::move(*joined));
     return look;
 }
 

@@ -88,27 +88,22 @@ render::CastOptions castOptions() {
 
 }  // namespace
 
-Session::Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findings, bool isOfParts)
+Session::Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findings)
     : volume_(std::move(volumes.front())),
       details_(std::make_move_iterator(volumes.begin() + 1), std::make_move_iterator(volumes.end())),
       findings_(std::move(findings)),
-      isOfParts_(isOfParts),
       painter_(volume_) {
-    if (!isOfParts) {
-        for (const volume::SemanticVolume& detail : details_) painter_.addDetail(detail);
-        return;
-    }
-    painter_.tolerateNothing(&nothing_);
-    // Voxels of all but the nearest are at most a pixel wide.
-    const double finest = details_.empty() ? 0 : details_.back().grid.spacing().x;
-    for (const volume::SemanticVolume& part : details_) painter_.addPart(part, part.grid.spacing().x <= finest);
+    for (const volume::SemanticVolume& detail : details_) painter_.addDetail(detail);
 }
 
-std::unique_ptr<Session> Session::ofParts(volume::SemanticVolume frame, std::vector<volume::SemanticVolume> parts) {
-    std::vector<volume::SemanticVolume> volumes;
-    volumes.push_back(std::move(frame));
-    for (volume::SemanticVolume& part : parts) volumes.push_back(std::move(part));
-    std::unique_ptr<Session> session(new Session(std::move(volumes), {}, true));
+Session::Session(city::JoinedTiles tiles) : volume_(std::move(tiles.frame)), isOfParts_(true), painter_(volume_) {
+    painter_.tolerateNothing(&nothing_);
+    tiles.addTo(painter_);
+    details_ = std::move(tiles.parts);  // the parts themselves, which the painter refers to, stay where they are
+}
+
+std::unique_ptr<Session> Session::ofTiles(city::JoinedTiles tiles) {
+    std::unique_ptr<Session> session(new Session(std::move(tiles)));
     session->labelOfScalar_ = session->volume_.labels.labelOfScalar();
     return session;
 }

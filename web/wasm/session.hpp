@@ -4,6 +4,7 @@
 
 #include <svt/analyze/contacts.hpp>
 #include <svt/analyze/label_measures.hpp>
+#include <svt/city/city_painter.hpp>
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/progress.hpp>
 #include <svt/illustrate/scene_painter.hpp>
@@ -51,10 +52,7 @@ public:
                                                                const OpenOptions& options, const Progress* progress);
 
     /// What is seen of a city.
-    /// \param frame  its box, with the labels of all parts
-    /// \param parts  of joinLabels()
-    [[nodiscard]] static std::unique_ptr<Session> ofParts(volume::SemanticVolume frame,
-                                                          std::vector<volume::SemanticVolume> parts);
+    [[nodiscard]] static std::unique_ptr<Session> ofTiles(city::JoinedTiles tiles);
     /// Whether the volume is a frame around parts.
     [[nodiscard]] bool isOfParts() const noexcept { return isOfParts_; }
     /// The volume in which a label has its voxels. Cost of parts: O(runs).
@@ -115,7 +113,8 @@ public:
     [[nodiscard]] const std::vector<analyze::LabelMeasure>& measures();
 
 private:
-    Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findings, bool isOfParts = false);
+    Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findings);
+    explicit Session(city::JoinedTiles tiles);
     [[nodiscard]] volume::Scalar scalarAt(Vec3d point) const;
 
     [[nodiscard]] render_gl::PickedPixel firstAt(std::int32_t column, std::int32_t row);

@@ -4,6 +4,7 @@
 #include <apps/cli/output/messages.hpp>
 
 #include <svt/city/city_levels.hpp>
+#include <svt/core/machine.hpp>
 #include <svt/core/parallel.hpp>
 
 #include <fmt/format.h>
@@ -43,6 +44,12 @@ int printCity(const std::filesystem::path& folder, bool json) {
                box.max.x, box.max.y, box.max.z);
     if (city->missingPacks() != 0) fmt::print("{} packs are missing\n", city->missingPacks());
     return kDone;
+}
+
+std::uint64_t tileMemory() {
+    constexpr std::uint64_t kTileMemory = 1'000'000'000;
+    const MemoryFigures memory = memoryFigures();
+    return memory.limitedBy == "--memory" && memory.limitBytes ? *memory.limitBytes / 2 : kTileMemory;
 }
 
 Result<void> forEachTile(const city::City& city, const std::vector<double>& box, int threads, const Progress* progress,

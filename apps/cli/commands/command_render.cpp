@@ -8,6 +8,7 @@
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/analyze/selection.hpp>
+#include <svt/city/city_painter.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/machine.hpp>
 #include <svt/illustrate/color_by.hpp>
@@ -316,7 +317,9 @@ Result<void> checkForCity(const RenderArguments& arguments) {
 int runCityRender(const RenderArguments& arguments, Series& series, const illustrate::Scene& moving) {
     if (auto checked = checkForCity(arguments); !checked) return fail(checked.error());
     TerminalProgress progress;
-    auto picture = CityPicture::open(arguments.input, arguments.build, progress.get());
+    auto opened = city::City::open(arguments.input);
+    if (!opened) return fail(opened.error());
+    auto picture = city::CityPainter::make(std::move(*opened), {tileMemory(), arguments.build.threads, progress.get()});
     if (!picture) return fail(picture.error());
     render::CastOptions options;
     options.threads = arguments.build.threads;

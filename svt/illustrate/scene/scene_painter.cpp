@@ -6,6 +6,7 @@
 #include <svt/illustrate/exploded.hpp>
 #include <svt/illustrate/inset/inset_frame.hpp>
 #include <svt/illustrate/shell.hpp>
+#include <svt/render/camera_rays.hpp>
 
 #include <algorithm>
 #include <map>
@@ -42,7 +43,13 @@ ScenePainter::Draw byCasting(const render::CastOptions& options) {
     };
 }
 
-void mix(const std::vector<ScenePainter::StyleMixture>& mixtures, const render::Background& background,
+// The share of what is empty between things on the ground that they do not hide. From lower than some 30 degrees they
+// hide more and more of it.
+float seenGaps(const render::FrameSpec& spec, const volume::Grid& grid) {
+    return static_cast<float>(std::clamp(-2 * render::CameraRays(spec, grid).forward().z, 0.0, 1.0));
+}
+
+void mix(const std::vector<ScenePainter::StyleMixture>& mixtures, const render::Background& background, float gaps,
          render::Pass& pass) {
     const Vec3f behind = (background.top + background.bottom) * 0.5f;
     const std::vector<render::Style> before = pass.styles;
@@ -60,7 +67,7 @@ void mix(const std::vector<ScenePainter::StyleMixture>& mixtures, const render::
         }
         if (all <= 0) continue;
         own.opacity = std::min(1.0f, own.opacity / all);
-        const float empty = background.alpha < 1 ? 0 : mixture.empty;
+        const float empty = background.alpha < 1 ? 0 : mixture.empty * gaps;
         own.color = (own.color + behind * empty) * (1 / (all + empty));
     }
 }
@@ -243,7 +250,8 @@ Result<Painting> ScenePainter::paintPlain(const Scene& scene, const Draw& draw) 
     ColorScale scale;
     auto spec = makeFrameSpec(scene, volume_, rows, &scale);
     if (!spec) return spec.error();
-    for (render::Pass& pass : spec->passes) mix(mixtures_, spec->background, pass);
+    const float gaps = mixtures_.empty() ? 0 : seenGaps(*spec, volume_.grid);
+    for (render::Pass& pass : spec->passes) mix(mixtures_, spec->background, gaps, pass);
     const auto drawn = drawnVolumes(scene, *spec);
     if (!drawn) return drawn.error();
     return finish(scene, rows, scale, std::move(*spec), *drawn, draw);
