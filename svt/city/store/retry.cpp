@@ -5,7 +5,6 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <thread>
@@ -19,14 +18,20 @@ constexpr double kFirstRetrySeconds = 0.25;
 std::optional<std::int64_t> secondsOfDate(std::string_view text) {
     constexpr std::array<std::string_view, 12> kMonths{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                                        "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-    int day = 0, year = 0, hour = 0, minute = 0, second = 0, end = 0;
-    std::array<char, 4> month{};
-    const std::string copy(text);
-    if (std::sscanf(copy.c_str(), "%*3s, %2d %3s %4d %2d:%2d:%2d GMT%n", &day, month.data(), &year, &hour, &minute,
-                    &second, &end) != 6 ||
-        end != static_cast<int>(copy.size()))
-        return std::nullopt;
-    const auto* const found = std::ranges::find(kMonths, std::string_view(month.data()));
+    constexpr std::string_view kForm = "XXX, 00 XXX 0000 00:00:00 GMT";
+    if (text.size() != kForm.size()) return std::nullopt;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool isDigit = text[i] >= '0' && text[i] <= '9';
+        if (kForm[i] == '0' ? !isDigit : kForm[i] != 'X' && text[i] != kForm[i]) return std::nullopt;
+    }
+    const auto number = [&](std::size_t at, std::size_t size) {
+        int value = 0;
+        std::from_chars(text.data() + at, text.data() + at + size, value);
+        return value;
+    };
+    const int day = number(5, 2), year = number(12, 4), hour = number(17, 2), minute = number(20, 2),
+              second = number(23, 2);
+    const auto* const found = std::ranges::find(kMonths, text.substr(8, 3));
     if (found == kMonths.end()) return std::nullopt;
     const std::chrono::year_month_day date(std::chrono::year(year),
                                            std::chrono::month(static_cast<unsigned>(found - kMonths.begin()) + 1),
