@@ -23,14 +23,20 @@ def contents(package: pathlib.Path, version: str) -> dict[str, bytes]:
     suffix = sysconfig.get_config_var("EXT_SUFFIX")
     if not (package / f"_native{suffix}").is_file():
         raise SystemExit(f"wheel: {package}/_native{suffix} is missing; 'make python' builds it")
-    files = {f"svt/{path.name}": path.read_bytes() for path in sorted(package.iterdir())
-             if path.suffix in (".py", ".pyi") or path.name == "py.typed" or path.name == f"_native{suffix}"}
+    files = {
+        f"svt/{path.name}": path.read_bytes()
+        for path in sorted(package.iterdir())
+        if path.suffix in (".py", ".pyi") or path.name == "py.typed" or path.name == f"_native{suffix}"
+    }
     information = f"svt-{version}.dist-info"
     files[f"{information}/METADATA"] = (
         f"Metadata-Version: 2.1\nName: svt\nVersion: {version}\n"
         "Summary: Semantic volume textures of building models: read, build, ask, cut and draw\n"
-        "License: Apache-2.0\nRequires-Python: >=3.9\nRequires-Dist: numpy\n").encode()
-    files[f"{information}/WHEEL"] = (f"Wheel-Version: 1.0\nGenerator: pack_wheel\nRoot-Is-Purelib: false\nTag: {tag()}\n").encode()
+        "License: Apache-2.0\nRequires-Python: >=3.9\nRequires-Dist: numpy\n"
+    ).encode()
+    files[f"{information}/WHEEL"] = (
+        f"Wheel-Version: 1.0\nGenerator: pack_wheel\nRoot-Is-Purelib: false\nTag: {tag()}\n"
+    ).encode()
     return files
 
 
@@ -40,8 +46,10 @@ def main() -> None:
     build, output, version = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3]
     files = contents(build / "python" / "svt", version)
     record = f"svt-{version}.dist-info/RECORD"
-    rows = [f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}\n"
-            for name, data in files.items()]
+    rows = [
+        f"{name},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}\n"
+        for name, data in files.items()
+    ]
     files[record] = "".join([*rows, f"{record},,\n"]).encode()
     output.mkdir(parents=True, exist_ok=True)
     wheel = output / f"svt-{version}-{tag()}.whl"

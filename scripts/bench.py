@@ -78,8 +78,11 @@ class Quiet:
         if now is None or self.start is None:
             return {}
         wall, others, stolen = (b - a for a, b in zip(self.start, now))
-        return {"seconds": round(wall, 1), "others_cores": round(max(0, others) / wall, 3),
-                "stolen_cores": round(max(0, stolen) / wall, 3)}
+        return {
+            "seconds": round(wall, 1),
+            "others_cores": round(max(0, others) / wall, 3),
+            "stolen_cores": round(max(0, stolen) / wall, 3),
+        }
 
 
 def run_part(program, build, part, quick):
@@ -97,23 +100,38 @@ def run_part(program, build, part, quick):
 def counted(program, build, piece):
     """Instructions and cache misses of one piece of work, as simulated by cachegrind."""
     out = build / f"cachegrind-{piece}.out"
-    done = subprocess.run(["valgrind", "--tool=cachegrind", "--cache-sim=yes", f"--cachegrind-out-file={out}",
-                           str(program), "--profile", piece], capture_output=True, text=True)
+    done = subprocess.run(
+        [
+            "valgrind",
+            "--tool=cachegrind",
+            "--cache-sim=yes",
+            f"--cachegrind-out-file={out}",
+            str(program),
+            "--profile",
+            piece,
+        ],
+        capture_output=True,
+        text=True,
+    )
     if done.returncode != 0:
         sys.exit(f"bench: valgrind failed with exit code {done.returncode}:\n{done.stderr[-2000:]}")
     lines = out.read_text().splitlines()
     events = next(line for line in lines if line.startswith("events:")).split()[1:]
     totals = dict(zip(events, map(int, next(line for line in lines if line.startswith("summary:")).split()[1:])))
-    return {"instructions": totals["Ir"], "l1_misses": totals["I1mr"] + totals["D1mr"] + totals["D1mw"],
-            "last_level_misses": totals["ILmr"] + totals["DLmr"] + totals["DLmw"]}
+    return {
+        "instructions": totals["Ir"],
+        "l1_misses": totals["I1mr"] + totals["D1mr"] + totals["D1mw"],
+        "last_level_misses": totals["ILmr"] + totals["DLmr"] + totals["DLmw"],
+    }
 
 
 def run_profile(program, build):
     """Cost of each piece beyond the common preparation, per unit of its work."""
     if not shutil.which("valgrind"):
         return {"results": [], "skipped": ["the counted piece: valgrind is not installed"]}
-    units = json.loads(subprocess.run([str(program), "--profile", "count"], stdout=subprocess.PIPE, text=True,
-                                      check=True).stdout)
+    units = json.loads(
+        subprocess.run([str(program), "--profile", "count"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    )
     print("bench: profile, under valgrind", file=sys.stderr)
     pieces = {"voxelize": "crossings", "opaque": "rays", "translucent": "rays"}
     with ThreadPoolExecutor(2) as pool:  # counts do not depend on other load
@@ -121,8 +139,17 @@ def run_profile(program, build):
     rows = []
     for piece, unit in pieces.items():
         per_unit = {name: (counts[piece][name] - counts["prepare"][name]) / units[unit] for name in counts[piece]}
-        rows.append({"id": f"profile/{piece}", "stage": "profile", "piece": piece, "input": units["input"],
-                     "unit": unit[:-1], "units": units[unit], **per_unit})
+        rows.append(
+            {
+                "id": f"profile/{piece}",
+                "stage": "profile",
+                "piece": piece,
+                "input": units["input"],
+                "unit": unit[:-1],
+                "units": units[unit],
+                **per_unit,
+            }
+        )
     return {"machine": units["machine"], "results": rows, "skipped": []}
 
 
@@ -131,15 +158,16 @@ def run_ifc(program, quick):
     if not program.exists():
         return {"results": [], "skipped": [f"reading IFC: {program} is missing; build the target svt there"]}
     print("bench: ifc", file=sys.stderr)
-    rows, skipped = bench_ifc.rows_of(program, DATA, ORACLES,
-                                      [] if quick else [45, 500], 3 if quick else 5)
+    rows, skipped = bench_ifc.rows_of(program, DATA, ORACLES, [] if quick else [45, 500], 3 if quick else 5)
     return {"results": rows, "skipped": skipped}
 
 
 def run_from_outside(program, part):
     """Whole commands, or the page in a browser."""
     print(f"bench: {part}", file=sys.stderr)
-    rows, skipped = bench_commands.rows_of_commands(program, DATA, 7) if part == "commands" else bench_commands.rows_of_page()
+    rows, skipped = (
+        bench_commands.rows_of_commands(program, DATA, 7) if part == "commands" else bench_commands.rows_of_page()
+    )
     return {"results": rows, "skipped": skipped}
 
 
@@ -167,8 +195,13 @@ def watched(figures):
         for beside in row.get("beside", []):
             if beside["is_peer"]:
                 values[f"{row['id']}: times faster than {beside['name']}"] = (beside["ratio"], True)
-        for key, name in (("yardsticks", "yardsticks"), ("result_bytes", "bytes"), ("bricks_bytes", "bytes of bricks"),
-                          ("instructions", "instructions per unit"), ("times_closed", "times as long as closed")):
+        for key, name in (
+            ("yardsticks", "yardsticks"),
+            ("result_bytes", "bytes"),
+            ("bricks_bytes", "bytes of bricks"),
+            ("instructions", "instructions per unit"),
+            ("times_closed", "times as long as closed"),
+        ):
             if key in row:
                 values[f"{row['id']}: {name}"] = (row[key], False)
     return values
@@ -196,13 +229,18 @@ def compare(figures):
 def warn_of_noise(figures):
     for name, part in figures["parts"].items():
         if name != "profile" and part.get("others_cores", 0) + part.get("stolen_cores", 0) > BUSY:
-            print(f"bench: warning: {name}: others used {part['others_cores']} cores during it, the host took "
-                  f"{part['stolen_cores']}; its figures are rough")
+            print(
+                f"bench: warning: {name}: others used {part['others_cores']} cores during it, the host took "
+                f"{part['stolen_cores']}; its figures are rough"
+            )
 
 
 def update_baseline(figures):
-    stored = {"machine": bench_page.machine(figures), "commit": bench_page.commits(figures),
-              "watched": {name: float(f"{value:.4g}") for name, (value, _) in watched(figures).items()}}
+    stored = {
+        "machine": bench_page.machine(figures),
+        "commit": bench_page.commits(figures),
+        "watched": {name: float(f"{value:.4g}") for name, (value, _) in watched(figures).items()},
+    }
     BASELINE.write_text(json.dumps(stored, indent=1) + "\n")
     print(f"bench: {BASELINE.relative_to(ROOT)} rewritten")
 
@@ -228,7 +266,9 @@ def update_docs(figures):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=Path, default=ROOT / "build" / "bench", help="build directory with bin/svt_bench")
+    parser.add_argument(
+        "--build", type=Path, default=ROOT / "build" / "bench", help="build directory with bin/svt_bench"
+    )
     parser.add_argument("--quick", action="store_true", help="the small grid alone, fewer runs")
     parser.add_argument("--only", nargs="+", choices=PARTS, metavar="PART", help=f"of {', '.join(PARTS)}")
     parser.add_argument("--profile", action="store_true", help="the same as --only profile")

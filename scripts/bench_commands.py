@@ -20,7 +20,9 @@ def timed(command, repeat):
         done = subprocess.run(command, capture_output=True, text=True)
         found.append(time.monotonic() - begin)
         if done.returncode != 0:
-            raise RuntimeError(f"{' '.join(map(str, command))}: exit code {done.returncode}: {done.stderr.strip()[-400:]}")
+            raise RuntimeError(
+                f"{' '.join(map(str, command))}: exit code {done.returncode}: {done.stderr.strip()[-400:]}"
+            )
     return {"median_s": statistics.median(found[1:]), "min_s": min(found[1:])}
 
 
@@ -35,13 +37,26 @@ def rows_of_commands(program, data, repeat):
     with tempfile.TemporaryDirectory() as folder:
         volume, patterned, picture = (Path(folder) / name for name in ("house.svt", "patterned.svt", "house.png"))
         for name, command, result, times in [
-                ("svt build", ["build", house, "-o", volume, "--dimension", GRID], volume, repeat),
-                ("svt render", ["render", volume, "-o", picture, "--size", "1280x720", "--samples", "1"], picture, repeat),
-                ("svt build --patterns", ["build", house, "-o", patterned, "--spacing", "0.02", "--patterns"], patterned, 3)]:
+            ("svt build", ["build", house, "-o", volume, "--dimension", GRID], volume, repeat),
+            ("svt render", ["render", volume, "-o", picture, "--size", "1280x720", "--samples", "1"], picture, repeat),
+            (
+                "svt build --patterns",
+                ["build", house, "-o", patterned, "--spacing", "0.02", "--patterns"],
+                patterned,
+                3,
+            ),
+        ]:
             text = " ".join(part.name if isinstance(part, Path) else part for part in command)
-            rows.append({"id": f"command/{name.replace(' ', '-')}", "stage": "command", "input": "FZK-Haus",
-                         "command": f"svt {text}", "ours": timed([program, *command], times),
-                         "result_bytes": result.stat().st_size})
+            rows.append(
+                {
+                    "id": f"command/{name.replace(' ', '-')}",
+                    "stage": "command",
+                    "input": "FZK-Haus",
+                    "command": f"svt {text}",
+                    "ours": timed([program, *command], times),
+                    "result_bytes": result.stat().st_size,
+                }
+            )
     return rows, []
 
 

@@ -39,8 +39,20 @@ def ours(program, path, folder, repeat):
     reads, peaks, wholes, products = [], [], [], 0
     for _ in range(repeat):
         begin = time.monotonic()
-        out, peak, code = measured([str(program), "build", str(path), "-o", str(folder / "m.svt"), "--dimension", "40,40,20",
-                                    "--vectors", "none", "--json"])
+        out, peak, code = measured(
+            [
+                str(program),
+                "build",
+                str(path),
+                "-o",
+                str(folder / "m.svt"),
+                "--dimension",
+                "40,40,20",
+                "--vectors",
+                "none",
+                "--json",
+            ]
+        )
         if code != 0:
             return None
         wholes.append(time.monotonic() - begin)
@@ -48,16 +60,22 @@ def ours(program, path, folder, repeat):
         reads.append(report["seconds"]["read"])
         peaks.append(peak)
         products = report.get("products", {}).get("read", 0)
-    return {"median_s": statistics.median(reads), "min_s": min(reads), "whole_s": statistics.median(wholes),
-            "peak_bytes": max(peaks), "products": products}
+    return {
+        "median_s": statistics.median(reads),
+        "min_s": min(reads),
+        "whole_s": statistics.median(wholes),
+        "peak_bytes": max(peaks),
+        "products": products,
+    }
 
 
 def theirs(oracles, path, repeat):
     """The same of web-ifc; a text where it is missing or fails."""
     if not shutil.which("node"):
         return "node is not installed"
-    out, peak, code = measured(["node", str(ROOT / "bench/peers/web_ifc.mjs"), str(oracles / "node_modules"), str(path),
-                                str(repeat)])
+    out, peak, code = measured(
+        ["node", str(ROOT / "bench/peers/web_ifc.mjs"), str(oracles / "node_modules"), str(path), str(repeat)]
+    )
     if code == 77:
         return f"web-ifc is not in {oracles}: npm install --prefix {oracles} web-ifc"
     if code != 0:
@@ -77,16 +95,32 @@ def rows_of(program, data, oracles, megabytes, repeat):
             if not (data / FILES[0]).exists():
                 break
             large = folder / f"{size:g}.ifc"
-            subprocess.run([sys.executable, str(ROOT / "scripts/repeat_ifc.py"), str(data / FILES[0]), str(large),
-                            "--megabytes", f"{size:g}"], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run(
+                [
+                    sys.executable,
+                    str(ROOT / "scripts/repeat_ifc.py"),
+                    str(data / FILES[0]),
+                    str(large),
+                    "--megabytes",
+                    f"{size:g}",
+                ],
+                check=True,
+                stdout=subprocess.DEVNULL,
+            )
             inputs.append((large, f"{FILES[0]} repeated to {size:g} MB", 1 if size > 100 else min(3, repeat)))
         for path, label, times in inputs:
             own = ours(program, path, folder, times)
             if own is None:
                 skipped.append(f"reading {label}: the command fails")
                 continue
-            row = {"id": f"ifc/{label}", "stage": "ifc", "input": label, "input_bytes": path.stat().st_size, "ours": own,
-                   "beside": []}
+            row = {
+                "id": f"ifc/{label}",
+                "stage": "ifc",
+                "input": label,
+                "input_bytes": path.stat().st_size,
+                "ours": own,
+                "beside": [],
+            }
             peer = theirs(oracles, path, times)
             if isinstance(peer, str):
                 skipped.append(f"{label} beside web-ifc: {peer}")
@@ -100,6 +134,7 @@ def rows_of(program, data, oracles, megabytes, repeat):
 
 def main():
     import bench_page
+
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path)
     parser.add_argument("--data", type=Path, default=ROOT / "../shared/data")

@@ -35,55 +35,186 @@ def page_row(rows, house, read):
 
 # Goal, source of the figure, format, required value (or one for each house), ideal value, whether more is better.
 GOALS = [
-    ("voxelize, 800 x 700 x 400: times faster than VTK's stencils with their images",
-     lambda r, h: ratio(r, f"voxelize/{h}/{GRID}", "VTK stencils + images"), "{:.1f} x", (80, 60), 150, True),
-    ("the same beside the stencils alone",
-     lambda r, h: next(b["ratio"] for b in r[f"voxelize/{h}/{GRID}"]["beside"] if b["name"] == "VTK stencils"),
-     "{:.1f} x", None, None, True),
-    ("model file to `.svt` on disk",
-     lambda r, h: stage(r, "model-file-to-.svt", h, "time"), "{:.3f} s", (0.07, 0.09), 0.05, False),
-    ("ready to draw from a `.svt`, as `svt render` does: opened, bricks made",
-     lambda r, h: stage(r, "ready-to-draw", h, "time"), "{:.3f} s", (0.05, 0.08), 0.02, False),
-    ("`svt render` of a `.svt`, the whole command, 1280 x 720, one ray a pixel",
-     lambda r, h: only(h, lambda: r["command/svt-render"]["ours"]["median_s"]), "{:.3f} s", 0.10, 0.05, False),
+    (
+        "voxelize, 800 x 700 x 400: times faster than VTK's stencils with their images",
+        lambda r, h: ratio(r, f"voxelize/{h}/{GRID}", "VTK stencils + images"),
+        "{:.1f} x",
+        (80, 60),
+        150,
+        True,
+    ),
+    (
+        "the same beside the stencils alone",
+        lambda r, h: next(b["ratio"] for b in r[f"voxelize/{h}/{GRID}"]["beside"] if b["name"] == "VTK stencils"),
+        "{:.1f} x",
+        None,
+        None,
+        True,
+    ),
+    (
+        "model file to `.svt` on disk",
+        lambda r, h: stage(r, "model-file-to-.svt", h, "time"),
+        "{:.3f} s",
+        (0.07, 0.09),
+        0.05,
+        False,
+    ),
+    (
+        "ready to draw from a `.svt`, as `svt render` does: opened, bricks made",
+        lambda r, h: stage(r, "ready-to-draw", h, "time"),
+        "{:.3f} s",
+        (0.05, 0.08),
+        0.02,
+        False,
+    ),
+    (
+        "`svt render` of a `.svt`, the whole command, 1280 x 720, one ray a pixel",
+        lambda r, h: only(h, lambda: r["command/svt-render"]["ours"]["median_s"]),
+        "{:.3f} s",
+        0.10,
+        0.05,
+        False,
+    ),
     ("size on disk, lossless", lambda r, h: stage(r, "write-.svt", h, "size"), "{:.2f} MB", 1, 0.1, False),
     ("size in memory, ready to cast", lambda r, h: stage(r, "make-bricks", h, "size"), "{:.2f} MB", 2, 1, False),
-    ("opaque frame, 1280 x 720, lit: times faster than VTK's CPU ray caster, unlit",
-     lambda r, h: ratio(r, f"opaque-frame/{h}/{GRID}-{OPAQUE}", "VTK fixed-point"), "{:.1f} x", 15, 25, True),
-    ("the same beside the paper's method on the CPU",
-     lambda r, h: ratio(r, f"opaque-frame/{h}/{GRID}-{OPAQUE}", "dense texture"), "{:.1f} x", None, None, True),
-    ("fully translucent frame, 1920 x 1080",
-     lambda r, h: 1 / r[f"translucent-frame/{h}/{GRID}-{TRANSLUCENT}"]["ours"]["median_s"], "{:.1f} fps", 20, 30, True),
-    ("1000 x 1200 x 600 instead of 800 x 700 x 400: times as long an opaque frame",
-     lambda r, h: r[f"opaque-frame/{h}/1000x1200x600-{OPAQUE}"]["times_smaller_grid"], "{:.2f}", 1.1, 1.0, False),
-    ("a section plane moved before each frame: times as long a frame (1: nothing is rebuilt)",
-     lambda r, h: ratio(r, f"section-frame/{h}/{GRID}-{OPAQUE}", "SVT, plane moved"), "{:.2f}", 1.1, 1.0, False),
-    ("a style changed before each frame: times as long a frame (1: nothing is rebuilt)",
-     lambda r, h: ratio(r, f"section-frame/{h}/{GRID}-{OPAQUE}", "SVT, a style"), "{:.2f}", 1.1, 1.0, False),
-    ("an S-Lens moved before each frame: times as long a frame (1: nothing is rebuilt)",
-     lambda r, h: ratio(r, f"lens-frame/{h}/{GRID}-{OPAQUE}", "SVT, lens moved"), "{:.2f}", 1.1, 1.0, False),
-    ("another object highlighted before each frame: times as long a frame (1: nothing is rebuilt)",
-     lambda r, h: ratio(r, f"highlight-frame/{h}/{GRID}-{OPAQUE}", "SVT, another object"), "{:.2f}", 1.1, 1.0, False),
-    ("the S-Lens: times as long as the frame without it",
-     lambda r, h: 1 / ratio(r, f"lens-frame/{h}/{GRID}-{OPAQUE}", "SVT, plain"), "{:.2f}", None, None, False),
-    ("all feature edges inside the volume: times as long as the frame without lines",
-     lambda r, h: 1 / ratio(r, f"wireframe/{h}/{GRID}-{OPAQUE}", "SVT, without lines"), "{:.2f}", 1.2, 1.0, False),
+    (
+        "opaque frame, 1280 x 720, lit: times faster than VTK's CPU ray caster, unlit",
+        lambda r, h: ratio(r, f"opaque-frame/{h}/{GRID}-{OPAQUE}", "VTK fixed-point"),
+        "{:.1f} x",
+        15,
+        25,
+        True,
+    ),
+    (
+        "the same beside the paper's method on the CPU",
+        lambda r, h: ratio(r, f"opaque-frame/{h}/{GRID}-{OPAQUE}", "dense texture"),
+        "{:.1f} x",
+        None,
+        None,
+        True,
+    ),
+    (
+        "fully translucent frame, 1920 x 1080",
+        lambda r, h: 1 / r[f"translucent-frame/{h}/{GRID}-{TRANSLUCENT}"]["ours"]["median_s"],
+        "{:.1f} fps",
+        20,
+        30,
+        True,
+    ),
+    (
+        "1000 x 1200 x 600 instead of 800 x 700 x 400: times as long an opaque frame",
+        lambda r, h: r[f"opaque-frame/{h}/1000x1200x600-{OPAQUE}"]["times_smaller_grid"],
+        "{:.2f}",
+        1.1,
+        1.0,
+        False,
+    ),
+    (
+        "a section plane moved before each frame: times as long a frame (1: nothing is rebuilt)",
+        lambda r, h: ratio(r, f"section-frame/{h}/{GRID}-{OPAQUE}", "SVT, plane moved"),
+        "{:.2f}",
+        1.1,
+        1.0,
+        False,
+    ),
+    (
+        "a style changed before each frame: times as long a frame (1: nothing is rebuilt)",
+        lambda r, h: ratio(r, f"section-frame/{h}/{GRID}-{OPAQUE}", "SVT, a style"),
+        "{:.2f}",
+        1.1,
+        1.0,
+        False,
+    ),
+    (
+        "an S-Lens moved before each frame: times as long a frame (1: nothing is rebuilt)",
+        lambda r, h: ratio(r, f"lens-frame/{h}/{GRID}-{OPAQUE}", "SVT, lens moved"),
+        "{:.2f}",
+        1.1,
+        1.0,
+        False,
+    ),
+    (
+        "another object highlighted before each frame: times as long a frame (1: nothing is rebuilt)",
+        lambda r, h: ratio(r, f"highlight-frame/{h}/{GRID}-{OPAQUE}", "SVT, another object"),
+        "{:.2f}",
+        1.1,
+        1.0,
+        False,
+    ),
+    (
+        "the S-Lens: times as long as the frame without it",
+        lambda r, h: 1 / ratio(r, f"lens-frame/{h}/{GRID}-{OPAQUE}", "SVT, plain"),
+        "{:.2f}",
+        None,
+        None,
+        False,
+    ),
+    (
+        "all feature edges inside the volume: times as long as the frame without lines",
+        lambda r, h: 1 / ratio(r, f"wireframe/{h}/{GRID}-{OPAQUE}", "SVT, without lines"),
+        "{:.2f}",
+        1.2,
+        1.0,
+        False,
+    ),
     ("bricks of 4000 x 3500 x 2000: time", lambda r, h: largest(r, h, "bricks_s"), "{:.2f} s", 0.5, 0.1, False),
-    ("bricks of 4000 x 3500 x 2000: memory", lambda r, h: largest(r, h, "bricks_bytes") / 1e6, "{:.0f} MB", 40, 40, False),
-    ("district of 24,694 objects: voxelizing",
-     lambda r, h: only(h, lambda: next(row for row in r.values() if row["stage"] == "district")["voxelize_s"]),
-     "{:.2f} s", 1.5, 0.5, False),
-    ("house with patterns at 2 cm, `svt build`: time",
-     lambda r, h: only(h, lambda: r["command/svt-build---patterns"]["ours"]["median_s"]), "{:.2f} s", 1, 0.2, False),
-    ("house with patterns at 2 cm: size on disk",
-     lambda r, h: only(h, lambda: r["command/svt-build---patterns"]["result_bytes"] / 1e6), "{:.2f} MB", 0.5, 0.5, False),
-    ("page, browser that has not seen it: first image", lambda r, h: page_row(r, h, lambda p: p["first_image_s"]),
-     "{:.2f} s", 0.7, 0.3, False),
+    (
+        "bricks of 4000 x 3500 x 2000: memory",
+        lambda r, h: largest(r, h, "bricks_bytes") / 1e6,
+        "{:.0f} MB",
+        40,
+        40,
+        False,
+    ),
+    (
+        "district of 24,694 objects: voxelizing",
+        lambda r, h: only(h, lambda: next(row for row in r.values() if row["stage"] == "district")["voxelize_s"]),
+        "{:.2f} s",
+        1.5,
+        0.5,
+        False,
+    ),
+    (
+        "house with patterns at 2 cm, `svt build`: time",
+        lambda r, h: only(h, lambda: r["command/svt-build---patterns"]["ours"]["median_s"]),
+        "{:.2f} s",
+        1,
+        0.2,
+        False,
+    ),
+    (
+        "house with patterns at 2 cm: size on disk",
+        lambda r, h: only(h, lambda: r["command/svt-build---patterns"]["result_bytes"] / 1e6),
+        "{:.2f} MB",
+        0.5,
+        0.5,
+        False,
+    ),
+    (
+        "page, browser that has not seen it: first image",
+        lambda r, h: page_row(r, h, lambda p: p["first_image_s"]),
+        "{:.2f} s",
+        0.7,
+        0.3,
+        False,
+    ),
     ("the same: finest picture", lambda r, h: page_row(r, h, lambda p: p["finest_s"]), "{:.2f} s", 1.5, 0.6, False),
-    ("page turning, software only: frames a second", lambda r, h: page_row(r, h, lambda p: p["turning_fps"]),
-     "{:.1f} fps", 25, 60, True),
-    ("the same: share of the picture's width that is cast", lambda r, h: page_row(r, h, lambda p: p["turning_share"]),
-     "{:.2f}", 0.5, 1.0, True),
+    (
+        "page turning, software only: frames a second",
+        lambda r, h: page_row(r, h, lambda p: p["turning_fps"]),
+        "{:.1f} fps",
+        25,
+        60,
+        True,
+    ),
+    (
+        "the same: share of the picture's width that is cast",
+        lambda r, h: page_row(r, h, lambda p: p["turning_share"]),
+        "{:.2f}",
+        0.5,
+        1.0,
+        True,
+    ),
     ("page, still picture", lambda r, h: page_row(r, h, lambda p: p["still_s"]), "{:.2f} s", 0.2, 0.1, False),
 ]
 
@@ -91,7 +222,13 @@ GOALS = [
 def seconds(value):
     if value >= 1:
         return f"{value:.2f} s"
-    return f"{1e3 * value:.0f} ms" if value >= 0.1 else f"{1e3 * value:.1f} ms" if value >= 0.01 else f"{1e3 * value:.2f} ms"
+    return (
+        f"{1e3 * value:.0f} ms"
+        if value >= 0.1
+        else f"{1e3 * value:.1f} ms"
+        if value >= 0.01
+        else f"{1e3 * value:.2f} ms"
+    )
 
 
 def size(value):
@@ -99,7 +236,13 @@ def size(value):
         return "-"
     if value >= 1e9:
         return f"{value / 1e9:.3g} GB"
-    return f"{value / 1e6:.0f} MB" if value >= 1e8 else f"{value / 1e6:.1f} MB" if value >= 1e7 else f"{value / 1e6:.2f} MB"
+    return (
+        f"{value / 1e6:.0f} MB"
+        if value >= 1e8
+        else f"{value / 1e6:.1f} MB"
+        if value >= 1e7
+        else f"{value / 1e6:.2f} MB"
+    )
 
 
 def times(value):
@@ -135,11 +278,16 @@ def goals(figures):
             except (KeyError, StopIteration):
                 cells.append("not measured")
         measured = measured or any(cell not in ("not measured", "-") for cell in cells)
-        limits = [" / ".join(dict.fromkeys(style.format(one) for one in musts)) if must else "-",
-                  style.format(moonshot) if moonshot else "-"]
+        limits = [
+            " / ".join(dict.fromkeys(style.format(one) for one in musts)) if must else "-",
+            style.format(moonshot) if moonshot else "-",
+        ]
         lines.append([text, *limits, *cells])
-    return table(["goal", "must", "moonshot", HOUSE, "turned by 30 degrees"], lines) if measured else \
-        "The goals are about the large grid, which this run leaves out."
+    return (
+        table(["goal", "must", "moonshot", HOUSE, "turned by 30 degrees"], lines)
+        if measured
+        else "The goals are about the large grid, which this run leaves out."
+    )
 
 
 def beside(row, name):
@@ -160,10 +308,20 @@ def reading(rows):
     for row in rows:
         peer = next(iter(peers(row)), None)
         one = beside(row, "SVT, one thread")
-        lines.append([row["input"], row["size"], seconds(row["ours"]["median_s"]), seconds(one["median_s"]),
-                      f"{row['mb_per_s']:.0f} MB/s", str(row["polygons"])] +
-                     ([seconds(peer["median_s"]), times(peer["ratio"]), str(peer["polygons"])] if peer else ["-"] * 3))
-    return table(["file", "size", "SVT", "one thread", "speed", "polygons", "libcitygml", "ratio", "its polygons"], lines)
+        lines.append(
+            [
+                row["input"],
+                row["size"],
+                seconds(row["ours"]["median_s"]),
+                seconds(one["median_s"]),
+                f"{row['mb_per_s']:.0f} MB/s",
+                str(row["polygons"]),
+            ]
+            + ([seconds(peer["median_s"]), times(peer["ratio"]), str(peer["polygons"])] if peer else ["-"] * 3)
+        )
+    return table(
+        ["file", "size", "SVT", "one thread", "speed", "polygons", "libcitygml", "ratio", "its polygons"], lines
+    )
 
 
 def ifc(rows):
@@ -171,12 +329,33 @@ def ifc(rows):
     for row in rows:
         peer = next(iter(peers(row)), None)
         own = row["ours"]
-        lines.append([row["input"], size(row["input_bytes"]), str(own["products"]), seconds(own["median_s"]),
-                      f"{row['input_bytes'] / 1e6 / own['median_s']:.0f} MB/s", seconds(own["whole_s"]),
-                      size(own["peak_bytes"])] +
-                     ([seconds(peer["median_s"]), times(peer["ratio"]), size(peer["peak_bytes"])] if peer else ["-"] * 3))
-    return table(["file", "size", "products", "SVT reads", "speed", "whole command", "its memory", "web-ifc", "ratio",
-                  "its memory"], lines)
+        lines.append(
+            [
+                row["input"],
+                size(row["input_bytes"]),
+                str(own["products"]),
+                seconds(own["median_s"]),
+                f"{row['input_bytes'] / 1e6 / own['median_s']:.0f} MB/s",
+                seconds(own["whole_s"]),
+                size(own["peak_bytes"]),
+            ]
+            + ([seconds(peer["median_s"]), times(peer["ratio"]), size(peer["peak_bytes"])] if peer else ["-"] * 3)
+        )
+    return table(
+        [
+            "file",
+            "size",
+            "products",
+            "SVT reads",
+            "speed",
+            "whole command",
+            "its memory",
+            "web-ifc",
+            "ratio",
+            "its memory",
+        ],
+        lines,
+    )
 
 
 def voxels(rows):
@@ -184,13 +363,40 @@ def voxels(rows):
     for row in rows:
         for peer in peers(row):
             agreement = peer.get("agreement")
-            differ = "-" if agreement is None else \
-                f"{agreement['differing'] - agreement['differing_on_border']} ({agreement['differing_percent']:.4f} %)"
-            lines.append([row["input"], row["size"], seconds(row["ours"]["median_s"]),
-                          seconds(beside(row, "SVT, one thread")["median_s"]), peer["name"], seconds(peer["median_s"]),
-                          times(peer["ratio"]), size(row["ours"].get("peak_bytes")), size(peer.get("peak_bytes")), differ])
-    return table(["input", "samples", "SVT", "one thread", "beside it", "its time", "ratio", "memory", "its memory",
-                  "voxels that differ"], lines)
+            differ = (
+                "-"
+                if agreement is None
+                else f"{agreement['differing'] - agreement['differing_on_border']} ({agreement['differing_percent']:.4f} %)"
+            )
+            lines.append(
+                [
+                    row["input"],
+                    row["size"],
+                    seconds(row["ours"]["median_s"]),
+                    seconds(beside(row, "SVT, one thread")["median_s"]),
+                    peer["name"],
+                    seconds(peer["median_s"]),
+                    times(peer["ratio"]),
+                    size(row["ours"].get("peak_bytes")),
+                    size(peer.get("peak_bytes")),
+                    differ,
+                ]
+            )
+    return table(
+        [
+            "input",
+            "samples",
+            "SVT",
+            "one thread",
+            "beside it",
+            "its time",
+            "ratio",
+            "memory",
+            "its memory",
+            "voxels that differ",
+        ],
+        lines,
+    )
 
 
 def agreement_of_pictures(peer):
@@ -199,11 +405,15 @@ def agreement_of_pictures(peer):
         return "-"
     first, last = pictures[0], pictures[-1]
     if "same_label_percent" in first:
-        return (f"same label: {first['same_label_percent']:.1f} % of pixels, "
-                f"{last['same_label_percent']:.1f} % at {last['samples_per_voxel']} samples a voxel")
+        return (
+            f"same label: {first['same_label_percent']:.1f} % of pixels, "
+            f"{last['same_label_percent']:.1f} % at {last['samples_per_voxel']} samples a voxel"
+        )
     colors = first["colors"]
-    return (f"colors: {sum(colors['mean']) / 3:.1f} of 255 off on average, {colors['largest']} at most; "
-            f"{colors['over_2_percent']:.1f} % of pixels by more than 2, {colors['over_8_percent']:.1f} % by more than 8")
+    return (
+        f"colors: {sum(colors['mean']) / 3:.1f} of 255 off on average, {colors['largest']} at most; "
+        f"{colors['over_2_percent']:.1f} % of pixels by more than 2, {colors['over_8_percent']:.1f} % by more than 8"
+    )
 
 
 def frames(rows):
@@ -213,33 +423,82 @@ def frames(rows):
         unlit = beside(row, "SVT, unlit")
         for other in row.get("beside", []):
             if other["is_peer"] or other["name"].startswith("SVT at"):
-                lines.append([row["stage"].split()[0], row["input"], grid, seconds(row["ours"]["median_s"]),
-                              seconds(unlit["median_s"]), other["name"], seconds(other["median_s"]), times(other["ratio"]),
-                              size(row["ours"].get("peak_bytes")), size(other.get("peak_bytes")),
-                              agreement_of_pictures(other)])
-    return table(["frame", "input", "samples", "SVT", "unlit", "beside it", "its time", "ratio", "memory", "its memory",
-                  "pictures"], lines)
+                lines.append(
+                    [
+                        row["stage"].split()[0],
+                        row["input"],
+                        grid,
+                        seconds(row["ours"]["median_s"]),
+                        seconds(unlit["median_s"]),
+                        other["name"],
+                        seconds(other["median_s"]),
+                        times(other["ratio"]),
+                        size(row["ours"].get("peak_bytes")),
+                        size(other.get("peak_bytes")),
+                        agreement_of_pictures(other),
+                    ]
+                )
+    return table(
+        [
+            "frame",
+            "input",
+            "samples",
+            "SVT",
+            "unlit",
+            "beside it",
+            "its time",
+            "ratio",
+            "memory",
+            "its memory",
+            "pictures",
+        ],
+        lines,
+    )
 
 
 def edits(rows):
-    lines = [[row["input"], row["size"].split(",")[0], seconds(row["ours"]["median_s"])] +
-             [seconds(beside(row, name)["median_s"]) for name in ("SVT, plane moved", "SVT, a style")] for row in rows]
-    return table(["input", "samples", "frame with a section plane", "the plane moved before each frame",
-                  "a style changed before each frame"], lines)
+    lines = [
+        [row["input"], row["size"].split(",")[0], seconds(row["ours"]["median_s"])]
+        + [seconds(beside(row, name)["median_s"]) for name in ("SVT, plane moved", "SVT, a style")]
+        for row in rows
+    ]
+    return table(
+        [
+            "input",
+            "samples",
+            "frame with a section plane",
+            "the plane moved before each frame",
+            "a style changed before each frame",
+        ],
+        lines,
+    )
 
 
 def illustrations(rows):
-    lines = [[row["stage"].split()[0], row["input"], row["size"].split(",")[0], seconds(row["ours"]["median_s"])] +
-             [seconds(row["beside"][n]["median_s"]) for n in (0, 1)] for row in rows]
+    lines = [
+        [row["stage"].split()[0], row["input"], row["size"].split(",")[0], seconds(row["ours"]["median_s"])]
+        + [seconds(row["beside"][n]["median_s"]) for n in (0, 1)]
+        for row in rows
+    ]
     return table(["frame", "input", "samples", "time", "changed before each frame", "plain frame"], lines)
 
 
 def wireframes(rows):
-    lines = [[row["input"], row["size"].split(",")[0], f"{row['edges']}", seconds(row["ours"]["median_s"]),
-              f"{row['room_edges']}", seconds(beside(row, "SVT, edges of rooms")["median_s"]),
-              seconds(beside(row, "SVT, without lines")["median_s"])] for row in rows]
-    return table(["input", "samples", "edges", "frame with all of them", "of rooms", "frame with these", "without"],
-                 lines)
+    lines = [
+        [
+            row["input"],
+            row["size"].split(",")[0],
+            f"{row['edges']}",
+            seconds(row["ours"]["median_s"]),
+            f"{row['room_edges']}",
+            seconds(beside(row, "SVT, edges of rooms")["median_s"]),
+            seconds(beside(row, "SVT, without lines")["median_s"]),
+        ]
+        for row in rows
+    ]
+    return table(
+        ["input", "samples", "edges", "frame with all of them", "of rooms", "frame with these", "without"], lines
+    )
 
 
 def stages(rows):
@@ -260,25 +519,66 @@ def stages(rows):
 def scaling(rows):
     lines = []
     for row in rows:
-        lines.append([row["input"], row["size"], size(row["dense_bytes"]), seconds(row["voxelize_s"]),
-                      size(row["columns_bytes"]), seconds(row["bricks_s"]), size(row["bricks_bytes"]),
-                      seconds(row["frame_s"]), size(row["peak_bytes"])])
-    text = table(["input", "samples", "dense, 16 bit", "voxelize", "columns", "make bricks", "bricks", "opaque frame",
-                  "most memory"], lines)
+        lines.append(
+            [
+                row["input"],
+                row["size"],
+                size(row["dense_bytes"]),
+                seconds(row["voxelize_s"]),
+                size(row["columns_bytes"]),
+                seconds(row["bricks_s"]),
+                size(row["bricks_bytes"]),
+                seconds(row["frame_s"]),
+                size(row["peak_bytes"]),
+            ]
+        )
+    text = table(
+        [
+            "input",
+            "samples",
+            "dense, 16 bit",
+            "voxelize",
+            "columns",
+            "make bricks",
+            "bricks",
+            "opaque frame",
+            "most memory",
+        ],
+        lines,
+    )
     for row in rows:
         if row["stage"] == "district":
-            text += (f"\n\nThe district: a file of {size(row['file_bytes'])} with {row['objects']} objects and "
-                     f"{row['triangles']} triangles; file to volume {seconds(row['build_s'])} (reading "
-                     f"{seconds(row['read_s'])}, meshes {seconds(row['mesh_s'])}, voxelizing {seconds(row['voxelize_s'])}).")
+            text += (
+                f"\n\nThe district: a file of {size(row['file_bytes'])} with {row['objects']} objects and "
+                f"{row['triangles']} triangles; file to volume {seconds(row['build_s'])} (reading "
+                f"{seconds(row['read_s'])}, meshes {seconds(row['mesh_s'])}, voxelizing {seconds(row['voxelize_s'])})."
+            )
     return text
 
 
 def profile(rows):
-    lines = [[row["piece"] + (" frame" if row["unit"] == "ray" else ""), row["input"], f"{row['units']} {row['unit']}s",
-              f"{row['instructions']:.0f}", f"{max(0, row['l1_misses']):.2f}",
-              f"{max(0, row['last_level_misses']):.2f}"] for row in rows]
-    return table(["work, one thread", "input", "units", "instructions per unit", "misses of the first level",
-                  "of the last level"], lines)
+    lines = [
+        [
+            row["piece"] + (" frame" if row["unit"] == "ray" else ""),
+            row["input"],
+            f"{row['units']} {row['unit']}s",
+            f"{row['instructions']:.0f}",
+            f"{max(0, row['l1_misses']):.2f}",
+            f"{max(0, row['last_level_misses']):.2f}",
+        ]
+        for row in rows
+    ]
+    return table(
+        [
+            "work, one thread",
+            "input",
+            "units",
+            "instructions per unit",
+            "misses of the first level",
+            "of the last level",
+        ],
+        lines,
+    )
 
 
 def commands(rows):
@@ -312,21 +612,33 @@ def commits(figures):
     found = {name: part["commit"] for name, part in figures["parts"].items()}
     if len(set(found.values())) == 1:
         return next(iter(found.values()))
-    return ", ".join(f"{commit} ({', '.join(n for n, c in found.items() if c == commit)})"
-                     for commit in dict.fromkeys(found.values()))
+    return ", ".join(
+        f"{commit} ({', '.join(n for n, c in found.items() if c == commit)})"
+        for commit in dict.fromkeys(found.values())
+    )
 
 
 def machine_text(figures):
     m = machine(figures)
-    text = f"Commit {commits(figures)}." if m is None else (
-        f"Machine: {m['cores']} cores, {m['processor']}, {m['simd']}, {m['memory_gib']:.0f} GiB; {m['compiler']}, "
-        f"{m['build']}; commit {commits(figures)}.")
-    parts = [(part["others_cores"], part["stolen_cores"], name) for name, part in figures["parts"].items()
-             if "others_cores" in part and name != "profile"]
+    text = (
+        f"Commit {commits(figures)}."
+        if m is None
+        else (
+            f"Machine: {m['cores']} cores, {m['processor']}, {m['simd']}, {m['memory_gib']:.0f} GiB; {m['compiler']}, "
+            f"{m['build']}; commit {commits(figures)}."
+        )
+    )
+    parts = [
+        (part["others_cores"], part["stolen_cores"], name)
+        for name, part in figures["parts"].items()
+        if "others_cores" in part and name != "profile"
+    ]
     if parts:
         others, _, name = max(parts)
-        text += (f" Other programs used {others:.2f} cores at most while a part ran (part {name}), the machine's host "
-                 f"took away {max(stolen for _, stolen, _ in parts):.2f}.")
+        text += (
+            f" Other programs used {others:.2f} cores at most while a part ran (part {name}), the machine's host "
+            f"took away {max(stolen for _, stolen, _ in parts):.2f}."
+        )
     return text
 
 
@@ -351,16 +663,21 @@ def page(figures, plot):
     rows = all_rows(figures)
     text = [machine_text(figures), goals(figures)]
     for heading, names, make in SECTIONS:
-        chosen = [row for row in rows if (row.get("is_stage") if names is None else
-                                          row["stage"] in names and not row.get("is_stage"))]
+        chosen = [
+            row
+            for row in rows
+            if (row.get("is_stage") if names is None else row["stage"] in names and not row.get("is_stage"))
+        ]
         if not chosen:
             continue
         text += [f"### {heading}", make(chosen)]
         if heading == "Scaling":
             text.append(f"![Time and memory against samples along x]({plot})")
         text += [f"Missing: {reason}." for reason in missing(chosen)]
-    text += [f"Skipped: {reason}." for reason in
-             dict.fromkeys(r for part in figures["parts"].values() for r in part.get("skipped", []))]
+    text += [
+        f"Skipped: {reason}."
+        for reason in dict.fromkeys(r for part in figures["parts"].values() for r in part.get("skipped", []))
+    ]
     return "\n\n".join(text)
 
 
@@ -371,9 +688,18 @@ def beside_the_paper(figures):
     def rate(name, size=GRID):
         return f"{1 / rows[f'{name}/fzk-haus/{size}-{OPAQUE}']['ours']['median_s']:.0f}"
 
-    return table(["FZK-Haus, samples", "", "paper", "SVT"], [
-        ["800 x 700 x 400", "memory", "214 MB", f"{stage(rows, 'make-bricks', 'fzk-haus', 'size'):.1f} MB"],
-        ["", "frames a second", "42", rate("opaque-frame")],
-        ["", "with the model's edges inside the volume", "10", rate("wireframe")],
-        ["", "a lens that moves", "not told", rate("lens-frame")],
-        ["1000 x 1200 x 600", "frames a second", "1.1 (of a cadastral parcel, 687 MB)", rate("opaque-frame", "1000x1200x600")]])
+    return table(
+        ["FZK-Haus, samples", "", "paper", "SVT"],
+        [
+            ["800 x 700 x 400", "memory", "214 MB", f"{stage(rows, 'make-bricks', 'fzk-haus', 'size'):.1f} MB"],
+            ["", "frames a second", "42", rate("opaque-frame")],
+            ["", "with the model's edges inside the volume", "10", rate("wireframe")],
+            ["", "a lens that moves", "not told", rate("lens-frame")],
+            [
+                "1000 x 1200 x 600",
+                "frames a second",
+                "1.1 (of a cadastral parcel, 687 MB)",
+                rate("opaque-frame", "1000x1200x600"),
+            ],
+        ],
+    )

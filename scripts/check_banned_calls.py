@@ -22,14 +22,25 @@ BANNED = [
     (r"\bsto(d|f|ld|i|l|ll|ul|ull)\s*\(", READS, PARSE),
     (r"\bato(f|i|l|ll)\s*\(", READS, PARSE),
     (r"\bv?[fs]?w?scanf\s*\(", READS, PARSE),
-    (r"""printf\s*\([^;]*?"[^"]*%[-+ #0]*[\d*]*(\.[\d*]+)?[lL]?[aAeEfFgG]""", PRINTS, "call fmt::format() or fmt::print()"),
+    (
+        r"""printf\s*\([^;]*?"[^"]*%[-+ #0]*[\d*]*(\.[\d*]+)?[lL]?[aAeEfFgG]""",
+        PRINTS,
+        "call fmt::format() or fmt::print()",
+    ),
     (r"\bto_string\s*\(\s*(double|float|-?\d*\.\d|static_cast<\s*(double|float)\s*>)", PRINTS, "call fmt::format()"),
     (r"\bo?stringstream\b", PRINTS, "call fmt::format()"),
-    (r"\bsetlocale\s*\(|\blocale::global\s*\(|\.imbue\s*\(", "changes the locale of the host", "leave the locale alone"),
+    (
+        r"\bsetlocale\s*\(|\blocale::global\s*\(|\.imbue\s*\(",
+        "changes the locale of the host",
+        "leave the locale alone",
+    ),
     (r"""\{[^{}"]*:[^{}"]*L\}(?=[^"\n]*"\s*[,)])""", PRINTS, "leave the L out of the format"),
     (r"\.as_(double|float)\s*\(", READS, PARSE),  # of pugixml
-    (r"\bstd::is(alpha|alnum|digit|xdigit|space|upper|lower|punct|print)\s*\(",
-     LETTERS, "call isLetter(), isDigit() or isBlank() of svt/core/text.hpp"),
+    (
+        r"\bstd::is(alpha|alnum|digit|xdigit|space|upper|lower|punct|print)\s*\(",
+        LETTERS,
+        "call isLetter(), isDigit() or isBlank() of svt/core/text.hpp",
+    ),
     (r"\bstd::to(lower|upper)\s*\(", LETTERS, "call lowerAscii() of svt/core/text.hpp"),
     (r"#include <(cctype|clocale|locale)>", LETTERS, "include svt/core/text.hpp"),
 ]

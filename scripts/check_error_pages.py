@@ -54,9 +54,13 @@ def findings(root: Path) -> list[str]:
         found += [f"docs/errors/{tag}.md: no section '{part}'" for part in SECTIONS if f"\n{part}\n" not in text]
 
     known = {f"{tag}.md" for tag in tags} | {"README.md"}
-    found += [f"docs/errors/{page.name}: no code has this page" for page in sorted(folder.iterdir()) if page.name not in known]
     found += [
-        f"docs/errors/README.md: row {tag} has no code" for tag in re.findall(r"^\| \[(E\d+)\]", index, re.M) if tag not in tags
+        f"docs/errors/{page.name}: no code has this page" for page in sorted(folder.iterdir()) if page.name not in known
+    ]
+    found += [
+        f"docs/errors/README.md: row {tag} has no code"
+        for tag in re.findall(r"^\| \[(E\d+)\]", index, re.M)
+        if tag not in tags
     ]
     return found
 

@@ -18,8 +18,24 @@ import sys
 
 MAX_FILES = 25
 PARTS = ("svt", "apps", "web/wasm", "python", "bench", "tests")
-THIRD_PARTY = ("pugixml", "simdjson", "nlohmann", "fmt/", "tbb/", "GL/", "png.h", "zlib.h", "CLI/", "zip.h", "zstd", "ft2build",
-               "EGL/", "GLES3/", "polyclipping", "hwy/")
+THIRD_PARTY = (
+    "pugixml",
+    "simdjson",
+    "nlohmann",
+    "fmt/",
+    "tbb/",
+    "GL/",
+    "png.h",
+    "zlib.h",
+    "CLI/",
+    "zip.h",
+    "zstd",
+    "ft2build",
+    "EGL/",
+    "GLES3/",
+    "polyclipping",
+    "hwy/",
+)
 POSIX = re.compile(r"(unistd|fcntl|signal|poll|sched|pthread|dlfcn|spawn)\.h$|(sys|netinet|arpa|linux)/")
 MAY_CALL_POSIX = ("svt/core/file/", "svt/core/machine/", "svt/core/parallel/", "svt/serve/", "bench/")
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^">]+)')
@@ -57,7 +73,7 @@ def folder_of(path: str, folders: set[str]) -> str | None:
 def room_of(path: str, folder: str) -> str:
     """The sub-folder of `folder` that holds a file, "" for its top."""
     top = folder if folder.split("/")[0] in ("apps", "web", "python", "bench", "tests") else f"svt/{folder}"
-    rest = path[len(top) + 1:].split("/")
+    rest = path[len(top) + 1 :].split("/")
     return rest[0] if len(rest) > 1 else ""
 
 
@@ -83,7 +99,11 @@ def check_tree(root: pathlib.Path) -> tuple[list[str], int]:
             if not match:
                 continue
             other, place = match.group(1), f"{name}:{number}"
-            target = folder_of(other, folders) if other.startswith(("svt/", "apps/", "web/", "python/", "bench/", "tests/")) else None
+            target = (
+                folder_of(other, folders)
+                if other.startswith(("svt/", "apps/", "web/", "python/", "bench/", "tests/"))
+                else None
+            )
             if target is not None:
                 inner = room_of(other, target)
                 (used_by_tests if is_test else used)[folder].add(target)
@@ -100,7 +120,9 @@ def check_tree(root: pathlib.Path) -> tuple[list[str], int]:
             elif is_public and other.startswith(THIRD_PARTY) and folder in allowed and name.startswith("svt/"):
                 problems.append(f"{place}: third-party include in a public header ({other})")
             if POSIX.match(other) and not is_test and not name.startswith(MAY_CALL_POSIX):
-                problems.append(f"{place}: {other} is of one operating system; it belongs into {', '.join(MAY_CALL_POSIX)}")
+                problems.append(
+                    f"{place}: {other} is of one operating system; it belongs into {', '.join(MAY_CALL_POSIX)}"
+                )
         # Highway includes a kernel once for each set of instructions; only that has no guard.
         if path.suffix == ".hpp" and "#pragma once" not in text and "#define HWY_TARGET_INCLUDE" not in text:
             problems.append(f"{name}: no #pragma once")
@@ -110,7 +132,9 @@ def check_tree(root: pathlib.Path) -> tuple[list[str], int]:
             problems.append(f"{name}: namespace svt::{(set(named) - expected).pop()} in the folder {folder}")
     for given, uses, what in ((allowed, used, ""), (in_tests, used_by_tests, "test ")):
         for folder, below in sorted(given.items()):
-            problems += [f"layers.txt: {what}{folder} does not include {other}" for other in sorted(below - uses[folder])]
+            problems += [
+                f"layers.txt: {what}{folder} does not include {other}" for other in sorted(below - uses[folder])
+            ]
     for folder, pairs in sorted(rooms.items()):
         problems += cycles(folder, pairs)
     for directory in sorted({path.parent for path in files}):
@@ -134,7 +158,11 @@ def cycles(folder: str, pairs: dict[tuple[str, str], str]) -> list[str]:
         if not free:
             break
         left -= free
-    places = sorted(f"{user or 'the top'} includes {used or 'the top'} ({place})" for (user, used), place in pairs.items() if {user, used} <= left)
+    places = sorted(
+        f"{user or 'the top'} includes {used or 'the top'} ({place})"
+        for (user, used), place in pairs.items()
+        if {user, used} <= left
+    )
     return [f"{folder}: includes in a circle: {'; '.join(places)}"] if left else []
 
 

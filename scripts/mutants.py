@@ -28,13 +28,28 @@ COPIES = ROOT / "build" / "mutants"
 EXPLAINED = ROOT / "tests" / "equivalent_mutants.txt"
 # Each rule: what is changed, and into what. Applied to code alone: no comments, strings, includes or templates.
 RULES = [
-    (r" < ", [" <= ", " > "]), (r" <= ", [" < "]), (r" > ", [" >= ", " < "]), (r" >= ", [" > "]),
-    (r" == ", [" != "]), (r" != ", [" == "]), (r" && ", [" || "]), (r" \|\| ", [" && "]),
-    (r" \+ ", [" - "]), (r" - ", [" + "]), (r" \* ", [" / "]), (r" / ", [" * "]),
-    (r"\btrue\b", ["false"]), (r"\bfalse\b", ["true"]),
-    (r"\bstd::min\b", ["std::max"]), (r"\bstd::max\b", ["std::min"]),
-    (r"(?<![\w.'x])1(?![\w.'])", ["2", "0"]), (r"(?<![\w.'x])0(?![\w.'x])", ["1"]), (r"(?<![\w.'x])2(?![\w.'])", ["3"]),
-    (r"\bcontinue;", ["break;"]), (r"\+= ", ["-= "]), (r"\+\+(?=\w)", ["--"]),
+    (r" < ", [" <= ", " > "]),
+    (r" <= ", [" < "]),
+    (r" > ", [" >= ", " < "]),
+    (r" >= ", [" > "]),
+    (r" == ", [" != "]),
+    (r" != ", [" == "]),
+    (r" && ", [" || "]),
+    (r" \|\| ", [" && "]),
+    (r" \+ ", [" - "]),
+    (r" - ", [" + "]),
+    (r" \* ", [" / "]),
+    (r" / ", [" * "]),
+    (r"\btrue\b", ["false"]),
+    (r"\bfalse\b", ["true"]),
+    (r"\bstd::min\b", ["std::max"]),
+    (r"\bstd::max\b", ["std::min"]),
+    (r"(?<![\w.'x])1(?![\w.'])", ["2", "0"]),
+    (r"(?<![\w.'x])0(?![\w.'x])", ["1"]),
+    (r"(?<![\w.'x])2(?![\w.'])", ["3"]),
+    (r"\bcontinue;", ["break;"]),
+    (r"\+= ", ["-= "]),
+    (r"\+\+(?=\w)", ["--"]),
 ]
 
 
@@ -48,7 +63,7 @@ class Change:
     text: str  # the line as it is
 
     def changed(self) -> str:
-        return self.text[:self.begin] + self.by + self.text[self.end:]
+        return self.text[: self.begin] + self.by + self.text[self.end :]
 
     def told(self) -> str:
         return f"{self.path}:{self.line + 1}: {self.text.strip()}  ->  {self.changed().strip()}"
@@ -68,7 +83,11 @@ def changes_of(path: pathlib.Path) -> list[Change]:
     found = []
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines()):
         code = code_of(line)
-        if code.lstrip().startswith(("#", "template", "using", "namespace")) or "static_assert" in code or "SVT_CHECK" in code:
+        if (
+            code.lstrip().startswith(("#", "template", "using", "namespace"))
+            or "static_assert" in code
+            or "SVT_CHECK" in code
+        ):
             continue
         for pattern, replacements in RULES:
             for match in re.finditer(pattern, code):
@@ -83,9 +102,11 @@ def explained() -> set[str]:
 
 
 def run(command: list[str], folder: pathlib.Path, seconds: float) -> str:
-    """"passed", "failed" or "slow"."""
+    """ "passed", "failed" or "slow"."""
     try:
-        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=seconds, cwd=folder)
+        done = subprocess.run(
+            command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=seconds, cwd=folder
+        )
     except subprocess.TimeoutExpired:
         return "slow"
     return "passed" if done.returncode == 0 else "failed"
@@ -94,7 +115,9 @@ def run(command: list[str], folder: pathlib.Path, seconds: float) -> str:
 def prepare_copy(number: int, targets: list[str]) -> pathlib.Path:
     """A copy of the checkout in which the targets are built and their tests pass."""
     copy = COPIES / str(number)
-    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True, check=True)
+    listed = subprocess.run(
+        ["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True, check=True
+    )
     for name in listed.stdout.splitlines():
         source, target = ROOT / name, copy / name
         if not source.exists() or (target.exists() and target.read_bytes() == source.read_bytes()):
@@ -103,8 +126,16 @@ def prepare_copy(number: int, targets: list[str]) -> pathlib.Path:
         shutil.copyfile(source, target)
     build = copy / "build" / "mutants"
     environment = {**os.environ, "CCACHE_BASEDIR": str(copy)}  # what one copy compiled is found by the next
-    configure = ["cmake", "-G", "Ninja", "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1",
-                 "-DSVT_UNITY=OFF"]
+    configure = [
+        "cmake",
+        "-G",
+        "Ninja",
+        "-B",
+        str(build),
+        "-DCMAKE_BUILD_TYPE=Release",
+        "-DCMAKE_CXX_FLAGS_RELEASE=-O1",
+        "-DSVT_UNITY=OFF",
+    ]
     for command in (configure, ["ninja", "-C", str(build), *targets]):
         if subprocess.run(command, cwd=copy, env=environment, stdout=subprocess.DEVNULL).returncode != 0:
             sys.exit(f"mutants: '{' '.join(command)}' failed in {copy}")
@@ -112,7 +143,7 @@ def prepare_copy(number: int, targets: list[str]) -> pathlib.Path:
 
 
 def try_change(copy: pathlib.Path, change: Change, seconds: float) -> str:
-    """"passed" (nobody noticed), "failed", "slow", or "not compiled"."""
+    """ "passed" (nobody noticed), "failed", "slow", or "not compiled"."""
     target = f"svt_{change.path.split('/')[1]}_test"
     build = copy / "build" / "mutants"
     path = copy / change.path
@@ -130,10 +161,17 @@ def try_change(copy: pathlib.Path, change: Change, seconds: float) -> str:
 
 def changed_folders() -> list[str]:
     """The folders of svt/ with tests of their own that the last 30 commits changed most, three at most."""
-    count = subprocess.run(["git", "rev-list", "--count", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    count = subprocess.run(
+        ["git", "rev-list", "--count", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout
     base = f"HEAD~{min(30, int(count) - 1)}"
-    listed = subprocess.run(["git", "diff", "--numstat", base, "HEAD", "--", "svt/*.cpp"], cwd=ROOT, capture_output=True,
-                            text=True, check=True).stdout
+    listed = subprocess.run(
+        ["git", "diff", "--numstat", base, "HEAD", "--", "svt/*.cpp"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
     lines: dict[str, int] = {}
     for added, removed, path in (line.split("\t") for line in listed.splitlines()):
         folder = path.split("/")[1]
@@ -160,11 +198,14 @@ def main() -> int:
     equivalent = explained()
     chosen: list[Change] = []
     for folder in arguments.folders:
-        sources = [path for path in sorted((ROOT / "svt" / folder).rglob("*.cpp"))
-                   if not path.stem.endswith("_test") and re.search(arguments.only, str(path.relative_to(ROOT)))]
+        sources = [
+            path
+            for path in sorted((ROOT / "svt" / folder).rglob("*.cpp"))
+            if not path.stem.endswith("_test") and re.search(arguments.only, str(path.relative_to(ROOT)))
+        ]
         choices = [change for path in sources for change in changes_of(path) if change.key() not in equivalent]
         random.Random(arguments.seed).shuffle(choices)
-        chosen += choices[:arguments.count]
+        chosen += choices[: arguments.count]
 
     targets = [f"svt_{folder}_test" for folder in arguments.folders]
     copies: queue.Queue[pathlib.Path] = queue.Queue()

@@ -27,8 +27,8 @@ from pathlib import Path
 
 SVT = os.environ.get("SVT", str(Path(__file__).resolve().parent.parent / "build/release/bin/svt"))
 AIR = "class=BuildingRoom or class=IfcSpace or class=Room or class=BuildingUnit"
-GRAY = 4            # of 255
-FAR = 65535         # what --depth cannot tell, mm
+GRAY = 4  # of 255
+FAR = 65535  # what --depth cannot tell, mm
 
 
 def read_png(path):
@@ -36,18 +36,18 @@ def read_png(path):
     data = Path(path).read_bytes()
     at, packed, head = 8, b"", None
     while at < len(data):
-        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        size, kind = struct.unpack(">I4s", data[at : at + 8])
         if kind == b"IHDR":
-            head = struct.unpack(">IIBBBBB", data[at + 8:at + 21])
+            head = struct.unpack(">IIBBBBB", data[at + 8 : at + 21])
         elif kind == b"IDAT":
-            packed += data[at + 8:at + 8 + size]
+            packed += data[at + 8 : at + 8 + size]
         at += 12 + size
     width, height, bits, color = head[:4]
     channels = {0: 1, 2: 3, 4: 2, 6: 4}[color]
     step, raw, rows, before = channels * bits // 8, zlib.decompress(packed), [], None
     stride = width * step
     for y in range(height):
-        line = bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
+        line = bytearray(raw[y * (stride + 1) + 1 : (y + 1) * (stride + 1)])
         unfilter(raw[y * (stride + 1)], line, before or bytearray(stride), step)
         rows.append(line)
         before = line
@@ -76,9 +76,14 @@ def unfilter(kind, line, before, step):
 def write_png(path, width, rows):
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
     raw = b"".join(b"\0" + bytes(row) for row in rows)
-    Path(path).write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, len(rows), 8, 2, 0, 0, 0)) +
-                           chunk(b"IDAT", zlib.compress(raw, 6)) + chunk(b"IEND", b""))
+    Path(path).write_bytes(
+        b"\x89PNG\r\n\x1a\n"
+        + chunk(b"IHDR", struct.pack(">IIBBBBB", width, len(rows), 8, 2, 0, 0, 0))
+        + chunk(b"IDAT", zlib.compress(raw, 6))
+        + chunk(b"IEND", b"")
+    )
 
 
 def run(*arguments):
@@ -90,7 +95,22 @@ def run(*arguments):
 
 def draw(volume, scene, folder, name, extra=()):
     paths = [folder / f"{name}{part}.png" for part in ("", "_label", "_depth")]
-    run("render", volume, "--scene", scene, "-o", paths[0], "--labels", paths[1], "--depth", paths[2], "--level", 0, "-q", *extra)
+    run(
+        "render",
+        volume,
+        "--scene",
+        scene,
+        "-o",
+        paths[0],
+        "--labels",
+        paths[1],
+        "--depth",
+        paths[2],
+        "--level",
+        0,
+        "-q",
+        *extra,
+    )
     return [read_png(path) for path in paths]
 
 
@@ -98,8 +118,16 @@ def scene_of(view, width, height, eye=None, target=None, fov=30):
     camera = {"preset": view, "fit": "all", "fieldOfView": fov}
     if eye:
         camera.update(eye=eye, target=target)
-    return {"format": "svt-scene", "version": 1, "size": [width, height], "samples": 1, "camera": camera, "ambientOcclusion": 0,
-            "lines": {"strength": 0}, "passes": [{"hide": [AIR], "styles": [{"select": "all", "color": "#ffffff", "opacity": 1}]}]}
+    return {
+        "format": "svt-scene",
+        "version": 1,
+        "size": [width, height],
+        "samples": 1,
+        "camera": camera,
+        "ambientOcclusion": 0,
+        "lines": {"strength": 0},
+        "passes": [{"hide": [AIR], "styles": [{"select": "all", "color": "#ffffff", "opacity": 1}]}],
+    }
 
 
 def compare(voxels, meshes, voxel):
@@ -177,11 +205,16 @@ def main():
             for way, options in ways:
                 voxel, f = measure(model, options, arguments.view, size, folder)
                 if arguments.markdown:
-                    print(f"| {model.stem} | {way} | {100 * voxel:.1f} cm | {f['outline']:.2f} % | {f['label']:.2f} % | "
-                          f"{f['normal']:.2f} % | {f['depth']:.2f} |")
+                    print(
+                        f"| {model.stem} | {way} | {100 * voxel:.1f} cm | {f['outline']:.2f} % | {f['label']:.2f} % | "
+                        f"{f['normal']:.2f} % | {f['depth']:.2f} |"
+                    )
                 else:
-                    print(f"{model.stem:32s} {way:12s} voxel {100 * voxel:5.1f} cm  outline {f['outline']:5.2f} %  label "
-                          f"{f['label']:5.2f} %  normal {f['normal']:5.2f} %  depth {f['depth']:.3f} voxels", flush=True)
+                    print(
+                        f"{model.stem:32s} {way:12s} voxel {100 * voxel:5.1f} cm  outline {f['outline']:5.2f} %  label "
+                        f"{f['label']:5.2f} %  normal {f['normal']:5.2f} %  depth {f['depth']:.3f} voxels",
+                        flush=True,
+                    )
 
 
 if __name__ == "__main__":

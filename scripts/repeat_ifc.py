@@ -14,9 +14,21 @@ from pathlib import Path
 
 RECORD = re.compile(rb"#(\d+)\s*=\s*([A-Z0-9_]+)\s*\(", re.I)
 REFERENCE = re.compile(rb"#(\d+)")
-SHARED = {b"IFCPROJECT", b"IFCUNITASSIGNMENT", b"IFCSIUNIT", b"IFCCONVERSIONBASEDUNIT", b"IFCMEASUREWITHUNIT",
-          b"IFCDIMENSIONALEXPONENTS", b"IFCGEOMETRICREPRESENTATIONCONTEXT", b"IFCGEOMETRICREPRESENTATIONSUBCONTEXT",
-          b"IFCOWNERHISTORY", b"IFCPERSON", b"IFCORGANIZATION", b"IFCPERSONANDORGANIZATION", b"IFCAPPLICATION"}
+SHARED = {
+    b"IFCPROJECT",
+    b"IFCUNITASSIGNMENT",
+    b"IFCSIUNIT",
+    b"IFCCONVERSIONBASEDUNIT",
+    b"IFCMEASUREWITHUNIT",
+    b"IFCDIMENSIONALEXPONENTS",
+    b"IFCGEOMETRICREPRESENTATIONCONTEXT",
+    b"IFCGEOMETRICREPRESENTATIONSUBCONTEXT",
+    b"IFCOWNERHISTORY",
+    b"IFCPERSON",
+    b"IFCORGANIZATION",
+    b"IFCPERSONANDORGANIZATION",
+    b"IFCAPPLICATION",
+}
 LETTERS = b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_$"
 
 
@@ -103,7 +115,8 @@ def main():
                 for i, part in enumerate(parts):
                     if i % 2 == 0:
                         part = REFERENCE.sub(
-                            lambda m: m[0] if int(m[1]) in shared else b"#%d" % (int(m[1]) + shift), part)
+                            lambda m: m[0] if int(m[1]) in shared else b"#%d" % (int(m[1]) + shift), part
+                        )
                     elif i == 1 and len(part) == 24 and parts[0].rstrip().endswith(b"("):  # a GlobalId
                         part = b"'" + mark + part[4:]
                     pieces.append(part)

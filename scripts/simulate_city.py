@@ -41,7 +41,7 @@ def read_index(path):
     def refs(block):
         for at in range(0, len(block), 56):
             detail, inner, _, length, offset = struct.unpack_from("<BBHIQ", block, at)
-            page = data[start + offset:start + offset + length]
+            page = data[start + offset : start + offset + length]
             pages.append((detail, length, inner))
             if inner:
                 refs(page)
@@ -105,9 +105,11 @@ def main():
     city = json.load(open("city.json"))
     entries, pages, index_bytes = read_index("index.bin")
     first, requests, everything, detail, pixels = first_view(city, entries, pages)
-    print(f"measured: {city['buildings']} buildings, {city['tiles']} tiles, index {index_bytes / 1e3:.1f} kB, ids "
-          f"{os.path.getsize('ids.bin') / 1e6:.2f} MB; first picture 3 requests, {first / 1e3:.0f} kB; first view "
-          f"{requests} requests, {everything / 1e6:.2f} MB, detail {detail}, {pixels:.2f} pixels a column")
+    print(
+        f"measured: {city['buildings']} buildings, {city['tiles']} tiles, index {index_bytes / 1e3:.1f} kB, ids "
+        f"{os.path.getsize('ids.bin') / 1e6:.2f} MB; first picture 3 requests, {first / 1e3:.0f} kB; first view "
+        f"{requests} requests, {everything / 1e6:.2f} MB, detail {detail}, {pixels:.2f} pixels a column"
+    )
     for d in city["details"]:
         print(f"  detail {d['detail']}: {d['spacing']} m, {d['tiles']} tiles, {d['bytes'] / 1e3:.0f} kB")
 
@@ -128,16 +130,18 @@ def main():
         expected += n * each
     packs.append(cost)
     tasks = max(1, min(1000, len(packs), int(sum(tiles) * each / 300) + 1))
-    elements = [sum(packs[len(packs) * t // tasks:len(packs) * (t + 1) // tasks]) for t in range(tasks)]
+    elements = [sum(packs[len(packs) * t // tasks : len(packs) * (t + 1) // tasks]) for t in range(tasks)]
     failed = [c for c in elements if dice.random() < 0.1]
     leaf = sum(p[1] for p in pages if p[0] <= 1) * scale
-    print(f"simulated: {given.buildings} buildings, {len(tiles)} tiles, {len(packs)} packs, {tasks} tasks; "
-          f"{sum(costs) / 3600:.1f} core hours; 2 cores {makespan(packs, 2) / 3600:.2f} h; {given.nodes} cores "
-          f"{makespan(elements, given.nodes) / 60:.1f} min, with 10 % failed and run again "
-          f"{(makespan(elements, given.nodes) + makespan(failed, given.nodes)) / 60:.1f} min; requests to the scheduler 2, "
-          f"again 2; index {(leaf * 1.1 + 20e3) / 1e6:.2f} MB in {math.ceil(leaf / 16e3)} leaves, ids "
-          f"{given.buildings * 24.2 / 1e6:.0f} MB; plan: features {given.buildings * 32 / 1e6:.0f} MB, tiles "
-          f"{len(tiles) * 40 / 1e6:.2f} MB; packs {city['packs']['bytes'] * scale / 1e9:.1f} GB")
+    print(
+        f"simulated: {given.buildings} buildings, {len(tiles)} tiles, {len(packs)} packs, {tasks} tasks; "
+        f"{sum(costs) / 3600:.1f} core hours; 2 cores {makespan(packs, 2) / 3600:.2f} h; {given.nodes} cores "
+        f"{makespan(elements, given.nodes) / 60:.1f} min, with 10 % failed and run again "
+        f"{(makespan(elements, given.nodes) + makespan(failed, given.nodes)) / 60:.1f} min; requests to the scheduler 2, "
+        f"again 2; index {(leaf * 1.1 + 20e3) / 1e6:.2f} MB in {math.ceil(leaf / 16e3)} leaves, ids "
+        f"{given.buildings * 24.2 / 1e6:.0f} MB; plan: features {given.buildings * 32 / 1e6:.0f} MB, tiles "
+        f"{len(tiles) * 40 / 1e6:.2f} MB; packs {city['packs']['bytes'] * scale / 1e9:.1f} GB"
+    )
 
 
 main()

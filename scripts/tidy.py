@@ -26,8 +26,10 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDED = re.compile(r'#include "([^"]+\.cpp)"')
 # Tests may be slow, build texts by parts and leave results unused.
 CLEAN = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache") / "svt" / "tidy"
-NOT_IN_TESTS = ("-performance-*,-modernize-use-nodiscard,-bugprone-suspicious-missing-comma,-bugprone-string-constructor,"
-                "-bugprone-macro-parentheses,-bugprone-integer-division")
+NOT_IN_TESTS = (
+    "-performance-*,-modernize-use-nodiscard,-bugprone-suspicious-missing-comma,-bugprone-string-constructor,"
+    "-bugprone-macro-parentheses,-bugprone-integer-division"
+)
 FINDING = re.compile(r"^(\S+?):(\d+):\d+: (warning|error): ")
 
 
@@ -59,7 +61,7 @@ def preprocessed(command: str, build: pathlib.Path) -> bytes:
     """Text that the compiler sees, without the path of the checkout; the error where it cannot be read."""
     words = [word for word in shlex.split(command.replace("-Xclang -emit-pch", "")) if word != "-c"]
     if "-o" in words:
-        del words[words.index("-o"):words.index("-o") + 2]
+        del words[words.index("-o") : words.index("-o") + 2]
     done = subprocess.run([*words, "-E", "-o", "-"], cwd=build, capture_output=True)
     return (done.stdout if done.returncode == 0 else done.stderr + os.urandom(16)).replace(str(ROOT).encode(), b"")
 
@@ -88,8 +90,13 @@ def main() -> int:
     # clang refuses a precompiled header that is older than a system header in it; ccache may hand one out that is.
     for path in build.glob("CMakeFiles/*/cmake_pch.hxx.pch"):
         path.unlink()
-    subprocess.run(["cmake", "--build", str(build), "--target", *precompiled], cwd=ROOT, check=True, stdout=subprocess.DEVNULL,
-                   env={**os.environ, "CCACHE_DISABLE": "1"})
+    subprocess.run(
+        ["cmake", "--build", str(build), "--target", *precompiled],
+        cwd=ROOT,
+        check=True,
+        stdout=subprocess.DEVNULL,
+        env={**os.environ, "CCACHE_DISABLE": "1"},
+    )
 
     common = hashlib.sha256((ROOT / ".clang-tidy").read_bytes())
     common.update(subprocess.run(["clang-tidy", "--version"], capture_output=True, check=True).stdout)
@@ -99,7 +106,9 @@ def main() -> int:
 
     def check(unit: pathlib.Path, command: str, sources: list[pathlib.Path]) -> list[str]:
         digest = common.copy()
-        digest.update(command.replace(str(ROOT), "").encode() + bytes([arguments.analyzer]) + preprocessed(command, build))
+        digest.update(
+            command.replace(str(ROOT), "").encode() + bytes([arguments.analyzer]) + preprocessed(command, build)
+        )
         mark = CLEAN / digest.hexdigest()
         if mark.exists():
             mark.touch()

@@ -28,7 +28,9 @@ def files_of(root: Path) -> list[str]:
 def inside(files: list[str], folder: str) -> list[str]:
     """The sub-folders of a folder that have a file which is no test; of the folder of tests all."""
     below = (name[len(folder) + 1 :] for name in files if name.startswith(folder + "/"))
-    return sorted({name.split("/")[0] for name in below if "/" in name and (folder == "tests" or not TEST.search(name))})
+    return sorted(
+        {name.split("/")[0] for name in below if "/" in name and (folder == "tests" or not TEST.search(name))}
+    )
 
 
 def updated(root: Path, page: str) -> tuple[str, list[str]]:

@@ -155,11 +155,18 @@ def member_schema(members: dict[str, dict], pointer: str) -> dict:
         return schema | object_schema(members, pointer)
     if member["kind"] == "list":
         schema |= {"type": "array", "items": object_schema(members, pointer + "/*")}
-        return schema | ({"minItems": int(member["minimum"]), "maxItems": int(member["maximum"])} if "minimum" in member else {})
+        return schema | (
+            {"minItems": int(member["minimum"]), "maxItems": int(member["maximum"])} if "minimum" in member else {}
+        )
     if member.get("repeats"):
         schema |= {"type": "array", "items": value_schema(member)}
     elif member.get("count", 1) > 1:
-        schema |= {"type": "array", "items": value_schema(member), "minItems": member["count"], "maxItems": member["count"]}
+        schema |= {
+            "type": "array",
+            "items": value_schema(member),
+            "minItems": member["count"],
+            "maxItems": member["count"],
+        }
     else:
         schema |= value_schema(member)
     return schema | ({"default": default_value(member)} if "default" in member else {})
@@ -225,7 +232,11 @@ def main() -> int:
     parser.add_argument("--svt", default=str(ROOT / "build/release/bin/svt"))
     parser.add_argument("--check", action="store_true")
     arguments = parser.parse_args()
-    described = json.loads(subprocess.run([arguments.svt, "describe", "json"], capture_output=True, text=True, check=True, timeout=30).stdout)
+    described = json.loads(
+        subprocess.run(
+            [arguments.svt, "describe", "json"], capture_output=True, text=True, check=True, timeout=30
+        ).stdout
+    )
 
     wanted = {
         ROOT / "docs/formats/scene.schema.json": scene_schema(described),
@@ -249,7 +260,9 @@ def main() -> int:
             continue
         stale += 1
         if arguments.check:
-            sys.stderr.writelines(difflib.unified_diff(old.splitlines(True), new.splitlines(True), path.name, "svt describe"))
+            sys.stderr.writelines(
+                difflib.unified_diff(old.splitlines(True), new.splitlines(True), path.name, "svt describe")
+            )
         else:
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(new, encoding="utf-8")

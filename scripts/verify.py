@@ -55,19 +55,29 @@ CHECKS = {
     "check": Check("make -s check", 2, False),
     "test": Check("make -s test", 50, False),
     "fuzz": Check("make -s fuzz SECONDS=120", 45, False),
-    **{f"asan/{part}": Check(f"scripts/setup.sh && scripts/sanitize.sh asan {folders}", 25) for part, folders in FOLDERS.items()},
+    **{
+        f"asan/{part}": Check(f"scripts/setup.sh && scripts/sanitize.sh asan {folders}", 25)
+        for part, folders in FOLDERS.items()
+    },
     "tsan": Check("scripts/setup.sh && scripts/sanitize.sh tsan", 25),
     "tidy": Check("make -s tidy", 20),
-    **{f"analyzer/{part}": Check(f"scripts/setup.sh checks && scripts/tidy.py --analyzer --only '{pattern}'", 25)
-       for part, pattern in {"data": "/svt/(core|image|model|crs|readers|mesh|validate)/",
-                             "volumes": "/svt/(volume|volume_readers|voxelize|analyze|samples|serve|pipeline|city)/",
-                             "pictures": "/svt/(render|render_gl|illustrate|writers)/",
-                             "command": "/(apps|tests)/"}.items()},
+    **{
+        f"analyzer/{part}": Check(f"scripts/setup.sh checks && scripts/tidy.py --analyzer --only '{pattern}'", 25)
+        for part, pattern in {
+            "data": "/svt/(core|image|model|crs|readers|mesh|validate)/",
+            "volumes": "/svt/(volume|volume_readers|voxelize|analyze|samples|serve|pipeline|city)/",
+            "pictures": "/svt/(render|render_gl|illustrate|writers)/",
+            "command": "/(apps|tests)/",
+        }.items()
+    },
     "gcc": Check("scripts/setup.sh && scripts/build.sh dev", 25),
     "clang": Check("scripts/setup.sh checks && scripts/build.sh dev-clang", 25),
     "mutants": Check("scripts/setup.sh && scripts/mutants.py --changed --count 10", 25),
-    "packages": Check("scripts/setup.sh packages && make -s package && scripts/test_deb.sh && scripts/test_package.sh && "
-                      "make -s npm && scripts/test_npm.sh build/release/bin/svt", 30),
+    "packages": Check(
+        "scripts/setup.sh packages && make -s package && scripts/test_deb.sh && scripts/test_package.sh && "
+        "make -s npm && scripts/test_npm.sh build/release/bin/svt",
+        30,
+    ),
     "slurm": Check("scripts/setup.sh slurm && make -s build && scripts/test_slurm.sh build/release/bin/svt long", 12),
 }
 
@@ -130,8 +140,13 @@ def run(name: str, tree: str) -> dict:
     print(f"verify: {name} (log: {log.relative_to(ROOT)})", flush=True)
     start = time.monotonic()
     with log.open("w", encoding="utf-8") as output:
-        code = subprocess.run(["bash", "-euo", "pipefail", "-c", CHECKS[name].command], cwd=ROOT, stdin=subprocess.DEVNULL,
-                              stdout=output, stderr=subprocess.STDOUT).returncode
+        code = subprocess.run(
+            ["bash", "-euo", "pipefail", "-c", CHECKS[name].command],
+            cwd=ROOT,
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+        ).returncode
     result = {
         "commit": git("describe", "--always", "--dirty", "--abbrev=12"),
         "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M:%S"),
@@ -155,8 +170,11 @@ def rows(results: dict[str, dict]) -> str:
     lines = ["| check | last run over | on | result | time |", "|---|---|---|---|---|"]
     for name in CHECKS:
         result = results.get(name)
-        lines.append(f"| `{name}` | {result['commit']} | {result['date'][:10]} | {result['result']} | {result['seconds']} s |"
-                     if result else f"| `{name}` | - | - | not run | - |")
+        lines.append(
+            f"| `{name}` | {result['commit']} | {result['date'][:10]} | {result['result']} | {result['seconds']} s |"
+            if result
+            else f"| `{name}` | - | - | not run | - |"
+        )
     return "\n".join(lines) + "\n"
 
 
@@ -172,13 +190,17 @@ def report(results: dict[str, dict], tree: str) -> None:
             end = log.read_text(encoding="utf-8", errors="replace").splitlines()[-60:]
             text.append(f"## {name}\n\n```\n" + "\n".join(end) + "\n```\n")
     (WORK / "report.md").write_text("\n".join(text), encoding="utf-8")
-    print(f"verify: {(WORK / 'report.md').relative_to(ROOT)}: {len(failed)} failed, {len(stale)} not run over this tree")
+    print(
+        f"verify: {(WORK / 'report.md').relative_to(ROOT)}: {len(failed)} failed, {len(stale)} not run over this tree"
+    )
 
 
 def record() -> None:
     """Copies the newest results into the tree, without what only this machine knows."""
-    results = {name: {key: value for key, value in result.items() if key != "tree"}
-               for name, result in newest(TRACKED, SHARED, LOCAL).items()}
+    results = {
+        name: {key: value for key, value in result.items() if key != "tree"}
+        for name, result in newest(TRACKED, SHARED, LOCAL).items()
+    }
     keep(TRACKED, results)
     text = TABLE.read_text(encoding="utf-8")
     begin, end = text.index(TABLE_BEGIN) + len(TABLE_BEGIN), text.index(TABLE_END)
@@ -228,7 +250,10 @@ def main() -> int:
         width = max(map(len, CHECKS))
         for name in CHECKS:
             last = results.get(name)
-            print(f"{name:{width}}  " + (f"{last['result']} on {last['date'][:10]} over {last['commit']}" if last else "not run"))
+            print(
+                f"{name:{width}}  "
+                + (f"{last['result']} on {last['date'][:10]} over {last['commit']}" if last else "not run")
+            )
         print(f"the next turn is {turns()[0]}")
         return 0
     names = chosen(arguments.checks)

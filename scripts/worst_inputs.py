@@ -28,7 +28,9 @@ def box(x, y, z, size=(1, 1, 1), without=(), inward=False):
     a, b, c = size
     corners = [point(x + a * (i in (1, 2)), y + b * (i in (2, 3)), z + c * k) for k in (0, 1) for i in range(4)]
     faces = [[3, 2, 1, 0], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
-    return [[[corners[i] for i in (face[::-1] if inward else face)]] for n, face in enumerate(faces) if n not in without]
+    return [
+        [[corners[i] for i in (face[::-1] if inward else face)]] for n, face in enumerate(faces) if n not in without
+    ]
 
 
 def walls(low, high):
@@ -76,14 +78,31 @@ def coincident_in_one(n):
 
 
 def book(n):
-    add("a", "MultiSurface",
-        [[[point(0, 0, 0), point(0, 0, 2), point(5, i * 0.001, 2), point(5, i * 0.001, 0)]] for i in range(n)])
+    add(
+        "a",
+        "MultiSurface",
+        [[[point(0, 0, 0), point(0, 0, 2), point(5, i * 0.001, 2), point(5, i * 0.001, 0)]] for i in range(n)],
+    )
 
 
 def wall(n):
     side = int(n**0.5)
-    add("a", "MultiSurface", [[[point(0, 2 * i, 2 * j), point(0, 2 * i + 1, 2 * j), point(0, 2 * i + 1, 2 * j + 1),
-                                point(0, 2 * i, 2 * j + 1)]] for i in range(side) for j in range(side)])
+    add(
+        "a",
+        "MultiSurface",
+        [
+            [
+                [
+                    point(0, 2 * i, 2 * j),
+                    point(0, 2 * i + 1, 2 * j),
+                    point(0, 2 * i + 1, 2 * j + 1),
+                    point(0, 2 * i, 2 * j + 1),
+                ]
+            ]
+            for i in range(side)
+            for j in range(side)
+        ],
+    )
 
 
 def tjunction(n):
@@ -95,13 +114,20 @@ def fan(n):
     faces = []
     for _ in range(n):
         angle = random.random() * TURN
-        faces.append([[point(0, 0, 0)] + [point(50 * math.cos(a), 50 * math.sin(a), z)
-                                          for a, z in ((angle, random.random()), (angle + 0.001, 1))]])
+        faces.append(
+            [
+                [point(0, 0, 0)]
+                + [
+                    point(50 * math.cos(a), 50 * math.sin(a), z)
+                    for a, z in ((angle, random.random()), (angle + 0.001, 1))
+                ]
+            ]
+        )
     add("a", "Solid", [faces])
 
 
 def cells(n):
-    side = math.ceil(n**(1 / 3))
+    side = math.ceil(n ** (1 / 3))
     return side, [(2 * (i % side), 2 * (i // side % side), 2 * (i // side // side)) for i in range(n)]
 
 
@@ -117,14 +143,17 @@ def voids(n):
 
 def surface(n):
     side = int(n**0.5)
+
     def height(i, j):
         return 5 + math.sin(i * 0.7) * math.cos(j * 0.9)
+
     faces = []
     for i in range(side):
         for j in range(side):
             for top in (True, False):
-                a, b, c, d = (point(p, q, height(p, q) if top else 0)
-                              for p, q in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)))
+                a, b, c, d = (
+                    point(p, q, height(p, q) if top else 0) for p, q in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))
+                )
                 faces += [[[a, b, c]], [[a, c, d]]] if top else [[[a, c, b]], [[a, d, c]]]
     border = [(i, 0) for i in range(side)] + [(side, i) for i in range(side)]
     border += [(side - i, side) for i in range(side)] + [(0, side - i) for i in range(side)]
@@ -146,7 +175,23 @@ def features(n):
         add(f"b{i}", "Solid", [box(2 * (i % side), 2 * (i // side), 0)])
 
 
-KINDS = (star, ring, loop, holes, coincident, coincident_in_one, book, wall, tjunction, fan, shells, voids, surface, nest, features)
+KINDS = (
+    star,
+    ring,
+    loop,
+    holes,
+    coincident,
+    coincident_in_one,
+    book,
+    wall,
+    tjunction,
+    fan,
+    shells,
+    voids,
+    surface,
+    nest,
+    features,
+)
 
 
 def main():
@@ -156,10 +201,17 @@ def main():
     random.seed(1)
     kinds[sys.argv[1]](int(sys.argv[2]))
     with open(sys.argv[3], "w", encoding="utf-8") as out:
-        json.dump({"type": "CityJSON", "version": "2.0",
-                   "metadata": {"referenceSystem": "https://www.opengis.net/def/crs/EPSG/0/25832"},
-                   "transform": {"scale": [0.001, 0.001, 0.001], "translate": [0, 0, 0]},
-                   "CityObjects": objects, "vertices": vertices}, out)
+        json.dump(
+            {
+                "type": "CityJSON",
+                "version": "2.0",
+                "metadata": {"referenceSystem": "https://www.opengis.net/def/crs/EPSG/0/25832"},
+                "transform": {"scale": [0.001, 0.001, 0.001], "translate": [0, 0, 0]},
+                "CityObjects": objects,
+                "vertices": vertices,
+            },
+            out,
+        )
 
 
 if __name__ == "__main__":

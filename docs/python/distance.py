@@ -19,7 +19,9 @@ def clearance(volume):
     """Metres from each sample to the nearest sample that is no air: array [k, j, i], 0 outside of rooms."""
     labels = volume.labels.of_scalar[volume.dense()]
     # Surfaces that bound a room are its outermost voxels.
-    is_air = np.array([label.class_name in AIR or label.class_name.endswith("Surface") for label in volume.labels] + [False])
+    is_air = np.array(
+        [label.class_name in AIR or label.class_name.endswith("Surface") for label in volume.labels] + [False]
+    )
     # Between centres of voxels: half a voxel more than to the face.
     return ndimage.distance_transform_edt(is_air[labels], sampling=volume.spacing[::-1]), labels
 
@@ -44,7 +46,9 @@ def main():
         for room, metres, (k, j, i) in zip(rooms, radius, where):
             place = volume.world([i, j, k])
             out.writerow((room.name or room.id, f"{metres:.3f}", *(f"{x:.3f}" for x in place)))
-            print(f"{room.name or room.id:<20} a ball of {metres:.2f} m is free at {place[0]:.2f} {place[1]:.2f} {place[2]:.2f}")
+            print(
+                f"{room.name or room.id:<20} a ball of {metres:.2f} m is free at {place[0]:.2f} {place[1]:.2f} {place[2]:.2f}"
+            )
     # A plan one metre above the lowest floor: where a wheelchair of 0.75 m (white line) finds no place.
     floor = min(room.box[0][2] for room in rooms)
     k = int(round(volume.index([[*volume.origin[:2], floor + 1.0]])[0, 2]))

@@ -15,8 +15,16 @@ import numpy as np
 from example import arguments
 
 # Thermal conductivity in W/(m K), of dense materials as EN ISO 10456 has them; W/(m2 K) for windows and doors.
-CONDUCTIVITY = {"brick": 0.50, "concrete": 2.0, "gypsum": 0.25, "timber": 0.13, "steel": 50.0, "insulation": 0.035, "tiles": 1.0,
-                "roof tiles": 1.0}
+CONDUCTIVITY = {
+    "brick": 0.50,
+    "concrete": 2.0,
+    "gypsum": 0.25,
+    "timber": 0.13,
+    "steel": 50.0,
+    "insulation": 0.035,
+    "tiles": 1.0,
+    "roof tiles": 1.0,
+}
 WHOLE = {"Window": 1.3, "WindowSurface": 1.3, "Door": 1.8, "DoorSurface": 1.8}
 THICKEST = 0.7  # metres; a ray that is longer in the envelope goes along a wall, not through it
 INSIDE, OUTSIDE = 0.13, 0.04  # resistance of the air at the faces, m2 K / W (EN ISO 6946)
@@ -27,8 +35,12 @@ def inside_of(volume):
     is_inside = np.zeros(len(volume.labels), bool)
     for label in volume.labels:  # parents come first
         is_room = label.class_name == "BuildingRoom"
-        is_face = (label.parent is not None and is_inside[label.parent.index] and label.class_name.endswith("Surface")
-                   and label.class_name not in WHOLE)
+        is_face = (
+            label.parent is not None
+            and is_inside[label.parent.index]
+            and label.class_name.endswith("Surface")
+            and label.class_name not in WHOLE
+        )
         is_inside[label.index] = is_room or is_face
     return is_inside
 
@@ -39,10 +51,10 @@ def outermost(runs, is_inside):
         rooms = np.flatnonzero(is_inside[run["label"]])
         if rooms.size == 0 or rooms[0] == 0:
             continue
-        layers = run[:rooms[0]]
+        layers = run[: rooms[0]]
         to_room = run["enter"][rooms[0]] - layers["leave"][-1]
         gaps = np.flatnonzero(layers["enter"][1:] - layers["leave"][:-1] > 1e-6)
-        layers = layers[gaps[-1] + 1:] if gaps.size else layers  # eaves, terraces
+        layers = layers[gaps[-1] + 1 :] if gaps.size else layers  # eaves, terraces
         if to_room < 1e-6 and layers["leave"][-1] - layers["enter"][0] < THICKEST:
             yield layers
 
@@ -66,8 +78,12 @@ def envelope(volume, step):
                 owner = whole[0] if whole else labels[int(np.argmax(thickness))]
                 seen, kinds = found[owner.index]
                 seen[axis] += step * step
-                kinds[axis][tuple((label.attributes.get("material", "?"), round(float(metres), 2))
-                                  for label, metres in zip(labels, thickness))] += 1
+                kinds[axis][
+                    tuple(
+                        (label.attributes.get("material", "?"), round(float(metres), 2))
+                        for label, metres in zip(labels, thickness)
+                    )
+                ] += 1
     return found
 
 
@@ -108,8 +124,20 @@ def main():
         out.writerow(("id", "name", "class", "area_m2", "layers", "u_w_m2k", "loss_w_k"))
         for label, area, layers, u in rows:
             text = " + ".join(f"{material} {metres:.2f} m" for material, metres in layers)
-            out.writerow((label.id, name_of(label), label.class_name, f"{area:.2f}", text, f"{u:.2f}" if u else "", f"{u * area:.1f}" if u else ""))
-            print(f"{name_of(label):<40}{area:>8.2f} m2  U {u or float('nan'):5.2f}  {u * area if u else float('nan'):7.1f} W/K  {text}")
+            out.writerow(
+                (
+                    label.id,
+                    name_of(label),
+                    label.class_name,
+                    f"{area:.2f}",
+                    text,
+                    f"{u:.2f}" if u else "",
+                    f"{u * area:.1f}" if u else "",
+                )
+            )
+            print(
+                f"{name_of(label):<40}{area:>8.2f} m2  U {u or float('nan'):5.2f}  {u * area if u else float('nan'):7.1f} W/K  {text}"
+            )
     print(f"transmission in all: {sum(u * area for _, area, _, u in rows if u):.0f} W/K")
     # From green (0.3 and better) over yellow to red (2.5 and worse).
     colors = {}
@@ -118,8 +146,13 @@ def main():
             heat = min(max((u - 0.3) / 2.2, 0), 1)
             red, green = min(2 * heat, 1), min(2 - 2 * heat, 1)
             colors[f"id='{label.id}'"] = f"#{int(40 + 190 * red):02x}{int(40 + 160 * green):02x}28"
-    volume.frame(size=(960, 600), hide="class=BuildingRoom", color={"all": "#d8d8d8", **colors}, camera="iso-sw",
-                 title="Envelope by U: green 0.3 to red 2.5 W/(m2 K)").save(os.path.join(folder, "energy.png"))
+    volume.frame(
+        size=(960, 600),
+        hide="class=BuildingRoom",
+        color={"all": "#d8d8d8", **colors},
+        camera="iso-sw",
+        title="Envelope by U: green 0.3 to red 2.5 W/(m2 K)",
+    ).save(os.path.join(folder, "energy.png"))
 
 
 if __name__ == "__main__":

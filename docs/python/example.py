@@ -11,7 +11,9 @@ def arguments(what, spacing):
     parser = argparse.ArgumentParser(description=what)
     parser.add_argument("model", nargs="?", help="a model or a .svt; the generated house where none is given")
     parser.add_argument("-o", "--output", default=".", help="folder for tables and pictures")
-    parser.add_argument("--spacing", type=float, default=spacing, help=f"metres between samples, {spacing} if not given")
+    parser.add_argument(
+        "--spacing", type=float, default=spacing, help=f"metres between samples, {spacing} if not given"
+    )
     given = parser.parse_args()
     os.makedirs(given.output, exist_ok=True)
     return volume_of(given.model, given.spacing), given.output

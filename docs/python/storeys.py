@@ -17,7 +17,9 @@ def storeys(volume):
         plan = volume.section(f"storey={storey.name or storey.id}+1")
         numbers = {room.index for room in rooms}
         area = sum(part.area for part in plan.components if part.label.index in numbers)
-        rows.append((storey.name, len(rooms), area, sum(room.volume for room in rooms), sum(part.volume for part in parts)))
+        rows.append(
+            (storey.name, len(rooms), area, sum(room.volume for room in rooms), sum(part.volume for part in parts))
+        )
     return rows
 
 
@@ -33,8 +35,14 @@ def main():
     print(f"{'storey':<16}{'rooms':>6}{'m2 at 1 m':>11}{'rooms m3':>10}{'built m3':>10}")
     for name, count, area, air, built in rows:
         print(f"{name:<16}{count:>6}{area:>11.2f}{air:>10.2f}{built:>10.2f}")
-    picture = volume.frame(size=(960, 600), section="y<4.3", show="class=BuildingRoom or class=BuildingConstructiveElement",
-                           color_by="storey", look="paper", title="Rooms and construction by storey")
+    picture = volume.frame(
+        size=(960, 600),
+        section="y<4.3",
+        show="class=BuildingRoom or class=BuildingConstructiveElement",
+        color_by="storey",
+        look="paper",
+        title="Rooms and construction by storey",
+    )
     picture.save(os.path.join(folder, "storeys.png"))
 
 

@@ -29,8 +29,14 @@ def pictures(volume, class_of, random):
         axis = int(abs(np.sin(turn)) > abs(np.cos(turn)))
         sign = ">" if eye[axis] > size[axis] / 2 else "<"
         plane = f"{'xy'[axis]}{sign}{size[axis] * (0.35 + 0.3 * random.random()):.3f}"
-        frame = volume.frame(size=(WIDTH, HEIGHT), eye=tuple(eye), target=tuple(size / 2), section=plane,
-                             hide="class=BuildingRoom", samples=4)
+        frame = volume.frame(
+            size=(WIDTH, HEIGHT),
+            eye=tuple(eye),
+            target=tuple(size / 2),
+            section=plane,
+            hide="class=BuildingRoom",
+            samples=4,
+        )
         colors.append(frame.color[..., :3].copy())
         classes.append(class_of[volume.labels.of_scalar[frame.scalar]].astype(np.uint8))
         depths.append(frame.depth.copy())
@@ -74,10 +80,18 @@ def main():
     random = np.random.default_rng(1)  # the same set each time
     colors, classes, depths = pictures(volume, class_of, random)
     points, labels, point_classes = scan(volume, class_of, random)
-    np.savez_compressed(os.path.join(folder, "training.npz"), class_names=names, pictures=colors, picture_classes=classes,
-                        picture_depths=depths, points=points - volume.origin, point_labels=labels, point_classes=point_classes,
-                        volume=class_of[volume.labels.of_scalar[volume.dense(level=1)]].astype(np.uint8),
-                        volume_spacing=2 * np.array(volume.spacing))
+    np.savez_compressed(
+        os.path.join(folder, "training.npz"),
+        class_names=names,
+        pictures=colors,
+        picture_classes=classes,
+        picture_depths=depths,
+        points=points - volume.origin,
+        point_labels=labels,
+        point_classes=point_classes,
+        volume=class_of[volume.labels.of_scalar[volume.dense(level=1)]].astype(np.uint8),
+        volume_spacing=2 * np.array(volume.spacing),
+    )
     svt.write_png(os.path.join(folder, "training.png"), sheet(colors, classes, names))
     print(f"training.npz: {len(colors)} pictures, {len(points)} points, {len(names)} classes")
     for number, count in enumerate(np.bincount(point_classes, minlength=len(names))):

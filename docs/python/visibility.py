@@ -38,9 +38,20 @@ def plan(volume, height):
     k = int(round(volume.index([[*volume.origin[:2], height]])[0, 2]))
     k = min(max(k, 0), volume.shape[0] - 1)
     labels = volume.labels.of_scalar[volume.dense()[k]]
-    shades = np.array([[246, 243, 236] if label.class_name in CLEAR else [150, 170, 190] if "Window" in label.class_name else
-                       [196, 164, 120] if label.class_name == "BuildingFurniture" else [70, 74, 82] for label in volume.labels]
-                      + [[255, 255, 255]], np.uint8)
+    shades = np.array(
+        [
+            [246, 243, 236]
+            if label.class_name in CLEAR
+            else [150, 170, 190]
+            if "Window" in label.class_name
+            else [196, 164, 120]
+            if label.class_name == "BuildingFurniture"
+            else [70, 74, 82]
+            for label in volume.labels
+        ]
+        + [[255, 255, 255]],
+        np.uint8,
+    )
     return shades[labels]
 
 
@@ -74,7 +85,9 @@ def main():
         out.writerow(("room", "sky_share", "median_distance_m", "components_seen"))
         for room, _, sky, far, count in rows:
             out.writerow((room.name or room.id, f"{sky:.4f}", f"{far:.2f}", count))
-            print(f"{room.name or room.id:<20} sky {100 * sky:5.2f} % of the view   median {far:5.2f} m   {count:3} components seen")
+            print(
+                f"{room.name or room.id:<20} sky {100 * sky:5.2f} % of the view   median {far:5.2f} m   {count:3} components seen"
+            )
     # The largest room, in plan: a ray for every tenth of a degree.
     room, eye, *_ = max(rows, key=lambda row: row[0].volume)
     turn = np.arange(3600) / 3600 * 2 * np.pi

@@ -22,5 +22,26 @@ from .viewer import View
 from .volume import Runs, Volume, build, open
 
 __version__: str = _native.version
-__all__ = ["Axes", "Component", "Error", "Feature", "Finding", "Frame", "Label", "Labels", "Model", "Place", "Polygon", "Runs",
-           "Section", "View", "Volume", "build", "open", "read", "read_png", "sample", "write_png"]
+__all__ = [
+    "Axes",
+    "Component",
+    "Error",
+    "Feature",
+    "Finding",
+    "Frame",
+    "Label",
+    "Labels",
+    "Model",
+    "Place",
+    "Polygon",
+    "Runs",
+    "Section",
+    "View",
+    "Volume",
+    "build",
+    "open",
+    "read",
+    "read_png",
+    "sample",
+    "write_png",
+]

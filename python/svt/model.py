@@ -72,8 +72,14 @@ class Model(Sequence):
         return f"<svt.Model '{self.name or self.source}' {self.format}, {len(self)} features>"
 
 
-def read(paths: PathLike | Sequence[PathLike], *, crs: str | int = "", keep_far_features: bool = False,
-         allow_truncated: bool = False, progress: Progress = None) -> Model:
+def read(
+    paths: PathLike | Sequence[PathLike],
+    *,
+    crs: str | int = "",
+    keep_far_features: bool = False,
+    allow_truncated: bool = False,
+    progress: Progress = None,
+) -> Model:
     """Read a model: CityGML, CityJSON, CityJSONSeq or IFC, plain or gzip; the content tells which.
 
     Parameters

@@ -16,8 +16,12 @@ def find_command() -> str:
     """The `svt` command: $SVT_COMMAND, or that of the path."""
     command = os.environ.get("SVT_COMMAND") or shutil.which("svt")
     if not command:
-        raise Error("E101", "CannotOpen", "the command svt is missing, which serves the page; install the package svt, or "
-                    "name it in SVT_COMMAND", Place())
+        raise Error(
+            "E101",
+            "CannotOpen",
+            "the command svt is missing, which serves the page; install the package svt, or " "name it in SVT_COMMAND",
+            Place(),
+        )
     return command
 
 
@@ -53,8 +57,9 @@ class View:
         try:
             volume.save(path)
             arguments = [command, "view", path] + ([] if browser else ["--no-browser"])
-            process = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                       stderr=subprocess.PIPE, text=True)
+            process = subprocess.Popen(
+                arguments, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            )
         except BaseException:
             shutil.rmtree(folder, ignore_errors=True)
             raise
@@ -80,8 +85,10 @@ class View:
         self.close()
 
     def _repr_html_(self) -> str:
-        return (f'<iframe src="{html.escape(self.address)}" width="100%" height="{self.height}" style="border:0" '
-                'title="SVT viewer"></iframe>')
+        return (
+            f'<iframe src="{html.escape(self.address)}" width="100%" height="{self.height}" style="border:0" '
+            'title="SVT viewer"></iframe>'
+        )
 
     def __repr__(self) -> str:
         return f"<svt.View at {self.address}>"

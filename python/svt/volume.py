@@ -59,7 +59,7 @@ class Runs(Sequence):
         if not -len(self) <= index < len(self):
             raise IndexError(f"no ray {index}")
         index %= len(self)
-        return self.all[int(self.start[index]):int(self.start[index + 1])]
+        return self.all[int(self.start[index]) : int(self.start[index + 1])]
 
     @property
     def ray(self) -> np.ndarray:
@@ -155,8 +155,14 @@ class Volume:
     @property
     def box(self) -> np.ndarray:
         """Box around all voxels along the world axes: array (2, 3) of lower and upper corner, metres."""
-        corners = self.world([[i, j, k] for i in (-0.5, self.dimension[0] - 0.5) for j in (-0.5, self.dimension[1] - 0.5)
-                              for k in (-0.5, self.dimension[2] - 0.5)])
+        corners = self.world(
+            [
+                [i, j, k]
+                for i in (-0.5, self.dimension[0] - 0.5)
+                for j in (-0.5, self.dimension[1] - 0.5)
+                for k in (-0.5, self.dimension[2] - 0.5)
+            ]
+        )
         return np.array([corners.min(axis=0), corners.max(axis=0)])
 
     def world(self, index) -> np.ndarray:
@@ -242,9 +248,18 @@ class Volume:
 
     # Drawings and pictures
 
-    def section(self, plane: str = "", *, show: str | Sequence[str] = (), hide: str | Sequence[str] = (),
-                spaces: bool = True, min_area: float = 0, tolerance: float = -1, meshes: bool = True,
-                progress: Progress = None) -> Section:
+    def section(
+        self,
+        plane: str = "",
+        *,
+        show: str | Sequence[str] = (),
+        hide: str | Sequence[str] = (),
+        spaces: bool = True,
+        min_area: float = 0,
+        tolerance: float = -1,
+        meshes: bool = True,
+        progress: Progress = None,
+    ) -> Section:
         """What a plane cuts, as polygons.
 
         Parameters
@@ -263,8 +278,9 @@ class Volume:
         meshes
             Cut the meshes that the volume keeps; False: the voxels.
         """
-        native = _native.section(self._native, plane, _list_of(show), _list_of(hide), spaces, min_area, tolerance, meshes,
-                                 progress)
+        native = _native.section(
+            self._native, plane, _list_of(show), _list_of(hide), spaces, min_area, tolerance, meshes, progress
+        )
         return Section(native, self._native)
 
     def frame(self, *, progress: Progress = None, **options: Any) -> Frame:
@@ -283,8 +299,9 @@ class Volume:
 
     # Files and parts
 
-    def part(self, *, box: Box | None = None, select: str | None = None, level: int = 0,
-             progress: Progress = None) -> Volume:
+    def part(
+        self, *, box: Box | None = None, select: str | None = None, level: int = 0, progress: Progress = None
+    ) -> Volume:
         """A part of the volume as a volume, as `svt convert` makes it: the samples in a world box, the labels that a query
         selects, a coarse level. Labels keep their numbers."""
         return Volume(self._native.part(None if box is None else _box_of(box), select, level, progress))
@@ -295,9 +312,19 @@ class Volume:
         return self._native.save(os.fspath(path), options, progress)
 
     @classmethod
-    def from_dense(cls, array, labels: Any = None, *, spacing: float | Sequence[float] = 1,
-                   origin: Sequence[float] = (0, 0, 0), axes: Sequence[Sequence[float]] = ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
-                   like: Volume | None = None, crs: str = "", source: str = "array", progress: Progress = None) -> Volume:
+    def from_dense(
+        cls,
+        array,
+        labels: Any = None,
+        *,
+        spacing: float | Sequence[float] = 1,
+        origin: Sequence[float] = (0, 0, 0),
+        axes: Sequence[Sequence[float]] = ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
+        like: Volume | None = None,
+        crs: str = "",
+        source: str = "array",
+        progress: Progress = None,
+    ) -> Volume:
         """A volume from an array of labels.
 
         Parameters
@@ -334,26 +361,37 @@ class Volume:
         if isinstance(spacing, (int, float)):
             spacing = (spacing,) * 3
         array = np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("="))
-        native = _native.from_array(array, list(spacing), list(origin), [list(axis) for axis in axes], _table_of(labels), crs,
-                                    source, progress)
+        native = _native.from_array(
+            array, list(spacing), list(origin), [list(axis) for axis in axes], _table_of(labels), crs, source, progress
+        )
         return cls(native)
 
     # Notebooks
 
     def _repr_html_(self) -> str:
-        rows = [("samples", "{} x {} x {}".format(*self.dimension)), ("spacing", "{:g} x {:g} x {:g} m".format(*self.spacing)),
-                ("size", "{:.4g} x {:.4g} x {:.4g} m".format(*(n * s for n, s in zip(self.dimension, self.spacing)))),
-                ("labels", str(len(self.labels))), ("memory", f"{self.size_bytes / 1e6:.3g} MB"), ("CRS", self.crs or "-")]
+        rows = [
+            ("samples", "{} x {} x {}".format(*self.dimension)),
+            ("spacing", "{:g} x {:g} x {:g} m".format(*self.spacing)),
+            ("size", "{:.4g} x {:.4g} x {:.4g} m".format(*(n * s for n, s in zip(self.dimension, self.spacing)))),
+            ("labels", str(len(self.labels))),
+            ("memory", f"{self.size_bytes / 1e6:.3g} MB"),
+            ("CRS", self.crs or "-"),
+        ]
         picture = base64.b64encode(self.frame(size=(480, 300))._repr_png_()).decode()
-        table = "".join(f"<tr><th style='text-align:left'>{name}</th><td style='text-align:left'>{html.escape(text)}</td></tr>"
-                        for name, text in rows)
+        table = "".join(
+            f"<tr><th style='text-align:left'>{name}</th><td style='text-align:left'>{html.escape(text)}</td></tr>"
+            for name, text in rows
+        )
         title = html.escape(self.name or self.source or "volume")
-        return (f"<div><b>{title}</b><br><img alt='{title}' width='480' height='300' "
-                f"src='data:image/png;base64,{picture}'><table>{table}</table></div>")
+        return (
+            f"<div><b>{title}</b><br><img alt='{title}' width='480' height='300' "
+            f"src='data:image/png;base64,{picture}'><table>{table}</table></div>"
+        )
 
     def __repr__(self) -> str:
-        return "<svt.Volume '{}' {} x {} x {} samples, {} labels>".format(self.name or self.source, *self.dimension,
-                                                                        len(self.labels))
+        return "<svt.Volume '{}' {} x {} x {} samples, {} labels>".format(
+            self.name or self.source, *self.dimension, len(self.labels)
+        )
 
 
 def _list_of(texts: str | Sequence[str]) -> list[str]:
@@ -367,8 +405,10 @@ def _table_of(labels: Any) -> str:
     if isinstance(labels, Labels):
         return labels._native.label_json()
     if isinstance(labels, Mapping):
-        labels = [{"value": value, **(entry if isinstance(entry, Mapping) else {"name": entry})}
-                  for value, entry in labels.items()]
+        labels = [
+            {"value": value, **(entry if isinstance(entry, Mapping) else {"name": entry})}
+            for value, entry in labels.items()
+        ]
 
     def plain(value: Any) -> Any:
         if isinstance(value, np.generic):
@@ -396,8 +436,14 @@ def open(path: PathLike, *, labels: PathLike = "", progress: Progress = None) ->
     return Volume(_native.open(os.fspath(path), os.fspath(labels), progress))
 
 
-def build(model: Model | PathLike | Sequence[PathLike], *, vectors: str | Sequence[str] = (), grid_of: Volume | None = None,
-          progress: Progress = None, **options: Any) -> Volume:
+def build(
+    model: Model | PathLike | Sequence[PathLike],
+    *,
+    vectors: str | Sequence[str] = (),
+    grid_of: Volume | None = None,
+    progress: Progress = None,
+    **options: Any,
+) -> Volume:
     native_grid = None if grid_of is None else grid_of._native
     if isinstance(model, Model):
         made = _native.build_model(model._native, options, _list_of(vectors), native_grid, progress)

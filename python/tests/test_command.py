@@ -17,9 +17,19 @@ def read_nrrd(name):
     """A raw NRRD: header as a dict, samples as [k, j, i]. Written for this test from the format's definition."""
     with open(name, "rb") as file:
         head, _, data = file.read().partition(b"\n\n")
-    fields = dict(line.split(": ", 1) for line in head.decode().splitlines()
-                  if ": " in line and ":=" not in line.split(": ")[0] and not line.startswith("#"))
-    kinds = {"uint8": np.uint8, "uint16": "<u2", "uint32": "<u4", "unsigned char": np.uint8, "unsigned short": "<u2", "unsigned int": "<u4"}
+    fields = dict(
+        line.split(": ", 1)
+        for line in head.decode().splitlines()
+        if ": " in line and ":=" not in line.split(": ")[0] and not line.startswith("#")
+    )
+    kinds = {
+        "uint8": np.uint8,
+        "uint16": "<u2",
+        "uint32": "<u4",
+        "unsigned char": np.uint8,
+        "unsigned short": "<u2",
+        "unsigned int": "<u4",
+    }
     sizes = [int(n) for n in fields["sizes"].split()]
     assert fields["encoding"] == "raw"
     return fields, np.frombuffer(data, kinds[fields["type"]]).reshape(sizes[::-1])
@@ -46,7 +56,9 @@ class Command(unittest.TestCase):
         text = ",".join(repr(float(x)) for x in box.ravel())
         self.same_labels(v, house_svt(), "--box", text, dense=v.dense(box=box))
         self.same_labels(v, house_svt(), "--box", text, "--level", "1", dense=v.dense(box=box, level=1))
-        self.same_labels(v, house_svt(), "--select", "class=BuildingRoom", dense=v.part(select="class=BuildingRoom").dense())
+        self.same_labels(
+            v, house_svt(), "--select", "class=BuildingRoom", dense=v.part(select="class=BuildingRoom").dense()
+        )
 
     def test_written_formats_have_the_same_bytes(self):
         v = svt.open(house_svt())
@@ -63,8 +75,16 @@ class Command(unittest.TestCase):
         box = (v.world((10, 20, 5)), v.world((70, 50, 40)))
         box_text = ",".join(repr(float(x)) for x in np.ravel(box))
         for name, options, words in (
-            ("o.nrrd", {"encoding": "raw", "box": box, "level": 1}, ["--encoding", "raw", "--box", box_text, "--level", "1"]),
-            ("o.obj", {"select": "class=BuildingRoom", "faces": "voxels"}, ["--select", "class=BuildingRoom", "--faces", "voxels"]),
+            (
+                "o.nrrd",
+                {"encoding": "raw", "box": box, "level": 1},
+                ["--encoding", "raw", "--box", box_text, "--level", "1"],
+            ),
+            (
+                "o.obj",
+                {"select": "class=BuildingRoom", "faces": "voxels"},
+                ["--select", "class=BuildingRoom", "--faces", "voxels"],
+            ),
             ("o.fds", {"holes": "class=Door", "merge": "class"}, ["--holes", "class=Door", "--merge", "class"]),
             ("o.vdb", {"level_sets": True, "level": 2}, ["--level-sets", "--level", "2"]),
             ("o.x3d", {"texture": "atlas"}, ["--texture", "atlas"]),
@@ -80,12 +100,16 @@ class Command(unittest.TestCase):
         ):
             v.save(path("python-" + name), **options)
             command("convert", house_svt(), path("command-" + name), *words)
-            files = sorted(os.path.relpath(os.path.join(at, file), path("command-" + name))
-                           for at, _, found in os.walk(path("command-" + name)) for file in found)
+            files = sorted(
+                os.path.relpath(os.path.join(at, file), path("command-" + name))
+                for at, _, found in os.walk(path("command-" + name))
+                for file in found
+            )
             self.assertGreater(len(files), 1)
             for file in files:
-                with open(os.path.join(path("python-" + name), file), "rb") as a, \
-                        open(os.path.join(path("command-" + name), file), "rb") as b:
+                with open(os.path.join(path("python-" + name), file), "rb") as a, open(
+                    os.path.join(path("command-" + name), file), "rb"
+                ) as b:
                     self.assertTrue(a.read() == b.read(), file)
         v.save(path("rooms.svt"), select="class=BuildingRoom")
         np.testing.assert_array_equal(svt.open(path("rooms.svt")).dense(), v.part(select="class=BuildingRoom").dense())
@@ -109,12 +133,17 @@ class Command(unittest.TestCase):
             told = json.loads(command("section", house_svt(), *arguments, "--json"))
             section = v.section(plane)
             self.assertEqual(section.to_dict(), told)
-            self.assertEqual([(c.label.id, c.is_exact, len(c.polygons)) for c in section.components],
-                             [(c["id"], c["exact"], c["polygons"]) for c in told["components"]])
+            self.assertEqual(
+                [(c.label.id, c.is_exact, len(c.polygons)) for c in section.components],
+                [(c["id"], c["exact"], c["polygons"]) for c in told["components"]],
+            )
             # The command prints six decimals.
-            np.testing.assert_allclose([c.area for c in section.components], [c["area"] for c in told["components"]], atol=5.1e-7)
-            np.testing.assert_allclose([c.area_bound for c in section.components],
-                                       [c["areaBound"] for c in told["components"]], atol=5.1e-7)
+            np.testing.assert_allclose(
+                [c.area for c in section.components], [c["area"] for c in told["components"]], atol=5.1e-7
+            )
+            np.testing.assert_allclose(
+                [c.area_bound for c in section.components], [c["areaBound"] for c in told["components"]], atol=5.1e-7
+            )
             np.testing.assert_allclose(section.area, told["area"], atol=5.1e-7)
             np.testing.assert_allclose(section.axes.origin, told["plane"]["origin"], atol=5.1e-7)
 
@@ -151,8 +180,19 @@ class Command(unittest.TestCase):
     def test_drawings_have_the_same_bytes(self):
         v = svt.open(house_svt())
         command("section", house_svt(), "--plane", "z=1.2", "-o", path("plan.svg"), "--scale", "1:50", "--no-rooms")
-        command("section", house_svt(), "--plane", "z=1.2", "-o", path("plan.dxf"), "-o", path("plan.geojson"), "--table",
-                path("plan.csv"), "--no-rooms")
+        command(
+            "section",
+            house_svt(),
+            "--plane",
+            "z=1.2",
+            "-o",
+            path("plan.dxf"),
+            "-o",
+            path("plan.geojson"),
+            "--table",
+            path("plan.csv"),
+            "--no-rooms",
+        )
         section = v.section("z=1.2", spaces=False)
         section.to_svg(path("python.svg"), scale=50)
         section.to_dxf(path("python.dxf"))
@@ -166,14 +206,18 @@ class Command(unittest.TestCase):
         names = ["K\u00fcche", "\u03a9 \u5bb6", "a 'b' \"c\" --d"]
         array = np.ones((4, 4, 4), np.uint8)
         array[:, :2], array[:, :, :2] = 2, 3
-        v = svt.Volume.from_dense(array, {n: {"name": name, "class": "BuildingRoom"} for n, name in enumerate(names, 1)})
+        v = svt.Volume.from_dense(
+            array, {n: {"name": name, "class": "BuildingRoom"} for n, name in enumerate(names, 1)}
+        )
         v.save(path("\u5bb6 names.svt"))
         again = svt.open(path("\u5bb6 names.svt"))
         self.assertEqual([label.name for label in again.labels], names)
         for name in names[:2]:
             self.assertEqual([label.name for label in again.query(f'name="{name}"')], [name])
             self.assertEqual(again.labels[name].name, name)
-        command("section", path("\u5bb6 names.svt"), "--plane", "z=1.2", "-o", path("names.dxf"), "-o", path("names.svg"))
+        command(
+            "section", path("\u5bb6 names.svt"), "--plane", "z=1.2", "-o", path("names.dxf"), "-o", path("names.svg")
+        )
         section = again.section("z=1.2")
         self.assertIn("K\u00fcche", section.to_dxf(path("python.dxf")))
         section.to_svg(path("python.svg"))
@@ -191,17 +235,66 @@ class Command(unittest.TestCase):
     def test_pictures_have_the_same_bytes(self):
         v = svt.open(house_svt())
         pairs = [
-            ({"size": (320, 180), "section": "y<4", "highlight": "name=Kitchen"},
-             ["--size", "320x180", "--section", "y<4", "--highlight", "name=Kitchen"]),
-            ({"size": "40x30mm", "dpi": 200, "look": "paper", "camera": "top", "ortho": True, "section": "storey='Ground floor'",
-              "hide": ["class=Window", "class=Door"], "scale_bar": True, "names": "class=BuildingRoom"},
-             ["--size", "40x30mm", "--dpi", "200", "--look", "paper", "--camera", "top", "--ortho", "--section",
-              "storey='Ground floor'", "--hide", "class=Window", "--hide", "class=Door", "--scale-bar", "--names",
-              "class=BuildingRoom"]),
-            ({"size": (200, 150), "opacity": {"class=BuildingRoom": 0.2}, "color": {"name=Kitchen": "red"}, "eye": (-5, -8, 9),
-              "target": (5, 5, 2), "color_by": "volume"},
-             ["--size", "200x150", "--opacity", "class=BuildingRoom:0.2", "--color", "name=Kitchen:red", "--eye=-5,-8,9",
-              "--target", "5,5,2", "--color-by", "volume"]),
+            (
+                {"size": (320, 180), "section": "y<4", "highlight": "name=Kitchen"},
+                ["--size", "320x180", "--section", "y<4", "--highlight", "name=Kitchen"],
+            ),
+            (
+                {
+                    "size": "40x30mm",
+                    "dpi": 200,
+                    "look": "paper",
+                    "camera": "top",
+                    "ortho": True,
+                    "section": "storey='Ground floor'",
+                    "hide": ["class=Window", "class=Door"],
+                    "scale_bar": True,
+                    "names": "class=BuildingRoom",
+                },
+                [
+                    "--size",
+                    "40x30mm",
+                    "--dpi",
+                    "200",
+                    "--look",
+                    "paper",
+                    "--camera",
+                    "top",
+                    "--ortho",
+                    "--section",
+                    "storey='Ground floor'",
+                    "--hide",
+                    "class=Window",
+                    "--hide",
+                    "class=Door",
+                    "--scale-bar",
+                    "--names",
+                    "class=BuildingRoom",
+                ],
+            ),
+            (
+                {
+                    "size": (200, 150),
+                    "opacity": {"class=BuildingRoom": 0.2},
+                    "color": {"name=Kitchen": "red"},
+                    "eye": (-5, -8, 9),
+                    "target": (5, 5, 2),
+                    "color_by": "volume",
+                },
+                [
+                    "--size",
+                    "200x150",
+                    "--opacity",
+                    "class=BuildingRoom:0.2",
+                    "--color",
+                    "name=Kitchen:red",
+                    "--eye=-5,-8,9",
+                    "--target",
+                    "5,5,2",
+                    "--color-by",
+                    "volume",
+                ],
+            ),
         ]
         for options, arguments in pairs:
             try:
@@ -244,8 +337,12 @@ class Manual(unittest.TestCase):
         before = os.getcwd()
         os.chdir(path("manual"))
         try:
-            names = {"points": np.array([[457840.0, 5439090, 112]]), "origins": np.array([[457840.0, 5439080, 112]]),
-                     "directions": np.array([0, 1, 0]), "array": np.ones((3, 4, 5), np.uint8)}
+            names = {
+                "points": np.array([[457840.0, 5439090, 112]]),
+                "origins": np.array([[457840.0, 5439080, 112]]),
+                "directions": np.array([0, 1, 0]),
+                "array": np.ones((3, 4, 5), np.uint8),
+            }
             with contextlib.redirect_stdout(io.StringIO()) as told:
                 exec(compile(code, str(page), "exec"), names)
         finally:

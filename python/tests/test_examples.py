@@ -16,7 +16,9 @@ EXAMPLES = pathlib.Path(__file__).resolve().parent.parent.parent / "docs" / "pyt
 
 def run(name):
     """Runs an example on the generated house: what it prints, and the rows of its table."""
-    done = subprocess.run([sys.executable, EXAMPLES / f"{name}.py", "-o", path("examples")], capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, EXAMPLES / f"{name}.py", "-o", path("examples")], capture_output=True, text=True
+    )
     assert done.returncode == 0, done.stderr
     table = path(f"examples/{name}.csv")
     if not os.path.exists(table):
@@ -31,7 +33,9 @@ class Examples(unittest.TestCase):
         self.assertEqual(mine.shape, shown.shape)
         # Arithmetic of other versions of numpy and SciPy may differ in the last bit of a colour.
         difference = np.abs(mine.astype(int) - shown)
-        self.assertLess(difference.mean(), 0.1, f"{name}.png is not the picture of docs/python; look at it, and copy it there")
+        self.assertLess(
+            difference.mean(), 0.1, f"{name}.png is not the picture of docs/python; look at it, and copy it there"
+        )
 
     def test_storeys(self):
         _, rows = run("storeys")
@@ -65,9 +69,14 @@ class Examples(unittest.TestCase):
         k, _, i = np.mgrid[0:160, 0:60, 0:80] * 0.05
         height = k - 2 - 0.75 * i
         values = np.where(height < 0, 1, np.where(height < 0.375, 2, 0)).astype(np.uint8)
-        volume = svt.Volume.from_dense(values, {1: {"class": "BuildingRoom", "name": "Room"},
-                                                2: {"class": "RoofSurface", "name": "Roof", "attributes": {"material": "timber"}}},
-                                       spacing=0.05)
+        volume = svt.Volume.from_dense(
+            values,
+            {
+                1: {"class": "BuildingRoom", "name": "Room"},
+                2: {"class": "RoofSurface", "name": "Roof", "attributes": {"material": "timber"}},
+            },
+            spacing=0.05,
+        )
         rows = {label.name: (area, layers, u) for label, area, layers, u in energy.table(volume)}
         area, layers, u = rows["Roof"]
         # 4 m x 3 m in plan, a quarter more on the slope; the x axis sees 3 m of height where the room is behind it.
@@ -93,8 +102,12 @@ class Examples(unittest.TestCase):
         inside = (abs(i) < 1) & (abs(j) < 1) & (abs(k) < 1)
         hole = (i > 0) & (np.hypot(j, k) < 0.6)
         values = np.where(inside, 1, np.where(hole, 0, 2)).astype(np.uint8)
-        volume = svt.Volume.from_dense(values, {1: {"class": "BuildingRoom"}, 2: {"class": "WallSurface"}}, spacing=0.02,
-                                       origin=(-1.19, -1.19, -1.19))
+        volume = svt.Volume.from_dense(
+            values,
+            {1: {"class": "BuildingRoom"}, 2: {"class": "WallSurface"}},
+            spacing=0.02,
+            origin=(-1.19, -1.19, -1.19),
+        )
         directions = visibility.sphere(50000)
         label, distance = visibility.first_hits(volume, np.zeros_like(directions), directions)
         self.assertAlmostEqual((label < 0).mean(), (1 - np.cos(np.arctan(0.5))) / 2, delta=0.001)
@@ -116,7 +129,9 @@ class Examples(unittest.TestCase):
 
         values = np.full((44, 64, 84), 2, np.uint8)
         values[2:-2, 2:-2, 2:-2] = 1
-        volume = svt.Volume.from_dense(values, {1: {"class": "BuildingRoom"}, 2: {"class": "BuildingConstructiveElement"}}, spacing=0.05)
+        volume = svt.Volume.from_dense(
+            values, {1: {"class": "BuildingRoom"}, 2: {"class": "BuildingConstructiveElement"}}, spacing=0.05
+        )
         field, _ = distance.clearance(volume)
         self.assertAlmostEqual(field.max(), 1.0, delta=0.051)  # 2 m high
         self.assertEqual(field[0].max(), 0)

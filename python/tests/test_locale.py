@@ -16,8 +16,13 @@ def answers():
     """What numbers in texts lead to, and texts with numbers."""
     volume = house()
     section = volume.section("z=1.25")
-    picture = volume.render(size="96x64", section=["y<2.5"], opacity=["class=BuildingRoom:0.22"], cut="box(0.5, 0.5, 0.5, 2.5, 2.5, 2.5)",
-                          hatch_spacing=0.15)
+    picture = volume.render(
+        size="96x64",
+        section=["y<2.5"],
+        opacity=["class=BuildingRoom:0.22"],
+        cut="box(0.5, 0.5, 0.5, 2.5, 2.5, 2.5)",
+        hatch_spacing=0.15,
+    )
     built = svt.build(house_file(), spacing=(0.5, 0.25, 0.5))
     volume.save(path("house.nrrd"))
     return {
@@ -39,8 +44,11 @@ class CommaLocale(unittest.TestCase):
         expected = answers()
         folder = path("locales")
         os.makedirs(folder, exist_ok=True)
-        subprocess.run(["localedef", "-c", "--no-archive", "-i", str(SOURCE), os.path.join(folder, "comma")],
-                       capture_output=True, check=False)  # warns of the categories that are missing
+        subprocess.run(
+            ["localedef", "-c", "--no-archive", "-i", str(SOURCE), os.path.join(folder, "comma")],
+            capture_output=True,
+            check=False,
+        )  # warns of the categories that are missing
         os.environ["LOCPATH"] = folder
         locale.setlocale(locale.LC_NUMERIC, "comma")
         try:

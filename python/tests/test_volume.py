@@ -15,9 +15,16 @@ def small():
     array[1, 2, 3] = 8
     array[:, 1, :] = 3
     return array, svt.Volume.from_dense(
-        array, {3: "Wall", 7: {"id": "a", "class": "BuildingRoom", "parent": "house", "attributes": {"u": 0.25, "n": 3, "b": True}},
-                8: {"id": "b", "color": "#ff8000"}},
-        spacing=(0.5, 0.25, 1), origin=(10, 20, 30), axes=((0, 1, 0), (-1, 0, 0), (0, 0, 1)))
+        array,
+        {
+            3: "Wall",
+            7: {"id": "a", "class": "BuildingRoom", "parent": "house", "attributes": {"u": 0.25, "n": 3, "b": True}},
+            8: {"id": "b", "color": "#ff8000"},
+        },
+        spacing=(0.5, 0.25, 1),
+        origin=(10, 20, 30),
+        axes=((0, 1, 0), (-1, 0, 0), (0, 0, 1)),
+    )
 
 
 class FromDense(unittest.TestCase):
@@ -90,10 +97,13 @@ class FromDense(unittest.TestCase):
             svt.Volume.from_dense(array[0])
         with self.assertRaises(ValueError):
             svt.Volume.from_dense(array[:, :2], like=v)
-        for arguments, code in (({"array": array.astype(np.int16) - 1}, "E904"), ({"array": array[:1]}, "E301"),
-                                ({"array": array, "spacing": 0}, "E301"),
-                                ({"array": array, "axes": ((1, 0, 0), (0, 1, 0), (0, 0, -1))}, "E301"),
-                                ({"array": array, "labels": [{"name": "no value"}]}, "E105")):
+        for arguments, code in (
+            ({"array": array.astype(np.int16) - 1}, "E904"),
+            ({"array": array[:1]}, "E301"),
+            ({"array": array, "spacing": 0}, "E301"),
+            ({"array": array, "axes": ((1, 0, 0), (0, 1, 0), (0, 0, -1))}, "E301"),
+            ({"array": array, "labels": [{"name": "no value"}]}, "E105"),
+        ):
             with self.assertRaises(svt.Error) as caught:
                 svt.Volume.from_dense(**arguments)
             self.assertEqual(caught.exception.code, code)
@@ -254,7 +264,9 @@ class Words(unittest.TestCase):
         self.assertEqual((error.code, error.name, error.page), ("E101", "CannotOpen", "docs/errors/E101.md"))
         self.assertIn("missing.gml", str(error))
         with open(path("broken.gml"), "w") as file:
-            file.write("<?xml version='1.0'?>\n<core:CityModel xmlns:core='http://www.opengis.net/citygml/3.0'>\n<a></b>")
+            file.write(
+                "<?xml version='1.0'?>\n<core:CityModel xmlns:core='http://www.opengis.net/citygml/3.0'>\n<a></b>"
+            )
         with self.assertRaises(svt.Error) as caught:
             svt.build(path("broken.gml"))
         self.assertEqual(caught.exception.place.line, 3)
@@ -270,8 +282,16 @@ class Words(unittest.TestCase):
             v.render(memory=100)
         with self.assertRaisesRegex(TypeError, "output"):
             v.render(output="x.png")
-        for options in ({"zoom": 1000}, {"zoom": "near"}, {"look": "oil"}, {"ortho": 1}, {"size": (0, 5)},
-                        {"opacity": {"all": 2}}, {"eye": (1, 2)}, {"size": [(1, 2), (3, 4)]}):
+        for options in (
+            {"zoom": 1000},
+            {"zoom": "near"},
+            {"look": "oil"},
+            {"ortho": 1},
+            {"size": (0, 5)},
+            {"opacity": {"all": 2}},
+            {"eye": (1, 2)},
+            {"size": [(1, 2), (3, 4)]},
+        ):
             with self.assertRaises(svt.Error, msg=options) as caught:
                 v.render(**options)
             self.assertIn(caught.exception.code, ("E904", "E502"))

@@ -18,7 +18,9 @@ BUILD = pathlib.Path(svt.__file__).resolve().parent.parent.parent
 
 
 def pack(folder):
-    done = subprocess.run([sys.executable, PACKER, BUILD, path(folder), svt.__version__], capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, PACKER, BUILD, path(folder), svt.__version__], capture_output=True, text=True
+    )
     assert done.returncode == 0, done.stderr
     return pathlib.Path(done.stdout.strip())
 
@@ -45,15 +47,36 @@ class Wheel(unittest.TestCase):
         with zipfile.ZipFile(pack("wheel")) as archive:
             archive.extractall(path("site"))
         environment = {**os.environ, "PYTHONPATH": path("site")}  # and not the folder of the test
-        done = subprocess.run([sys.executable, "-c", "import svt; print(svt.__file__, svt.__version__)"], env=environment, cwd=FOLDER.name,
-                              capture_output=True, text=True)
-        self.assertEqual(done.stdout.split(), [os.path.join(path("site"), "svt", "__init__.py"), svt.__version__], done.stderr)
+        done = subprocess.run(
+            [sys.executable, "-c", "import svt; print(svt.__file__, svt.__version__)"],
+            env=environment,
+            cwd=FOLDER.name,
+            capture_output=True,
+            text=True,
+        )
+        self.assertEqual(
+            done.stdout.split(), [os.path.join(path("site"), "svt", "__init__.py"), svt.__version__], done.stderr
+        )
 
     def test_pip_takes_it(self):
         if subprocess.run([sys.executable, "-m", "pip", "--version"], capture_output=True).returncode != 0:
             self.skipTest("no pip")
-        done = subprocess.run([sys.executable, "-m", "pip", "install", "--no-index", "--no-deps", "--disable-pip-version-check",
-                               "--target", path("pip"), str(pack("wheel"))], capture_output=True, text=True)
+        done = subprocess.run(
+            [
+                sys.executable,
+                "-m",
+                "pip",
+                "install",
+                "--no-index",
+                "--no-deps",
+                "--disable-pip-version-check",
+                "--target",
+                path("pip"),
+                str(pack("wheel")),
+            ],
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(os.path.exists(path("pip/svt/__init__.py")))
 

@@ -17,8 +17,13 @@ from common import COMMAND, house, house_file, needs_command, path
 
 
 def run_python(text, *arguments, **options):
-    return subprocess.Popen([sys.executable, "-c", textwrap.dedent(text), *arguments], stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE, text=True, **options)
+    return subprocess.Popen(
+        [sys.executable, "-c", textwrap.dedent(text), *arguments],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        **options,
+    )
 
 
 class Work(unittest.TestCase):
@@ -48,7 +53,8 @@ class Work(unittest.TestCase):
 
     def test_ctrl_c_ends_long_work(self):
         # Fine enough to take seconds; the signal comes when the voxels begin.
-        child = run_python("""
+        child = run_python(
+            """
             import sys, svt
             stages = []
 
@@ -61,7 +67,9 @@ class Work(unittest.TestCase):
                 svt.build(sys.argv[1], spacing=0.0025, vectors="none", progress=report)
             except KeyboardInterrupt:
                 print("stopped", flush=True)
-            """, house_file())
+            """,
+            house_file(),
+        )
         try:
             for stage in child.stdout:
                 if stage == "voxelize\n":
@@ -91,14 +99,23 @@ class Work(unittest.TestCase):
     def test_threads_may_share_a_volume(self):
         v = svt.build(house_file(), spacing=0.1)
         points = v.box[0] + np.random.default_rng(1).random((20000, 3)) * (v.box[1] - v.box[0])
-        expected = [v.sample(points), v.render(size=(80, 60)), v.rays(points[:100], (0, 0, 1)).all, v.section("z=1.2").area]
+        expected = [
+            v.sample(points),
+            v.render(size=(80, 60)),
+            v.rays(points[:100], (0, 0, 1)).all,
+            v.section("z=1.2").area,
+        ]
         fresh = svt.build(house_file(), spacing=0.1)
         wrong = []
 
         def work():
             for _ in range(3):
-                found = [fresh.sample(points), fresh.render(size=(80, 60)), fresh.rays(points[:100], (0, 0, 1)).all,
-                         fresh.section("z=1.2").area]
+                found = [
+                    fresh.sample(points),
+                    fresh.render(size=(80, 60)),
+                    fresh.rays(points[:100], (0, 0, 1)).all,
+                    fresh.section("z=1.2").area,
+                ]
                 wrong.extend(n for n in range(4) if not np.array_equal(found[n], expected[n]))
 
         threads = [threading.Thread(target=work) for _ in range(4)]
@@ -109,7 +126,8 @@ class Work(unittest.TestCase):
         self.assertEqual(wrong, [])
 
     def test_import_sets_nothing_of_the_process(self):
-        child = run_python("""
+        child = run_python(
+            """
             import resource, signal
             before = [resource.getrlimit(r) for r in (resource.RLIMIT_DATA, resource.RLIMIT_AS)], signal.getsignal(signal.SIGINT)
             import sys, svt
@@ -117,7 +135,9 @@ class Work(unittest.TestCase):
             v.render(size=(16, 16))
             print(before == ([resource.getrlimit(r) for r in (resource.RLIMIT_DATA, resource.RLIMIT_AS)],
                              signal.getsignal(signal.SIGINT)))
-            """, house_file())
+            """,
+            house_file(),
+        )
         out, err = child.communicate(timeout=120)
         self.assertEqual(out, "True\n", err)
         self.assertEqual(err, "")
@@ -175,10 +195,19 @@ class Stubs(unittest.TestCase):
                 told[node.name] = None
             elif isinstance(node, ast.AnnAssign):
                 told[node.target.id] = None
-        real = {name: {m for m in vars(value) if not m.startswith("_")} if isinstance(value, type) else None
-                for name, value in vars(_native).items() if not name.startswith("_")}
-        self.assertEqual({name: members and {m for m in members if not m.startswith("_")} for name, members in told.items()
-                          if not name.startswith("_")}, real)
+        real = {
+            name: {m for m in vars(value) if not m.startswith("_")} if isinstance(value, type) else None
+            for name, value in vars(_native).items()
+            if not name.startswith("_")
+        }
+        self.assertEqual(
+            {
+                name: members and {m for m in members if not m.startswith("_")}
+                for name, members in told.items()
+                if not name.startswith("_")
+            },
+            real,
+        )
 
     def test_public_names_have_docstrings(self):
         for name in svt.__all__:

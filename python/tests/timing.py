@@ -35,9 +35,11 @@ def main():
         # The arrays are new each time: most of a copy is the kernel giving pages, for both.
         dense, copy, again = best(volume.dense), best(array.copy), best(lambda: np.copyto(array, array[::-1]))
         size = array.nbytes / 1e9
-        for name, times in ((f"`dense()`, {volume.dtype} of 800 x 700 x 400 ({1000 * size:.0f} MB)", dense),
-                            ("`array.copy()` of the same by numpy", copy),
-                            ("the same into memory that is there already", again)):
+        for name, times in (
+            (f"`dense()`, {volume.dtype} of 800 x 700 x 400 ({1000 * size:.0f} MB)", dense),
+            ("`array.copy()` of the same by numpy", copy),
+            ("the same into memory that is there already", again),
+        ):
             rows.append((name, times, f"{size / times[0]:.1f} GB/s"))
         random = np.random.default_rng(1)
         points = volume.box[0] + random.random((1_000_000, 3)) * (volume.box[1] - volume.box[0])
@@ -46,8 +48,16 @@ def main():
         rows.append(("`sample()` of the same in order of columns", best(lambda: volume.sample(order)), ""))
         directions = random.normal(size=(100_000, 3))
         volume.rays(points[:1], directions[:1])
-        rows.append(("`rays()`, 100,000 random ones from inside", best(lambda: volume.rays(points[:100_000], directions)), ""))
-        rows.append(("`from_dense()` of the whole volume", best(lambda: svt.Volume.from_dense(array, volume.labels, like=volume), 3), ""))
+        rows.append(
+            ("`rays()`, 100,000 random ones from inside", best(lambda: volume.rays(points[:100_000], directions)), "")
+        )
+        rows.append(
+            (
+                "`from_dense()` of the whole volume",
+                best(lambda: svt.Volume.from_dense(array, volume.labels, like=volume), 3),
+                "",
+            )
+        )
         rows.append(("`render(size=(1280, 720))`", best(lambda: volume.render(size=(1280, 720))), ""))
         rows.append(("`section('z=1.2')`, exact", best(lambda: volume.section("z=1.2")), ""))
     print("| call | by the clock | of one core | |\n|---|---|---|---|")

@@ -41,6 +41,9 @@ await withPage(page, async (tab, address) => {
   assert.ok(Math.hypot(...metres) < 3, `the middle is ${metres} m from where it should be`);
   const seen = await tab.evaluate("window.pick()");
   if (picture) await tab.screenshot({ path: picture });
-  assert.ok(seen.some(([, [found]]) => found === className), `no ${className} among ${JSON.stringify(seen)}`);
+  assert.ok(
+    seen.some(([, [found]]) => found === className),
+    `no ${className} among ${JSON.stringify(seen)}`,
+  );
   console.log("place", place.join(" "), "\n" + seen.map((entry) => JSON.stringify(entry)).join("\n"));
 });

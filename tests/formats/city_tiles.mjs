@@ -11,7 +11,8 @@ import { pathToFileURL } from "node:url";
 
 const [oracles, tiles, buildings] = process.argv.slice(2);
 const modules = join(resolve(oracles), "node_modules");
-const tools = join(modules, "3d-tiles-tools", "build", "src", "index.js"), validator = join(modules, "gltf-validator", "index.js");
+const tools = join(modules, "3d-tiles-tools", "build", "src", "index.js"),
+  validator = join(modules, "gltf-validator", "index.js");
 for (const file of [tools, validator])
   if (!existsSync(file)) {
     console.log(`not there: ${file}`);
@@ -32,15 +33,23 @@ function strings(json, binary, name) {
   const { values, stringOffsets } = table.properties[name];
   const view = (n) => binary.subarray(json.bufferViews[n].byteOffset, json.bufferViews[n].byteOffset + json.bufferViews[n].byteLength);
   const offset = (n) => view(stringOffsets).readUInt32LE(4 * n);
-  return Array.from({ length: table.count }, (_, n) => view(values).subarray(offset(n), offset(n + 1)).toString());
+  return Array.from({ length: table.count }, (_, n) =>
+    view(values)
+      .subarray(offset(n), offset(n + 1))
+      .toString(),
+  );
 }
 
 // The box of a content in the frame of the tileset (z up).
 function boxOf(json) {
-  const { translation, scale } = json.nodes[0], { min, max } = json.accessors[json.meshes[0].primitives[0].attributes.POSITION];
+  const { translation, scale } = json.nodes[0],
+    { min, max } = json.accessors[json.meshes[0].primitives[0].attributes.POSITION];
   const at = (corner) => corner.map((value, axis) => value * scale[axis] + translation[axis]);
   const [low, high] = [at(min), at(max)];
-  return [[low[0], -high[2], low[1]], [high[0], -low[2], high[1]]];
+  return [
+    [low[0], -high[2], low[1]],
+    [high[0], -low[2], high[1]],
+  ];
 }
 
 const boxOfTile = ({ box }) => [0, 1].map((side) => [0, 1, 2].map((axis) => box[axis] + (2 * side - 1) * box[3 + 4 * axis]));
@@ -48,29 +57,37 @@ const isWithin = ([low, high], [lower, higher], reach) =>
   [0, 1, 2].every((axis) => low[axis] >= lower[axis] - reach && high[axis] <= higher[axis] + reach);
 
 const tileset = JSON.parse(readFileSync(join(tiles, "tileset.json")));
-const seen = new Set(), finest = new Map();
-let triangles = 0, levels = 0;
+const seen = new Set(),
+  finest = new Map();
+let triangles = 0,
+  levels = 0;
 const resolver = ResourceResolvers.createFileResourceResolver(resolve(tiles));
 await new TilesetTraverser(resolve(tiles), resolver, { depthFirst: true }).traverse(tileset, async (traversed) => {
-  const tile = traversed.asFinalTile(), parent = traversed.getParent()?.asFinalTile();
+  const tile = traversed.asFinalTile(),
+    parent = traversed.getParent()?.asFinalTile();
   const box = boxOfTile(tile.boundingVolume);
   if (parent) {
     assert.ok(parent.geometricError >= tile.geometricError, `${traversed.path}: the error of the parent is smaller`);
     assert.ok(isWithin(box, boxOfTile(parent.boundingVolume), 1e-6), `${traversed.path}: its box is not in that of its parent`);
   }
-  if (traversed.isImplicitTilesetRoot()) return true;  // its content is a template
+  if (traversed.isImplicitTilesetRoot()) return true; // its content is a template
   for (const { uri } of traversed.getFinalContents()) {
     assert.ok(!seen.has(uri), `${uri} is there twice`);
     seen.add(uri);
     levels = Math.max(levels, traversed.level);
     const bytes = readFileSync(join(tiles, uri));
     const report = await validateBytes(new Uint8Array(bytes));
-    assert.deepEqual(report.issues.messages.filter((m) => !["UNSUPPORTED_EXTENSION", "UNUSED_OBJECT"].includes(m.code)), [], uri);
+    assert.deepEqual(
+      report.issues.messages.filter((m) => !["UNSUPPORTED_EXTENSION", "UNUSED_OBJECT"].includes(m.code)),
+      [],
+      uri,
+    );
     triangles += report.info.totalTriangleCount;
     const [json, binary] = glbOf(bytes);
     assert.ok(isWithin(boxOf(json), box, 0.05), `${uri}: ${boxOf(json)} is not in ${box}`);
     if (tile.geometricError !== 0) continue;
-    const classes = strings(json, binary, "class"), attributes = strings(json, binary, "attributes");
+    const classes = strings(json, binary, "class"),
+      attributes = strings(json, binary, "attributes");
     strings(json, binary, "id").forEach((id, n) => {
       assert.ok(!finest.has(id), `${id} is there twice`);
       finest.set(id, [classes[n], JSON.parse(attributes[n])]);
@@ -81,4 +98,6 @@ await new TilesetTraverser(resolve(tiles), resolver, { depthFirst: true }).trave
 const files = readdirSync(join(tiles, "content"), { recursive: true }).filter((name) => name.endsWith(".glb"));
 assert.equal(seen.size, files.length, "contents that no tile refers to");
 assert.equal(finest.size, Number(buildings));
-console.log(`${seen.size} contents on ${levels + 1} levels, ${triangles} triangles, ${finest.size} buildings, such as ${JSON.stringify([...finest][0])}`);
+console.log(
+  `${seen.size} contents on ${levels + 1} levels, ${triangles} triangles, ${finest.size} buildings, such as ${JSON.stringify([...finest][0])}`,
+);

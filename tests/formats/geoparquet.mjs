@@ -13,7 +13,8 @@ if (!existsSync(reader)) {
   process.exit(77);
 }
 const { parquetMetadata, parquetReadObjects } = await import(pathToFileURL(reader).href);
-const bytes = readFileSync(file), buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength);
+const bytes = readFileSync(file),
+  buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength);
 const metadata = parquetMetadata(buffer);
 const geo = JSON.parse(metadata.key_value_metadata.find((entry) => entry.key === "geo").value);
 assert.equal(geo.version, "1.1.0");

@@ -79,9 +79,11 @@ const readers = {
     const table = tableFromIPC(readParquet(new Uint8Array(readFileSync(file))).intoIPCStream());
     const expected = csv(reference);
     assert.equal(table.numRows, expected.rows.length);
-    assert.deepEqual(table.schema.fields.map((field) => field.name), expected.names);
-    expected.rows.forEach((row, r) =>
-      expected.names.forEach((name, c) => same(table.getChildAt(c).get(r), row[c], `row ${r}, ${name}`)));
+    assert.deepEqual(
+      table.schema.fields.map((field) => field.name),
+      expected.names,
+    );
+    expected.rows.forEach((row, r) => expected.names.forEach((name, c) => same(table.getChildAt(c).get(r), row[c], `row ${r}, ${name}`)));
     console.log("parquet-wasm: same", table.numRows, "rows;", table.schema.fields.map((field) => field.type).join(" "));
   },
 
@@ -90,7 +92,10 @@ const readers = {
     const { VOXLoader } = await load("three", "examples", "jsm", "loaders", "VOXLoader.js");
     const { chunks, scene } = new VOXLoader().parse(arrayOf(file));
     const { box, count } = usedBox(reference, (place) => place);
-    assert.equal(chunks.reduce((sum, chunk) => sum + chunk.data.length / 4, 0), count);
+    assert.equal(
+      chunks.reduce((sum, chunk) => sum + chunk.data.length / 4, 0),
+      count,
+    );
     // It has the middle of a model where MagicaVoxel has the middle rounded down: half a voxel for odd sizes.
     await expectBox(scene, box, 0.51);
     console.log("three:", count, "voxels;", scene.children.map((child) => child.name).join(", "));
@@ -100,10 +105,14 @@ const readers = {
   async usda() {
     const { USDLoader } = await load("three", "examples", "jsm", "loaders", "USDLoader.js");
     const root = new USDLoader().parse(readFileSync(file, "utf8"));
-    const { box } = usedBox(reference, (place, matrix) => matrix.map((row) => row[0] * place[0] + row[1] * place[1] + row[2] * place[2] + row[3]));
+    const { box } = usedBox(reference, (place, matrix) =>
+      matrix.map((row) => row[0] * place[0] + row[1] * place[1] + row[2] * place[2] + row[3]),
+    );
     await expectBox(root, box, 1e-3);
     let triangles = 0;
-    root.traverse((node) => { triangles += node.isMesh ? (node.geometry.index ?? node.geometry.attributes.position).count / 3 : 0; });
+    root.traverse((node) => {
+      triangles += node.isMesh ? (node.geometry.index ?? node.geometry.attributes.position).count / 3 : 0;
+    });
     assert.ok(triangles > 0);
     console.log("three:", triangles, "triangles;", root.children[0].children.map((child) => child.name).join(", "));
   },
@@ -119,19 +128,32 @@ function arrayOf(path) {
 function usedBox(path, place) {
   const bytes = readFileSync(path);
   const end = bytes.indexOf("\n\n");
-  const fields = Object.fromEntries(bytes.subarray(0, end).toString().split("\n").filter((line) => line.includes(": ")).map((line) => line.split(": ")));
+  const fields = Object.fromEntries(
+    bytes
+      .subarray(0, end)
+      .toString()
+      .split("\n")
+      .filter((line) => line.includes(": "))
+      .map((line) => line.split(": ")),
+  );
   const sizes = fields.sizes.split(" ").map(Number);
-  const vectors = [...`${fields["space directions"]} ${fields["space origin"]}`.matchAll(/\(([^)]*)\)/g)].map((match) => match[1].split(",").map(Number));
+  const vectors = [...`${fields["space directions"]} ${fields["space origin"]}`.matchAll(/\(([^)]*)\)/g)].map((match) =>
+    match[1].split(",").map(Number),
+  );
   const matrix = [0, 1, 2].map((row) => vectors.map((vector) => vector[row]));
   const isWide = fields.type.includes("16");
-  const min = [Infinity, Infinity, Infinity], max = [-Infinity, -Infinity, -Infinity];
+  const min = [Infinity, Infinity, Infinity],
+    max = [-Infinity, -Infinity, -Infinity];
   let count = 0;
   for (let k = 0, at = end + 2; k < sizes[2]; ++k)
     for (let j = 0; j < sizes[1]; ++j)
       for (let i = 0; i < sizes[0]; ++i, at += isWide ? 2 : 1) {
         if (bytes[at] === 0 && (!isWide || bytes[at + 1] === 0)) continue;
         ++count;
-        [i, j, k].forEach((n, axis) => { min[axis] = Math.min(min[axis], n - 0.5); max[axis] = Math.max(max[axis], n + 0.5); });
+        [i, j, k].forEach((n, axis) => {
+          min[axis] = Math.min(min[axis], n - 0.5);
+          max[axis] = Math.max(max[axis], n + 0.5);
+        });
       }
   return { box: [place(min, matrix), place(max, matrix)], count };
 }
@@ -141,10 +163,16 @@ async function expectBox(scene, [min, max], tolerance) {
   const { Box3 } = await load("three", "build", "three.module.js");
   scene.updateMatrixWorld(true);
   const box = new Box3().setFromObject(scene);
-  const found = [[box.min.x, -box.max.z, box.min.y], [box.max.x, -box.min.z, box.max.y]];
+  const found = [
+    [box.min.x, -box.max.z, box.min.y],
+    [box.max.x, -box.min.z, box.max.y],
+  ];
   const shift = tolerance > 0.1 ? 0.5 : 0;
-  [min, max].forEach((corner, n) => corner.forEach((value, axis) =>
-    assert.ok(Math.abs(found[n][axis] - value - shift) <= tolerance, `corner ${n}, axis ${axis}: ${found[n][axis]}, ${value} expected`)));
+  [min, max].forEach((corner, n) =>
+    corner.forEach((value, axis) =>
+      assert.ok(Math.abs(found[n][axis] - value - shift) <= tolerance, `corner ${n}, axis ${axis}: ${found[n][axis]}, ${value} expected`),
+    ),
+  );
 }
 
 await readers[reader]();

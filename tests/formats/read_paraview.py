@@ -18,7 +18,12 @@ sizes = [int(n) for n in re.search(rb"\nsizes: (.*)", head)[1].split()]
 kind = {b"uint8": np.uint8, b"uint16": np.uint16, b"uint32": np.uint32}[re.search(rb"\ntype: (\w+)", head)[1]]
 expected = np.frombuffer(data, kind).reshape(sizes[::-1])
 origin = np.array([float(n) for n in re.search(rb"\nspace origin: \((.*)\)", head)[1].split(b",")])
-steps = np.array([[float(n) for n in v.split(b",")] for v in re.findall(rb"\(([^)]*)\)", re.search(rb"\nspace directions: (.*)", head)[1])])
+steps = np.array(
+    [
+        [float(n) for n in v.split(b",")]
+        for v in re.findall(rb"\(([^)]*)\)", re.search(rb"\nspace directions: (.*)", head)[1])
+    ]
+)
 
 reader = simple.OpenDataFile(path)
 whole = servermanager.Fetch(reader)
@@ -33,4 +38,11 @@ names = image.GetFieldData().GetAbstractArray("label_name")
 assert names is not None and names.GetNumberOfValues() > 1
 if whole is not image:
     print("levels", whole.GetNumberOfBlocks())
-print(simple.GetParaViewVersion(), expected.shape, "same;", names.GetNumberOfValues(), "names, such as", repr(names.GetValue(1)))
+print(
+    simple.GetParaViewVersion(),
+    expected.shape,
+    "same;",
+    names.GetNumberOfValues(),
+    "names, such as",
+    repr(names.GetValue(1)),
+)

@@ -25,8 +25,7 @@ const WebIFC = createRequire(import.meta.url)(fileOf("web-ifc", "web-ifc-api-nod
 
 const folder = mkdtempSync(join(tmpdir(), "svt-oracle-"));
 process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
-const run = (...args) =>
-  execFileSync(command, args, { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"], maxBuffer: 1 << 29 });
+const run = (...args) => execFileSync(command, args, { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"], maxBuffer: 1 << 29 });
 
 /** Signed volume of triangles and whether each edge is used as often both ways, points within 10 micrometres being one. */
 function measure(triangles) {
@@ -75,8 +74,7 @@ async function byWebIfc(path) {
         const [x, y, z] = vertices.slice(v, v + 3);
         points.push([0, 1, 2].map((i) => m[i] * x + m[4 + i] * y + m[8 + i] * z + m[12 + i]));
       }
-      for (let t = 0; t < indices.length; t += 3)
-        triangles.push([points[indices[t]], points[indices[t + 1]], points[indices[t + 2]]]);
+      for (let t = 0; t < indices.length; t += 3) triangles.push([points[indices[t]], points[indices[t + 1]], points[indices[t + 2]]]);
       geometry.delete();
     }
     products.set(mesh.expressID, triangles);
@@ -85,8 +83,7 @@ async function byWebIfc(path) {
   api.StreamAllMeshesWithTypes(model, [WebIFC.IFCSPACE], add);
   const seconds = (performance.now() - begin) / 1000;
   const result = new Map();
-  for (const [id, triangles] of products)
-    if (triangles.length > 0) result.set(api.GetLine(model, id).GlobalId.value, measure(triangles));
+  for (const [id, triangles] of products) if (triangles.length > 0) result.set(api.GetLine(model, id).GlobalId.value, measure(triangles));
   api.CloseModel(model);
   return { products: result, seconds };
 }
@@ -120,8 +117,16 @@ async function compare(name, path) {
     if (!other.isClosed) ++rows.openTheirs;
     ++rows.compared;
     if (relative(object.volume, other.volume) <= kSame) ++rows.same;
-    else rows.others.push({ id: object.id, type, name: object.name, ours: object.volume, theirs: other.volume, isClosed: other.isClosed,
-      stated: object.attributes["BaseQuantities.NetVolume"] ?? object.attributes["Dimensions.Volume"] });
+    else
+      rows.others.push({
+        id: object.id,
+        type,
+        name: object.name,
+        ours: object.volume,
+        theirs: other.volume,
+        isClosed: other.isClosed,
+        stated: object.attributes["BaseQuantities.NetVolume"] ?? object.attributes["Dimensions.Volume"],
+      });
   }
   rows.onlyTheirs = [...theirs.products.keys()];
   return rows;
@@ -132,15 +137,18 @@ const kFiles = { "fzk_haus.ifc": 98, "openhouse.ifc": 100, "samplehouse.ifc": 98
 const house = join(folder, "house.ifc");
 run("sample", "house", "-o", house);
 const all = [await compare("house.ifc (generated)", house)];
-for (const name of Object.keys(kFiles))
-  if (existsSync(join(dataFolder, name))) all.push(await compare(name, join(dataFolder, name)));
+for (const name of Object.keys(kFiles)) if (existsSync(join(dataFolder, name))) all.push(await compare(name, join(dataFolder, name)));
 for (const rows of all) {
   const share = (100 * rows.same) / rows.compared;
   if (printsTable) {
-    console.log(`| ${rows.name} | ${rows.compared} | ${rows.same} | ${rows.openTheirs} | ${rows.onlyOurs} | ${rows.onlyTheirs.length} | ` +
-      `${rows.ours.toFixed(3)} s | ${rows.theirs.toFixed(3)} s |`);
+    console.log(
+      `| ${rows.name} | ${rows.compared} | ${rows.same} | ${rows.openTheirs} | ${rows.onlyOurs} | ${rows.onlyTheirs.length} | ` +
+        `${rows.ours.toFixed(3)} s | ${rows.theirs.toFixed(3)} s |`,
+    );
     for (const o of rows.others)
-      console.log(`    ${o.id} ${o.type} ${o.name}: ${o.ours.toFixed(6)}, web-ifc ${o.theirs.toFixed(6)}${o.isClosed ? "" : " (open)"}, file ${o.stated}`);
+      console.log(
+        `    ${o.id} ${o.type} ${o.name}: ${o.ours.toFixed(6)}, web-ifc ${o.theirs.toFixed(6)}${o.isClosed ? "" : " (open)"}, file ${o.stated}`,
+      );
     for (const id of rows.onlyTheirs) console.log(`    only web-ifc: ${id}`);
   }
   // Where both are closed they agree; where they do not, the volume that the file states is ours.
@@ -164,7 +172,9 @@ async function againstManifold() {
     return Number(state >> 33n) / 2 ** 31;
   };
   const records = [
-    "#1=IFCPROJECT('0project',$,'P',$,$,$,$,(#20),#2)", "#2=IFCUNITASSIGNMENT((#3))", "#3=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.)",
+    "#1=IFCPROJECT('0project',$,'P',$,$,$,$,(#20),#2)",
+    "#2=IFCUNITASSIGNMENT((#3))",
+    "#3=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.)",
     "#20=IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-05,$,$)",
   ];
   let last = 100;
@@ -179,7 +189,9 @@ async function againstManifold() {
     const z = isAligned ? [0, 0, 1] : unit([random() - 0.5, random() - 0.5, random() + 0.1]);
     const x = isAligned ? [1, 0, 0] : unit(cross([random(), 1, 0.3], z));
     const y = cross(z, x);
-    const axes = add(`IFCAXIS2PLACEMENT3D(#${add(`IFCCARTESIANPOINT(${vector(at)})`)},#${add(`IFCDIRECTION(${vector(z)})`)},#${add(`IFCDIRECTION(${vector(x)})`)})`);
+    const axes = add(
+      `IFCAXIS2PLACEMENT3D(#${add(`IFCCARTESIANPOINT(${vector(at)})`)},#${add(`IFCDIRECTION(${vector(z)})`)},#${add(`IFCDIRECTION(${vector(x)})`)})`,
+    );
     const solid = Manifold.cube(size).transform([...x, 0, ...y, 0, ...z, 0, ...at, 1]);
     return { item: add(`IFCBLOCK(#${axes},${size.map(number).join(",")})`), solid };
   };
@@ -197,7 +209,10 @@ async function againstManifold() {
     wanted.push(solid.volume());
   }
   const path = join(folder, "booleans.ifc");
-  writeFileSync(path, `ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\n${records.join(";\n")};\nENDSEC;\nEND-ISO-10303-21;\n`);
+  writeFileSync(
+    path,
+    `ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\n${records.join(";\n")};\nENDSEC;\nEND-ISO-10303-21;\n`,
+  );
   const found = new Map(bySvt(path).objects.map((object) => [object.id, object]));
   let worst = 0;
   wanted.forEach((volume, i) => {

@@ -55,7 +55,10 @@ class CheckHardening(unittest.TestCase):
             ({"fortify": ["-O2", "-U_FORTIFY_SOURCE"]}, "no checks of buffer sizes"),
             ({"stack": ["-Wl,-z,execstack"]}, "the stack is executable"),
             ({"rpath": ["-Wl,-rpath,/home/builder/lib"]}, "RPATH or RUNPATH"),
-            ({"path": ['-DPATH="/home/builder/svt/svt/core/file.cpp"']}, "names paths of its build: /home/builder/svt/svt/core/file.cpp"),
+            (
+                {"path": ['-DPATH="/home/builder/svt/svt/core/file.cpp"']},
+                "names paths of its build: /home/builder/svt/svt/core/file.cpp",
+            ),
         ]:
             text, code = self.check(**flags)
             self.assertIn(fault, text)

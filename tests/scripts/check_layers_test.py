@@ -49,16 +49,22 @@ class CheckLayers(unittest.TestCase):
         self.refused("svt/volume/bad.cpp", "#include <svt/render/caster.hpp>\n", "volume may not include render")
 
     def test_what_the_table_gives_is_used(self):
-        self.refused("apps/cli/commands/build.cpp", "#include <svt/volume/grid.hpp>\n", "apps/cli does not include core")
-        self.assertEqual(self.problems({"tests/cli/volume_test.cpp": "", "tests/fuzz/zip_fuzz.cpp": ""}),
-                         ["layers.txt: test tests does not include volume"])
+        self.refused(
+            "apps/cli/commands/build.cpp", "#include <svt/volume/grid.hpp>\n", "apps/cli does not include core"
+        )
+        self.assertEqual(
+            self.problems({"tests/cli/volume_test.cpp": "", "tests/fuzz/zip_fuzz.cpp": ""}),
+            ["layers.txt: test tests does not include volume"],
+        )
 
     def test_the_inside_of_another_folder_is_refused(self):
         self.refused("svt/render/bad.cpp", "#include <svt/volume/bricks/coder.hpp>\n", "is the inside of volume")
         self.refused("apps/cli/bad.cpp", "#include <svt/volume/bricks/coder.hpp>\n", "is the inside of volume")
 
     def test_a_public_header_may_not_leak_the_inside(self):
-        self.refused("svt/volume/bad.hpp", "#pragma once\n#include <svt/volume/bricks/coder.hpp>\n", "includes its inside")
+        self.refused(
+            "svt/volume/bad.hpp", "#pragma once\n#include <svt/volume/bricks/coder.hpp>\n", "includes its inside"
+        )
 
     def test_sub_folders_in_a_circle_are_refused(self):
         self.refused("svt/volume/bricks/bad.cpp", "#include <svt/volume/file/zip.hpp>\n", "in a circle")

@@ -32,8 +32,13 @@ with tempfile.TemporaryDirectory() as folder:
     home.mkdir()
     os.chdir(home)
     check(run("sample", "city", "--buildings", "60", "-o", "files").returncode == 0, "no files")
-    check(run("city", "plan", "files", "-o", "town", "--spacing", "1", "--pack-seconds", "0.01", "--tasks", "3").returncode == 0,
-          "no plan")
+    check(
+        run(
+            "city", "plan", "files", "-o", "town", "--spacing", "1", "--pack-seconds", "0.01", "--tasks", "3"
+        ).returncode
+        == 0,
+        "no plan",
+    )
     options = ["image=registry.example/svt:1", "--claim=disk", "namespace=maps", "cpu=2", "memory=3Gi", "parallelism=2"]
     printed = run("city", "run", "town", "--engine", "kubernetes", "--print", "--", *options)
     check(printed.returncode == 0, printed.stderr)
@@ -47,7 +52,10 @@ with tempfile.TemporaryDirectory() as folder:
         check(pod["restartPolicy"] == "Never", "restartPolicy")  # backoffLimitPerIndex needs it
         (container,) = pod["containers"]
         check(container["image"] == options[0][6:], "image")
-        check(container["resources"] == {"requests": {"cpu": "2", "memory": "3Gi"}, "limits": {"memory": "3Gi"}}, "resources")
+        check(
+            container["resources"] == {"requests": {"cpu": "2", "memory": "3Gi"}, "limits": {"memory": "3Gi"}},
+            "resources",
+        )
         check(container["volumeMounts"] == [{"name": "data", "mountPath": str(home)}], "mount")
         check(pod["volumes"] == [{"name": "data", "persistentVolumeClaim": {"claimName": "disk"}}], "claim")
         check(container["command"][:2] == ["/bin/sh", "-c"] and len(container["command"]) == 3, "command")
@@ -61,10 +69,20 @@ with tempfile.TemporaryDirectory() as folder:
     # The lines that pods would run, here.
     environment = dict(os.environ, PATH=os.path.dirname(svt) + ":" + os.environ["PATH"])
     for index in range(count):
-        subprocess.run(tasks["spec"]["template"]["spec"]["containers"][0]["command"], check=True,
-                       env=dict(environment, JOB_COMPLETION_INDEX=str(index)), stdout=subprocess.DEVNULL, cwd="/")
-    subprocess.run(merge["spec"]["template"]["spec"]["containers"][0]["command"], check=True, env=environment,
-                   stdout=subprocess.DEVNULL, cwd="/")
+        subprocess.run(
+            tasks["spec"]["template"]["spec"]["containers"][0]["command"],
+            check=True,
+            env=dict(environment, JOB_COMPLETION_INDEX=str(index)),
+            stdout=subprocess.DEVNULL,
+            cwd="/",
+        )
+    subprocess.run(
+        merge["spec"]["template"]["spec"]["containers"][0]["command"],
+        check=True,
+        env=environment,
+        stdout=subprocess.DEVNULL,
+        cwd="/",
+    )
     info = run("city", "info", "town")
     check(info.stdout.startswith("60 buildings"), info.stdout + info.stderr)
 

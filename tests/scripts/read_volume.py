@@ -153,8 +153,10 @@ def gdal(path):
     slices = [library.Open(f"GTIFF_DIR:{p + 1}:{path}").ReadAsArray() for p in range(pages)]
     g = file.GetGeoTransform()
     # GDAL says where the corner of the first pixel is.
-    return np.array(slices), ("plan", np.array([[g[1], g[2], g[0] + g[1] / 2 + g[2] / 2],
-                                                [g[4], g[5], g[3] + g[4] / 2 + g[5] / 2]]))
+    return np.array(slices), (
+        "plan",
+        np.array([[g[1], g[2], g[0] + g[1] / 2 + g[2] / 2], [g[4], g[5], g[3] + g[4] / 2 + g[5] / 2]]),
+    )
 
 
 def triangles(path):
@@ -163,8 +165,10 @@ def triangles(path):
     data = open(path, "rb").read()
     if path.endswith("obj"):
         lines = data.decode().split("\n")
-        return (np.array([line.split()[1:] for line in lines if line.startswith("v ")], float),
-                np.array([line.split()[1:] for line in lines if line.startswith("f ")], int) - 1)
+        return (
+            np.array([line.split()[1:] for line in lines if line.startswith("v ")], float),
+            np.array([line.split()[1:] for line in lines if line.startswith("f ")], int) - 1,
+        )
     if path.endswith("stl"):
         corner = np.array([float(x) for x in data[:80].decode().split("from")[1].split()])
         faces = np.frombuffer(data[84:], np.dtype([("v", "<f4", (4, 3)), ("a", "<u2")]))
@@ -173,7 +177,7 @@ def triangles(path):
     count = {name: int(n) for name, n in re.findall(r"element (\w+) (\d+)", head.decode())}
     points = np.frombuffer(body, "<f8", 3 * count["vertex"]).reshape(-1, 3)
     kind = np.dtype([("n", "u1"), ("v", "<i4", 3), ("label", "<i4"), ("color", "u1", 3)])
-    return points, np.frombuffer(body[24 * len(points):], kind)["v"]
+    return points, np.frombuffer(body[24 * len(points) :], kind)["v"]
 
 
 def mesh(path):
@@ -228,7 +232,12 @@ def vdb(path):
         grid = library.read(path, name)
         assert grid.gridClass == "fog volume"
         grid.copyToArray(mask)
-        inside = [s for label in table if label["class"] == name for s in range(label["first"], label["first"] + label["count"])]
+        inside = [
+            s
+            for label in table
+            if label["class"] == name
+            for s in range(label["first"], label["first"] + label["count"])
+        ]
         assert (mask == np.isin(samples, inside)).all(), name
         assert grid.activeVoxelCount() == mask.sum(dtype=float), "what lies beyond the volume is not active"
     place = [labels.transform.indexToWorld(corner) for corner in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))]
@@ -253,7 +262,12 @@ def levelset(path):
         assert grid.gridClass == "level set" and abs(grid.background - 3 * spacing) < 1e-6 * spacing
         values = np.zeros(samples.shape, np.float32)
         grid.copyToArray(values, ijk=(-pad, -pad, -pad))
-        scalars = [s for label in table if label["class"] == name for s in range(label["first"], label["first"] + label["count"])]
+        scalars = [
+            s
+            for label in table
+            if label["class"] == name
+            for s in range(label["first"], label["first"] + label["count"])
+        ]
         inside = np.isin(samples, scalars)
         squares = {True: np.full(samples.shape, np.inf), False: np.full(samples.shape, np.inf)}
         steps = range(-reach, reach + 1)
@@ -319,13 +333,13 @@ def vox(path):
             pair = []
             for _ in range(2):
                 length = words(where, 1)[0]
-                pair.append(data[where + 4:where + 4 + length].decode())
+                pair.append(data[where + 4 : where + 4 + length].decode())
                 where += 4 + length
             entries[pair[0]] = pair[1]
         return entries, where
 
     while at < len(data):
-        name, length, at = data[at:at + 4], words(at + 4, 1)[0], at + 12
+        name, length, at = data[at : at + 4], words(at + 4, 1)[0], at + 12
         if name == b"SIZE":
             size = words(at, 3)
         elif name == b"XYZI":
@@ -436,12 +450,12 @@ def tileset(path):
         data = open(os.path.join(path, tile["content"]["uri"]), "rb").read()
         magic, version, length, text_length, kind = struct.unpack_from("<5I", data)
         assert (magic, version, length, kind) == (0x46546C67, 2, len(data), 0x4E4F534A)
-        gltf, start = json.loads(data[20:20 + text_length]), 28 + text_length
+        gltf, start = json.loads(data[20 : 20 + text_length]), 28 + text_length
         assert start % 8 == 0, "tables begin at multiples of 8"
 
         def view(number):
             told = gltf["bufferViews"][number]
-            return data[start + told["byteOffset"]:start + told["byteOffset"] + told["byteLength"]]
+            return data[start + told["byteOffset"] : start + told["byteOffset"] + told["byteLength"]]
 
         def values(accessor):
             told = gltf["accessors"][accessor]
@@ -482,8 +496,20 @@ def tileset(path):
     return np.concatenate(points) + np.array(tiles["asset"]["extras"]["origin"]), np.concatenate(faces)
 
 
-READERS = {"nrrd": nrrd, "vti": vti, "vtknrrd": vtk_nrrd, "nifti": nifti, "tiff": tiff, "gdal": gdal, "zarr": zarr, "mesh": mesh, "vdb": vdb, "levelset": levelset,
-           "vtm": vtm, "vox": vox}
+READERS = {
+    "nrrd": nrrd,
+    "vti": vti,
+    "vtknrrd": vtk_nrrd,
+    "nifti": nifti,
+    "tiff": tiff,
+    "gdal": gdal,
+    "zarr": zarr,
+    "mesh": mesh,
+    "vdb": vdb,
+    "levelset": levelset,
+    "vtm": vtm,
+    "vox": vox,
+}
 
 
 def main():
@@ -503,8 +529,14 @@ def main():
         corners = np.array([[i, j, 1] for i in (0, expected.shape[2]) for j in (0, expected.shape[1])]).T
         matrix, place = matrix[1], place[:2, [0, 1, 3]]
     elif matrix is not None:
-        corners = np.array([[i, j, k, 1] for i in (0, expected.shape[2]) for j in (0, expected.shape[1])
-                            for k in (0, expected.shape[0])]).T
+        corners = np.array(
+            [
+                [i, j, k, 1]
+                for i in (0, expected.shape[2])
+                for j in (0, expected.shape[1])
+                for k in (0, expected.shape[0])
+            ]
+        ).T
     if matrix is not None:
         error = np.abs(matrix @ corners / scale - place @ corners).max()
         spacing = np.linalg.norm(place[:, :2], axis=0).min()

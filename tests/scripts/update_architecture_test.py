@@ -15,7 +15,13 @@ PAGE = """| folder | holds | inside |
 | [svt/core](../../svt/core) | results | `gone` |
 | [svt/mesh](../../svt/mesh) | triangles | |
 """
-FILES = ["svt/core/text/text.cpp", "svt/core/error/error.cpp", "svt/core/only/only_test.cpp", "svt/core/vec.hpp", "svt/mesh/mesh.cpp"]
+FILES = [
+    "svt/core/text/text.cpp",
+    "svt/core/error/error.cpp",
+    "svt/core/only/only_test.cpp",
+    "svt/core/vec.hpp",
+    "svt/mesh/mesh.cpp",
+]
 
 
 class UpdateArchitecture(unittest.TestCase):

@@ -66,20 +66,29 @@ def main():
         "gzip": numcodecs.GZip(),
         "zstd": numcodecs.Zstd(),
         "lz4": numcodecs.LZ4(),
-        **{f"{inner}{shuffle}": blosc(inner, shuffle=shuffle) for inner in ("lz4", "lz4hc", "zlib", "zstd")
-           for shuffle in (blosc.NOSHUFFLE, blosc.SHUFFLE, blosc.BITSHUFFLE)},
+        **{
+            f"{inner}{shuffle}": blosc(inner, shuffle=shuffle)
+            for inner in ("lz4", "lz4hc", "zlib", "zstd")
+            for shuffle in (blosc.NOSHUFFLE, blosc.SHUFFLE, blosc.BITSHUFFLE)
+        },
         "blocks": blosc("lz4", shuffle=blosc.SHUFFLE, blocksize=4096),
         "incompressible": blosc("lz4", clevel=0),
     }
     for name, compressor in compressors.items():
-        for kind in ("u1", "<u2", "<i4") if name != "none" else ("u1", "i1", "<u2", ">u2", ">i2", "<i4", ">u4", "<i8", ">u8", "bool"):
+        for kind in (
+            ("u1", "<u2", "<i4")
+            if name != "none"
+            else ("u1", "i1", "<u2", ">u2", ">i2", "<i4", ">u4", "<i8", ">u8", "bool")
+        ):
             path = os.path.join(FOLDER, f"{name}-{kind.strip('<>')}-{kind[0] == '>'}.zarr")
             values = labels(kind)
             zarr.save_array(path, values, chunks=(7, 16, 33), compressor=compressor)
             expect(path, values.astype("i8"))
 
     # Fortran's order, names with '/', chunks that are missing, a fill value that is none of the background.
-    for n, options in enumerate(({"order": "F"}, {"dimension_separator": "/"}, {"order": "F", "dimension_separator": "/"})):
+    for n, options in enumerate(
+        ({"order": "F"}, {"dimension_separator": "/"}, {"order": "F", "dimension_separator": "/"})
+    ):
         path, values = os.path.join(FOLDER, f"layout{n}.zarr"), labels("<u2")
         array = zarr.open_array(path, mode="w", shape=SHAPE, chunks=(10, 20, 30), dtype="<u2", fill_value=9, **options)
         values[10:20] = 9
@@ -93,21 +102,38 @@ def main():
     group.create_dataset("fine/0", data=values[None, None], chunks=(1, 1, 8, 16, 16), dimension_separator="/")
     axes = [{"name": "t", "type": "time"}, {"name": "c", "type": "channel"}]
     axes += [{"name": a, "type": "space", "unit": "millimeter"} for a in "zyx"]
-    steps = [{"type": "scale", "scale": [1, 1, 30, 20, 10]}, {"type": "translation", "translation": [0, 0, 3000, 2000, 1000]}]
-    group.attrs["multiscales"] = [{"version": "0.4", "axes": axes, "coordinateTransformations": [{"type": "scale", "scale": [1, 1, 2, 2, 2]}],
-                                   "datasets": [{"path": "fine/0", "coordinateTransformations": steps}]}]
+    steps = [
+        {"type": "scale", "scale": [1, 1, 30, 20, 10]},
+        {"type": "translation", "translation": [0, 0, 3000, 2000, 1000]},
+    ]
+    group.attrs["multiscales"] = [
+        {
+            "version": "0.4",
+            "axes": axes,
+            "coordinateTransformations": [{"type": "scale", "scale": [1, 1, 2, 2, 2]}],
+            "datasets": [{"path": "fine/0", "coordinateTransformations": steps}],
+        }
+    ]
     value = int(values.max())
-    group.attrs["image-label"] = {"colors": [{"label-value": value, "rgba": [255, 128, 0, 255]}],
-                                  "properties": [{"label-value": value, "class": "Wall", "name": "K\u00fcche"}]}
+    group.attrs["image-label"] = {
+        "colors": [{"label-value": value, "rgba": [255, 128, 0, 255]}],
+        "properties": [{"label-value": value, "class": "Wall", "name": "K\u00fcche"}],
+    }
     fields = expect(path, values.astype("i8"))
-    assert fields["space origin"] == "(2,4,6)" and fields["space directions"] == "(0.02,0,0) (0,0.04,0) (0,0,0.06)", fields
+    assert (
+        fields["space origin"] == "(2,4,6)" and fields["space directions"] == "(0.02,0,0) (0,0.04,0) (0,0,0.06)"
+    ), fields
     table = open(path + ".nrrd", "rb").read().split(b"\n\n", 1)[0].decode()
     assert '"class":"Wall","name":"K\\\\u00fcche"' in table, table[:3000]
 
     # What cannot be read, or leads out of the folder.
-    for name, options, word in (("bz2", {"compressor": numcodecs.BZ2()}, "bz2"), ("blosclz", {"compressor": blosc("blosclz")}, "BloscLZ"),
-                                ("filters", {"filters": [numcodecs.Delta("<u2")]}, "filters"), ("float", {"dtype": "<f4"}, "no labels"),
-                                ("flat", {"shape": (40, 70), "chunks": (20, 20)}, "three sizes")):
+    for name, options, word in (
+        ("bz2", {"compressor": numcodecs.BZ2()}, "bz2"),
+        ("blosclz", {"compressor": blosc("blosclz")}, "BloscLZ"),
+        ("filters", {"filters": [numcodecs.Delta("<u2")]}, "filters"),
+        ("float", {"dtype": "<f4"}, "no labels"),
+        ("flat", {"shape": (40, 70), "chunks": (20, 20)}, "three sizes"),
+    ):
         path = os.path.join(FOLDER, name + ".zarr")
         options = {"shape": SHAPE, "chunks": (8, 16, 16), "dtype": "<u2", **options}
         array = zarr.open_array(path, mode="w", **options)

@@ -35,11 +35,16 @@ svt.call("font", [], readFileSync(join(moduleFolder, "DejaVuSans.ttf")));
 const kScenes = {
   plain: {},
   cut: {
-    look: "paper", samples: 4, camera: { preset: "iso-sw" }, hatches: { show: true },
+    look: "paper",
+    samples: 4,
+    camera: { preset: "iso-sw" },
+    hatches: { show: true },
     passes: [{ hide: ["class=BuildingRoom"], cut: "z>1.4" }],
   },
   glass: {
-    look: "dark", samples: 1, camera: { eye: [-8, -6, 9], target: [4, 4, 1.5] },
+    look: "dark",
+    samples: 1,
+    camera: { eye: [-8, -6, 9], target: [4, 4, 1.5] },
     passes: [{ styles: [{ select: "all", ghost: true }] }, { show: ["class=BuildingRoom"], join: "depth" }],
   },
   named: { camera: { preset: "front", parallel: true }, passes: [{ hide: ["class=BuildingRoom"] }], names: ["class=Window"] },
@@ -69,8 +74,10 @@ test("a volume has the features that the command lists", () => {
   assert.equal(info.features.length, all.size);
   for (const feature of info.features) {
     const other = all.get(feature.id);
-    assert.deepEqual([feature.class, feature.name, feature.parent, feature.first, feature.count],
-      [other.class, other.name, other.parent ?? "", other.first, other.count]);
+    assert.deepEqual(
+      [feature.class, feature.name, feature.parent, feature.first, feature.count],
+      [other.class, other.name, other.parent ?? "", other.first, other.count],
+    );
   }
   assert.deepEqual(info.dimension, listed.grid.dimension);
   assert.deepEqual(info.spacing, listed.grid.spacing);
@@ -101,16 +108,24 @@ test("properties, neighbours and selections are rows of 'svt query'", () => {
   open(houseVolume);
   const { grid } = rows("info", houseVolume);
   const selected = rows("query", houseVolume, "class=BuildingRoom", "--with", "volume,surface,box");
-  assert.deepEqual(ask("select", "class=BuildingRoom"), selected.map(({ id }) => id));
+  assert.deepEqual(
+    ask("select", "class=BuildingRoom"),
+    selected.map(({ id }) => id),
+  );
   for (const row of selected) {
     const properties = ask("properties", row.id);
     assert.equal(properties.surface, row.surface.area);
     assert.equal(properties.voxelVolume, row.voxelVolume);
     assert.equal(properties.modelVolume, row.closed ? row.volume : null);
-    assert.deepEqual(properties.box.low, row.box.min.map((x, axis) => x - grid.origin[axis]));
+    assert.deepEqual(
+      properties.box.low,
+      row.box.min.map((x, axis) => x - grid.origin[axis]),
+    );
     const neighbours = rows("query", houseVolume, `id="${row.id}"`, "--neighbours").filter((n) => n.neighbour !== null);
-    assert.deepEqual(properties.neighbours,
-      neighbours.map((n) => ({ id: n.neighbour, class: n.neighbourClass, name: n.neighbourName, area: n.area })));
+    assert.deepEqual(
+      properties.neighbours,
+      neighbours.map((n) => ({ id: n.neighbour, class: n.neighbourClass, name: n.neighbourName, area: n.area })),
+    );
   }
 });
 
@@ -142,8 +157,20 @@ test("what is picked is what the label buffer has there, and lies on the ray", (
 test("effects and drawings are those of the command", () => {
   open(houseVolume);
   const lens = { region: "view(0.5,0.5,0.3)", cut: "y<4", context: "ghost" };
-  run("render", houseVolume, "-o", at("p.png"), "--size", "64x40", "--lens", lens.region, "--section", lens.cut,
-    "--write-scene", at("lens.json"));
+  run(
+    "render",
+    houseVolume,
+    "-o",
+    at("p.png"),
+    "--size",
+    "64x40",
+    "--lens",
+    lens.region,
+    "--section",
+    lens.cut,
+    "--write-scene",
+    at("lens.json"),
+  );
   const scene = { size: [64, 40] };
   assert.deepEqual(ask("compose", scene, { lens }), JSON.parse(readFileSync(at("lens.json"), "utf8")));
   for (const format of ["svg", "dxf", "geojson"]) {
@@ -168,7 +195,10 @@ test("errors have their codes, and leave what was open as it was", () => {
   fails("E103", () => svt.call("open", ["bad.gml"], new TextEncoder().encode("not a model")));
   const damaged = readFileSync(houseVolume);
   damaged.fill(0x55, damaged.length >> 1, (damaged.length >> 1) + 64);
-  assert.throws(() => svt.call("open", ["bad.svt"], damaged), ({ code }) => code === "E401" || code === "E402");
+  assert.throws(
+    () => svt.call("open", ["bad.svt"], damaged),
+    ({ code }) => code === "E401" || code === "E402",
+  );
   fails("E901", () => svt.call("select", ["class=="]));
   fails("E902", () => svt.call("properties", ["nobody"]));
   fails("E502", () => svt.call("draw", [{}, 0, 10]));

@@ -20,7 +20,11 @@ export default defineConfig({
       name: "language-template",
       apply: "build",
       generateBundle() {
-        this.emitFile({ type: "asset", fileName: "languages/template.json", source: `${JSON.stringify({ texts: template(), classes: {} }, null, 1)}\n` });
+        this.emitFile({
+          type: "asset",
+          fileName: "languages/template.json",
+          source: `${JSON.stringify({ texts: template(), classes: {} }, null, 1)}\n`,
+        });
       },
     },
   ],

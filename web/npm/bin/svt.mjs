@@ -1,35 +1,35 @@
 #!/usr/bin/env node
 // The command svt: the program of apps/cli as WebAssembly, with the files of this system.
-import { spawn } from 'node:child_process';
-import { readFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import os from 'node:os';
-import path from 'node:path';
-import process from 'node:process';
-import tty from 'node:tty';
-import { fileURLToPath } from 'node:url';
+import { spawn } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import os from "node:os";
+import path from "node:path";
+import process from "node:process";
+import tty from "node:tty";
+import { fileURLToPath } from "node:url";
 
-import { commandEnvironment, commandPath, hostPath, writeAll } from '../lib/host.mjs';
-import { serve } from '../lib/server.mjs';
+import { commandEnvironment, commandPath, hostPath, writeAll } from "../lib/host.mjs";
+import { serve } from "../lib/server.mjs";
 
-if (Number(process.versions.node.split('.')[0]) < 18) {
+if (Number(process.versions.node.split(".")[0]) < 18) {
   process.stderr.write(`svt: Node.js 18 or newer is needed; this is ${process.versions.node}\n`);
   process.exit(1);
 }
 
 function openBrowser(address) {
   const [program, ...first] =
-    process.platform === 'win32' ? ['cmd', '/c', 'start', ''] : process.platform === 'darwin' ? ['open'] : ['xdg-open'];
-  const child = spawn(program, [...first, address], { stdio: 'ignore', detached: true });
-  child.on('error', () => process.stderr.write('svt: no browser could be started; open the address yourself\n'));
+    process.platform === "win32" ? ["cmd", "/c", "start", ""] : process.platform === "darwin" ? ["open"] : ["xdg-open"];
+  const child = spawn(program, [...first, address], { stdio: "ignore", detached: true });
+  child.on("error", () => process.stderr.write("svt: no browser could be started; open the address yourself\n"));
   child.unref();
 }
 
-const isWindows = process.platform === 'win32';
+const isWindows = process.platform === "win32";
 let serving;
-const createSvtCommand = createRequire(import.meta.url)('../lib/svt_node.cjs');
+const createSvtCommand = createRequire(import.meta.url)("../lib/svt_node.cjs");
 const command = await createSvtCommand({
-  wasmBinary: readFileSync(new URL('../lib/svt_node.wasm', import.meta.url)),
+  wasmBinary: readFileSync(new URL("../lib/svt_node.wasm", import.meta.url)),
   host: {
     isWindows,
     // Not process.stderr.isTTY: to look at it makes a pipe non-blocking, and with 2>&1 stdout too.

@@ -1,5 +1,5 @@
 // What the WebAssembly command asks of Node.js: paths of this system, the terminal, pipes, the server.
-import path from 'node:path';
+import path from "node:path";
 
 /**
  * A path as the command sees it, as a path for Node.js.
@@ -16,7 +16,7 @@ export function hostPath(given, folder, isWindows) {
   if (!isWindows) return path.posix.resolve(folder, given);
   const drive = given.match(/.*(?:^|\/)([A-Za-z]:)(?=\/|$)(.*)/s);
   // "C:" alone would be that drive's current folder.
-  const whole = drive ? `${drive[1]}${drive[2] || '/'}` : given;
+  const whole = drive ? `${drive[1]}${drive[2] || "/"}` : given;
   return path.win32.resolve(folder, whole);
 }
 
@@ -26,7 +26,7 @@ export function hostPath(given, folder, isWindows) {
  * @param {boolean} isWindows
  */
 export function commandPath(given, isWindows) {
-  return isWindows ? given.replaceAll('\\', '/') : given;
+  return isWindows ? given.replaceAll("\\", "/") : given;
 }
 
 /**

@@ -1,19 +1,19 @@
 // Serves a folder that the command has written: the page with its models. Nothing else can be asked for.
-import { createHash } from 'node:crypto';
-import { readdirSync, readFileSync, rmSync } from 'node:fs';
-import http from 'node:http';
-import net from 'node:net';
-import path from 'node:path';
+import { createHash } from "node:crypto";
+import { readdirSync, readFileSync, rmSync } from "node:fs";
+import http from "node:http";
+import net from "node:net";
+import path from "node:path";
 
 const TYPES = {
-  '.css': 'text/css; charset=utf-8',
-  '.html': 'text/html; charset=utf-8',
-  '.js': 'text/javascript; charset=utf-8',
-  '.json': 'application/json',
-  '.png': 'image/png',
-  '.svg': 'image/svg+xml',
-  '.ttf': 'font/ttf',
-  '.wasm': 'application/wasm',
+  ".css": "text/css; charset=utf-8",
+  ".html": "text/html; charset=utf-8",
+  ".js": "text/javascript; charset=utf-8",
+  ".json": "application/json",
+  ".png": "image/png",
+  ".svg": "image/svg+xml",
+  ".ttf": "font/ttf",
+  ".wasm": "application/wasm",
 };
 
 /**
@@ -29,13 +29,13 @@ export function readSite(folder) {
       if (entry.isDirectory()) visit(name);
       else if (entry.isFile()) {
         const bytes = readFileSync(path.join(folder, name));
-        const tag = `"${createHash('sha256').update(bytes).digest('hex').slice(0, 32)}"`;
-        site.set(name, { bytes, type: TYPES[path.extname(name)] ?? 'application/octet-stream', tag });
+        const tag = `"${createHash("sha256").update(bytes).digest("hex").slice(0, 32)}"`;
+        site.set(name, { bytes, type: TYPES[path.extname(name)] ?? "application/octet-stream", tag });
       }
     }
   };
-  visit('');
-  if (site.has('/index.html')) site.set('/', site.get('/index.html'));
+  visit("");
+  if (site.has("/index.html")) site.set("/", site.get("/index.html"));
   return site;
 }
 
@@ -45,8 +45,8 @@ export function readSite(folder) {
  * @param {readonly string[]} names  in lower case
  */
 export function isKnownHost(header, names) {
-  const host = (header ?? '').toLowerCase().replace(/:\d+$/, '');
-  return host === 'localhost' || net.isIP(host.replace(/^\[|\]$/g, '')) !== 0 || names.includes(host);
+  const host = (header ?? "").toLowerCase().replace(/:\d+$/, "");
+  return host === "localhost" || net.isIP(host.replace(/^\[|\]$/g, "")) !== 0 || names.includes(host);
 }
 
 /**
@@ -55,50 +55,49 @@ export function isKnownHost(header, names) {
  *   after the end
  */
 export function byteRange(header, size) {
-  const match = /^bytes=(\d*)-(\d*)$/.exec(header ?? '');
-  if (!match || (match[1] === '' && match[2] === '')) return 'whole';
-  if (match[1] === '') return Number(match[2]) === 0 ? 'none' : { first: Math.max(0, size - Number(match[2])), last: size - 1 };
+  const match = /^bytes=(\d*)-(\d*)$/.exec(header ?? "");
+  if (!match || (match[1] === "" && match[2] === "")) return "whole";
+  if (match[1] === "") return Number(match[2]) === 0 ? "none" : { first: Math.max(0, size - Number(match[2])), last: size - 1 };
   const first = Number(match[1]);
-  const last = match[2] === '' ? size - 1 : Math.min(Number(match[2]), size - 1);
-  if (match[2] !== '' && Number(match[2]) < first) return 'whole';
-  return first < size ? { first, last } : 'none';
+  const last = match[2] === "" ? size - 1 : Math.min(Number(match[2]), size - 1);
+  if (match[2] !== "" && Number(match[2]) < first) return "whole";
+  return first < size ? { first, last } : "none";
 }
 
 /** The handler of requests for a site of readSite(). */
 export function handler(site, hostNames) {
   return (request, response) => {
     const refuse = (status, message, headers = {}) => {
-      response.writeHead(status, { 'Content-Type': 'application/json', ...headers });
+      response.writeHead(status, { "Content-Type": "application/json", ...headers });
       response.end(JSON.stringify({ code: `HTTP${status}`, message }));
     };
-    if (!isKnownHost(request.headers.host, hostNames)) return refuse(421, 'this server has another name');
-    if (request.method !== 'GET' && request.method !== 'HEAD')
-      return refuse(405, 'only GET and HEAD are possible', { Allow: 'GET, HEAD' });
+    if (!isKnownHost(request.headers.host, hostNames)) return refuse(421, "this server has another name");
+    if (request.method !== "GET" && request.method !== "HEAD") return refuse(405, "only GET and HEAD are possible", { Allow: "GET, HEAD" });
     let name;
     try {
-      name = decodeURIComponent(request.url.split('?')[0]);
+      name = decodeURIComponent(request.url.split("?")[0]);
     } catch {
-      return refuse(400, 'the address is not well formed');
+      return refuse(400, "the address is not well formed");
     }
     const file = site.get(name);
-    if (!file) return refuse(404, 'there is no such file');
+    if (!file) return refuse(404, "there is no such file");
     const headers = {
-      'Content-Type': file.type,
+      "Content-Type": file.type,
       ETag: file.tag,
-      'Accept-Ranges': 'bytes',
-      'Cache-Control': 'no-cache',
-      'X-Content-Type-Options': 'nosniff',
+      "Accept-Ranges": "bytes",
+      "Cache-Control": "no-cache",
+      "X-Content-Type-Options": "nosniff",
     };
-    if (request.headers['if-none-match'] === file.tag) {
+    if (request.headers["if-none-match"] === file.tag) {
       response.writeHead(304, headers);
       return response.end();
     }
     const range = byteRange(request.headers.range, file.bytes.length);
-    if (range === 'none') return refuse(416, 'the range begins after the end', { 'Content-Range': `bytes */${file.bytes.length}` });
-    const part = range === 'whole' ? file.bytes : file.bytes.subarray(range.first, range.last + 1);
-    if (range !== 'whole') headers['Content-Range'] = `bytes ${range.first}-${range.last}/${file.bytes.length}`;
-    response.writeHead(range === 'whole' ? 200 : 206, { ...headers, 'Content-Length': part.length });
-    return response.end(request.method === 'HEAD' ? undefined : part);
+    if (range === "none") return refuse(416, "the range begins after the end", { "Content-Range": `bytes */${file.bytes.length}` });
+    const part = range === "whole" ? file.bytes : file.bytes.subarray(range.first, range.last + 1);
+    if (range !== "whole") headers["Content-Range"] = `bytes ${range.first}-${range.last}/${file.bytes.length}`;
+    response.writeHead(range === "whole" ? 200 : 206, { ...headers, "Content-Length": part.length });
+    return response.end(request.method === "HEAD" ? undefined : part);
   };
 }
 
@@ -119,8 +118,8 @@ export function serve(orders, openBrowser) {
       rmSync(orders.folder, { recursive: true, force: true });
       resolve(code);
     };
-    server.on('error', (error) => {
-      if (error.code === 'EADDRINUSE' && orders.mayTakeOtherPort && port < orders.port + 100) {
+    server.on("error", (error) => {
+      if (error.code === "EADDRINUSE" && orders.mayTakeOtherPort && port < orders.port + 100) {
         port += 1;
         server.listen(port, orders.host);
         return;
@@ -128,16 +127,16 @@ export function serve(orders, openBrowser) {
       process.stderr.write(`svt: error E901 BadArgument: the server cannot listen at ${orders.host}:${port}: ${error.message}\n`);
       end(1);
     });
-    server.on('listening', () => {
+    server.on("listening", () => {
       port = server.address().port;
       if (orders.port !== 0 && port !== orders.port) process.stderr.write(`svt: port ${orders.port} is taken; this is port ${port}\n`);
-      const name = net.isIPv6(orders.host) ? `[${orders.host}]` : orders.host === '0.0.0.0' ? '127.0.0.1' : orders.host;
+      const name = net.isIPv6(orders.host) ? `[${orders.host}]` : orders.host === "0.0.0.0" ? "127.0.0.1" : orders.host;
       const address = `http://${name}:${port}/`;
       process.stdout.write(`${address}\n`);
       if (orders.opensBrowser) openBrowser(address);
-      process.stderr.write('svt: Ctrl-C stops\n');
+      process.stderr.write("svt: Ctrl-C stops\n");
     });
-    for (const signal of ['SIGINT', 'SIGTERM'])
+    for (const signal of ["SIGINT", "SIGTERM"])
       process.once(signal, () => {
         server.close();
         server.closeAllConnections?.();

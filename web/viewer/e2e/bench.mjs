@@ -40,11 +40,13 @@ const finest = async (page) => {
 async function start(url, into) {
   const { context, close } = await browse(shape);
   const page = await context.newPage();
-  await page.waitForTimeout(1_500);  // a browser that has started, and has never seen the page
+  await page.waitForTimeout(1_500); // a browser that has started, and has never seen the page
   const begin = performance.now();
   await page.goto(url, { waitUntil: "commit" });
-  const cold = await firstImage(page), outside = performance.now() - begin;
-  const fine = await finest(page), fineOutside = performance.now() - begin;
+  const cold = await firstImage(page),
+    outside = performance.now() - begin;
+  const fine = await finest(page),
+    fineOutside = performance.now() - begin;
   await page.reload();
   const warm = await firstImage(page);
   for (const [name, value] of Object.entries({ cold, outside, fine, fineOutside, warm })) (into[name] ??= []).push(value);
@@ -60,14 +62,24 @@ async function frames(url, kind) {
   await page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine", null, { timeout: 120_000 });
   const found = await page.evaluate(async () => {
     const s = document.querySelector("svt-app").session;
-    const { engine, milliseconds: still } = s.report, threads = s.engine.threads ?? 1;
+    const { engine, milliseconds: still } = s.report,
+      threads = s.engine.threads ?? 1;
     const times = [];
     const start = performance.now();
-    let last = s.report, angle = 0;
+    let last = s.report,
+      angle = 0;
     while (performance.now() - start < 6_000) {
-      const { camera } = s.state, [x, y] = [camera.eye[0] - camera.target[0], camera.eye[1] - camera.target[1]];
+      const { camera } = s.state,
+        [x, y] = [camera.eye[0] - camera.target[0], camera.eye[1] - camera.target[1]];
       angle = 0.02;
-      s.turn({ ...camera, eye: [camera.target[0] + x * Math.cos(angle) - y * Math.sin(angle), camera.target[1] + x * Math.sin(angle) + y * Math.cos(angle), camera.eye[2]] });
+      s.turn({
+        ...camera,
+        eye: [
+          camera.target[0] + x * Math.cos(angle) - y * Math.sin(angle),
+          camera.target[1] + x * Math.sin(angle) + y * Math.cos(angle),
+          camera.eye[2],
+        ],
+      });
       await new Promise(requestAnimationFrame);
       if (s.report !== last) times.push(performance.now());
       last = s.report;
@@ -76,7 +88,13 @@ async function frames(url, kind) {
     const context = new OffscreenCanvas(1, 1).getContext("webgl2");
     const info = context?.getExtension("WEBGL_debug_renderer_info");
     return {
-      engine, threads, still, fps, byCpu: last.engine === "cpu", moving: [last.width, last.height], size: s.pictureSize,
+      engine,
+      threads,
+      still,
+      fps,
+      byCpu: last.engine === "cpu",
+      moving: [last.width, last.height],
+      size: s.pictureSize,
       driver: info ? context.getParameter(info.UNMASKED_RENDERER_WEBGL) : "none",
     };
   });
@@ -98,21 +116,35 @@ for (const [label, url, kind] of kinds) engines.push([label, kind, await frames(
 
 /** What scripts/bench.py reads, of the page as it is served: seconds, frames a second, and how much of the picture's width is cast while it turns. */
 function figures() {
-  const cpu = engines[0][2], webgl2 = engines.find(([label]) => label === "webgl2")?.[2];
+  const cpu = engines[0][2],
+    webgl2 = engines.find(([label]) => label === "webgl2")?.[2];
   return {
-    first_image_s: median(times[0].outside) / 1e3, finest_s: median(times[0].fineOutside) / 1e3, again_s: median(times[0].warm) / 1e3,
-    turning_fps: cpu.fps, turning_share: cpu.moving[0] / cpu.size[0], still_s: cpu.still / 1e3, ...(webgl2 ? { still_webgl2_s: webgl2.still / 1e3 } : {}),
+    first_image_s: median(times[0].outside) / 1e3,
+    finest_s: median(times[0].fineOutside) / 1e3,
+    again_s: median(times[0].warm) / 1e3,
+    turning_fps: cpu.fps,
+    turning_share: cpu.moving[0] / cpu.size[0],
+    still_s: cpu.still / 1e3,
+    ...(webgl2 ? { still_webgl2_s: webgl2.still / 1e3 } : {}),
   };
 }
 
 function table() {
   console.log(`${name}, page of 1280 x 720, \`svt serve\` on the same machine; medians of ${kRounds}, in turns.\n`);
-  console.log("| CPU caster | first image, unseen browser | from outside | finest | from outside | first image, loaded again |\n| --- | --- | --- | --- | --- | --- |");
-  for (const [i, taken] of times.entries()) console.log(`| ${kinds[i][0]} | ${["cold", "outside", "fine", "fineOutside", "warm"].map((of) => ms(median(taken[of]))).join(" | ")} |`);
+  console.log(
+    "| CPU caster | first image, unseen browser | from outside | finest | from outside | first image, loaded again |\n| --- | --- | --- | --- | --- | --- |",
+  );
+  for (const [i, taken] of times.entries())
+    console.log(
+      `| ${kinds[i][0]} | ${["cold", "outside", "fine", "fineOutside", "warm"].map((of) => ms(median(taken[of]))).join(" | ")} |`,
+    );
   console.log("\n| engine | driver | turning: frames a second | of pixels | still, 4 rays a pixel |\n| --- | --- | --- | --- | --- |");
   for (const [label, kind, found] of engines) {
     if (!found) console.log(`| ${label} | does not draw here | - | - | - |`);
-    else console.log(`| ${label}${kind === "cpu" ? ` (${found.threads})` : ""} | ${kind === "cpu" ? "-" : found.driver} | ${found.fps.toFixed(1)}${kind !== "cpu" && found.byCpu ? " (coarse, by the CPU)" : ""} | ${found.moving.join(" x ")} | ${found.size.join(" x ")} in ${ms(found.still)} |`);
+    else
+      console.log(
+        `| ${label}${kind === "cpu" ? ` (${found.threads})` : ""} | ${kind === "cpu" ? "-" : found.driver} | ${found.fps.toFixed(1)}${kind !== "cpu" && found.byCpu ? " (coarse, by the CPU)" : ""} | ${found.moving.join(" x ")} | ${found.size.join(" x ")} in ${ms(found.still)} |`,
+      );
   }
 }
 

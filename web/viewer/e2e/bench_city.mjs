@@ -4,16 +4,21 @@
 import { basename } from "node:path";
 import { browse, svtServe } from "./harness.mjs";
 
-const latency = Number(process.env.SVT_LATENCY ?? 50), megabits = Number(process.env.SVT_MBITS ?? 20);
+const latency = Number(process.env.SVT_LATENCY ?? 50),
+  megabits = Number(process.env.SVT_MBITS ?? 20);
 const kFlight = 12_000;
 
-const fly = (page) => page.evaluate(async (duration) => {
+const fly = (page) =>
+  page.evaluate(async (duration) => {
     const s = document.querySelector("svt-app").session;
     const [w, d] = s.info.size;
     // From above one corner down to 60 m over the roofs, then across the city.
     const before = { ...s.city.files.traffic };
     const drawn = [];
-    let last = s.report, heap = 0, stepped = performance.now(), slowest = 0;
+    let last = s.report,
+      heap = 0,
+      stepped = performance.now(),
+      slowest = 0;
     const start = performance.now();
     for (let now = start; now - start < duration; now = performance.now()) {
       slowest = Math.max(slowest, now - stepped);
@@ -27,9 +32,22 @@ const fly = (page) => page.evaluate(async (duration) => {
       last = s.report;
       heap = Math.max(heap, s.city.look.heap);
     }
-    const gaps = drawn.slice(1).map((at, n) => at - drawn[n]).sort((a, b) => a - b);
+    const gaps = drawn
+      .slice(1)
+      .map((at, n) => at - drawn[n])
+      .sort((a, b) => a - b);
     const { requests, bytes } = s.city.files.traffic;
-    return { frames: drawn.length, median: gaps[gaps.length >> 1], p95: gaps[Math.floor(gaps.length * 0.95)], longest: gaps.at(-1), slowest, heap, requests: requests - before.requests, bytes: bytes - before.bytes, size: [last.width, last.height] };
+    return {
+      frames: drawn.length,
+      median: gaps[gaps.length >> 1],
+      p95: gaps[Math.floor(gaps.length * 0.95)],
+      longest: gaps.at(-1),
+      slowest,
+      heap,
+      requests: requests - before.requests,
+      bytes: bytes - before.bytes,
+      size: [last.width, last.height],
+    };
   }, kFlight);
 
 async function measure(city) {
@@ -41,12 +59,19 @@ async function measure(city) {
   await page.waitForFunction(() => performance.getEntriesByName("svt-first-image").length > 0, null, { timeout: 120_000 });
   const client = await context.newCDPSession(page);
   await client.send("Network.enable");
-  await client.send("Network.emulateNetworkConditions", { offline: false, latency, downloadThroughput: (megabits * 1e6) / 8, uploadThroughput: (megabits * 1e6) / 8 });
+  await client.send("Network.emulateNetworkConditions", {
+    offline: false,
+    latency,
+    downloadThroughput: (megabits * 1e6) / 8,
+    uploadThroughput: (megabits * 1e6) / 8,
+  });
   await page.reload();
   await page.waitForFunction(() => performance.getEntriesByName("svt-first-image").length > 0, null, { timeout: 120_000 });
   const atFirst = await page.evaluate(() => {
     const ms = performance.getEntriesByName("svt-first-image")[0].startTime;
-    const before = performance.getEntriesByType("resource").filter(({ name, responseEnd }) => /city\.json|\.bin$|\.svtp$/.test(name) && responseEnd > 0 && responseEnd <= ms);
+    const before = performance
+      .getEntriesByType("resource")
+      .filter(({ name, responseEnd }) => /city\.json|\.bin$|\.svtp$/.test(name) && responseEnd > 0 && responseEnd <= ms);
     return { ms, requests: before.length, bytes: before.reduce((sum, { encodedBodySize }) => sum + encodedBodySize, 0) };
   });
   const isComplete = () => document.querySelector("svt-app").session.city.isComplete;
@@ -68,14 +93,24 @@ async function measure(city) {
   return { fixed, name: basename(city), buildings, atFirst, atEnd, flight, after };
 }
 
-const kB = (bytes) => `${Math.round(bytes / 1000)} kB`, s = (ms) => `${(ms / 1000).toFixed(1)} s`, mb = (bytes) => `${Math.round(bytes / 1e6)} MB`;
+const kB = (bytes) => `${Math.round(bytes / 1000)} kB`,
+  s = (ms) => `${(ms / 1000).toFixed(1)} s`,
+  mb = (bytes) => `${Math.round(bytes / 1e6)} MB`;
 const rows = [];
 for (const city of process.argv.slice(2)) rows.push(await measure(city));
-console.log(`Chromium, 1280 x 720, ${latency} ms and ${megabits} Mbit/s simulated, \`svt serve\` on the same machine; the page itself as of a second visit.\n`);
+console.log(
+  `Chromium, 1280 x 720, ${latency} ms and ${megabits} Mbit/s simulated, \`svt serve\` on the same machine; the page itself as of a second visit.\n`,
+);
 console.log("| buildings | first picture | complete view | tiles, details | memory of a worker |\n|---|---|---|---|---|");
 for (const { buildings, atFirst, atEnd } of rows)
-  console.log(`| ${buildings.toLocaleString("en")} | ${s(atFirst.ms)}, ${atFirst.requests} requests, ${kB(atFirst.bytes)} | ${s(atEnd.ms)}, ${atEnd.requests} requests, ${kB(atEnd.bytes)} | ${atEnd.look.tiles} of ${atEnd.look.coarsest} to ${atEnd.look.finest}, ${atEnd.look.pixels.toFixed(1)} pixels | ${mb(atEnd.look.heap)} |`);
-console.log("\n| buildings | frames in 12 s of flight; without streaming | between two: median, 95 %, longest; without | longest wait of the page | requests, bytes | memory of a worker | where it ends |\n|---|---|---|---|---|---|---|");
+  console.log(
+    `| ${buildings.toLocaleString("en")} | ${s(atFirst.ms)}, ${atFirst.requests} requests, ${kB(atFirst.bytes)} | ${s(atEnd.ms)}, ${atEnd.requests} requests, ${kB(atEnd.bytes)} | ${atEnd.look.tiles} of ${atEnd.look.coarsest} to ${atEnd.look.finest}, ${atEnd.look.pixels.toFixed(1)} pixels | ${mb(atEnd.look.heap)} |`,
+  );
+console.log(
+  "\n| buildings | frames in 12 s of flight; without streaming | between two: median, 95 %, longest; without | longest wait of the page | requests, bytes | memory of a worker | where it ends |\n|---|---|---|---|---|---|---|",
+);
 const gaps = (f) => `${f.median?.toFixed(0)}, ${f.p95?.toFixed(0)}, ${f.longest?.toFixed(0)}`;
 for (const { buildings, flight: f, fixed, after } of rows)
-  console.log(`| ${buildings.toLocaleString("en")} | ${f.frames} of ${f.size.join(" x ")}; ${fixed.frames} | ${gaps(f)} ms; ${gaps(fixed)} ms | ${f.slowest.toFixed(0)} ms | ${f.requests}, ${kB(f.bytes)} | ${mb(Math.max(f.heap, after.heap))} | ${after.tiles} tiles of details ${after.coarsest} to ${after.finest}, ${kB(after.bytes)}, ${after.pixels.toFixed(1)} pixels |`);
+  console.log(
+    `| ${buildings.toLocaleString("en")} | ${f.frames} of ${f.size.join(" x ")}; ${fixed.frames} | ${gaps(f)} ms; ${gaps(fixed)} ms | ${f.slowest.toFixed(0)} ms | ${f.requests}, ${kB(f.bytes)} | ${mb(Math.max(f.heap, after.heap))} | ${after.tiles} tiles of details ${after.coarsest} to ${after.finest}, ${kB(after.bytes)}, ${after.pixels.toFixed(1)} pixels |`,
+  );

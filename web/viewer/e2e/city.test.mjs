@@ -9,7 +9,14 @@ import { browse, page as pageFolder, policy, svt, svtServe } from "./harness.mjs
 
 const folder = mkdtempSync(join(tmpdir(), "svt-city-test-"));
 const at = (name) => join(folder, name);
-const kTypes = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".wasm": "application/wasm", ".json": "application/json" };
+const kTypes = {
+  ".html": "text/html",
+  ".js": "text/javascript",
+  ".css": "text/css",
+  ".svg": "image/svg+xml",
+  ".wasm": "application/wasm",
+  ".json": "application/json",
+};
 const kId = "BLDG_0000000100000005";
 const servers = [];
 let browser, page;
@@ -21,7 +28,8 @@ function serveCity(answer = () => null) {
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url, "http://x").pathname).replace(/^\/+/, "") || "index.html";
     const own = path.startsWith("town/") ? at(path) : join(pageFolder, path);
-    if (path === "models.json") return response.end(JSON.stringify({ models: [{ name: "town", title: "town", file: "town/", bytes: 0, city: true }] }));
+    if (path === "models.json")
+      return response.end(JSON.stringify({ models: [{ name: "town", title: "town", file: "town/", bytes: 0, city: true }] }));
     if (!existsSync(own) || !statSync(own).isFile()) return response.writeHead(404).end();
     const headers = { "Content-Type": kTypes[extname(path)] ?? "application/octet-stream", "Content-Security-Policy": policy };
     const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? "");
@@ -29,7 +37,9 @@ function serveCity(answer = () => null) {
       response.writeHead(200, headers);
       return createReadStream(own).pipe(response);
     }
-    const all = readFileSync(own), first = Number(range[1]), last = Math.min(Number(range[2]), all.length - 1);
+    const all = readFileSync(own),
+      first = Number(range[1]),
+      last = Math.min(Number(range[2]), all.length - 1);
     const part = all.subarray(first, last + 1);
     const other = answer(path, first, last, part, all);
     response.writeHead(other?.status ?? 206, { ...headers, "Content-Range": `bytes ${first}-${last}/${all.length}`, ...other?.headers });
@@ -37,20 +47,37 @@ function serveCity(answer = () => null) {
   });
   return new Promise((done) =>
     server.listen(0, "127.0.0.1", () =>
-      done({ url: `http://127.0.0.1:${server.address().port}/`, close: () => new Promise((r) => (server.closeAllConnections(), server.close(r))) }),
+      done({
+        url: `http://127.0.0.1:${server.address().port}/`,
+        close: () => new Promise((r) => (server.closeAllConnections(), server.close(r))),
+      }),
     ),
   );
 }
 
-const inPage = (body, value) => page.evaluate(([text, v]) => new Function("s", "v", `return (async () => (${text}))()`)(document.querySelector("svt-app").session, v), [body, value]);
-const complete = () => page.waitForFunction(() => document.querySelector("svt-app").session.city?.isComplete && document.querySelector("svt-app").session.quality === "fine", null, { timeout: 60_000 });
+const inPage = (body, value) =>
+  page.evaluate(
+    ([text, v]) => new Function("s", "v", `return (async () => (${text}))()`)(document.querySelector("svt-app").session, v),
+    [body, value],
+  );
+const complete = () =>
+  page.waitForFunction(
+    () => document.querySelector("svt-app").session.city?.isComplete && document.querySelector("svt-app").session.quality === "fine",
+    null,
+    { timeout: 60_000 },
+  );
 
 async function open(url) {
   await browser?.close().catch(() => {});
   browser = await browse({ locale: "en-US", colorScheme: "light" });
   page = await browser.context.newPage();
   const asked = [];
-  page.on("request", (request) => request.headers().range && asked.push({ file: new URL(request.url()).pathname.replace(/^.*(town|models\/[^/]+)\//, ""), range: request.headers().range }));
+  page.on(
+    "request",
+    (request) =>
+      request.headers().range &&
+      asked.push({ file: new URL(request.url()).pathname.replace(/^.*(town|models\/[^/]+)\//, ""), range: request.headers().range }),
+  );
   await page.goto(url);
   return asked;
 }
@@ -73,7 +100,13 @@ describe("A city on the page", () => {
     await page.waitForFunction(() => performance.getEntriesByName("svt-first-image").length > 0, null, { timeout: 30_000 });
     const first = asked.slice(0, 3).map(({ file }) => file);
     assert.equal(first[0], "city.json");
-    assert.deepEqual(first.slice(1).map((file) => file.replace(/\d+/, "N")).sort(), ["index.bin", "packs/N.svtp"]);
+    assert.deepEqual(
+      first
+        .slice(1)
+        .map((file) => file.replace(/\d+/, "N"))
+        .sort(),
+      ["index.bin", "packs/N.svtp"],
+    );
     await complete();
     const { requests, bytes } = await inPage("s.city.files.traffic");
     assert.equal(requests, asked.length);
@@ -84,10 +117,21 @@ describe("A city on the page", () => {
     assert.equal(seen.look.pixels, 1);
     // Near the ground there are buildings with their attributes, and the address leads there again.
     const size = await inPage("s.info.size");
-    await inPage("s.set({ camera: { ...s.state.camera, eye: v.eye, target: v.target } })", { eye: [size[0] / 2, size[1] / 2, 60], target: [size[0] / 2 + 60, size[1] / 2 + 80, 5] });
+    await inPage("s.set({ camera: { ...s.state.camera, eye: v.eye, target: v.target } })", {
+      eye: [size[0] / 2, size[1] / 2, 60],
+      target: [size[0] / 2 + 60, size[1] / 2 + 80, 5],
+    });
     await page.waitForFunction(() => !document.querySelector("svt-app").session.city.isComplete);
     await complete();
-    assert.equal(await inPage("s.city.look.finest"), 0, JSON.stringify(await inPage("[{ ...s.city.look, info: null }, s.state.camera, s.message, s.city.files.traffic, s.city.pixels, s.city.camera === s.state.camera]")));
+    assert.equal(
+      await inPage("s.city.look.finest"),
+      0,
+      JSON.stringify(
+        await inPage(
+          "[{ ...s.city.look, info: null }, s.state.camera, s.message, s.city.files.traffic, s.city.pixels, s.city.camera === s.state.camera]",
+        ),
+      ),
+    );
     assert.ok((await inPage("s.index.features.filter(({ class: c }) => c === 'Building').length")) > 10);
     const picked = await inPage("s.engine.pick(0.5, 0.6)");
     assert.ok(picked?.id, "nothing in the middle of the picture");
@@ -119,22 +163,33 @@ describe("A city on the page", () => {
     const isTop = (path, first) => path.endsWith(`${String(top.pack).padStart(5, "0")}.svtp`) && first === top.offset;
     for (const spoil of [
       (part) => ({ body: Buffer.concat([part.subarray(0, 40), Buffer.from([part[40] ^ 255]), part.subarray(41)]) }),
-      (part, first, last, all) => ({ body: part.subarray(0, -1), headers: { "Content-Range": `bytes ${first}-${last - 1}/${all.length}` } }),
+      (part, first, last, all) => ({
+        body: part.subarray(0, -1),
+        headers: { "Content-Range": `bytes ${first}-${last - 1}/${all.length}` },
+      }),
       () => ({ status: 404, body: "" }),
     ]) {
-      const server = started(await serveCity((path, first, last, part, all) => (path.startsWith("town/packs/") && !isTop(path, first) ? spoil(part, first, last, all) : null)));
+      const server = started(
+        await serveCity((path, first, last, part, all) =>
+          path.startsWith("town/packs/") && !isTop(path, first) ? spoil(part, first, last, all) : null,
+        ),
+      );
       await open(server.url);
       await page.getByText("tiles of the city cannot be shown").first().waitFor({ timeout: 30_000 });
       await complete();
       assert.equal(await inPage("s.status"), "ready");
-      }
+    }
   });
 
   it("names a server without ranges, and an index that is damaged", async () => {
     const whole = started(await serveCity((path, first, last, part, all) => ({ status: 200, body: all })));
     await open(whole.url);
     await page.getByText("the server sends whole files where a part is asked for").first().waitFor({ timeout: 30_000 });
-    const damaged = started(await serveCity((path, first, last, part) => (path.endsWith("index.bin") ? { body: Buffer.concat([part.subarray(0, 50), Buffer.from([part[50] ^ 1]), part.subarray(51)]) } : null)));
+    const damaged = started(
+      await serveCity((path, first, last, part) =>
+        path.endsWith("index.bin") ? { body: Buffer.concat([part.subarray(0, 50), Buffer.from([part[50] ^ 1]), part.subarray(51)]) } : null,
+      ),
+    );
     await open(damaged.url);
     await page.getByText("the root of the index is missing or damaged").first().waitFor({ timeout: 30_000 });
   });

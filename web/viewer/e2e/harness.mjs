@@ -14,7 +14,14 @@ export const command = process.env.SVT_COMMAND ?? join(repository, "build/releas
 export const dataDir = process.env.SVT_DATA_DIR ?? resolve(repository, "../shared/data");
 export const browserPath = process.env.SVT_CHROMIUM ?? "/usr/bin/chromium";
 
-const kTypes = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".wasm": "application/wasm", ".json": "application/json" };
+const kTypes = {
+  ".html": "text/html",
+  ".js": "text/javascript",
+  ".css": "text/css",
+  ".svg": "image/svg+xml",
+  ".wasm": "application/wasm",
+  ".json": "application/json",
+};
 export const policy =
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data: blob:; font-src 'self'; connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
@@ -24,7 +31,7 @@ export function serve(files = {}, isIsolated = false) {
     const path = decodeURIComponent(new URL(request.url, "http://x").pathname).replace(/^\/+/, "") || "index.html";
     const file = path in files ? files[path] : join(page, normalize(path));
     const isText = typeof file === "object";
-    if (!isText && (!file.startsWith(page) && !(path in files) || !existsSync(file) || !statSync(file).isFile())) {
+    if (!isText && ((!file.startsWith(page) && !(path in files)) || !existsSync(file) || !statSync(file).isFile())) {
       response.writeHead(404).end("not here");
       return;
     }
@@ -40,14 +47,21 @@ export function serve(files = {}, isIsolated = false) {
   });
   return new Promise((done) =>
     server.listen(0, "127.0.0.1", () =>
-      done({ url: `http://127.0.0.1:${server.address().port}/`, close: () => new Promise((r) => (server.closeAllConnections(), server.close(r))) }),
+      done({
+        url: `http://127.0.0.1:${server.address().port}/`,
+        close: () => new Promise((r) => (server.closeAllConnections(), server.close(r))),
+      }),
     ),
   );
 }
 
 /** A model list as `svt serve` makes it. */
 export function withModels(models) {
-  const files = { "models.json": { models: models.map(({ name, path, title }) => ({ name, title, file: `data/${name}.svt`, bytes: statSync(path).size })) } };
+  const files = {
+    "models.json": {
+      models: models.map(({ name, path, title }) => ({ name, title, file: `data/${name}.svt`, bytes: statSync(path).size })),
+    },
+  };
   for (const { name, path } of models) files[`data/${name}.svt`] = path;
   return files;
 }
@@ -59,8 +73,14 @@ export async function browse(options = {}) {
     executablePath: browserPath,
     headless: true,
     args: [
-      "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
-      "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+      "--no-sandbox",
+      "--disable-quic",
+      "--no-first-run",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
+      "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader",
     ],
     viewport: { width: 1200, height: 640 },
     acceptDownloads: true,
@@ -78,7 +98,9 @@ export function svt(...words) {
 
 /** `svt serve` with the built page. Resolves to { url, close }. */
 export function svtServe(...words) {
-  const child = spawn(command, ["serve", ...(words.includes("--viewer") ? words : [...words, "--viewer", page]), "--port", "0"], { stdio: ["ignore", "pipe", "pipe"] });
+  const child = spawn(command, ["serve", ...(words.includes("--viewer") ? words : [...words, "--viewer", page]), "--port", "0"], {
+    stdio: ["ignore", "pipe", "pipe"],
+  });
   return new Promise((resolve, reject) => {
     let said = "";
     const heard = (chunk) => {

@@ -39,13 +39,21 @@ describe("large models", () => {
     await visit.page.locator("#refining").getByText("Coarse for now").waitFor();
     // Meanwhile it is cut, picked and turned.
     await visit.until("s.state.camera");
-    const picked = await inPage("(async () => { for (let y = 0.3; y < 0.8; y += 0.1) { const pick = await s.engine.pick(0.5, y); if (pick) return pick.id; } return null; })()");
+    const picked = await inPage(
+      "(async () => { for (let y = 0.3; y < 0.8; y += 0.1) { const pick = await s.engine.pick(0.5, y); if (pick) return pick.id; } return null; })()",
+    );
     assert.ok(picked, "the coarse picture is picked");
-    await inPage("(s.select([v]), s.set({ sections: [{ axis: 'z', at: 2, flip: false, turn: 0, tilt: 90 }], measured: [[1, 1, 1]] }))", picked);
-    const world = "[...s.state.camera.eye.map((e, i) => e + s.info.origin[i]), s.state.sections[0].at + s.info.origin[2], s.state.measured[0][0] + s.info.origin[0]]";
+    await inPage(
+      "(s.select([v]), s.set({ sections: [{ axis: 'z', at: 2, flip: false, turn: 0, tilt: 90 }], measured: [[1, 1, 1]] }))",
+      picked,
+    );
+    const world =
+      "[...s.state.camera.eye.map((e, i) => e + s.info.origin[i]), s.state.sections[0].at + s.info.origin[2], s.state.measured[0][0] + s.info.origin[0]]";
     const before = await inPage(world);
     await visit.until("!s.refining.isCoarse", 240_000);
-    t.diagnostic(`first picture after ${first} ms, fine after ${Date.now() - start} ms, at ${coarse[1]} m, then ${await inPage("s.info.spacing[0]")} m`);
+    t.diagnostic(
+      `first picture after ${first} ms, fine after ${Date.now() - start} ms, at ${coarse[1]} m, then ${await inPage("s.info.spacing[0]")} m`,
+    );
     assert.ok((await inPage("s.info.spacing[0]")) < coarse[1], "finer voxels");
     assert.equal(await inPage("s.info.features.length"), coarse[2]);
     assert.deepEqual(await inPage("s.state.selection"), [picked]);
@@ -76,7 +84,10 @@ describe("large models", () => {
     await visit.choose(file("district.gml"));
     await visit.until("s.modelFile === 'district.gml' && !s.refining.isCoarse && s.report", 240_000);
     assert.ok((await inPage("s.info.spacing[0]")) > usual, "coarser than without");
-    await visit.page.getByText(/Voxels of .*since by .* MB/).first().waitFor();
+    await visit.page
+      .getByText(/Voxels of .*since by .* MB/)
+      .first()
+      .waitFor();
   });
 
   it("have storeys as a list, each once", async () => {
@@ -101,7 +112,10 @@ describe("storeys", () => {
     assert.equal(found.length, named.length);
     found.forEach((floor, i) => assert.ok(Math.abs(floor - named[i]) < 0.15, `level ${i} at ${floor}, storey at ${named[i]}`));
     await visit.tool("section");
-    await visit.page.getByRole("button", { name: /Cut Level at [\d.]+ m at 1.1 m/ }).first().click();
+    await visit.page
+      .getByRole("button", { name: /Cut Level at [\d.]+ m at 1.1 m/ })
+      .first()
+      .click();
     assert.equal((await visit.state()).sections[0].axis, "z");
   });
 });
@@ -123,12 +137,19 @@ describe("planes in faces", () => {
     assert.ok(plane.by > 0.0002 && plane.by < 0.002, `${plane.by} m`);
     await inPage("s.set({ sections: [{ axis: 'z', at: v, flip: false, turn: 0, tilt: 90 }] })", plane.at);
     await visit.page.locator("#moved-plane").getByText(`${plane.text} lies in faces of the model`).waitFor();
-    const picture = (cut) => inPage("(async () => [...new Uint8Array(await s.engine.picture({ size: [320, 180], passes: [{ cut: v }] }))].join())()", cut);
+    const picture = (cut) =>
+      inPage("(async () => [...new Uint8Array(await s.engine.picture({ size: [320, 180], passes: [{ cut: v }] }))].join())()", cut);
     const moved = await picture(plane.text);
     assert.equal(moved, await picture(`z>${(plane.at - plane.by).toFixed(6)}`), "as a plane a hair below");
-    const told = spawnSync(command, ["render", at("house.svt"), "-o", at("p.png"), "--size", "320x180", "--section", plane.text], { encoding: "utf8" });
+    const told = spawnSync(command, ["render", at("house.svt"), "-o", at("p.png"), "--size", "320x180", "--section", plane.text], {
+      encoding: "utf8",
+    });
     assert.match(told.stderr, /lies in faces of the model; it is moved by [\d.]+ mm to the side that is kept/);
-    const beside = spawnSync(command, ["render", at("house.svt"), "-o", at("q.png"), "--size", "320x180", "--section", `z>${(plane.at + 0.021).toFixed(4)}`], { encoding: "utf8" });
+    const beside = spawnSync(
+      command,
+      ["render", at("house.svt"), "-o", at("q.png"), "--size", "320x180", "--section", `z>${(plane.at + 0.021).toFixed(4)}`],
+      { encoding: "utf8" },
+    );
     assert.doesNotMatch(beside.stderr, /lies in faces/);
     // Beside the face nothing is said.
     await inPage("s.set({ sections: [{ axis: 'z', at: v + 0.021, flip: false, turn: 0, tilt: 90 }] })", plane.at);
@@ -146,8 +167,14 @@ describe("search and colours", () => {
   });
 
   it("finds types by words of the language", async () => {
-    const expected = async (type) => (await inPage(`(await s.engine.select('class=${type}')).length`));
-    for (const [word, type] of [["window", "IfcWindow"], ["Fenster", "IfcWindow"], ["IfcWindow", "IfcWindow"], ["Wand", "IfcWall"], ["Tür", "IfcDoor"]]) {
+    const expected = async (type) => await inPage(`(await s.engine.select('class=${type}')).length`);
+    for (const [word, type] of [
+      ["window", "IfcWindow"],
+      ["Fenster", "IfcWindow"],
+      ["IfcWindow", "IfcWindow"],
+      ["Wand", "IfcWall"],
+      ["Tür", "IfcDoor"],
+    ]) {
       await visit.page.fill("#search", word);
       const wanted = await expected(type);
       assert.ok(wanted > 0, type);
@@ -156,7 +183,9 @@ describe("search and colours", () => {
         assert.ok(Number(/^\d+/.exec(said)?.[0]) >= wanted, `${word}: ${said}, expected ${wanted}`);
       });
       const ids = await inPage(`s.engine.select('class=${type}')`);
-      const found = await inPage("[...document.querySelector('svt-app').shadowRoot.querySelector('svt-tree').rows.shown].map((i) => s.index.features[i].id)");
+      const found = await inPage(
+        "[...document.querySelector('svt-app').shadowRoot.querySelector('svt-tree').rows.shown].map((i) => s.index.features[i].id)",
+      );
       for (const id of ids) assert.ok(found.includes(id), `${word} does not find ${id}`);
     }
     await visit.page.fill("#search", "");
@@ -176,9 +205,15 @@ describe("search and colours", () => {
     const legend = visit.page.getByRole("list", { name: "Legend: ifcType" });
     await legend.waitFor();
     const rows = await legend.getByRole("listitem").allTextContents();
-    assert.ok(rows.some((row) => /^IfcWall\w*: \d+$/.test(row)), `the legend as text: ${rows.join("; ")}`);
+    assert.ok(
+      rows.some((row) => /^IfcWall\w*: \d+$/.test(row)),
+      `the legend as text: ${rows.join("; ")}`,
+    );
     await inPage("s.set({ colorBy: 'volume' })");
-    await visit.page.getByRole("list", { name: /^Legend: volume/ }).getByText(/^from [\d.,]+ to [\d.,]+$/).waitFor({ state: "attached" });
+    await visit.page
+      .getByRole("list", { name: /^Legend: volume/ })
+      .getByText(/^from [\d.,]+ to [\d.,]+$/)
+      .waitFor({ state: "attached" });
     await inPage("s.set({ colorBy: '' })");
     await legend.waitFor({ state: "detached" });
   });
@@ -198,13 +233,18 @@ describe("tables and several models", () => {
     await visit.page.getByRole("button", { name: "Dismiss" }).click();
     await visit.tool("share");
     await visit.page.click("#copy-command");
-    await visit.eventually(async () => assert.match(await visit.page.evaluate(() => navigator.clipboard.readText()), /--color-by owner --owners parcels\.csv$/));
+    await visit.eventually(async () =>
+      assert.match(await visit.page.evaluate(() => navigator.clipboard.readText()), /--color-by owner --owners parcels\.csv$/),
+    );
     // Another table takes its place; a bad one says where.
     await visit.choose({ name: "other.csv", bytes: Buffer.from(`feature,owner\n${rooms[0]},Cleo\n`) });
     await visit.message("Owners are those of other.csv");
     assert.deepEqual(await inPage("s.engine.select('owner=Ada').catch(() => [])"), []);
     await visit.choose({ name: "bad.csv", bytes: Buffer.from("feature,owner\nno such thing,Ada\n") });
-    await visit.page.locator("#message.bad").getByText(/bad\.csv:2/).waitFor();
+    await visit.page
+      .locator("#message.bad")
+      .getByText(/bad\.csv:2/)
+      .waitFor();
   });
 
   it("volumes are drawn together, picked as one, and named by the command", async () => {
@@ -215,7 +255,9 @@ describe("tables and several models", () => {
     await visit.choose(file("a.svt"), file("part.svt"));
     await visit.until("s.modelFile === 'a.svt' && s.report");
     assert.equal(await inPage("s.info.details"), 1);
-    const [bytes, scene] = await inPage("(async () => { const scene = await s.composed([320, 180]); return [btoa(Array.from(new Uint8Array(await s.engine.picture(scene)), (b) => String.fromCharCode(b)).join('')), scene]; })()");
+    const [bytes, scene] = await inPage(
+      "(async () => { const scene = await s.composed([320, 180]); return [btoa(Array.from(new Uint8Array(await s.engine.picture(scene)), (b) => String.fromCharCode(b)).join('')), scene]; })()",
+    );
     writeFileSync(at("two.scene.json"), JSON.stringify(scene));
     svt("render", at("a.svt"), "--with", at("part.svt"), "--scene", at("two.scene.json"), "-o", at("two.png"));
     assert.ok(Buffer.from(bytes, "base64").equals(readFileSync(at("two.png"))), "as svt render --with");
@@ -224,10 +266,15 @@ describe("tables and several models", () => {
       for (let y = 0.05; y < 1; y += 0.05) for (let x = 0.05; x < 1; x += 0.05) ids.add((await s.engine.pick(x, y))?.id ?? "");
       return [...ids];
     })()`);
-    assert.ok(seen.some((id) => id.startsWith("house_")) && seen.some((id) => id.startsWith("tower_")), `objects of both are picked: ${seen.join(" ")}`);
+    assert.ok(
+      seen.some((id) => id.startsWith("house_")) && seen.some((id) => id.startsWith("tower_")),
+      `objects of both are picked: ${seen.join(" ")}`,
+    );
     await visit.tool("share");
     await visit.page.click("#copy-command");
-    await visit.eventually(async () => assert.match(await visit.page.evaluate(() => navigator.clipboard.readText()), /^svt render a\.svt .*--with part\.svt$/));
+    await visit.eventually(async () =>
+      assert.match(await visit.page.evaluate(() => navigator.clipboard.readText()), /^svt render a\.svt .*--with part\.svt$/),
+    );
   });
 
   it("models become one", async () => {
@@ -236,7 +283,12 @@ describe("tables and several models", () => {
     const rooms = (await inPage("s.engine.select('class=BuildingRoom')")).length;
     assert.equal(rooms, 2 * JSON.parse(svt("query", at("house.svt"), "class=BuildingRoom", "--json")).length);
     await visit.page.click("#copy-command");
-    await visit.eventually(async () => assert.match(await visit.page.evaluate(() => navigator.clipboard.readText()), /^svt build house\.gml again\.gml -o model\.svt .* && svt render model\.svt /));
+    await visit.eventually(async () =>
+      assert.match(
+        await visit.page.evaluate(() => navigator.clipboard.readText()),
+        /^svt build house\.gml again\.gml -o model\.svt .* && svt render model\.svt /,
+      ),
+    );
   });
 });
 
@@ -247,10 +299,14 @@ describe("walking", () => {
     await visit.settled();
     await visit.page.locator("svt-picture .stage").focus();
     await visit.page.keyboard.press("g");
-    await visit.until("s.isWalking && Math.abs(s.state.camera.eye[2] - s.state.camera.target[2]) < 1e-6 && s.state.camera.fieldOfView === 65");
+    await visit.until(
+      "s.isWalking && Math.abs(s.state.camera.eye[2] - s.state.camera.target[2]) < 1e-6 && s.state.camera.fieldOfView === 65",
+    );
     await visit.page.waitForTimeout(500);
     const eye = (await visit.state()).camera.eye;
-    const boxes = await inPage("(async () => { const all = []; for (const id of await s.engine.select('class=BuildingRoom')) all.push((await s.engine.properties(id)).box); return all; })()");
+    const boxes = await inPage(
+      "(async () => { const all = []; for (const id of await s.engine.select('class=BuildingRoom')) all.push((await s.engine.properties(id)).box); return all; })()",
+    );
     const isIn = (p, slack) => boxes.some(({ low, high }) => p.every((v, i) => v > low[i] - slack && v < high[i] + slack));
     assert.ok(isIn(eye, 0), `stands at ${eye}, in no room`);
     // In all directions a wall, or a door and then the open, ends the way: never inside of a wall.

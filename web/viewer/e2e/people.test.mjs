@@ -17,8 +17,17 @@ before(async () => {
   svt("build", at("house.ifc"), "-o", at("house.svt"), "--spacing", "0.12", "--vectors", "edges,meshes");
   server = await serve({
     ...withModels([{ name: "house", path: at("house.svt"), title: "Sample house" }]),
-    "languages/index.json": { languages: [{ code: "tlh", name: "tlhIngan Hol" }, { code: "../x", name: "Bad" }, { code: "eo", name: "Esperanto" }] },
-    "languages/tlh.json": { texts: { addPlane: "beQ chenmoH", section: "pe'", found: "{n} tu'", view_front: 7 }, classes: { Window: "Qorwagh" } },
+    "languages/index.json": {
+      languages: [
+        { code: "tlh", name: "tlhIngan Hol" },
+        { code: "../x", name: "Bad" },
+        { code: "eo", name: "Esperanto" },
+      ],
+    },
+    "languages/tlh.json": {
+      texts: { addPlane: "beQ chenmoH", section: "pe'", found: "{n} tu'", view_front: 7 },
+      classes: { Window: "Qorwagh" },
+    },
     "languages/eo.json": { texts: 4 },
   });
   await visit.open(`${server.url}?model=house`);
@@ -30,19 +39,32 @@ after(async () => {
 });
 
 describe("BCF 3.0", () => {
-  const kView = { hide: ["class=BuildingRoom"], sections: [{ axis: "y", at: 5, flip: true, turn: 45, tilt: 0 }, { axis: "free", at: 6, flip: false, turn: 30, tilt: 20 }] };
+  const kView = {
+    hide: ["class=BuildingRoom"],
+    sections: [
+      { axis: "y", at: 5, flip: true, turn: 45, tilt: 0 },
+      { axis: "free", at: 6, flip: false, turn: 30, tilt: 20 },
+    ],
+  };
 
   it("takes views out as topics that keep to the schemas, and back in as they were", async (t) => {
-    const [wall, door] = await inPage("Promise.all(['IfcWall', 'IfcDoor'].map(async (type) => (await s.engine.select('class=' + type))[0]))");
+    const [wall, door] = await inPage(
+      "Promise.all(['IfcWall', 'IfcDoor'].map(async (type) => (await s.engine.select('class=' + type))[0]))",
+    );
     await inPage("s.set(v)", { ...kView, selection: [wall], styles: [{ select: `id="${door}"`, color: "#ff0080" }] });
     await visit.tool("share");
     await visit.page.click("#keep-view");
-    await inPage("(async () => { await s.goTo('', 'top'); await new Promise((r) => setTimeout(r, 500)); const c = s.state.camera; s.turn({ ...c, parallel: true, height: 17.5 }); s.set({ hide: [], show: [v], sections: [], styles: [] }); })()", `id="${wall}"`);
+    await inPage(
+      "(async () => { await s.goTo('', 'top'); await new Promise((r) => setTimeout(r, 500)); const c = s.state.camera; s.turn({ ...c, parallel: true, height: 17.5 }); s.set({ hide: [], show: [v], sections: [], styles: [] }); })()",
+      `id="${wall}"`,
+    );
     const list = visit.page.locator("svt-bookmark-list li");
     await visit.eventually(async () => assert.equal(await list.count(), 1));
     await visit.page.click("#keep-view");
     await visit.eventually(async () => assert.equal(await list.count(), 2));
-    const kept = await inPage("document.querySelector('svt-app').shadowRoot.querySelector('svt-share-tool').shadowRoot.querySelector('svt-bookmark-list').views");
+    const kept = await inPage(
+      "document.querySelector('svt-app').shadowRoot.querySelector('svt-share-tool').shadowRoot.querySelector('svt-bookmark-list').views",
+    );
     const { name, bytes } = await visit.saved(() => visit.page.click("#export-bcf"));
     assert.equal(name, "views.bcf");
     const folder = at("bcf");
@@ -55,12 +77,19 @@ describe("BCF 3.0", () => {
     assert.ok(names.includes("bcf.version") && names.includes("extensions.xml"));
     // With the schemas of buildingSMART (BCF-XML, release 3.0) at hand, by them.
     const schemas = process.env.SVT_BCF_SCHEMAS ?? "";
-    const kinds = [["bcf.version", "version"], ["extensions.xml", "extensions"], [/markup\.bcf$/, "markup"], [/\.bcfv$/, "visinfo"]];
+    const kinds = [
+      ["bcf.version", "version"],
+      ["extensions.xml", "extensions"],
+      [/markup\.bcf$/, "markup"],
+      [/\.bcfv$/, "visinfo"],
+    ];
     if (existsSync(join(schemas, "markup.xsd")))
       for (const file of names)
         for (const [pattern, schema] of kinds) {
           if (!(pattern instanceof RegExp ? pattern.test(file) : file === pattern)) continue;
-          const checked = spawnSync("xmllint", ["--noout", "--schema", join(schemas, `${schema}.xsd`), join(folder, file)], { encoding: "utf8" });
+          const checked = spawnSync("xmllint", ["--noout", "--schema", join(schemas, `${schema}.xsd`), join(folder, file)], {
+            encoding: "utf8",
+          });
           assert.equal(checked.status, 0, `${file}: ${checked.stderr}`);
         }
     else t.diagnostic("not held against the schemas: SVT_BCF_SCHEMAS names no folder with markup.xsd");
@@ -68,31 +97,58 @@ describe("BCF 3.0", () => {
     const info = await inPage("s.info");
     const views = names.filter((n) => n.endsWith(".bcfv")).map((n) => readFileSync(join(folder, n), "utf8"));
     const numbers = (xml, tag) => [...new RegExp(`<${tag}><X>([^<]*)</X><Y>([^<]*)</Y><Z>([^<]*)</Z>`).exec(xml).slice(1)].map(Number);
-    const first = views.find((xml) => xml.includes("ClippingPlane")), second = views.find((xml) => xml.includes("OrthogonalCamera"));
-    numbers(first, "CameraViewPoint").forEach((value, i) => assert.ok(Math.abs(value - kept[0].state.camera.eye[i] - info.origin[i]) < 1e-6));
+    const first = views.find((xml) => xml.includes("ClippingPlane")),
+      second = views.find((xml) => xml.includes("OrthogonalCamera"));
+    numbers(first, "CameraViewPoint").forEach((value, i) =>
+      assert.ok(Math.abs(value - kept[0].state.camera.eye[i] - info.origin[i]) < 1e-6),
+    );
     // The first plane takes away what lies before y = 5: its direction points there.
     numbers(first, "Direction").forEach((value, i) => assert.ok(Math.abs(value - [0, -1, 0][i]) < 1e-9));
     assert.ok(Math.abs(numbers(first, "Location")[1] - info.origin[1] - 5) < 1e-6);
     assert.ok(first.includes(`<Selection><Component IfcGuid="${wall}"/>`) && first.includes('Color="FF0080"'));
     assert.match(second, /<ViewToWorldScale>17\.5</);
     // Back.
-    for (let n = 0; n < 2; ++n) await visit.page.getByRole("button", { name: /^Remove View/ }).first().click();
+    for (let n = 0; n < 2; ++n)
+      await visit.page
+        .getByRole("button", { name: /^Remove View/ })
+        .first()
+        .click();
     await visit.page.locator("#views-file").setInputFiles({ name: "views.bcf", mimeType: "application/octet-stream", buffer: bytes });
     await visit.message("2 views added");
-    const back = await inPage("document.querySelector('svt-app').shadowRoot.querySelector('svt-share-tool').shadowRoot.querySelector('svt-bookmark-list').views");
-    assert.deepEqual(back.map((view) => view.name), kept.map((view) => view.name));
+    const back = await inPage(
+      "document.querySelector('svt-app').shadowRoot.querySelector('svt-share-tool').shadowRoot.querySelector('svt-bookmark-list').views",
+    );
+    assert.deepEqual(
+      back.map((view) => view.name),
+      kept.map((view) => view.name),
+    );
     for (const [n, { state }] of back.entries()) {
       const was = kept[n].state;
       state.camera.eye.forEach((value, i) => assert.ok(Math.abs(value - was.camera.eye[i]) < 1e-6));
       assert.equal(state.camera.parallel, was.camera.parallel);
       assert.deepEqual(state.selection, was.selection);
-      const seen = (queries) => inPage("(async () => { const all = new Set(); for (const q of v) for (const id of await s.engine.select(q)) all.add(id); return [...all].sort(); })()", queries);
+      const seen = (queries) =>
+        inPage(
+          "(async () => { const all = new Set(); for (const q of v) for (const id of await s.engine.select(q)) all.add(id); return [...all].sort(); })()",
+          queries,
+        );
       if (n === 0) {
         assert.deepEqual(await seen(state.hide), (await seen(was.hide)).filter(Boolean));
         for (const [i, section] of state.sections.entries())
-          for (const key of ["at", "turn", "tilt"]) if (section.axis === "free" || key === "at") assert.ok(Math.abs(section[key] - was.sections[i][key]) < 1e-5, `${key} of plane ${i}: ${section[key]}, was ${was.sections[i][key]}`);
-        assert.deepEqual(state.sections.map(({ axis, flip }) => [axis, flip]), was.sections.map(({ axis, flip }) => [axis, flip]));
-        assert.deepEqual(state.styles.map(({ color }) => color), ["#ff0080"]);
+          for (const key of ["at", "turn", "tilt"])
+            if (section.axis === "free" || key === "at")
+              assert.ok(
+                Math.abs(section[key] - was.sections[i][key]) < 1e-5,
+                `${key} of plane ${i}: ${section[key]}, was ${was.sections[i][key]}`,
+              );
+        assert.deepEqual(
+          state.sections.map(({ axis, flip }) => [axis, flip]),
+          was.sections.map(({ axis, flip }) => [axis, flip]),
+        );
+        assert.deepEqual(
+          state.styles.map(({ color }) => color),
+          ["#ff0080"],
+        );
       } else assert.deepEqual(state.show, was.show);
     }
     assert.ok(back.every(({ picture }) => picture.startsWith("data:image/png")));
@@ -102,14 +158,31 @@ describe("BCF 3.0", () => {
     const guid = "0123456789ABCDEFGHIJ$_";
     const xml = (text) => `<?xml version="1.0"?>${text}`;
     mkdirSync(at("foreign/t"), { recursive: true });
-    writeFileSync(at("foreign/t/markup.bcf"), xml(`<Markup><Topic Guid="x" TopicType="a" TopicStatus="b"><Title>From elsewhere</Title><Viewpoints><ViewPoint Guid="y"><Viewpoint>v.bcfv</Viewpoint></ViewPoint></Viewpoints></Topic></Markup>`));
-    writeFileSync(at("foreign/t/v.bcfv"), xml(`<VisualizationInfo Guid="y"><Components><Selection><Component IfcGuid="${guid}"/></Selection><Visibility DefaultVisibility="true"/></Components><PerspectiveCamera><CameraViewPoint><X>1</X><Y>2</Y><Z>3</Z></CameraViewPoint><CameraDirection><X>0</X><Y>1</Y><Z>0</Z></CameraDirection><CameraUpVector><X>0</X><Y>0</Y><Z>1</Z></CameraUpVector><FieldOfView>60</FieldOfView><AspectRatio>1</AspectRatio></PerspectiveCamera></VisualizationInfo>`));
+    writeFileSync(
+      at("foreign/t/markup.bcf"),
+      xml(
+        `<Markup><Topic Guid="x" TopicType="a" TopicStatus="b"><Title>From elsewhere</Title><Viewpoints><ViewPoint Guid="y"><Viewpoint>v.bcfv</Viewpoint></ViewPoint></Viewpoints></Topic></Markup>`,
+      ),
+    );
+    writeFileSync(
+      at("foreign/t/v.bcfv"),
+      xml(
+        `<VisualizationInfo Guid="y"><Components><Selection><Component IfcGuid="${guid}"/></Selection><Visibility DefaultVisibility="true"/></Components><PerspectiveCamera><CameraViewPoint><X>1</X><Y>2</Y><Z>3</Z></CameraViewPoint><CameraDirection><X>0</X><Y>1</Y><Z>0</Z></CameraDirection><CameraUpVector><X>0</X><Y>0</Y><Z>1</Z></CameraUpVector><FieldOfView>60</FieldOfView><AspectRatio>1</AspectRatio></PerspectiveCamera></VisualizationInfo>`,
+      ),
+    );
     // Deflated, as other programs do.
-    execFileSync("python3", ["-c", "import sys, zipfile; z = zipfile.ZipFile(sys.argv[1], 'w', zipfile.ZIP_DEFLATED); [z.write(sys.argv[2] + '/t/' + n, 't/' + n) for n in ('markup.bcf', 'v.bcfv')]; z.close()", at("foreign.bcfzip"), at("foreign")]);
+    execFileSync("python3", [
+      "-c",
+      "import sys, zipfile; z = zipfile.ZipFile(sys.argv[1], 'w', zipfile.ZIP_DEFLATED); [z.write(sys.argv[2] + '/t/' + n, 't/' + n) for n in ('markup.bcf', 'v.bcfv')]; z.close()",
+      at("foreign.bcfzip"),
+      at("foreign"),
+    ]);
     await visit.page.locator("#views-file").setInputFiles(at("foreign.bcfzip"));
     await visit.message("1 components of it are not in this model");
     await visit.page.locator("svt-bookmark-list button.go[aria-label='From elsewhere']").waitFor();
-    await visit.page.locator("#views-file").setInputFiles({ name: "noise.bcf", mimeType: "application/octet-stream", buffer: Buffer.from("noise") });
+    await visit.page
+      .locator("#views-file")
+      .setInputFiles({ name: "noise.bcf", mimeType: "application/octet-stream", buffer: Buffer.from("noise") });
     await visit.message("noise.bcf is no BCF file that can be read");
   });
 });
@@ -135,7 +208,12 @@ describe("languages", () => {
     await visit.open(`${server.url}?model=house`);
     const choice = visit.page.locator("#languages");
     await choice.waitFor();
-    assert.deepEqual(await choice.locator("option").evaluateAll((options) => options.map((option) => option.value)), ["en", "de", "tlh", "eo"]);
+    assert.deepEqual(await choice.locator("option").evaluateAll((options) => options.map((option) => option.value)), [
+      "en",
+      "de",
+      "tlh",
+      "eo",
+    ]);
     await choice.selectOption("tlh");
     await visit.tool("section");
     await visit.page.getByRole("button", { name: "beQ chenmoH" }).waitFor();
@@ -144,7 +222,9 @@ describe("languages", () => {
     assert.equal(await visit.page.locator("#tool-lens span").innerText(), "Lens", "what is missing is English");
     const windows = (await inPage("s.engine.select('class=IfcWindow')")).length;
     await visit.page.fill("#search", "qorwagh");
-    await visit.eventually(async () => assert.equal(await visit.page.locator("svt-tree [role=status]").first().innerText(), `${windows} tu'`));
+    await visit.eventually(async () =>
+      assert.equal(await visit.page.locator("svt-tree [role=status]").first().innerText(), `${windows} tu'`),
+    );
     await visit.page.fill("#search", "");
     await choice.selectOption("eo");
     await visit.message("languages/eo.json");
@@ -178,22 +258,31 @@ describe("languages", () => {
 describe("fingers", () => {
   const kTools = ["section", "lens", "focus", "look", "measure", "views", "share"];
   /** Controls that are seen: their sizes, and where they reach. */
-  const targets = () => visit.page.evaluate(() => {
-    const found = [];
-    const walk = (root) => {
-      for (const e of root.querySelectorAll("*")) {
-        if (e.shadowRoot) walk(e.shadowRoot);
-        // Of foreign parts, sliders: what a finger may move them by.
-        const isOwn = !e.getRootNode().host?.localName.startsWith("wa-") && e.matches("button, select, input:not([type=checkbox], [type=file], [type=hidden]), label.check, a[href]");
-        if (!isOwn && !e.matches("[part~=slider]")) continue;
-        const box = e.getBoundingClientRect();
-        if (!box.width || !box.height || e.matches(".skip, .twist") || !e.checkVisibility()) continue;
-        found.push({ what: `${e.localName}#${e.id}.${e.className} ${e.getAttribute("aria-label") ?? e.textContent.trim().slice(0, 20)}`, width: box.width, height: box.height, left: box.left, right: box.right });
-      }
-    };
-    walk(document);
-    return found;
-  });
+  const targets = () =>
+    visit.page.evaluate(() => {
+      const found = [];
+      const walk = (root) => {
+        for (const e of root.querySelectorAll("*")) {
+          if (e.shadowRoot) walk(e.shadowRoot);
+          // Of foreign parts, sliders: what a finger may move them by.
+          const isOwn =
+            !e.getRootNode().host?.localName.startsWith("wa-") &&
+            e.matches("button, select, input:not([type=checkbox], [type=file], [type=hidden]), label.check, a[href]");
+          if (!isOwn && !e.matches("[part~=slider]")) continue;
+          const box = e.getBoundingClientRect();
+          if (!box.width || !box.height || e.matches(".skip, .twist") || !e.checkVisibility()) continue;
+          found.push({
+            what: `${e.localName}#${e.id}.${e.className} ${e.getAttribute("aria-label") ?? e.textContent.trim().slice(0, 20)}`,
+            width: box.width,
+            height: box.height,
+            left: box.left,
+            right: box.right,
+          });
+        }
+      };
+      walk(document);
+      return found;
+    });
 
   for (const width of [360, 390])
     it(`reach everything at ${width} px: targets of 44 px, nothing beyond the border`, async () => {
@@ -246,7 +335,12 @@ describe("fingers", () => {
         const walk = (root) => {
           for (const e of root.querySelectorAll("*")) {
             if (e.shadowRoot) walk(e.shadowRoot);
-            if (e.matches("button, select, input:not([type=file], [type=hidden])") && e.checkVisibility() && !e.getRootNode().host?.localName.startsWith("wa-")) all.push(e);
+            if (
+              e.matches("button, select, input:not([type=file], [type=hidden])") &&
+              e.checkVisibility() &&
+              !e.getRootNode().host?.localName.startsWith("wa-")
+            )
+              all.push(e);
           }
         };
         walk(card);
@@ -254,7 +348,8 @@ describe("fingers", () => {
           e.scrollIntoView({ block: "nearest" });
           const box = e.getBoundingClientRect();
           const hit = document.elementFromPoint(box.left + box.width / 2, box.top + box.height / 2);
-          if (!hit || box.bottom > innerHeight + 1 || box.right > innerWidth + 1 || box.left < -1 || box.top < -1) bad.push(`${e.id || e.textContent} ${JSON.stringify(box)}`);
+          if (!hit || box.bottom > innerHeight + 1 || box.right > innerWidth + 1 || box.left < -1 || box.top < -1)
+            bad.push(`${e.id || e.textContent} ${JSON.stringify(box)}`);
         }
         return bad;
       });
@@ -279,11 +374,12 @@ describe("keys", () => {
     assert.equal((await visit.state()).sections[0].axis, "x");
     await visit.page.getByRole("button", { name: "Export as SVG" }).focus();
     await visit.page.keyboard.press("ArrowRight");
-    const focused = () => visit.page.evaluate(() => {
-      let active = document.activeElement;
-      while (active?.shadowRoot?.activeElement) active = active.shadowRoot.activeElement;
-      return active.getAttribute("aria-label") ?? active.textContent.trim();
-    });
+    const focused = () =>
+      visit.page.evaluate(() => {
+        let active = document.activeElement;
+        while (active?.shadowRoot?.activeElement) active = active.shadowRoot.activeElement;
+        return active.getAttribute("aria-label") ?? active.textContent.trim();
+      });
     assert.equal(await focused(), "Export as DXF");
     await visit.page.keyboard.press("End");
     assert.equal(await focused(), "Export as CSV");
@@ -300,13 +396,32 @@ describe("screen reader", () => {
     const client = await visit.page.context().newCDPSession(visit.page);
     const { nodes } = await client.send("Accessibility.getFullAXTree");
     await client.detach();
-    return nodes.filter((node) => !node.ignored).map((node) => ({
-      role: node.role?.value, name: node.name?.value ?? "",
-      ...Object.fromEntries((node.properties ?? []).map(({ name, value }) => [name, value.value])),
-    }));
+    return nodes
+      .filter((node) => !node.ignored)
+      .map((node) => ({
+        role: node.role?.value,
+        name: node.name?.value ?? "",
+        ...Object.fromEntries((node.properties ?? []).map(({ name, value }) => [name, value.value])),
+      }));
   };
 
-  for (const [locale, words] of [["en-US", { parts: "Parts", section: "Section", picture: "Picture of", search: "Search names and attributes", plane: "Plane 1", position: "Position" }], ["de-DE", { parts: "Teile", section: "Schnitt", picture: "Bild von", search: "Namen und Attribute suchen", plane: "Ebene 1", position: "Lage" }]])
+  for (const [locale, words] of [
+    [
+      "en-US",
+      {
+        parts: "Parts",
+        section: "Section",
+        picture: "Picture of",
+        search: "Search names and attributes",
+        plane: "Plane 1",
+        position: "Position",
+      },
+    ],
+    [
+      "de-DE",
+      { parts: "Teile", section: "Schnitt", picture: "Bild von", search: "Namen und Attribute suchen", plane: "Ebene 1", position: "Lage" },
+    ],
+  ])
     it(`is told what everything is, in ${locale}`, async () => {
       await visit.open(`${server.url}?model=house`, { locale });
       await visit.page.waitForFunction(() => customElements.get("wa-slider"));
@@ -318,15 +433,47 @@ describe("screen reader", () => {
       await visit.page.waitForTimeout(300);
       const nodes = await tree();
       const has = (role, name) => nodes.find((node) => node.role === role && node.name.startsWith(name));
-      for (const [role, name] of [["navigation", words.parts], ["toolbar", ""], ["button", words.section], ["tree", ""], ["searchbox", words.search], ["group", words.plane], ["slider", words.position], ["radiogroup", ""], ["main", ""]])
+      for (const [role, name] of [
+        ["navigation", words.parts],
+        ["toolbar", ""],
+        ["button", words.section],
+        ["tree", ""],
+        ["searchbox", words.search],
+        ["group", words.plane],
+        ["slider", words.position],
+        ["radiogroup", ""],
+        ["main", ""],
+      ])
         assert.ok(has(role, name), `no ${role} '${name}'`);
       assert.equal(has("button", words.section).expanded, true);
-      assert.ok(nodes.some((node) => node.name.startsWith(words.picture)), "the picture says what it is");
+      assert.ok(
+        nodes.some((node) => node.name.startsWith(words.picture)),
+        "the picture says what it is",
+      );
       const selected = nodes.filter((node) => node.role === "treeitem" && node.selected);
       assert.equal(selected.length, 1);
       assert.ok(selected[0].name.length > 0 && selected[0].level > 1);
-      const nameless = nodes.filter((node) => ["button", "slider", "checkbox", "radio", "combobox", "textbox", "searchbox", "spinbutton", "treeitem", "tab", "dialog", "switch"].includes(node.role) && !node.name.trim());
+      const nameless = nodes.filter(
+        (node) =>
+          [
+            "button",
+            "slider",
+            "checkbox",
+            "radio",
+            "combobox",
+            "textbox",
+            "searchbox",
+            "spinbutton",
+            "treeitem",
+            "tab",
+            "dialog",
+            "switch",
+          ].includes(node.role) && !node.name.trim(),
+      );
       assert.deepEqual(nameless, []);
-      assert.ok(nodes.some((node) => node.role === "status"), "selections are announced");
+      assert.ok(
+        nodes.some((node) => node.role === "status"),
+        "selections are announced",
+      );
     });
 });

@@ -5,18 +5,25 @@ import { inflateSync } from "node:zlib";
 export function readPng(bytes) {
   const parts = [];
   let width, height, depth, kind;
-  for (let at = 8; at < bytes.length; ) {
-    const size = bytes.readUInt32BE(at), name = bytes.toString("latin1", at + 4, at + 8), body = bytes.subarray(at + 8, at + 8 + size);
+  for (let at = 8; at < bytes.length;) {
+    const size = bytes.readUInt32BE(at),
+      name = bytes.toString("latin1", at + 4, at + 8),
+      body = bytes.subarray(at + 8, at + 8 + size);
     if (name === "IHDR") [width, height, depth, kind] = [body.readUInt32BE(0), body.readUInt32BE(4), body[8], body[9]];
     if (name === "IDAT") parts.push(body);
     at += size + 12;
   }
-  const channels = { 0: 1, 2: 3, 4: 2, 6: 4 }[kind], pixel = (channels * depth) / 8, row = width * pixel;
-  const raw = inflateSync(Buffer.concat(parts)), out = Buffer.alloc(row * height);
+  const channels = { 0: 1, 2: 3, 4: 2, 6: 4 }[kind],
+    pixel = (channels * depth) / 8,
+    row = width * pixel;
+  const raw = inflateSync(Buffer.concat(parts)),
+    out = Buffer.alloc(row * height);
   for (let y = 0; y < height; ++y) {
     const filter = raw[y * (row + 1)];
     for (let x = 0; x < row; ++x) {
-      const left = x >= pixel ? out[y * row + x - pixel] : 0, up = y ? out[(y - 1) * row + x] : 0, corner = x >= pixel && y ? out[(y - 1) * row + x - pixel] : 0;
+      const left = x >= pixel ? out[y * row + x - pixel] : 0,
+        up = y ? out[(y - 1) * row + x] : 0,
+        corner = x >= pixel && y ? out[(y - 1) * row + x - pixel] : 0;
       out[y * row + x] = (raw[y * (row + 1) + 1 + x] + [0, left, up, (left + up) >> 1, paeth(left, up, corner)][filter]) & 255;
     }
   }
@@ -25,6 +32,7 @@ export function readPng(bytes) {
 }
 
 function paeth(a, b, c) {
-  const p = a + b - c, [pa, pb, pc] = [Math.abs(p - a), Math.abs(p - b), Math.abs(p - c)];
+  const p = a + b - c,
+    [pa, pb, pc] = [Math.abs(p - a), Math.abs(p - b), Math.abs(p - c)];
   return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
 }

@@ -5,7 +5,8 @@ import { join } from "node:path";
 import { browse, repository, serve, svt, withModels } from "./harness.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "svt-viewer-picture-"));
-const model = join(folder, "house.gml"), volume = join(folder, "house.svt");
+const model = join(folder, "house.gml"),
+  volume = join(folder, "house.svt");
 svt("sample", "house", "-o", model);
 svt("build", model, "-o", volume, "--spacing", "0.03", "--vectors", "edges");
 const server = await serve(withModels([{ name: "house", path: volume, title: "Sample house" }]));

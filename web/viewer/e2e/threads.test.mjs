@@ -13,7 +13,11 @@ const visit = new Visit();
 const kScenes = {
   plain: {},
   cut: { look: "paper", samples: 4, hatches: { show: true }, passes: [{ hide: ["class=BuildingRoom"], cut: "z>1.4" }] },
-  glass: { look: "dark", samples: 1, passes: [{ styles: [{ select: "all", ghost: true }] }, { show: ["class=BuildingRoom"], join: "depth" }] },
+  glass: {
+    look: "dark",
+    samples: 1,
+    passes: [{ styles: [{ select: "all", ghost: true }] }, { show: ["class=BuildingRoom"], join: "depth" }],
+  },
   edges: { passes: [{ hide: ["class=BuildingRoom"], lines: [{ select: "all" }] }] },
   sun: { sun: { time: "2026-06-21 15:00", place: [50, 8] } },
 };
@@ -38,7 +42,10 @@ const models = () => withModels([{ name: "house", path: files.at("house.svt"), t
 async function pictures() {
   const made = {};
   for (const [name, scene] of Object.entries(kScenes)) {
-    made[name] = await visit.inPage(`s.engine.picture(v).then((b) => btoa(Array.from(new Uint8Array(b), (c) => String.fromCharCode(c)).join("")))`, { size: [480, 300], ...scene });
+    made[name] = await visit.inPage(
+      `s.engine.picture(v).then((b) => btoa(Array.from(new Uint8Array(b), (c) => String.fromCharCode(c)).join("")))`,
+      { size: [480, 300], ...scene },
+    );
   }
   return made;
 }

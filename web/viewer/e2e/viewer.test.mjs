@@ -16,12 +16,17 @@ const hasFzk = existsSync(fzk);
 let server, empty, browser, page, problems;
 
 /** In the page, with its session as `s`. */
-const inPage = (body, value) => page.evaluate(([text, v]) => new Function("s", "v", `return (async () => (${text}))()`)(document.querySelector("svt-app").session, v), [body, value]);
+const inPage = (body, value) =>
+  page.evaluate(
+    ([text, v]) => new Function("s", "v", `return (async () => (${text}))()`)(document.querySelector("svt-app").session, v),
+    [body, value],
+  );
 const state = () => inPage("s.state");
 /** The finest picture of what is shown now stands there. */
-const settled = (timeout = 30_000) => page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine", null, { timeout });
+const settled = (timeout = 30_000) =>
+  page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine", null, { timeout });
 const firstImage = () => page.waitForFunction(() => performance.getEntriesByName("svt-first-image").length > 0, null, { timeout: 20_000 });
-const stage = async () => (await page.locator("svt-picture").boundingBox());
+const stage = async () => await page.locator("svt-picture").boundingBox();
 /** Tries again until it holds: what depends on a picture takes as long as the machine needs. */
 async function eventually(check, seconds = 20) {
   for (const end = Date.now() + seconds * 1000; ; await page.waitForTimeout(50)) {
@@ -42,7 +47,10 @@ async function saved(click) {
 }
 
 async function open(query = "?model=house", options = {}) {
-  await page?.context().close().catch(() => {});
+  await page
+    ?.context()
+    .close()
+    .catch(() => {});
   await browser?.close().catch(() => {});
   browser = await browse({ locale: "en-US", colorScheme: "light", permissions: ["clipboard-read", "clipboard-write"], ...options });
   page = await browser.context.newPage();
@@ -91,11 +99,15 @@ describe("start", () => {
 
   it("keeps the budget of bytes", (t) => {
     // Without the font, which is fetched when names are drawn first.
-    const files = readdirSync(join(pageFolder, "assets")).filter((name) => !name.endsWith(".ttf")).map((name) => ({ name, size: gzipSync(readFileSync(join(pageFolder, "assets", name)), { level: 9 }).length }));
-    const hasThreads = ({ name }) => /^svt_threads/.test(name), hasNone = ({ name }) => /^svt-.*\.wasm$/.test(name);
+    const files = readdirSync(join(pageFolder, "assets"))
+      .filter((name) => !name.endsWith(".ttf"))
+      .map((name) => ({ name, size: gzipSync(readFileSync(join(pageFolder, "assets", name)), { level: 9 }).length }));
+    const hasThreads = ({ name }) => /^svt_threads/.test(name),
+      hasNone = ({ name }) => /^svt-.*\.wasm$/.test(name);
     const isModule = (file) => hasThreads(file) || hasNone(file) || /^worker/.test(file.name);
     const sum = (of) => of.reduce((all, { size }) => all + size, 0);
-    const own = sum(files.filter((file) => !isModule(file))), each = [hasThreads, hasNone].map((not) => sum(files.filter((file) => !not(file))));
+    const own = sum(files.filter((file) => !isModule(file))),
+      each = [hasThreads, hasNone].map((not) => sum(files.filter((file) => !not(file))));
     // A visit loads one of the two modules.
     const all = Math.max(...each);
     t.diagnostic(`own ${Math.round(own / 1000)} kB, all ${Math.round(all / 1000)} kB, compressed`);
@@ -105,7 +117,11 @@ describe("start", () => {
   });
 
   it("has the picture where it stays, before splitters and sliders have come", async () => {
-    for (const [width, height] of [[900, 600], [1200, 640], [2800, 1400]]) {
+    for (const [width, height] of [
+      [900, 600],
+      [1200, 640],
+      [2800, 1400],
+    ]) {
       await open("?model=house", { viewport: { width, height } });
       let release;
       const held = new Promise((done) => (release = done));
@@ -119,7 +135,8 @@ describe("start", () => {
       await page.waitForFunction(() => customElements.get("wa-split-panel"));
       await settled();
       const late = await stage();
-      for (const side of ["x", "y", "width", "height"]) assert.ok(Math.abs(early[side] - late[side]) < 0.6, `at ${width}, ${side}: ${early[side]}, then ${late[side]}`);
+      for (const side of ["x", "y", "width", "height"])
+        assert.ok(Math.abs(early[side] - late[side]) < 0.6, `at ${width}, ${side}: ${early[side]}, then ${late[side]}`);
     }
   });
 
@@ -135,12 +152,16 @@ describe("start", () => {
 
 /** A file dropped onto the page. */
 async function drop(name, bytes) {
-  await page.evaluate(async ([fileName, base64]) => {
-    const data = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-    const transfer = new DataTransfer();
-    transfer.items.add(new File([data], fileName));
-    for (const kind of ["dragover", "drop"]) window.dispatchEvent(new DragEvent(kind, { dataTransfer: transfer, bubbles: true, cancelable: true }));
-  }, [name, bytes.toString("base64")]);
+  await page.evaluate(
+    async ([fileName, base64]) => {
+      const data = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([data], fileName));
+      for (const kind of ["dragover", "drop"])
+        window.dispatchEvent(new DragEvent(kind, { dataTransfer: transfer, bubbles: true, cancelable: true }));
+    },
+    [name, bytes.toString("base64")],
+  );
 }
 
 describe("files", () => {
@@ -165,18 +186,28 @@ describe("files", () => {
     await drop("house.gml", readFileSync(at("house.gml")));
     await page.waitForFunction(() => document.querySelector("svt-app").session.modelFile === "house.gml", null, { timeout: 60_000 });
     await settled(60_000);
-    assert.equal(await inPage("s.info.features.length"), JSON.parse(svt("info", at("house.gml"), "--json", "--tree")).features.length + (await inPage("s.index.firstScalars.length")));
+    assert.equal(
+      await inPage("s.info.features.length"),
+      JSON.parse(svt("info", at("house.gml"), "--json", "--tree")).features.length + (await inPage("s.index.firstScalars.length")),
+    );
   });
 
   it("of IFC are built in the page, plain or compressed", async (t) => {
     svt("sample", "house", "--format", "ifc", "-o", at("house.ifc"));
-    const files = [["house.ifc", readFileSync(at("house.ifc"))], ["again.ifc.gz", gzipSync(readFileSync(at("house.ifc")))]];
+    const files = [
+      ["house.ifc", readFileSync(at("house.ifc"))],
+      ["again.ifc.gz", gzipSync(readFileSync(at("house.ifc")))],
+    ];
     const real = join(dataDir, "fzk_haus.ifc");
     if (existsSync(real)) files.push(["fzk_haus.ifc", readFileSync(real)]);
     for (const [name, bytes] of files) {
       const start = Date.now();
       await drop(name, bytes);
-      await page.waitForFunction((wanted) => document.querySelector("svt-app").session.modelFile === wanted && document.querySelector("svt-app").session.report, name, { timeout: 60_000 });
+      await page.waitForFunction(
+        (wanted) => document.querySelector("svt-app").session.modelFile === wanted && document.querySelector("svt-app").session.report,
+        name,
+        { timeout: 60_000 },
+      );
       t.diagnostic(`${name}: from dropped to picture in ${Date.now() - start} ms`);
       const rooms = await inPage("(await s.engine.select('ifcType=IfcSpace')).length");
       assert.ok(rooms > 3, `${name}: ${rooms} rooms`);
@@ -204,7 +235,10 @@ describe("files", () => {
     await page.locator("#cancel").waitFor();
     await page.waitForTimeout(300);
     await drop("noise.gml", Buffer.from("this is no XML"));
-    await page.locator("#message").getByText(/E1\d\d/).waitFor();
+    await page
+      .locator("#message")
+      .getByText(/E1\d\d/)
+      .waitFor();
     await eventually(async () => assert.ok((await inPage("(await s.engine.select('class=BuildingRoom')).length")) > 0));
     assert.deepEqual(await inPage("[s.info.name, s.state.hide]"), before);
     assert.deepEqual(problems, []);
@@ -264,7 +298,9 @@ describe("tree and query", () => {
     await page.fill("#search", "concrete");
     const found = await inPage("s.engine.findInAttributes('concrete')");
     assert.ok(found.length > 0);
-    await eventually(async () => assert.match(await page.locator("svt-tree [role=status]").first().innerText(), new RegExp(`^${found.length} found`)));
+    await eventually(async () =>
+      assert.match(await page.locator("svt-tree [role=status]").first().innerText(), new RegExp(`^${found.length} found`)),
+    );
     await page.fill("#search", "fenster");
     assert.match(await names(), /Window|window/);
     await page.fill("#search", "");
@@ -333,7 +369,8 @@ describe("picture", () => {
     assert.deepEqual([labels.width, labels.height], [width, height]);
     let checked = 0;
     for (let n = 0; n < 60; ++n) {
-      const x = Math.floor(((n * 0.618) % 1) * (width - 4)) + 2, y = Math.floor(((n * 0.382 + 0.1) % 1) * (height - 4)) + 2;
+      const x = Math.floor(((n * 0.618) % 1) * (width - 4)) + 2,
+        y = Math.floor(((n * 0.382 + 0.1) % 1) * (height - 4)) + 2;
       const around = [-1, 0, 1].flatMap((dy) => [-1, 0, 1].map((dx) => labels.data[(y + dy) * width + x + dx]));
       if (around.some((label) => label !== around[0])) continue;
       const pick = await inPage("s.engine.pick(v[0], v[1])", [(x + 0.5) / width, (y + 0.5) / height]);
@@ -427,7 +464,10 @@ describe("picture", () => {
     await settled();
     const box = await stage();
     await page.mouse.dblclick(box.x + box.width / 2, box.y + box.height / 2);
-    await page.waitForFunction((before) => document.querySelector("svt-app").session.state.camera.target.some((v, i) => Math.abs(v - before[i]) > 0.01), target);
+    await page.waitForFunction(
+      (before) => document.querySelector("svt-app").session.state.camera.target.some((v, i) => Math.abs(v - before[i]) > 0.01),
+      target,
+    );
   });
 });
 
@@ -437,7 +477,8 @@ describe("touch", () => {
     await settled();
     const box = await stage();
     const touch = await browser.context.newCDPSession(page);
-    const fingers = (type, ...points) => touch.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x: box.x + x, y: box.y + y, id })) });
+    const fingers = (type, ...points) =>
+      touch.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x: box.x + x, y: box.y + y, id })) });
     const distance = (c) => Math.hypot(...c.eye.map((e, i) => e - c.target[i]));
     const before = (await state()).camera;
     await fingers("touchStart", [150, 200]);
@@ -541,7 +582,10 @@ describe("tools", () => {
     assert.equal((await state()).sections[0].flip, false);
     await page.getByRole("button", { name: "Other side" }).click();
     await page.getByRole("button", { name: "Cut Ground floor at 1.1 m" }).click();
-    assert.deepEqual((await state()).sections.map((s) => s.axis), ["y", "z"]);
+    assert.deepEqual(
+      (await state()).sections.map((s) => s.axis),
+      ["y", "z"],
+    );
     assert.match((await inPage("s.composed([640, 360])")).passes[0].cut, /^y<[\d.]+ or z>[\d.]+$/);
     await page.getByRole("button", { name: "Remove plane 1" }).click();
   });
@@ -574,12 +618,28 @@ describe("tools", () => {
     for (const format of ["SVG", "DXF", "GEOJSON", "CSV"]) {
       const { bytes } = await saved(() => page.getByRole("button", { name: `Export as ${format}` }).click());
       const file = at(`plan.${format.toLowerCase()}`);
-      svt("section", at("house.svt"), ...(format === "CSV" ? ["-o", at("x.svg"), "--table", file] : ["-o", file]), "--plane", `z>${Number(height.toFixed(4))}`);
+      svt(
+        "section",
+        at("house.svt"),
+        ...(format === "CSV" ? ["-o", at("x.svg"), "--table", file] : ["-o", file]),
+        "--plane",
+        `z>${Number(height.toFixed(4))}`,
+      );
       assert.deepEqual(bytes.toString("utf8"), readFileSync(file, "utf8"), format);
     }
     for (const part of ["beyond", "above", "dimensions"]) await page.locator(`#draw-${part}`).check();
     const { bytes } = await saved(() => page.getByRole("button", { name: "Export as SVG" }).click());
-    svt("section", at("house.svt"), "-o", at("whole.svg"), "--plane", `z>${Number(height.toFixed(4))}`, "--beyond", "--above", "--dimensions");
+    svt(
+      "section",
+      at("house.svt"),
+      "-o",
+      at("whole.svg"),
+      "--plane",
+      `z>${Number(height.toFixed(4))}`,
+      "--beyond",
+      "--above",
+      "--dimensions",
+    );
     assert.equal(bytes.toString("utf8"), readFileSync(at("whole.svg"), "utf8"), "with what stands beyond");
     const picture = await saved(() => page.getByRole("button", { name: "Export as PNG" }).click());
     assert.equal(picture.bytes.subarray(1, 4).toString("latin1"), "PNG");
@@ -595,7 +655,8 @@ describe("tools", () => {
     svt("sheets", at("house.svt"), "--svg", at("sheets"));
     const names = readdirSync(at("sheets")).sort();
     assert.deepEqual(readdirSync(at("unzipped")).sort(), names);
-    for (const sheet of names) assert.equal(readFileSync(at(`unzipped/${sheet}`), "utf8"), readFileSync(at(`sheets/${sheet}`), "utf8"), sheet);
+    for (const sheet of names)
+      assert.equal(readFileSync(at(`unzipped/${sheet}`), "utf8"), readFileSync(at(`sheets/${sheet}`), "utf8"), sheet);
   });
 
   it("move a lens with the mouse and pin it", async () => {
@@ -684,7 +745,11 @@ describe("tools", () => {
     await tool("measure");
     const box = await stage();
     await settled();
-    const places = [[0.45, 0.5], [0.5, 0.55], [0.55, 0.5]];
+    const places = [
+      [0.45, 0.5],
+      [0.5, 0.55],
+      [0.55, 0.5],
+    ];
     for (const [n, [x, y]] of places.entries()) {
       await page.mouse.click(box.x + box.width * x, box.y + box.height * y);
       await page.waitForFunction((count) => document.querySelector("svt-app").session.state.measured.length === count, n + 1);
@@ -695,7 +760,12 @@ describe("tools", () => {
     assert.match(await page.locator("#measured-area").innerText(), /^\d+\.\d{3} m²$/);
     await eventually(async () => assert.match(page.url(), /view=/));
     const { inflateRawSync } = await import("node:zlib");
-    await eventually(async () => assert.deepEqual(JSON.parse(inflateRawSync(Buffer.from(new URLSearchParams(new URL(page.url()).hash.slice(1)).get("view"), "base64url"))).measured, [a, b, c]));
+    await eventually(async () =>
+      assert.deepEqual(
+        JSON.parse(inflateRawSync(Buffer.from(new URLSearchParams(new URL(page.url()).hash.slice(1)).get("view"), "base64url"))).measured,
+        [a, b, c],
+      ),
+    );
     // They stay until they are removed.
     await page.reload();
     await page.waitForFunction(() => document.querySelector("svt-app")?.session?.report);
@@ -756,7 +826,9 @@ describe("tools", () => {
 describe("keeping", () => {
   before(async () => {
     await open();
-    await inPage(`s.set({ hide: ["class=BuildingRoom"], look: "paper", sections: [{ axis: "y", at: 5, flip: true, turn: 0, tilt: 0 }], selection: ["house_hidden_beam"], effect: "highlight" })`);
+    await inPage(
+      `s.set({ hide: ["class=BuildingRoom"], look: "paper", sections: [{ axis: "y", at: 5, flip: true, turn: 0, tilt: 0 }], selection: ["house_hidden_beam"], effect: "highlight" })`,
+    );
     await settled();
   });
 
@@ -932,11 +1004,17 @@ describe("access", () => {
   const axe = readFileSync(join(repository, "web/viewer/node_modules/axe-core/axe.min.js"), "utf8");
   // Of the page as it stands: a split panel that was just made has no width before the next frame, and says so to axe.
   async function findings() {
-    await page.waitForFunction(() => [...document.querySelectorAll("svt-app")].every((app) => [...app.renderRoot.querySelectorAll("wa-split-panel")].every((panel) => Number.isFinite(panel.position) && !panel.isUpdatePending)));
+    await page.waitForFunction(() =>
+      [...document.querySelectorAll("svt-app")].every((app) =>
+        [...app.renderRoot.querySelectorAll("wa-split-panel")].every((panel) => Number.isFinite(panel.position) && !panel.isUpdatePending),
+      ),
+    );
     // Evaluated by the debugger, since the page's policy allows no foreign script.
     await page.evaluate(axe);
     const { violations } = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
-    return violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.map((n) => n.target.flat().join(" ")).join(" | ")}`);
+    return violations
+      .filter((v) => ["serious", "critical"].includes(v.impact))
+      .map((v) => `${v.id}: ${v.nodes.map((n) => n.target.flat().join(" ")).join(" | ")}`);
   }
 
   it("works by keyboard alone", async () => {
@@ -998,7 +1076,12 @@ describe("access", () => {
     assert.equal(await inPage("s.isWalking"), false);
   });
 
-  for (const [colorScheme, width, height] of [["light", 1440, 900], ["dark", 1440, 900], ["light", 360, 740], ["dark", 360, 740]])
+  for (const [colorScheme, width, height] of [
+    ["light", 1440, 900],
+    ["dark", 1440, 900],
+    ["light", 360, 740],
+    ["dark", 360, 740],
+  ])
     it(`has no serious findings in ${colorScheme} at ${width} px`, async () => {
       await open("?model=house", { colorScheme, viewport: { width, height }, locale: "de-DE" });
       await inPage("s.select(['house_hidden_beam'])");

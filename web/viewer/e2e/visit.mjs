@@ -22,19 +22,28 @@ export class Visit {
     const page = (this.page = await this.#browser.context.newPage());
     this.problems = [];
     page.on("pageerror", (error) => this.problems.push(`error: ${error.message}`));
-    page.on("console", (message) => ["error", "warning"].includes(message.type()) && this.problems.push(`${message.type()}: ${message.text()}`));
+    page.on(
+      "console",
+      (message) => ["error", "warning"].includes(message.type()) && this.problems.push(`${message.type()}: ${message.text()}`),
+    );
     await page.goto(url);
     await this.firstImage();
   }
   async close() {
-    await this.page?.context().close().catch(() => {});
+    await this.page
+      ?.context()
+      .close()
+      .catch(() => {});
     await this.#browser?.close().catch(() => {});
     this.page = this.#browser = null;
   }
 
   /** In the page, with its session as `s`. */
   inPage(body, value) {
-    return this.page.evaluate(([text, v]) => new Function("s", "v", `return (async () => (${text}))()`)(document.querySelector("svt-app").session, v), [body, value]);
+    return this.page.evaluate(
+      ([text, v]) => new Function("s", "v", `return (async () => (${text}))()`)(document.querySelector("svt-app").session, v),
+      [body, value],
+    );
   }
   state() {
     return this.inPage("s.state");
@@ -68,7 +77,9 @@ export class Visit {
   }
   /** Files chosen as by the button with the folder. */
   choose(...files) {
-    return this.page.locator("#file").setInputFiles(files.map(({ name, bytes }) => ({ name, mimeType: "application/octet-stream", buffer: bytes })));
+    return this.page
+      .locator("#file")
+      .setInputFiles(files.map(({ name, bytes }) => ({ name, mimeType: "application/octet-stream", buffer: bytes })));
   }
   message(text) {
     return this.page.locator("#message").getByText(text).waitFor({ timeout: 30_000 });

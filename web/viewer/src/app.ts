@@ -48,9 +48,15 @@ const kSmall = "(max-width: 1179px)";
 
 export class App extends Part {
   static override properties = {
-    ...Part.properties, canvas: { attribute: false },
-    isNarrow: { state: true }, isSmall: { state: true }, isTreeShown: { state: true }, isSelectionShown: { state: true },
-    isDropping: { state: true }, spoken: { state: true }, dockAt: { state: true },
+    ...Part.properties,
+    canvas: { attribute: false },
+    isNarrow: { state: true },
+    isSmall: { state: true },
+    isTreeShown: { state: true },
+    isSelectionShown: { state: true },
+    isDropping: { state: true },
+    spoken: { state: true },
+    dockAt: { state: true },
   };
   declare canvas: HTMLCanvasElement;
   declare isNarrow: boolean;
@@ -105,8 +111,36 @@ export class App extends Part {
     const { session: s } = this;
     const { state } = s;
     return [
-      s.status, s.progress, s.message, s.models, s.modelName, s.info, s.tool, s.along, state.selection, s.report, s.isServerOnly, s.isLegendShown, state.custom,
-      state.sections.length, state.effect, state.shell, state.wireframe, state.look, state.colorBy, s.scale, state.measured.length, s.isWalking, s.engine, s.history.last, s.history.next, s.opening, s.refining.progress, s.refining.isCoarse, s.moved, s.languages,
+      s.status,
+      s.progress,
+      s.message,
+      s.models,
+      s.modelName,
+      s.info,
+      s.tool,
+      s.along,
+      state.selection,
+      s.report,
+      s.isServerOnly,
+      s.isLegendShown,
+      state.custom,
+      state.sections.length,
+      state.effect,
+      state.shell,
+      state.wireframe,
+      state.look,
+      state.colorBy,
+      s.scale,
+      state.measured.length,
+      s.isWalking,
+      s.engine,
+      s.history.last,
+      s.history.next,
+      s.opening,
+      s.refining.progress,
+      s.refining.isCoarse,
+      s.moved,
+      s.languages,
     ];
   }
 
@@ -152,24 +186,31 @@ export class App extends Part {
     return html`<header>
       <div class="brand">${icon("section", 24)}<span>SVT</span></div>
       <div class="title">
-        ${models.length > 1
-          ? html`<select aria-label=${t("models")} @change=${(e: Event) => this.onModel((e.target as HTMLSelectElement).value)}>
+        ${
+          models.length > 1
+            ? html`<select aria-label=${t("models")} @change=${(e: Event) => this.onModel((e.target as HTMLSelectElement).value)}>
               ${models.map((m) => html`<option value=${m.name} ?selected=${m.name === session.modelName}>${m.title || m.name}</option>`)}
               ${hasModel && !session.modelName ? html`<option selected value="">${info.name || session.modelFile}</option>` : nothing}</select>`
-          : html`<h1>${hasModel ? info.name || info.source || session.modelFile : t("appName")}</h1>`}
+            : html`<h1>${hasModel ? info.name || info.source || session.modelFile : t("appName")}</h1>`
+        }
         <span class="quiet small">${!hasModel ? t("tagline") : session.isServerOnly ? "" : t("parts", { n: session.index.firstScalars.length })}</span>
       </div>
-      ${hasModel
-        ? html`${this.toggle("tree", t("panelTree"), this.isTreeShown, () => this.showSheet("tree"))}
+      ${
+        hasModel
+          ? html`${this.toggle("tree", t("panelTree"), this.isTreeShown, () => this.showSheet("tree"))}
             ${this.toggle("info", t("panelProperties"), this.isSelectionShown && (this.hasSelection || !this.isSmall), () => this.showSheet("selection"))}`
-        : nothing}
+          : nothing
+      }
       ${hasModel && !session.isServerOnly ? html`${this.stepButton("undo", session.history.last, () => session.undo())}${this.stepButton("redo", session.history.next, () => session.redo())}` : nothing}
       <button class="bare" id="open" aria-label=${t("openHint", { kinds: kFileKinds.join(", ") })} title=${t("openHint", { kinds: kFileKinds.join(", ") })} @click=${() => this.choose()}>${icon("open")}</button>
       <button class="bare" id="theme" aria-label=${t("theme")} title=${t("theme")} @click=${() => this.switchTheme()}>${icon(theme() === "dark" ? "sun" : "moon")}</button>
-      ${session.languages.length > 2
-        ? html`<select class="languages" id="languages" aria-label=${t("languages")} @change=${(e: Event) => void session.chooseLanguage((e.target as HTMLSelectElement).value)}>${session.languages.map(
-            ({ code, name }) => html`<option value=${code} lang=${code} ?selected=${code === session.language}>${name}</option>`)}</select>`
-        : html`<button class="bare" id="language" lang=${session.language === "en" ? "de" : "en"} aria-label=${t("language")} title=${t("language")} @click=${() => session.setLanguage(session.language === "en" ? "de" : "en")}>${session.language === "en" ? "DE" : "EN"}</button>`}
+      ${
+        session.languages.length > 2
+          ? html`<select class="languages" id="languages" aria-label=${t("languages")} @change=${(e: Event) => void session.chooseLanguage((e.target as HTMLSelectElement).value)}>${session.languages.map(
+              ({ code, name }) => html`<option value=${code} lang=${code} ?selected=${code === session.language}>${name}</option>`,
+            )}</select>`
+          : html`<button class="bare" id="language" lang=${session.language === "en" ? "de" : "en"} aria-label=${t("language")} title=${t("language")} @click=${() => session.setLanguage(session.language === "en" ? "de" : "en")}>${session.language === "en" ? "DE" : "EN"}</button>`
+      }
       <button class="bare" id="help" aria-label=${t("help")} title="${t("help")} (?)" @click=${() => this.help()}>${icon("help")}</button>
     </header>`;
   }
@@ -215,7 +256,12 @@ export class App extends Part {
     const sheet = (title: string, close: () => void, content: unknown) => html`<section class="sheet" aria-label=${title}>
       <div class="bar"><h2>${title}</h2><button class="bare" aria-label=${t("close")} @click=${close}>${icon("close", 18)}</button></div><div>${content}</div></section>`;
     if (this.isTreeShown) return sheet(t("panelTree"), () => (this.isTreeShown = false), html`<svt-tree .session=${session}></svt-tree>`);
-    if (this.isSelectionShown) return sheet(t("panelProperties"), () => (this.isSelectionShown = false), html`<svt-properties .session=${session}></svt-properties>`);
+    if (this.isSelectionShown)
+      return sheet(
+        t("panelProperties"),
+        () => (this.isSelectionShown = false),
+        html`<svt-properties .session=${session}></svt-properties>`,
+      );
     return nothing;
   }
 
@@ -224,7 +270,9 @@ export class App extends Part {
     const { state } = session;
     return html`<div class="middle">
       <svt-picture .session=${session} .canvas=${this.canvas}></svt-picture>
-      ${session.info ? html`
+      ${
+        session.info
+          ? html`
         <div class="corner">
           ${session.state.custom ? html`<div class="note">${t("customScene")}<button @click=${() => session.set(leaveCustom(session.state))}>${t("leaveCustom")}</button></div>` : nothing}
           ${session.isServerOnly ? html`<div class="note">${t("serverPictures")}</div>` : nothing}
@@ -234,7 +282,9 @@ export class App extends Part {
         </div>
         ${this.status()}
         ${session.tool ? this.card(session.tool) : nothing}
-        ${this.dock()}` : nothing}
+        ${this.dock()}`
+          : nothing
+      }
     </div>`;
   }
 
@@ -243,9 +293,11 @@ export class App extends Part {
     const { refining } = this.session;
     const { progress } = refining;
     return html`<div class="note" id="refining">${t("coarseNow", { spacing: number(refining.spacing, 2) })}
-      ${progress
-        ? html`<progress aria-label=${t("makingFiner")} max="1" value=${progress.share >= 0 ? progress.share : nothing}></progress><span>${progress.text}</span><button id="stay-coarse" @click=${() => refining.stop()}>${t("stayCoarse")}</button>`
-        : html`<button id="refine" @click=${() => refining.again()}>${t("makeFiner")}</button>`}</div>`;
+      ${
+        progress
+          ? html`<progress aria-label=${t("makingFiner")} max="1" value=${progress.share >= 0 ? progress.share : nothing}></progress><span>${progress.text}</span><button id="stay-coarse" @click=${() => refining.stop()}>${t("stayCoarse")}</button>`
+          : html`<button id="refine" @click=${() => refining.again()}>${t("makeFiner")}</button>`
+      }</div>`;
   }
 
   private status() {
@@ -281,7 +333,10 @@ export class App extends Part {
       share: false,
     };
     return html`<div class="dock" role="toolbar" aria-label=${t("tools")} @keydown=${this.dockKey} @focusin=${(e: Event) => (this.dockAt = kTools.findIndex(({ tool }) => (e.target as HTMLElement).id === `tool-${tool}`))}>${kTools.map(
-      ({ tool, icon: name, key }, n) => html`<button id="tool-${tool}" tabindex=${n === this.dockAt ? 0 : -1} class=${used[tool] ? "used" : ""} aria-expanded=${session.tool === tool} aria-keyshortcuts=${key}
+      (
+        { tool, icon: name, key },
+        n,
+      ) => html`<button id="tool-${tool}" tabindex=${n === this.dockAt ? 0 : -1} class=${used[tool] ? "used" : ""} aria-expanded=${session.tool === tool} aria-keyshortcuts=${key}
         title="${session.toolText(tool)} (${key.toUpperCase()})" @click=${() => this.useTool(tool)}>${icon(name, 22)}<span>${session.toolText(tool)}</span></button>`,
     )}</div>`;
   }
@@ -316,7 +371,8 @@ export class App extends Part {
     const { session } = this;
     session.tool = session.tool === tool ? null : tool;
     if (session.tool && this.isNarrow) this.isTreeShown = this.isSelectionShown = false;
-    if (session.tool === "lens" && session.state.effect !== "lens") session.set({ effect: "lens", lens: { ...session.state.lens, pinned: false } });
+    if (session.tool === "lens" && session.state.effect !== "lens")
+      session.set({ effect: "lens", lens: { ...session.state.lens, pinned: false } });
     if (session.tool === "section" && !session.state.sections.length && !session.info?.storeys.length) {
       void this.updateComplete.then(() => this.renderRoot.querySelector<HTMLElement>("#card button, #card input")?.focus());
     }
@@ -421,8 +477,7 @@ export class App extends Part {
     else if (key === "0") {
       session.isWalking = false;
       void session.goTo("", null);
-    }
-    else if (key === "f") void session.goTo(session.state.selection.map(ofSubtree).join(" or "), null);
+    } else if (key === "f") void session.goTo(session.state.selection.map(ofSubtree).join(" or "), null);
     else if (key === "g") setWalking(session, !session.isWalking);
     else if (key === "h") this.hideSelection(event.shiftKey);
     else if (key === "/") this.search();
@@ -438,7 +493,11 @@ export class App extends Part {
       const i = index.byId.get(id);
       return i === undefined ? [] : [...subtree(index, i)];
     });
-    if (members.length) session.hide(members, members.some((i) => !hidden[i]));
+    if (members.length)
+      session.hide(
+        members,
+        members.some((i) => !hidden[i]),
+      );
   }
 
   private search(): void {

@@ -232,9 +232,9 @@ export interface CityOptions {
 
 /** Fetches bytes of a city's files. */
 export interface CityBytes {
-  get(wanted: readonly (readonly [file: string, offset: number, size: number])[]): Promise<
-    { range: readonly [file: string, offset: number, size: number]; bytes: Uint8Array; total: number; error: string | null }[]
-  >;
+  get(
+    wanted: readonly (readonly [file: string, offset: number, size: number])[],
+  ): Promise<{ range: readonly [file: string, offset: number, size: number]; bytes: Uint8Array; total: number; error: string | null }[]>;
 }
 
 /** A section plane that lies in faces of the model, and is drawn so many metres beside them on the side that is kept. */

@@ -23,7 +23,9 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
     const error = (await response.json().catch(() => null)) as EngineError | null;
     throw error ?? { code: "E999", message: `the server answers ${response.status}` };
   };
-  const probe = await fetch("api/picture", { method: "POST", headers: { "Content-Type": "application/json" }, body: "{}" }).catch(() => null);
+  const probe = await fetch("api/picture", { method: "POST", headers: { "Content-Type": "application/json" }, body: "{}" }).catch(
+    () => null,
+  );
   if (!probe || probe.status === 404 || probe.status === 405 || probe.status === 501) return null;
 
   const refuse = () => Promise.reject(kNotHere);
@@ -34,8 +36,21 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
       const fileName = file!.name;
       model = fileName.replace(/\.[^.]+$/, "");
       return {
-        name: fileName, source: fileName, crs: "", dimension: [2, 2, 2], spacing: [1, 1, 1], origin: [0, 0, 0], size: [10, 10, 10],
-        storeys: [], spacingReason: "", details: 0, attributes: [], features: [], hasEdges: true, hasMeshes: false, findings: [],
+        name: fileName,
+        source: fileName,
+        crs: "",
+        dimension: [2, 2, 2],
+        spacing: [1, 1, 1],
+        origin: [0, 0, 0],
+        size: [10, 10, 10],
+        storeys: [],
+        spacingReason: "",
+        details: 0,
+        attributes: [],
+        features: [],
+        hasEdges: true,
+        hasMeshes: false,
+        findings: [],
       };
     },
     async draw(scene, width, height) {

@@ -11,7 +11,10 @@ export interface ListedLanguage {
   name: string;
 }
 
-export const kBuiltIn: ListedLanguage[] = [{ code: "en", name: "English" }, { code: "de", name: "Deutsch" }];
+export const kBuiltIn: ListedLanguage[] = [
+  { code: "en", name: "English" },
+  { code: "de", name: "Deutsch" },
+];
 
 /** `fr`, or nothing where it is no language tag: it becomes part of an address. */
 function isTag(code: unknown): code is string {
@@ -34,7 +37,9 @@ async function fetched(file: string): Promise<unknown> {
 export async function moreLanguages(): Promise<ListedLanguage[]> {
   const { languages } = ((await fetched("index")) ?? {}) as { languages?: unknown };
   if (!Array.isArray(languages)) return [];
-  return languages.filter((l): l is ListedLanguage => isTag(l?.code) && typeof l.name === "string" && !kBuiltIn.some(({ code }) => code === l.code));
+  return languages.filter(
+    (l): l is ListedLanguage => isTag(l?.code) && typeof l.name === "string" && !kBuiltIn.some(({ code }) => code === l.code),
+  );
 }
 
 /** The texts of one of them; null if the file is none. */
@@ -51,7 +56,9 @@ function strings(of: object): Record<string, string> {
 /** The first that the browser asks for and that there is; null: neither of these. */
 export function wantedOf(all: ListedLanguage[]): string | null {
   for (const tag of navigator.languages ?? [navigator.language]) {
-    const found = all.find(({ code }) => tag.toLowerCase() === code.toLowerCase()) ?? all.find(({ code }) => tag.slice(0, 2).toLowerCase() === code.slice(0, 2).toLowerCase());
+    const found =
+      all.find(({ code }) => tag.toLowerCase() === code.toLowerCase()) ??
+      all.find(({ code }) => tag.slice(0, 2).toLowerCase() === code.slice(0, 2).toLowerCase());
     if (found) return found.code;
   }
   return null;

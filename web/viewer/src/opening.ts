@@ -46,7 +46,11 @@ function filesOf(model: ListedModel): CityFiles {
 }
 
 export async function openModel(
-  session: Session, name: string, state: ViewState | null = null, coming: Promise<Response> | null = null, files: CityFiles | null = null,
+  session: Session,
+  name: string,
+  state: ViewState | null = null,
+  coming: Promise<Response> | null = null,
+  files: CityFiles | null = null,
 ): Promise<void> {
   const model = session.models.find((m) => m.name === name);
   if (!model) return;
@@ -96,7 +100,8 @@ async function received(response: Response, expected: number, signal: AbortSigna
   if (!response.body || !(expected > 1e6)) return response.arrayBuffer();
   const reader = response.body.getReader();
   const parts: Uint8Array<ArrayBuffer>[] = [];
-  let done = 0, told = 0;
+  let done = 0,
+    told = 0;
   for (;;) {
     const { done: isEnd, value } = await reader.read();
     if (signal.aborted) throw signal.reason;
@@ -115,10 +120,12 @@ export const kFileKinds = [".svt", ...kModelEndings];
 
 /** Opens files of the user: several models become one, a table gives owners to what is open, or is opened with them. */
 export async function openFiles(session: Session, files: File[]): Promise<void> {
-  const tables = files.filter(({ name }) => /\.(csv|tsv)$/i.test(name)), models = files.filter((file) => !tables.includes(file));
+  const tables = files.filter(({ name }) => /\.(csv|tsv)$/i.test(name)),
+    models = files.filter((file) => !tables.includes(file));
   for (const { name } of models) {
     const plain = name.toLowerCase().replace(/\.gz$/, "");
-    if (!kFileKinds.some((kind) => plain.endsWith(kind))) return session.fail({ message: t("wrongKind", { name, kinds: kFileKinds.join(", ") }) }, t("failedTitle"));
+    if (!kFileKinds.some((kind) => plain.endsWith(kind)))
+      return session.fail({ message: t("wrongKind", { name, kinds: kFileKinds.join(", ") }) }, t("failedTitle"));
   }
   if (models.length) await openLocal(session, models);
   for (const table of tables) {

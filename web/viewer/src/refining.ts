@@ -83,7 +83,9 @@ export class Refining {
       await this.firstPicture();
       const files = await source!();
       if (this.token !== token) return;
-      const info = await session.engine!.refine(files, (step, share) => this.token === token && this.tell(stageText(step), share), { memory: this.memory });
+      const info = await session.engine!.refine(files, (step, share) => this.token === token && this.tell(stageText(step), share), {
+        memory: this.memory,
+      });
       if (this.token !== token) return;
       this.source = this.progress = null;
       session.takeFiner(info, this.memory);

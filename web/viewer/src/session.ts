@@ -6,7 +6,20 @@ import { CityStream } from "./city/city_stream";
 import type { CityFiles } from "./city/city_files";
 import { kCancelled } from "./engine";
 import type {
-  ColorScale, Engine, EngineError, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Pick, Point, Samples, SceneCamera, Stretch, VolumeInfo,
+  ColorScale,
+  Engine,
+  EngineError,
+  FeatureProperties,
+  FileBytes,
+  FrameReport,
+  MovedPlane,
+  OpenOptions,
+  Pick,
+  Point,
+  Samples,
+  SceneCamera,
+  Stretch,
+  VolumeInfo,
 } from "./engine";
 import { kSceneMembers } from "./generated/scene_members";
 import { indexFeatures, labelOf, type FeatureIndex } from "./state/feature_index";
@@ -60,7 +73,15 @@ export interface AlongList {
   stretches: Stretch[];
 }
 
-const kUnitBox: Box = { low: [0, 0, 0], high: [1, 1, 1], axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]] };
+const kUnitBox: Box = {
+  low: [0, 0, 0],
+  high: [1, 1, 1],
+  axes: [
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+  ],
+};
 
 /** Events: "change" when anything changed, "said" when a live region should be read out. */
 export class Session extends EventTarget {
@@ -262,7 +283,12 @@ export class Session extends EventTarget {
   scale: ColorScale | null = null;
 
   private async findScale(state: ViewState): Promise<void> {
-    const scale = state.colorBy && this.engine ? await this.composed(this.pictureSize).then((scene) => this.engine!.legend(scene)).catch(() => null) : null;
+    const scale =
+      state.colorBy && this.engine
+        ? await this.composed(this.pictureSize)
+            .then((scene) => this.engine!.legend(scene))
+            .catch(() => null)
+        : null;
     if (this.state !== state || JSON.stringify(scale) === JSON.stringify(this.scale)) return;
     this.scale = scale;
     this.changed();
@@ -392,7 +418,7 @@ export class Session extends EventTarget {
       return true;
     } catch (error) {
       if ((error as EngineError).code === kCancelled) {
-        await this.recover();  // unless another opening was begun meanwhile, which replaces the volume
+        await this.recover(); // unless another opening was begun meanwhile, which replaces the volume
         return false;
       }
       this.status = this.info ? "ready" : "empty";
@@ -472,7 +498,13 @@ export class Session extends EventTarget {
   goToFound(id: string, { eye, target, fieldOfView }: SceneCamera): void {
     if (!eye || !target) return;
     const now = this.state.camera;
-    const camera: Camera = { eye, target, parallel: false, height: 10, fieldOfView: fieldOfView ?? now?.fieldOfView ?? kSceneMembers["/camera/fieldOfView"].default };
+    const camera: Camera = {
+      eye,
+      target,
+      parallel: false,
+      height: 10,
+      fieldOfView: fieldOfView ?? now?.fieldOfView ?? kSceneMembers["/camera/fieldOfView"].default,
+    };
     this.moveTo(withProjection(camera, now?.parallel ?? false));
     this.select([id]);
   }
@@ -484,7 +516,7 @@ export class Session extends EventTarget {
 
   /** A finer volume of the same model has taken the place of the coarse one: what was chosen meanwhile stays. */
   takeFiner(info: VolumeInfo, memory: number): void {
-    const by = this.info ? sub(this.info.origin, info.origin) : [0, 0, 0] as Point;
+    const by = this.info ? sub(this.info.origin, info.origin) : ([0, 0, 0] as Point);
     this.openedWith = { draft: false, memory };
     this.info = info;
     this.box = boxOf(info);
@@ -532,7 +564,13 @@ export class Session extends EventTarget {
       if (!eye || !target) return;
       // Fitting is no wish of the user, whose own choice meanwhile stays.
       if (!isFollowed && this.state.camera !== now) return;
-      const camera: Camera = { eye, target, parallel: false, height: 10, fieldOfView: fieldOfView ?? seen?.fieldOfView ?? kSceneMembers["/camera/fieldOfView"].default };
+      const camera: Camera = {
+        eye,
+        target,
+        parallel: false,
+        height: 10,
+        fieldOfView: fieldOfView ?? seen?.fieldOfView ?? kSceneMembers["/camera/fieldOfView"].default,
+      };
       this.moveTo(withProjection(camera, now?.parallel ?? false), isFollowed);
     } catch (error) {
       this.fail(error);
@@ -546,7 +584,8 @@ export class Session extends EventTarget {
     this.history.seal();
     const from = this.state.camera;
     if (!from || matchMedia("(prefers-reduced-motion: reduce)").matches) return this.set({ camera });
-    const start = performance.now(), duration = 350;
+    const start = performance.now(),
+      duration = 350;
     const step = () => {
       const share = Math.min(1, (performance.now() - start) / duration);
       const eased = share * share * (3 - 2 * share);
@@ -665,8 +704,23 @@ export function stepText(changed: Changed): string {
 }
 
 const kStepNames: Partial<Record<keyof ViewState, TextKey>> = {
-  camera: "stepCamera", hide: "stepVisibility", show: "stepVisibility", styles: "stepStyles", sections: "section", effect: "focusEffect", lens: "lens", focus: "focus",
-  shell: "shell", wireframe: "wireframe", names: "names", colorBy: "colorBy", scaleBar: "scaleBar", northArrow: "northArrow", hatches: "hatches", measured: "measure", custom: "sceneJson",
+  camera: "stepCamera",
+  hide: "stepVisibility",
+  show: "stepVisibility",
+  styles: "stepStyles",
+  sections: "section",
+  effect: "focusEffect",
+  lens: "lens",
+  focus: "focus",
+  shell: "shell",
+  wireframe: "wireframe",
+  names: "names",
+  colorBy: "colorBy",
+  scaleBar: "scaleBar",
+  northArrow: "northArrow",
+  hatches: "hatches",
+  measured: "measure",
+  custom: "sceneJson",
 };
 
 /** Errors after which the worker is replaced and has no volume. */

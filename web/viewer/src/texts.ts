@@ -25,15 +25,24 @@ const kTexts = {
   ],
   starting: ["Starting", "Wird gestartet"],
   loadingFile: ["Loading {name}", "{name} wird geladen"],
-  cityLacks: ["{n} tiles of the city cannot be shown, the rest is here. {first}", "{n} Kacheln der Stadt lassen sich nicht zeigen, der Rest ist da. {first}"],
+  cityLacks: [
+    "{n} tiles of the city cannot be shown, the rest is here. {first}",
+    "{n} Kacheln der Stadt lassen sich nicht zeigen, der Rest ist da. {first}",
+  ],
   cityStopped: ["No finer tiles of the city", "Keine feineren Kacheln der Stadt"],
   cityFind: ["Enter looks for this id in all of the city.", "Mit der Eingabetaste in der ganzen Stadt nach dieser Kennung suchen."],
   cityNoRanges: [
     "{name}: the server sends whole files where a part is asked for. A city needs a server with range requests (svt serve, nginx, Apache, S3).",
     "{name}: Der Server sendet ganze Dateien, wo ein Teil gefragt ist. Eine Stadt braucht einen Server mit Bereichsanfragen (svt serve, nginx, Apache, S3).",
   ],
-  cityWrongRange: ["{name}: the server sent other bytes than were asked for, or not all of them.", "{name}: Der Server sandte andere Bytes als gefragt, oder nicht alle."],
-  cityChanged: ["{name}: the city has changed since it was opened; load the page again.", "{name}: Die Stadt hat sich seit dem Öffnen geändert; die Seite neu laden."],
+  cityWrongRange: [
+    "{name}: the server sent other bytes than were asked for, or not all of them.",
+    "{name}: Der Server sandte andere Bytes als gefragt, oder nicht alle.",
+  ],
+  cityChanged: [
+    "{name}: the city has changed since it was opened; load the page again.",
+    "{name}: Die Stadt hat sich seit dem Öffnen geändert; die Seite neu laden.",
+  ],
   cityNoAnswer: ["{name}: the server does not answer ({reason}).", "{name}: Der Server antwortet nicht ({reason})."],
   loadedBytes: ["{done} of {all}", "{done} von {all}"],
   stepRead: ["Reading", "Wird gelesen"],
@@ -77,7 +86,10 @@ const kTexts = {
   stepCamera: ["Point of view", "Blick"],
   stepVisibility: ["Show or hide", "Zeigen oder verbergen"],
   stepStyles: ["Colour and opacity", "Farbe und Deckkraft"],
-  reopened: ["The library had stopped and was started again. {error}", "Die Bibliothek war stehen geblieben und wurde neu gestartet. {error}"],
+  reopened: [
+    "The library had stopped and was started again. {error}",
+    "Die Bibliothek war stehen geblieben und wurde neu gestartet. {error}",
+  ],
   dismiss: ["Dismiss", "Schließen"],
   close: ["Close", "Schließen"],
   cpuKind: ["drawn without a graphics card", "ohne Grafikkarte gezeichnet"],
@@ -169,8 +181,14 @@ const kTexts = {
   stage_voxelize: ["Voxels", "Voxel"],
   stage_patterns: ["Patterns", "Muster"],
   stage_pack: ["Packing", "Wird verpackt"],
-  ownersNeedModel: ["{name} tells owners: open the model first, or drop both together.", "{name} nennt Eigentümer: erst das Modell öffnen, oder beide zusammen fallen lassen."],
-  ownersGiven: ["Owners are those of {name}; colours tell them. Queries: owner=NAME.", "Eigentümer nach {name}; die Farben zeigen sie. Abfragen: owner=NAME."],
+  ownersNeedModel: [
+    "{name} tells owners: open the model first, or drop both together.",
+    "{name} nennt Eigentümer: erst das Modell öffnen, oder beide zusammen fallen lassen.",
+  ],
+  ownersGiven: [
+    "Owners are those of {name}; colours tell them. Queries: owner=NAME.",
+    "Eigentümer nach {name}; die Farben zeigen sie. Abfragen: owner=NAME.",
+  ],
   movedPlane: [
     "{plane} lies in faces of the model and is drawn {mm} mm beside them, on the side that is kept.",
     "{plane} liegt in Flächen des Modells und ist {mm} mm daneben gezeichnet, auf der Seite, die bleibt.",
@@ -202,9 +220,15 @@ const kTexts = {
   drawAbove: ["cut away", "Weggeschnittenes"],
   drawDimensions: ["dimensions", "Maße"],
   sheets: ["Sheets", "Blätter"],
-  sheetsHint: ["Plans, sections, elevations and tables on paper, as SVG in a ZIP archive", "Grundrisse, Schnitte, Ansichten und Tabellen auf Papier, als SVG in einem ZIP-Archiv"],
+  sheetsHint: [
+    "Plans, sections, elevations and tables on paper, as SVG in a ZIP archive",
+    "Grundrisse, Schnitte, Ansichten und Tabellen auf Papier, als SVG in einem ZIP-Archiv",
+  ],
   exportAs: ["Export as {format}", "Als {format} ausgeben"],
-  sectionHint: ["Take away what is beyond a plane. Drag its handle in the picture.", "Nimmt weg, was jenseits einer Ebene liegt. Ihr Griff lässt sich im Bild ziehen."],
+  sectionHint: [
+    "Take away what is beyond a plane. Drag its handle in the picture.",
+    "Nimmt weg, was jenseits einer Ebene liegt. Ihr Griff lässt sich im Bild ziehen.",
+  ],
   handleLabel: ["Plane {n}: arrow keys move it", "Ebene {n}: Pfeiltasten verschieben sie"],
 
   lensOn: ["Lens on", "Linse an"],
@@ -247,7 +271,10 @@ const kTexts = {
   wireframe_faint: ["Hidden faint", "Verdeckte blass"],
   wireframe_dashed: ["Hidden dashed", "Verdeckte gestrichelt"],
   wireframe_none: ["Visible only", "Nur sichtbare"],
-  noEdges: ["This volume was built without edges (svt build --vectors edges).", "Dieses Volumen wurde ohne Kanten gebaut (svt build --vectors edges)."],
+  noEdges: [
+    "This volume was built without edges (svt build --vectors edges).",
+    "Dieses Volumen wurde ohne Kanten gebaut (svt build --vectors edges).",
+  ],
   names: ["Names of the selection", "Namen der Auswahl"],
   colorBy: ["Colour by", "Farbe nach"],
   colorByNothing: ["class, storey, volume, owner, an attribute", "class, storey, volume, owner, ein Attribut"],
@@ -286,7 +313,10 @@ const kTexts = {
   bcfExport: ["Save these views as BCF 3.0", "Diese Ansichten als BCF 3.0 sichern"],
   bcfMissing: ["{n} components of it are not in this model.", "{n} Bauteile daraus sind nicht in diesem Modell."],
   notBcf: ["{name} is no BCF file that can be read: {error}.", "{name} ist keine lesbare BCF-Datei: {error}."],
-  walkHint: ["W A S D walk, around walls and up stairs; Q and E go down and up, dragging looks around, 0 ends it.", "W A S D gehen, an Wänden entlang und Treppen hinauf; Q und E runter und rauf, Ziehen blickt umher, 0 beendet es."],
+  walkHint: [
+    "W A S D walk, around walls and up stairs; Q and E go down and up, dragging looks around, 0 ends it.",
+    "W A S D gehen, an Wänden entlang und Treppen hinauf; Q und E runter und rauf, Ziehen blickt umher, 0 beendet es.",
+  ],
   fieldOfView: ["Field of view", "Blickwinkel"],
 
   bookmarks: ["Kept views", "Gesicherte Ansichten"],
@@ -315,7 +345,10 @@ const kTexts = {
   copy: ["Copy", "Kopieren"],
   copied: ["Copied", "Kopiert"],
   notCopied: ["The browser did not allow copying.", "Der Browser hat das Kopieren nicht erlaubt."],
-  customScene: ["A scene is shown as written; tools that change parts are off.", "Eine Szene wird gezeigt, wie sie geschrieben ist; Werkzeuge für Teile sind aus."],
+  customScene: [
+    "A scene is shown as written; tools that change parts are off.",
+    "Eine Szene wird gezeigt, wie sie geschrieben ist; Werkzeuge für Teile sind aus.",
+  ],
   leaveCustom: ["Back to the tools", "Zurück zu den Werkzeugen"],
   picture: ["Picture", "Bild"],
   pictureWidth: ["Width", "Breite"],
@@ -340,7 +373,10 @@ const kTexts = {
   keyOrbit: ["Turn", "Drehen"],
   keyOrbitHow: ["drag, one finger, arrow keys", "Ziehen, ein Finger, Pfeiltasten"],
   keyPan: ["Move", "Verschieben"],
-  keyPanHow: ["right button or Shift and drag, two fingers, Shift and arrow keys", "rechte Taste oder Umschalt und Ziehen, zwei Finger, Umschalt und Pfeiltasten"],
+  keyPanHow: [
+    "right button or Shift and drag, two fingers, Shift and arrow keys",
+    "rechte Taste oder Umschalt und Ziehen, zwei Finger, Umschalt und Pfeiltasten",
+  ],
   keyZoom: ["Zoom to the pointer", "Zum Zeiger zoomen"],
   keyZoomHow: ["wheel, pinch, + and −", "Mausrad, zwei Finger, + und −"],
   keyPick: ["Select", "Auswählen"],
@@ -354,7 +390,10 @@ const kTexts = {
   keyFit: ["Show all of it", "Alles zeigen"],
   keyFitHow: ["0", "0"],
   keyTools: ["Tools", "Werkzeuge"],
-  keyToolsHow: ["X section, C lens, V focus, K look, M measure, N views, B keep", "X Schnitt, C Linse, V Fokus, K Stil, M Messen, N Ansichten, B Sichern"],
+  keyToolsHow: [
+    "X section, C lens, V focus, K look, M measure, N views, B keep",
+    "X Schnitt, C Linse, V Fokus, K Stil, M Messen, N Ansichten, B Sichern",
+  ],
   keyHide: ["Hide or show the selection", "Auswahl verbergen oder zeigen"],
   keyHideHow: ["H; Shift and H: show all", "H; Umschalt und H: alles zeigen"],
   keyUndo: ["Undo, redo", "Zurücknehmen, wiederholen"],
@@ -372,9 +411,11 @@ const kTexts = {
  * declared does not compile, so that a help text that changes cannot leave an old translation behind.
  */
 export const kGermanHelp = {
-  "draw a scale bar; parallel projection only, since no other picture has one scale": "zeichnet einen Maßstab; nur bei Parallelprojektion, denn kein anderes Bild hat einen einzigen Maßstab",
+  "draw a scale bar; parallel projection only, since no other picture has one scale":
+    "zeichnet einen Maßstab; nur bei Parallelprojektion, denn kein anderes Bild hat einen einzigen Maßstab",
   "draw an arrow to grid north (+y)": "zeichnet einen Pfeil nach Gitternord (+y)",
-  "colour what is seen by class, name, storey, volume, area of rooms, owner, voxels or an attribute, with a legend": "färbt, was zu sehen ist, nach class, name, storey, volume, area (Fläche von Räumen), owner, voxels oder einem Attribut, mit Legende",
+  "colour what is seen by class, name, storey, volume, area of rooms, owner, voxels or an attribute, with a legend":
+    "färbt, was zu sehen ist, nach class, name, storey, volume, area (Fläche von Räumen), owner, voxels oder einem Attribut, mit Legende",
   "width and height": "Breite und Höhe",
   "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)":
     "Farben, Linien und Schraffuren des ganzen Bildes: schlicht, Papier (für den Druck), Blaupause oder dunkel (für Folien)",
@@ -422,7 +463,12 @@ export function setLanguage(wanted: Language, texts: LanguageTexts | null = null
   other = texts;
 }
 export function browserLanguage(): Language {
-  return (navigator.languages ?? [navigator.language]).find((l) => /^(en|de)/i.test(l))?.slice(0, 2).toLowerCase() === "de" ? "de" : "en";
+  return (navigator.languages ?? [navigator.language])
+    .find((l) => /^(en|de)/i.test(l))
+    ?.slice(0, 2)
+    .toLowerCase() === "de"
+    ? "de"
+    : "en";
 }
 
 export function t(key: TextKey, values: Record<string, string | number> = {}): string {
@@ -432,7 +478,10 @@ export function t(key: TextKey, values: Record<string, string | number> = {}): s
 
 /** The English of all texts, which a language file translates. */
 export function template(): Record<string, string> {
-  return Object.fromEntries([...Object.entries(kTexts).map(([key, [english]]) => [key, english]), ...Object.keys(kGermanHelp).map((help) => [help, help])]);
+  return Object.fromEntries([
+    ...Object.entries(kTexts).map(([key, [english]]) => [key, english]),
+    ...Object.keys(kGermanHelp).map((help) => [help, help]),
+  ]);
 }
 
 /** The name of a stage of the library; its own word where there is none. */

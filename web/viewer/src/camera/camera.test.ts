@@ -1,7 +1,22 @@
 import { describe, expect, it } from "vitest";
 import type { Point } from "../engine";
 import type { Camera } from "../state/view_state";
-import { between, boxOf, kWorldAxes, lookAround, orbit, pan, parallelHeight, pointAt, project, rayAt, walk, withProjection, zoom, type Box } from "./camera";
+import {
+  between,
+  boxOf,
+  kWorldAxes,
+  lookAround,
+  orbit,
+  pan,
+  parallelHeight,
+  pointAt,
+  project,
+  rayAt,
+  walk,
+  withProjection,
+  zoom,
+  type Box,
+} from "./camera";
 import { add, distance, dot, scale, sub } from "./vec";
 
 const camera: Camera = { eye: [12, -9, 7], target: [4, 3, 2], parallel: false, height: 10, fieldOfView: 30 };
@@ -18,7 +33,11 @@ describe("projection", () => {
 
   it("is undone by pointAt and met by rayAt, parallel or not", () => {
     for (const parallel of [false, true])
-      for (const p of [[1, 2, 3], [5, 5, 0], [0, -2, 6]] as Point[]) {
+      for (const p of [
+        [1, 2, 3],
+        [5, 5, 0],
+        [0, -2, 6],
+      ] as Point[]) {
         const view = { ...camera, parallel };
         const seen = project(view, aspect, p)!;
         isNear(pointAt(view, aspect, seen.x, seen.y, seen.depth), p);
@@ -34,7 +53,8 @@ describe("projection", () => {
 
   it("has north up when it looks straight down", () => {
     const top: Camera = { ...camera, eye: [4, 3, 20], target: [4, 3, 0] };
-    const north = project(top, 1, [4, 4, 0])!, east = project(top, 1, [5, 3, 0])!;
+    const north = project(top, 1, [4, 4, 0])!,
+      east = project(top, 1, [5, 3, 0])!;
     expect(north.y).toBeLessThan(0.5);
     expect(east.x).toBeGreaterThan(0.5);
   });

@@ -36,9 +36,7 @@ export function toWorld(box: Box, p: Point): Point {
 }
 
 export function corners(box: Box): Point[] {
-  return Array.from({ length: 8 }, (_, c) =>
-    toWorld(box, [0, 1, 2].map((axis) => ((c >> axis) & 1 ? box.high : box.low)[axis]!) as Point),
-  );
+  return Array.from({ length: 8 }, (_, c) => toWorld(box, [0, 1, 2].map((axis) => ((c >> axis) & 1 ? box.high : box.low)[axis]!) as Point));
 }
 
 export interface Basis {
@@ -121,12 +119,14 @@ export function lookAround(camera: Camera, turn: number, rise: number): Camera {
 }
 
 function turned(p: Point, angle: number): Point {
-  const c = Math.cos(angle), s = Math.sin(angle);
+  const c = Math.cos(angle),
+    s = Math.sin(angle);
   return [c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]];
 }
 
 function turnedAbout(p: Point, axis: Point, angle: number): Point {
-  const c = Math.cos(angle), s = Math.sin(angle);
+  const c = Math.cos(angle),
+    s = Math.sin(angle);
   return add(add(scale(p, c), scale(cross(axis, p), s)), scale(axis, dot(axis, p) * (1 - c)));
 }
 
@@ -170,7 +170,8 @@ export function withProjection(camera: Camera, parallel: boolean): Camera {
 export function between(a: Camera, b: Camera, share: number): Camera {
   const mix = (p: number, q: number) => p + (q - p) * share;
   const mixed = (p: Point, q: Point) => [0, 1, 2].map((i) => mix(p[i]!, q[i]!)) as Point;
-  const from = sub(a.eye, a.target), to = sub(b.eye, b.target);
+  const from = sub(a.eye, a.target),
+    to = sub(b.eye, b.target);
   const target = mixed(a.target, b.target);
   const reach = mix(length(from), length(to));
   const blended = add(scale(normalized(from), 1 - share), scale(normalized(to), share));

@@ -93,7 +93,8 @@ export class Controls {
     const finger = this.fingers.get(event.pointerId);
     this.host.hovered({ x, y, isDown: this.fingers.size > 0 });
     if (!finger) return;
-    const dx = event.clientX - finger.x, dy = event.clientY - finger.y;
+    const dx = event.clientX - finger.x,
+      dy = event.clientY - finger.y;
     if (this.down && !this.down.isMoved) {
       if (Math.hypot(event.clientX - this.down.x, event.clientY - this.down.y) < kClickSlop) return;
       this.down.isMoved = true;
@@ -220,7 +221,9 @@ export class Controls {
       const held = (key: string) => (this.keys.has(key) ? 1 : 0);
       const metres = Math.min(0.2, (now - before) / 1000) * 2.5;
       if (this.camera && this.keys.size)
-        await this.stepTo(walk(this.camera, (held("w") - held("s")) * metres, (held("d") - held("a")) * metres, (held("e") - held("q")) * metres));
+        await this.stepTo(
+          walk(this.camera, (held("w") - held("s")) * metres, (held("d") - held("a")) * metres, (held("e") - held("q")) * metres),
+        );
       this.walking = 0;
       if (this.keys.size && this.session.isWalking) this.stepWalk(now);
     });
@@ -242,7 +245,8 @@ export class Controls {
 export async function standAt(camera: Camera, eye: Point, step: (eye: Point, by: Point) => Promise<Point>): Promise<Camera> {
   const { forward } = basisOf(camera);
   const ahead = Math.atan2(forward[1], forward[0]);
-  let best = ahead, most = -1;
+  let best = ahead,
+    most = -1;
   for (let n = 0; n < 8; ++n) {
     // To and fro around the direction of the view, which wins where there is as much room.
     const angle = ahead + ((n % 2 ? (n + 1) / 2 : -n / 2) * Math.PI) / 4;
@@ -251,5 +255,12 @@ export async function standAt(camera: Camera, eye: Point, step: (eye: Point, by:
     if (room > most) [best, most] = [angle, room];
   }
   const target: Point = [eye[0] + 3 * Math.cos(best), eye[1] + 3 * Math.sin(best), eye[2]];
-  return { ...camera, parallel: false, eye, target, fieldOfView: kOtherFirstValues.walkingFieldOfView.value, height: Math.max(1, distance(eye, target)) };
+  return {
+    ...camera,
+    parallel: false,
+    eye,
+    target,
+    fieldOfView: kOtherFirstValues.walkingFieldOfView.value,
+    height: Math.max(1, distance(eye, target)),
+  };
 }

@@ -44,7 +44,8 @@ export function handleOf(session: Session, n: number): { at: Point; normal: Poin
   if (!section) return null;
   const outline = planeOutline(keptInside(section, session.box), session.box);
   if (!outline.length) return null;
-  const normal = normalOf(section, session.box), middle = middleOf(outline);
+  const normal = normalOf(section, session.box),
+    middle = middleOf(outline);
   const camera = session.shownCamera;
   if (!session.tool || !camera) return { at: middle, normal };
   const across = (p: Point) => project(camera, 1, p, session.box.axes)?.x ?? -1;
@@ -73,7 +74,8 @@ export function measure(view: View): SVGTemplateResult | typeof nothing {
 }
 
 /** Room that the text of a label takes, pixels. */
-const kLabelWidth = 68, kLabelHeight = 16;
+const kLabelWidth = 68,
+  kLabelHeight = 16;
 
 /** Each at the middle of its points, below those that stand there already. */
 function labels(view: View, texts: { of: Point[]; text: string }[]): SVGTemplateResult[] {

@@ -146,8 +146,7 @@ export class PictureView extends Part {
 
   private hovered(at: { x: number; y: number; isDown: boolean } | null): void {
     const { state } = this.session;
-    if (at && state.effect === "lens" && !state.lens.pinned && !at.isDown)
-      this.session.set({ lens: { ...state.lens, x: at.x, y: at.y } });
+    if (at && state.effect === "lens" && !state.lens.pinned && !at.isDown) this.session.set({ lens: { ...state.lens, x: at.x, y: at.y } });
     this.hover = null;
     this.hoverAt = at && !at.isDown ? at : null;
     if (!this.hoverTimer && this.hoverAt) this.hoverTimer = window.setTimeout(() => void this.readHover(), kHoverEvery);
@@ -191,7 +190,8 @@ export class PictureView extends Part {
 
   private tip(view: View) {
     const { pick, x, y } = this.hover!;
-    const left = Math.min(x * view.width + 14, view.width - 200), top = y * view.height + 18;
+    const left = Math.min(x * view.width + 14, view.width - 200),
+      top = y * view.height + 18;
     return html`<div class="tip" data-x=${left} data-y=${Math.min(top, view.height - 30)}>${labelOf(pick)} <span>· ${pick.class}</span></div>`;
   }
 
@@ -201,7 +201,8 @@ export class PictureView extends Part {
     if (!found || !at) return nothing;
     const section = view.session.state.sections[n]!;
     const [low, high] = rangeOf(section, view.session.box);
-    const x = Math.min(view.width - 20, Math.max(20, at.x)), y = Math.min(view.height - 20, Math.max(20, at.y));
+    const x = Math.min(view.width - 20, Math.max(20, at.x)),
+      y = Math.min(view.height - 20, Math.max(20, at.y));
     return html`<button class="handle" role="slider" data-x=${x.toFixed(1)} data-y=${y.toFixed(1)}
       aria-label=${t("handleLabel", { n: n + 1 })} aria-valuemin=${low.toFixed(2)} aria-valuemax=${high.toFixed(2)} aria-valuenow=${section.at.toFixed(2)}
       @pointerdown=${(e: PointerEvent) => this.grab(e, n)} @pointermove=${(e: PointerEvent) => this.pull(e, view)}

@@ -24,7 +24,8 @@ export interface PictureHost {
 
 const kStillAfter = 140;
 /** A picture cannot be cancelled, so a slow one waits until the input has stopped. */
-const kFineAfter = 200, kFineAfterSlow = 2500;
+const kFineAfter = 200,
+  kFineAfterSlow = 2500;
 
 export class PictureLoop {
   private readonly resolution = new Resolution();

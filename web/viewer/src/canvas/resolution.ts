@@ -1,8 +1,11 @@
 /** Pixel budget of a moving picture, so that there are 25 frames a second: some milliseconds are the page's own. */
 
-const kAim = 32, kFast = 26, kSlow = 38;
+const kAim = 32,
+  kFast = 26,
+  kSlow = 38;
 /** So far off that one frame is sufficient evidence. */
-const kMuchTooFast = 12, kMuchTooSlow = 100;
+const kMuchTooFast = 12,
+  kMuchTooSlow = 100;
 const kCoarsest = 0.2;
 
 /** Fraction of the picture's width and height; starts small, so that the first image appears quickly. */

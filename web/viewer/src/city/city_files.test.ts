@@ -16,8 +16,12 @@ async function serverOf(...answers: ((response: ServerResponse) => void)[]): Pro
   return { address: `http://127.0.0.1:${(server.address() as AddressInfo).port}/town/`, requests: () => requests };
 }
 
-const busy = (status: number, headers: Record<string, string> = {}) => (response: ServerResponse) => void response.writeHead(status, { Connection: "close", ...headers }).end();
-const bytes = (response: ServerResponse) => void response.writeHead(206, { Connection: "close", "Content-Range": "bytes 0-3/100" }).end("abcd");
+const busy =
+  (status: number, headers: Record<string, string> = {}) =>
+  (response: ServerResponse) =>
+    void response.writeHead(status, { Connection: "close", ...headers }).end();
+const bytes = (response: ServerResponse) =>
+  void response.writeHead(206, { Connection: "close", "Content-Range": "bytes 0-3/100" }).end("abcd");
 
 /** A city whose waits are noted, not waited for. */
 function cityAt(address: string): { files: CityFiles; waits: number[] } {

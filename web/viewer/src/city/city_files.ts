@@ -78,14 +78,23 @@ export class CityFiles {
   /** All of `wanted`, with as few requests as possible. */
   async get(wanted: readonly WantedRange[]): Promise<GivenRange[]> {
     const missing = wanted.filter((range) => !this.find(range));
-    const answers = await Promise.all(requestsFor(missing).map(([file, offset, size]) => this.need(file, offset, size).then((answer) => ({ file, offset, size, answer }))));
+    const answers = await Promise.all(
+      requestsFor(missing).map(([file, offset, size]) => this.need(file, offset, size).then((answer) => ({ file, offset, size, answer }))),
+    );
     const given = wanted.map((range): GivenRange => {
       const found = this.find(range);
       if (found) return found;
       const [file, offset] = range;
       const own = answers.find((a) => a.file === file && a.offset <= offset && offset < a.offset + a.size)?.answer;
       // A block may have been dropped again where more was asked for than is kept.
-      return (own?.block && partOf(own.block, range)) || { range, bytes: new Uint8Array(0), total: 0, error: own?.error ?? t("cityWrongRange", { name: file }) };
+      return (
+        (own?.block && partOf(own.block, range)) || {
+          range,
+          bytes: new Uint8Array(0),
+          total: 0,
+          error: own?.error ?? t("cityWrongRange", { name: file }),
+        }
+      );
     });
     this.trim();
     return given;
@@ -141,18 +150,34 @@ export class CityFiles {
     }
   }
 
-  private async ask(file: string, offset: number, size: number): Promise<{ answer: Answer; mayTryAgain: boolean; retryAfter: string | null }> {
-    const failed = (error: string, mayTryAgain = false, retryAfter: string | null = null) => ({ answer: { block: null, error }, mayTryAgain, retryAfter });
+  private async ask(
+    file: string,
+    offset: number,
+    size: number,
+  ): Promise<{ answer: Answer; mayTryAgain: boolean; retryAfter: string | null }> {
+    const failed = (error: string, mayTryAgain = false, retryAfter: string | null = null) => ({
+      answer: { block: null, error },
+      mayTryAgain,
+      retryAfter,
+    });
     const given = (block: Block) => ({ answer: { block, error: null }, mayTryAgain: false, retryAfter: null });
     ++this.traffic.requests;
     let response: Response, bytes: Uint8Array | null;
     try {
-      response = await fetch(new URL(file, this.address), { headers: { Range: `bytes=${offset}-${offset + size - 1}` }, cache: "no-store" });
+      response = await fetch(new URL(file, this.address), {
+        headers: { Range: `bytes=${offset}-${offset + size - 1}` },
+        cache: "no-store",
+      });
       if (response.status === 404 || response.status === 410 || response.status === 416) {
         await response.body?.cancel();
         return given({ file, offset, bytes: new Uint8Array(0), total: response.status === 416 ? offset : 0 });
       }
-      if (!response.ok) return failed(t("notLoaded", { name: file, status: response.status }), response.status === 429 || response.status >= 500, response.headers.get("Retry-After"));
+      if (!response.ok)
+        return failed(
+          t("notLoaded", { name: file, status: response.status }),
+          response.status === 429 || response.status >= 500,
+          response.headers.get("Retry-After"),
+        );
       if (response.status === 200 && offset > 0) {
         await response.body?.cancel();
         return failed(t("cityNoRanges", { name: file }));
@@ -192,14 +217,19 @@ function partOf(block: Block, range: WantedRange): GivenRange | null {
   const end = block.offset + block.bytes.length;
   const isWhole = offset >= block.offset && (offset + size <= end || (end >= block.total && block.total !== kUnknown));
   if (!isWhole) return null;
-  return { range, bytes: block.bytes.subarray(offset - block.offset, Math.min(block.bytes.length, offset - block.offset + size)), total: block.total, error: null };
+  return {
+    range,
+    bytes: block.bytes.subarray(offset - block.offset, Math.min(block.bytes.length, offset - block.offset + size)),
+    total: block.total,
+    error: null,
+  };
 }
 
 /** The body; null where it is longer than `most`, of which no more is read. */
 async function atMost(response: Response, most: number): Promise<Uint8Array | null> {
   const reader = response.body!.getReader();
   const parts: Uint8Array<ArrayBuffer>[] = [];
-  for (let size = 0; ; ) {
+  for (let size = 0; ;) {
     const { done, value } = await reader.read();
     if (done) return new Uint8Array(await new Blob(parts).arrayBuffer());
     size += value.length;

@@ -10,11 +10,15 @@ import { t } from "../texts";
 import type { CityFiles } from "./city_files";
 
 /** Voxels may be so many pixels wide: of the first picture, of one that moves, of one that stands still. */
-const kFirstPixels = 4, kMovingPixels = 2, kStillPixels = 1;
+const kFirstPixels = 4,
+  kMovingPixels = 2,
+  kStillPixels = 1;
 /** Milliseconds after which a camera stands still, and between two looks while it moves. */
-const kStillAfter = 250, kPause = 100;
+const kStillAfter = 250,
+  kPause = 100;
 /** Of a phone, and of others: bytes that the page may take for the city. */
-const kPhone = 128e6, kDesk = 256e6;
+const kPhone = 128e6,
+  kDesk = 256e6;
 /** Share of them that the tiles of one worker may have when they are decoded; the rest is that of the other one, and of pictures. */
 const kTileShare = 0.35;
 
@@ -97,7 +101,12 @@ export class CityStream {
     const { pixels } = this;
     try {
       const { scene } = session.describe(session.pictureSize, 1);
-      const look = await session.engine!.followCity(this.files, scene, session.pictureSize, { pixels, memory: this.memory, shown: this.key, isMoving: pixels > kStillPixels });
+      const look = await session.engine!.followCity(this.files, scene, session.pictureSize, {
+        pixels,
+        memory: this.memory,
+        shown: this.key,
+        isMoving: pixels > kStillPixels,
+      });
       if (this.isEnded) return;
       if (look.info) {
         this.take(look);

@@ -8,7 +8,12 @@ type Ask = <N extends keyof Calls>(name: N, args: Calls[N]["args"], transfer?: T
 /** A call goes from page to page of an index, which has few levels; then it asks for tiles. */
 const kMostRounds = 60;
 
-export async function withBytes<N extends "cityLook" | "cityFind">(ask: Ask, files: CityBytes, name: N, argsOf: (round: number) => Calls[N]["args"]): Promise<Exclude<Calls[N]["result"], CityNeeds>> {
+export async function withBytes<N extends "cityLook" | "cityFind">(
+  ask: Ask,
+  files: CityBytes,
+  name: N,
+  argsOf: (round: number) => Calls[N]["args"],
+): Promise<Exclude<Calls[N]["result"], CityNeeds>> {
   for (let round = 0; round < kMostRounds; ++round) {
     const reply = await ask(name, argsOf(round));
     if (!("needs" in reply)) return reply as Exclude<Calls[N]["result"], CityNeeds>;

@@ -1,8 +1,27 @@
 /** The engine on the page's side: passes requests to the worker and shows its pictures on the canvas. */
 import { kCancelled } from "../engine";
 import type {
-  CityBytes, CityLook, CityOptions, ColorScale, DrawingFormat, DrawingParts, Effects, Engine, EngineError, EngineKind, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Pick,
-  Point, Scene, SceneCamera, Stretch, VolumeInfo,
+  CityBytes,
+  CityLook,
+  CityOptions,
+  ColorScale,
+  DrawingFormat,
+  DrawingParts,
+  Effects,
+  Engine,
+  EngineError,
+  EngineKind,
+  FeatureProperties,
+  FileBytes,
+  FrameReport,
+  MovedPlane,
+  OpenOptions,
+  Pick,
+  Point,
+  Scene,
+  SceneCamera,
+  Stretch,
+  VolumeInfo,
 } from "../engine";
 import { withBytes } from "./city_calls";
 import { kWithoutThreads } from "./protocol";
@@ -43,7 +62,10 @@ class Connection {
   }
 
   ask<N extends Name>(
-    name: N, args: Calls[N]["args"], transfer: Transferable[] = [], onProgress?: Waiting["onProgress"],
+    name: N,
+    args: Calls[N]["args"],
+    transfer: Transferable[] = [],
+    onProgress?: Waiting["onProgress"],
   ): Promise<Calls[N]["result"]> {
     return new Promise((resolve, reject) => {
       const id = ++this.lastId;
@@ -118,14 +140,24 @@ class WorkerEngine implements Engine {
     return made;
   }
 
-  private ask<N extends Name>(name: N, args: Calls[N]["args"], transfer: Transferable[] = [], onProgress?: Waiting["onProgress"]): Promise<Calls[N]["result"]> {
+  private ask<N extends Name>(
+    name: N,
+    args: Calls[N]["args"],
+    transfer: Transferable[] = [],
+    onProgress?: Waiting["onProgress"],
+  ): Promise<Calls[N]["result"]> {
     return this.main.ask(name, args, transfer, onProgress);
   }
 
   open(files: FileBytes[], onProgress: (step: string, done: number) => void, options: OpenOptions = {}): Promise<VolumeInfo> {
     this.cancelRefining();
     this.endSpare();
-    return this.ask("open", [files, options], files.map(({ bytes }) => bytes), onProgress);
+    return this.ask(
+      "open",
+      [files, options],
+      files.map(({ bytes }) => bytes),
+      onProgress,
+    );
   }
 
   async refine(files: FileBytes[], onProgress: (step: string, done: number) => void, options: OpenOptions = {}): Promise<VolumeInfo> {
@@ -133,7 +165,12 @@ class WorkerEngine implements Engine {
     const second = (this.second = this.connect());
     try {
       await second.ask("start", [this.wanted]);
-      const info = await second.ask("open", [files, options], files.map(({ bytes }) => bytes), onProgress);
+      const info = await second.ask(
+        "open",
+        [files, options],
+        files.map(({ bytes }) => bytes),
+        onProgress,
+      );
       const before = this.main;
       this.main = second;
       this.second = null;
@@ -149,14 +186,24 @@ class WorkerEngine implements Engine {
     this.cancelRefining();
     this.endSpare();
     const { main } = this;
-    return withBytes((name, args, transfer) => main.ask(name, args, transfer), files, "cityLook", (round) => [round === 0, null, 0, 0, options]);
+    return withBytes(
+      (name, args, transfer) => main.ask(name, args, transfer),
+      files,
+      "cityLook",
+      (round) => [round === 0, null, 0, 0, options],
+    );
   }
 
   async followCity(files: CityBytes, scene: Scene, [width, height]: [number, number], options: CityOptions): Promise<CityLook> {
     const spare = this.spare ?? (await this.startSpare());
     let look: CityLook;
     try {
-      look = await withBytes((name, args, transfer) => spare.ask(name, args, transfer), files, "cityLook", () => [false, scene, width, height, options]);
+      look = await withBytes(
+        (name, args, transfer) => spare.ask(name, args, transfer),
+        files,
+        "cityLook",
+        () => [false, scene, width, height, options],
+      );
       if (!look.info || this.spare !== spare) return { ...look, info: null };
       // Drawn once unseen, so that the first picture that is seen of it waits for no bricks.
       const { bitmap } = await spare.ask("draw", [scene, ...kUnseen]);
@@ -179,7 +226,12 @@ class WorkerEngine implements Engine {
 
   findInCity(files: CityBytes, id: string, camera: SceneCamera, aspect: number): Promise<SceneCamera> {
     const { main } = this;
-    return withBytes((name, args, transfer) => main.ask(name, args, transfer), files, "cityFind", () => [id, camera, aspect]);
+    return withBytes(
+      (name, args, transfer) => main.ask(name, args, transfer),
+      files,
+      "cityFind",
+      () => [id, camera, aspect],
+    );
   }
 
   private async startSpare(): Promise<Connection> {

@@ -97,7 +97,7 @@ export class Drawer {
     try {
       this.svt.call("labels", [scene]);
     } catch (error) {
-      if (!isEngineError(error)) throw error;  // other errors are reported when such a picture is requested
+      if (!isEngineError(error)) throw error; // other errors are reported when such a picture is requested
     }
   }
 

@@ -30,7 +30,11 @@ async function withThreads(onProgress: OnProgress): Promise<SvtModule> {
   const compiling = compiled(kThreads["svt_threads.wasm"]!);
   compiling.catch(() => undefined);
   const { default: create } = (await import(/* @vite-ignore */ kThreads["svt_threads.js"]!.href)) as { default: typeof createSvt };
-  return made(create, await compiling, { onProgress, mainScriptUrlOrBlob: kThreads["svt_threads.js"]!.href, locateFile: (name) => (kThreads[name] ?? new URL(name, import.meta.url)).href });
+  return made(create, await compiling, {
+    onProgress,
+    mainScriptUrlOrBlob: kThreads["svt_threads.js"]!.href,
+    locateFile: (name) => (kThreads[name] ?? new URL(name, import.meta.url)).href,
+  });
 }
 
 /** Compiles while it is fetched; a server may name the wrong type, which only the slower way takes. */

@@ -1,6 +1,16 @@
 /** Messages between page and worker. A request has one answer, matched by id; open() reports progress before it. */
 import type { CityLook, CityOptions, ColorScale, Effects, EngineError, EngineKind, Pick, Scene, SceneCamera, Stretch } from "../engine";
-import type { DrawingFormat, DrawingParts, FeatureProperties, FileBytes, FrameReport, MovedPlane, OpenOptions, Point, VolumeInfo } from "../engine";
+import type {
+  DrawingFormat,
+  DrawingParts,
+  FeatureProperties,
+  FileBytes,
+  FrameReport,
+  MovedPlane,
+  OpenOptions,
+  Point,
+  VolumeInfo,
+} from "../engine";
 
 /** The name of a worker that is to use no threads. */
 export const kWithoutThreads = "svt without threads";
@@ -24,7 +34,10 @@ export interface Calls {
   step: { args: [eye: Point, by: Point]; result: Point };
   legend: { args: [scene: Scene]; result: ColorScale };
   movedPlanes: { args: [scene: Scene]; result: MovedPlane[] };
-  cityLook: { args: [isNew: boolean, scene: Scene | null, width: number, height: number, options: CityOptions]; result: CityLook | CityNeeds };
+  cityLook: {
+    args: [isNew: boolean, scene: Scene | null, width: number, height: number, options: CityOptions];
+    result: CityLook | CityNeeds;
+  };
   cityFind: { args: [id: string, camera: SceneCamera, aspect: number]; result: SceneCamera | CityNeeds };
   cityGive: { args: [given: GivenRow[], bytes: ArrayBuffer]; result: null };
   cityInfo: { args: []; result: VolumeInfo | null };

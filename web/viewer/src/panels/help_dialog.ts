@@ -5,19 +5,34 @@ import { t } from "../texts";
 import { controls, Part } from "../ui/part";
 
 const kRows = [
-  ["keyOrbit", "keyOrbitHow"], ["keyPan", "keyPanHow"], ["keyZoom", "keyZoomHow"], ["keyPick", "keyPickHow"], ["keyAlong", "keyAlongHow"],
-  ["keyFrame", "keyFrameHow"], ["keyFit", "keyFitHow"], ["keyViews", "keyViewsHow"], ["keyTools", "keyToolsHow"], ["keyHide", "keyHideHow"],
-  ["keyUndo", "keyUndoHow"], ["keySearch", "keySearchHow"], ["keyTree", "keyTreeHow"], ["walk", "walkHint"], ["keyLeave", "keyLeaveHow"],
+  ["keyOrbit", "keyOrbitHow"],
+  ["keyPan", "keyPanHow"],
+  ["keyZoom", "keyZoomHow"],
+  ["keyPick", "keyPickHow"],
+  ["keyAlong", "keyAlongHow"],
+  ["keyFrame", "keyFrameHow"],
+  ["keyFit", "keyFitHow"],
+  ["keyViews", "keyViewsHow"],
+  ["keyTools", "keyToolsHow"],
+  ["keyHide", "keyHideHow"],
+  ["keyUndo", "keyUndoHow"],
+  ["keySearch", "keySearchHow"],
+  ["keyTree", "keyTreeHow"],
+  ["walk", "walkHint"],
+  ["keyLeave", "keyLeaveHow"],
 ] as const;
 
 export class HelpDialog extends Part {
-  static override styles = [controls, css`
+  static override styles = [
+    controls,
+    css`
     dl { display: grid; grid-template-columns: minmax(110px, auto) 1fr; gap: 8px 18px; margin: 0; font-size: 13px; line-height: 1.45; }
     dt { font-weight: 600; }
     dd { margin: 0; color: var(--quiet); }
     wa-dialog { --width: 560px; }
     wa-dialog:not(:defined) { display: none; }
-  `];
+  `,
+  ];
 
   protected override uses() {
     return [];

@@ -29,7 +29,8 @@ export class Legend extends Part {
       return [{ name, colors }];
     });
     return html`<ul aria-label=${t("legend")}>${rows.map(
-      ({ name, colors }) => html`<li><span class="swatches">${colors.map((color) => html`<span class="swatch" data-color=${color}></span>`)}</span>${name}</li>`,
+      ({ name, colors }) =>
+        html`<li><span class="swatches">${colors.map((color) => html`<span class="swatch" data-color=${color}></span>`)}</span>${name}</li>`,
     )}</ul>`;
   }
 
@@ -43,5 +44,8 @@ customElements.define("svt-legend", Legend);
 function mostUsed(colors: string[]): string[] {
   const uses = new Map<string, number>();
   for (const color of colors) uses.set(color, (uses.get(color) ?? 0) + 1);
-  return [...uses].sort((a, b) => b[1] - a[1]).slice(0, 4).map(([color]) => color);
+  return [...uses]
+    .sort((a, b) => b[1] - a[1])
+    .slice(0, 4)
+    .map(([color]) => color);
 }

@@ -68,9 +68,11 @@ export class PropertiesPanel extends Part {
     return html`
       <div class="head"><div><h2>${labelOf(feature)}</h2><div class="quiet">${feature.class}</div><div class="id">${feature.id}</div></div>${this.close()}</div>
       ${this.actions()}
-      ${feature.count > 0
-        ? html`<svt-style-editor .session=${session} .query=${ofId(feature.id)} .label=${labelOf(feature)} .color=${feature.color} .opacity=${feature.opacity}></svt-style-editor>`
-        : nothing}
+      ${
+        feature.count > 0
+          ? html`<svt-style-editor .session=${session} .query=${ofId(feature.id)} .label=${labelOf(feature)} .color=${feature.color} .opacity=${feature.opacity}></svt-style-editor>`
+          : nothing
+      }
       ${properties ? this.details(properties) : nothing}
     `;
   }
@@ -87,11 +89,15 @@ export class PropertiesPanel extends Part {
       </dl>
       <h3>${t("attributes")}</h3>
       ${attributes.length ? html`<dl>${attributes.map(([key, value]) => html`<dt>${key}</dt><dd>${valueText(p.numbers[key], value)}</dd>`)}</dl>` : html`<p class="quiet">${t("noAttributes")}</p>`}
-      ${p.neighbours.length
-        ? html`<h3>${t("neighbours")}</h3><ul>${p.neighbours.map(
-            (n) => n.id === "" ? html`<li class="outside"><span>${t("outside")}</span><span>${number(n.area, 2)} m²</span></li>` : html`<li><button @click=${() => this.session.select([n.id])}><span>${labelOf(n)}</span><span>${number(n.area, 2)} m²</span></button></li>`,
-          )}</ul>`
-        : nothing}
+      ${
+        p.neighbours.length
+          ? html`<h3>${t("neighbours")}</h3><ul>${p.neighbours.map((n) =>
+              n.id === ""
+                ? html`<li class="outside"><span>${t("outside")}</span><span>${number(n.area, 2)} m²</span></li>`
+                : html`<li><button @click=${() => this.session.select([n.id])}><span>${labelOf(n)}</span><span>${number(n.area, 2)} m²</span></button></li>`,
+            )}</ul>`
+          : nothing
+      }
     `;
   }
 
@@ -102,7 +108,9 @@ export class PropertiesPanel extends Part {
       ${this.actions()}
       <ul>${state.selection.slice(0, 200).map((id) => {
         const feature = index.features[index.byId.get(id) ?? -1];
-        return feature ? html`<li><button @click=${() => this.session.select([id])}><span>${labelOf(feature)}</span><span>${feature.class}</span></button></li>` : nothing;
+        return feature
+          ? html`<li><button @click=${() => this.session.select([id])}><span>${labelOf(feature)}</span><span>${feature.class}</span></button></li>`
+          : nothing;
       })}</ul>
     `;
   }

@@ -9,7 +9,10 @@ import { withStyle } from "../state/view_state";
 export class StyleEditor extends Part {
   static override properties = {
     ...Part.properties,
-    query: {}, label: {}, color: {}, opacity: { type: Number },
+    query: {},
+    label: {},
+    color: {},
+    opacity: { type: Number },
   };
   declare query: string;
   declare label: string;
@@ -29,7 +32,8 @@ export class StyleEditor extends Part {
 
   override render() {
     const style = this.session.state.styles.find((s) => s.select === this.query);
-    const color = style?.color ?? this.color, opacity = style?.opacity ?? this.opacity;
+    const color = style?.color ?? this.color,
+      opacity = style?.opacity ?? this.opacity;
     return html`
       <div class="line">
         <wa-color-picker size="s" label=${t("colorOf", { name: this.label })} title=${help("/passes/*/styles/*/color")} value=${color} without-format-toggle

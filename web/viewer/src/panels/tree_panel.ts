@@ -22,8 +22,16 @@ const kAttributesAfter = 150;
 export class TreePanel extends Part {
   static override properties = {
     ...Part.properties,
-    tab: { state: true }, search: { state: true }, query: { state: true }, answer: { state: true }, error: { state: true },
-    byAttribute: { state: true }, active: { state: true }, edited: { state: true }, top: { state: true }, listHeight: { state: true },
+    tab: { state: true },
+    search: { state: true },
+    query: { state: true },
+    answer: { state: true },
+    error: { state: true },
+    byAttribute: { state: true },
+    active: { state: true },
+    edited: { state: true },
+    top: { state: true },
+    listHeight: { state: true },
   };
   declare tab: "structure" | "classes";
   declare search: string;
@@ -163,32 +171,41 @@ export class TreePanel extends Part {
       <header>
         <div class="segments" role="tablist" aria-label=${t("panelTree")} @keydown=${this.tabKey}>
           ${(["structure", "classes"] as const).map(
-            (tab) => html`<button role="tab" id="tab-${tab}" aria-controls="panel" tabindex=${this.tab === tab ? 0 : -1} aria-selected=${this.tab === tab} @click=${() => (this.tab = tab)}>${t(tab)}</button>`,
+            (tab) =>
+              html`<button role="tab" id="tab-${tab}" aria-controls="panel" tabindex=${this.tab === tab ? 0 : -1} aria-selected=${this.tab === tab} @click=${() => (this.tab = tab)}>${t(tab)}</button>`,
           )}
         </div>
-        ${this.tab === "structure"
-          ? html`<div class="field">${icon("search", 16)}
+        ${
+          this.tab === "structure"
+            ? html`<div class="field">${icon("search", 16)}
               <input id="search" type="search" autocomplete="off" spellcheck="false" aria-label=${t("search")} placeholder=${t("search")}
                 .value=${this.search} @input=${(e: Event) => this.find((e.target as HTMLInputElement).value)} @keydown=${this.searchKey} />
             </div>`
-          : nothing}
-        ${this.search && this.tab === "structure"
-          ? html`<div class="small quiet" role="status">${this.rows.matches ? t("found", { n: this.rows.matches }) : session.city ? t("cityFind") : t("nothingFound")}</div>`
-          : nothing}
+            : nothing
+        }
+        ${
+          this.search && this.tab === "structure"
+            ? html`<div class="small quiet" role="status">${this.rows.matches ? t("found", { n: this.rows.matches }) : session.city ? t("cityFind") : t("nothingFound")}</div>`
+            : nothing
+        }
       </header>
       <div id="panel" class="list" role="tabpanel" aria-labelledby="tab-${this.tab}" tabindex="-1" @scroll=${this.scrolled}>
         ${this.tab === "structure" ? this.tree() : this.classes()}
       </div>
       <footer>
         ${this.edited ? this.editor(this.edited) : nothing}
-        ${session.state.show.length
-          ? html`<div class="note small"><span>${t("filterNote", { name: session.state.show.join(", ") })}</span>
+        ${
+          session.state.show.length
+            ? html`<div class="note small"><span>${t("filterNote", { name: session.state.show.join(", ") })}</span>
               <button class="small" @click=${() => session.set({ show: [] })}>${t("showAll")}</button></div>`
-          : nothing}
-        ${hiddenSolids
-          ? html`<div class="note small"><span>${t("hiddenCount", { n: hiddenSolids })}</span>
+            : nothing
+        }
+        ${
+          hiddenSolids
+            ? html`<div class="note small"><span>${t("hiddenCount", { n: hiddenSolids })}</span>
               <button class="small" @click=${() => session.set({ hide: [] })}>${t("showAll")}</button></div>`
-          : nothing}
+            : nothing
+        }
         <form @submit=${this.ask}>
           <input id="query" autocomplete="off" autocapitalize="off" spellcheck="false" aria-label=${t("queryLabel")} placeholder=${t("queryPlaceholder")}
             aria-invalid=${this.error ? "true" : "false"} aria-describedby="query-answer" .value=${this.query}
@@ -219,17 +236,24 @@ export class TreePanel extends Part {
     const isParent = index.end[i]! > i + 1;
     const seen = this.counts.ofSubtree(i);
     const isSelected = selected.has(feature.id);
-    const color = state.styles.find((s) => s.select === ofId(feature.id) && s.color)?.color ?? state.styles.find((s) => s.select === ofClass(feature.class) && s.color)?.color ?? feature.color;
+    const color =
+      state.styles.find((s) => s.select === ofId(feature.id) && s.color)?.color ??
+      state.styles.find((s) => s.select === ofClass(feature.class) && s.color)?.color ??
+      feature.color;
     return html`<div id="row-${i}" role="treeitem" class="item ${isSelected ? "selected" : ""} ${this.active === i ? "active" : ""} ${seen === "none" ? "gone" : ""}"
       data-top=${row * kRow} data-depth=${index.depth[i]!} aria-level=${index.depth[i]! + 1} aria-posinset=${row + 1} aria-setsize=${this.rows.shown.length}
       aria-selected=${isSelected} aria-expanded=${isParent ? String(this.rows.isOpen(i)) : nothing}
       @click=${(e: MouseEvent) => this.picked(i, e)} @dblclick=${() => void this.session.goTo(ofSubtree(feature.id), null)}>
-      ${isParent
-        ? html`<button class="bare twist" tabindex="-1" aria-hidden="true" @click=${(e: Event) => this.toggle(i, e)}>${icon(this.rows.isOpen(i) ? "down" : "right", 14)}</button>`
-        : html`<span class="twist"><svg width="26" height="1" aria-hidden="true"></svg></span>`}
-      ${feature.count > 0
-        ? html`<button class="bare" tabindex="-1" aria-hidden="true" title=${t("styleOf", { name: labelOf(feature) })} @click=${(e: Event) => this.edit(i, e)}><span class="swatch" data-color=${color}></span></button>`
-        : nothing}
+      ${
+        isParent
+          ? html`<button class="bare twist" tabindex="-1" aria-hidden="true" @click=${(e: Event) => this.toggle(i, e)}>${icon(this.rows.isOpen(i) ? "down" : "right", 14)}</button>`
+          : html`<span class="twist"><svg width="26" height="1" aria-hidden="true"></svg></span>`
+      }
+      ${
+        feature.count > 0
+          ? html`<button class="bare" tabindex="-1" aria-hidden="true" title=${t("styleOf", { name: labelOf(feature) })} @click=${(e: Event) => this.edit(i, e)}><span class="swatch" data-color=${color}></span></button>`
+          : nothing
+      }
       <span class="name" title="${labelOf(feature)} · ${feature.class}">${labelOf(feature)} <span class="quiet">${feature.class}</span></span>
       ${isParent ? html`<span class="count">${index.solids[i]}</span>` : nothing}
       ${seen === "none" ? html`<span class="visually-hidden">${t("isHidden")}</span>` : nothing}
@@ -239,20 +263,30 @@ export class TreePanel extends Part {
 
   private classes() {
     const { index, state } = this.session;
-    const rows = [...index.classes].map(([name, members]) => ({ name, members, solids: members.filter((i) => index.features[i]!.count > 0) }));
+    const rows = [...index.classes].map(([name, members]) => ({
+      name,
+      members,
+      solids: members.filter((i) => index.features[i]!.count > 0),
+    }));
     return html`<ul class="classes">
-      ${rows.filter((row) => row.solids.length).map(({ name, members, solids }) => {
-        const seen = this.counts.ofMembers(members);
-        const query = ofClass(name);
-        const color = state.styles.find((s) => s.select === query && s.color)?.color ?? index.features[solids[0]!]!.color;
-        return html`<li class="item ${seen === "none" ? "gone" : ""}">
+      ${rows
+        .filter((row) => row.solids.length)
+        .map(({ name, members, solids }) => {
+          const seen = this.counts.ofMembers(members);
+          const query = ofClass(name);
+          const color = state.styles.find((s) => s.select === query && s.color)?.color ?? index.features[solids[0]!]!.color;
+          return html`<li class="item ${seen === "none" ? "gone" : ""}">
           <button class="bare" aria-label=${t("styleOf", { name })} aria-expanded=${this.edited?.query === query}
             @click=${() => this.editQuery(query, name, solids[0]!)}><span class="swatch" data-color=${color}></span></button>
-          <button class="bare name" @click=${(e: MouseEvent) => this.session.select(members.map((i) => index.features[i]!.id), e.ctrlKey)}><span class="name">${name}</span></button>
+          <button class="bare name" @click=${(e: MouseEvent) =>
+            this.session.select(
+              members.map((i) => index.features[i]!.id),
+              e.ctrlKey,
+            )}><span class="name">${name}</span></button>
           <span class="count">${solids.length}</span>
           <button class="bare eye ${seen}" aria-pressed=${seen === "none"} aria-label="${t("hide")}: ${name}" @click=${() => this.session.hide(members, seen !== "none")}>${eyeOf(seen)}</button>
         </li>`;
-      })}
+        })}
     </ul>`;
   }
 
@@ -344,7 +378,9 @@ export class TreePanel extends Part {
     const { index, city } = this.session;
     if (city && event.key === "Enter" && !this.rows.matches) return void city.find(this.search.trim());
     const words = this.search.toLowerCase();
-    const first = this.rows.shown.find((i) => `${labelOf(index.features[i]!)} ${index.features[i]!.class}`.toLowerCase().includes(words)) ?? this.rows.shown[0];
+    const first =
+      this.rows.shown.find((i) => `${labelOf(index.features[i]!)} ${index.features[i]!.class}`.toLowerCase().includes(words)) ??
+      this.rows.shown[0];
     if (first === undefined) return;
     event.preventDefault();
     this.active = first;

@@ -30,17 +30,20 @@ const kIfcId = /^[0-9A-Za-z_$]{22}$/;
 
 const escaped = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`).replace(/[\x00-\x08\x0b\x0c\x0e-\x1f]/g, " ");
 const element = (name: string, content: string) => `<${name}>${content}</${name}>`;
-const xyz = (name: string, p: Point) => element(name, (["X", "Y", "Z"] as const).map((axis, i) => element(axis, String(Number(p[i]!.toFixed(9))))).join(""));
+const xyz = (name: string, p: Point) =>
+  element(name, (["X", "Y", "Z"] as const).map((axis, i) => element(axis, String(Number(p[i]!.toFixed(9))))).join(""));
 const document = (root: string) => `<?xml version="1.0" encoding="UTF-8"?>\n${root}\n`;
 
 /** A GUID of the content, so that the same view has the same one each time: four FNV-1a sums of 32 bits, as UUID version 8. */
 function guidOf(text: string): string {
   const bytes = new TextEncoder().encode(text);
-  const hex = [0, 1, 2, 3].map((seed) => {
-    let sum = 0x811c9dc5 ^ Math.imul(seed, 0x9e3779b1);
-    for (const byte of bytes) sum = Math.imul(sum ^ byte, 0x01000193);
-    return (sum >>> 0).toString(16).padStart(8, "0");
-  }).join("");
+  const hex = [0, 1, 2, 3]
+    .map((seed) => {
+      let sum = 0x811c9dc5 ^ Math.imul(seed, 0x9e3779b1);
+      for (const byte of bytes) sum = Math.imul(sum ^ byte, 0x01000193);
+      return (sum >>> 0).toString(16).padStart(8, "0");
+    })
+    .join("");
   return [hex.slice(0, 8), hex.slice(8, 12), `8${hex.slice(13, 16)}`, `8${hex.slice(17, 20)}`, hex.slice(20)].join("-");
 }
 
@@ -48,13 +51,22 @@ function guidOf(text: string): string {
 export async function bcfOf(views: Bookmark[], model: BcfModel, author: string, date: Date): Promise<ArrayBuffer> {
   const files: { name: string; text: string | Uint8Array }[] = [
     { name: "bcf.version", text: document('<Version VersionId="3.0"/>') },
-    { name: "extensions.xml", text: document(`<Extensions><TopicTypes><TopicType>View</TopicType></TopicTypes><TopicStatuses><TopicStatus>Open</TopicStatus></TopicStatuses><Users><User>${escaped(author)}</User></Users></Extensions>`) },
+    {
+      name: "extensions.xml",
+      text: document(
+        `<Extensions><TopicTypes><TopicType>View</TopicType></TopicTypes><TopicStatuses><TopicStatus>Open</TopicStatus></TopicStatuses><Users><User>${escaped(author)}</User></Users></Extensions>`,
+      ),
+    },
   ];
   for (const [n, view] of views.entries()) {
-    const guid = guidOf(`${n} ${view.name} ${JSON.stringify(view.state)}`), viewGuid = guidOf(`view ${guid}`);
+    const guid = guidOf(`${n} ${view.name} ${JSON.stringify(view.state)}`),
+      viewGuid = guidOf(`view ${guid}`);
     const picture = /^data:image\/png;base64,(.*)$/.exec(view.picture ?? "")?.[1];
     files.push({ name: `${guid}/`, text: "" });
-    files.push({ name: `${guid}/markup.bcf`, text: document(markup(view.name, model, author, date, guid, viewGuid, picture !== undefined)) });
+    files.push({
+      name: `${guid}/markup.bcf`,
+      text: document(markup(view.name, model, author, date, guid, viewGuid, picture !== undefined)),
+    });
     files.push({ name: `${guid}/viewpoint.bcfv`, text: document(await viewpoint(view.state, model, viewGuid)) });
     if (picture) files.push({ name: `${guid}/snapshot.png`, text: Uint8Array.from(atob(picture), (c) => c.charCodeAt(0)) });
   }
@@ -62,9 +74,11 @@ export async function bcfOf(views: Bookmark[], model: BcfModel, author: string, 
 }
 
 function markup(name: string, model: BcfModel, author: string, date: Date, guid: string, viewGuid: string, hasPicture: boolean): string {
-  return `<Markup><Header><Files><File IsExternal="true">${element("Filename", escaped(model.file))}</File></Files></Header>` +
+  return (
+    `<Markup><Header><Files><File IsExternal="true">${element("Filename", escaped(model.file))}</File></Files></Header>` +
     `<Topic Guid="${guid}" TopicType="View" TopicStatus="Open">${element("Title", escaped(name))}${element("CreationDate", date.toISOString())}${element("CreationAuthor", escaped(author))}` +
-    `<Viewpoints><ViewPoint Guid="${viewGuid}">${element("Viewpoint", "viewpoint.bcfv")}${hasPicture ? element("Snapshot", "snapshot.png") : ""}</ViewPoint></Viewpoints></Topic></Markup>`;
+    `<Viewpoints><ViewPoint Guid="${viewGuid}">${element("Viewpoint", "viewpoint.bcfv")}${hasPicture ? element("Snapshot", "snapshot.png") : ""}</ViewPoint></Viewpoints></Topic></Markup>`
+  );
 }
 
 async function viewpoint(state: ViewState, model: BcfModel, guid: string): Promise<string> {
@@ -86,21 +100,32 @@ async function components(state: ViewState, model: BcfModel): Promise<string> {
   const seen = solids.filter(isSeen);
   const isShownByDefault = seen.length * 2 >= solids.length;
   const exceptions = isShownByDefault ? solids.filter((id) => !isSeen(id)) : seen;
-  const component = (id: string) => kIfcId.test(id) ? `<Component IfcGuid="${id}"/>` : element("Component", element("OriginatingSystem", "SVT") + element("AuthoringToolId", escaped(id)));
-  const list = (name: string, ids: string[]) => ids.length ? element(name, ids.map(component).join("")) : "";
+  const component = (id: string) =>
+    kIfcId.test(id)
+      ? `<Component IfcGuid="${id}"/>`
+      : element("Component", element("OriginatingSystem", "SVT") + element("AuthoringToolId", escaped(id)));
+  const list = (name: string, ids: string[]) => (ids.length ? element(name, ids.map(component).join("")) : "");
   let colors = "";
   for (const { select, color } of state.styles) {
     const ids = color ? [...(await selected(model, [select]))] : [];
     if (ids.length) colors += `<Color Color="${color!.slice(1).toUpperCase()}">${list("Components", ids)}</Color>`;
   }
-  return element("Components",
+  return element(
+    "Components",
     list("Selection", state.selection) +
-    `<Visibility DefaultVisibility="${isShownByDefault}"><ViewSetupHints SpacesVisible="true" SpaceBoundariesVisible="true" OpeningsVisible="true"/>${list("Exceptions", exceptions)}</Visibility>` +
-    (colors ? element("Coloring", colors) : ""));
+      `<Visibility DefaultVisibility="${isShownByDefault}"><ViewSetupHints SpacesVisible="true" SpaceBoundariesVisible="true" OpeningsVisible="true"/>${list("Exceptions", exceptions)}</Visibility>` +
+      (colors ? element("Coloring", colors) : ""),
+  );
 }
 
 function cameraOf(camera: Camera | null, { info, aspect, box }: BcfModel): string {
-  const seen: Camera = camera ?? { eye: add(box.high, [10, -10, 10]), target: scale(box.high, 0.5), parallel: false, height: 10, fieldOfView: kSceneMembers["/camera/fieldOfView"].default };
+  const seen: Camera = camera ?? {
+    eye: add(box.high, [10, -10, 10]),
+    target: scale(box.high, 0.5),
+    parallel: false,
+    height: 10,
+    fieldOfView: kSceneMembers["/camera/fieldOfView"].default,
+  };
   const { forward, up } = basisOf(seen);
   const common = xyz("CameraViewPoint", add(seen.eye, info.origin)) + xyz("CameraDirection", forward) + xyz("CameraUpVector", up);
   const last = element("AspectRatio", aspect.toFixed(6));
@@ -111,11 +136,16 @@ function cameraOf(camera: Camera | null, { info, aspect, box }: BcfModel): strin
 
 function planes(sections: Section[], { info, box }: BcfModel): string {
   if (!sections.length) return "";
-  return element("ClippingPlanes", sections.map((section) => {
-    const normal = normalOf(section, box);
-    const direction = scale(normal, section.flip ? -1 : 1);
-    return element("ClippingPlane", xyz("Location", add(info.origin, scale(normal, section.at))) + xyz("Direction", direction));
-  }).join(""));
+  return element(
+    "ClippingPlanes",
+    sections
+      .map((section) => {
+        const normal = normalOf(section, box);
+        const direction = scale(normal, section.flip ? -1 : 1);
+        return element("ClippingPlane", xyz("Location", add(info.origin, scale(normal, section.at))) + xyz("Direction", direction));
+      })
+      .join(""),
+  );
 }
 
 /** The views of a BCF file of version 2.1 or 3.0, and how many of its components the model lacks. Rejects what is none. */
@@ -129,14 +159,20 @@ export async function viewsOfBcf(bytes: ArrayBuffer, model: BcfModel): Promise<{
     const topic = parsed(content);
     const title = topic.querySelector("Topic > Title")?.textContent?.trim() || folder;
     // In 2.1, viewpoints stand beside the topic.
-    const points = [...topic.querySelectorAll("ViewPoint, Markup > Viewpoints")].filter((point) => point.querySelector(":scope > Viewpoint"));
+    const points = [...topic.querySelectorAll("ViewPoint, Markup > Viewpoints")].filter((point) =>
+      point.querySelector(":scope > Viewpoint"),
+    );
     for (const [n, point] of points.entries()) {
       const file = files.get(folder + point.querySelector(":scope > Viewpoint")!.textContent!.trim());
       if (!file) continue;
       const read = stateOf(parsed(file), model);
       missing += read.missing;
       const picture = files.get(folder + (point.querySelector(":scope > Snapshot")?.textContent?.trim() ?? ""));
-      views.push({ name: points.length > 1 ? `${title} ${n + 1}` : title, state: read.state, ...(picture && picture.length < 400_000 ? { picture: dataUrl(picture) } : {}) });
+      views.push({
+        name: points.length > 1 ? `${title} ${n + 1}` : title,
+        state: read.state,
+        ...(picture && picture.length < 400_000 ? { picture: dataUrl(picture) } : {}),
+      });
     }
   }
   return { views, missing };
@@ -165,12 +201,13 @@ function pointIn(of: Element | null, name: string): Point | null {
 function stateOf(view: Document, model: BcfModel): { state: ViewState; missing: number } {
   const { index, info, box } = model;
   let missing = 0;
-  const idsIn = (selector: string) => [...view.querySelectorAll(`${selector} > Component`)].flatMap((component) => {
-    const ids = [component.getAttribute("IfcGuid"), component.querySelector("AuthoringToolId")?.textContent?.trim()];
-    const known = ids.find((id) => id && index.byId.has(id));
-    if (!known) ++missing;
-    return known ? [known] : [];
-  });
+  const idsIn = (selector: string) =>
+    [...view.querySelectorAll(`${selector} > Component`)].flatMap((component) => {
+      const ids = [component.getAttribute("IfcGuid"), component.querySelector("AuthoringToolId")?.textContent?.trim()];
+      const known = ids.find((id) => id && index.byId.has(id));
+      if (!known) ++missing;
+      return known ? [known] : [];
+    });
   const state = initialState();
   state.camera = cameraIn(view, model);
   state.selection = idsIn("Selection");
@@ -179,16 +216,20 @@ function stateOf(view: Document, model: BcfModel): { state: ViewState; missing: 
   if (visibility?.getAttribute("DefaultVisibility") === "true") {
     state.hide = exceptions;
     const hints = visibility.querySelector("ViewSetupHints") ?? view.querySelector("ViewSetupHints");
-    if (hints && hints.getAttribute("SpacesVisible") !== "true" && index.classes.has("BuildingRoom")) state.hide = [...exceptions, ofClass("BuildingRoom")];
+    if (hints && hints.getAttribute("SpacesVisible") !== "true" && index.classes.has("BuildingRoom"))
+      state.hide = [...exceptions, ofClass("BuildingRoom")];
   } else if (exceptions.length) state.show = exceptions;
   state.styles = [...view.querySelectorAll("Coloring > Color")].flatMap((color) => {
     const hex = (color.getAttribute("Color") ?? "").slice(-6).toLowerCase();
     if (!/^[0-9a-f]{6}$/.test(hex)) return [];
-    const ids = [...color.querySelectorAll("Component")].map((component) => component.getAttribute("IfcGuid") ?? component.querySelector("AuthoringToolId")?.textContent?.trim() ?? "");
+    const ids = [...color.querySelectorAll("Component")].map(
+      (component) => component.getAttribute("IfcGuid") ?? component.querySelector("AuthoringToolId")?.textContent?.trim() ?? "",
+    );
     return ids.filter((id) => index.byId.has(id)).map((id) => ({ select: ofId(id), color: `#${hex}` }));
   });
   state.sections = [...view.querySelectorAll("ClippingPlane")].flatMap((plane) => {
-    const at = pointIn(plane, "Location"), direction = pointIn(plane, "Direction");
+    const at = pointIn(plane, "Location"),
+      direction = pointIn(plane, "Direction");
     return at && direction && dot(direction, direction) > 0 ? [sectionOf(sub(at, info.origin), normalized(direction), box)] : [];
   });
   return { state, missing };
@@ -201,18 +242,23 @@ function sectionOf(at: Point, direction: Point, box: Box): Section {
   }
   const degrees = 180 / Math.PI;
   return {
-    axis: "free", at: dot(direction, at), flip: false,
-    turn: Math.atan2(direction[1], direction[0]) * degrees, tilt: Math.asin(Math.min(1, Math.max(-1, direction[2]))) * degrees,
+    axis: "free",
+    at: dot(direction, at),
+    flip: false,
+    turn: Math.atan2(direction[1], direction[0]) * degrees,
+    tilt: Math.asin(Math.min(1, Math.max(-1, direction[2]))) * degrees,
   };
 }
 
 /** All that the other picture shows is seen here too, where the pictures have different shapes. */
 function cameraIn(view: Document, { info, aspect, box }: BcfModel): Camera | null {
   const found = view.querySelector("PerspectiveCamera, OrthogonalCamera");
-  const eye = pointIn(found, "CameraViewPoint"), direction = pointIn(found, "CameraDirection");
+  const eye = pointIn(found, "CameraViewPoint"),
+    direction = pointIn(found, "CameraDirection");
   if (!found || !eye || !direction || dot(direction, direction) === 0) return null;
   const wider = Math.max(1, (numberIn(found, "AspectRatio") || 1) / aspect);
-  const from = sub(eye, info.origin), along = normalized(direction);
+  const from = sub(eye, info.origin),
+    along = normalized(direction);
   const middle = scale(add(box.low, box.high), 0.5);
   const reach = Math.max(1, dot(sub(middle, from), along));
   const parallel = found.nodeName === "OrthogonalCamera";

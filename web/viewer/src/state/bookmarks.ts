@@ -29,7 +29,8 @@ function bookmarksOf(value: unknown): Bookmark[] {
   return value
     .filter((item): item is { name: string; state: unknown; picture?: unknown; date?: unknown } => typeof item?.name === "string")
     .map(({ name, state, picture, date }) => ({
-      name, state: restored(state),
+      name,
+      state: restored(state),
       ...(typeof picture === "string" && kPicture.test(picture) ? { picture } : {}),
       ...(typeof date === "string" && /^\d{4}-\d\d-\d\d$/.test(date) ? { date } : {}),
     }));
@@ -71,4 +72,5 @@ export function saveBookmarks(model: string, bookmarks: Bookmark[], store: Stora
 }
 
 /** Points on one line, everything else in the usual layout. */
-export const pretty = (scene: Scene) => `${JSON.stringify(scene, null, 2).replace(/\[\s+([-\d.,\se]+?)\s+\]/g, (_, n: string) => `[${n.replace(/\s+/g, " ")}]`)}\n`;
+export const pretty = (scene: Scene) =>
+  `${JSON.stringify(scene, null, 2).replace(/\[\s+([-\d.,\se]+?)\s+\]/g, (_, n: string) => `[${n.replace(/\s+/g, " ")}]`)}\n`;

@@ -31,6 +31,8 @@ const kWords: [pattern: RegExp, german: string, english: string][] = [
 export function classWords(className: string, type = ""): string {
   const isFor = (pattern: RegExp) => pattern.test(className) || pattern.test(type);
   const words = kWords.filter(([pattern]) => isFor(pattern)).map(([, german, english]) => `${german} ${english}`);
-  const own = Object.entries(otherTexts()?.classes ?? {}).filter(([name]) => className.includes(name) || type.includes(name)).map(([, word]) => word);
+  const own = Object.entries(otherTexts()?.classes ?? {})
+    .filter(([name]) => className.includes(name) || type.includes(name))
+    .map(([, word]) => word);
   return [...words, ...own].join(" ");
 }

@@ -53,7 +53,8 @@ function options(state: ViewState, scene: Scene, effects: Described["effects"]):
   if (camera.zoom !== undefined && camera.zoom !== kSceneMembers["/camera/zoom"].default) add("--zoom", String(camera.zoom));
   if (camera.eye) add("--eye", camera.eye.join(","));
   if (camera.target) add("--target", camera.target.join(","));
-  if (camera.fieldOfView !== undefined && camera.fieldOfView !== kSceneMembers["/camera/fieldOfView"].default) add("--fov", String(camera.fieldOfView));
+  if (camera.fieldOfView !== undefined && camera.fieldOfView !== kSceneMembers["/camera/fieldOfView"].default)
+    add("--fov", String(camera.fieldOfView));
   if (scene.look) add("--look", scene.look);
   if (state.hatches) words.push("--hatch");
   add("--show", ...state.show);

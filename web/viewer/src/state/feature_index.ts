@@ -42,7 +42,10 @@ export function indexFeatures(given: Feature[]): FeatureIndex {
 function indexOrdered(features: Feature[]): FeatureIndex {
   const n = features.length;
   const byId = new Map(features.map((feature, i) => [feature.id, i]));
-  const end = new Int32Array(n), parent = new Int32Array(n), depth = new Int32Array(n), solids = new Int32Array(n);
+  const end = new Int32Array(n),
+    parent = new Int32Array(n),
+    depth = new Int32Array(n),
+    solids = new Int32Array(n);
   const classes = new Map<string, number[]>();
   features.forEach((feature, i) => {
     const above = byId.get(feature.parent);
@@ -63,7 +66,13 @@ function indexOrdered(features: Feature[]): FeatureIndex {
   const owners = features.map((_, i) => i).filter((i) => features[i]!.count > 0);
   owners.sort((a, b) => features[a]!.first - features[b]!.first);
   return {
-    features, end, parent, depth, solids, byId, classes,
+    features,
+    end,
+    parent,
+    depth,
+    solids,
+    byId,
+    classes,
     firstScalars: Int32Array.from(owners, (i) => features[i]!.first),
     ownersByScalar: Int32Array.from(owners),
   };
@@ -71,7 +80,8 @@ function indexOrdered(features: Feature[]): FeatureIndex {
 
 /** The feature of a scalar; -1: background, or none. */
 export function ownerOf(index: FeatureIndex, scalar: number): number {
-  let low = 0, high = index.firstScalars.length;
+  let low = 0,
+    high = index.firstScalars.length;
   while (low < high) {
     const middle = (low + high) >> 1;
     if (index.firstScalars[middle]! <= scalar) low = middle + 1;

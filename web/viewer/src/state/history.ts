@@ -91,5 +91,7 @@ function restoredTo(state: ViewState, changed: Changed, now: ViewState): ViewSta
 
 /** A lens that follows the mouse: each movement would be a step. */
 function isHovering(before: ViewState, after: ViewState, changed: Changed): boolean {
-  return changed.length === 1 && changed[0] === "lens" && !before.lens.pinned && !after.lens.pinned && before.lens.radius === after.lens.radius;
+  return (
+    changed.length === 1 && changed[0] === "lens" && !before.lens.pinned && !after.lens.pinned && before.lens.radius === after.lens.radius
+  );
 }

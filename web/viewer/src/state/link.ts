@@ -11,7 +11,10 @@ import { initialState, type ViewState } from "./view_state";
 const kMaxBytes = 4 << 20;
 
 async function through(bytes: Uint8Array, stream: GenericTransformStream, maxBytes: number): Promise<Uint8Array> {
-  const reader = new Blob([bytes as Uint8Array<ArrayBuffer>]).stream().pipeThrough(stream as ReadableWritablePair<Uint8Array, Uint8Array>).getReader();
+  const reader = new Blob([bytes as Uint8Array<ArrayBuffer>])
+    .stream()
+    .pipeThrough(stream as ReadableWritablePair<Uint8Array, Uint8Array>)
+    .getReader();
   const parts: Uint8Array[] = [];
   let size = 0;
   for (;;) {
@@ -51,7 +54,8 @@ export async function hashOf(scene: Scene, state: ViewState): Promise<string> {
 /** The state of a link; null if it has none. Rejects if it is damaged. */
 export async function stateOfHash(hash: string, base: ViewState): Promise<ViewState | null> {
   const parts = new URLSearchParams(hash.replace(/^#/, ""));
-  const view = parts.get("view"), scene = parts.get("scene");
+  const view = parts.get("view"),
+    scene = parts.get("scene");
   if (view) return restored(await unpacked(view));
   if (scene) return ofScene((await unpacked(scene)) as Scene, base);
   return null;
@@ -70,7 +74,8 @@ export function restored(value: unknown): ViewState {
   if (typeof value !== "object" || value === null) return initial;
   const given = value as Record<string, unknown>;
   const state: Record<string, unknown> = { ...initial };
-  for (const key of Object.keys(initial)) if (key in given && isLike(initial[key as keyof ViewState], given[key], key)) state[key] = given[key];
+  for (const key of Object.keys(initial))
+    if (key in given && isLike(initial[key as keyof ViewState], given[key], key)) state[key] = given[key];
   return state as unknown as ViewState;
 }
 
@@ -79,9 +84,14 @@ const kNullable: Record<string, string> = { camera: "object", hatches: "boolean"
 function isLike(initial: unknown, given: unknown, key: string): boolean {
   if (key in kNullable) return given === null || (typeof given === kNullable[key] && (key !== "camera" || isCamera(given)));
   if (key === "measured") return Array.isArray(given) && given.every(isPoint);
-  if (Array.isArray(initial)) return Array.isArray(given) && given.every((item) => typeof item === (key === "styles" || key === "sections" ? "object" : "string"));
+  if (Array.isArray(initial))
+    return Array.isArray(given) && given.every((item) => typeof item === (key === "styles" || key === "sections" ? "object" : "string"));
   if (typeof initial === "object" && initial !== null)
-    return typeof given === "object" && given !== null && Object.entries(initial).every(([k, v]) => typeof (given as Record<string, unknown>)[k] === typeof v);
+    return (
+      typeof given === "object" &&
+      given !== null &&
+      Object.entries(initial).every(([k, v]) => typeof (given as Record<string, unknown>)[k] === typeof v)
+    );
   return typeof given === typeof initial;
 }
 

@@ -34,7 +34,8 @@ describe("controls of scene members", () => {
 
   it("have the declared range where the page does not narrow it", () => {
     const narrowed = controls.filter((control) => {
-      const { minimum, maximum } = rangeOfControl(control), declared = kSceneMembers[kRanges[control].member];
+      const { minimum, maximum } = rangeOfControl(control),
+        declared = kSceneMembers[kRanges[control].member];
       return minimum !== declared.minimum || maximum !== declared.maximum;
     });
     expect(narrowed).toEqual(["fieldOfView"]);
@@ -86,14 +87,18 @@ describe("a view that nobody has changed", () => {
   });
 
   it("needs no options as a command", () => {
-    expect(commandOf(initialState(), described, { files: ["house.svt"], owners: "", address: "" })).toBe("svt render house.svt -o view.png --size 640x360");
+    expect(commandOf(initialState(), described, { files: ["house.svt"], owners: "", address: "" })).toBe(
+      "svt render house.svt -o view.png --size 640x360",
+    );
     const camera = {
       preset: kSceneMembers["/camera/preset"].default,
       fieldOfView: kSceneMembers["/camera/fieldOfView"].default,
       zoom: kSceneMembers["/camera/zoom"].default,
     };
     const edges = { ...initialState(), wireframe: kSceneMembers["/passes/*/lines/*/hidden"].default };
-    expect(commandOf(edges, { scene: { camera }, effects: {} }, { files: ["house.svt"], owners: "", address: "" })).toBe("svt render house.svt -o view.png --size 1280x720 --wireframe");
+    expect(commandOf(edges, { scene: { camera }, effects: {} }, { files: ["house.svt"], owners: "", address: "" })).toBe(
+      "svt render house.svt -o view.png --size 1280x720 --wireframe",
+    );
   });
 
   it("has the declared angle of view where a scene gives none", () => {

@@ -44,7 +44,12 @@ export function focusQueries(state: ViewState): string[] {
   return state.focus.query.trim() !== "" ? [state.focus.query.trim()] : state.selection.map(ofId);
 }
 
-export function sceneCamera(camera: Camera | null, box: Box, aspect: number, named: string = kSceneMembers["/camera/preset"].default): SceneCamera {
+export function sceneCamera(
+  camera: Camera | null,
+  box: Box,
+  aspect: number,
+  named: string = kSceneMembers["/camera/preset"].default,
+): SceneCamera {
   if (!camera) return { preset: named };
   const preset = presetFor(camera);
   if (!camera.parallel)
@@ -104,7 +109,12 @@ function effectsOf(state: ViewState, box: Box): Effects {
  * @param box   of the grid, metres from its lower corner along its axes
  * @param size  of the picture, pixels
  */
-export function sceneOf(state: ViewState, box: Box, size: [number, number], samples: Samples = kSceneMembers["/samples"].default): Described {
+export function sceneOf(
+  state: ViewState,
+  box: Box,
+  size: [number, number],
+  samples: Samples = kSceneMembers["/samples"].default,
+): Described {
   const scene: Scene = { format: "svt-scene", version: 1, size, samples };
   if (state.look !== kSceneMembers["/look"].default) scene.look = state.look;
   const camera = sceneCamera(state.camera, box, size[0] / size[1], state.preset);

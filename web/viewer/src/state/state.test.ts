@@ -18,7 +18,8 @@ const state = (change: Partial<ViewState>): ViewState => ({ ...initialState(), .
 
 describe("queries", () => {
   it("quotes whatever stands in an id, and reads it back", () => {
-    for (const id of ['plain', 'with "quotes"', "back\\slash", "a and b", ""]) expect(parseOwn(ofId(id))).toEqual({ kind: "id", value: id });
+    for (const id of ["plain", 'with "quotes"', "back\\slash", "a and b", ""])
+      expect(parseOwn(ofId(id))).toEqual({ kind: "id", value: id });
     expect(quoted('a"b')).toBe('"a\\"b"');
     expect(parseOwn("volume>20")).toBeNull();
     expect(parseOwn("class=A or class=B")).toBeNull();
@@ -55,7 +56,9 @@ describe("scene of the state", () => {
     expect(sceneOf(selected, box, size).effects).toEqual({ highlight: { queries: ['id="a"', 'id="b"'], context: "ghost" } });
     expect(focusQueries({ ...selected, focus: { ...selected.focus, query: "class=Door" } })).toEqual(["class=Door"]);
     expect(sceneOf(state({ effect: "highlight" }), box, size).effects).toEqual({});
-    expect(sceneOf({ ...selected, effect: "cutaway" }, box, size).effects).toEqual({ cutaway: { query: 'id="a" or id="b"', margin: 0.15 } });
+    expect(sceneOf({ ...selected, effect: "cutaway" }, box, size).effects).toEqual({
+      cutaway: { query: 'id="a" or id="b"', margin: 0.15 },
+    });
   });
 
   it("colours by an attribute and draws what a plan needs", () => {
@@ -70,7 +73,11 @@ describe("scene of the state", () => {
   });
 
   it("names the selection, draws lines and hulls, hatches or not", () => {
-    const { scene } = sceneOf(state({ selection: ["a"], names: true, wireframe: "dashed", shell: "room", hatches: false, look: "paper" }), box, size);
+    const { scene } = sceneOf(
+      state({ selection: ["a"], names: true, wireframe: "dashed", shell: "room", hatches: false, look: "paper" }),
+      box,
+      size,
+    );
     expect(scene.names).toEqual(['id="a"']);
     expect(scene.passes).toEqual([{ lines: [{ hidden: "dashed" }], shell: "room" }]);
     expect(scene.hatches).toEqual({ show: false });
@@ -78,12 +85,29 @@ describe("scene of the state", () => {
   });
 
   it("rounds the camera to tenths of a millimetre", () => {
-    const camera = { eye: [1.23456789, 2, 3] as [number, number, number], target: [0, 0, -0.00001] as [number, number, number], parallel: false, height: 1, fieldOfView: 30 };
-    expect(sceneOf(state({ camera }), box, size).scene.camera).toEqual({ preset: "iso", eye: [1.2346, 2, 3], target: [0, 0, 0], fieldOfView: 30 });
+    const camera = {
+      eye: [1.23456789, 2, 3] as [number, number, number],
+      target: [0, 0, -0.00001] as [number, number, number],
+      parallel: false,
+      height: 1,
+      fieldOfView: 30,
+    };
+    expect(sceneOf(state({ camera }), box, size).scene.camera).toEqual({
+      preset: "iso",
+      eye: [1.2346, 2, 3],
+      target: [0, 0, 0],
+      fieldOfView: 30,
+    });
   });
 
   it("looks straight down as the preset does", () => {
-    const camera = { eye: [6, 5, 20] as [number, number, number], target: [6, 5, 3] as [number, number, number], parallel: true, height: 10 / 0.88, fieldOfView: 30 };
+    const camera = {
+      eye: [6, 5, 20] as [number, number, number],
+      target: [6, 5, 3] as [number, number, number],
+      parallel: true,
+      height: 10 / 0.88,
+      fieldOfView: 30,
+    };
     const scene = sceneOf(state({ camera }), box, size).scene.camera!;
     expect(scene.preset).toBe("top");
     expect(scene.zoom).toBeCloseTo(1, 5);
@@ -108,7 +132,17 @@ describe("styles", () => {
   });
 });
 
-const feature = (id: string, parent: string, className = "Wall", count = 1, first = 0): Feature => ({ id, parent, class: className, name: "", depth: 0, first, count, color: "#fff", opacity: 1 });
+const feature = (id: string, parent: string, className = "Wall", count = 1, first = 0): Feature => ({
+  id,
+  parent,
+  class: className,
+  name: "",
+  depth: 0,
+  first,
+  count,
+  color: "#fff",
+  opacity: 1,
+});
 const house = indexFeatures([
   feature("house", "", "Building", 0),
   feature("s0", "house", "Storey", 0),
@@ -128,7 +162,15 @@ describe("feature index", () => {
   });
 
   it("finds owners of scalars", () => {
-    expect([0, 1, 2, 3, 4, 5, 6].map((s) => house.features[ownerOf(house, s)]?.id)).toEqual([undefined, "w0", "r0", "r0", "w1", "r1", undefined]);
+    expect([0, 1, 2, 3, 4, 5, 6].map((s) => house.features[ownerOf(house, s)]?.id)).toEqual([
+      undefined,
+      "w0",
+      "r0",
+      "r0",
+      "w1",
+      "r1",
+      undefined,
+    ]);
   });
 
   it("survives parents that come later, or are missing", () => {
@@ -171,7 +213,9 @@ describe("visibility", () => {
   });
 
   it("stays quick with 100,000 features", () => {
-    const many = Array.from({ length: 100_000 }, (_, i) => feature(`f${i}`, i === 0 ? "" : i % 100 === 1 ? "f0" : `f${i - ((i - 1) % 100)}`, `C${i % 50}`, 1, i + 1));
+    const many = Array.from({ length: 100_000 }, (_, i) =>
+      feature(`f${i}`, i === 0 ? "" : i % 100 === 1 ? "f0" : `f${i - ((i - 1) % 100)}`, `C${i % 50}`, 1, i + 1),
+    );
     const start = performance.now();
     const index = indexFeatures(many);
     const flags = new Uint8Array(many.length).map((_, i) => (i % 3 ? 1 : 0));
@@ -183,7 +227,12 @@ describe("visibility", () => {
 describe("links", () => {
   const shown = state({
     camera: { eye: [1, 2, 3], target: [4, 5, 6], parallel: true, height: 7, fieldOfView: 30 },
-    look: "blueprint", hide: ["class=Room"], sections: [section({ axis: "free", turn: 30, tilt: 10 })], effect: "lens", selection: ["a"], shell: "storey",
+    look: "blueprint",
+    hide: ["class=Room"],
+    sections: [section({ axis: "free", turn: 30, tilt: 10 })],
+    effect: "lens",
+    selection: ["a"],
+    shell: "storey",
     styles: [{ select: 'id="Ü"', color: "#ff0000" }],
   });
 
@@ -196,7 +245,11 @@ describe("links", () => {
   });
 
   it("with a scene alone draw that scene", async () => {
-    const scene = { look: "paper" as const, camera: { eye: [1, 2, 3] as [number, number, number], target: [0, 0, 0] as [number, number, number] }, passes: [{ cut: "z>1" }] };
+    const scene = {
+      look: "paper" as const,
+      camera: { eye: [1, 2, 3] as [number, number, number], target: [0, 0, 0] as [number, number, number] },
+      passes: [{ cut: "z>1" }],
+    };
     const found = await stateOfHash(`#scene=${await packed(scene)}`, initialState());
     expect(found).toEqual(ofScene(scene, initialState()));
     expect(sceneOf(found!, box, size).scene.passes).toEqual(scene.passes);
@@ -220,14 +273,22 @@ describe("links", () => {
 describe("bookmarks", () => {
   it("are kept per model and survive a broken store", () => {
     const map = new Map<string, string>();
-    const store = { getItem: (k: string) => map.get(k) ?? null, setItem: (k: string, v: string) => void map.set(k, v) } as unknown as Storage;
+    const store = {
+      getItem: (k: string) => map.get(k) ?? null,
+      setItem: (k: string, v: string) => void map.set(k, v),
+    } as unknown as Storage;
     const shown = state({ look: "dark" });
     expect(saveBookmarks("a.svt", [{ name: "One", state: shown }], store)).toBe(true);
     expect(loadBookmarks("a.svt", store)).toEqual([{ name: "One", state: shown }]);
     expect(loadBookmarks("b.svt", store)).toEqual([]);
     map.set("svt-bookmarks:a.svt", "{broken");
     expect(loadBookmarks("a.svt", store)).toEqual([]);
-    const full = { getItem: () => null, setItem: () => { throw new Error("full"); } } as unknown as Storage;
+    const full = {
+      getItem: () => null,
+      setItem: () => {
+        throw new Error("full");
+      },
+    } as unknown as Storage;
     expect(saveBookmarks("a.svt", [], full)).toBe(false);
   });
 });
@@ -241,7 +302,9 @@ describe("command", () => {
 
   it("says the view in options", () => {
     const shown = state({ hide: ["class=Room"], sections: [section({ axis: "y", at: 5, flip: true })], look: "paper" });
-    expect(commandOf(shown, sceneOf(shown, box, size), given)).toBe("svt render house.svt -o view.png --size 640x360 --look paper --hide class=Room --section 'y<5'");
+    expect(commandOf(shown, sceneOf(shown, box, size), given)).toBe(
+      "svt render house.svt -o view.png --size 640x360 --look paper --hide class=Room --section 'y<5'",
+    );
   });
 
   it("takes a scene file where options cannot say it", () => {
@@ -251,13 +314,19 @@ describe("command", () => {
 
   it("fetches a model that the reader has not", () => {
     const fetched = { ...given, address: "https://example.org/a b/models/house.svt" };
-    expect(commandOf(initialState(), sceneOf(initialState(), box, size), fetched)).toBe("curl -fLo house.svt 'https://example.org/a b/models/house.svt' && svt render house.svt -o view.png --size 640x360");
+    expect(commandOf(initialState(), sceneOf(initialState(), box, size), fetched)).toBe(
+      "curl -fLo house.svt 'https://example.org/a b/models/house.svt' && svt render house.svt -o view.png --size 640x360",
+    );
   });
 
   it("names all that the user has opened", () => {
     const command = (inputs: Partial<Inputs>) => commandOf(initialState(), sceneOf(initialState(), box, size), { ...given, ...inputs });
-    expect(command({ files: ["a.ifc", "b.ifc"] })).toBe("svt build a.ifc b.ifc -o model.svt --vectors edges,meshes && svt render model.svt -o view.png --size 640x360");
-    expect(command({ files: ["a.svt", "b.svt"], owners: "parcels.csv" })).toBe("svt render a.svt -o view.png --size 640x360 --with b.svt --owners parcels.csv");
+    expect(command({ files: ["a.ifc", "b.ifc"] })).toBe(
+      "svt build a.ifc b.ifc -o model.svt --vectors edges,meshes && svt render model.svt -o view.png --size 640x360",
+    );
+    expect(command({ files: ["a.svt", "b.svt"], owners: "parcels.csv" })).toBe(
+      "svt render a.svt -o view.png --size 640x360 --with b.svt --owners parcels.csv",
+    );
   });
 
   it("embeds a view whatever it is called", () => {

@@ -43,7 +43,8 @@ export function hideQueries(index: FeatureIndex, flags: Uint8Array, before: stri
 function treeQueries(index: FeatureIndex, flags: Uint8Array, covered: Uint8Array): string[] {
   // For each subtree: the features still to be covered, and whether anything in it stays visible.
   const n = flags.length;
-  const open = new Int32Array(n), visible = new Int32Array(n);
+  const open = new Int32Array(n),
+    visible = new Int32Array(n);
   for (let i = n - 1; i >= 0; --i) {
     if (index.features[i]!.count > 0) {
       if (!flags[i]) visible[i]!++;
@@ -55,7 +56,7 @@ function treeQueries(index: FeatureIndex, flags: Uint8Array, covered: Uint8Array
     visible[above]! += visible[i]!;
   }
   const queries: string[] = [];
-  for (let i = 0; i < n; ) {
+  for (let i = 0; i < n;) {
     const feature = index.features[i]!;
     if (open[i] === 0) i = index.end[i]!;
     else if (visible[i] === 0 && open[i]! > 1) {
@@ -88,7 +89,10 @@ export class SeenCounts {
   private readonly solids: Int32Array;
   private readonly hidden: Int32Array;
 
-  constructor(private readonly index: FeatureIndex, flags: Uint8Array) {
+  constructor(
+    private readonly index: FeatureIndex,
+    flags: Uint8Array,
+  ) {
     const n = index.features.length;
     this.solids = new Int32Array(n + 1);
     this.hidden = new Int32Array(n + 1);

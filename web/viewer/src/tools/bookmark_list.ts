@@ -20,7 +20,9 @@ export class BookmarkList extends Part {
   declare views: Bookmark[];
   private viewsOf = "";
 
-  static override styles = [controls, css`
+  static override styles = [
+    controls,
+    css`
     h3 { margin-top: 0; }
     ul { list-style: none; margin: 0; padding: 0; }
     li { display: grid; grid-template-columns: 56px minmax(0, 1fr) auto auto auto; gap: 4px; align-items: center; min-height: 44px; }
@@ -29,7 +31,8 @@ export class BookmarkList extends Part {
     input[type="text"] { border-color: transparent; background: transparent; padding: 4px; min-width: 0; width: 100%; }
     input[type="text"]:hover, input[type="text"]:focus { border-color: var(--line); }
     .row { margin-top: 6px; }
-  `];
+  `,
+  ];
 
   constructor() {
     super();
@@ -85,7 +88,15 @@ export class BookmarkList extends Part {
   private async keep(): Promise<void> {
     const { state } = this.session;
     const picture = await this.smallPicture();
-    this.store([...this.views, { name: t("bookmarkName", { n: this.views.length + 1 }), state, date: new Date().toISOString().slice(0, 10), ...(picture ? { picture } : {}) }]);
+    this.store([
+      ...this.views,
+      {
+        name: t("bookmarkName", { n: this.views.length + 1 }),
+        state,
+        date: new Date().toISOString().slice(0, 10),
+        ...(picture ? { picture } : {}),
+      },
+    ]);
   }
 
   private rename(n: number, input: HTMLInputElement): void {

@@ -9,6 +9,7 @@ const kTexts = { ghost: "contextGhost", shell: "contextShell", solid: "contextSo
 export function contextChoice(value: Context, change: (context: Context) => void) {
   return html`<h3 id="context">${t("context")}</h3>
     <div class="segments" role="radiogroup" aria-labelledby="context">${(["ghost", "shell", "solid", "none"] as const).map(
-      (context) => html`<button role="radio" aria-checked=${value === context} @click=${() => change(context)}>${t(kTexts[context])}</button>`,
+      (context) =>
+        html`<button role="radio" aria-checked=${value === context} @click=${() => change(context)}>${t(kTexts[context])}</button>`,
     )}</div>`;
 }

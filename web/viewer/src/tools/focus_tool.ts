@@ -40,7 +40,8 @@ export class FocusTool extends Part {
     const isOn = effect === "highlight" || effect === "cutaway";
     return html`
       <div class="segments" role="radiogroup" aria-label=${t("focusEffect")}>${(["none", "highlight", "cutaway"] as const).map(
-        (wanted) => html`<button role="radio" aria-checked=${wanted === "none" ? !isOn : effect === wanted} @click=${() => this.session.set({ effect: wanted as Effect })}>${t(kEffects[wanted])}</button>`,
+        (wanted) =>
+          html`<button role="radio" aria-checked=${wanted === "none" ? !isOn : effect === wanted} @click=${() => this.session.set({ effect: wanted as Effect })}>${t(kEffects[wanted])}</button>`,
       )}</div>
       <form @submit=${this.apply}>
         <input id="focus-query" autocomplete="off" spellcheck="false" aria-label=${t("focusQuery")} placeholder=${t("focusQuery")} .value=${focus.query} />
@@ -49,11 +50,13 @@ export class FocusTool extends Part {
       ${this.error ? html`<p class="error" role="alert">${this.error}</p>` : nothing}
       ${isOn && !focusQueries(this.session.state).length ? html`<p class="small quiet">${t("focusEmpty")}</p>` : nothing}
       ${effect === "highlight" ? contextChoice(focus.context, (context) => this.change({ context })) : nothing}
-      ${effect === "cutaway"
-        ? html`<div class="line"><span class="quiet">${t("margin")}</span>
+      ${
+        effect === "cutaway"
+          ? html`<div class="line"><span class="quiet">${t("margin")}</span>
             <wa-slider size="s" label=${t("margin")} aria-label=${t("margin")} min="0" max="1" step="0.05" .value=${focus.margin} @input=${(e: Event) => this.change({ margin: Number((e.target as HTMLInputElement).value) })}></wa-slider>
             <output>${number(focus.margin, 2)} m</output></div>`
-        : nothing}
+          : nothing
+      }
       <h3 id="shell-title">${t("shell")}</h3>
       <select id="shell" aria-labelledby="shell-title" title=${help("/passes/*/shell")} @change=${(e: Event) => this.session.set({ shell: ((e.target as HTMLSelectElement).value || null) as ShellLevel | null })}>
         <option value="" ?selected=${!shell}>${t("shellOff")}</option>

@@ -31,9 +31,11 @@ export class LensTool extends Part {
         <label class="check"><input type="checkbox" id="lens-pinned" .checked=${lens.pinned} ?disabled=${!isOn} @change=${(e: Event) => this.change({ pinned: (e.target as HTMLInputElement).checked })} />${t("lensPinned")}</label>
       </div>
       ${this.slider(t("lensSize"), lens.radius, 0.04, 0.9, (radius) => this.change({ radius }))}
-      ${lens.pinned
-        ? html`${this.slider(t("lensX"), lens.x, 0, 1, (x) => this.change({ x }))}${this.slider(t("lensY"), lens.y, 0, 1, (y) => this.change({ y }))}`
-        : nothing}
+      ${
+        lens.pinned
+          ? html`${this.slider(t("lensX"), lens.x, 0, 1, (x) => this.change({ x }))}${this.slider(t("lensY"), lens.y, 0, 1, (y) => this.change({ y }))}`
+          : nothing
+      }
       ${contextChoice(lens.context, (context: Context) => this.change({ context }))}
       <p class="quiet small">${t("lensHint")}</p>
     `;

@@ -26,10 +26,13 @@ export class LookTool extends Part {
     const hasEdges = session.info?.hasEdges ?? false;
     return html`
       <div class="segments" role="radiogroup" aria-label=${t("look")} title=${help("/look")}>${kLooks.map(
-        (wanted) => html`<button role="radio" aria-checked=${look === wanted} @click=${() => session.set({ look: wanted })}>${t(`look_${wanted}`)}</button>`,
+        (wanted) =>
+          html`<button role="radio" aria-checked=${look === wanted} @click=${() => session.set({ look: wanted })}>${t(`look_${wanted}`)}</button>`,
       )}</div>
       <h3 id="wire-title">${t("wireframe")}</h3>
-      <select id="wireframe" aria-labelledby="wire-title" title=${help("/passes/*/lines/*/hidden")} ?disabled=${!hasEdges} @change=${(e: Event) => {
+      <select id="wireframe" aria-labelledby="wire-title" title=${help("/passes/*/lines/*/hidden")} ?disabled=${!hasEdges} @change=${(
+        e: Event,
+      ) => {
         const value = (e.target as HTMLSelectElement).value;
         session.set({ wireframe: value === "off" ? null : (value as HiddenLines) });
       }}>${kLines.map((line) => html`<option value=${line} ?selected=${(wireframe ?? "off") === line}>${t(`wireframe_${line}`)}</option>`)}</select>

@@ -8,11 +8,14 @@ import { controls, Part } from "../ui/part";
 import { pathLength, polygonArea } from "./measure";
 
 export class MeasureTool extends Part {
-  static override styles = [controls, css`
+  static override styles = [
+    controls,
+    css`
     dl { display: grid; grid-template-columns: 1fr auto; gap: 4px 12px; margin: 10px 0; }
     dt { color: var(--quiet); }
     dd { margin: 0; font-variant-numeric: tabular-nums; text-align: right; font-weight: 600; }
-  `];
+  `,
+  ];
 
   protected override uses() {
     return [this.session.state.measured];
@@ -26,8 +29,12 @@ export class MeasureTool extends Part {
       <p class="quiet">${t("measureHint")}</p>
       <dl aria-live="polite">
         <dt>${t("points")}</dt><dd id="measured-points">${points.length}</dd>
-        ${points.length > 1 ? html`<dt>${t("lastStretch")}</dt><dd>${number(distance(points.at(-2)!, points.at(-1)!), 3)} m</dd>
-          <dt>${t("distance")}</dt><dd id="measured-length">${number(pathLength(points, false), 3)} m</dd>` : nothing}
+        ${
+          points.length > 1
+            ? html`<dt>${t("lastStretch")}</dt><dd>${number(distance(points.at(-2)!, points.at(-1)!), 3)} m</dd>
+          <dt>${t("distance")}</dt><dd id="measured-length">${number(pathLength(points, false), 3)} m</dd>`
+            : nothing
+        }
         ${points.length > 2 ? html`<dt>${t("area")}</dt><dd id="measured-area">${number(polygonArea(points), 3)} m²</dd>` : nothing}
       </dl>
       <div class="row">

@@ -19,7 +19,18 @@ export function rangeOf(section: Section, box: Box): [number, number] {
 }
 
 const kEdges: [number, number][] = [
-  [0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7],
+  [0, 1],
+  [2, 3],
+  [4, 5],
+  [6, 7],
+  [0, 2],
+  [1, 3],
+  [4, 6],
+  [5, 7],
+  [0, 4],
+  [1, 5],
+  [2, 6],
+  [3, 7],
 ];
 
 /** The polygon in which a plane cuts the box, around its centre; empty if it does not. */
@@ -35,7 +46,8 @@ export function planeOutline(section: Section, box: Box): Point[] {
   }
   if (cut.length < 3) return [];
   const middle = middleOf(cut);
-  const across = sub(cut[0]!, middle), upward = cross(normal, across);
+  const across = sub(cut[0]!, middle),
+    upward = cross(normal, across);
   const angle = (p: Point) => Math.atan2(dot(sub(p, middle), upward), dot(sub(p, middle), across));
   return cut.sort((p, q) => angle(p) - angle(q));
 }
@@ -55,7 +67,11 @@ export function keptInside(section: Section, box: Box): Section {
 export function keptApart(section: Section, others: Section[], box: Box): Section {
   const [low, high] = rangeOf(section, box);
   const step = (high - low) / 8;
-  const isTaken = (at: number) => others.some((other) => other.axis === section.axis && other.turn === section.turn && other.tilt === section.tilt && Math.abs(other.at - at) < step / 2);
+  const isTaken = (at: number) =>
+    others.some(
+      (other) =>
+        other.axis === section.axis && other.turn === section.turn && other.tilt === section.tilt && Math.abs(other.at - at) < step / 2,
+    );
   for (let n = 0; n < 8; ++n) {
     // To and fro around where it would lie: 0, +1, -1, +2, ...
     const at = Number((section.at + (n % 2 ? (n + 1) / 2 : -n / 2) * step).toFixed(2));
@@ -71,7 +87,8 @@ export function keptApart(section: Section, others: Section[], box: Box): Sectio
 export function dragged(camera: Camera, size: [number, number], handle: Point, normal: Point, dx: number, dy: number): number {
   const aspect = size[0] / size[1];
   const step = 0.01;
-  const a = project(camera, aspect, handle), b = project(camera, aspect, add(handle, scale(normal, step)));
+  const a = project(camera, aspect, handle),
+    b = project(camera, aspect, add(handle, scale(normal, step)));
   if (!a || !b) return 0;
   const along: [number, number] = [((b.x - a.x) * size[0]) / step, ((b.y - a.y) * size[1]) / step];
   const square = along[0] ** 2 + along[1] ** 2;

@@ -15,7 +15,11 @@ const kFormats = ["svg", "dxf", "png", "geojson", "csv"] as const;
 type FileFormat = (typeof kFormats)[number];
 /** Pixels of a PNG for each CSS pixel of its SVG: 300 to the inch. */
 const kPngScale = 300 / 96;
-const kParts = [["beyond", "drawBeyond"], ["above", "drawAbove"], ["dimensions", "drawDimensions"]] as const;
+const kParts = [
+  ["beyond", "drawBeyond"],
+  ["above", "drawAbove"],
+  ["dimensions", "drawDimensions"],
+] as const;
 /** Height at which plans are cut: above the floor, over window sills. */
 const kPlanHeight = 1.1;
 /** More storeys than these, as a district has, are a list. */
@@ -24,7 +28,9 @@ const kMostChips = 14;
 /** Storeys, or levels that the model does not name; those of several buildings with the same name and height are one. */
 function levelsOf(storeys: VolumeInfo["storeys"]): { name: string; floor: number }[] {
   const levels = storeys.map(({ name, id, floor }) => ({ name: name || id || t("level", { height: number(floor, 2) }), floor }));
-  const once = levels.filter(({ name, floor }, n) => levels.findIndex((other) => other.name === name && Math.abs(other.floor - floor) < 0.05) === n);
+  const once = levels.filter(
+    ({ name, floor }, n) => levels.findIndex((other) => other.name === name && Math.abs(other.floor - floor) < 0.05) === n,
+  );
   const isAlone = (name: string) => once.filter((other) => other.name === name).length === 1;
   return once.map(({ name, floor }) => ({ name: isAlone(name) ? name : `${name} (${number(floor, 2)} m)`, floor }));
 }
@@ -78,8 +84,13 @@ export class SectionTool extends Part {
     if (!info) return nothing;
     const lacks = !info.hasMeshes;
     return html`<div class="row small drawings" role="group" aria-label=${t("drawnToo")}><span class="quiet grow">${t("drawnToo")}</span>${kParts.map(
-      ([part, text]) => html`<label class="check"><input type="checkbox" id="draw-${part}" ?disabled=${lacks && part !== "dimensions"} .checked=${this.parts[part]}
-        @change=${(e: Event) => { this.parts = { ...this.parts, [part]: (e.target as HTMLInputElement).checked }; }} />${t(text)}</label>`,
+      ([
+        part,
+        text,
+      ]) => html`<label class="check"><input type="checkbox" id="draw-${part}" ?disabled=${lacks && part !== "dimensions"} .checked=${this.parts[part]}
+        @change=${(e: Event) => {
+          this.parts = { ...this.parts, [part]: (e.target as HTMLInputElement).checked };
+        }} />${t(text)}</label>`,
     )}</div>
     <div class="row"><button id="draw-sheets" title=${t("sheetsHint")} ?disabled=${this.isDrawing} @click=${() => void this.sheets()}>${t("sheets")}</button></div>`;
   }
@@ -115,20 +126,32 @@ export class SectionTool extends Part {
     return html`<div class="plane" role="group" aria-label=${t("planeNumber", { n: n + 1 })}>
       <div class="head">
         <div class="segments" role="radiogroup" aria-label=${t("axis")}>${kAxes.map(
-          (axis) => html`<button role="radio" aria-checked=${section.axis === axis} title=${axisText(axis)} aria-label=${axisText(axis)} @click=${() => this.turnTo(n, axis)}>${axis === "free" ? t("axisFree") : axis}</button>`,
+          (axis) =>
+            html`<button role="radio" aria-checked=${section.axis === axis} title=${axisText(axis)} aria-label=${axisText(axis)} @click=${() => this.turnTo(n, axis)}>${axis === "free" ? t("axisFree") : axis}</button>`,
         )}</div>
         <button aria-pressed=${section.flip} aria-label=${t("flip")} title=${t("flip")} @click=${() => this.change(n, { flip: !section.flip })}>${icon("flip", 16)}</button>
         <button class="bare" aria-label=${t("removePlane", { n: n + 1 })} title=${t("removePlane", { n: n + 1 })} @click=${() => this.removePlane(n)}>${icon("bin", 16)}</button>
       </div>
-      ${this.slider(t("position"), section.at, low, high, 0.01, html`<span class="typed"><input type="number" class="at" step="0.01" aria-label=${t("positionTyped")} .value=${section.at.toFixed(2)}
-        @change=${(e: Event) => this.typed(n, (e.target as HTMLInputElement).valueAsNumber)} />m</span>`, (at) => this.change(n, { at }))}
+      ${this.slider(
+        t("position"),
+        section.at,
+        low,
+        high,
+        0.01,
+        html`<span class="typed"><input type="number" class="at" step="0.01" aria-label=${t("positionTyped")} .value=${section.at.toFixed(2)}
+        @change=${(e: Event) => this.typed(n, (e.target as HTMLInputElement).valueAsNumber)} />m</span>`,
+        (at) => this.change(n, { at }),
+      )}
       ${this.inTheWorld(section, n)}
-      ${section.axis === "free"
-        ? html`${this.slider(t("turn"), section.turn, -180, 180, 1, `${number(section.turn, 0)}°`, (turn) => this.change(n, { turn }))}
+      ${
+        section.axis === "free"
+          ? html`${this.slider(t("turn"), section.turn, -180, 180, 1, `${number(section.turn, 0)}°`, (turn) => this.change(n, { turn }))}
             ${this.slider(t("tilt"), section.tilt, -90, 90, 1, `${number(section.tilt, 0)}°`, (tilt) => this.change(n, { tilt }))}`
-        : nothing}
+          : nothing
+      }
       <div class="row small drawings" role="toolbar" aria-label=${t("drawing")}><span class="quiet grow">${t("drawing")}</span>${kFormats.map(
-        (format) => html`<button class="small" aria-label=${t("exportAs", { format: format.toUpperCase() })} @click=${() => void this.export(n, format)}>${format.toUpperCase()}</button>`,
+        (format) =>
+          html`<button class="small" aria-label=${t("exportAs", { format: format.toUpperCase() })} @click=${() => void this.export(n, format)}>${format.toUpperCase()}</button>`,
       )}</div>
     </div>`;
   }
@@ -155,7 +178,7 @@ export class SectionTool extends Part {
   private typed(n: number, value: number): void {
     const [low, high] = rangeOf(this.session.state.sections[n]!, this.session.box);
     if (Number.isFinite(value)) this.change(n, { at: Math.min(high, Math.max(low, value)) });
-    this.requestUpdate();  // what was typed and not taken is put back
+    this.requestUpdate(); // what was typed and not taken is put back
   }
 
   private add(): void {
@@ -186,7 +209,9 @@ export class SectionTool extends Part {
 
   private cutStorey(floor: number): void {
     const others = this.session.state.sections.filter((section) => section.axis !== "z");
-    this.session.set({ sections: [...others, { axis: "z", at: Number((floor + kPlanHeight).toFixed(3)), flip: false, turn: 0, tilt: 90 }] });
+    this.session.set({
+      sections: [...others, { axis: "z", at: Number((floor + kPlanHeight).toFixed(3)), flip: false, turn: 0, tilt: 90 }],
+    });
   }
 
   private async export(n: number, format: FileFormat): Promise<void> {

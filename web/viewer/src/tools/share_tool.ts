@@ -17,7 +17,11 @@ import "./bookmark_list";
 export class ShareTool extends Part {
   static override properties = {
     ...Part.properties,
-    size: { state: true }, isDrawing: { state: true }, sceneText: { state: true }, error: { state: true }, isFileKept: { state: true },
+    size: { state: true },
+    isDrawing: { state: true },
+    sceneText: { state: true },
+    error: { state: true },
+    isFileKept: { state: true },
   };
   declare size: [number, number];
   declare isDrawing: boolean;
@@ -27,13 +31,16 @@ export class ShareTool extends Part {
   declare isFileKept: boolean;
   private seenFile = "";
 
-  static override styles = [controls, css`
+  static override styles = [
+    controls,
+    css`
     .size input { padding: 4px 6px; }
     .size { display: grid; grid-template-columns: 1fr auto 1fr auto; gap: 6px; align-items: center; }
     textarea { width: 100%; height: 220px; margin-top: 6px; }
     .row { margin-top: 6px; }
     h3:first-child { margin-top: 0; }
-  `];
+  `,
+  ];
 
   constructor() {
     super();
@@ -67,8 +74,12 @@ export class ShareTool extends Part {
         <button id="show-scene" aria-expanded=${this.sceneText !== null} @click=${() => void this.toggleScene()}>${t("sceneJson")}</button>
       </div>
       ${this.sceneText !== null ? this.scene(this.sceneText) : nothing}
-      ${this.session.isLocal ? html`<label class="check" title=${t("keepFileHint")}><input type="checkbox" id="keep-file" .checked=${this.isFileKept} @change=${(e: Event) => void this.keepFile((e.target as HTMLInputElement).checked)} />
-        ${t("keepFile", { name: this.session.modelFile })}</label>` : nothing}
+      ${
+        this.session.isLocal
+          ? html`<label class="check" title=${t("keepFileHint")}><input type="checkbox" id="keep-file" .checked=${this.isFileKept} @change=${(e: Event) => void this.keepFile((e.target as HTMLInputElement).checked)} />
+        ${t("keepFile", { name: this.session.modelFile })}</label>`
+          : nothing
+      }
       <h3>${t("picture")}</h3>
       <div class="size">
         ${this.side(t("pictureWidth"), 0)}<span aria-hidden="true">×</span>${this.side(t("pictureHeight"), 1)}
@@ -79,7 +90,9 @@ export class ShareTool extends Part {
 
   private side(label: string, axis: 0 | 1) {
     const { minimum, maximum, step } = rangeOfControl("pictureSide");
-    return html`<input type="number" min=${minimum} max=${maximum} step=${step} aria-label=${label} title=${help(kRanges.pictureSide.member)} .value=${String(this.size[axis])} @change=${(e: Event) => {
+    return html`<input type="number" min=${minimum} max=${maximum} step=${step} aria-label=${label} title=${help(kRanges.pictureSide.member)} .value=${String(this.size[axis])} @change=${(
+      e: Event,
+    ) => {
       const value = Math.round(Number((e.target as HTMLInputElement).value));
       const size: [number, number] = [...this.size];
       size[axis] = Math.min(maximum, Math.max(minimum, value || minimum));

@@ -13,7 +13,12 @@ const section = (change: Partial<Section>): Section => ({ axis: "z", at: 1, flip
 
 describe("measures", () => {
   it("of a rectangle that stands askew", () => {
-    const points = [[0, 0, 0], [3, 0, 0], [3, 4, 3], [0, 4, 3]] as [number, number, number][];
+    const points = [
+      [0, 0, 0],
+      [3, 0, 0],
+      [3, 4, 3],
+      [0, 4, 3],
+    ] as [number, number, number][];
     expect(polygonArea(points)).toBeCloseTo(15, 12);
     expect(pathLength(points, true)).toBeCloseTo(16, 12);
     expect(pathLength(points, false)).toBeCloseTo(11, 12);
@@ -21,7 +26,14 @@ describe("measures", () => {
   });
 
   it("of an L, which is not convex", () => {
-    const points = [[0, 0, 5], [2, 0, 5], [2, 1, 5], [1, 1, 5], [1, 2, 5], [0, 2, 5]] as [number, number, number][];
+    const points = [
+      [0, 0, 5],
+      [2, 0, 5],
+      [2, 1, 5],
+      [1, 1, 5],
+      [1, 2, 5],
+      [0, 2, 5],
+    ] as [number, number, number][];
     expect(polygonArea(points)).toBeCloseTo(3, 12);
   });
 });
@@ -39,7 +51,14 @@ describe("section planes", () => {
   });
 
   it("follow the axes of a turned building", () => {
-    const turned: Box = { ...box, axes: [[0, 1, 0], [-1, 0, 0], [0, 0, 1]] };
+    const turned: Box = {
+      ...box,
+      axes: [
+        [0, 1, 0],
+        [-1, 0, 0],
+        [0, 0, 1],
+      ],
+    };
     expect(normalOf(section({ axis: "x" }), turned)).toEqual([0, 1, 0]);
     expect(rangeOf(section({ axis: "x" }), turned)).toEqual([0, 4]);
     expect(corners(turned)[1]).toEqual([0, 4, 0]);
@@ -52,9 +71,11 @@ describe("section planes", () => {
   it("follow the hand: what is under the pointer stays under it", () => {
     const camera: Camera = { eye: [9, -8, 7], target: [2, 1.5, 1], parallel: false, height: 5, fieldOfView: 30 };
     const size: [number, number] = [800, 450];
-    const handle = middleOf(planeOutline(section({}), box)), normal = normalOf(section({}), box);
+    const handle = middleOf(planeOutline(section({}), box)),
+      normal = normalOf(section({}), box);
     const metres = dragged(camera, size, handle, normal, 0, -10);
-    const before = project(camera, 800 / 450, handle)!, after = project(camera, 800 / 450, add(handle, scale(normal, metres)))!;
+    const before = project(camera, 800 / 450, handle)!,
+      after = project(camera, 800 / 450, add(handle, scale(normal, metres)))!;
     expect(metres).toBeGreaterThan(0);
     expect((before.y - after.y) * 450).toBeCloseTo(10, 0);
   });
@@ -76,8 +97,23 @@ describe("resolution", () => {
 });
 
 describe("tree rows", () => {
-  const feature = (id: string, parent: string, name = "") => ({ id, parent, name, class: "Wall", depth: 0, first: 1, count: 1, color: "#fff", opacity: 1 });
-  const index = indexFeatures([feature("a", "", "House"), feature("b", "a", "Kitchen"), feature("c", "b", "Table"), feature("d", "a", "Hall")]);
+  const feature = (id: string, parent: string, name = "") => ({
+    id,
+    parent,
+    name,
+    class: "Wall",
+    depth: 0,
+    first: 1,
+    count: 1,
+    color: "#fff",
+    opacity: 1,
+  });
+  const index = indexFeatures([
+    feature("a", "", "House"),
+    feature("b", "a", "Kitchen"),
+    feature("c", "b", "Table"),
+    feature("d", "a", "Hall"),
+  ]);
 
   it("show what is open", () => {
     expect(rowsOf(index, new Set(), "").shown).toEqual([0]);

@@ -41,13 +41,16 @@ async function enter(session: Session): Promise<void> {
 }
 
 export class ViewsTool extends Part {
-  static override styles = [controls, css`
+  static override styles = [
+    controls,
+    css`
     .views { display: grid; grid-template-columns: repeat(4, minmax(0, 1fr)); gap: 5px; margin-bottom: 6px; }
     .views button { padding: 4px 2px; gap: 4px; }
     .views kbd { font: inherit; font-size: 11px; color: var(--quiet); }
     .line { display: grid; grid-template-columns: 84px 1fr 44px; gap: 10px; align-items: center; min-height: 36px; }
     output { text-align: right; font-variant-numeric: tabular-nums; }
-  `];
+  `,
+  ];
 
   protected override uses() {
     const { camera } = this.session.state;
@@ -59,18 +62,21 @@ export class ViewsTool extends Part {
     const { camera } = session.state;
     return html`
       <div class="views" role="toolbar" aria-label=${t("views")}>${kViews.map(
-        (view, n) => html`<button title=${help("/camera/preset")} @click=${() => void session.goTo("", view)}>${t(`view_${view}`)} <kbd>${n + 1}</kbd></button>`,
+        (view, n) =>
+          html`<button title=${help("/camera/preset")} @click=${() => void session.goTo("", view)}>${t(`view_${view}`)} <kbd>${n + 1}</kbd></button>`,
       )}<button @click=${() => void session.goTo("", null)}>${icon("fit", 16)} <kbd>0</kbd><span class="visually-hidden">${t("fit")}</span></button></div>
       <div class="row">
         <label class="check" title=${help("/camera/parallel")}><input type="checkbox" id="parallel" .checked=${camera?.parallel ?? kSceneMembers["/camera/parallel"].default} ?disabled=${session.isWalking}
           @change=${(e: Event) => camera && session.turn(withProjection(session.state.camera!, (e.target as HTMLInputElement).checked))} />${t("parallel")}</label>
         <label class="check"><input type="checkbox" id="walk" .checked=${session.isWalking} @change=${(e: Event) => setWalking(session, (e.target as HTMLInputElement).checked)} />${t("walk")}</label>
       </div>
-      ${camera && !camera.parallel
-        ? html`<div class="line"><span class="quiet">${t("fieldOfView")}</span>
+      ${
+        camera && !camera.parallel
+          ? html`<div class="line"><span class="quiet">${t("fieldOfView")}</span>
             ${memberSlider("fieldOfView", t("fieldOfView"), Math.round(camera.fieldOfView), (fieldOfView) => session.turn({ ...session.state.camera!, fieldOfView }))}
             <output>${withUnit(camera.fieldOfView, 0, kSceneMembers["/camera/fieldOfView"].unit)}</output></div>`
-        : nothing}
+          : nothing
+      }
       ${session.isWalking ? html`<p class="small quiet">${t("walkHint")}</p>` : nothing}
     `;
   }

@@ -10,7 +10,9 @@ export function movedByArrow(event: KeyboardEvent): boolean {
   const from = event.composedPath()[0] as HTMLElement;
   const group = from.closest?.(kGroups);
   if (!group || from.matches("input:not([type=checkbox]), select, textarea")) return false;
-  const items = [...group.querySelectorAll<HTMLElement>("button:not([disabled]), [role=radio], input[type=checkbox]:not([disabled])")].filter((item, n, all) => all.indexOf(item) === n);
+  const items = [
+    ...group.querySelectorAll<HTMLElement>("button:not([disabled]), [role=radio], input[type=checkbox]:not([disabled])"),
+  ].filter((item, n, all) => all.indexOf(item) === n);
   const at = items.indexOf(from);
   if (at < 0 || items.length < 2) return false;
   const next = items[step === undefined ? (ends! + items.length) % items.length : (at + step + items.length) % items.length]!;

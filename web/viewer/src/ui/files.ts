@@ -1,7 +1,13 @@
 /** File downloads, and text for the clipboard. */
 
 const kKinds: Record<string, string> = {
-  svg: "image/svg+xml", png: "image/png", csv: "text/csv", json: "application/json", geojson: "application/geo+json", zip: "application/zip", bcf: "application/octet-stream",
+  svg: "image/svg+xml",
+  png: "image/png",
+  csv: "text/csv",
+  json: "application/json",
+  geojson: "application/geo+json",
+  zip: "application/zip",
+  bcf: "application/octet-stream",
 };
 
 export function save(data: ArrayBuffer | string, name: string): void {
@@ -41,11 +47,13 @@ export async function pngOf(svg: ArrayBuffer, scale: number): Promise<ArrayBuffe
 
 /** A ZIP archive, not compressed, dated 1980-01-01, so that equal files give equal bytes. A name that ends with / is a folder. */
 export function zipOf(files: { name: string; text: string | Uint8Array }[]): ArrayBuffer {
-  const parts: Uint8Array[] = [], directory: Uint8Array[] = [];
+  const parts: Uint8Array[] = [],
+    directory: Uint8Array[] = [];
   const encoder = new TextEncoder();
   let offset = 0;
   for (const file of files) {
-    const name = encoder.encode(file.name), data = typeof file.text === "string" ? encoder.encode(file.text) : file.text;
+    const name = encoder.encode(file.name),
+      data = typeof file.text === "string" ? encoder.encode(file.text) : file.text;
     // Shared by both headers: version, flags, method, time and date, checksum, sizes, length of the name, of extra fields.
     const common = new DataView(new ArrayBuffer(26));
     common.setUint16(0, 20, true);
@@ -87,11 +95,14 @@ export async function unzipped(bytes: ArrayBuffer): Promise<Map<string, Uint8Arr
   while (end >= 0 && view.getUint32(end, true) !== 0x06054b50) --end;
   if (end < 0) throw new Error("no ZIP archive");
   const files = new Map<string, Uint8Array>();
-  let at = view.getUint32(end + 16, true), room = kMostUnpacked;
+  let at = view.getUint32(end + 16, true),
+    room = kMostUnpacked;
   for (let n = view.getUint16(end + 10, true); n > 0; --n) {
     if (view.getUint32(at, true) !== 0x02014b50) throw new Error("damaged ZIP archive");
-    const method = view.getUint16(at + 10, true), packed = view.getUint32(at + 20, true);
-    const nameLength = view.getUint16(at + 28, true), rest = view.getUint16(at + 30, true) + view.getUint16(at + 32, true);
+    const method = view.getUint16(at + 10, true),
+      packed = view.getUint32(at + 20, true);
+    const nameLength = view.getUint16(at + 28, true),
+      rest = view.getUint16(at + 30, true) + view.getUint16(at + 32, true);
     const name = new TextDecoder().decode(new Uint8Array(bytes, at + 46, nameLength));
     const header = view.getUint32(at + 42, true);
     const from = header + 30 + view.getUint16(header + 26, true) + view.getUint16(header + 28, true);
@@ -109,7 +120,7 @@ export async function unzipped(bytes: ArrayBuffer): Promise<Map<string, Uint8Arr
 async function inflated(data: Uint8Array<ArrayBuffer>, most: number): Promise<Uint8Array> {
   const reader = new Blob([data]).stream().pipeThrough(new DecompressionStream("deflate-raw")).getReader();
   const parts: Uint8Array<ArrayBuffer>[] = [];
-  for (let size = 0; ; ) {
+  for (let size = 0; ;) {
     const { done, value } = await reader.read();
     if (done) return new Uint8Array(await new Blob(parts).arrayBuffer());
     size += value.length;

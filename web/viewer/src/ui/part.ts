@@ -9,7 +9,8 @@ export abstract class Part extends LitElement {
   private seen: unknown[] | null = null;
   private readonly follow = () => {
     const uses = this.uses();
-    const isSame = uses !== null && this.seen !== null && uses.every((value, i) => value === this.seen![i]) && this.language === this.session.language;
+    const isSame =
+      uses !== null && this.seen !== null && uses.every((value, i) => value === this.seen![i]) && this.language === this.session.language;
     this.seen = uses;
     this.language = this.session.language;
     if (!isSame) this.requestUpdate();
