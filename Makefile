@@ -8,7 +8,7 @@
 #   make viewer   the page that shows buildings, with that module: build/release/share/svt/viewer
 #   make python   the Python module svt: build/release/python, and a wheel in build/wheel
 #   make bench    times against VTK, OpenVDB and libcitygml (installs them)
-#   make check    format, layers, error pages, banned calls
+#   make check    layers, error pages, banned calls, format, linters and types of C++, Python, TypeScript and shell, without building
 #   make verify   every check, heavy ones too, with a report: build/verify/report.md (CHECKS="asan tidy" for some)
 #   make asan     all tests with the address and undefined-behaviour sanitizers
 #   make tsan     the thread sanitizer on what is parallel
@@ -48,7 +48,8 @@ demo: build
 	@$(MAKE) -s viewer
 	@echo "demo: 'build/release/bin/svt view build/demo/house.svt' opens the house in the browser"
 
-test: setup
+test:
+	@scripts/setup.sh node
 	@scripts/check.sh
 	@scripts/build.sh release
 	@$(MAKE) -s npm
@@ -65,7 +66,8 @@ bench:
 	@scripts/build.sh bench svt svt_bench
 	@python3 scripts/bench.py
 
-check: setup
+check:
+	@scripts/setup.sh node
 	@scripts/check.sh
 
 verify:

@@ -15,6 +15,7 @@ import collections
 import pathlib
 import re
 import sys
+from typing import Optional
 
 MAX_FILES = 25
 PARTS = ("svt", "apps", "web/wasm", "python", "bench", "tests")
@@ -43,7 +44,10 @@ INCLUDE = re.compile(r'\s*#\s*include\s*[<"]([^">]+)')
 
 def read_table(path: pathlib.Path) -> tuple[dict[str, set[str]], dict[str, set[str]], dict[str, set[str]], list[str]]:
     """(folder -> what it may include, the same for its tests, folder -> whose inside it may include, problems)"""
-    allowed, tests, insides, problems = {}, collections.defaultdict(set), collections.defaultdict(set), []
+    allowed: dict[str, set[str]] = {}
+    tests: dict[str, set[str]] = collections.defaultdict(set)
+    insides: dict[str, set[str]] = collections.defaultdict(set)
+    problems: list[str] = []
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
         line = line.split("#")[0].strip()
         if not line:
@@ -61,7 +65,7 @@ def read_table(path: pathlib.Path) -> tuple[dict[str, set[str]], dict[str, set[s
     return allowed, tests, insides, problems
 
 
-def folder_of(path: str, folders: set[str]) -> str | None:
+def folder_of(path: str, folders: set[str]) -> Optional[str]:
     """The folder of the table that holds a file: "svt/render/packet/x.hpp" -> "render", "apps/cli/x.hpp" -> "apps/cli"."""
     parts = path.split("/")
     for name in ("/".join(parts[:2]), parts[1] if parts[0] == "svt" and len(parts) > 2 else None, parts[0]):
@@ -81,8 +85,10 @@ def check_tree(root: pathlib.Path) -> tuple[list[str], int]:
     allowed, in_tests, insides, problems = read_table(root / "svt" / "layers.txt")
     folders = set(allowed) | {"tests"}
     files = sorted(path for part in PARTS for path in (root / part).rglob("*.[ch]pp"))
-    rooms = collections.defaultdict(lambda: collections.defaultdict(str))  # folder -> (room, room) -> a place
-    used, used_by_tests = collections.defaultdict(set), collections.defaultdict(set)
+    # folder -> (room, room) -> a place
+    rooms: dict[str, dict[tuple[str, str], str]] = collections.defaultdict(lambda: collections.defaultdict(str))
+    used: dict[str, set[str]] = collections.defaultdict(set)
+    used_by_tests: dict[str, set[str]] = collections.defaultdict(set)
     for path in files:
         name = str(path.relative_to(root))
         folder = folder_of(name, folders)

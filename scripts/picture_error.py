@@ -34,17 +34,17 @@ FAR = 65535  # what --depth cannot tell, mm
 def read_png(path):
     """Width, height, and rows of numbers: (channels, 8 or 16 bit). Not interlaced."""
     data = Path(path).read_bytes()
-    at, packed, head = 8, b"", None
+    at, packed = 8, b""
     while at < len(data):
         size, kind = struct.unpack(">I4s", data[at : at + 8])
         if kind == b"IHDR":
-            head = struct.unpack(">IIBBBBB", data[at + 8 : at + 21])
+            width, height, bits, color = struct.unpack(">IIBB", data[at + 8 : at + 18])
         elif kind == b"IDAT":
             packed += data[at + 8 : at + 8 + size]
         at += 12 + size
-    width, height, bits, color = head[:4]
     channels = {0: 1, 2: 3, 4: 2, 6: 4}[color]
-    step, raw, rows, before = channels * bits // 8, zlib.decompress(packed), [], None
+    step, raw, before = channels * bits // 8, zlib.decompress(packed), None
+    rows: list = []
     stride = width * step
     for y in range(height):
         line = bytearray(raw[y * (stride + 1) + 1 : (y + 1) * (stride + 1)])

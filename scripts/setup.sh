@@ -7,6 +7,7 @@
 #   scripts/setup.sh slurm    also Slurm, for the test of job arrays (scripts/test_slurm.sh)
 #   scripts/setup.sh checks   also the tools of `make tidy` and `make fuzz`
 #   scripts/setup.sh packages also the tools that test the .deb files on a clean system
+#   scripts/setup.sh node     also Node.js with npm, for `make check` and the page
 #   scripts/setup.sh web      also the tools to build and test the WebAssembly module and the page
 set -euo pipefail
 
@@ -15,7 +16,7 @@ packages=(
   libpugixml-dev libsimdjson-dev nlohmann-json3-dev libglu1-mesa-dev libtbb-dev
   libfmt-dev libcli11-dev zlib1g-dev libzstd-dev libpng-dev libhwy-dev libpolyclipping-dev
   libproj-dev proj-bin libfreetype-dev fonts-dejavu-core libegl-dev libgles-dev libegl-mesa0 libgl1-mesa-dri libcairo2-dev libqpdf29 qpdf
-  clang-format libgtest-dev libxml2-utils librsvg2-bin poppler-utils gdal-bin unzip python3 ccache
+  clang-format shellcheck flake8 black mypy libgtest-dev libxml2-utils librsvg2-bin poppler-utils gdal-bin unzip python3 ccache
 )
 peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth valgrind)
 readers=(ffmpeg python3-nibabel python3-tifffile python3-zarr python3-vtk9 python3-networkx python3-numcodecs
@@ -26,11 +27,13 @@ python=(python3-dev pybind11-dev python3-numpy python3-scipy)
 debian=(debootstrap lintian dpkg-dev)
 checks=(clang clang-tidy clang-tools libclang-rt-14-dev)
 # A Node.js from another source has its own npm, which conflicts with Debian's.
-command -v node >/dev/null || web+=(nodejs)
-command -v npm >/dev/null || web+=(npm)
+node=()
+command -v node >/dev/null || node+=(nodejs)
+command -v npm >/dev/null || node+=(npm)
 [ "${1:-}" = peers ] && packages+=("${peers[@]}")
 [ "${1:-}" = readers ] && packages+=("${readers[@]}")
-[ "${1:-}" = web ] && packages+=("${web[@]}")
+[ "${1:-}" = node ] && packages+=("${node[@]}")
+[ "${1:-}" = web ] && packages+=("${web[@]}" "${node[@]}")
 [ "${1:-}" = slurm ] && packages+=("${slurm[@]}")
 [ "${1:-}" = python ] && packages+=("${python[@]}")
 [ "${1:-}" = packages ] && packages+=("${debian[@]}")

@@ -55,7 +55,7 @@ end() { # file, program, signal
 # All processes below a process.
 below() {
   local child
-  for child in $(cat /proc/"$1"/task/*/children 2>/dev/null); do below "$child"; echo "$child"; done
+  cat /proc/"$1"/task/*/children 2>/dev/null | tr -s ' ' '\n' | while read -r child; do below "$child"; echo "$child"; done || true
 }
 
 # Steps of a node: slurmstepd whose environment or spool is that of this folder.
@@ -63,7 +63,7 @@ steps() { # node
   local process
   for process in /proc/[0-9]*; do
     [ "$(cat "$process/comm" 2>/dev/null)" = slurmstepd ] || continue
-    ls -l "$process/fd" 2>/dev/null | grep -q "$dir/$1[./]" && echo "${process#/proc/}"
+    find "$process/fd" -lname "*$dir/$1[./]*" 2>/dev/null | grep -q . && echo "${process#/proc/}"
   done || true
 }
 

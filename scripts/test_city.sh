@@ -34,7 +34,7 @@ plan good
 plan two
 "$svt" city run two -q --jobs 2 & first=$!
 "$svt" city run two -q --jobs 2 & second=$!
-wait $first && wait $second || fail "two runs into one folder"
+if ! wait $first || ! wait $second; then fail "two runs into one folder"; fi
 same two "two runs into one folder have the bytes of one"
 
 plan skewed

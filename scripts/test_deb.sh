@@ -29,6 +29,7 @@ inside() { chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin L
 quietly inside apt-get update -q
 echo "deb: svt is installed"
 quietly inside sh -c 'apt-get install -y -q --no-install-recommends /tmp/svt_*.deb'
+# shellcheck disable=SC2016  # the variables are those of Perl
 inside sh -ec '
   mkdir /tmp/work && cd /tmp/work
   svt --version

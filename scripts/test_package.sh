@@ -15,8 +15,9 @@ done
 inside=$(find "$work/usr/include/svt" -mindepth 2 -type d; find "$work/usr/include/svt" -name '*_test.hpp')
 [ -z "$inside" ] || { echo "package: installed, but private: $inside" >&2; exit 1; }
 
-cmake -S examples/cpp -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/usr" >>"$work/log" 2>&1 &&
-  cmake --build "$work/build" >>"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }
+logged() { "$@" >>"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }; }
+logged cmake -S examples/cpp -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/usr"
+logged cmake --build "$work/build"
 cd "$work"
 usr/bin/svt sample house -o house.gml
 build/build_and_query house.gml house.svt 'class=BuildingRoom'

@@ -67,7 +67,8 @@ for _ in $(seq 400); do
   # The task and the process in which it builds a pack; one that came to its end before is none.
   victim=$(pgrep -f "^$svt city task $work/killed " | head -n 1) || true
   if [ -n "$victim" ]; then
-    kill -KILL "$victim" $(pgrep -P "$victim" || true) 2>/dev/null && killed=$((killed + 1)) || true
+    mapfile -t below < <(pgrep -P "$victim")
+    if kill -KILL "$victim" "${below[@]}" 2>/dev/null; then killed=$((killed + 1)); fi
   fi
   [ $killed -lt 2 ] || break
   sleep 0.02
@@ -77,8 +78,8 @@ drained 90
 "$svt" city status killed >said
 grep -q "^missing: " said || fail "nothing is missing after kill -9"
 grep -l "E605" killed/logs/merge_* >/dev/null || fail "the merge does not name what is missing"
-eval "$(grep '^svt city run' said | sed "s|^svt|$svt|")" >said
-grep -q "^[1-4] of 21" said || fail "few elements are enough for what was killed: $(cat said)"
+eval "$(grep '^svt city run' said | sed "s|^svt|$svt|")" >again
+grep -q "^[1-4] of 21" again || fail "few elements are enough for what was killed: $(cat again)"
 drained 60
 same killed "a task killed with -9 is missing, named, and alone run again by the line of 'svt city status'"
 
@@ -124,8 +125,9 @@ END
 "$svt" city run hanging --engine slurm --tile-seconds 6 --feature-seconds 2 -- --time=5 >/dev/null
 drained 180
 "$svt" city status hanging >said 2>&1
-grep -q "4000 buildings of 4001 features" said && ! grep -q "^missing" said && grep -q "zz.gml.*left out.*too long" said ||
+if ! grep -q "4000 buildings of 4001 features" said || grep -q "^missing" said || ! grep -q "zz.gml.*left out.*too long" said; then
   fail "a feature that takes too long: $(cat said)"
+fi
 echo "slurm: a feature that takes too long is left out and named, all others are there"
 
 # Killed anywhere, a merge leaves the city before it or none, and is run again.
@@ -164,5 +166,5 @@ if [ "${2:-}" = long ]; then
   grep -qi "requeue.*n2" "$work/slurm/ctld.log" || fail "nothing was requeued"
   same lost "a lost node's task is requeued and runs on the other node ($((SECONDS - start)) s)" lost-local
 fi
-pgrep -f "$work/" >/dev/null && sleep 2 || true
+if pgrep -f "$work/" >/dev/null; then sleep 2; fi
 echo "slurm: done"

@@ -148,7 +148,7 @@ def member_schema(members: dict[str, dict], pointer: str) -> dict:
     said = ", ".join(filter(None, (member.get("help", ""), member.get("unit", ""))))
     if "otherwise" in member:
         said += f"; default: {member['otherwise']}"
-    schema = {"description": said} if said else {}
+    schema: dict = {"description": said} if said else {}
     if member["kind"] == "object" and pointer == "/motion/keys/*/scene":
         return schema | {"$ref": "#"}  # members of the scene itself
     if member["kind"] == "object":

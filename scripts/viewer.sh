@@ -5,7 +5,6 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 page=build/release/share/svt/viewer
 module=build/web/svt.wasm
-command -v npm >/dev/null || { echo "viewer: npm is missing; scripts/setup.sh web installs it" >&2; exit 1; }
 [ -f "$module" ] || { echo "viewer: $module is missing; 'make web' builds it" >&2; exit 1; }
 
 log=$(mktemp)
@@ -18,13 +17,8 @@ quietly() {
   fi
 }
 
+scripts/npm_packages.sh
 cd web/viewer
-lock=node_modules/.package-lock.json
-if [ ! -f "$lock" ] || [ package-lock.json -nt "$lock" ]; then
-  echo "viewer: installing npm packages"
-  quietly npm ci --no-audit --no-fund --ignore-scripts
-  touch "$lock"
-fi
 if [ -f "../../$page/index.html" ] && [ -z "$(find . ../../$module ../../build/web/svt.js ../../build/web/svt_threads.js -path ./node_modules -prune -o -type f -newer "../../$page/index.html" -print -quit)" ]; then
   exit 0
 fi

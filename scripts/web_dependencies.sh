@@ -17,6 +17,7 @@ for header in "${headers[@]}"; do ln -sfn "/usr/include/$header" "$sources/inclu
 [ ${#missing[@]} -eq 0 ] && exit 0
 
 echo "web: fetching the sources of ${#missing[@]} libraries"
+# shellcheck source=/dev/null  # of the system
 release=$(. /etc/os-release && echo "$VERSION_CODENAME")
 key=/usr/share/keyrings/debian-archive-keyring.gpg
 cat >"$sources/debian.list" <<LIST

@@ -9,7 +9,9 @@ import random
 import sys
 
 TURN = 2 * math.pi
-vertices, numbers, objects = [], {}, {}
+vertices: list = []
+numbers: dict = {}
+objects: dict = {}
 
 
 def point(x, y, z):
@@ -132,13 +134,17 @@ def cells(n):
 
 
 def shells(n):
-    add("a", "MultiSurface", [face for i, at in enumerate(cells(n)[1]) for face in box(*at, inward=i % 2 == 1)])
+    add(
+        "a",
+        "MultiSurface",
+        [face for i, (x, y, z) in enumerate(cells(n)[1]) for face in box(x, y, z, inward=i % 2 == 1)],
+    )
 
 
 def voids(n):
     side, places = cells(n)
     outside = box(-1, -1, -1, (2 * side + 2,) * 3)
-    add("a", "Solid", [outside] + [box(*at, inward=True) for at in places])
+    add("a", "Solid", [outside] + [box(x, y, z, inward=True) for x, y, z in places])
 
 
 def surface(n):

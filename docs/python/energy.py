@@ -62,7 +62,7 @@ def outermost(runs, is_inside):
 def envelope(volume, step):
     """{label: [m2 seen along x, y, z; layers along each axis: Counter of ((material, metres), ...)]} of the envelope."""
     is_inside = inside_of(volume)
-    found = collections.defaultdict(lambda: (np.zeros(3), [collections.Counter() for _ in range(3)]))
+    found: dict = collections.defaultdict(lambda: (np.zeros(3), [collections.Counter() for _ in range(3)]))
     lower, upper = volume.box
     for axis in range(3):
         across = [a for a in range(3) if a != axis]
@@ -136,7 +136,8 @@ def main():
                 )
             )
             print(
-                f"{name_of(label):<40}{area:>8.2f} m2  U {u or float('nan'):5.2f}  {u * area if u else float('nan'):7.1f} W/K  {text}"
+                f"{name_of(label):<40}{area:>8.2f} m2  U {u or float('nan'):5.2f}  {u * area if u else float('nan'):7.1f} W/K"
+                f"  {text}"
             )
     print(f"transmission in all: {sum(u * area for _, area, _, u in rows if u):.0f} W/K")
     # From green (0.3 and better) over yellow to red (2.5 and worse).

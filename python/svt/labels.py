@@ -4,7 +4,7 @@ from __future__ import annotations
 import difflib
 import operator
 from collections.abc import Sequence
-from typing import Iterator
+from typing import Any, Iterator
 
 import numpy as np
 
@@ -28,7 +28,7 @@ class Labels(Sequence):
     def __iter__(self) -> Iterator[_native.Label]:
         return (self._native.label(i) for i in range(len(self)))
 
-    def __getitem__(self, key):
+    def __getitem__(self, key: Any) -> Any:
         if isinstance(key, slice):
             return [self._native.label(i) for i in range(*key.indices(len(self)))]
         if isinstance(key, str):

@@ -4,7 +4,7 @@ from __future__ import annotations
 import operator
 import os
 from collections.abc import Sequence
-from typing import Callable, Iterator, Optional, Union
+from typing import Any, Callable, Iterator, Optional, Union
 
 from . import _native
 from .errors import Finding
@@ -32,7 +32,7 @@ class Model(Sequence):
     def __len__(self) -> int:
         return self._native.feature_count
 
-    def __getitem__(self, index):
+    def __getitem__(self, index: Any) -> Any:
         if isinstance(index, slice):
             return [self._native.feature(i) for i in range(*index.indices(len(self)))]
         index = operator.index(index)

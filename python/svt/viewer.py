@@ -8,8 +8,12 @@ import shutil
 import subprocess
 import tempfile
 import weakref
+from typing import TYPE_CHECKING
 
 from .errors import Error, Place
+
+if TYPE_CHECKING:
+    from .volume import Volume
 
 
 def find_command() -> str:
@@ -19,7 +23,7 @@ def find_command() -> str:
         raise Error(
             "E101",
             "CannotOpen",
-            "the command svt is missing, which serves the page; install the package svt, or " "name it in SVT_COMMAND",
+            "the command svt is missing, which serves the page; install the package svt, or name it in SVT_COMMAND",
             Place(),
         )
     return command
@@ -49,7 +53,7 @@ class View:
         Of this machine alone, such as 'http://127.0.0.1:41234/'.
     """
 
-    def __init__(self, volume, height: int = 600, browser: bool = False) -> None:
+    def __init__(self, volume: Volume, height: int = 600, browser: bool = False) -> None:
         command = find_command()
         folder = tempfile.mkdtemp(prefix="svt-view-")
         path = os.path.join(folder, "volume.svt")

@@ -52,7 +52,7 @@ class Runs(Sequence):
     def __len__(self) -> int:
         return len(self.start) - 1
 
-    def __getitem__(self, index):
+    def __getitem__(self, index: Any) -> Any:
         if isinstance(index, slice):
             return [self[i] for i in range(*index.indices(len(self)))]
         index = int(index)
@@ -165,11 +165,11 @@ class Volume:
         )
         return np.array([corners.min(axis=0), corners.max(axis=0)])
 
-    def world(self, index) -> np.ndarray:
+    def world(self, index: Any) -> np.ndarray:
         """World points of sample positions: array (..., 3) of i, j, k, whole or not, to (..., 3) of x, y, z in metres."""
         return _native.world_from_index(self._native, index)
 
-    def index(self, points) -> np.ndarray:
+    def index(self, points: Any) -> np.ndarray:
         """Sample positions of world points: array (..., 3) in metres to (..., 3) of i, j, k, not rounded."""
         return _native.index_from_world(self._native, points)
 
@@ -210,7 +210,7 @@ class Volume:
         """The samples whose positions lie in a world box (metres, bounds included): first and one past the last, (i, j, k)."""
         return _native.samples_in(self._native, _box_of(box))
 
-    def sample(self, points, *, scalars: bool = False) -> np.ndarray:
+    def sample(self, points: Any, *, scalars: bool = False) -> np.ndarray:
         """The labels at points.
 
         Parameters
@@ -229,7 +229,7 @@ class Volume:
         found = _native.sample_scalars(self._native, points)
         return found if scalars else self.labels.of_scalar[found]
 
-    def rays(self, origins, directions, *, progress: Progress = None) -> Runs:
+    def rays(self, origins: Any, directions: Any, *, progress: Progress = None) -> Runs:
         """The labels that rays go through, with where they enter and leave them.
 
         Parameters
@@ -314,7 +314,7 @@ class Volume:
     @classmethod
     def from_dense(
         cls,
-        array,
+        array: Any,
         labels: Any = None,
         *,
         spacing: float | Sequence[float] = 1,
@@ -486,7 +486,7 @@ Volume.render.__doc__ = f"""A picture: array (height, width, 4) of uint8, red, g
         dict for queries with a value (``opacity={{'class=BuildingRoom': 0.2}}``).
 
 {_indented(_native.draw_keywords(), 8)}"""
-Volume.save.__doc__ = f"""Write the volume. The ending tells the format: `.svt`, and all of `svt convert` (.nrrd, .vti, .nii.gz, .zarr, ...).
+Volume.save.__doc__ = f"""Write the volume. The ending tells the format: `.svt`, and all of `svt convert` (.nrrd, .vti, ...).
 
         Parameters
         ----------

@@ -10,7 +10,7 @@ import unittest
 import numpy as np
 
 import svt
-from common import DATA, command, house, house_file, house_svt, needs_command, path
+from common import DATA, command, house, house_svt, needs_command, path
 
 
 def read_nrrd(name):
@@ -74,7 +74,7 @@ class Command(unittest.TestCase):
         v = svt.open(house_svt())
         box = (v.world((10, 20, 5)), v.world((70, 50, 40)))
         box_text = ",".join(repr(float(x)) for x in np.ravel(box))
-        for name, options, words in (
+        cases: list[tuple[str, dict, list[str]]] = [
             (
                 "o.nrrd",
                 {"encoding": "raw", "box": box, "level": 1},
@@ -88,16 +88,18 @@ class Command(unittest.TestCase):
             ("o.fds", {"holes": "class=Door", "merge": "class"}, ["--holes", "class=Door", "--merge", "class"]),
             ("o.vdb", {"level_sets": True, "level": 2}, ["--level-sets", "--level", "2"]),
             ("o.x3d", {"texture": "atlas"}, ["--texture", "atlas"]),
-        ):
+        ]
+        for name, options, words in cases:
             v.save(path("python-" + name), **options)
             command("convert", house_svt(), path("command-" + name), *words)
             with open(path("python-" + name), "rb") as a, open(path("command-" + name), "rb") as b:
                 self.assertTrue(a.read().replace(b"python-o", b"command-o") == b.read(), name)
-        for name, options, words in (
+        cases = [
             ("o.precomputed", {"meshes": True, "sharded": True, "level": 1}, ["--meshes", "--sharded", "--level", "1"]),
             ("o.zarr", {"zarr": 3}, ["--zarr", "3"]),
             ("o.3dtiles", {"place": (49.1, 8.44, 110), "lift": 48.2}, ["--place", "49.1,8.44,110", "--lift", "48.2"]),
-        ):
+        ]
+        for name, options, words in cases:
             v.save(path("python-" + name), **options)
             command("convert", house_svt(), path("command-" + name), *words)
             files = sorted(
@@ -234,7 +236,7 @@ class Command(unittest.TestCase):
 
     def test_pictures_have_the_same_bytes(self):
         v = svt.open(house_svt())
-        pairs = [
+        pairs: list[tuple[dict, list[str]]] = [
             (
                 {"size": (320, 180), "section": "y<4", "highlight": "name=Kitchen"},
                 ["--size", "320x180", "--section", "y<4", "--highlight", "name=Kitchen"],

@@ -131,7 +131,7 @@ class FromDense(unittest.TestCase):
         again = svt.open(path("small.svt"))
         self.assertGreater(written, 100)
         np.testing.assert_array_equal(again.dense(), v.dense())
-        self.assertEqual([l.id for l in again.labels], [l.id for l in v.labels])
+        self.assertEqual([label.id for label in again.labels], [label.id for label in v.labels])
         part = v.part(select="name=Wall")
         self.assertEqual(part.labels["Wall"].voxels, 8)
         self.assertEqual(part.labels["a"].voxels, 0)
@@ -326,11 +326,11 @@ class Words(unittest.TestCase):
 
     def test_docstrings_name_every_keyword(self):
         for keyword in ("spacing", "dimension", "lod", "no_bodies", "threads"):
-            self.assertIn(f"\n    {keyword} : ", svt.build.__doc__)
+            self.assertIn(f"\n    {keyword} : ", svt.build.__doc__ or "")
         for keyword in ("section", "highlight", "scale_bar", "hidden_lines"):
-            self.assertIn(f"\n        {keyword} : ", svt.Volume.render.__doc__)
+            self.assertIn(f"\n        {keyword} : ", svt.Volume.render.__doc__ or "")
         for keyword in ("encoding", "meshes", "place", "lift", "zarr", "level_sets", "select"):
-            self.assertIn(f"\n        {keyword} : ", svt.Volume.save.__doc__)
+            self.assertIn(f"\n        {keyword} : ", svt.Volume.save.__doc__ or "")
 
     def test_notebooks_show_volume_picture_and_drawing(self):
         v = house()

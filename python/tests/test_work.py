@@ -106,7 +106,7 @@ class Work(unittest.TestCase):
             v.section("z=1.2").area,
         ]
         fresh = svt.build(house_file(), spacing=0.1)
-        wrong = []
+        wrong: list = []
 
         def work():
             for _ in range(3):
@@ -187,13 +187,13 @@ class Stubs(unittest.TestCase):
         from svt import _native
 
         stub = ast.parse(pathlib.Path(svt.__file__).with_name("_native.pyi").read_text(encoding="utf-8"))
-        told = {}
+        told: dict = {}
         for node in stub.body:
             if isinstance(node, ast.ClassDef):
                 told[node.name] = {n.name for n in node.body if isinstance(n, ast.FunctionDef)}
             elif isinstance(node, ast.FunctionDef):
                 told[node.name] = None
-            elif isinstance(node, ast.AnnAssign):
+            elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
                 told[node.target.id] = None
         real = {
             name: {m for m in vars(value) if not m.startswith("_")} if isinstance(value, type) else None

@@ -35,7 +35,7 @@ export async function withPage({ oracles, html, folders, width = 960, height = 6
     if (!file || !existsSync(file)) return answer.writeHead(404).end();
     answer.setHeader("content-type", types[extname(file)] ?? "application/octet-stream").end(readFileSync(file));
   });
-  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  await new Promise((done) => server.listen(0, "127.0.0.1", () => done(server)));
   const { chromium } = await import(pathToFileURL(playwrightIn(oracles)).href);
   const browser = await chromium.launch({
     executablePath: browserPath,
@@ -43,7 +43,7 @@ export async function withPage({ oracles, html, folders, width = 960, height = 6
   });
   try {
     const tab = await browser.newPage({ viewport: { width, height } });
-    await use(tab, `http://127.0.0.1:${server.address().port}/`);
+    await use(tab, `http://127.0.0.1:${/** @type {import("node:net").AddressInfo} */ (server.address()).port}/`);
   } finally {
     await browser.close();
     server.close();

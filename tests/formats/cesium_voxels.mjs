@@ -33,7 +33,7 @@ for (let z = 0; z < 1 << level; ++z)
             const expected = place.every((p, axis) => p < sizes[axis]) ? sampleAt(...place) : 0;
             const found = body ? body.readUInt32LE(4 * (i + nx * (k + nz * (ny - 1 - j)))) : 0;
             if (found !== expected) throw new Error(`${place}: ${found}, not ${expected}`);
-            filled += found !== 0;
+            filled += Number(found !== 0);
           }
     }
 console.log("filled", filled);

@@ -19,7 +19,7 @@ for (const file of [tools, validator])
     process.exit(77);
   }
 const { TilesetTraverser, ResourceResolvers } = createRequire(import.meta.url)(tools);
-const { validateBytes } = (await import(pathToFileURL(validator))).default;
+const { validateBytes } = (await import(pathToFileURL(validator).href)).default;
 
 // The JSON and the binary chunk of a .glb.
 function glbOf(bytes) {
@@ -53,10 +53,10 @@ function boxOf(json) {
 }
 
 const boxOfTile = ({ box }) => [0, 1].map((side) => [0, 1, 2].map((axis) => box[axis] + (2 * side - 1) * box[3 + 4 * axis]));
-const isWithin = ([low, high], [lower, higher], reach) =>
-  [0, 1, 2].every((axis) => low[axis] >= lower[axis] - reach && high[axis] <= higher[axis] + reach);
+const isWithin = (inner, outer, reach) =>
+  [0, 1, 2].every((axis) => inner[0][axis] >= outer[0][axis] - reach && inner[1][axis] <= outer[1][axis] + reach);
 
-const tileset = JSON.parse(readFileSync(join(tiles, "tileset.json")));
+const tileset = JSON.parse(readFileSync(join(tiles, "tileset.json"), "utf8"));
 const seen = new Set(),
   finest = new Map();
 let triangles = 0,
@@ -95,7 +95,7 @@ await new TilesetTraverser(resolve(tiles), resolver, { depthFirst: true }).trave
   }
   return true;
 });
-const files = readdirSync(join(tiles, "content"), { recursive: true }).filter((name) => name.endsWith(".glb"));
+const files = readdirSync(join(tiles, "content"), { recursive: true }).filter((name) => String(name).endsWith(".glb"));
 assert.equal(seen.size, files.length, "contents that no tile refers to");
 assert.equal(finest.size, Number(buildings));
 console.log(

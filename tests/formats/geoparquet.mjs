@@ -24,7 +24,7 @@ assert.deepEqual([encoding, types], ["WKB", ["Polygon"]]);
 assert.deepEqual(crs?.id, { authority: "EPSG", code: Number(epsg) });
 
 const rows = await parquetReadObjects({ file: buffer });
-const { features } = JSON.parse(readFileSync(reference));
+const { features } = JSON.parse(readFileSync(reference, "utf8"));
 assert.equal(rows.length, features.length);
 const around = [Infinity, Infinity, -Infinity, -Infinity];
 rows.forEach((row, n) => {

@@ -159,7 +159,8 @@ function usedBox(path, place) {
 }
 
 // That a scene with y up fills a box with z up; of voxels up to the half voxel that a centre is from its corner.
-async function expectBox(scene, [min, max], tolerance) {
+async function expectBox(scene, expected, tolerance) {
+  const [min, max] = expected;
   const { Box3 } = await load("three", "build", "three.module.js");
   scene.updateMatrixWorld(true);
   const box = new Box3().setFromObject(scene);

@@ -14,15 +14,21 @@ from paraview.vtk.util.numpy_support import vtk_to_numpy
 path, reference = sys.argv[1:3]
 with open(reference, "rb") as file:
     head, _, data = file.read().partition(b"\n\n")
-sizes = [int(n) for n in re.search(rb"\nsizes: (.*)", head)[1].split()]
-kind = {b"uint8": np.uint8, b"uint16": np.uint16, b"uint32": np.uint32}[re.search(rb"\ntype: (\w+)", head)[1]]
+
+
+def field(pattern):
+    """What the header says in the group of a pattern."""
+    found = re.search(pattern, head)
+    assert found, pattern
+    return found[1]
+
+
+sizes = [int(n) for n in field(rb"\nsizes: (.*)").split()]
+kind = {b"uint8": np.uint8, b"uint16": np.uint16, b"uint32": np.uint32}[field(rb"\ntype: (\w+)")]
 expected = np.frombuffer(data, kind).reshape(sizes[::-1])
-origin = np.array([float(n) for n in re.search(rb"\nspace origin: \((.*)\)", head)[1].split(b",")])
+origin = np.array([float(n) for n in field(rb"\nspace origin: \((.*)\)").split(b",")])
 steps = np.array(
-    [
-        [float(n) for n in v.split(b",")]
-        for v in re.findall(rb"\(([^)]*)\)", re.search(rb"\nspace directions: (.*)", head)[1])
-    ]
+    [[float(n) for n in v.split(b",")] for v in re.findall(rb"\(([^)]*)\)", field(rb"\nspace directions: (.*)"))]
 )
 
 reader = simple.OpenDataFile(path)

@@ -44,7 +44,7 @@ for (const [name, codecs] of Object.entries(layouts)) {
     await zarr.set(array, null, { data: values, shape, stride: [shape[1] * shape[2], shape[2], 1] });
     written.push(name);
   } catch (error) {
-    console.log(`zarrita does not write ${name}: ${error.message}`);
+    console.log(`zarrita does not write ${name}: ${/** @type {Error} */ (error).message}`);
   }
 }
 writeFileSync(join(folder, "written.txt"), written.join("\n") + "\n");

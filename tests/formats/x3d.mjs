@@ -45,7 +45,7 @@ async function compare(pictures) {
   let [both, any, sum] = [0, 0, 0];
   for (let at = 0; at < a.length; at += 4) {
     const [isA, isB] = [a, b].map((p) => [0, 1, 2].some((c) => Math.abs(p[at + c] - p[c]) > 6));
-    any += isA || isB;
+    any += Number(isA || isB);
     if (!isA || !isB) continue;
     ++both;
     for (let c = 0; c < 3; ++c) sum += Math.abs(a[at + c] - b[at + c]) / 3;

@@ -162,7 +162,7 @@ for (const rows of all) {
 
 // Booleans of up to five blocks: every third with faces on common planes.
 async function againstManifold() {
-  const Module = (await import(pathToFileURL(manifoldPath))).default;
+  const Module = (await import(pathToFileURL(manifoldPath).href)).default;
   const module = await Module();
   module.setup();
   const { Manifold } = module;

@@ -69,11 +69,14 @@ test("the server gives its files and nothing else", async () => {
   await new Promise((resolve) => server.on("listening", resolve));
   const ask = (name, headers = {}, method = "GET") =>
     new Promise((resolve, reject) => {
-      const request = http.request({ port: server.address().port, host: "127.0.0.1", path: name, headers, method }, (reply) => {
-        const parts = [];
-        reply.on("data", (part) => parts.push(part));
-        reply.on("end", () => resolve({ status: reply.statusCode, headers: reply.headers, body: Buffer.concat(parts) }));
-      });
+      const request = http.request(
+        { port: /** @type {import("node:net").AddressInfo} */ (server.address()).port, host: "127.0.0.1", path: name, headers, method },
+        (reply) => {
+          const parts = [];
+          reply.on("data", (part) => parts.push(part));
+          reply.on("end", () => resolve({ status: reply.statusCode, headers: reply.headers, body: Buffer.concat(parts) }));
+        },
+      );
       request.on("error", reject);
       request.end();
     });

@@ -107,7 +107,8 @@ def tiff(path):
             import xml.etree.ElementTree as tree
 
             pixels = tree.fromstring(file.ome_metadata).find(".//{*}Pixels")
-            told = [float(pixels.get("PhysicalSize" + axis)) for axis in "XYZ"]
+            assert pixels is not None, "no Pixels"
+            told = [float(pixels.attrib["PhysicalSize" + axis]) for axis in "XYZ"]
         elif file.is_imagej:
             ratio = [page.tags[tag].value for tag in ("XResolution", "YResolution")]
             told = [r[1] / r[0] for r in ratio] + [file.imagej_metadata["spacing"]]
@@ -321,7 +322,8 @@ def vox(path):
     data = open(path, "rb").read()
     assert data[:4] == b"VOX " and struct.unpack_from("<i", data, 4)[0] == 150
     assert data[8:12] == b"MAIN" and struct.unpack_from("<ii", data, 12) == (0, len(data) - 20)
-    models, nodes, palette, at, size = [], {}, None, 20, None
+    models, nodes, at = [], {}, 20
+    palette, size = np.empty((0, 4), "u1"), ()
 
     def words(where, count):
         return struct.unpack_from(f"<{count}i", data, where)
@@ -388,8 +390,9 @@ def usda(path):
     """USD, read by hand: names, tree, and the points in world space, as triangles()."""
     text = open(path, encoding="utf-8").read()
     assert text.startswith("#usda 1.0\n") and "metersPerUnit = 1" in text and 'upAxis = "Z"' in text
-    rows = re.search(r"matrix4d xformOp:transform = \( (.*) \)\n", text)[1]
-    matrix = np.array([[float(n) for n in row.split(",")] for row in re.findall(r"\(([^()]*)\)", rows)])
+    transform = re.search(r"matrix4d xformOp:transform = \( (.*) \)\n", text)
+    assert transform, "no transform"
+    matrix = np.array([[float(n) for n in row.split(",")] for row in re.findall(r"\(([^()]*)\)", transform[1])])
     depth, points, faces, ids, first = 0, [], [], [], 0
     for line in text.split("\n"):
         depth += {"{": 1, "}": -1}.get(line, 0)
@@ -538,9 +541,9 @@ def main():
             ]
         ).T
     if matrix is not None:
-        error = np.abs(matrix @ corners / scale - place @ corners).max()
+        apart = np.abs(matrix @ corners / scale - place @ corners).max()
         spacing = np.linalg.norm(place[:, :2], axis=0).min()
-        assert error < 0.01 * spacing, f"samples are {error} m from where they should be"
+        assert apart < 0.01 * spacing, f"samples are {apart} m from where they should be"
     print("same", samples.shape, samples.dtype)
 
 

@@ -135,8 +135,8 @@ def main():
         ("flat", {"shape": (40, 70), "chunks": (20, 20)}, "three sizes"),
     ):
         path = os.path.join(FOLDER, name + ".zarr")
-        options = {"shape": SHAPE, "chunks": (8, 16, 16), "dtype": "<u2", **options}
-        array = zarr.open_array(path, mode="w", **options)
+        usual = {"shape": SHAPE, "chunks": (8, 16, 16), "dtype": "<u2"}
+        array = zarr.open_array(path, mode="w", **{**usual, **options})
         array[:] = 3
         refuse(path, word)
     text = open(os.path.join(FOLDER, "ome.zarr/.zattrs")).read()

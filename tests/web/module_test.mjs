@@ -13,8 +13,9 @@ if (!existsSync(join(moduleFolder, "svt.js"))) {
   console.log(`no module at ${moduleFolder}; 'make web' builds it`);
   process.exit(77);
 }
-globalThis.self = { location: { href: pathToFileURL(join(moduleFolder, "svt.js")).href } };
-const { default: createSvt } = await import(pathToFileURL(join(moduleFolder, "svt.js")));
+// What the module asks of a browser.
+Object.assign(globalThis, { self: { location: { href: pathToFileURL(join(moduleFolder, "svt.js")).href } } });
+const { default: createSvt } = await import(self.location.href);
 const wasm = readFileSync(join(moduleFolder, "svt.wasm"));
 
 const folder = mkdtempSync(join(tmpdir(), "svt-web-"));
@@ -191,7 +192,7 @@ test("a view shows what is selected", () => {
 
 test("errors have their codes, and leave what was open as it was", () => {
   const before = open(houseVolume);
-  const fails = (code, act) => assert.throws(act, (error) => error.code === code && error.message.length > 10);
+  const fails = (code, act) => assert.throws(act, (/** @type {any} */ error) => error.code === code && error.message.length > 10);
   fails("E103", () => svt.call("open", ["bad.gml"], new TextEncoder().encode("not a model")));
   const damaged = readFileSync(houseVolume);
   damaged.fill(0x55, damaged.length >> 1, (damaged.length >> 1) + 64);

@@ -17,15 +17,17 @@ if (Number(process.versions.node.split(".")[0]) < 18) {
   process.exit(1);
 }
 
+/** @param {string} address */
 function openBrowser(address) {
-  const [program, ...first] =
-    process.platform === "win32" ? ["cmd", "/c", "start", ""] : process.platform === "darwin" ? ["open"] : ["xdg-open"];
+  const program = { win32: "cmd", darwin: "open" }[String(process.platform)] ?? "xdg-open";
+  const first = process.platform === "win32" ? ["/c", "start", ""] : [];
   const child = spawn(program, [...first, address], { stdio: "ignore", detached: true });
   child.on("error", () => process.stderr.write("svt: no browser could be started; open the address yourself\n"));
   child.unref();
 }
 
 const isWindows = process.platform === "win32";
+/** @type {Promise<number> | undefined} */
 let serving;
 const createSvtCommand = createRequire(import.meta.url)("../lib/svt_node.cjs");
 const command = await createSvtCommand({
@@ -37,11 +39,11 @@ const command = await createSvtCommand({
     // The page is looked for beside the program: ../share/svt/viewer.
     program: commandPath(path.resolve(fileURLToPath(import.meta.url)), isWindows),
     environment: commandEnvironment(process.env, os.tmpdir(), isWindows),
-    path: (given) => hostPath(given, process.cwd(), isWindows),
+    path: (/** @type {string} */ given) => hostPath(given, process.cwd(), isWindows),
     writeAll,
     // As the signal SIGPIPE ends a program: without a message, for nobody is there to read on.
     endWithoutReader: () => process.exit(141),
-    serve: (orders) => {
+    serve: (/** @type {Parameters<typeof serve>[0]} */ orders) => {
       serving = serve(orders, openBrowser);
     },
   },

@@ -34,6 +34,7 @@ export function commandPath(given, isWindows) {
  * @param {Record<string, string | undefined>} environment
  * @param {string} temporaryFolder  os.tmpdir()
  * @param {boolean} isWindows
+ * @returns {Record<string, string | undefined>}
  */
 export function commandEnvironment(environment, temporaryFolder, isWindows) {
   return { ...environment, TMPDIR: commandPath(temporaryFolder, isWindows) };

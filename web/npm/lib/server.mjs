@@ -5,6 +5,7 @@ import http from "node:http";
 import net from "node:net";
 import path from "node:path";
 
+/** @type {Record<string, string>} by the ending of the name */
 const TYPES = {
   ".css": "text/css; charset=utf-8",
   ".html": "text/html; charset=utf-8",
@@ -23,7 +24,7 @@ const TYPES = {
  */
 export function readSite(folder) {
   const site = new Map();
-  const visit = (relative) => {
+  const visit = (/** @type {string} */ relative) => {
     for (const entry of readdirSync(path.join(folder, relative), { withFileTypes: true })) {
       const name = `${relative}/${entry.name}`;
       if (entry.isDirectory()) visit(name);
@@ -51,7 +52,9 @@ export function isKnownHost(header, names) {
 
 /**
  * One range of bytes, "bytes=first-last", of content of `size` bytes.
- * @returns {{first: number, last: number} | 'whole' | 'none'} 'whole': no range, several, or not one; 'none': begins
+ * @param {string | undefined} header
+ * @param {number} size
+ * @returns {{first: number, last: number} | "whole" | "none"} "whole": no range, several, or not one; "none": begins
  *   after the end
  */
 export function byteRange(header, size) {
@@ -64,10 +67,15 @@ export function byteRange(header, size) {
   return first < size ? { first, last } : "none";
 }
 
-/** The handler of requests for a site of readSite(). */
+/**
+ * The handler of requests.
+ * @param {ReturnType<typeof readSite>} site
+ * @param {readonly string[]} hostNames
+ * @returns {http.RequestListener}
+ */
 export function handler(site, hostNames) {
   return (request, response) => {
-    const refuse = (status, message, headers = {}) => {
+    const refuse = (/** @type {number} */ status, /** @type {string} */ message, headers = {}) => {
       response.writeHead(status, { "Content-Type": "application/json", ...headers });
       response.end(JSON.stringify({ code: `HTTP${status}`, message }));
     };
@@ -75,12 +83,13 @@ export function handler(site, hostNames) {
     if (request.method !== "GET" && request.method !== "HEAD") return refuse(405, "only GET and HEAD are possible", { Allow: "GET, HEAD" });
     let name;
     try {
-      name = decodeURIComponent(request.url.split("?")[0]);
+      name = decodeURIComponent((request.url ?? "/").replace(/\?.*/s, ""));
     } catch {
       return refuse(400, "the address is not well formed");
     }
     const file = site.get(name);
     if (!file) return refuse(404, "there is no such file");
+    /** @type {Record<string, string>} */
     const headers = {
       "Content-Type": file.type,
       ETag: file.tag,
@@ -114,11 +123,11 @@ export function serve(orders, openBrowser) {
   const server = http.createServer(handler(site, names));
   let port = orders.port;
   return new Promise((resolve) => {
-    const end = (code) => {
+    const end = (/** @type {number} */ code) => {
       rmSync(orders.folder, { recursive: true, force: true });
       resolve(code);
     };
-    server.on("error", (error) => {
+    server.on("error", (/** @type {NodeJS.ErrnoException} */ error) => {
       if (error.code === "EADDRINUSE" && orders.mayTakeOtherPort && port < orders.port + 100) {
         port += 1;
         server.listen(port, orders.host);
@@ -128,7 +137,7 @@ export function serve(orders, openBrowser) {
       end(1);
     });
     server.on("listening", () => {
-      port = server.address().port;
+      port = /** @type {net.AddressInfo} */ (server.address()).port;
       if (orders.port !== 0 && port !== orders.port) process.stderr.write(`svt: port ${orders.port} is taken; this is port ${port}\n`);
       const name = net.isIPv6(orders.host) ? `[${orders.host}]` : orders.host === "0.0.0.0" ? "127.0.0.1" : orders.host;
       const address = `http://${name}:${port}/`;

@@ -108,6 +108,7 @@ const kinds = [
   ["one thread", `${server.url}?engine=cpu&threads=no`, "cpu"],
   ...(other ? [["other page", `${other.url}?engine=cpu`, "cpu"]] : []),
 ];
+/** @type {Record<string, number[]>[]} */
 const times = kinds.map(() => ({}));
 for (let n = 0; n < kRounds; ++n) for (const [i, [, url]] of kinds.entries()) await start(url, times[i]);
 if (process.env.SVT_BENCH_GL !== "0") kinds.push(["webgl2", `${server.url}?engine=webgl2`, "webgl2"]);

@@ -25,6 +25,7 @@ const fly = (page) =>
       stepped = now;
       const share = (now - start) / duration;
       const height = 60 + 600 * Math.max(0, 1 - 3 * share);
+      /** @type {import("../src/engine").Point} */
       const eye = [w * (0.2 + 0.6 * share), d * (0.3 + 0.4 * share), height];
       s.turn({ ...s.state.camera, eye, target: [eye[0] + 300, eye[1] + 220, Math.max(5, height - 150)] });
       await new Promise(requestAnimationFrame);
@@ -69,9 +70,8 @@ async function measure(city) {
   await page.waitForFunction(() => performance.getEntriesByName("svt-first-image").length > 0, null, { timeout: 120_000 });
   const atFirst = await page.evaluate(() => {
     const ms = performance.getEntriesByName("svt-first-image")[0].startTime;
-    const before = performance
-      .getEntriesByType("resource")
-      .filter(({ name, responseEnd }) => /city\.json|\.bin$|\.svtp$/.test(name) && responseEnd > 0 && responseEnd <= ms);
+    const all = /** @type {PerformanceResourceTiming[]} */ (performance.getEntriesByType("resource"));
+    const before = all.filter(({ name, responseEnd }) => /city\.json|\.bin$|\.svtp$/.test(name) && responseEnd > 0 && responseEnd <= ms);
     return { ms, requests: before.length, bytes: before.reduce((sum, { encodedBodySize }) => sum + encodedBodySize, 0) };
   });
   const isComplete = () => document.querySelector("svt-app").session.city.isComplete;

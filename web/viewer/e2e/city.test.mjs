@@ -24,7 +24,7 @@ let browser, page;
 const started = (server) => (servers.push(server), server);
 
 /** Serves the page with the city; `answer(path, first, last, bytes)` may give another answer to a request for a part. */
-function serveCity(answer = () => null) {
+function serveCity(answer = (_path, _first, _last, _part, _all) => null) {
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url, "http://x").pathname).replace(/^\/+/, "") || "index.html";
     const own = path.startsWith("town/") ? at(path) : join(pageFolder, path);
@@ -48,7 +48,7 @@ function serveCity(answer = () => null) {
   return new Promise((done) =>
     server.listen(0, "127.0.0.1", () =>
       done({
-        url: `http://127.0.0.1:${server.address().port}/`,
+        url: `http://127.0.0.1:${/** @type {import("node:net").AddressInfo} */ (server.address()).port}/`,
         close: () => new Promise((r) => (server.closeAllConnections(), server.close(r))),
       }),
     ),
@@ -182,11 +182,11 @@ describe("A city on the page", () => {
   });
 
   it("names a server without ranges, and an index that is damaged", async () => {
-    const whole = started(await serveCity((path, first, last, part, all) => ({ status: 200, body: all })));
+    const whole = started(await serveCity((_path, _first, _last, _part, all) => ({ status: 200, body: all })));
     await open(whole.url);
     await page.getByText("the server sends whole files where a part is asked for").first().waitFor({ timeout: 30_000 });
     const damaged = started(
-      await serveCity((path, first, last, part) =>
+      await serveCity((path, _first, _last, part) =>
         path.endsWith("index.bin") ? { body: Buffer.concat([part.subarray(0, 50), Buffer.from([part[50] ^ 1]), part.subarray(51)]) } : null,
       ),
     );

@@ -48,7 +48,7 @@ export function serve(files = {}, isIsolated = false) {
   return new Promise((done) =>
     server.listen(0, "127.0.0.1", () =>
       done({
-        url: `http://127.0.0.1:${server.address().port}/`,
+        url: `http://127.0.0.1:${/** @type {import("node:net").AddressInfo} */ (server.address()).port}/`,
         close: () => new Promise((r) => (server.closeAllConnections(), server.close(r))),
       }),
     ),
@@ -95,6 +95,9 @@ export function svt(...words) {
   if (done.status !== 0) throw new Error(`svt ${words.join(" ")}: exit ${done.status}: ${done.stderr}`);
   return done.stdout;
 }
+
+/** The JSON that `svt` prints. */
+export const svtJson = (...words) => JSON.parse(svt(...words).toString());
 
 /** `svt serve` with the built page. Resolves to { url, close }. */
 export function svtServe(...words) {

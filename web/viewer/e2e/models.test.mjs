@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { after, before, describe, it } from "node:test";
-import { command, serve, svt, withModels } from "./harness.mjs";
+import { command, serve, svt, svtJson, withModels } from "./harness.mjs";
 import { scratch, Visit } from "./visit.mjs";
 
 const { at, drop } = scratch("svt-models-test-");
@@ -281,7 +281,7 @@ describe("tables and several models", () => {
     await visit.choose(file("house.gml"), { name: "again.gml", bytes: readFileSync(at("house.gml")) });
     await visit.until("s.otherFiles.join() === 'again.gml' && s.report", 120_000);
     const rooms = (await inPage("s.engine.select('class=BuildingRoom')")).length;
-    assert.equal(rooms, 2 * JSON.parse(svt("query", at("house.svt"), "class=BuildingRoom", "--json")).length);
+    assert.equal(rooms, 2 * svtJson("query", at("house.svt"), "class=BuildingRoom", "--json").length);
     await visit.page.click("#copy-command");
     await visit.eventually(async () =>
       assert.match(

@@ -405,23 +405,25 @@ describe("screen reader", () => {
       }));
   };
 
-  for (const [locale, words] of [
-    [
-      "en-US",
-      {
-        parts: "Parts",
-        section: "Section",
-        picture: "Picture of",
-        search: "Search names and attributes",
-        plane: "Plane 1",
-        position: "Position",
-      },
-    ],
-    [
-      "de-DE",
-      { parts: "Teile", section: "Schnitt", picture: "Bild von", search: "Namen und Attribute suchen", plane: "Ebene 1", position: "Lage" },
-    ],
-  ])
+  const kWords = {
+    "en-US": {
+      parts: "Parts",
+      section: "Section",
+      picture: "Picture of",
+      search: "Search names and attributes",
+      plane: "Plane 1",
+      position: "Position",
+    },
+    "de-DE": {
+      parts: "Teile",
+      section: "Schnitt",
+      picture: "Bild von",
+      search: "Namen und Attribute suchen",
+      plane: "Ebene 1",
+      position: "Lage",
+    },
+  };
+  for (const [locale, words] of Object.entries(kWords))
     it(`is told what everything is, in ${locale}`, async () => {
       await visit.open(`${server.url}?model=house`, { locale });
       await visit.page.waitForFunction(() => customElements.get("wa-slider"));

@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { gzipSync } from "node:zlib";
-import { browse, dataDir, page as pageFolder, repository, serve, svt, svtServe, withModels } from "./harness.mjs";
+import { browse, dataDir, page as pageFolder, repository, serve, svt, svtJson, svtServe, withModels } from "./harness.mjs";
 import { readPng } from "./png.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "svt-viewer-test-"));
@@ -123,8 +123,8 @@ describe("start", () => {
       [2800, 1400],
     ]) {
       await open("?model=house", { viewport: { width, height } });
-      let release;
-      const held = new Promise((done) => (release = done));
+      let release = () => {};
+      const held = new Promise((done) => (release = () => done(null)));
       await page.route(/components-.*\.js$/, async (route) => (await held, route.continue()));
       await page.reload();
       await firstImage();
@@ -168,10 +168,10 @@ describe("files", () => {
   before(() => open());
 
   it("that are bad leave what is open, and say why", async () => {
-    for (const [name, bytes, expected] of [
-      ["broken.svt", readFileSync(at("house.svt")).subarray(0, 5000), /E4\d\d/],
-      ["noise.gml", Buffer.from("this is no XML"), /E1\d\d/],
-      ["picture.png", Buffer.from("x"), /no volume and no building model.*\.ifc/],
+    for (const { name, bytes, expected } of [
+      { name: "broken.svt", bytes: readFileSync(at("house.svt")).subarray(0, 5000), expected: /E4\d\d/ },
+      { name: "noise.gml", bytes: Buffer.from("this is no XML"), expected: /E1\d\d/ },
+      { name: "picture.png", bytes: Buffer.from("x"), expected: /no volume and no building model.*\.ifc/ },
     ]) {
       await drop(name, bytes);
       await page.locator("#message").waitFor();
@@ -188,7 +188,7 @@ describe("files", () => {
     await settled(60_000);
     assert.equal(
       await inPage("s.info.features.length"),
-      JSON.parse(svt("info", at("house.gml"), "--json", "--tree")).features.length + (await inPage("s.index.firstScalars.length")),
+      svtJson("info", at("house.gml"), "--json", "--tree").features.length + (await inPage("s.index.firstScalars.length")),
     );
   });
 
@@ -288,7 +288,7 @@ describe("tree and query", () => {
     await page.getByRole("treeitem", { name: /Hidden beam/ }).click();
     assert.deepEqual((await state()).selection, ["house_hidden_beam"]);
     await page.getByRole("heading", { name: "Hidden beam" }).waitFor();
-    const [row] = JSON.parse(svt("query", at("house.svt"), "id=house_hidden_beam", "--with", "volume,surface", "--json"));
+    const [row] = svtJson("query", at("house.svt"), "id=house_hidden_beam", "--with", "volume,surface", "--json");
     await page.getByText(`${row.voxelVolume.toFixed(3)} m³`).waitFor();
     await page.fill("#search", "");
   });
@@ -327,7 +327,7 @@ describe("tree and query", () => {
     assert.match(await page.locator("#query-answer").innerText(), /column|expected|value/i);
     await page.fill("#query", "class=BuildingRoom and volume>20");
     await page.keyboard.press("Enter");
-    const expected = JSON.parse(svt("query", at("house.svt"), "class=BuildingRoom and volume>20", "--json")).map((row) => row.id);
+    const expected = svtJson("query", at("house.svt"), "class=BuildingRoom and volume>20", "--json").map((row) => row.id);
     await page.getByText(`${expected.length} selected`).first().waitFor();
     assert.deepEqual((await state()).selection, expected);
   });
@@ -762,7 +762,8 @@ describe("tools", () => {
     const { inflateRawSync } = await import("node:zlib");
     await eventually(async () =>
       assert.deepEqual(
-        JSON.parse(inflateRawSync(Buffer.from(new URLSearchParams(new URL(page.url()).hash.slice(1)).get("view"), "base64url"))).measured,
+        JSON.parse(String(inflateRawSync(Buffer.from(new URLSearchParams(new URL(page.url()).hash.slice(1)).get("view"), "base64url"))))
+          .measured,
         [a, b, c],
       ),
     );
@@ -1006,7 +1007,9 @@ describe("access", () => {
   async function findings() {
     await page.waitForFunction(() =>
       [...document.querySelectorAll("svt-app")].every((app) =>
-        [...app.renderRoot.querySelectorAll("wa-split-panel")].every((panel) => Number.isFinite(panel.position) && !panel.isUpdatePending),
+        [...app.renderRoot.querySelectorAll("wa-split-panel")].every(
+          (/** @type {any} */ panel) => Number.isFinite(panel.position) && !panel.isUpdatePending,
+        ),
       ),
     );
     // Evaluated by the debugger, since the page's policy allows no foreign script.
@@ -1036,7 +1039,10 @@ describe("access", () => {
     await page.keyboard.press("Enter");
     assert.equal((await state()).sections.length, 1);
     await page.keyboard.press("Escape");
-    await page.evaluate(() => (document.activeElement?.blur?.(), window.focus()));
+    await page.evaluate(() => {
+      if (document.activeElement instanceof HTMLElement) document.activeElement.blur();
+      window.focus();
+    });
     let isPicture = false;
     for (let n = 0; n < 60 && !isPicture; ++n) {
       await page.keyboard.press("Tab");
@@ -1076,11 +1082,11 @@ describe("access", () => {
     assert.equal(await inPage("s.isWalking"), false);
   });
 
-  for (const [colorScheme, width, height] of [
-    ["light", 1440, 900],
-    ["dark", 1440, 900],
-    ["light", 360, 740],
-    ["dark", 360, 740],
+  for (const { colorScheme, width, height } of [
+    { colorScheme: "light", width: 1440, height: 900 },
+    { colorScheme: "dark", width: 1440, height: 900 },
+    { colorScheme: "light", width: 360, height: 740 },
+    { colorScheme: "dark", width: 360, height: 740 },
   ])
     it(`has no serious findings in ${colorScheme} at ${width} px`, async () => {
       await open("?model=house", { colorScheme, viewport: { width, height }, locale: "de-DE" });

@@ -74,7 +74,9 @@ export class Controls {
     // A pointer that is already gone, or a synthetic one, cannot be captured.
     try {
       this.host.element.setPointerCapture(event.pointerId);
-    } catch {}
+    } catch {
+      // It then moves the picture as long as it is above it.
+    }
     this.fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     const isFirst = this.fingers.size === 1;
     this.down = isFirst ? { x: event.clientX, y: event.clientY, time: performance.now(), button: event.button, isMoved: false } : null;

@@ -216,7 +216,9 @@ export class PictureView extends Part {
     button.focus();
     try {
       button.setPointerCapture(event.pointerId);
-    } catch {}
+    } catch {
+      // A pointer that is already gone cannot be captured.
+    }
     this.drag = { n, x: event.clientX, y: event.clientY, at: this.session.state.sections[n]!.at };
   }
 

@@ -28,6 +28,7 @@ export interface BcfModel {
 
 const kIfcId = /^[0-9A-Za-z_$]{22}$/;
 
+// eslint-disable-next-line no-control-regex -- these characters are what XML forbids
 const escaped = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`).replace(/[\x00-\x08\x0b\x0c\x0e-\x1f]/g, " ");
 const element = (name: string, content: string) => `<${name}>${content}</${name}>`;
 const xyz = (name: string, p: Point) =>
