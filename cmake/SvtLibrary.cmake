@@ -105,7 +105,7 @@ const char* const kSourceRoot = \"${PROJECT_SOURCE_DIR}\";\n}\n")
   svt_precompile(${name} svt_precompiled_test)
   # The label is the folder: ctest -L '^render$'.
   string(REGEX REPLACE "^svt_|_test$" "" folder ${name})
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${folder})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 600 PROPERTIES TIMEOUT ${SVT_HANGS_AFTER} LABELS ${folder})
 endfunction()
 
 # svt_precompiled(<name> <header> [<targets>...]): a header that is compiled once, for the targets that svt_precompile() gives

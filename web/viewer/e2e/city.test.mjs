@@ -1,14 +1,13 @@
 // A city that the page fetches piece by piece: how much it asks for, what is seen, and servers that answer badly.
 import assert from "node:assert/strict";
-import { createReadStream, existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { createReadStream, existsSync, readFileSync, statSync } from "node:fs";
 import { createServer } from "node:http";
-import { tmpdir } from "node:os";
 import { extname, join } from "node:path";
 import { after, before, describe, it } from "node:test";
-import { browse, page as pageFolder, policy, svt, svtServe } from "./harness.mjs";
+import { page as pageFolder, policy, svt, svtServe } from "./harness.mjs";
+import { scratch, Visit } from "./visit.mjs";
 
-const folder = mkdtempSync(join(tmpdir(), "svt-city-test-"));
-const at = (name) => join(folder, name);
+const { at, drop } = scratch("svt-city-test-");
 const kTypes = {
   ".html": "text/html",
   ".js": "text/javascript",
@@ -19,7 +18,8 @@ const kTypes = {
 };
 const kId = "BLDG_0000000100000005";
 const servers = [];
-let browser, page;
+const visit = new Visit();
+let page;
 
 const started = (server) => (servers.push(server), server);
 
@@ -55,22 +55,12 @@ function serveCity(answer = (_path, _first, _last, _part, _all) => null) {
   );
 }
 
-const inPage = (body, value) =>
-  page.evaluate(
-    ([text, v]) => new Function("s", "v", `return (async () => (${text}))()`)(document.querySelector("svt-app").session, v),
-    [body, value],
-  );
-const complete = () =>
-  page.waitForFunction(
-    () => document.querySelector("svt-app").session.city?.isComplete && document.querySelector("svt-app").session.quality === "fine",
-    null,
-    { timeout: 60_000 },
-  );
+const { inPage } = visit;
+const complete = () => visit.until("s.city?.isComplete && s.quality === 'fine'");
 
 async function open(url) {
-  await browser?.close().catch(() => {});
-  browser = await browse({ locale: "en-US", colorScheme: "light" });
-  page = await browser.context.newPage();
+  await visit.begin();
+  page = visit.page;
   const asked = [];
   page.on(
     "request",
@@ -88,16 +78,16 @@ before(() => {
   svt("city", "run", at("town"));
 });
 after(async () => {
-  await browser?.close().catch(() => {});
+  await visit.close();
   for (const server of servers) await server.close();
-  rmSync(folder, { recursive: true, force: true });
+  drop();
 });
 
 describe("A city on the page", () => {
   it("is seen after 3 requests, and completely after few more", async () => {
     const server = started(await svtServe(at("town")));
     const asked = await open(server.url);
-    await page.waitForFunction(() => performance.getEntriesByName("svt-first-image").length > 0, null, { timeout: 30_000 });
+    await page.waitForFunction(() => performance.getEntriesByName("svt-first-image").length > 0);
     const first = asked.slice(0, 3).map(({ file }) => file);
     assert.equal(first[0], "city.json");
     assert.deepEqual(
@@ -147,7 +137,7 @@ describe("A city on the page", () => {
     const asked = await open(server.url);
     await complete();
     await inPage("s.city.find(v)", kId);
-    await page.waitForFunction((id) => document.querySelector("svt-app").session.properties?.id === id, kId, { timeout: 30_000 });
+    await page.waitForFunction((id) => document.querySelector("svt-app").session.properties?.id === id, kId);
     assert.ok(asked.filter(({ file }) => file === "ids.bin").length <= 2);
     const properties = await inPage("s.properties");
     assert.ok(properties.surface > 50 && properties.box.high[2] > properties.box.low[2], JSON.stringify(properties));
@@ -175,7 +165,7 @@ describe("A city on the page", () => {
         ),
       );
       await open(server.url);
-      await page.getByText("tiles of the city cannot be shown").first().waitFor({ timeout: 30_000 });
+      await page.getByText("tiles of the city cannot be shown").first().waitFor();
       await complete();
       assert.equal(await inPage("s.status"), "ready");
     }
@@ -184,13 +174,13 @@ describe("A city on the page", () => {
   it("names a server without ranges, and an index that is damaged", async () => {
     const whole = started(await serveCity((_path, _first, _last, _part, all) => ({ status: 200, body: all })));
     await open(whole.url);
-    await page.getByText("the server sends whole files where a part is asked for").first().waitFor({ timeout: 30_000 });
+    await page.getByText("the server sends whole files where a part is asked for").first().waitFor();
     const damaged = started(
       await serveCity((path, _first, _last, part) =>
         path.endsWith("index.bin") ? { body: Buffer.concat([part.subarray(0, 50), Buffer.from([part[50] ^ 1]), part.subarray(51)]) } : null,
       ),
     );
     await open(damaged.url);
-    await page.getByText("the root of the index is missing or damaged").first().waitFor({ timeout: 30_000 });
+    await page.getByText("the root of the index is missing or damaged").first().waitFor();
   });
 });

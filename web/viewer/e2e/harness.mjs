@@ -66,28 +66,40 @@ export function withModels(models) {
   return files;
 }
 
-/** A browser with software graphics and nothing kept. */
+/** What a browser is started with: software graphics, and nothing that asks the network. */
+const kBrowser = {
+  executablePath: browserPath,
+  headless: true,
+  args: [
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+  ],
+};
+const kPage = { viewport: { width: 1200, height: 640 }, acceptDownloads: true };
+
+/** A new browser with a profile of its own, which keeps compiled modules between visits: for measurements. */
 export async function browse(options = {}) {
   const profile = mkdtempSync(join(tmpdir(), "svt-viewer-"));
-  const context = await chromium.launchPersistentContext(profile, {
-    executablePath: browserPath,
-    headless: true,
-    args: [
-      "--no-sandbox",
-      "--disable-quic",
-      "--no-first-run",
-      "--disable-background-networking",
-      "--disable-component-update",
-      "--disable-sync",
-      "--use-angle=swiftshader",
-      "--enable-unsafe-swiftshader",
-    ],
-    viewport: { width: 1200, height: 640 },
-    acceptDownloads: true,
-    ...options,
-  });
+  const context = await chromium.launchPersistentContext(profile, { ...kBrowser, ...kPage, ...options });
   return { context, close: async () => (await context.close(), rmSync(profile, { recursive: true, force: true })) };
 }
+
+let started = null;
+/** A context of the one browser of this process, in which nothing is kept: to start a browser takes seconds. */
+export async function newContext(options = {}) {
+  started ??= chromium.launch({ ...kBrowser, timeout: 0 });
+  return (await started).newContext({ ...kPage, ...options });
+}
+export const endBrowser = async () => {
+  await (await started)?.close();
+  started = null;
+};
 
 /** Runs `svt`; throws with what it said where it fails. */
 export function svt(...words) {

@@ -1,5 +1,4 @@
 // The module with threads, where the server isolates the page (COOP, COEP), and the one without: the same pictures.
-// Needs what viewer.test.mjs needs.
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { cpus } from "node:os";

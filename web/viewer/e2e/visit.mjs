@@ -2,7 +2,12 @@
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { browse } from "./harness.mjs";
+import { after, before } from "node:test";
+import { endBrowser, newContext, serve, svt, withModels } from "./harness.mjs";
+
+/** Ends what hangs; no measure of speed: machines may be slow, and do other work besides. */
+export const kHang = 240_000;
+after(endBrowser);
 
 /** A folder for files of a test; drop() removes it. */
 export function scratch(prefix) {
@@ -10,83 +15,117 @@ export function scratch(prefix) {
   return { at: (name) => join(folder, name), drop: () => rmSync(folder, { recursive: true, force: true }) };
 }
 
+/** What the tests of a file share: a folder for files, the generated house in it as model and volume, and the page with that volume. */
+export function withHouse(name) {
+  const { at, drop } = scratch(`svt-${name}-test-`);
+  const visit = new Visit();
+  let server;
+  before(async () => {
+    svt("sample", "house", "-o", at("house.gml"));
+    svt("build", at("house.gml"), "-o", at("house.svt"), "--spacing", "0.12", "--vectors", "edges,meshes");
+    server = await serve(withModels([{ name: "house", path: at("house.svt"), title: "Sample house" }]));
+  });
+  after(async () => {
+    await visit.close();
+    await server?.close();
+    drop();
+  });
+  return { at, visit, open: (query = "?model=house", options = {}) => visit.open(server.url + query, options) };
+}
+
 export class Visit {
   page = null;
   problems = [];
-  #browser = null;
 
-  /** A new browser at an address, at its first image. */
-  async open(url, options = {}) {
+  /** A new visitor at an address, at the first image. */
+  open = async (url, options = {}) => {
+    await this.begin(options);
+    await this.page.goto(url);
+    await this.firstImage();
+  };
+  /** A new visitor with an empty page, to whom nothing is animated: so it is known where a view ends. */
+  begin = async (options = {}) => {
     await this.close();
-    this.#browser = await browse({ locale: "en-US", colorScheme: "light", permissions: ["clipboard-read", "clipboard-write"], ...options });
-    const page = (this.page = await this.#browser.context.newPage());
+    const context = await newContext({
+      locale: "en-US",
+      colorScheme: "light",
+      reducedMotion: "reduce",
+      permissions: ["clipboard-read", "clipboard-write"],
+      ...options,
+    });
+    context.setDefaultTimeout(kHang);
+    const page = (this.page = await context.newPage());
     this.problems = [];
     page.on("pageerror", (error) => this.problems.push(`error: ${error.message}`));
     page.on(
       "console",
       (message) => ["error", "warning"].includes(message.type()) && this.problems.push(`${message.type()}: ${message.text()}`),
     );
-    await page.goto(url);
-    await this.firstImage();
-  }
-  async close() {
+    page.on(
+      "request",
+      (request) => !/^(http:\/\/127\.0\.0\.1:|blob:|data:)/.test(request.url()) && this.problems.push(`asks ${request.url()}`),
+    );
+  };
+  close = async () => {
     await this.page
       ?.context()
       .close()
       .catch(() => {});
-    await this.#browser?.close().catch(() => {});
-    this.page = this.#browser = null;
-  }
+    this.page = null;
+  };
 
   /** In the page, with its session as `s`. */
-  inPage(body, value) {
-    return this.page.evaluate(
+  inPage = (body, value) =>
+    this.page.evaluate(
       ([text, v]) => new Function("s", "v", `return (async () => (${text}))()`)(document.querySelector("svt-app").session, v),
       [body, value],
     );
-  }
-  state() {
-    return this.inPage("s.state");
-  }
-  firstImage() {
-    return this.page.waitForFunction(() => performance.getEntriesByName("svt-first-image").length > 0, null, { timeout: 60_000 });
-  }
+  state = () => this.inPage("s.state");
+  firstImage = () => this.page.waitForFunction(() => performance.getEntriesByName("svt-first-image").length > 0);
   /** The finest picture of what is shown now stands there. */
-  settled(timeout = 90_000) {
-    return this.page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine", null, { timeout });
-  }
+  settled = () => this.page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine");
+  /** Where the picture is. */
+  stage = () => this.page.locator("svt-picture").boundingBox();
   /** Waits until an expression of the session `s` holds. */
-  async until(body, timeout = 60_000) {
+  until = (body) =>
     // Asked again and again by the debugger, since the page's policy allows no eval of its own.
-    await this.eventually(async () => {
+    this.eventually(async () => {
       if (!(await this.inPage(`Boolean(${body})`))) throw new Error(`does not hold: ${body}`);
-    }, timeout / 1000);
-  }
-  async tool(name) {
+    });
+  tool = async (name) => {
     if (!(await this.page.locator(`#tool-${name}[aria-expanded=true]`).count())) await this.page.click(`#tool-${name}`);
-  }
-  /** Tries again until it holds. */
-  async eventually(check, seconds = 30) {
-    for (const end = Date.now() + seconds * 1000; ; await this.page.waitForTimeout(50)) {
+  };
+  /** Tries again until it holds: what depends on a picture takes as long as the machine needs. */
+  eventually = async (check) => {
+    for (const end = Date.now() + kHang; ; await this.page.waitForTimeout(50)) {
       try {
         return await check();
       } catch (error) {
         if (Date.now() > end) throw error;
       }
     }
-  }
+  };
   /** Files chosen as by the button with the folder. */
-  choose(...files) {
-    return this.page
+  choose = (...files) =>
+    this.page
       .locator("#file")
       .setInputFiles(files.map(({ name, bytes }) => ({ name, mimeType: "application/octet-stream", buffer: bytes })));
-  }
-  message(text) {
-    return this.page.locator("#message").getByText(text).waitFor({ timeout: 30_000 });
-  }
+  /** A file dropped onto the page. */
+  drop = (name, bytes) =>
+    this.page.evaluate(
+      async ([fileName, base64]) => {
+        const data = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+        const transfer = new DataTransfer();
+        transfer.items.add(new File([data], fileName));
+        for (const kind of ["dragover", "drop"])
+          window.dispatchEvent(new DragEvent(kind, { dataTransfer: transfer, bubbles: true, cancelable: true }));
+      },
+      [name, bytes.toString("base64")],
+    );
+  message = (text) => this.page.locator("#message").getByText(text).waitFor();
   /** What a click saves. */
-  async saved(click) {
+  saved = async (click) => {
     const [download] = await Promise.all([this.page.waitForEvent("download"), click()]);
     return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
-  }
+  };
 }

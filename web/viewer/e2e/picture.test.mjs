@@ -1,0 +1,193 @@
+// The picture: picking, turning, touching, moving; what is picked is checked against the `svt` command.
+import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import { before, describe, it } from "node:test";
+import { svt } from "./harness.mjs";
+import { readPng } from "./png.mjs";
+import { withHouse } from "./visit.mjs";
+
+const { at, visit, open } = withHouse("picture");
+const { inPage, state, settled, stage, eventually } = visit;
+
+describe("picture", () => {
+  before(() => open());
+
+  it("picks what the command sees there", async () => {
+    await settled();
+    const [width, height] = await inPage("s.pictureSize");
+    writeFileSync(at("pick.scene.json"), JSON.stringify(await inPage("s.composed(s.pictureSize)")));
+    svt("render", at("house.svt"), "-o", at("pick.png"), "--scene", at("pick.scene.json"), "--labels", at("labels.png"));
+    const labels = readPng(readFileSync(at("labels.png")));
+    assert.deepEqual([labels.width, labels.height], [width, height]);
+    let checked = 0;
+    for (let n = 0; n < 60; ++n) {
+      const x = Math.floor(((n * 0.618) % 1) * (width - 4)) + 2,
+        y = Math.floor(((n * 0.382 + 0.1) % 1) * (height - 4)) + 2;
+      const around = [-1, 0, 1].flatMap((dy) => [-1, 0, 1].map((dx) => labels.data[(y + dy) * width + x + dx]));
+      if (around.some((label) => label !== around[0])) continue;
+      const pick = await inPage("s.engine.pick(v[0], v[1])", [(x + 0.5) / width, (y + 0.5) / height]);
+      assert.equal(pick?.scalar ?? 0, around[0], `at ${x}, ${y}`);
+      ++checked;
+    }
+    assert.ok(checked > 20, `only ${checked} places`);
+  });
+
+  it("picks what the eye takes: behind air and glass that is hardly seen, and the glass where nothing is behind it", async () => {
+    const shown = await state();
+    const scene = async (change) => (await inPage("s.set(v)", change), settled());
+    // Cut open, the air of the rooms stands before furniture and walls.
+    await scene({ hide: [], sections: [{ axis: "y", at: 5, flip: true, turn: 0, tilt: 0 }] });
+    const seen = await inPage(`(async () => {
+      const rooms = new Set(await s.engine.select("class=BuildingRoom"));
+      let first = 0, picked = 0;
+      for (let y = 0.35; y < 0.75; y += 0.02)
+        for (let x = 0.3; x < 0.7; x += 0.02) {
+          const pick = await s.engine.pick(x, y);
+          if (!pick) continue;
+          ++picked;
+          if (rooms.has(pick.id)) ++first;
+        }
+      return { first, picked };
+    })()`);
+    assert.ok(seen.picked > 100, JSON.stringify(seen));
+    assert.equal(seen.first, 0, JSON.stringify(seen));
+    // Alone, the same air is what there is.
+    await scene({ show: ["class=BuildingRoom"], sections: [] });
+    await inPage("s.goTo('', 'front')");
+    await settled();
+    const alone = await inPage("s.engine.pick(0.5, 0.55)");
+    assert.equal(alone.class, "BuildingRoom");
+    await scene({ ...shown, selection: [] });
+  });
+
+  it("selects by click and lists by Alt-click", async () => {
+    const box = await stage();
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await visit.page.mouse.click(x, y);
+    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.state.selection.length === 1);
+    const pick = await inPage("s.engine.pick(0.5, 0.5)");
+    assert.deepEqual((await state()).selection, [pick.id]);
+    assert.match(await visit.page.locator("#said").innerText(), /^Selected: /);
+    await visit.page.keyboard.down("Alt");
+    await visit.page.mouse.click(x, y);
+    await visit.page.keyboard.up("Alt");
+    await visit.page.getByRole("heading", { name: "Along this ray" }).waitFor();
+    const stretches = await inPage("s.along.stretches");
+    assert.ok(stretches.length > 1);
+    assert.equal(stretches.find((s) => s.class !== "BuildingRoom").id, pick.id);
+    assert.ok(stretches.every((s, i) => s.from <= s.to && (i === 0 || s.from >= stretches[i - 1].from - 1e-6)));
+    await visit.page.locator("svt-properties .along button").nth(1).click();
+    assert.deepEqual((await state()).selection, [stretches[1].id]);
+  });
+
+  it("is turned, moved and zoomed by mouse", async () => {
+    const box = await stage();
+    const [x, y] = [box.x + box.width * 0.4, box.y + box.height * 0.4];
+    const cameras = [(await state()).camera];
+    const step = async (act) => {
+      await act();
+      await eventually(async () => assert.notDeepEqual((await state()).camera, cameras.at(-1)));
+      cameras.push((await state()).camera);
+    };
+    const drag = async (options = {}) => {
+      await visit.page.mouse.move(x, y);
+      await visit.page.mouse.down(options);
+      await visit.page.mouse.move(x + 60, y + 20, { steps: 4 });
+      await visit.page.mouse.up(options);
+    };
+    await step(() => drag());
+    await step(() => drag({ button: "right" }));
+    await step(() => visit.page.mouse.wheel(0, -240));
+    const distance = (c) => Math.hypot(...c.eye.map((e, i) => e - c.target[i]));
+    assert.ok(Math.abs(distance(cameras[1]) - distance(cameras[0])) < 1e-6, "turning keeps the distance");
+    assert.notDeepEqual(cameras[1].eye, cameras[0].eye);
+    assert.notDeepEqual(cameras[2].target, cameras[1].target);
+    assert.ok(distance(cameras[3]) < distance(cameras[2]), "the wheel comes nearer");
+  });
+
+  it("frames what is double-clicked, and goes to named views by key", async () => {
+    await visit.page.keyboard.press("2");
+    const target = await eventually(async () => {
+      const { eye, target } = (await state()).camera;
+      assert.ok(Math.abs(eye[0] - target[0]) < 1e-6 && eye[1] < target[1], "from the front");
+      return target;
+    });
+    await settled();
+    const box = await stage();
+    await visit.page.mouse.dblclick(box.x + box.width / 2, box.y + box.height / 2);
+    await visit.page.waitForFunction(
+      (before) => document.querySelector("svt-app").session.state.camera.target.some((v, i) => Math.abs(v - before[i]) > 0.01),
+      target,
+    );
+  });
+
+  it("flies to a view, unless the visitor prefers less motion", async () => {
+    await inPage("s.goTo('', 'top')");
+    const there = (await state()).camera.eye;
+    await inPage("s.goTo('', 'front')");
+    await visit.page.emulateMedia({ reducedMotion: "no-preference" });
+    const first = await inPage("(await s.goTo('', 'top'), s.state.camera.eye)");
+    await visit.page.emulateMedia({ reducedMotion: "reduce" });
+    const distance = (eye) => Math.hypot(...eye.map((e, i) => e - there[i]));
+    assert.ok(distance(first) > 1e-3, "it is not there at once");
+    await eventually(async () => assert.ok(distance((await state()).camera.eye) < 1e-6));
+  });
+});
+
+describe("touch", () => {
+  it("turns by one finger, zooms by two, selects by a tap and lists by a long press", async () => {
+    await open("?model=house", { hasTouch: true, viewport: { width: 360, height: 740 } });
+    await settled();
+    const box = await stage();
+    const touch = await visit.page.context().newCDPSession(visit.page);
+    const fingers = (type, ...points) =>
+      touch.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x: box.x + x, y: box.y + y, id })) });
+    const distance = (c) => Math.hypot(...c.eye.map((e, i) => e - c.target[i]));
+    const before = (await state()).camera;
+    await fingers("touchStart", [150, 200]);
+    for (let n = 1; n <= 5; ++n) await fingers("touchMove", [150 + 12 * n, 200]);
+    await fingers("touchEnd");
+    const turned = await eventually(async () => {
+      const { camera } = await state();
+      assert.notDeepEqual(camera.eye, before.eye);
+      return camera;
+    });
+    assert.ok(Math.abs(distance(turned) - distance(before)) < 1e-6);
+    await fingers("touchStart", [150, 200], [200, 200]);
+    for (let n = 1; n <= 5; ++n) await fingers("touchMove", [150 - 8 * n, 200], [200 + 8 * n, 200]);
+    await fingers("touchEnd");
+    await eventually(async () => assert.ok(distance((await state()).camera) < 0.7 * distance(turned)));
+    await settled();
+    await visit.page.touchscreen.tap(box.x + box.width / 2, box.y + box.height / 2);
+    await eventually(async () => assert.equal((await state()).selection.length, 1));
+    await fingers("touchStart", [box.width / 2, box.height / 2]);
+    await eventually(async () => assert.ok((await inPage("s.along"))?.stretches.length > 1));
+    await fingers("touchEnd");
+  });
+});
+
+describe("moving", () => {
+  before(() => open());
+
+  it("has fewer pixels while it is slow, and all of them at rest", async (t) => {
+    await settled();
+    const { milliseconds, share } = await inPage(`(async () => {
+      let last = s.report, share = 1, milliseconds = 0;
+      for (let frames = 0; frames < 12; ) {
+        const { camera } = s.state;
+        s.turn({ ...camera, eye: [camera.eye[0] + 0.01, camera.eye[1], camera.eye[2]] });
+        await new Promise(requestAnimationFrame);
+        if (s.report === last) continue;
+        last = s.report;
+        ++frames;
+        milliseconds = last.milliseconds;
+        share = last.width / s.pictureSize[0];
+      }
+      return { milliseconds, share };
+    })()`);
+    t.diagnostic(`while moving: ${Math.round(milliseconds)} ms a frame at ${Math.round(share * 100)} % of width and height`);
+    assert.ok(share > 0.19 && share <= 1, `${share} of the width`);
+    await settled();
+    assert.deepEqual(await inPage("[s.report.width, s.report.height]"), await inPage("s.pictureSize"));
+  });
+});

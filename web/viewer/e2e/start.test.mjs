@@ -1,0 +1,94 @@
+// How a visit begins: what is loaded, when the picture stands, from folders and from `svt serve`.
+import assert from "node:assert/strict";
+import { readdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, describe, it } from "node:test";
+import { gzipSync } from "node:zlib";
+import { page as pageFolder, serve, svtServe } from "./harness.mjs";
+import { withHouse } from "./visit.mjs";
+
+const { at, visit, open } = withHouse("start");
+const { inPage, state, settled, firstImage, stage, eventually, drop } = visit;
+
+describe("start", () => {
+  it("keeps the budget of bytes", (t) => {
+    // Without the font, which is fetched when names are drawn first.
+    const files = readdirSync(join(pageFolder, "assets"))
+      .filter((name) => !name.endsWith(".ttf"))
+      .map((name) => ({ name, size: gzipSync(readFileSync(join(pageFolder, "assets", name)), { level: 9 }).length }));
+    const hasThreads = ({ name }) => /^svt_threads/.test(name),
+      hasNone = ({ name }) => /^svt-.*\.wasm$/.test(name);
+    const isModule = (file) => hasThreads(file) || hasNone(file) || /^worker/.test(file.name);
+    const sum = (of) => of.reduce((all, { size }) => all + size, 0);
+    const own = sum(files.filter((file) => !isModule(file))),
+      each = [hasThreads, hasNone].map((not) => sum(files.filter((file) => !not(file))));
+    // A visit loads one of the two modules.
+    const all = Math.max(...each);
+    t.diagnostic(`own ${Math.round(own / 1000)} kB, all ${Math.round(all / 1000)} kB, compressed`);
+    assert.ok(own <= 300_000, `own scripts and styles: ${own} bytes compressed, at most 300000`);
+    // Of these the module has 1.5 MB: cities, and inlining, which turns the view faster than bytes cost at the start.
+    assert.ok(all <= 1_750_000, `all: ${all} bytes compressed, at most 1750000`);
+  });
+
+  it("has the picture where it stays, before splitters and sliders have come", async () => {
+    for (const [width, height] of [
+      [900, 600],
+      [1200, 640],
+      [2800, 1400],
+    ]) {
+      await open("?model=house", { viewport: { width, height } });
+      let release = () => {};
+      const held = new Promise((done) => (release = () => done(null)));
+      await visit.page.route(/components-.*\.js$/, async (route) => (await held, route.continue()));
+      await visit.page.reload();
+      await firstImage();
+      const early = await stage();
+      assert.equal(await visit.page.evaluate(() => Boolean(customElements.get("wa-split-panel"))), false);
+      assert.equal(await visit.page.locator("svt-help dl").isVisible(), false);
+      release();
+      await visit.page.waitForFunction(() => customElements.get("wa-split-panel"));
+      await settled();
+      const late = await stage();
+      for (const side of ["x", "y", "width", "height"])
+        assert.ok(Math.abs(early[side] - late[side]) < 0.6, `at ${width}, ${side}: ${early[side]}, then ${late[side]}`);
+    }
+  });
+
+  it("without a model invites to open one, and takes a dropped file", async () => {
+    await open();
+    const empty = await serve();
+    await visit.page.goto(empty.url);
+    await visit.page.getByRole("heading", { name: "Drop a building here" }).waitFor();
+    await drop("house.svt", readFileSync(at("house.svt")));
+    await firstImage();
+    assert.equal(await inPage("s.info.name"), "Sample house");
+    await empty.close();
+  });
+});
+
+describe("served by svt serve", () => {
+  let site;
+  before(async () => (site = await svtServe(at("house.svt"))));
+  after(() => site?.close());
+
+  it("opens, within its policy", async () => {
+    await open();
+    visit.problems.length = 0;
+    await visit.page.goto(site.url);
+    await firstImage();
+    await settled();
+    assert.equal(await inPage("s.info.name"), "Sample house");
+    assert.deepEqual(visit.problems, []);
+  });
+
+  it("shows the server's pictures where the library cannot run", async () => {
+    await visit.page.context().route("**/*.wasm", (route) => route.abort());
+    await visit.page.goto("about:blank");
+    await visit.page.goto(site.url);
+    await firstImage();
+    await visit.page.getByText("Pictures come from the server").waitFor();
+    await visit.page.keyboard.press("2");
+    await eventually(async () => assert.equal((await state()).preset, "front"));
+    await settled();
+  });
+});

@@ -1,0 +1,275 @@
+// The tools: sections, lens, focus, look, measure; drawings are checked against the `svt` command.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { before, describe, it } from "node:test";
+import { svt } from "./harness.mjs";
+import { withHouse } from "./visit.mjs";
+
+const { at, visit, open } = withHouse("tools");
+const { inPage, state, settled, stage, eventually, tool, saved } = visit;
+
+describe("tools", () => {
+  before(() => open());
+
+  it("cut with planes that are dragged, slid and flipped", async () => {
+    await tool("section");
+    await visit.page.click("#add-plane");
+    const before = (await state()).sections[0];
+    assert.equal(before.axis, "y");
+    const handle = visit.page.locator("svt-picture .handle");
+    await handle.focus();
+    await visit.page.keyboard.press("ArrowUp");
+    assert.ok(Math.abs((await state()).sections[0].at - before.at - 0.05) < 1e-9);
+    await settled();
+    const box = await handle.boundingBox();
+    await visit.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await visit.page.mouse.down();
+    await visit.page.mouse.move(box.x + box.width / 2 - 40, box.y + box.height / 2 + 30, { steps: 5 });
+    await visit.page.mouse.up();
+    await eventually(async () => assert.notEqual((await state()).sections[0].at, before.at + 0.05));
+    await visit.page.getByRole("button", { name: "Other side" }).click();
+    assert.equal((await state()).sections[0].flip, false);
+    await visit.page.getByRole("button", { name: "Other side" }).click();
+    await visit.page.getByRole("button", { name: "Cut Ground floor at 1.1 m" }).click();
+    assert.deepEqual(
+      (await state()).sections.map((s) => s.axis),
+      ["y", "z"],
+    );
+    assert.match((await inPage("s.composed([640, 360])")).passes[0].cut, /^y<[\d.]+ or z>[\d.]+$/);
+    await visit.page.getByRole("button", { name: "Remove plane 1" }).click();
+  });
+
+  it("are typed in metres or in the model's coordinates, and new ones lie beside old ones", async () => {
+    const { sections } = await state();
+    await inPage("s.set({ sections: [] })");
+    await tool("section");
+    for (let n = 0; n < 5; ++n) await visit.page.click("#add-plane");
+    const free = (await state()).sections.filter((section) => section.axis === "free").map((section) => section.at);
+    assert.equal(new Set(free).size, free.length, `planes lie on each other: ${free}`);
+    await inPage("s.set({ sections: [{ axis: 'z', at: 1, flip: false, turn: 0, tilt: 90 }] })");
+    await visit.page.locator(".plane input.at").fill("2.5");
+    await visit.page.locator(".plane input.at").press("Enter");
+    assert.equal((await state()).sections[0].at, 2.5);
+    const lower = await inPage("s.info.origin[2]");
+    const world = visit.page.locator(".plane input.world");
+    assert.equal(Number(await world.inputValue()), Number((2.5 + lower).toFixed(2)));
+    await world.fill((lower + 1.25).toFixed(2));
+    await world.press("Enter");
+    assert.ok(Math.abs((await state()).sections[0].at - 1.25) < 0.006);
+    await visit.page.locator(".plane input.at").fill("999");
+    await visit.page.locator(".plane input.at").press("Enter");
+    assert.ok((await state()).sections[0].at < 20, "no further than the building");
+    await inPage("s.set({ sections: v })", sections);
+  });
+
+  it("export drawings as the command makes them", async () => {
+    const { at: height } = (await state()).sections[0];
+    for (const format of ["SVG", "DXF", "GEOJSON", "CSV"]) {
+      const { bytes } = await saved(() => visit.page.getByRole("button", { name: `Export as ${format}` }).click());
+      const file = at(`plan.${format.toLowerCase()}`);
+      svt(
+        "section",
+        at("house.svt"),
+        ...(format === "CSV" ? ["-o", at("x.svg"), "--table", file] : ["-o", file]),
+        "--plane",
+        `z>${Number(height.toFixed(4))}`,
+      );
+      assert.deepEqual(bytes.toString("utf8"), readFileSync(file, "utf8"), format);
+    }
+    for (const part of ["beyond", "above", "dimensions"]) await visit.page.locator(`#draw-${part}`).check();
+    const { bytes } = await saved(() => visit.page.getByRole("button", { name: "Export as SVG" }).click());
+    svt(
+      "section",
+      at("house.svt"),
+      "-o",
+      at("whole.svg"),
+      "--plane",
+      `z>${Number(height.toFixed(4))}`,
+      "--beyond",
+      "--above",
+      "--dimensions",
+    );
+    assert.equal(bytes.toString("utf8"), readFileSync(at("whole.svg"), "utf8"), "with what stands beyond");
+    const picture = await saved(() => visit.page.getByRole("button", { name: "Export as PNG" }).click());
+    assert.equal(picture.bytes.subarray(1, 4).toString("latin1"), "PNG");
+    assert.ok(picture.bytes.readUInt32BE(16) > 1500, "300 pixels to the inch");
+    await visit.page.getByRole("button", { name: "Remove plane 1" }).click();
+  });
+
+  it("export sheets as the command makes them", async () => {
+    const { bytes, name } = await saved(() => visit.page.locator("#draw-sheets").click());
+    assert.equal(name, "sheets.zip");
+    writeFileSync(at("sheets.zip"), bytes);
+    execFileSync("python3", ["-m", "zipfile", "-e", at("sheets.zip"), at("unzipped")]);
+    svt("sheets", at("house.svt"), "--svg", at("sheets"));
+    const names = readdirSync(at("sheets")).sort();
+    assert.deepEqual(readdirSync(at("unzipped")).sort(), names);
+    for (const sheet of names)
+      assert.equal(readFileSync(at(`unzipped/${sheet}`), "utf8"), readFileSync(at(`sheets/${sheet}`), "utf8"), sheet);
+  });
+
+  it("move a lens with the mouse and pin it", async () => {
+    await tool("lens");
+    const box = await stage();
+    await visit.page.mouse.move(box.x + box.width * 0.7, box.y + box.height * 0.5);
+    let lens;
+    await eventually(async () => {
+      lens = (await state()).lens;
+      assert.ok(Math.abs(lens.x - 0.7) < 0.01 && Math.abs(lens.y - 0.5) < 0.01);
+    });
+    assert.equal((await state()).effect, "lens");
+    await visit.page.keyboard.down("Shift");
+    await visit.page.mouse.wheel(0, 200);
+    await visit.page.keyboard.up("Shift");
+    await eventually(async () => assert.ok((await state()).lens.radius < lens.radius));
+    await visit.page.mouse.click(box.x + box.width * 0.7, box.y + box.height * 0.5);
+    await visit.page.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.6);
+    ({ lens } = await eventually(async () => (assert.ok((await state()).lens.pinned), await state())));
+    assert.ok(lens.pinned && Math.abs(lens.x - 0.7) < 0.01);
+    const scene = await inPage("s.composed([640, 360])");
+    assert.equal(scene.passes.length, 2);
+    assert.match(scene.passes[1].keep, /^view\(/);
+    await settled();
+    await visit.page.locator("#lens-on").click();
+  });
+
+  it("highlight, cut away to the selection, and leave hulls", async () => {
+    await inPage("s.select(['house_hidden_beam'])");
+    await tool("focus");
+    await visit.page.getByRole("radio", { name: "Highlight" }).click();
+    let scene = await inPage("s.composed([640, 360])");
+    assert.deepEqual(scene.passes[1].show, ['id="house_hidden_beam"']);
+    await settled();
+    await visit.page.getByRole("radio", { name: "Cut away" }).click();
+    scene = await inPage("s.composed([640, 360])");
+    assert.match(scene.passes[0].cut, /cutaway\(/);
+    await settled();
+    await visit.page.fill("#focus-query", "class=Nonsense");
+    await visit.page.keyboard.press("Enter");
+    await visit.page.locator("svt-focus-tool .error").waitFor();
+    await visit.page.getByRole("radio", { name: "Off" }).click();
+    await visit.page.selectOption("#shell", "storey");
+    assert.equal((await inPage("s.describe([640, 360])")).scene.passes[0].shell, "storey");
+    await settled();
+    assert.equal(await inPage("s.message"), null);
+    await visit.page.selectOption("#shell", "");
+  });
+
+  it("change look, lines, names and legend", async () => {
+    await tool("look");
+    await visit.page.getByRole("radio", { name: "Blueprint" }).click();
+    await visit.page.selectOption("#wireframe", "dashed");
+    await visit.page.locator("#names").check();
+    await visit.page.locator("#legend").check();
+    await visit.page.locator("svt-legend li").first().waitFor();
+    const scene = await inPage("s.composed([640, 360])");
+    assert.equal(scene.look, "blueprint");
+    assert.deepEqual(scene.passes[0].lines, [{ hidden: "dashed" }]);
+    assert.deepEqual(scene.names, ['id="house_hidden_beam"']);
+    await settled();
+    assert.equal(await inPage("s.message"), null);
+    await visit.page.getByRole("radio", { name: "Plain" }).click();
+    await visit.page.selectOption("#wireframe", "off");
+    await visit.page.locator("#names").uncheck();
+    await visit.page.locator("#legend").uncheck();
+  });
+
+  it("colours by storey, with a legend and an arrow to the north", async () => {
+    await visit.page.fill("#color-by", "storey");
+    await visit.page.locator("#color-by").press("Enter");
+    await visit.page.locator("#north-arrow").check();
+    await settled();
+    const scene = await inPage("s.composed([640, 360])");
+    assert.equal(scene.colorBy, "storey");
+    assert.equal(scene.northArrow, true);
+    assert.equal(await inPage("s.message"), null);
+    await visit.page.fill("#color-by", "");
+    await visit.page.locator("#color-by").press("Enter");
+    await visit.page.locator("#north-arrow").uncheck();
+    await settled();
+    assert.equal((await inPage("s.composed([640, 360])")).colorBy, undefined);
+  });
+
+  it("measure between picked points", async () => {
+    await tool("measure");
+    const box = await stage();
+    await settled();
+    const places = [
+      [0.45, 0.5],
+      [0.5, 0.55],
+      [0.55, 0.5],
+    ];
+    for (const [n, [x, y]] of places.entries()) {
+      await visit.page.mouse.click(box.x + box.width * x, box.y + box.height * y);
+      await visit.page.waitForFunction((count) => document.querySelector("svt-app").session.state.measured.length === count, n + 1);
+    }
+    const [a, b, c] = await inPage("s.state.measured");
+    const apart = (p, q) => Math.hypot(...p.map((v, i) => v - q[i]));
+    assert.equal(await visit.page.locator("#measured-length").innerText(), `${(apart(a, b) + apart(b, c)).toFixed(3)} m`);
+    assert.match(await visit.page.locator("#measured-area").innerText(), /^\d+\.\d{3} m²$/);
+    await eventually(async () => assert.match(visit.page.url(), /view=/));
+    const { inflateRawSync } = await import("node:zlib");
+    await eventually(async () =>
+      assert.deepEqual(
+        JSON.parse(
+          String(inflateRawSync(Buffer.from(new URLSearchParams(new URL(visit.page.url()).hash.slice(1)).get("view"), "base64url"))),
+        ).measured,
+        [a, b, c],
+      ),
+    );
+    // They stay until they are removed.
+    await visit.page.reload();
+    await visit.page.waitForFunction(() => document.querySelector("svt-app")?.session?.report);
+    await settled();
+    assert.deepEqual((await state()).measured, [a, b, c]);
+    await tool("measure");
+    await visit.page.getByRole("button", { name: "Clear" }).click();
+    assert.deepEqual((await state()).measured, []);
+  });
+
+  it("measure from corner to corner of the model", async () => {
+    await inPage("s.set({ measured: [] })");
+    await inPage("s.goTo('', 'front')");
+    await settled();
+    // Near the place where a corner of the outer wall is seen, a few pixels beside it.
+    const box = await stage();
+    const corner = await inPage(`(async () => {
+      for (let y = 0.3; y < 0.9; y += 0.01)
+        for (let x = 0.1; x < 0.9; x += 0.01) {
+          const pick = await s.engine.pick(x, y, 0.25);
+          if (pick?.snapped?.to === "corner") return { x, y, point: pick.snapped.point, on: pick.point };
+        }
+      return null;
+    })()`);
+    assert.ok(corner, "some corner of the model is seen");
+    const off = Math.hypot(...corner.point.map((v, i) => v - corner.on[i]));
+    assert.ok(off <= 0.25 && off > 0);
+    const click = (modifiers) => visit.page.mouse.click(box.x + box.width * corner.x, box.y + box.height * corner.y, modifiers);
+    await visit.page.keyboard.down("Control");
+    await click();
+    await visit.page.keyboard.up("Control");
+    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.state.measured.length === 1);
+    const plain = (await state()).measured[0];
+    assert.ok(Math.hypot(...plain.map((v, i) => v - corner.on[i])) < 0.05, "with Ctrl the point is where the ray hits");
+    await click();
+    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.state.measured.length === 2);
+    const snapped = (await state()).measured[1];
+    assert.ok(Math.hypot(...snapped.map((v, i) => v - corner.point[i])) < 0.001, "without Ctrl it is the corner");
+    assert.equal(await inPage("s.engine.pick(0.5, 0.5).then((p) => p?.snapped ?? null)"), null);
+    await inPage("s.set({ measured: [] })");
+  });
+
+  it("colour a class and make it glass", async () => {
+    await visit.page.getByRole("tab", { name: "Classes" }).click();
+    await visit.page.getByRole("button", { name: "Colour and opacity of BuildingConstructiveElement" }).click();
+    const slider = visit.page.getByRole("slider", { name: "Opacity of BuildingConstructiveElement" });
+    await slider.focus();
+    await visit.page.keyboard.press("Home");
+    assert.deepEqual((await state()).styles, [{ select: "class=BuildingConstructiveElement", opacity: 0 }]);
+    await settled();
+    await visit.page.getByRole("button", { name: "As in the model" }).click();
+    assert.deepEqual((await state()).styles, []);
+    await visit.page.getByRole("tab", { name: "Structure" }).click();
+  });
+});

@@ -1,0 +1,81 @@
+// The tree of features, search and queries.
+import assert from "node:assert/strict";
+import { before, describe, it } from "node:test";
+import { svtJson } from "./harness.mjs";
+import { withHouse } from "./visit.mjs";
+
+const { at, visit, open } = withHouse("tree");
+const { inPage, state, eventually } = visit;
+
+describe("tree and query", () => {
+  before(() => open());
+
+  it("finds by name and selects", async () => {
+    await visit.page.fill("#search", "hidden beam");
+    await visit.page.getByRole("treeitem", { name: /Hidden beam/ }).click();
+    assert.deepEqual((await state()).selection, ["house_hidden_beam"]);
+    await visit.page.getByRole("heading", { name: "Hidden beam" }).waitFor();
+    const [row] = svtJson("query", at("house.svt"), "id=house_hidden_beam", "--with", "volume,surface", "--json");
+    await visit.page.getByText(`${row.voxelVolume.toFixed(3)} m³`).waitFor();
+    await visit.page.fill("#search", "");
+  });
+
+  it("finds by what attributes say, and in German", async () => {
+    const names = async () => (await visit.page.getByRole("treeitem").allInnerTexts()).join("|");
+    await visit.page.fill("#search", "concrete");
+    const found = await inPage("s.engine.findInAttributes('concrete')");
+    assert.ok(found.length > 0);
+    await eventually(async () =>
+      assert.match(await visit.page.locator("svt-tree [role=status]").first().innerText(), new RegExp(`^${found.length} found`)),
+    );
+    await visit.page.fill("#search", "fenster");
+    assert.match(await names(), /Window|window/);
+    await visit.page.fill("#search", "");
+  });
+
+  it("hides what is chosen, and a class", async () => {
+    const item = visit.page.getByRole("treeitem", { name: /Hidden beam/ });
+    await item.locator("button.eye").click();
+    assert.deepEqual((await state()).hide, ['id="house_hidden_beam"']);
+    await item.locator("button.eye").click();
+    assert.deepEqual((await state()).hide, []);
+    await visit.page.getByRole("tab", { name: "Classes" }).click();
+    await visit.page.getByRole("button", { name: "Hide: BuildingRoom" }).click();
+    assert.deepEqual((await state()).hide, ["class=BuildingRoom"]);
+    await visit.page.getByRole("button", { name: "Show all" }).click();
+    assert.deepEqual((await state()).hide, []);
+    await visit.page.getByRole("tab", { name: "Structure" }).click();
+  });
+
+  it("asks queries, and shows what is wrong with them", async () => {
+    await visit.page.fill("#query", "class=BuildingRoom and volume>");
+    await visit.page.keyboard.press("Enter");
+    await visit.page.locator("#query-answer.error").waitFor();
+    assert.match(await visit.page.locator("#query-answer").innerText(), /column|expected|value/i);
+    await visit.page.fill("#query", "class=BuildingRoom and volume>20");
+    await visit.page.keyboard.press("Enter");
+    const expected = svtJson("query", at("house.svt"), "class=BuildingRoom and volume>20", "--json").map((row) => row.id);
+    await visit.page.getByText(`${expected.length} selected`).first().waitFor();
+    assert.deepEqual((await state()).selection, expected);
+  });
+
+  it("bears 100,000 features: the page holds the rows in view alone", async () => {
+    await inPage(`(async () => {
+      const features = Array.from({ length: 100_000 }, (_, i) => ({
+        id: "f" + i, class: "Class" + (i % 40), name: "Part " + i, parent: i === 0 ? "" : i % 100 === 1 ? "f0" : "f" + (i - ((i - 1) % 100)),
+        depth: 0, first: i + 1, count: 1, color: "#808080", opacity: 1,
+      }));
+      s.take({ ...s.info, features }, s.state);
+      s.changed();
+      const tree = document.querySelector("svt-app").shadowRoot.querySelector("svt-tree");
+      await tree.updateComplete;
+      s.select(["f99999"]);
+      await tree.updateComplete;
+      s.hide([99999], true);
+      await tree.updateComplete;
+    })()`);
+    await visit.page.getByRole("treeitem", { name: "Part 99999" }).waitFor();
+    const rows = await visit.page.locator("[role=treeitem]").count();
+    assert.ok(rows < 80, `${rows} rows in the page`);
+  });
+});
