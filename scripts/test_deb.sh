@@ -38,7 +38,7 @@ inside sh -ec '
   svt render h.svt -o h.png
   svt view h.svt --no-browser >address 2>log &
   server=$!
-  for n in 1 2 3 4 5 6 7 8 9 10; do [ -s address ] && break; sleep 1; done
+  for n in $(seq 300); do [ -s address ] && break; sleep 1; done
   cat address
   perl -MIO::Socket::INET -e '"'"'
     open(my $file, "<", "address"); my ($host, $port) = <$file> =~ m{//([^:]+):(\d+)/};

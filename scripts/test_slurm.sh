@@ -34,7 +34,7 @@ release() { # all that was submitted with --hold, the merge, too
   for job in $(squeue -h -t PD -o %A | sort -u); do scontrol release "$job"; done
 }
 drained() { # until no job is left, at most $1 seconds
-  for _ in $(seq "$(($1 * 4))"); do [ -z "$(squeue -h)" ] && return; sleep 0.25; done
+  for _ in $(seq "$(($1 * 40))"); do [ -z "$(squeue -h)" ] && return; sleep 0.25; done
   squeue >&2
   fail "jobs do not end"
 }

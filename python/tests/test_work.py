@@ -75,7 +75,7 @@ class Work(unittest.TestCase):
                 if stage == "voxelize\n":
                     break
             child.send_signal(signal.SIGINT)
-            out, err = child.communicate(timeout=60)
+            out, err = child.communicate(timeout=900)
             # And none of the stages that come after the voxels.
             self.assertEqual(out, "stopped\n", err)
         finally:
@@ -138,7 +138,7 @@ class Work(unittest.TestCase):
             """,
             house_file(),
         )
-        out, err = child.communicate(timeout=120)
+        out, err = child.communicate(timeout=900)
         self.assertEqual(out, "True\n", err)
         self.assertEqual(err, "")
 
@@ -158,7 +158,7 @@ class Page(unittest.TestCase):
             with house().view(height=321) as view:
                 self.assertIn(view.address, view._repr_html_())
                 self.assertIn('height="321"', view._repr_html_())
-                with urllib.request.urlopen(view.address, timeout=10) as reply:
+                with urllib.request.urlopen(view.address, timeout=300) as reply:
                     self.assertIn(b"the page", reply.read())
             with self.assertRaises(OSError):
                 urllib.request.urlopen(view.address, timeout=2)

@@ -45,7 +45,7 @@ void expectNoGrowth(int rounds, const Attack& attack) {
 
 // Sends `part` repeatedly; the server must close the connection.
 void expectCutOff(Client& client, const std::string& part) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(kHangSeconds);
     while (std::chrono::steady_clock::now() < end)
         if (!client.send(part)) return;
     ADD_FAILURE() << "the server still reads";
@@ -125,7 +125,7 @@ TEST_F(HostileRequests, LongAndEndlessHeadsAreCutOff) {
             client.send("GET / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(1 << 20, 'x'));
             const int status = client.receive().status;
             EXPECT_TRUE(status == 431 || status == 0) << status;
-            EXPECT_TRUE(client.isClosed(5));
+            EXPECT_TRUE(client.isClosed());
         }
         {
             Client client = server.client();  // endless headers
@@ -165,13 +165,13 @@ TEST_F(HostileRequests, BodiesOverTheLimitAreNotTaken) {
                 fmt::format("POST /api/call HTTP/1.1\r\nHost: localhost\r\nContent-Length: {}\r\n\r\n", length));
             EXPECT_EQ(client.receive().status, 413) << length;
             for (int i = 0; i < 64 && client.send(body); ++i) continue;
-            EXPECT_TRUE(client.isClosed(5));
+            EXPECT_TRUE(client.isClosed());
         }
         // More than Content-Length: the excess is read as the next request, which is invalid.
         Client client = server.client();
         client.send("POST /api/call HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000\r\n\r\n" + body);
         EXPECT_EQ(client.receive().status, 200);
-        EXPECT_TRUE(client.isClosed(5));
+        EXPECT_TRUE(client.isClosed());
         EXPECT_EQ(server.ask("POST /api/call", "Transfer-Encoding: chunked\r\n", "fffffffffffffff\r\n").status, 411);
         EXPECT_EQ(server.ask("GET /").status, 200);
     };
@@ -182,36 +182,42 @@ TEST_F(HostileRequests, SlowClientsLoseTheirPlaceAndHoldUpNobody) {
     Route route;
     route.path = "/api/call";
     route.handle = [](const Request&, const Progress&) { return Reply{}; };
-    ServerOptions options;
-    options.headSeconds = 0.6;
-    options.stallSeconds = 0.6;
-    options.maxConnections = 64;
-    const RunningServer server(site, {route}, options);
     std::vector<Client> heads, bodies, readers;
-    for (int i = 0; i < 20; ++i) {
-        heads.push_back(server.client());
-        heads.back().send("GET / HTTP/1.1\r\nHost: local");
-        readers.push_back(server.client());
-        readers.back().send("GET /data.svt HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    const auto attack = [&](const RunningServer& server) {
+        for (int i = 0; i < 20; ++i) {
+            heads.push_back(server.client());
+            heads.back().send("GET / HTTP/1.1\r\nHost: local");
+            readers.push_back(server.client());
+            readers.back().send("GET /data.svt HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        }
+        for (int i = 0; i < 4; ++i) {
+            bodies.push_back(server.client());
+            bodies.back().send("POST /api/call HTTP/1.1\r\nHost: localhost\r\nContent-Length: 500\r\n\r\n");
+        }
+    };
+    ServerOptions options;
+    options.maxConnections = 64;
+    {
+        // Who waits for one of them here waits for an hour.
+        options.headSeconds = options.stallSeconds = 3600;
+        const RunningServer patient(site, {route}, options);
+        attack(patient);
+        EXPECT_EQ(patient.ask("GET /").status, 200);
+        heads.clear();
+        bodies.clear();
+        readers.clear();
     }
-    for (int i = 0; i < 4; ++i) {
-        bodies.push_back(server.client());
-        bodies.back().send("POST /api/call HTTP/1.1\r\nHost: localhost\r\nContent-Length: 500\r\n\r\n");
-    }
-    const auto start = std::chrono::steady_clock::now();
-    double slowest = 0;
+    options.headSeconds = options.stallSeconds = 0.6;
+    const RunningServer server(site, {route}, options);
+    attack(server);
     for (int i = 0; i < 12; ++i) {  // one byte at a time, for 1.2 s
         for (Client& client : heads) client.send("h");
-        const auto asked = std::chrono::steady_clock::now();
         EXPECT_EQ(server.ask("GET /").status, 200);
-        slowest = std::max(slowest, std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count());
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
-    EXPECT_LT(slowest, hasSanitizer ? 4 : 1);
-    for (Client& client : heads) EXPECT_TRUE(client.isClosed(3));
-    for (Client& client : bodies) EXPECT_TRUE(client.isClosed(3));
-    for (Client& client : readers) EXPECT_TRUE(client.isClosed(3));  // after the data in flight
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+    for (Client& client : heads) EXPECT_TRUE(client.isClosed());
+    for (Client& client : bodies) EXPECT_TRUE(client.isClosed());
+    for (Client& client : readers) EXPECT_TRUE(client.isClosed());  // after the data in flight
 }
 
 TEST_F(HostileRequests, RangesCannotMultiplyWhatIsSent) {
@@ -231,7 +237,6 @@ TEST_F(HostileRequests, AThousandConnectionsAtOnce) {
     options.maxConnections = 128;
     const RunningServer server(site, {}, options);
     const std::ptrdiff_t threads = threadCount();
-    const auto start = std::chrono::steady_clock::now();
     const auto attack = [&] {
         std::vector<Client> clients;
         for (int i = 0; i < 1000; ++i) {
@@ -244,16 +249,15 @@ TEST_F(HostileRequests, AThousandConnectionsAtOnce) {
             }
         }
         EXPECT_EQ(threadCount(), threads);
-        // With a thousand connections held open: answered within the stall timeout.
+        // With a thousand connections held open: answered as soon as some are given up.
         int status = 0;
-        for (int i = 0; i < 40 && status != 200; ++i) {
+        for (int i = 0; i < 1200 && status != 200; ++i) {
             status = server.ask("GET /").status;
             if (status != 200) std::this_thread::sleep_for(std::chrono::milliseconds(100));
         }
         EXPECT_EQ(status, 200);
     };
     expectNoGrowth(4, attack);
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(hasSanitizer ? 120 : 30));
     EXPECT_EQ(server.ask("GET /").status, 200);
 }
 

@@ -272,7 +272,7 @@ TEST(PublishedSite, PythonServesIt) {
         ::_exit(1);
     }
     int port = 0;
-    for (int i = 0; i < 500 && port == 0; ++i) {
+    for (int i = 0; i < 6000 && port == 0; ++i) {
         ::usleep(20000);
         const std::string said = readText(log);
         if (const std::size_t at = said.find(" port "); at != std::string::npos)

@@ -76,7 +76,7 @@ int runScript(const fs::path& folder, const std::string& text) {
     const std::string at = folder.string();
     writeText(folder / "run.sh", "PATH='" + installed.bin() + "':$PATH\ncd '" + at + "'\n" + text + "\n");
     const int status =
-        std::system(("timeout 60 sh '" + at + "/run.sh' > '" + at + "/run.log' 2> '" + at + "/run.err'").c_str());
+        std::system(("timeout 900 sh '" + at + "/run.sh' > '" + at + "/run.log' 2> '" + at + "/run.err'").c_str());
     return WEXITSTATUS(status);
 }
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <thread>
 
@@ -32,6 +33,7 @@ constexpr bool hasSanitizer = false;
 constexpr bool hasSanitizer = false;
 #endif
 constexpr double kSlowdown = hasSanitizer ? 20 : 1;
+constexpr double kHangSeconds = 600 * kSlowdown;
 
 // Mounts a file system of 4 KiB that is visible only to this process and disappears with it.
 bool mountTinyDisk(const char* folder) {
@@ -40,10 +42,12 @@ bool mountTinyDisk(const char* folder) {
     return ::mount("none", folder, "tmpfs", 0, "size=4k") == 0;
 }
 
-void limit(int resource, std::uint64_t bytes) {
-    const rlimit value{bytes, bytes};
+void limit(int resource, std::uint64_t most) {
+    const rlimit value{most, most};
     ::setrlimit(static_cast<__rlimit_resource>(resource), &value);
 }
+
+double secondsOf(const timeval& time) { return double(time.tv_sec) + double(time.tv_usec) / 1e6; }
 
 [[noreturn]] void becomeSvt(const char* command, const std::string& folder, std::vector<char*>& arguments,
                             const Limits& limits, const std::string& tinyDisk, int out, int err) {
@@ -56,6 +60,7 @@ void limit(int resource, std::uint64_t bytes) {
     ::dup2(err, 2);
     if (!hasSanitizer) limit(RLIMIT_AS, limits.memoryBytes);
     limit(RLIMIT_CORE, 0);
+    limit(RLIMIT_CPU, static_cast<std::uint64_t>(std::ceil(limits.seconds * kSlowdown)));
     if (limits.fileBytes != 0) limit(RLIMIT_FSIZE, limits.fileBytes);
     ::execv(command, arguments.data());
     ::_exit(kExecFailed);
@@ -109,9 +114,6 @@ CommandResult runSvt(const std::filesystem::path& folder, const std::vector<std:
 
     CommandResult result;
     const auto start = std::chrono::steady_clock::now();
-    const auto elapsed = [&] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
     const char* const command = commandPath().c_str();  // found before the fork
     const pid_t child = ::fork();
     if (child == 0) becomeSvt(command, folderName, pointers, limits, tinyDisk, out, err);
@@ -123,15 +125,19 @@ CommandResult runSvt(const std::filesystem::path& folder, const std::vector<std:
         return result;
     }
     auto pause = std::chrono::microseconds(500);
-    while (::waitpid(child, &status, WNOHANG) == 0) {
-        if (!result.isTimeout && elapsed() > limits.seconds * kSlowdown) {
+    rusage used{};
+    while (::wait4(child, &status, WNOHANG, &used) == 0) {
+        if (!result.isTimeout &&
+            std::chrono::steady_clock::now() - start > std::chrono::duration<double>(kHangSeconds)) {
             result.isTimeout = true;
             ::kill(child, SIGKILL);
         }
         std::this_thread::sleep_for(pause);
         pause = std::min(pause * 2, std::chrono::microseconds(10000));
     }
-    result.seconds = elapsed();
+    result.seconds = secondsOf(used.ru_utime) + secondsOf(used.ru_stime);
+    // The limit of processor time is a hard one, which the system enforces by SIGKILL.
+    if (WIFSIGNALED(status) && result.seconds >= limits.seconds * kSlowdown) result.isTimeout = true;
     if (WIFEXITED(status)) result.exitCode = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
     result.cannotMount = result.exitCode == kMountFailed;

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Runs the real `svt` as a user would, in a separate folder, with time and memory limits, so that tests detect
-/// hangs and unbounded memory.
+/// Runs the real `svt` as a user would, in a separate folder, with limits of processor time and memory, so that tests detect
+/// unbounded work and memory. What hangs ends after ten minutes.
 
 #include <svt/core/temporary_folder_test.hpp>
 
@@ -22,7 +22,7 @@ namespace svt::test {
 [[nodiscard]] const std::string& commandPath();
 
 struct Limits {
-    double seconds = 10;                                 ///< wall-clock limit; a slower run is killed
+    double seconds = 60;  ///< of processor time, of all threads together; a run that needs more is killed
     std::uint64_t memoryBytes = std::uint64_t{1} << 30;  ///< address space; no limit if a sanitizer needs more
     std::uint64_t fileBytes = 0;                         ///< largest file that may be written; 0: no limit
     /// Mounts a file system of 4 KiB over this folder, seen by the command alone; empty: none.
@@ -36,7 +36,7 @@ struct CommandResult {
     bool isTimeout = false;
     bool cannotMount = false;  ///< the tiny disk could not be mounted; nothing was run
     std::string out, err;
-    double seconds = 0;
+    double seconds = 0;  ///< of processor time
 
     /// All details, for the message of a failed test.
     [[nodiscard]] std::string toString() const;

@@ -32,7 +32,7 @@ def labels(kind, shape=SHAPE):
 
 
 def build(path):
-    result = subprocess.run([SVT, "build", path, "-o", path + ".svt"], capture_output=True, text=True, timeout=60)
+    result = subprocess.run([SVT, "build", path, "-o", path + ".svt"], capture_output=True, text=True, timeout=900)
     if result.returncode != 0:
         return None, result.stderr
     subprocess.run([SVT, "convert", path + ".svt", path + ".nrrd", "--encoding", "raw"], check=True)

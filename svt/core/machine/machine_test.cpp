@@ -121,7 +121,7 @@ bool canTake(std::size_t bytes) {
 }
 
 TEST(LimitMemory, AllocationsBeyondItFailAndThoseBelowDoNot) {
-    const auto result = inOwnProcess(20, [](const Say& say) {
+    const auto result = inOwnProcess(600, [](const Say& say) {
         constexpr std::size_t kMb = 1'000'000;
         say(canTake(900 * kMb) ? "before " : "none ");
         limitMemory(600 * kMb, "--memory");
@@ -138,7 +138,7 @@ TEST(LimitMemory, AllocationsBeyondItFailAndThoseBelowDoNot) {
 }
 
 TEST(InOwnProcess, TellsWhatWasSaidAndWrittenToStderr) {
-    const auto result = inOwnProcess(20, [](const Say& say) {
+    const auto result = inOwnProcess(600, [](const Say& say) {
         say("one\n");
         std::fputs("two\n", stderr);
         std::fputs("not this", stdout);
@@ -149,7 +149,7 @@ TEST(InOwnProcess, TellsWhatWasSaidAndWrittenToStderr) {
 }
 
 TEST(InOwnProcess, ACrashEndsTheCopyAlone) {
-    const auto result = inOwnProcess(20, [](const Say& say) {
+    const auto result = inOwnProcess(600, [](const Say& say) {
         say("before");
         std::raise(SIGKILL);
         say("after");
@@ -159,23 +159,26 @@ TEST(InOwnProcess, ACrashEndsTheCopyAlone) {
 }
 
 TEST(InOwnProcess, WhatHangsIsEnded) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto result = inOwnProcess(0.2, [](const Say& say) {
-        say("before");
-        std::this_thread::sleep_for(std::chrono::minutes(2));
-    });
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::minutes(1));
-    EXPECT_EQ(result.text, "before");
+    const auto hang = [](double seconds) {
+        return inOwnProcess(seconds, [](const Say& say) {
+            say("before");
+            std::this_thread::sleep_for(std::chrono::hours(24));
+        });
+    };
+    auto result = hang(0.2);
     EXPECT_EQ(result.fault, "no answer within 0.2 s");
+    // A busy machine may not come to the first word in that time.
+    if (result.text.empty()) result = hang(60);
+    EXPECT_EQ(result.text, "before");
 }
 
 TEST(InOwnProcess, ExceptionsDoNotLeave) {
-    const auto result = inOwnProcess(20, [](const Say&) { throw std::runtime_error("x"); });
+    const auto result = inOwnProcess(600, [](const Say&) { throw std::runtime_error("x"); });
     EXPECT_EQ(result.fault, "ended with code 1");
 }
 
 TEST(InOwnProcess, TextIsBounded) {
-    const auto result = inOwnProcess(20, [](const Say& say) { say(std::string(1 << 20, 'x')); });
+    const auto result = inOwnProcess(600, [](const Say& say) { say(std::string(1 << 20, 'x')); });
     EXPECT_EQ(result.text.size(), std::size_t{64} * 1024);
     EXPECT_EQ(result.fault, "");
 }

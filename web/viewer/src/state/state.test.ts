@@ -212,15 +212,16 @@ describe("visibility", () => {
     expect(counts.hiddenSolids).toBe(2);
   });
 
-  it("stays quick with 100,000 features", () => {
+  it("needs little processor time for 100,000 features", () => {
     const many = Array.from({ length: 100_000 }, (_, i) =>
       feature(`f${i}`, i === 0 ? "" : i % 100 === 1 ? "f0" : `f${i - ((i - 1) % 100)}`, `C${i % 50}`, 1, i + 1),
     );
-    const start = performance.now();
+    const start = process.cpuUsage();
     const index = indexFeatures(many);
     const flags = new Uint8Array(many.length).map((_, i) => (i % 3 ? 1 : 0));
     expect(hiddenFlags(index, hideQueries(index, flags))).toEqual(flags);
-    expect(performance.now() - start).toBeLessThan(3000);
+    // 0.3 s; what compares each with each needs minutes.
+    expect(process.cpuUsage(start).user / 1e6).toBeLessThan(20);
   });
 });
 
