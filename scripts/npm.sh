@@ -13,6 +13,7 @@ mkdir -p "$package/bin" "$package/lib" "$package/module" "$package/share/svt"
 version=$(sed -n 's/^project(svt VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 sed "s/\"version\": \"0.0.0\"/\"version\": \"$version\"/" web/npm/package.json >"$package/package.json"
 cp web/npm/README.md LICENSE "$package"
+node web/viewer/sbom.mjs "$page/sbom.cdx.json" >"$package/sbom.cdx.json"
 cp web/npm/bin/svt.mjs "$package/bin"
 cp web/npm/lib/host.mjs web/npm/lib/server.mjs "$package/lib"
 cp build/web/svt_node.js "$package/lib/svt_node.cjs"  # a CommonJS module

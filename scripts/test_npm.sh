@@ -14,6 +14,8 @@ trap 'kill %1 2>/dev/null || true; rm -rf "$work"' EXIT
 cd "$work"
 npm init -y >/dev/null
 npm install --offline --no-audit --no-fund "$package" >log 2>&1 || { cat log >&2; exit 1; }
+node -e 'const names = JSON.parse(require("fs").readFileSync("node_modules/svt/sbom.cdx.json")).components.map((c) => c.name);
+  for (const name of ["cli11", "zlib", "lit", "emscripten"]) if (!names.includes(name)) throw new Error("no " + name + " in sbom.cdx.json")'
 mkdir 'my models' there
 npx --no-install svt --version >version 2>>log
 head -n 1 version
@@ -39,7 +41,7 @@ set -e
 [ $code1 -eq $code2 ] && cmp error1 error2
 # The page is served until the program is stopped; then nothing is left.
 node_modules/.bin/svt view 'my models/h.svt' --no-browser >address 2>/dev/null &
-for _ in $(seq 100); do [ -s address ] && break; sleep 0.1; done
+for _ in $(seq 3000); do [ -s address ] && break; sleep 0.1; done
 node -e 'fetch(require("fs").readFileSync("address","utf8").trim()+"models/h.svt").then(r=>r.arrayBuffer()).then(b=>{
   if (Buffer.compare(Buffer.from(b), require("fs").readFileSync("my models/h.svt")) !== 0) throw new Error("another volume")})'
 kill %1

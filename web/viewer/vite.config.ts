@@ -1,5 +1,6 @@
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
+import { billOfMaterials, componentsOfModules, npmComponents, ownVersion } from "./sbom.mjs";
 import { template } from "./src/texts";
 
 // Relative addresses, so that the page works in any folder of any server.
@@ -25,6 +26,16 @@ export default defineConfig({
           fileName: "languages/template.json",
           source: `${JSON.stringify({ texts: template(), classes: {} }, null, 1)}\n`,
         });
+      },
+    },
+    {
+      // What of others is in the page, with versions: the packages whose files were bundled, and the libraries of the modules.
+      name: "bill-of-materials",
+      apply: "build",
+      generateBundle(_, bundle) {
+        const files = Object.values(bundle).flatMap((file) => (file.type === "chunk" ? file.moduleIds : []));
+        const components = [...npmComponents(files), ...componentsOfModules().filter(({ name }) => name !== "cli11")];
+        this.emitFile({ type: "asset", fileName: "sbom.cdx.json", source: billOfMaterials("svt-viewer", ownVersion(), components) });
       },
     },
   ],

@@ -4,7 +4,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, it } from "node:test";
 import { gzipSync } from "node:zlib";
-import { page as pageFolder, serve, svtServe } from "./harness.mjs";
+import { page as pageFolder, repository, serve, svtServe } from "./harness.mjs";
 import { withHouse } from "./visit.mjs";
 
 const { at, visit, open } = withHouse("start");
@@ -28,6 +28,31 @@ describe("start", () => {
     assert.ok(own <= 300_000, `own scripts and styles: ${own} bytes compressed, at most 300000`);
     // Of these the module has 1.5 MB: cities, and inlining, which turns the view faster than bytes cost at the start.
     assert.ok(all <= 1_750_000, `all: ${all} bytes compressed, at most 1750000`);
+  });
+
+  it("says what of others it holds, with versions", () => {
+    const { bomFormat, components } = JSON.parse(readFileSync(join(pageFolder, "sbom.cdx.json"), "utf8"));
+    assert.equal(bomFormat, "CycloneDX");
+    const listed = Object.fromEntries(components.map(({ name, version }) => [name, version]));
+    for (const name of ["lit", "lit-html", "@awesome.me/webawesome"]) {
+      const manifest = join(repository, "web/viewer/node_modules", name, "package.json");
+      assert.equal(listed[name], JSON.parse(readFileSync(manifest, "utf8")).version, name);
+    }
+    for (const name of [
+      "zlib",
+      "libzstd",
+      "libpng1.6",
+      "pugixml",
+      "simdjson",
+      "highway",
+      "freetype",
+      "libglu",
+      "fmtlib",
+      "fonts-dejavu",
+      "emscripten",
+    ])
+      assert.match(listed[name] ?? "none", /^\d/, name);
+    assert.ok(!("vite" in listed) && !("cli11" in listed), "only what is in the page");
   });
 
   it("has the picture where it stays, before splitters and sliders have come", async () => {
