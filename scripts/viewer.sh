@@ -19,7 +19,7 @@ quietly() {
 
 scripts/npm_packages.sh
 cd web/viewer
-if [ -f "../../$page/index.html" ] && [ -z "$(find . ../../$module ../../build/web/svt.js ../../build/web/svt_threads.js -path ./node_modules -prune -o -type f -newer "../../$page/index.html" -print -quit)" ]; then
+if [ -f "../../$page/index.html" ] && [ -z "$(find . ../../$module ../../build/web/svt.js ../../build/web/svt_threads.js ../../build/web-sources/components.tsv -path ./node_modules -prune -o -type f -newer "../../$page/index.html" -print -quit)" ]; then
   exit 0
 fi
 quietly npx --no-install tsc

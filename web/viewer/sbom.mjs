@@ -38,7 +38,7 @@ export function moduleComponents(text) {
 }
 
 /**
- * The npm packages that the files of a bundle come from.
+ * The npm packages that files come from.
  * @param {Iterable<string>} files  with their paths
  */
 export function npmComponents(files) {

@@ -29,12 +29,11 @@ export default defineConfig({
       },
     },
     {
-      // What of others is in the page, with versions: the packages whose files were bundled, and the libraries of the modules.
+      // What of others is in the page, with versions: the packages whose files were read for it, and the libraries of the modules.
       name: "bill-of-materials",
       apply: "build",
-      generateBundle(_, bundle) {
-        const files = Object.values(bundle).flatMap((file) => (file.type === "chunk" ? file.moduleIds : []));
-        const components = [...npmComponents(files), ...componentsOfModules().filter(({ name }) => name !== "cli11")];
+      generateBundle() {
+        const components = [...npmComponents(this.getModuleIds()), ...componentsOfModules().filter(({ name }) => name !== "cli11")];
         this.emitFile({ type: "asset", fileName: "sbom.cdx.json", source: billOfMaterials("svt-viewer", ownVersion(), components) });
       },
     },
