@@ -224,6 +224,7 @@ TEST(HttpServer, FailuresOfAHandlerAreReplies) {
 TEST(HttpServer, StopsFromASignalAndInBoundedTime) {
     ServerOptions options;
     options.stopSeconds = 0.5;
+    options.headSeconds = options.stallSeconds = 3600;  // who waits for a client waits for an hour
     RunningServer server(smallSite(), {}, options);
     Client idle = server.client(), half = server.client(), deaf = server.client();
     idle.send("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n");

@@ -1085,6 +1085,15 @@ TEST_P(WorstInput, IsBuiltInBoundedWorkAndMemory) {
     EXPECT_FALSE(result.isTimeout) << result.toString();
     EXPECT_EQ(result.exitCode, 0) << result.toString();
 }
+
+TEST(RunCommand, EndsWhatNeedsMoreProcessorTimeThanItMay) {
+    const TemporaryFolder folder;
+    ASSERT_NO_FATAL_FAILURE(writeWorst(folder, "fan"));
+    const CommandResult result =
+        runSvt(folder.path(), {"build", "worst.json", "-o", "worst.svt"}, {.seconds = 0.05});  // a second is the least
+    EXPECT_TRUE(result.isTimeout) << result.toString();
+}
+
 INSTANTIATE_TEST_SUITE_P(Checks, WorstInput,
                          ::testing::Values("star", "ring", "holes", "coincident", "coincident_in_one", "book", "wall",
                                            "tjunction", "fan", "loop", "shells", "voids", "surface", "nest",

@@ -136,10 +136,10 @@ CommandResult runSvt(const std::filesystem::path& folder, const std::vector<std:
         pause = std::min(pause * 2, std::chrono::microseconds(10000));
     }
     result.seconds = secondsOf(used.ru_utime) + secondsOf(used.ru_stime);
-    // The limit of processor time is a hard one, which the system enforces by SIGKILL.
-    if (WIFSIGNALED(status) && result.seconds >= limits.seconds * kSlowdown) result.isTimeout = true;
     if (WIFEXITED(status)) result.exitCode = WEXITSTATUS(status);
     if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
+    // The limit of processor time is a hard one, which the system enforces by SIGKILL, at one of its ticks.
+    if (result.signal == SIGKILL && result.seconds > limits.seconds * kSlowdown - 0.5) result.isTimeout = true;
     result.cannotMount = result.exitCode == kMountFailed;
     EXPECT_NE(result.exitCode, kExecFailed) << commandPath() << " cannot be run in " << folder;
     result.out = readText(streams / "out");
