@@ -40,8 +40,8 @@ void onInterrupt(int) {
 
 // Unless the shell of a job in the background has it ignored.
 void takeInterrupts() {
-    formerHandler = std::signal(SIGINT, onInterrupt);
-    if (formerHandler == SIG_IGN) std::signal(SIGINT, SIG_IGN);
+    formerHandler = std::signal(SIGINT, SIG_IGN);
+    if (formerHandler != SIG_IGN) std::signal(SIGINT, onInterrupt);
 }
 
 double secondsSince(Clock::time_point time) { return std::chrono::duration<double>(Clock::now() - time).count(); }

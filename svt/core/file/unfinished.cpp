@@ -133,7 +133,7 @@ void watch(Registry& watched) {
     for (;;) ::pause();
 }
 
-// Requires the lock. Without a thread a signal ends the process at once, as it does by default.
+// Requires the lock. Called before anything is made: a signal waits for the lock then. Without a thread a signal ends the process at once, as it does by default.
 void startWatching(Registry& own) noexcept {
     if (own.wake >= 0 || (own.pipe[0] < 0 && ::pipe2(own.pipe.data(), O_CLOEXEC) != 0)) return;
     try {
@@ -153,7 +153,6 @@ void beginCopy() {
 
 // Requires the lock.
 std::uint64_t add(Registry& to, Item item) {
-    startWatching(to);
     const std::uint64_t id = ++lastId;
     to.items.emplace(id, std::move(item));
     return id;
@@ -168,6 +167,7 @@ Unfinished Unfinished::path(const std::function<fs::path()>& make) {
     }
     Registry& own = *registry;
     const std::lock_guard lock(own.mutex);
+    startWatching(own);
     fs::path path = make();
     if (path.empty()) return {};
     std::error_code ignored;
@@ -181,6 +181,7 @@ Unfinished Unfinished::process(const std::function<int()>& start) {
     }
     Registry& own = *registry;
     const std::lock_guard lock(own.mutex);
+    startWatching(own);
     const int process = start();
     return process > 0 ? Unfinished(add(own, {{}, process})) : Unfinished();
 }
