@@ -124,24 +124,35 @@ void watch(Registry& watched) {
         if (item.process > 0) endProcess(item.process);
     for (auto item = watched.items.rbegin(); item != watched.items.rend(); ++item)
         if (item->second.process == 0) removePath(item->second.path);
-    ::signal(signal, SIG_DFL);
     sigset_t one;
     ::sigemptyset(&one);
     ::sigaddset(&one, signal);
     ::pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
-    ::kill(::getpid(), signal);
-    for (;;) ::pause();
+    // Again where another thread has just set a handler.
+    for (;;) {
+        ::signal(signal, SIG_DFL);
+        ::kill(::getpid(), signal);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
 }
 
-// Requires the lock. Called before anything is made: a signal waits for the lock then. Without a thread a signal ends the process at once, as it does by default.
+// Requires the lock. Called before anything is made: a signal waits for the lock then. Without a thread a signal ends
+// the process at once, as it does by default.
 void startWatching(Registry& own) noexcept {
+    // The usual 8 MB would count against a limit of memory.
+    constexpr std::size_t kStackBytes = std::size_t{512} << 10;
     if (own.wake >= 0 || (own.pipe[0] < 0 && ::pipe2(own.pipe.data(), O_CLOEXEC) != 0)) return;
-    try {
-        std::thread([&own] { watch(own); }).detach();
-        own.wake = own.pipe[1];
-    } catch (const std::system_error&) {
-        own.wake = -1;
-    }
+    pthread_attr_t attributes;
+    if (::pthread_attr_init(&attributes) != 0) return;
+    ::pthread_attr_setstacksize(&attributes, kStackBytes);
+    ::pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
+    pthread_t thread{};
+    const auto run = [](void* watched) -> void* {
+        watch(*static_cast<Registry*>(watched));
+        return nullptr;
+    };
+    if (::pthread_create(&thread, &attributes, run, &own) == 0) own.wake = own.pipe[1];
+    ::pthread_attr_destroy(&attributes);
 }
 
 // A copy of the process has neither the thread nor a claim to the files of its parent, and its mutex may be locked.
