@@ -76,7 +76,7 @@ void damageAndAsk(const fs::path& file, const fs::path& path, const SemanticVolu
         const std::size_t at = whole.size() * step / 24;
         expectTold(whole.substr(0, at), "cut at " + std::to_string(at));
     }
-    for (const std::size_t less : {1, 2, 3, 9})
+    for (const std::size_t less : {1u, 2u, 3u, 9u})
         if (less < whole.size()) expectTold(whole.substr(0, whole.size() - less), "cut by " + std::to_string(less));
     for (const std::string& more : {std::string("x"), std::string(16, '\0'), std::string(1000, '7'), whole})
         expectTold(whole + more, "with " + std::to_string(more.size()) + " more bytes");
@@ -296,7 +296,7 @@ TEST(Damage, MatricesOfGeoTiffThatAreNoneAreRefused) {
         return ask(folder / "v.tif");
     };
     for (const double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
-        for (const std::size_t at : {0, 3, 7, 10, 12, 15}) {
+        for (const std::size_t at : {0u, 3u, 7u, 10u, 12u, 15u}) {
             const Answer answer = answerOf(at, value);
             EXPECT_FALSE(answer.volume) << at;
             EXPECT_NE(answer.told.find("number " + std::to_string(at) + " of the matrix"), std::string::npos)
