@@ -44,7 +44,9 @@ struct RoomArea {
 struct LevelArea {
     double gross = 0, net = 0, construction = 0;
     double use = 0, technical = 0, traffic = 0, unknown = 0;  ///< parts of `net`
+    double grossBound = 0;  ///< by which `gross` may be off beside its floor: the sum of SectionComponent::areaBound
     std::size_t rooms = 0;
+    bool isExact = false;  ///< its floor, what a plan encloses there and all of its rooms are from meshes
 };
 
 /// All components of one class and IFC type.

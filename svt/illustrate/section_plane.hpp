@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Section planes, parsed from text; heights of storeys.
+/// Section planes, parsed from text.
 
 #include <svt/analyze/selection.hpp>
 #include <svt/core/result.hpp>
@@ -9,7 +9,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace svt::illustrate {
@@ -18,6 +17,7 @@ namespace svt::illustrate {
 struct SectionPlane {
     Vec3d normal{0, 0, 1};  ///< length 1
     Vec3d point{};          ///< on the plane
+    double bound = 0;       ///< metres: how far it may be off along its normal, as a plane over the floor of voxels is
     friend bool operator==(const SectionPlane&, const SectionPlane&) = default;
 };
 
@@ -26,7 +26,7 @@ struct SectionPlane {
 ///     z<1.2             cut away below
 ///     z=abs(112.3)      the same in coordinates of the model's CRS; x and y only where the grid is not turned
 ///     storey=EG+1.1     cut away above 1.1 m over the floor of that storey (by name or id; see Query for what is one);
-///                       without a number, above 1 m
+///                       without a number, above 1 m; see storey_floors.hpp for the floor
 ///     A,B,C,D           cut away where A x + B y + C z + D > 0; world axes, metres from the grid's lower corner
 /// \return the plane, or
 ///         - BadSection       the text is none of these, a number is not finite, the normal is zero, or the plane
@@ -36,25 +36,6 @@ struct SectionPlane {
 /// The same with existing rows, which must be those of volume.labels.
 [[nodiscard]] Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::SemanticVolume& volume,
                                                      const analyze::LabelRows& rows);
-
-/// Floor and ceiling of a storey (by name or id), metres above the grid's lower corner: of its rooms, or, if it has
-/// none, of its voxels.
-/// \return the heights, or NothingSelected if there is no such storey, or it has no voxels
-[[nodiscard]] Result<std::pair<double, double>> storeyHeights(const std::string& storey,
-                                                              const volume::SemanticVolume& volume);
-/// The same with existing rows, which must be those of volume.labels.
-[[nodiscard]] Result<std::pair<double, double>> storeyHeights(const std::string& storey,
-                                                              const volume::SemanticVolume& volume,
-                                                              const analyze::LabelRows& rows);
-
-/// A storey, and its heights as storeyHeights() gives them.
-struct StoreyHeights {
-    std::uint32_t label = 0;
-    double floor = 0, ceiling = 0;
-};
-
-/// All storeys with voxels, the lowest first; those of equal height by label.
-[[nodiscard]] std::vector<StoreyHeights> findStoreys(const volume::SemanticVolume& volume);
 
 /// The default plane of a plan: 1.1 m above the lowest level that findLevels() finds; or at half the volume's height, if
 /// it finds none, or the volume ends below that.

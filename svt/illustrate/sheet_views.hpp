@@ -17,6 +17,7 @@ enum class ViewKind : std::uint8_t { Plan, Section, Elevation };
 struct BuildingLevel {
     std::string name;  ///< of the storey; empty where the model has none
     double floor = 0;  ///< metres above the grid's lower corner
+    double bound = 0;  ///< metres by which it may be off: 0 from meshes and declared elevations, see storey_floors.hpp
 };
 
 /// A view, not drawn yet.
@@ -33,10 +34,9 @@ struct SheetViews {
     std::vector<SheetView> views;       ///< plans from below, sections, elevations from the north clockwise
 };
 
-/// Levels: the storeys of the model; without any, floors of rooms that are at least 1.5 m high, those within 1.2 m of
-/// the lowest of them being one level; without rooms, the tops of slabs and floors of 4 m2 or more that are no roof. A
-/// level lies on the floor of most of its rooms; that of an IFC storey without rooms
-/// on its attribute `elevation`.
+/// Levels: the storeys of the model, as findStoreys() gives them; without any, floors of rooms that are at least 1.5 m high,
+/// those within 1.2 m of the lowest of them being one level; without rooms, the tops of slabs and floors of 4 m2 or more
+/// that are no roof.
 [[nodiscard]] std::vector<BuildingLevel> findLevels(const volume::SemanticVolume& volume);
 
 /// Chooses the views. Plans are cut 1.1 m above the floor, and show what is below, and dashed what is above. Sections are

@@ -11,7 +11,7 @@
 
 namespace svt::writers {
 
-/// One JSON object: `plane` (origin, u, v, normal, edgesInPlane, shift), `components` (id, class, name, polygons, area,
+/// One JSON object: `plane` (origin, u, v, normal, edgesInPlane, shift, bound), `components` (id, class, name, polygons, area,
 /// areaBound, exact, lineLength in metres), `classes` (class, components, area) and `area`, all in m2.
 [[nodiscard]] std::string makeSectionJson(const illustrate::SectionDrawing& drawing,
                                           const volume::SemanticVolume& volume);

@@ -4,6 +4,7 @@
 #include <svt/core/text.hpp>
 #include <svt/illustrate/section_plane.hpp>
 #include <svt/illustrate/sheet_views.hpp>
+#include <svt/illustrate/storey_floors.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -41,7 +42,7 @@ Json storeysJson(const volume::SemanticVolume& volume) {
     Json list = Json::array();
     for (const illustrate::StoreyHeights& storey : illustrate::findStoreys(volume)) {
         const volume::Label& label = volume.labels.labels[storey.label];
-        list.push_back({{"id", label.id}, {"name", label.name}, {"floor", storey.floor}, {"top", storey.ceiling}});
+        list.push_back({{"id", label.id}, {"name", label.name}, {"floor", storey.floor}, {"top", storey.top}});
     }
     if (!list.empty()) return list;
     // Without storeys, what rooms and slabs tell.

@@ -136,6 +136,11 @@ int runSection(const SectionArguments& arguments) {
     if (!volume) return fail(volume.error());
     const auto plane = planeOf(arguments, *volume);
     if (!plane) return fail(plane.error());
+    if (plane->bound > 0)
+        note(
+            fmt::format("the floor under the plane comes from voxels and may be off by {:g} m; give the model itself, "
+                        "or a volume that keeps its meshes",
+                        plane->bound));
     std::vector<std::string> nothing;
     Progress::tell(progress.get(), "section", 0);
     const auto drawing = illustrate::drawSection(*volume, *plane, optionsOf(arguments, nothing));

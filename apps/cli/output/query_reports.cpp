@@ -221,6 +221,8 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
                  {"name", "name"},
                  {"storey", "storey"},
                  {"floor", "floor m", 2},
+                 {"floorBound", "+- m", 2},
+                 {"elevation", "elevation m", 2},
                  {"use", "use"},
                  {"area", "m2", 2},
                  {"height", "height m", 2},
@@ -231,8 +233,10 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
                  {"unknownUse", "?", 2},
                  {"nrf", "NRF", 2},
                  {"kgf", "KGF", 2},
-                 {"bgf", "BGF", 2}},
+                 {"bgf", "BGF", 2},
+                 {"exact", "exact"}},
                 {}};
+    const double datum = dot(volume.grid.origin(), volume.grid.axes()[2]);
     for (const illustrate::RoomArea& room : areas->rooms) {
         if (!isIn(selected, room.label)) continue;
         const auto use = illustrate::roomUseName(room.use);
@@ -242,21 +246,30 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
                               room.name,
                               levels[room.level].name,
                               levels[room.level].floor,
+                              levels[room.level].bound,
+                              datum + levels[room.level].floor,
                               use.empty() ? Json(nullptr) : Json(use),
                               room.area,
                               room.height,
                               room.volume};
         row.insert(row.end(), 7, nullptr);
+        row.push_back(room.isExact);
         table.rows.push_back(std::move(row));
     }
-    const auto addSums = [&](const char* kind, const illustrate::LevelArea& sums, Json name, Json floor) {
-        table.rows.push_back({kind, nullptr, nullptr, nullptr, std::move(name), std::move(floor), nullptr, nullptr,
-                              nullptr, nullptr, sums.use, sums.technical, sums.traffic, sums.unknown, sums.net,
-                              sums.construction, sums.gross});
+    const auto addSums = [&](const char* kind, const illustrate::LevelArea& sums,
+                             const illustrate::BuildingLevel* level) {
+        std::vector<Json> row{kind, nullptr, nullptr, nullptr};
+        if (level != nullptr)
+            row.insert(row.end(), {level->name, level->floor, level->bound, datum + level->floor});
+        else
+            row.insert(row.end(), 4, nullptr);
+        row.insert(row.end(), 4, nullptr);
+        row.insert(row.end(), {sums.use, sums.technical, sums.traffic, sums.unknown, sums.net, sums.construction,
+                               sums.gross, sums.isExact});
+        table.rows.push_back(std::move(row));
     };
-    for (std::size_t n = 0; n < levels.size(); ++n)
-        addSums("storey", areas->levels[n], levels[n].name, levels[n].floor);
-    if (!levels.empty()) addSums("total", areas->total(), nullptr, nullptr);
+    for (std::size_t n = 0; n < levels.size(); ++n) addSums("storey", areas->levels[n], &levels[n]);
+    if (!levels.empty()) addSums("total", areas->total(), nullptr);
     return table;
 }
 

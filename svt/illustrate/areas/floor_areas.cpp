@@ -1,12 +1,11 @@
 #include <svt/illustrate/floor_areas.hpp>
+#include <svt/illustrate/storey_floors.hpp>
 
-#include <svt/analyze/scalar_boxes.hpp>
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -66,9 +65,8 @@ bool isMeasuredRoom(const volume::Label& label) {
 // Sums over the triangles of each label.
 struct MeshSum {
     double below = 0;  // m2: faces that look down, seen from above
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    Vec3d largest{};  // twice the area times the normal of the largest triangle
-    double seen = 0;  // m2, see ComponentSum::area
+    Vec3d largest{};   // twice the area times the normal of the largest triangle
+    double seen = 0;   // m2, see ComponentSum::area
 };
 
 std::vector<MeshSum> sumMeshes(const volume::SemanticVolume& volume) {
@@ -83,11 +81,6 @@ std::vector<MeshSum> sumMeshes(const volume::SemanticVolume& volume) {
         const Vec3d twice = crossOf(triangle);
         sum.below += std::max(0.0, -0.5 * dot(twice, up));
         if (dot(twice, twice) > dot(sum.largest, sum.largest)) sum.largest = twice;
-        for (const std::uint32_t corner : triangle.corners) {
-            const double height = dot(volume.vectors.position(corner, {}), up);
-            sum.low = std::min(sum.low, height);
-            sum.high = std::max(sum.high, height);
-        }
     }
     for (const auto& triangle : volume.vectors.triangles) {
         MeshSum& sum = sums[triangle.label];
@@ -123,7 +116,9 @@ private:
         SectionOptions options;
         options.threads = threads_;
         for (std::size_t n = 0; n < levels_.size(); ++n) {
-            const SectionPlane plane{up, volume_.grid.origin() + up * (levels_[n].floor + kBelowSills)};
+            const SectionPlane plane{up, volume_.grid.origin() + up * (levels_[n].floor + kBelowSills),
+                                     levels_[n].bound};
+            areas_.levels[n].isExact = levels_[n].bound == 0;
             if (!meetsGrid(plane, volume_.grid)) continue;
             const auto drawing = bricks_ != nullptr ? drawSection(volume_, *bricks_, plane, options)
                                                     : drawSection(volume_, plane, options);
@@ -132,6 +127,8 @@ private:
                 const volume::Label& label = volume_.labels.labels[component.label];
                 if (model::classRank(label.className) == model::ClassRank::Other) continue;
                 areas_.levels[n].gross += component.area;
+                areas_.levels[n].grossBound += component.areaBound;
+                areas_.levels[n].isExact = areas_.levels[n].isExact && component.isExact;
                 areaAt_[n][component.label] = component.area;
             }
         }
@@ -140,8 +137,7 @@ private:
 
     void addRooms() {
         if (levels_.empty()) return;
-        const auto boxes = analyze::labelBoxes(volume_.columns, volume_.labels);
-        const double spacing = volume_.grid.spacing().z;
+        const std::vector<LabelExtent> extents = labelExtents(volume_);
         for (std::uint32_t l = 0; l < volume_.labels.labels.size(); ++l) {
             const volume::Label& label = volume_.labels.labels[l];
             if (!isMeasuredRoom(label)) continue;
@@ -151,16 +147,14 @@ private:
             if (const std::string* number = attributeText(label, "number")) room.number = *number;
             room.use = roomUseOf(label);
             room.volume = label.volume;
-            const MeshSum& mesh = meshes_[l];
-            const bool hasMesh = mesh.high > mesh.low;
-            if (!hasMesh && boxes[l].isEmpty()) continue;
-            // Points of meshes are relative to the grid's lower corner, as floors are.
-            const double low = hasMesh ? mesh.low : (boxes[l].min.z - 0.5) * spacing;
-            room.height = hasMesh ? mesh.high - mesh.low : (boxes[l].max.z - boxes[l].min.z + 1) * spacing;
+            const LabelExtent& extent = extents[l];
+            if (extent.box.isEmpty()) continue;
+            room.height = extent.box.size().z;
             if (room.height < kLeastRoomHeight) continue;
-            while (room.level + 1 < levels_.size() && levels_[room.level + 1].floor <= low + kLevelReach) ++room.level;
-            room.isExact = hasMesh && hasClosedMesh(label.filling);
-            room.area = room.isExact ? mesh.below : areaAt_[room.level][l];
+            while (room.level + 1 < levels_.size() && levels_[room.level + 1].floor <= extent.floor + kLevelReach)
+                ++room.level;
+            room.isExact = extent.bound == 0 && hasClosedMesh(label.filling);
+            room.area = room.isExact ? meshes_[l].below : areaAt_[room.level][l];
             addToLevel(room);
             areas_.rooms.push_back(std::move(room));
         }
@@ -173,6 +167,7 @@ private:
     void addToLevel(const RoomArea& room) {
         LevelArea& level = areas_.levels[room.level];
         ++level.rooms;
+        level.isExact = level.isExact && room.isExact;
         level.net += room.area;
         (room.use == RoomUse::Use         ? level.use
          : room.use == RoomUse::Technical ? level.technical
@@ -230,6 +225,7 @@ RoomUse roomUseOf(const volume::Label& label) {
 
 LevelArea FloorAreas::total() const noexcept {
     LevelArea sum;
+    sum.isExact = true;
     for (const LevelArea& level : levels) {
         sum.gross += level.gross;
         sum.net += level.net;
@@ -238,7 +234,9 @@ LevelArea FloorAreas::total() const noexcept {
         sum.technical += level.technical;
         sum.traffic += level.traffic;
         sum.unknown += level.unknown;
+        sum.grossBound += level.grossBound;
         sum.rooms += level.rooms;
+        sum.isExact = sum.isExact && level.isExact;
     }
     return sum;
 }

@@ -4,7 +4,7 @@
 #include <svt/core/text.hpp>
 #include <svt/illustrate/scene.hpp>
 #include <svt/illustrate/scene/cutaway.hpp>
-#include <svt/illustrate/section_plane.hpp>
+#include <svt/illustrate/storey_floors.hpp>
 
 #include <fmt/format.h>
 
@@ -337,7 +337,7 @@ private:
         if (!heights) return heights.error();
         const Vec3d spacing = grid().spacing();
         const auto reach = [&](int axis) { return grid().dimension()[axis] * spacing[axis]; };
-        return boxOf({-reach(0), -reach(1), heights->first}, {2 * reach(0), 2 * reach(1), heights->second});
+        return boxOf({-reach(0), -reach(1), heights->low}, {2 * reach(0), 2 * reach(1), heights->top});
     }
 
     // A region without points, beside the grid: there is nothing to be around.

@@ -211,7 +211,7 @@ SectionDrawing drawVoxels(const volume::SemanticVolume& volume, const volume::Br
                           const SectionPlane& plane, const std::vector<std::uint8_t>& isDrawn,
                           const SectionOptions& options) {
     SectionDrawing drawing;
-    drawing.plane = {normalized(plane.normal), plane.point};
+    drawing.plane = {normalized(plane.normal), plane.point, plane.bound};
     drawing.axes = makePlaneAxes(plane, volume.grid);
     const CutPlane cut(drawing.plane, drawing.axes, volume.grid);
     const Vec3d spacing = volume.grid.spacing();
@@ -229,7 +229,7 @@ Result<std::optional<SectionDrawing>> drawMeshes(const volume::SemanticVolume& v
                                                  const std::vector<std::uint8_t>& isDrawn,
                                                  const SectionOptions& options) {
     SectionDrawing drawing;
-    drawing.plane = {normalized(plane.normal), plane.point};
+    drawing.plane = {normalized(plane.normal), plane.point, plane.bound};
     drawing.axes = makePlaneAxes(plane, volume.grid);
     auto cut = cutExactly(volume, bricks, drawing.plane, drawing.axes, isDrawn, options.threads);
     if (!cut) return cut.error();

@@ -1,10 +1,9 @@
 #include <svt/illustrate/section_plane.hpp>
 #include <svt/illustrate/sheet_views.hpp>
+#include <svt/illustrate/storey_floors.hpp>
 
-#include <svt/analyze/scalar_boxes.hpp>
 #include <svt/analyze/selection.hpp>
 #include <svt/core/text.hpp>
-#include <svt/model/classes.hpp>
 
 #include <fmt/format.h>
 
@@ -13,8 +12,8 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <span>
 #include <string>
+#include <utility>
 
 namespace svt::illustrate {
 namespace {
@@ -37,99 +36,7 @@ std::pair<double, double> extentAlong(Vec3d normal, const volume::Grid& grid) {
     return extent;
 }
 
-// Metres above the grid's lower corner.
-std::pair<double, double> heightsOf(const analyze::SampleBox& box, const volume::Grid& grid) {
-    return {(box.min.z - 0.5) * grid.spacing().z, (box.max.z + 0.5) * grid.spacing().z};
-}
-
-Result<std::pair<double, double>> heightsOf(const std::string& storey, const volume::SemanticVolume& volume,
-                                            const analyze::LabelRows& rows,
-                                            const std::vector<analyze::SampleBox>& boxes) {
-    std::string quoted;
-    for (const char c : storey) {
-        if (c == '"' || c == '\\') quoted += '\\';
-        quoted += c;
-    }
-    const auto selected = analyze::selectLabels(rows, fmt::format("storey=\"{}\"", quoted));
-    if (!selected) return selected.error();
-    analyze::SampleBox rooms, all;
-    for (const std::uint32_t l : *selected) {
-        all.add(boxes[l]);
-        if (model::isSpace(volume.labels.labels[l].className)) rooms.add(boxes[l]);
-    }
-    if (all.isEmpty()) return Error(Code::NothingSelected, fmt::format("the storey '{}' has no voxels", storey));
-    return heightsOf(rooms.isEmpty() ? all : rooms, volume.grid);
-}
-
-// What stands directly below each label: its children, and the members of a group. A district has a thousand storeys, so
-// that these are found once for all.
-class Members {
-public:
-    explicit Members(const volume::LabelTable& table) : begins_(table.labels.size() + 1, 0) {
-        const auto forEachAbove = [&](std::uint32_t l, const auto& visit) {
-            const volume::Label& label = table.labels[l];
-            if (label.parent != volume::kNoLabel) visit(label.parent);
-            for (const std::uint32_t group : label.groups) visit(group);
-        };
-        const auto count = static_cast<std::uint32_t>(table.labels.size());
-        for (std::uint32_t l = 0; l < count; ++l) forEachAbove(l, [&](std::uint32_t above) { ++begins_[above + 1]; });
-        for (std::size_t l = 1; l < begins_.size(); ++l) begins_[l] += begins_[l - 1];
-        labels_.resize(begins_.back());
-        std::vector<std::size_t> next(begins_.begin(), begins_.end() - 1);
-        for (std::uint32_t l = 0; l < count; ++l)
-            forEachAbove(l, [&](std::uint32_t above) { labels_[next[above]++] = l; });
-    }
-
-    [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t above) const noexcept {
-        return std::span(labels_).subspan(begins_[above], begins_[above + 1] - begins_[above]);
-    }
-
-private:
-    std::vector<std::size_t> begins_;
-    std::vector<std::uint32_t> labels_;
-};
-
 }  // namespace
-
-Result<std::pair<double, double>> storeyHeights(const std::string& storey, const volume::SemanticVolume& volume) {
-    return storeyHeights(storey, volume, volume.labels);
-}
-
-Result<std::pair<double, double>> storeyHeights(const std::string& storey, const volume::SemanticVolume& volume,
-                                                const analyze::LabelRows& rows) {
-    return heightsOf(storey, volume, rows, analyze::labelBoxes(volume.columns, volume.labels));
-}
-
-std::vector<StoreyHeights> findStoreys(const volume::SemanticVolume& volume) {
-    const auto boxes = analyze::labelBoxes(volume.columns, volume.labels);
-    const analyze::LabelRows labelRows(volume.labels);
-    const std::span<const model::QueryRow> rows = labelRows.get();
-    const Members members(volume.labels);
-    std::vector<std::uint32_t> seenBy(rows.size(), volume::kNoLabel);
-    std::vector<StoreyHeights> storeys;
-    for (std::uint32_t l = 0; l < rows.size(); ++l) {
-        if (!model::query::isStorey(rows[l])) continue;
-        analyze::SampleBox rooms, all;
-        std::vector<std::uint32_t> open{l};
-        while (!open.empty()) {
-            const std::uint32_t above = open.back();
-            open.pop_back();
-            for (const std::uint32_t below : members.of(above)) {
-                if (seenBy[below] == l) continue;
-                seenBy[below] = l;
-                all.add(boxes[below]);
-                if (model::isSpace(volume.labels.labels[below].className)) rooms.add(boxes[below]);
-                if (below != l) open.push_back(below);
-            }
-        }
-        if (all.isEmpty()) continue;
-        const auto [floor, ceiling] = heightsOf(rooms.isEmpty() ? all : rooms, volume.grid);
-        storeys.push_back({l, floor, ceiling});
-    }
-    std::stable_sort(storeys.begin(), storeys.end(),
-                     [](const StoreyHeights& a, const StoreyHeights& b) { return a.floor < b.floor; });
-    return storeys;
-}
 
 double hairOffFaces(const SectionPlane& plane, const volume::SemanticVolume& volume) {
     // Of a voxel: what rounding moves faces by, see voxelize.hpp, and how far samples stand from whole indices.
@@ -180,8 +87,10 @@ SectionPlane defaultSectionPlane(const volume::SemanticVolume& volume) {
     SectionPlane plane{grid.axes()[2], grid.origin()};
     if (const auto levels = findLevels(volume); !levels.empty()) {
         plane.point = grid.origin() + plane.normal * (levels.front().floor + 1.1);
+        plane.bound = levels.front().bound;
         if (meetsGrid(plane, grid)) return plane;
     }
+    plane.bound = 0;
     plane.point = grid.origin() + plane.normal * (0.5 * (grid.dimension().z - 1) * grid.spacing().z);
     return plane;
 }
@@ -245,7 +154,8 @@ Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::Sema
         const auto heights =
             storeyHeights(unquoted(copy.substr(7, above ? sign - 7 : std::string::npos)), volume, rows);
         if (!heights) return heights.error();
-        plane = {grid.axes()[2], grid.origin() + grid.axes()[2] * (heights->first + above.value_or(1.0))};
+        plane = {grid.axes()[2], grid.origin() + grid.axes()[2] * (heights->floor + above.value_or(1.0)),
+                 heights->bound};
     } else {
         const auto numbers = parseNumbers(text, 4);
         if (!numbers || numbers->size() != 4) return badSection(expected);

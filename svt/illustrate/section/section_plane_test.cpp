@@ -63,27 +63,11 @@ TEST(SectionPlane, CoordinatesOfTheCrsAreAbsolute) {
     EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("z=abs(31.2)", volume)), 31.2);
 }
 
-TEST(SectionPlane, StoreysComeFromTheLowestWithTheHeightsOfTheirRooms) {
-    auto volume = twoStoreys();
-    volume::Label empty;
-    empty.id = empty.name = "attic";
-    empty.className = "Storey";
-    empty.parent = 0;
-    empty.subtreeEnd = 7;
-    volume.labels.labels.push_back(empty);
-    const auto storeys = findStoreys(volume);
-    ASSERT_EQ(storeys.size(), 2u);
-    EXPECT_EQ(storeys[0].label, 1u);
-    EXPECT_EQ(storeys[1].label, 4u);
-    EXPECT_DOUBLE_EQ(storeys[0].floor, 0.375);
-    EXPECT_DOUBLE_EQ(storeys[0].ceiling, 2.375);
-    EXPECT_DOUBLE_EQ(storeys[1].floor, 2.875);
-    EXPECT_DOUBLE_EQ(storeys[1].ceiling, 5.125);
-}
-
 TEST(SectionPlane, StoreysCountFromTheFloorOfTheirRooms) {
     const auto volume = twoStoreys();
-    // The room's lowest sample is k = 2, its voxel begins half a spacing lower.
+    // The room's lowest sample is k = 2, its voxel begins half a spacing lower. Voxels tell it to one voxel.
+    EXPECT_DOUBLE_EQ(parseSectionPlane("storey=EG+1.1", volume)->bound, 0.25);
+    EXPECT_DOUBLE_EQ(parseSectionPlane("z=1.2", volume)->bound, 0);
     EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("storey=EG+1.1", volume)), 30 + 0.375 + 1.1);
     EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("storey=EG", volume)), 30 + 0.375 + 1);
     EXPECT_DOUBLE_EQ(heightOf(parseSectionPlane("storey=1-OG+0.5", volume)), 30 + 2.875 + 0.5);

@@ -1,6 +1,6 @@
 #include <svt/illustrate/sheet_views.hpp>
+#include <svt/illustrate/storey_floors.hpp>
 
-#include <svt/analyze/scalar_boxes.hpp>
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 
@@ -13,32 +13,11 @@
 namespace svt::illustrate {
 namespace {
 
-constexpr double kCutHeight = 1.1;     // metres above the floor
-constexpr double kLeastRoom = 1.5;     // metres: lower spaces are voids
-constexpr double kSameLevel = 1.2;     // metres
-constexpr double kSameFloor = 0.01;    // metres
-constexpr double kLeastFloorArea = 1;  // m2
-constexpr double kLeastSlabArea = 4;   // m2: smaller ones are landings
-constexpr double kThickestSlab = 1;    // metres
-
-// The extent of labels along the grid's axes, metres from its lower corner: of the meshes, else of the voxels.
-std::vector<Box3d> boxesOf(const volume::SemanticVolume& volume) {
-    std::vector<Box3d> boxes(volume.labels.labels.size());
-    const auto& axes = volume.grid.axes();
-    for (const auto& triangle : volume.vectors.triangles)
-        for (const std::uint32_t corner : triangle.corners) {
-            const Vec3d p = volume.vectors.position(corner, {});
-            boxes[triangle.label].add(Vec3d{dot(p, axes[0]), dot(p, axes[1]), dot(p, axes[2])});
-        }
-    const auto samples = analyze::labelBoxes(volume.columns, volume.labels);
-    for (std::size_t l = 0; l < boxes.size(); ++l) {
-        if (!boxes[l].isEmpty() || samples[l].isEmpty()) continue;
-        const Vec3d half{0.5, 0.5, 0.5};
-        boxes[l].add(scaled(toDouble(samples[l].min) - half, volume.grid.spacing()));
-        boxes[l].add(scaled(toDouble(samples[l].max) + half, volume.grid.spacing()));
-    }
-    return boxes;
-}
+constexpr double kCutHeight = 1.1;    // metres above the floor
+constexpr double kLeastRoom = 1.5;    // metres: lower spaces are voids
+constexpr double kSameLevel = 1.2;    // metres
+constexpr double kLeastSlabArea = 4;  // m2: smaller ones are landings
+constexpr double kThickestSlab = 1;   // metres
 
 bool isRoom(const volume::Label& label) {
     return model::isSpace(label.className) && model::classRank(label.className) == model::ClassRank::Room;
@@ -55,38 +34,6 @@ bool isStair(const volume::Label& label) {
             if (const auto* text = std::get_if<std::string>(&attribute.value)) words += " " + *text;
     for (char& c : words) c = lowerAscii(c);
     return words.find("stair") != std::string::npos || words.find("treppe") != std::string::npos;
-}
-
-struct RoomFloor {
-    double at = 0;    // metres above the grid's lower corner
-    double area = 0;  // m2, of the box around the room
-};
-
-// The height from `low` up to below `high` on which the most area of rooms stands; shafts and stairwells begin lower.
-// \param floors  the lowest first
-std::optional<double> mainFloor(const std::vector<RoomFloor>& floors, double low, double high) {
-    std::optional<double> best;
-    double most = 0;
-    for (std::size_t n = 0; n < floors.size(); ++n) {
-        if (floors[n].at < low || floors[n].at >= high) continue;
-        double area = 0;
-        for (std::size_t m = n; m < floors.size() && floors[m].at < floors[n].at + kSameFloor; ++m)
-            area += floors[m].area;
-        if (area <= most) continue;
-        most = area;
-        best = floors[n].at;
-    }
-    return best;
-}
-
-// The floor that a storey of IFC has as its elevation, metres above the grid's lower corner: where its foundations or the
-// terrain belong to it, its voxels begin below.
-std::optional<double> saidFloor(const volume::Label& storey, const volume::Grid& grid) {
-    for (const Attribute& attribute : storey.attributes)
-        if (attribute.name == "elevation")
-            if (const auto* height = std::get_if<double>(&attribute.value))
-                return *height - dot(grid.origin(), grid.axes()[2]);
-    return std::nullopt;
 }
 
 // Of nine planes across an axis, through the stair or the middle half of the building, the one that cuts most of rooms
@@ -144,28 +91,33 @@ bool isSlab(const volume::Label& label) {
 }
 
 // Levels from what is stood on, each at the height that most of its area has.
-std::vector<BuildingLevel> levelsOf(const std::vector<RoomFloor>& floors) {
+std::vector<BuildingLevel> levelsOf(const std::vector<FloorHeight>& floors) {
     std::vector<BuildingLevel> levels;
-    for (const RoomFloor& floor : floors)
-        if (levels.empty() || floor.at - levels.back().floor >= kSameLevel)
-            levels.push_back({"", *mainFloor(floors, floor.at, floor.at + kSameLevel)});
+    for (const FloorHeight& floor : floors) {
+        if (!levels.empty() && floor.at - levels.back().floor < kSameLevel) continue;
+        const FloorHeight main = *mainFloor(floors, floor.at, floor.at + kSameLevel);
+        levels.push_back({"", main.at, main.bound});
+    }
     return levels;
 }
 
-std::vector<BuildingLevel> levelsOfSlabs(const volume::SemanticVolume& volume, const std::vector<Box3d>& boxes) {
-    std::vector<RoomFloor> tops;
-    for (std::size_t l = 0; l < boxes.size(); ++l) {
-        const Vec3d size = boxes[l].size();
+std::vector<BuildingLevel> levelsOfSlabs(const volume::SemanticVolume& volume,
+                                         const std::vector<LabelExtent>& extents) {
+    std::vector<FloorHeight> tops;
+    for (std::size_t l = 0; l < extents.size(); ++l) {
+        const Box3d& box = extents[l].box;
+        const Vec3d size = box.size();
         // Thicker ones are no slabs, or slope.
-        if (boxes[l].isEmpty() || !isSlab(volume.labels.labels[l]) || size.z > kThickestSlab) continue;
-        if (size.x * size.y >= kLeastSlabArea) tops.push_back({boxes[l].max.z, size.x * size.y});
+        if (box.isEmpty() || !isSlab(volume.labels.labels[l]) || size.z > kThickestSlab) continue;
+        if (size.x * size.y >= kLeastSlabArea) tops.push_back({box.max.z, size.x * size.y, extents[l].bound});
     }
-    std::sort(tops.begin(), tops.end(),
-              [](const RoomFloor& a, const RoomFloor& b) { return std::tie(a.at, a.area) < std::tie(b.at, b.area); });
+    std::sort(tops.begin(), tops.end(), [](const FloorHeight& a, const FloorHeight& b) {
+        return std::tie(a.at, a.area) < std::tie(b.at, b.area);
+    });
     std::vector<BuildingLevel> levels = levelsOf(tops);
     // What nothing stands on is a flat roof.
     double highest = -kInfinity;
-    for (const Box3d& box : boxes) highest = box.isEmpty() ? highest : std::max(highest, box.max.z);
+    for (const LabelExtent& extent : extents) highest = std::max(highest, extent.box.max.z);
     while (levels.size() > 1 && highest - levels.back().floor < kLeastRoom) levels.pop_back();
     return levels;
 }
@@ -173,31 +125,15 @@ std::vector<BuildingLevel> levelsOfSlabs(const volume::SemanticVolume& volume, c
 }  // namespace
 
 std::vector<BuildingLevel> findLevels(const volume::SemanticVolume& volume) {
-    std::vector<RoomFloor> floors;
-    const std::vector<Box3d> boxes = boxesOf(volume);
-    for (std::size_t l = 0; l < boxes.size(); ++l) {
-        const Vec3d size = boxes[l].size();
-        if (isRoom(volume.labels.labels[l]) && size.z >= kLeastRoom && size.x * size.y >= kLeastFloorArea)
-            floors.push_back({boxes[l].min.z, size.x * size.y});
-    }
-    std::sort(floors.begin(), floors.end(),
-              [](const RoomFloor& a, const RoomFloor& b) { return std::tie(a.at, a.area) < std::tie(b.at, b.area); });
     std::vector<BuildingLevel> levels;
-    for (const StoreyHeights& storey : findStoreys(volume)) {
-        const volume::Label& label = volume.labels.labels[storey.label];
-        // Heights of storeys are those of voxels; the floors of rooms tell the true one.
-        double floor = storey.floor;
-        if (const auto ofRooms = mainFloor(floors, floor - 1.01 * volume.grid.spacing().z, floor + kSameLevel))
-            floor = *ofRooms;
-        else if (const auto said = saidFloor(label, volume.grid);
-                 said && *said > storey.floor && *said < storey.ceiling)
-            floor = *said;
+    for (const StoreyHeights& storey : findStoreys(volume))
         // Storeys of several buildings or parts may share a floor.
-        if (!levels.empty() && floor - levels.back().floor < kSameLevel) continue;
-        levels.push_back({label.name, floor});
-    }
-    if (levels.empty()) levels = levelsOf(floors);
-    return levels.empty() ? levelsOfSlabs(volume, boxes) : levels;
+        if (levels.empty() || storey.floor - levels.back().floor >= kSameLevel)
+            levels.push_back({volume.labels.labels[storey.label].name, storey.floor, storey.bound});
+    if (!levels.empty()) return levels;
+    const std::vector<LabelExtent> extents = labelExtents(volume);
+    levels = levelsOf(roomFloors(volume, extents));
+    return levels.empty() ? levelsOfSlabs(volume, extents) : levels;
 }
 
 Result<SheetViews> chooseSheetViews(const volume::SemanticVolume& volume, int threads) {
@@ -206,7 +142,7 @@ Result<SheetViews> chooseSheetViews(const volume::SemanticVolume& volume, int th
     const volume::Grid& grid = volume.grid;
     const Vec3d up = grid.axes()[2];
     for (const BuildingLevel& level : chosen.levels) {
-        const SectionPlane plane{up, grid.origin() + up * (level.floor + kCutHeight)};
+        const SectionPlane plane{up, grid.origin() + up * (level.floor + kCutHeight), level.bound};
         if (meetsGrid(plane, grid))
             chosen.views.push_back({ViewKind::Plan, level.name, plane, level.floor, {.visible = true, .above = true}});
     }
@@ -214,12 +150,13 @@ Result<SheetViews> chooseSheetViews(const volume::SemanticVolume& volume, int th
         chosen.views.push_back({ViewKind::Plan, "", defaultSectionPlane(volume), 0, {.visible = true, .above = true}});
     Box3d all;
     std::optional<Box3d> stair;
-    const std::vector<Box3d> boxes = boxesOf(volume);
-    for (std::size_t l = 0; l < boxes.size(); ++l) {
+    const std::vector<LabelExtent> extents = labelExtents(volume);
+    for (std::size_t l = 0; l < extents.size(); ++l) {
         const volume::Label& label = volume.labels.labels[l];
+        const Box3d& box = extents[l].box;
         if (model::classRank(label.className) == model::ClassRank::Other) continue;  // terrain
-        all.add(boxes[l]);
-        if (!boxes[l].isEmpty() && boxes[l].size().z > kLeastRoom && isStair(label) && !stair) stair = boxes[l];
+        all.add(box);
+        if (!box.isEmpty() && box.size().z > kLeastRoom && isStair(label) && !stair) stair = box;
     }
     if (all.isEmpty()) {
         all.add(Vec3d{});

@@ -34,10 +34,10 @@ std::string makeSectionJson(const illustrate::SectionDrawing& drawing, const vol
     const illustrate::PlaneAxes& axes = drawing.axes;
     std::string json = fmt::format(
         "{{\n  \"plane\": {{\"origin\": {}, \"u\": {}, \"v\": {}, \"normal\": {}, \"edgesInPlane\": {}, \"shift\": "
-        "{}}},\n"
+        "{}, \"bound\": {}}},\n"
         "  \"components\": [",
         jsonVector(axes.origin, 6), jsonVector(axes.u, 15), jsonVector(axes.v, 15), jsonVector(axes.normal, 15),
-        drawing.edgesInPlane, shortNumber(drawing.planeShift, 6));
+        drawing.edgesInPlane, shortNumber(drawing.planeShift, 6), shortNumber(drawing.plane.bound, 6));
     for (const illustrate::SectionComponent& component : drawing.components) {
         const volume::Label& label = volume.labels.labels[component.label];
         json += fmt::format(

@@ -1,0 +1,135 @@
+/// Floors of boxes: of rooms with recesses, of storeys with and without rooms; of voxels to one voxel.
+
+#include <svt/illustrate/exact/boxes_test.hpp>
+#include <svt/illustrate/floor_areas.hpp>
+#include <svt/illustrate/storey_floors.hpp>
+
+#include <gtest/gtest.h>
+
+namespace svt::illustrate {
+namespace {
+
+// Two storeys with a room each, 2 m high with a slab of 0.5 m below; samples every 0.25 m from 100, 200, 30 on.
+volume::SemanticVolume twoStoreys() {
+    volume::SemanticVolume volume;
+    volume.grid = *volume::Grid::fromParts({5, 5, 21}, {0.25, 0.25, 0.25}, {100, 200, 30},
+                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    const auto add = [&](const char* id, const char* className, const char* name, std::uint32_t parent, bool isObject) {
+        volume::Label label;
+        label.id = id;
+        label.className = className;
+        label.name = name;
+        label.parent = parent;
+        if (isObject) {
+            label.first = volume.labels.scalarCount();
+            label.count = 1;
+        }
+        volume.labels.labels.push_back(label);
+    };
+    add("b", "Building", "", volume::kNoLabel, false);
+    add("s0", "Storey", "EG", 0, false);
+    add("r0", "BuildingRoom", "", 1, true);
+    add("f0", "BuildingConstructiveElement", "", 1, true);
+    add("s1", "Storey", "1-OG", 0, false);
+    add("r1", "BuildingRoom", "", 4, true);
+    const std::uint32_t ends[] = {6, 4, 3, 4, 6, 6};
+    for (std::size_t l = 0; l < 6; ++l) volume.labels.labels[l].subtreeEnd = ends[l];
+    std::vector<volume::Scalar> dense(5 * 5 * 21, 0);
+    for (std::size_t n = 0; n < dense.size(); ++n) {
+        const std::size_t k = n / 25;
+        dense[n] = k < 2 ? 2 : k < 10 ? 1 : k < 12 ? 0 : 3;
+    }
+    volume.columns = volume::ColumnVolume::fromDense({5, 5, 21}, dense);
+    return volume;
+}
+
+TEST(StoreyFloors, StoreysComeFromTheLowestWithTheHeightsOfTheirRooms) {
+    auto volume = twoStoreys();
+    volume::Label empty;
+    empty.id = empty.name = "attic";
+    empty.className = "Storey";
+    empty.parent = 0;
+    empty.subtreeEnd = 7;
+    volume.labels.labels.push_back(empty);
+    const auto storeys = findStoreys(volume);
+    ASSERT_EQ(storeys.size(), 2u);
+    EXPECT_EQ(storeys[0].label, 1u);
+    EXPECT_EQ(storeys[1].label, 4u);
+    EXPECT_DOUBLE_EQ(storeys[0].floor, 0.375);
+    EXPECT_DOUBLE_EQ(storeys[0].top, 2.375);
+    EXPECT_DOUBLE_EQ(storeys[1].floor, 2.875);
+    EXPECT_DOUBLE_EQ(storeys[1].top, 5.125);
+    EXPECT_DOUBLE_EQ(storeys[0].bound, 0.25) << "one voxel";
+}
+
+// A storey; what is added from here on stands on it.
+void addStorey(Boxes& boxes, const std::string& name) {
+    volume::Label label;
+    label.id = label.name = name;
+    label.className = "Storey";
+    label.subtreeEnd = static_cast<std::uint32_t>(boxes.volume.labels.labels.size()) + 1;
+    boxes.volume.labels.labels.push_back(label);
+}
+
+void putOnStorey(Boxes& boxes, std::uint32_t storey) { boxes.volume.labels.labels.back().parent = storey; }
+
+// A loft whose hatch reaches 16 cm into the floor below it, as deep as the ceiling.
+Boxes loft() {
+    Boxes boxes;
+    addStorey(boxes, "Attic");
+    boxes.addBox("loft", "BuildingRoom", {0.5, 0.5, 5.56}, {8, 6, 8});
+    putOnStorey(boxes, 0);
+    boxes.addQuad({Vec3d{3, 3, 5.4}, Vec3d{3, 4, 5.4}, Vec3d{4, 4, 5.4}, Vec3d{4, 3, 5.4}});
+    boxes.addBox("slab", "BuildingConstructiveElement", {0.5, 0.5, 5.36}, {8, 6, 5.56});
+    putOnStorey(boxes, 0);
+    return boxes;
+}
+
+TEST(StoreyFloors, ARoomDoesNotStandInTheRecessOfItsHatch) {
+    const Boxes boxes = loft();
+    const auto extents = labelExtents(boxes.volume);
+    EXPECT_NEAR(extents[1].floor, 5.56, 2e-6);
+    EXPECT_NEAR(extents[1].floorArea, 7.5 * 5.5, 1e-4);
+    EXPECT_NEAR(extents[1].box.min.z, 5.4, 2e-6);
+    EXPECT_EQ(extents[1].bound, 0);
+    const auto heights = storeyHeights("Attic", boxes.volume);
+    ASSERT_TRUE(heights);
+    EXPECT_NEAR(heights->floor, 5.56, 2e-6);
+    EXPECT_NEAR(heights->low, 5.4, 2e-6) << "all of the storey is above";
+    EXPECT_NEAR(heights->top, 8, 2e-6);
+    EXPECT_EQ(heights->bound, 0);
+}
+
+TEST(StoreyFloors, PlansStoreysAndAreasHaveOneFloor) {
+    const Boxes boxes = loft();
+    const auto storeys = findStoreys(boxes.volume);
+    const auto levels = findLevels(boxes.volume);
+    const auto plane = parseSectionPlane("storey=Attic+1.1", boxes.volume);
+    ASSERT_EQ(storeys.size(), 1u);
+    ASSERT_EQ(levels.size(), 1u);
+    ASSERT_TRUE(plane);
+    EXPECT_EQ(storeys[0].floor, levels[0].floor);
+    EXPECT_DOUBLE_EQ(dot(plane->normal, plane->point - boxes.volume.grid.origin()), levels[0].floor + 1.1);
+    const auto areas = measureFloorAreas(boxes.volume, levels);
+    ASSERT_TRUE(areas);
+    EXPECT_NEAR(areas->levels[0].gross, 7.5 * 5.5, 1e-4) << "cut above the slab, not within";
+    EXPECT_TRUE(areas->levels[0].isExact);
+}
+
+TEST(StoreyFloors, WithoutRoomsAStoreyDeclaresItsFloor) {
+    Boxes boxes;
+    addStorey(boxes, "Base");
+    boxes.addBox("foundation", "BuildingConstructiveElement", {0, 0, 0}, {8, 6, 1});
+    putOnStorey(boxes, 0);
+    boxes.addBox("wall", "BuildingConstructiveElement", {0, 0, 1}, {0.3, 6, 3.5});
+    putOnStorey(boxes, 0);
+    EXPECT_NEAR(storeyHeights("Base", boxes.volume)->floor, 0, 2e-6) << "the lowest point of its meshes";
+    auto& attributes = boxes.volume.labels.labels[0].attributes;
+    attributes.push_back({"elevation", 101.2, {}});
+    EXPECT_NEAR(storeyHeights("Base", boxes.volume)->floor, 1.2, 2e-6);
+    attributes.back().value = 1.2;
+    EXPECT_NEAR(storeyHeights("Base", boxes.volume)->floor, 0, 2e-6) << "elsewhere than the storey is: not in the CRS";
+}
+
+}  // namespace
+}  // namespace svt::illustrate
