@@ -1,3 +1,4 @@
+#include <svt/analyze/solid_overlaps.hpp>
 #include <svt/core/machine.hpp>
 #include <svt/mesh/thickness.hpp>
 #include <svt/pipeline/build_volume.hpp>
@@ -48,26 +49,11 @@ std::vector<voxelize::BodyGroup> findBodyGroups(const mesh::MeshSet& meshes, con
     return groups;
 }
 
-bool isAncestor(const volume::LabelTable& table, std::uint32_t ancestor, std::uint32_t label) {
-    return ancestor < label && label < table.labels[ancestor].subtreeEnd;
-}
-
-// A door in an inner wall of a flat belongs to the flat if the wall is its member.
-bool isMember(const volume::LabelTable& table, std::uint32_t group, std::uint32_t label) {
-    for (; label != volume::kNoLabel; label = table.labels[label].parent) {
-        const auto& groups = table.labels[label].groups;
-        if (std::binary_search(groups.begin(), groups.end(), group)) return true;
-    }
-    return false;
-}
-
 void fillOverlaps(const LabelledObjects& labelled, const std::vector<voxelize::ClaimPair>& pairs,
                   volume::LabelTable& table) {
     for (const voxelize::ClaimPair& pair : pairs) {
         const std::uint32_t a = labelled.labelOfObject[pair.a], b = labelled.labelOfObject[pair.b];
-        const bool isNested =
-            isAncestor(table, a, b) || isAncestor(table, b, a) || isMember(table, a, b) || isMember(table, b, a);
-        table.overlaps.push_back({a, b, pair.voxels, isNested});
+        table.overlaps.push_back({a, b, pair.voxels, analyze::areNested(table, a, b)});
     }
     std::sort(table.overlaps.begin(), table.overlaps.end(), [](const volume::Overlap& p, const volume::Overlap& q) {
         return std::tie(p.a, p.b) < std::tie(q.a, q.b);

@@ -163,9 +163,37 @@ TEST(QueryReports, AHollowIsAGapAndOverlapsAreTold) {
     const json overlaps = runSvtForJson(folder.path(), {"query", "h.svt", "id=east", "--overlaps", "--json"});
     ASSERT_EQ(overlaps.size(), 1u);
     EXPECT_EQ(keysOf(overlaps[0]),
-              (Keys{"a", "aClass", "aName", "b", "bClass", "bName", "nested", "volume", "voxels"}));
-    EXPECT_NEAR(overlaps[0]["volume"].get<double>(), 1 * 4 * 0.5, 0.3);
+              (Keys{"a", "aClass", "aName", "b", "bClass", "bName", "bound", "exact", "nested", "volume", "voxels"}));
+    EXPECT_NEAR(overlaps[0]["volume"].get<double>(), 1 * 4 * 0.5, 1e-4);
+    EXPECT_EQ(overlaps[0]["exact"], true);
     EXPECT_EQ(overlaps[0]["nested"], false);
+    (void)runSvtWell(folder.path(), {"build", "hollow.gml", "-o", "v.svt", "--spacing", "0.125", "--vectors", "none"});
+    const json byVoxels = runSvtForJson(folder.path(), {"query", "v.svt", "id=east", "--overlaps", "--json"});
+    ASSERT_EQ(byVoxels.size(), 1u);
+    EXPECT_NEAR(byVoxels[0]["volume"].get<double>(), 1 * 4 * 0.5, 0.3);
+    EXPECT_EQ(byVoxels[0]["exact"], false);
+    EXPECT_TRUE(byVoxels[0]["bound"].is_null());
+}
+
+TEST(QueryReports, OverlapsThinnerThanAVoxelAreTold) {
+    const TemporaryFolder folder;
+    // Two panes of 4 cm that stand twice, and a box that reaches 1 mm into another; samples are 0.2 m apart.
+    const auto box = [](const char* id, double x0, double x1) {
+        return building(id, solid(boxFaces(500000 + x0, 5400000, 100, 500000 + x1, 5400002, 102)));
+    };
+    writeText(folder / "thin.gml", cityModel(box("pane", 0.13, 0.17) + box("again", 0.13, 0.17) + box("left", 1, 3) +
+                                             box("right", 2.999, 5) + box("beside", 5, 6)));
+    (void)runSvtWell(folder.path(), {"build", "thin.gml", "-o", "thin.svt", "--spacing", "0.2"});
+    const json overlaps = runSvtForJson(folder.path(), {"query", "thin.svt", "all", "--overlaps", "--json"});
+    ASSERT_EQ(overlaps.size(), 2u);
+    std::vector<double> volumes;
+    for (const json& overlap : overlaps) {
+        volumes.push_back(overlap["volume"].get<double>());
+        EXPECT_LT(std::abs(overlap["bound"].get<double>()), 1e-4);
+    }
+    std::sort(volumes.begin(), volumes.end());
+    EXPECT_NEAR(volumes[0], 0.001 * 2 * 2, 1e-4);
+    EXPECT_NEAR(volumes[1], 0.04 * 2 * 2, 1e-4);
 }
 
 TEST(QueryReports, ThePartyWallOfTheTowerIsHalfEachOnes) {

@@ -164,7 +164,7 @@ int runQuery(const QueryArguments& arguments) {
     Result<volume::SemanticVolume> volume = [&] {
         const TerminalProgress progress;
         BuildArguments build = arguments.build;
-        if (arguments.areas) build.vectors.meshes = true;
+        if (arguments.areas || arguments.overlaps) build.vectors.meshes = true;
         return loadVolume(arguments.input, build, progress.get(), diagnostics);
     }();
     printDiagnostics(diagnostics, false);

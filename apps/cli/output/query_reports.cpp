@@ -2,12 +2,14 @@
 
 #include <svt/analyze/gaps.hpp>
 #include <svt/analyze/label_measures.hpp>
+#include <svt/analyze/solid_overlaps.hpp>
 #include <svt/illustrate/floor_areas.hpp>
 #include <svt/render/ray_labels.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace svt::cli {
 namespace {
@@ -176,15 +178,16 @@ Result<Table> rayTable(const volume::SemanticVolume& volume, const Labels& selec
 
 Table overlapTable(const volume::SemanticVolume& volume, const Labels& selected) {
     Table table;
-    table.columns = {{"a", "a (has it)"},    {"aClass", "class"}, {"aName", "name"},
-                     {"b", "b (claims it)"}, {"bClass", "class"}, {"bName", "name"},
-                     {"nested", "nested"},   {"voxels", ""},      {"volume", "m3"}};
-    for (const volume::Overlap& overlap : volume.labels.overlaps) {
+    table.columns = {{"a", "a (has it)"}, {"aClass", "class"}, {"aName", "name"},    {"b", "b (claims it)"},
+                     {"bClass", "class"}, {"bName", "name"},   {"nested", "nested"}, {"voxels", ""},
+                     {"volume", "m3"},    {"bound", "+- m3"},  {"exact", "exact"}};
+    for (const analyze::SolidOverlap& overlap : analyze::solidOverlaps(volume)) {
         if (!isIn(selected, overlap.a) && !isIn(selected, overlap.b)) continue;
         std::vector<Json> row;
         addNames(row, volume.labels, overlap.a);
         addNames(row, volume.labels, overlap.b);
-        row.insert(row.end(), {overlap.isNested, overlap.voxels, double(overlap.voxels) * volume.grid.voxelVolume()});
+        row.insert(row.end(), {overlap.isNested, overlap.voxels, overlap.volume,
+                               std::isfinite(overlap.bound) ? Json(overlap.bound) : Json(nullptr), overlap.isExact});
         table.rows.push_back(std::move(row));
     }
     return table;

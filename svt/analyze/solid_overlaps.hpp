@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// Space that two solids claim, m3: exact from closed meshes, however thin; from voxels where there are none.
+
+#include <svt/volume/semantic_volume.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace svt::analyze {
+
+/// Space that two labels claim.
+struct SolidOverlap {
+    std::uint32_t a = 0, b = 0;  ///< labels; `a` has the space: lower rank, then the smaller volume, then the id
+    std::uint64_t voxels = 0;    ///< that both claimed; 0 where all of it lies between samples
+    double volume = 0;           ///< m3
+    double bound = 0;            ///< m3 by which `volume` may be off; infinite where nothing tells
+    bool isExact = false;        ///< from meshes, whose points are rounded to VectorParts::unit; else from voxels
+    bool isNested = false;       ///< one belongs to the other by hierarchy or groups, see volume::Overlap
+};
+
+struct SolidOverlapOptions {
+    /// Steps: triangles looked at and pairs of triangles compared. Pairs of solids beyond are taken from voxels.
+    std::uint64_t work = std::uint64_t{1} << 30;
+};
+
+/// All pairs of solids with a common volume that exceeds its bound, and all pairs that share voxels, ordered by (a, b).
+/// Cost: O(n log n) in solids, then for each pair whose boxes overlap its triangles there; at most `work`.
+[[nodiscard]] std::vector<SolidOverlap> solidOverlaps(const volume::SemanticVolume& volume,
+                                                      const SolidOverlapOptions& options = {});
+
+/// Whether one label belongs to the other by the model's hierarchy or groups: a room in its building, a door in the flat
+/// that has its wall as a member.
+[[nodiscard]] bool areNested(const volume::LabelTable& table, std::uint32_t a, std::uint32_t b);
+
+}  // namespace svt::analyze
