@@ -5,6 +5,7 @@
 
 #include <svt/mesh/mesh_set.hpp>
 #include <svt/pipeline/build_volume.hpp>
+#include <svt/pipeline/split_faces_test.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/samples/sample.hpp>
 #include <svt/voxelize/solids_test.hpp>
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <span>
 
@@ -156,6 +158,45 @@ TEST(TurnedModels, HouseKeepsItsLabels) {
 TEST(TurnedModels, TowerKeepsItsLabels) {
     for (const bool thin : {false, true})
         EXPECT_LT(compare(samples::SampleKind::Tower, withSpacing(0.0731, thin)), 0.0001) << thin;
+}
+
+TEST(TurnedModels, Measure) {
+    const Faces faces(sampleModel(samples::SampleKind::House));
+    for (const double spacing : {0.05, 0.0731, 0.1, 0.15, 0.2, 0.25}) {
+        for (const bool thin : {true, false}) {
+            for (int way = 0; way < 5; ++way) {
+                model::BuildingModel a = sampleModel(samples::SampleKind::House), b = a;
+                const int quarters = way % 4;
+                if (way == 4) test::splitFaces(b);
+                if (way == 0) continue;
+                turnAndMove(b, quarters, {});
+                const auto straight = buildVolume(a, withSpacing(spacing, thin));
+                const auto turned = buildVolume(b, withSpacing(spacing, thin));
+                ASSERT_TRUE(straight && turned);
+                const Difference d = differenceOf(*straight, *turned, quarters, faces);
+                std::printf("%g thin %d way %d: voxels %llu ties %.6f wrong %.6f (%llu)\n", spacing, thin, way,
+                            (unsigned long long)d.voxels, double(d.ties) / double(d.voxels),
+                            double(d.wrong) / double(d.voxels), (unsigned long long)d.wrong);
+                double worst = 1;
+                for (std::size_t l = 0; l < straight->volume.labels.labels.size(); ++l) {
+                    const auto& p = straight->volume.labels.labels[l];
+                    const auto& q = turned->volume.labels.labels[l];
+                    const double ratio = double(std::max(p.voxels, q.voxels)) /
+                                         double(std::max<std::uint64_t>(1, std::min(p.voxels, q.voxels)));
+                    if (ratio > 1.3 && thin && (ratio > worst || p.className == "Door")) {
+                        std::printf("    %s %llu %llu\n", p.id.c_str(), (unsigned long long)p.voxels,
+                                    (unsigned long long)q.voxels);
+                        worst = std::max(worst, ratio);
+                    }
+                }
+                int shown = 0;
+                for (const auto& [pair, count] : d.pairs)
+                    if (thin && count > 5 && ++shown < 6)
+                        std::printf("        %s -> %s: %llu\n", pair.first.c_str(), pair.second.c_str(),
+                                    (unsigned long long)count);
+            }
+        }
+    }
 }
 
 }  // namespace
