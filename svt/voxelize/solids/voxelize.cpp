@@ -22,40 +22,42 @@ namespace {
 
 using volume::ColumnVolume;
 
-// Every object has two claims: one as a solid, and one for its thin parts or as a sheet.
+// Every object has three claims: as a solid; for thin parts whose sample lies on a side of them; for other thin parts, or as
+// a sheet.
 struct Claims {
     std::vector<PrioritizedClaim> ordered;
-    std::vector<std::uint32_t> solidOrder, thinOrder;  // per object
+    std::vector<std::uint32_t> solidOrder, tiedOrder, thinOrder;  // per object
     std::vector<bool> boundsBody;
 };
 
 Claims orderClaims(const mesh::MeshSet& meshes, std::span<const ObjectClaim> claims) {
+    enum class Kind : std::uint8_t { Solid, Tied, Thin };
     struct Entry {
         std::uint32_t object;
-        bool isThin;
+        Kind kind;
     };
     std::vector<Entry> entries;
-    for (std::uint32_t o = 0; o < claims.size(); ++o) {
-        entries.push_back({o, false});
-        entries.push_back({o, true});
-    }
+    for (std::uint32_t o = 0; o < claims.size(); ++o)
+        for (const Kind kind : {Kind::Solid, Kind::Tied, Kind::Thin}) entries.push_back({o, kind});
     // Lower rank first; at equal rank solids before thin parts and sheets, then the smaller volume, then the id.
     std::sort(entries.begin(), entries.end(), [&](const Entry& p, const Entry& q) {
         const auto key = [&](const Entry& e) {
-            return std::tuple<std::uint8_t, bool, double, std::string_view, std::uint32_t>(
-                claims[e.object].rank, e.isThin, meshes.objects[e.object].volume, claims[e.object].id, e.object);
+            return std::tuple<std::uint8_t, bool, double, std::string_view, std::uint32_t, Kind>(
+                claims[e.object].rank, e.kind == Kind::Thin, meshes.objects[e.object].volume, claims[e.object].id,
+                e.object, e.kind);
         };
         return key(p) < key(q);
     });
     Claims result;
     for (const ObjectClaim& claim : claims) result.boundsBody.push_back(claim.boundsBody);
-    result.solidOrder.resize(claims.size());
-    result.thinOrder.resize(claims.size());
+    for (auto* orders : {&result.solidOrder, &result.tiedOrder, &result.thinOrder}) orders->resize(claims.size());
     for (std::uint32_t order = 0; order < entries.size(); ++order) {
-        const Entry& entry = entries[order];
-        (entry.isThin ? result.thinOrder : result.solidOrder)[entry.object] = order;
-        const bool isSolid = !entry.isThin && meshes.objects[entry.object].closure != mesh::Closure::Surface;
-        result.ordered.push_back({claims[entry.object].scalar, entry.object, isSolid});
+        const auto [object, kind] = entries[order];
+        (kind == Kind::Solid  ? result.solidOrder
+         : kind == Kind::Tied ? result.tiedOrder
+                              : result.thinOrder)[object] = order;
+        const bool isSolid = kind == Kind::Solid && meshes.objects[object].closure != mesh::Closure::Surface;
+        result.ordered.push_back({claims[object].scalar, object, isSolid});
     }
     return result;
 }
@@ -166,7 +168,8 @@ void prepareObject(const mesh::MeshSet& meshes, const volume::Grid& grid, const 
     const Vec3i dimension = grid.dimension();
     parts.faces = groupCoplanarFaces(index, heightPlaneOfPlane, dimension, claims.solidOrder[object], ownHeightPlanes);
     if (options.keepThinParts)
-        all.thinVoxels[object] = addThinParts(index, indexFromLocal, dimension, claims.thinOrder[object], parts.boxes);
+        all.thinVoxels[object] = addThinParts(index, indexFromLocal, dimension,
+                                              {claims.thinOrder[object], claims.tiedOrder[object]}, parts.boxes);
 }
 
 // Number of voxels of an object as a sheet, estimated by area. The memory of the sheet pass is proportional to it.

@@ -265,6 +265,32 @@ TEST(Voxelize, AxisParallelPaneBetweenSamplesIsOneVoxelThick) {
     }
 }
 
+// A leaf of 4 cm with a block behind a part of it, as the jamb of a door has its leaf:
+//
+//     y 0.8 +-+
+//           | |              samples are 0.1 m apart; the leaf's are at x = 0.2
+//      0.45 | +--------+
+//      0.15 +----------+
+//         x 0.22 0.26  0.75
+//
+// The ray from the middle of a triangle of the leaf's face may pass through the block.
+TEST(Voxelize, ALeafStaysWholeHoweverItsFaceIsCut) {
+    test::ObjectMesh leaf =
+        test::prism({{0.26, 0.45}, {0.26, 0.8}, {0.22, 0.8}, {0.22, 0.15}, {0.75, 0.15}, {0.75, 0.45}}, 0.21, 1.79);
+    for (const bool isMirrored : {false, true}) {
+        if (isMirrored) {
+            for (Vec3d& vertex : leaf.vertices) vertex.z = 2 - vertex.z;
+            for (mesh::Triangle& triangle : leaf.triangles) std::swap(triangle.corners[1], triangle.corners[2]);
+        }
+        const auto meshes = meshSetOf({leaf});
+        const auto result = voxelize(meshes, gridWith({0, 0, 0}, {0.1, 0.1, 0.1}, {10, 10, 20}), claimsFor(meshes));
+        ASSERT_TRUE(result);
+        EXPECT_EQ(result->thinVoxels[0], 3u * 15u) << isMirrored;
+        EXPECT_EQ(countOf(*result, 1), 3u * 15u + 5u * 3u * 15u) << isMirrored;
+        for (const int j : {5, 6, 7}) EXPECT_EQ(result->columns.scalarAt(2, j, 10), 1u) << isMirrored << ' ' << j;
+    }
+}
+
 TEST(Voxelize, RodThinnerThanAVoxelIsALineOfVoxels) {
     const auto meshes = meshSetOf({box({0.031, 0.031, 0.01}, {0.034, 0.034, 0.99}), box({0, 0, -0.1}, {1, 1, -0.05})});
     const Grid grid = gridOver(meshes, {21, 21, 56});

@@ -3,6 +3,7 @@
 
 #include <svt/core/hash_index.hpp>
 #include <svt/voxelize/surfaces/disjoint_boxes.hpp>
+#include <svt/voxelize/surfaces/thin_plates.hpp>
 
 #include <algorithm>
 #include <array>
@@ -14,32 +15,6 @@ namespace svt::voxelize {
 namespace {
 
 std::int32_t along(Vec3i dimension, std::size_t axis) { return dimension[int(axis)]; }
-
-// Adds the samples [begin, end) along axes.x, in row `row` along axes.y, at sample `at` along axes.z.
-void addInterval(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std::int32_t end, std::int32_t at,
-                 std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
-    if (axes.z == 2)
-        boxes.push_back({row, row + 1, begin, end, at, at + 1, claim});
-    else if (axes.z == 0)
-        boxes.push_back({row, row + 1, at, at + 1, begin, end, claim});
-    else
-        boxes.push_back({at, at + 1, row, row + 1, begin, end, claim});
-}
-
-// Adds a row of samples; neighbours at the same `sampleAt` are merged into one box. -1: no sample.
-template <class SampleAt>
-void addRowOfSamples(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std::int32_t end, std::uint32_t claim,
-                     std::vector<ClaimedBox>& boxes, SampleAt&& sampleAt) {
-    constexpr std::int32_t kNone = -1;
-    std::int32_t from = begin, current = kNone;
-    for (std::int32_t x = begin; x <= end; ++x) {
-        const std::int32_t sample = x < end ? sampleAt(x) : kNone;
-        if (x < end && sample == current) continue;
-        if (current != kNone) addInterval(axes, row, from, x, current, claim, boxes);
-        from = x;
-        current = sample;
-    }
-}
 
 Vec3i nearestSample(Vec3d index) {
     return {static_cast<std::int32_t>(std::lrint(index.x)), static_cast<std::int32_t>(std::lrint(index.y)),
@@ -138,31 +113,6 @@ bool findThinFace(const mesh::Triangle& triangle, const std::vector<Vec3d>& vert
     if (!(size[face.axis] > 0)) return false;
     face.chord = std::abs(dot(face.normal, face.inward) / face.normal[face.axis]);
     return !(face.chord >= 1);
-}
-
-// The first sample strictly above a height, wherever the corners of its triangle lie.
-std::int64_t sampleOver(std::int64_t height) {
-    constexpr std::int64_t kOne = std::int64_t{1} << Height::kBits;
-    return ((height - kOne) >> (Height::kBits + kQuantaBits)) + 1;
-}
-
-// Adds the nearest sample of each sample line along the dominant axis that meets the material behind the face, but no
-// sample in it.
-void addMissedSamples(const ThinFace& face, const ScanTriangle& scan, Vec3i dimension, std::uint32_t claim,
-                      std::vector<ClaimedBox>& boxes) {
-    const ScanAxes& axes = kScanAxes[face.axis];
-    const auto depth = static_cast<std::int64_t>(std::ldexp(face.chord * double(kQuanta), Height::kBits));
-    constexpr std::int64_t kHalf = std::int64_t{1} << (Height::kBits + kQuantaBits - 1);
-    scanRows(scan, 0, along(dimension, axes.y), 0, along(dimension, axes.x),
-             [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
-                 const std::int64_t base = scan.height.base + scan.height.slopeY * row;
-                 addRowOfSamples(axes, row, begin, end, claim, boxes, [&](std::int32_t x) {
-                     const std::int64_t entry = base + scan.height.slopeX * x;
-                     if (sampleOver(entry) != sampleOver(entry + depth)) return -1;
-                     const std::int64_t sample = sampleOver(entry + depth / 2 - kHalf);
-                     return static_cast<std::int32_t>(sample >= 0 && sample < along(dimension, axes.z) ? sample : -1);
-                 });
-             });
 }
 
 // A rod: the face is narrower than a voxel, so sample lines may miss it. Draws one line along its longest edge, in the
@@ -269,24 +219,21 @@ void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t 
 }
 
 std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, Vec3i dimension,
-                           std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
+                           const ThinClaims& claims, std::vector<ClaimedBox>& boxes) {
     const double widest = indexFromLocal.largestSpacing();
     std::vector<ClaimedBox> raw;
+    addThinPlates(mesh, indexFromLocal, dimension, claims, raw);
     SampleLines rodLines;
     const auto& vertices = mesh.mesh->vertices;
     for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
         if (!(triangle.thickness < widest)) continue;  // the material behind this face is thicker than a voxel
         ThinFace face;
         if (!findThinFace(triangle, vertices, indexFromLocal, face)) continue;
-        ScanTriangle scan;
-        // Only faces that look down the axis; the opposite faces of the part would yield the same voxels.
-        if (setUpScan(mesh.points[triangle.corners[0]], mesh.points[triangle.corners[1]],
-                      mesh.points[triangle.corners[2]], kScanAxes[face.axis], scan) &&
-            scan.sign > 0)
-            addMissedSamples(face, scan, dimension, claim, raw);
-        addRod(face, indexFromLocal, dimension, claim, rodLines, raw);
+        addRod(face, indexFromLocal, dimension, claims.thin, rodLines, raw);
     }
-    return addDisjoint(raw, boxes);
+    const auto ties =
+        std::stable_partition(raw.begin(), raw.end(), [&](const ClaimedBox& box) { return box.claim == claims.thin; });
+    return addDisjoint({raw.begin(), ties}, boxes) + addDisjoint({ties, raw.end()}, boxes);
 }
 
 }  // namespace svt::voxelize

@@ -2,6 +2,7 @@
 /// \file
 /// Voxelizes surfaces: sheets, which have no inside, and parts of solids that are thinner than a voxel.
 
+#include <svt/voxelize/surfaces/thin_plates.hpp>
 #include <svt/voxelize/tiles/tile_plan.hpp>
 
 #include <vector>
@@ -20,11 +21,10 @@ void addThinSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, b
 /// (Akenine-Moeller 2001).
 void addConservativeSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, std::vector<ClaimedBox>& boxes);
 
-/// Parts of a solid thinner than a voxel: where a sample line along the dominant axis of a face passes through less
-/// than a voxel of material without a sample in it, the nearest sample gets a voxel. Rods thinner than a voxel in two
-/// directions get the voxels along their long edges.
+/// Parts of a solid thinner than a voxel: plates, see thin_plates.hpp, and rods. A rod is thinner than a voxel in two
+/// directions, so that sample lines may miss it; it gets the voxels along its long edges.
 /// \return count of voxels added, before priority is applied
 std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, Vec3i dimension,
-                           std::uint32_t claim, std::vector<ClaimedBox>& boxes);
+                           const ThinClaims& claims, std::vector<ClaimedBox>& boxes);
 
 }  // namespace svt::voxelize

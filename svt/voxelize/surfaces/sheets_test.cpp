@@ -219,7 +219,7 @@ std::pair<std::set<Voxel>, std::uint64_t> thinParts(const mesh::ObjectMesh& mesh
     const IndexFromLocal indexFromLocal(meshes, unitGrid());
     std::vector<ClaimedBox> boxes;
     const std::uint64_t count =
-        addThinParts(makeIndexMesh(meshes.objects[0], indexFromLocal), indexFromLocal, kDimension, 5, boxes);
+        addThinParts(makeIndexMesh(meshes.objects[0], indexFromLocal), indexFromLocal, kDimension, {5, 5}, boxes);
     return {voxelsOf(boxes), count};
 }
 

@@ -1,0 +1,277 @@
+#include <svt/voxelize/surfaces/thin_plates.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace svt::voxelize {
+namespace {
+
+constexpr double kOpposite = -0.94;  // cosine between the two sides of a plate: 20 degrees
+constexpr double kAlmost = 0.99;     // of the longest component of a normal: as long, but for rounding
+constexpr std::int32_t kStrip = 32;  // rows at a time
+constexpr std::uint64_t kLooks = 34'000'000, kLooksPerFace = 256;
+constexpr std::int32_t kSnap = 4;  // quanta by which the snap of corners may bring two sides past each other
+constexpr std::int64_t kNoExit = std::numeric_limits<std::int64_t>::max(), kAtEntry = kNoExit - 1;
+
+// Rows and columns in samples, heights in quanta; from low up to below high.
+struct Extent {
+    std::array<std::int32_t, 3> low{}, high{};
+
+    [[nodiscard]] bool meets(const Extent& other) const noexcept {
+        for (std::size_t n = 0; n < 3; ++n)
+            if (low[n] >= other.high[n] || other.low[n] >= high[n]) return false;
+        return true;
+    }
+    void add(const Extent& other) noexcept {
+        for (std::size_t n = 0; n < 3; ++n) {
+            low[n] = std::min(low[n], other.low[n]);
+            high[n] = std::max(high[n], other.high[n]);
+        }
+    }
+    // Of the side that is longest in samples.
+    [[nodiscard]] std::size_t longest() const noexcept {
+        const std::array<std::int64_t, 3> size{std::int64_t{high[0]} - low[0], std::int64_t{high[1]} - low[1],
+                                               (std::int64_t{high[2]} - low[2]) / kQuanta};
+        return static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
+    }
+};
+
+// A face that sample lines along an axis cross.
+struct PlateFace {
+    ScanTriangle scan;
+    Vec3d normal, corner;  // local space; the normal has length 1
+    Extent extent;
+};
+
+// Faces by place: halved again and again along their longest side.
+class FaceBoxes {
+public:
+    explicit FaceBoxes(std::span<const PlateFace> faces) : faces_(faces), order_(faces.size()) {
+        std::iota(order_.begin(), order_.end(), 0u);
+        if (!faces.empty()) build(0, static_cast<std::uint32_t>(faces.size()));
+    }
+
+    // Calls visit(face) for all faces whose box meets `extent`. Returns how many boxes it looked at.
+    template <class Visit>
+    std::uint64_t forEach(const Extent& extent, const Visit& visit) const {
+        std::uint64_t looks = 0;
+        std::vector<std::uint32_t> open;
+        if (!nodes_.empty()) open.push_back(0);
+        while (!open.empty()) {
+            const std::uint32_t at = open.back();
+            const Node& node = nodes_[at];
+            open.pop_back();
+            ++looks;
+            if (!node.extent.meets(extent)) continue;
+            if (node.right != 0) {
+                open.push_back(at + 1);
+                open.push_back(node.right);
+                continue;
+            }
+            looks += node.end - node.begin;
+            for (std::uint32_t n = node.begin; n < node.end; ++n)
+                if (const PlateFace& face = faces_[order_[n]]; face.extent.meets(extent)) visit(face);
+        }
+        return looks;
+    }
+
+private:
+    static constexpr std::uint32_t kLeaf = 4;
+    struct Node {
+        Extent extent;
+        std::uint32_t begin = 0, end = 0;  // in order_
+        std::uint32_t right = 0;           // node of the second half, 0: a leaf; the first half follows
+    };
+
+    void build(std::uint32_t begin, std::uint32_t end) {
+        const std::size_t at = nodes_.size();
+        nodes_.push_back({faces_[order_[begin]].extent, begin, end, 0});
+        for (std::uint32_t n = begin; n < end; ++n) nodes_[at].extent.add(faces_[order_[n]].extent);
+        if (end - begin <= kLeaf) return;
+        const std::size_t side = nodes_[at].extent.longest();
+        const auto middle = [&](std::uint32_t face) {
+            const Extent& extent = faces_[face].extent;
+            return std::pair(std::int64_t{extent.low[side]} + extent.high[side], face);
+        };
+        const std::uint32_t half = begin + (end - begin) / 2;
+        std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
+                         [&](std::uint32_t f, std::uint32_t g) { return middle(f) < middle(g); });
+        build(begin, half);
+        nodes_[at].right = static_cast<std::uint32_t>(nodes_.size());
+        build(half, end);
+    }
+
+    std::span<const PlateFace> faces_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Node> nodes_;
+};
+
+// The faces through which lines along an axis enter a solid, where it is the dominant one of the face, and leave it.
+struct Sides {
+    std::vector<PlateFace> entries, exits;
+};
+
+Sides sidesAcross(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, int axis) {
+    const ScanAxes& axes = kScanAxes[axis];
+    const auto& vertices = mesh.mesh->vertices;
+    Sides sides;
+    for (const mesh::Triangle& triangle : mesh.mesh->triangles) {
+        const QuantaPoint &p = mesh.points[triangle.corners[0]], &q = mesh.points[triangle.corners[1]],
+                          &r = mesh.points[triangle.corners[2]];
+        PlateFace face;
+        if (!setUpScan(p, q, r, axes, face.scan)) continue;
+        const Vec3d a = vertices[triangle.corners[0]];
+        const Vec3d ab = vertices[triangle.corners[1]] - a, ac = vertices[triangle.corners[2]] - a;
+        const Vec3d across = cross(ab, ac);
+        if (!(length(across) > 0)) continue;
+        face.normal = normalized(across);
+        face.corner = a;
+        const auto [low, high] = std::minmax({p[axes.z], q[axes.z], r[axes.z]});
+        face.extent = {{face.scan.firstRow, face.scan.firstColumn, low},
+                       {face.scan.endRow, face.scan.endColumn, high + 1}};
+        if (face.scan.sign < 0) {
+            sides.exits.push_back(face);
+            continue;
+        }
+        const Vec3d n = cross(indexFromLocal.direction(ab), indexFromLocal.direction(ac));
+        const double most = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+        if (std::abs(n[axis]) >= kAlmost * most) sides.entries.push_back(face);
+    }
+    return sides;
+}
+
+// The first sample strictly above a height, wherever the corners of its triangle lie.
+std::int64_t firstSampleOver(std::int64_t height) {
+    constexpr std::int64_t kOne = std::int64_t{1} << Height::kBits;
+    return ((height - kOne) >> (Height::kBits + kQuantaBits)) + 1;
+}
+
+std::int64_t heightAt(const Height& height, std::int32_t row, std::int32_t x) {
+    return height.base + height.slopeY * row + height.slopeX * x;
+}
+
+struct Missed {
+    std::int32_t sample = -1;
+    bool isTied = false;  // it lies on a side of the material
+};
+
+// The sample nearest to the middle of material that has none; -1 where it has one, or ends nowhere.
+Missed missedSample(std::int64_t entry, std::int64_t exit, std::int32_t count) {
+    constexpr std::int64_t kHalf = std::int64_t{1} << (Height::kBits + kQuantaBits - 1);
+    if (exit == kAtEntry) exit = entry;
+    if (exit == kNoExit || firstSampleOver(entry) != firstSampleOver(exit)) return {};
+    const std::int64_t sample = firstSampleOver(entry + (exit - entry) / 2 - kHalf);
+    if (sample < 0 || sample >= count) return {};
+    const std::int64_t at = (sample * kQuanta + 1) << Height::kBits, reach = std::int64_t{kSnap} << Height::kBits;
+    return {static_cast<std::int32_t>(sample), at >= entry - reach && at <= exit + reach};
+}
+
+// The sample lines of one face, and where they leave the solid.
+class PlateLines {
+public:
+    PlateLines(const ScanAxes& axes, Vec3i dimension)
+        : axes_(axes),
+          rows_(dimension[static_cast<int>(axes.y)]),
+          columns_(dimension[static_cast<int>(axes.x)]),
+          count_(dimension[static_cast<int>(axes.z)]) {}
+
+    void add(const PlateFace& entry, std::span<const PlateFace* const> exits, const ThinClaims& claims,
+             std::vector<ClaimedBox>& boxes) {
+        const std::int32_t first = std::max(0, entry.scan.firstRow), end = std::min(rows_, entry.scan.endRow);
+        const std::int32_t left = std::max(0, entry.scan.firstColumn), right = std::min(columns_, entry.scan.endColumn);
+        if (left >= right) return;
+        const auto width = static_cast<std::size_t>(right - left);
+        for (std::int32_t strip = first; strip < end; strip += kStrip) {
+            const std::int32_t stripEnd = std::min(end, strip + kStrip);
+            leaves_.assign(width * static_cast<std::size_t>(stripEnd - strip), kNoExit);
+            const auto leave = [&](std::int32_t row, std::int32_t x) -> std::int64_t& {
+                return leaves_[width * static_cast<std::size_t>(row - strip) + static_cast<std::size_t>(x - left)];
+            };
+            for (const PlateFace* exit : exits) markExits(entry, *exit, strip, stripEnd, left, right, leave);
+            scanRows(entry.scan, strip, stripEnd, left, right,
+                     [&](std::int32_t row, std::int32_t begin, std::int32_t stop) {
+                         addRow(entry, row, begin, stop, &leave(row, begin), claims, boxes);
+                     });
+        }
+    }
+
+private:
+    // \param exits  of the lines from `begin` on
+    void addRow(const PlateFace& entry, std::int32_t row, std::int32_t begin, std::int32_t end,
+                const std::int64_t* exits, const ThinClaims& claims, std::vector<ClaimedBox>& boxes) const {
+        bool hasTies = false;
+        const auto add = [&](bool ties, std::uint32_t claim) {
+            addRowOfSamples(axes_, row, begin, end, claim, boxes, [&](std::int32_t x) {
+                const Missed missed = missedSample(heightAt(entry.scan.height, row, x), exits[x - begin], count_);
+                hasTies = hasTies || missed.isTied;
+                return missed.isTied == ties ? missed.sample : -1;
+            });
+        };
+        add(false, claims.thin);
+        if (hasTies) add(true, claims.tied);
+    }
+
+    // Of each line the first exit above the entry; without any, one that the snap has brought to it.
+    template <class Leave>
+    static void markExits(const PlateFace& entry, const PlateFace& exit, std::int32_t firstRow, std::int32_t endRow,
+                          std::int32_t left, std::int32_t right, const Leave& leave) {
+        constexpr double kThinnest = 1e-7;  // metres
+        const std::int64_t reach = std::int64_t{kSnap} << Height::kBits;
+        const bool isBehind = dot(entry.normal, entry.corner - exit.corner) > kThinnest;
+        scanRows(exit.scan, firstRow, endRow, left, right, [&](std::int32_t row, std::int32_t begin, std::int32_t end) {
+            for (std::int32_t x = begin; x < end; ++x) {
+                const std::int64_t height = heightAt(exit.scan.height, row, x);
+                const std::int64_t chord = height - heightAt(entry.scan.height, row, x);
+                if (chord > 0 || (isBehind && chord >= -reach))
+                    leave(row, x) = std::min(leave(row, x), chord > 0 ? height : kAtEntry);
+            }
+        });
+    }
+
+    ScanAxes axes_;
+    std::int32_t rows_, columns_, count_;
+    std::vector<std::int64_t> leaves_;  // height by row and column of a strip
+};
+
+}  // namespace
+
+void addInterval(const ScanAxes& axes, std::int32_t row, std::int32_t begin, std::int32_t end, std::int32_t at,
+                 std::uint32_t claim, std::vector<ClaimedBox>& boxes) {
+    if (axes.z == 2)
+        boxes.push_back({row, row + 1, begin, end, at, at + 1, claim});
+    else if (axes.z == 0)
+        boxes.push_back({row, row + 1, at, at + 1, begin, end, claim});
+    else
+        boxes.push_back({at, at + 1, row, row + 1, begin, end, claim});
+}
+
+void addThinPlates(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, Vec3i dimension,
+                   const ThinClaims& claims, std::vector<ClaimedBox>& boxes) {
+    std::uint64_t looks = std::max<std::uint64_t>(kLooks, kLooksPerFace * mesh.mesh->triangles.size());
+    std::vector<const PlateFace*> exits;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Sides sides = sidesAcross(mesh, indexFromLocal, axis);
+        const FaceBoxes places(sides.exits);
+        PlateLines lines(kScanAxes[axis], dimension);
+        for (const PlateFace& entry : sides.entries) {
+            Extent behind = entry.extent;
+            behind.low[2] -= kSnap;
+            behind.high[2] += static_cast<std::int32_t>(kQuanta);  // a voxel on
+            exits.clear();
+            const std::uint64_t looked = places.forEach(behind, [&](const PlateFace& exit) {
+                if (dot(exit.normal, entry.normal) < kOpposite) exits.push_back(&exit);
+            });
+            if (!exits.empty()) lines.add(entry, exits, claims, boxes);
+            if (looked >= looks) return;
+            looks -= looked;
+        }
+    }
+}
+
+}  // namespace svt::voxelize
