@@ -7,7 +7,7 @@ program=${1:?usage: check_hardening.sh PROGRAM [ROOT]}
 root=${2:-$(cd "$(dirname "$0")/.." && pwd)}
 skip() { echo "skipped: $1"; exit 77; }
 [ -f "$program" ] || skip "$program is not built"
-command -v readelf >/dev/null && command -v nm >/dev/null || skip "readelf or nm is missing (binutils)"
+if ! command -v readelf >/dev/null || ! command -v nm >/dev/null; then skip "readelf or nm is missing (binutils)"; fi
 
 headers=$(readelf -lW "$program")
 dynamic=$(readelf -dW "$program")

@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
 }
 """
 # What makes a hardened program.
-HARDENED = {
+HARDENED: dict[str, list[str]] = {
     "pie": ["-fPIE", "-pie"],
     "relro": ["-Wl,-z,relro"],
     "now": ["-Wl,-z,now"],
@@ -33,7 +33,7 @@ HARDENED = {
 
 
 class CheckHardening(unittest.TestCase):
-    def check(self, **other):
+    def check(self, **other: list[str]) -> tuple[str, int]:
         """What the script prints of a program that is built with other flags, and its exit code."""
         with tempfile.TemporaryDirectory() as folder:
             source, program = pathlib.Path(folder, "a.cpp"), pathlib.Path(folder, "a")

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """scripts/update_architecture.py writes the sub-folders of the tree, and finds folders without a row."""
-import importlib.util
 import pathlib
+import sys
 import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-spec = importlib.util.spec_from_file_location("update_architecture", ROOT / "scripts" / "update_architecture.py")
-update_architecture = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(update_architecture)
+sys.dont_write_bytecode = True  # write no cache files into scripts/
+sys.path.insert(0, str(ROOT / "scripts"))
+import update_architecture
 
 PAGE = """| folder | holds | inside |
 |---|---|---|
