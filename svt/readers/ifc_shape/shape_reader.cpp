@@ -64,7 +64,7 @@ void ShapeReader::leaveOutMissing() {
 }
 
 // What is past the budget is left out with all of its product, which is said there.
-void ShapeReader::add(Body body, Bodies& bodies) {
+void ShapeReader::addBody(Body body, Bodies& bodies) {
     if (file_.guard().takeElements(pointCount(body.faces))) bodies.push_back(std::move(body));
 }
 
@@ -144,7 +144,7 @@ void ShapeReader::readKnownItem(RecordIndex item, const Fields& fields, Bodies& 
         case Entity::OpenShell:
         case Entity::ClosedShell: {
             Body body{readFaces(fields[0]), file_.entityOf(item) == Entity::ClosedShell, -1};
-            if (!body.faces.empty()) add(std::move(body), bodies);
+            if (!body.faces.empty()) addBody(std::move(body), bodies);
             return;
         }
         case Entity::TriangulatedFaceSet:
@@ -172,7 +172,7 @@ void ShapeReader::addSolid(Polygons faces, Bodies& bodies, RecordIndex item) {
     if (faces.empty())
         leaveOut(fmt::format("an {} whose measures make no body", file_.typeName(item)));
     else
-        add({std::move(faces), true, -1}, bodies);
+        addBody({std::move(faces), true, -1}, bodies);
 }
 
 void ShapeReader::readSweep(RecordIndex item, const Fields& fields, Bodies& bodies) {
@@ -239,7 +239,7 @@ void ShapeReader::readDisk(const Fields& fields, Bodies& bodies) {
     if (!affords(line.size() * 2 * 6 * kMaxDiskSegments)) return;
     Polygons faces = sweepDisk(std::move(line), file_.metres(fields[1]), file_.metres(fields[2]));
     if (faces.empty()) return leaveOut("a swept disk without length or radius");
-    add({std::move(faces), true, -1}, bodies);
+    addBody({std::move(faces), true, -1}, bodies);
 }
 
 void ShapeReader::readPrimitive(RecordIndex item, const Fields& fields, Bodies& bodies) {
@@ -293,7 +293,7 @@ void ShapeReader::readMappedItem(const Fields& fields, Bodies& bodies) {
     std::uint64_t points = 0;
     for (const Body& body : *source) points += pointCount(body.faces);
     if (!affords(points)) return;
-    for (const Body& body : *source) add(transformed(body, target), bodies);
+    for (const Body& body : *source) addBody(transformed(body, target), bodies);
 }
 
 void ShapeReader::readBrep(RecordIndex item, const Fields& fields, Bodies& bodies) {
@@ -308,13 +308,13 @@ void ShapeReader::readBrep(RecordIndex item, const Fields& fields, Bodies& bodie
             faces.insert(faces.end(), hollow.begin(), hollow.end());
         }
     }
-    add({std::move(faces), true, -1}, bodies);
+    addBody({std::move(faces), true, -1}, bodies);
 }
 
 void ShapeReader::readSurfaceModel(const Fields& fields, Bodies& bodies) {
     for (const RecordIndex shell : file_.followAll(fields[0])) {
         Body body{readFaces(file_.fieldsOf(shell)[0]), file_.entityOf(shell) == Entity::ClosedShell, -1};
-        if (!body.faces.empty()) add(std::move(body), bodies);
+        if (!body.faces.empty()) addBody(std::move(body), bodies);
     }
 }
 
@@ -503,7 +503,7 @@ void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bo
     }
     if (isWrong) leaveOut(fmt::format("corners of an {} with an index that is out of range", file_.typeName(item)));
     if (body.faces.empty()) return leaveOut(fmt::format("an {} without faces", file_.typeName(item)));
-    add(std::move(body), bodies);
+    addBody(std::move(body), bodies);
 }
 
 // A plain, boxed or polygonal half-space, as a closed body that reaches beyond `around`.
@@ -630,7 +630,7 @@ void ShapeReader::evaluate(std::string_view op, const Bodies& first, const Bodie
             bodies.insert(bodies.end(), second.begin(), second.end());
             bodies.insert(bodies.end(), first.begin(), first.end());
         } else if (!joined->empty()) {
-            add({std::move(*joined), true, (first.empty() ? second : first).front().material}, bodies);
+            addBody({std::move(*joined), true, (first.empty() ? second : first).front().material}, bodies);
         }
         return;
     }
@@ -654,7 +654,7 @@ void ShapeReader::evaluate(std::string_view op, const Bodies& first, const Bodie
             leaveOut(fmt::format("a {}: its result is not closed", op));
             bodies.push_back(body);
         } else if (!result->empty()) {
-            add({std::move(*result), true, body.material}, bodies);
+            addBody({std::move(*result), true, body.material}, bodies);
         }
     }
 }

@@ -64,7 +64,7 @@ private:
     bool readHalfSpace(RecordIndex item, const Box3d& around, Bodies& bodies);
     bool readOperand(RecordIndex operand, std::string_view op, const Box3d& around, Bodies& bodies);
     void evaluate(std::string_view op, const Bodies& first, const Bodies& second, Bodies& bodies);
-    void add(Body body, Bodies& bodies);
+    void addBody(Body body, Bodies& bodies);
     void addSolid(std::vector<model::Polygon> faces, Bodies& bodies, RecordIndex item);
     void leaveOut(std::string what);
     void leaveOutMissing();
