@@ -57,6 +57,8 @@ public:
     ~FeatureFile();
 
     [[nodiscard]] FeatureFormat format() const noexcept;
+    /// Whether the last feature that next() gave is a line of CityJSONSeq that was cut off.
+    [[nodiscard]] bool isTruncated() const noexcept;
     /// What stands before the features and is read with each of them; empty of Whole.
     [[nodiscard]] std::string head() const;
     /// Bytes of the file that have been read, as a share of all: 0..1.

@@ -547,7 +547,7 @@ const std::vector<BadInput> kJson{
      cutSequence,
      {"city", "plan", "bad.json", "-o", "c", "--allow-truncated"},
      kDone,
-     "warning E606 FeatureSkipped: bad\\.json: "},
+     "warning E137 Truncated: bad\\.json: (.|\\n)*warning E606 FeatureSkipped: bad\\.json: "},
     {"NotCityJson", "JSON that is no CityJSON", "bad.json", [] { return "{\"a\": 1}"; }, kBuildJson, kInput,
      "E103 UnknownFormat"},
     {"UnknownVersion", "a version of CityJSON that is not known", "bad.json", [] { return cityJson({}, {}, "9.0"); },

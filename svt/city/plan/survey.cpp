@@ -59,6 +59,10 @@ public:
             if (!*found) break;
             if (Progress::isCancelled(options_.progress)) return Error(Code::Cancelled, "stopped while planning");
         }
+        if (file->isTruncated())
+            diagnostics_.add(Severity::Warning, Code::Truncated,
+                             "the last line ends within its object: the file was cut off; what is there was read",
+                             {path_.string(), 0, 0, {}});
         tellSkipped();
         survey_.files.push_back(entry_);
         survey_.fileNames.push_back(path_.string());

@@ -26,7 +26,7 @@ using features::TextStream;
 struct FeatureFile::State {
     std::filesystem::path path;
     FeatureFormat format = FeatureFormat::Whole;
-    bool allowsTruncated = false;
+    bool allowsTruncated = false, isTruncated = false;
     TextStream stream;
     GmlMembers gml{{}};
     std::string head;                  // of CityJSON: its line
@@ -63,6 +63,8 @@ FeatureFile::FeatureFile(std::unique_ptr<State> state) : state_(std::move(state)
 FeatureFile::FeatureFile(FeatureFile&&) noexcept = default;
 FeatureFile& FeatureFile::operator=(FeatureFile&&) noexcept = default;
 FeatureFile::~FeatureFile() = default;
+
+bool FeatureFile::isTruncated() const noexcept { return state_->isTruncated; }
 
 FeatureFormat FeatureFile::format() const noexcept { return state_->format; }
 
@@ -177,8 +179,9 @@ Result<bool> FeatureFile::State::nextLine(FeatureText& feature) {
         const std::string_view text = stream.window().substr(0, end);
         feature = {{stream.base(), text.size()}, text, stream.line()};
         if (text.empty() && end == std::string_view::npos) return false;
-        if (end == std::string_view::npos && !allowsTruncated && features::skipJsonBlanks(text, 0) != text.size() &&
-            features::skipJson(text, 0) == features::kNoJson)
+        isTruncated = end == std::string_view::npos && features::skipJsonBlanks(text, 0) != text.size() &&
+                      features::skipJson(text, 0) == features::kNoJson;
+        if (isTruncated && !allowsTruncated)
             return Error(Code::Truncated,
                          "the last line ends within its object: the file was cut off; copy or export it again, or read "
                          "what is there (--allow-truncated)",

@@ -141,6 +141,7 @@ TEST(Truncated, RowsOfFeaturesEndWithTheErrorToo) {
         EXPECT_TRUE(file->read(std::vector<std::string_view>{first}, options, nullptr));
         const auto second = file->next(feature);
         ASSERT_EQ(bool(second), isAllowed);
+        EXPECT_TRUE(file->isTruncated());
         if (isAllowed) {
             const std::string cut(feature.text);
             Diagnostics log;
