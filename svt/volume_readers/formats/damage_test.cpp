@@ -100,7 +100,7 @@ TEST(Damage, OfAFileIsNeverReadInSilence) {
             ASSERT_TRUE(writers::writeVolume(plainVolume(), folder / name, options));
             const Answer whole = ask(folder / name);
             ASSERT_TRUE(whole.volume && whole.told.empty()) << name << ": " << whole.told;
-            damageAndAsk(folder / name, folder / name, *whole.volume, 400);
+            damageAndAsk(folder / name, folder / name, *whole.volume, 150);
         }
 }
 
@@ -110,7 +110,7 @@ TEST(Damage, OfATurnedGridIsNeverReadInSilence) {
         ASSERT_TRUE(writers::writeVolume(volume::test::sampleVolume({12, 9, 8}), folder / name));
         const Answer whole = ask(folder / name);
         ASSERT_TRUE(whole.volume && whole.told.empty()) << name << ": " << whole.told;
-        damageAndAsk(folder / name, folder / name, *whole.volume, 200);
+        damageAndAsk(folder / name, folder / name, *whole.volume, 100);
     }
 }
 
@@ -133,7 +133,7 @@ TEST(Damage, OfACityGmlDocumentAndWhatStandsBesideItIsNeverReadInSilence) {
         const Answer whole = ask(folder / "v.ade.gml");
         ASSERT_TRUE(whole.volume && whole.told.empty()) << whole.told;
         for (const fs::path& file : filesOf(folder.path())) {
-            damageAndAsk(file, folder / "v.ade.gml", *whole.volume, file.extension() == ".gml" ? 400 : 60);
+            damageAndAsk(file, folder / "v.ade.gml", *whole.volume, file.extension() == ".gml" ? 200 : 40);
             const std::string text = readText(file);
             fs::remove(file);
             EXPECT_FALSE(ask(folder / "v.ade.gml").volume) << file << " is gone";
@@ -151,7 +151,7 @@ TEST(Damage, OfAZarrFolderIsNeverReadInSilence) {
         const Answer whole = ask(folder / "v.zarr");
         ASSERT_TRUE(whole.volume && whole.told.empty()) << whole.told;
         for (const fs::path& file : filesOf(folder / "v.zarr")) {
-            damageAndAsk(file, folder / "v.zarr", *whole.volume, 120);
+            damageAndAsk(file, folder / "v.zarr", *whole.volume, 60);
             const std::string text = readText(file);
             fs::remove(file);
             EXPECT_FALSE(ask(folder / "v.zarr").isSilent(*whole.volume)) << file << " is gone";
@@ -248,7 +248,9 @@ TEST(Damage, HeadersOfNrrdThatContradictThemselvesAreRefused) {
     const auto messageOf = [&](const std::string& fields, const std::string& data) {
         writeText(folder / "v.nrrd", "NRRD0004\ntype: uchar\ndimension: 3\nencoding: raw\n" + fields + "\n\n" + data);
         const auto read = readLabelVolume(folder / "v.nrrd");
-        if (!read) EXPECT_EQ(read.error().code(), Code::BadNrrd) << read.error().toString();
+        if (!read) {
+            EXPECT_EQ(read.error().code(), Code::BadNrrd) << read.error().toString();
+        }
         return read ? std::string() : read.error().message();
     };
     EXPECT_EQ(messageOf("sizes: 2 2 2", samples), "");
@@ -271,7 +273,8 @@ TEST(Damage, TheEndOfGzipSamplesIsChecked) {
         std::string damaged = whole;
         damaged[whole.size() - back] = static_cast<char>(damaged[whole.size() - back] ^ 4);
         writeText(folder / "v.nrrd", damaged);
-        EXPECT_NE(ask(folder / "v.nrrd").told.find("end of the compressed samples is damaged"), std::string::npos);
+        EXPECT_NE(ask(folder / "v.nrrd").told.find("compressed samples are damaged"), std::string::npos)
+            << ask(folder / "v.nrrd").told;
         writeText(folder / "v.nrrd", whole.substr(0, whole.size() - back));
         EXPECT_FALSE(ask(folder / "v.nrrd").volume);
     }

@@ -29,6 +29,7 @@ Result<volume::SemanticVolume> volumeFromArray(const LabelArray& array, std::str
     }
     LabelImage image;
     image.dimension = array.grid.dimension();
+    image.grid = array.grid;
     image.bits = array.bits;
     image.isSigned = array.isSigned;
     image.crsName = array.crsName;
@@ -43,8 +44,6 @@ Result<volume::SemanticVolume> volumeFromArray(const LabelArray& array, std::str
     if (!columns) return columns.error();
     auto made = makeVolume(image, std::move(*columns), table ? &*table : nullptr, array.source);
     if (!made) return made.error();
-    made->volume.grid = array.grid;  // exact, whatever its axes
-    countAgain(made->volume, table && !table->labelsJson.empty());
     return std::move(made->volume);
 }
 

@@ -7,12 +7,14 @@
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
 #include <svt/volume/column_volume.hpp>
+#include <svt/volume/grid.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,6 +46,7 @@ struct LabelImage {
     Vec3d origin{};          ///< the first sample, metres
     std::array<Vec3d, 3> steps{Vec3d{1, 0, 0}, Vec3d{0, 1, 0},
                                Vec3d{0, 0, 1}};  ///< to the next sample along i, j, k, metres
+    std::optional<volume::Grid> grid;            ///< exact, in place of origin and steps
     std::string headerJson, labelsJson;          ///< what `svt convert` left in the file, as in a .svt; empty: nothing
     std::string seal;  ///< checksums of both and of the samples (volume::readSeal()), or empty
     std::vector<ToldLabel> told;

@@ -42,8 +42,4 @@ struct MadeVolume {
 [[nodiscard]] Result<MadeVolume> makeVolume(const LabelImage& image, volume::ColumnVolume values,
                                             const UserTable* table, const std::filesystem::path& path);
 
-/// Counts the voxels of each label. Its volume becomes that of its voxels, but where `hasVolumes` is true and no voxel is
-/// missing: then it stays that of its mesh.
-void countAgain(volume::SemanticVolume& volume, bool hasVolumes);
-
 }  // namespace svt::volume_readers

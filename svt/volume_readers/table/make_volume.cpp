@@ -44,6 +44,7 @@ Vec3f colorOf(std::size_t number) {
 }
 
 Result<volume::Grid> gridOf(const LabelImage& image) {
+    if (image.grid) return *image.grid;
     Vec3d spacing;
     std::array<Vec3d, 3> axes;
     for (int axis = 0; axis < 3; ++axis) {
@@ -258,6 +259,19 @@ Result<void> takeTold(const std::vector<ToldLabel>& given, const UserTable* user
     return giveScalars(volume.labels, values, owners, volume.columns);
 }
 
+/// Counts the voxels of each label. Its volume becomes that of its voxels, but where `hasVolumes` is true and no voxel is
+/// missing: then it stays that of its mesh.
+void countAgain(volume::SemanticVolume& volume, bool hasVolumes) {
+    const auto voxels = volume.columns.countVoxels(volume.labels.scalarCount());
+    for (Label& label : volume.labels.labels) {
+        std::uint64_t count = 0;
+        for (Scalar s = 0; s < label.count; ++s) count += voxels[label.first + s];
+        if (hasVolumes && count == label.voxels) continue;
+        label.voxels = count;
+        label.volume = static_cast<double>(count) * volume.grid.voxelVolume();
+    }
+}
+
 /// What `svt convert` left in a file beside the samples.
 struct Stated {
     std::optional<volume::SvtHeader> header;
@@ -383,17 +397,6 @@ Result<void> takeStated(Stated stated, MadeVolume& made) {
 }
 
 }  // namespace
-
-void countAgain(volume::SemanticVolume& volume, bool hasVolumes) {
-    const auto voxels = volume.columns.countVoxels(volume.labels.scalarCount());
-    for (Label& label : volume.labels.labels) {
-        std::uint64_t count = 0;
-        for (Scalar s = 0; s < label.count; ++s) count += voxels[label.first + s];
-        if (hasVolumes && count == label.voxels) continue;
-        label.voxels = count;
-        label.volume = static_cast<double>(count) * volume.grid.voxelVolume();
-    }
-}
 
 Result<MadeVolume> makeVolume(const LabelImage& image, volume::ColumnVolume values, const UserTable* table,
                               const std::filesystem::path& path) {
