@@ -9,6 +9,7 @@
 #include <optional>
 
 namespace svt::volume_readers {
+
 Result<volume::SemanticVolume> volumeFromArray(const LabelArray& array, std::string_view labelsJson,
                                                std::uint64_t maxBytes, const Progress* progress) {
     if (array.bits != 8 && array.bits != 16 && array.bits != 32)
