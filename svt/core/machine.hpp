@@ -86,7 +86,8 @@ using Say = std::function<void(std::string_view)>;
 void cleanUpOnSignals();
 
 /// Ends a child process and its group: SIGTERM, so that it can clean up, and SIGKILL after 5 s. Waits for its end.
-void endProcess(int process) noexcept;
+/// \return its status as waitpid() has it
+int endProcess(int process) noexcept;
 
 /// For programs, at their start: opens /dev/null for each of stdin, stdout and stderr that is closed. Else the first
 /// files that are opened would take their numbers, and receive messages.

@@ -39,7 +39,8 @@ void limit(int resource, std::uint64_t value) noexcept {
     ::dup2(nothing, 0);
     ::dup2(nothing, 1);
     ::dup2(errors, 2);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
     std::signal(SIGXFSZ, SIG_IGN);  // writing past the file size limit becomes an error instead of a signal
     limit(RLIMIT_AS, limits.memoryBytes);
     limit(RLIMIT_FSIZE, limits.fileBytes);
@@ -95,7 +96,7 @@ ChildResult runChild(const std::vector<std::string>& arguments, const std::files
         result.isCancelled = Progress::isCancelled(&stop);
         if (!result.isTimeout && !result.isCancelled) continue;
         if (result.isCancelled) {
-            endProcess(child);
+            status = endProcess(child);
         } else {
             ::kill(-child, SIGKILL);
             ::kill(child, SIGKILL);  // in case it has no process group yet

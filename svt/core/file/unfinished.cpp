@@ -34,7 +34,7 @@ Unfinished Unfinished::process(const std::function<int()>& start) {
 }
 void Unfinished::forget() noexcept {}
 void cleanUpOnSignals() {}
-void endProcess(int /*process*/) noexcept {}
+int endProcess(int /*process*/) noexcept { return 0; }
 void openStandardStreams() noexcept {}
 
 #else
@@ -121,7 +121,7 @@ void watch(Registry& watched) {
     for (const auto& [id, item] : watched.items)
         if (item.process > 0) ::kill(item.process, SIGTERM);  // all at once, before each is waited for
     for (const auto& [id, item] : watched.items)
-        if (item.process > 0) endProcess(item.process);
+        if (item.process > 0) static_cast<void>(endProcess(item.process));
     for (auto item = watched.items.rbegin(); item != watched.items.rend(); ++item)
         if (item->second.process == 0) removePath(item->second.path);
     sigset_t one;
@@ -213,16 +213,21 @@ void cleanUpOnSignals() {
     for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGPIPE}) install(signal);
 }
 
-void endProcess(int process) noexcept {
+int endProcess(int process) noexcept {
     ::kill(-process, SIGTERM);
     ::kill(process, SIGTERM);
+    int status = SIGTERM;  // where another thread has waited for it
     const auto end = std::chrono::steady_clock::now() + kTimeToEnd;
-    while (::waitpid(process, nullptr, WNOHANG) == 0 && std::chrono::steady_clock::now() < end)
+    while (::waitpid(process, &status, WNOHANG) == 0) {
+        if (std::chrono::steady_clock::now() >= end) {
+            ::kill(process, SIGKILL);
+            ::waitpid(process, &status, 0);
+            break;
+        }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    ::kill(-process, SIGKILL);
-    if (::waitpid(process, nullptr, WNOHANG) != 0) return;  // it has ended, or another thread has waited for it
-    ::kill(process, SIGKILL);
-    ::waitpid(process, nullptr, 0);
+    }
+    ::kill(-process, SIGKILL);  // its descendants
+    return status;
 }
 
 void openStandardStreams() noexcept {
