@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace svt::pipeline::test {
+namespace svt::test {
 
 inline double twiceArea(Vec3d a, Vec3d b, Vec3d c, Vec3d normal) { return dot(cross(b - a, c - a), normal); }
 
@@ -75,4 +75,4 @@ inline void splitFaces(model::BuildingModel& model) {
         }
 }
 
-}  // namespace svt::pipeline::test
+}  // namespace svt::test

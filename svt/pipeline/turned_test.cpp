@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <map>
 #include <span>
 
@@ -160,42 +160,39 @@ TEST(TurnedModels, TowerKeepsItsLabels) {
         EXPECT_LT(compare(samples::SampleKind::Tower, withSpacing(0.0731, thin)), 0.0001) << thin;
 }
 
-TEST(TurnedModels, Measure) {
-    const Faces faces(sampleModel(samples::SampleKind::House));
+// Voxels that are another component's, at least: half the sum of how much the counts of all components differ.
+double shareOfCounts(const volume::LabelTable& straight, const volume::LabelTable& other) {
+    EXPECT_EQ(straight.labels.size(), other.labels.size());
+    if (straight.labels.size() != other.labels.size()) return 1;
+    double all = 0, differing = 0;
+    for (std::size_t l = 0; l < straight.labels.size(); ++l) {
+        const auto before = double(straight.labels[l].voxels), after = double(other.labels[l].voxels);
+        all += before;
+        differing += std::abs(before - after);
+    }
+    return 0.5 * differing / all;
+}
+
+// What docs/user/build.md promises of ties, at spacings of which many have faces of the house on their samples.
+TEST(TurnedModels, CountsStayWithinTheBoundThatIsPromised) {
     for (const double spacing : {0.05, 0.0731, 0.1, 0.15, 0.2, 0.25}) {
-        for (const bool thin : {true, false}) {
-            for (int way = 0; way < 5; ++way) {
-                model::BuildingModel a = sampleModel(samples::SampleKind::House), b = a;
-                const int quarters = way % 4;
-                if (way == 4) test::splitFaces(b);
-                if (way == 0) continue;
-                turnAndMove(b, quarters, {});
-                const auto straight = buildVolume(a, withSpacing(spacing, thin));
-                const auto turned = buildVolume(b, withSpacing(spacing, thin));
-                ASSERT_TRUE(straight && turned);
-                const Difference d = differenceOf(*straight, *turned, quarters, faces);
-                std::printf("%g thin %d way %d: voxels %llu ties %.6f wrong %.6f (%llu)\n", spacing, thin, way,
-                            (unsigned long long)d.voxels, double(d.ties) / double(d.voxels),
-                            double(d.wrong) / double(d.voxels), (unsigned long long)d.wrong);
-                double worst = 1;
-                for (std::size_t l = 0; l < straight->volume.labels.labels.size(); ++l) {
-                    const auto& p = straight->volume.labels.labels[l];
-                    const auto& q = turned->volume.labels.labels[l];
-                    const double ratio = double(std::max(p.voxels, q.voxels)) /
-                                         double(std::max<std::uint64_t>(1, std::min(p.voxels, q.voxels)));
-                    if (ratio > 1.3 && thin && (ratio > worst || p.className == "Door")) {
-                        std::printf("    %s %llu %llu\n", p.id.c_str(), (unsigned long long)p.voxels,
-                                    (unsigned long long)q.voxels);
-                        worst = std::max(worst, ratio);
-                    }
-                }
-                int shown = 0;
-                for (const auto& [pair, count] : d.pairs)
-                    if (thin && count > 5 && ++shown < 6)
-                        std::printf("        %s -> %s: %llu\n", pair.first.c_str(), pair.second.c_str(),
-                                    (unsigned long long)count);
-            }
+        model::BuildingModel model = sampleModel(samples::SampleKind::House);
+        const auto straight = buildVolume(model, withSpacing(spacing, true));
+        ASSERT_TRUE(straight);
+        for (int quarters = 1; quarters < 4; ++quarters) {
+            model::BuildingModel moved = sampleModel(samples::SampleKind::House);
+            turnAndMove(moved, quarters, {});
+            const auto turned = buildVolume(moved, withSpacing(spacing, true));
+            ASSERT_TRUE(turned);
+            EXPECT_LT(shareOfCounts(straight->volume.labels, turned->volume.labels), 0.01)
+                << "spacing " << spacing << ", turned " << quarters << " times";
         }
+        model::BuildingModel split = sampleModel(samples::SampleKind::House);
+        test::splitFaces(split);
+        const auto other = buildVolume(split, withSpacing(spacing, true));
+        ASSERT_TRUE(other);
+        EXPECT_LT(shareOfCounts(straight->volume.labels, other->volume.labels), 0.01)
+            << "spacing " << spacing << ", faces split";
     }
 }
 

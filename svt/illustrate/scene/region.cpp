@@ -4,6 +4,7 @@
 #include <svt/core/text.hpp>
 #include <svt/illustrate/scene.hpp>
 #include <svt/illustrate/scene/cutaway.hpp>
+#include <svt/illustrate/section_plane.hpp>
 #include <svt/illustrate/storey_floors.hpp>
 
 #include <fmt/format.h>
