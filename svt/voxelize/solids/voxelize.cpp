@@ -39,7 +39,7 @@ Claims orderClaims(const mesh::MeshSet& meshes, std::span<const ObjectClaim> cla
     std::vector<Entry> entries;
     for (std::uint32_t o = 0; o < claims.size(); ++o)
         for (const Kind kind : {Kind::Solid, Kind::Tied, Kind::Thin}) entries.push_back({o, kind});
-    // Lower rank first; at equal rank solids before thin parts and sheets, then the smaller volume, then the id.
+    // Lower rank first; at equal rank solids and ties before other thin parts and sheets, then the smaller volume, then the id.
     std::sort(entries.begin(), entries.end(), [&](const Entry& p, const Entry& q) {
         const auto key = [&](const Entry& e) {
             return std::tuple<std::uint8_t, bool, double, std::string_view, std::uint32_t, Kind>(

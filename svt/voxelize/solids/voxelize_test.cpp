@@ -291,6 +291,24 @@ TEST(Voxelize, ALeafStaysWholeHoweverItsFaceIsCut) {
     }
 }
 
+// A side of the plate lies on the samples at x = 0.5, and so does a surface of equal rank. Whether those samples count as
+// inside of the plate hangs on the side; that the plate has them does not.
+TEST(Voxelize, APlateWithSamplesOnASideHasThemAsIfInside) {
+    for (const auto& [low, high] : {std::pair{0.44, 0.5}, {0.5, 0.56}}) {
+        test::ObjectMesh surface;
+        surface.vertices = {{0.5, 0.15, 0.15}, {0.5, 0.15, 0.85}, {0.5, 0.95, 0.85}, {0.5, 0.95, 0.15}};
+        test::addTriangle(surface, 0, 1, 2);
+        test::addTriangle(surface, 0, 2, 3);
+        surface.closure = mesh::Closure::Surface;
+        const auto meshes = meshSetOf({box({low, 0.15, 0.15}, {high, 0.85, 0.85}), surface});
+        const auto result = voxelize(meshes, gridWith({0, 0, 0}, {0.1, 0.1, 0.1}, {11, 11, 11}), claimsFor(meshes));
+        ASSERT_TRUE(result);
+        EXPECT_EQ(countOf(*result, 1), 7u * 7u) << low;
+        for (int j = 2; j < 9; ++j) EXPECT_EQ(result->columns.scalarAt(5, j, 5), 1u) << low << ' ' << j;
+        EXPECT_TRUE(result->overlaps.empty());
+    }
+}
+
 TEST(Voxelize, RodThinnerThanAVoxelIsALineOfVoxels) {
     const auto meshes = meshSetOf({box({0.031, 0.031, 0.01}, {0.034, 0.034, 0.99}), box({0, 0, -0.1}, {1, 1, -0.05})});
     const Grid grid = gridOver(meshes, {21, 21, 56});
