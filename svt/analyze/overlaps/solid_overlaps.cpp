@@ -81,8 +81,8 @@ struct Clip {
 
 Clip clip(const Solid& solid, const volume::VectorParts& parts, const Box3d& box) {
     Clip clip;
-    const Vec3d size = box.size();
-    // No plane cuts more out of a box.
+    // The rounding of corners may move each side of the box. No plane cuts more out of it.
+    const Vec3d size = box.size() + Vec3d{1, 1, 1} * (2 * parts.unit);
     const double largest = length(Vec3d{size.x * size.y, size.y * size.z, size.z * size.x});
     for (const Triangle& triangle : solid.triangles) {
         const std::array<Vec3d, 3> corners = cornersOf(triangle, parts);
@@ -147,9 +147,13 @@ private:
         if (!take(comparisons(ofS.roofs, ofT.roofs))) return;
         const auto [a, b] = inOrder(s.label, t.label);
         SolidOverlap overlap{a, b};
-        overlap.volume = std::max(0.0, commonVolume(ofS.roofs, ofT.roofs, std::min(ofS.lowest, ofT.lowest)));
-        // Each face lies within the rounding of its corners.
-        overlap.bound = (ofS.area + ofT.area) * volume_.vectors.unit;
+        const double lowest = std::min(ofS.lowest, ofT.lowest);
+        overlap.volume = std::max(0.0, commonVolume(ofS.roofs, ofT.roofs, lowest));
+        // Each face lies within the rounding of its corners. The sum of prisms rounds, too, also where no face is in the box.
+        constexpr double kRoundingOfSum = 1e-9;
+        const Vec3d size = box.size();
+        overlap.bound = (ofS.area + ofT.area) * volume_.vectors.unit +
+                        kRoundingOfSum * size.x * size.y * std::max(0.0, box.max.z - std::min(lowest, box.min.z));
         overlap.isExact = true;
         overlap.isNested = areNested(volume_.labels, a, b);
         if (const auto known = found_.find({a, b}); known != found_.end()) overlap.voxels = known->second.voxels;

@@ -338,7 +338,10 @@ private:
         if (!heights) return heights.error();
         const Vec3d spacing = grid().spacing();
         const auto reach = [&](int axis) { return grid().dimension()[axis] * spacing[axis]; };
-        return boxOf({-reach(0), -reach(1), heights->low}, {2 * reach(0), 2 * reach(1), heights->top});
+        // Voxels are whole: half of one of the ceiling would hide what is below.
+        const double first = std::ceil(heights->low / spacing.z), end = std::ceil(heights->top / spacing.z);
+        return boxOf({-reach(0), -reach(1), (first - 0.5) * spacing.z},
+                     {2 * reach(0), 2 * reach(1), (end - 0.5) * spacing.z});
     }
 
     // A region without points, beside the grid: there is nothing to be around.

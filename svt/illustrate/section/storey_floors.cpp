@@ -44,19 +44,23 @@ public:
             extent_.box.add(corner[n]);
         }
         const Vec3d twice = cross(corner[1] - corner[0], corner[2] - corner[0]);
-        if (isSpace_ && -twice.z > kLevelCosine * length(twice))
-            levels_.push_back({(corner[0].z + corner[1].z + corner[2].z) / 3, -0.5 * twice.z, 0});
+        if (!isSpace_ || !(std::abs(twice.z) > kLevelCosine * length(twice))) return;
+        const FloorHeight level{(corner[0].z + corner[1].z + corner[2].z) / 3, 0.5 * std::abs(twice.z), 0};
+        (twice.z < 0 ? floors_ : ceilings_).push_back(level);
     }
 
     LabelExtent get() {
         const Vec3d size = extent_.box.size();
         extent_.floor = extent_.box.min.z;
         extent_.floorArea = size.x * size.y;
-        std::sort(levels_.begin(), levels_.end(), isLowerFloor);
-        if (const auto floor = mainFloor(levels_, -kInfinity, kInfinity)) {
+        extent_.ceiling = extent_.box.max.z;
+        for (std::vector<FloorHeight>* levels : {&floors_, &ceilings_})
+            std::sort(levels->begin(), levels->end(), isLowerFloor);
+        if (const auto floor = mainFloor(floors_, -kInfinity, kInfinity)) {
             extent_.floor = floor->at;
             extent_.floorArea = floor->area;
         }
+        if (const auto ceiling = mainFloor(ceilings_, extent_.floor, kInfinity)) extent_.ceiling = ceiling->at;
         return extent_;
     }
 
@@ -65,7 +69,7 @@ private:
     const std::array<Vec3d, 3>& axes_;
     bool isSpace_;
     LabelExtent extent_;
-    std::vector<FloorHeight> levels_;  // of faces that look down
+    std::vector<FloorHeight> floors_, ceilings_;  // of level faces that look down and up
 };
 
 // What a storey is made of, and the heights that follow.
@@ -95,12 +99,13 @@ public:
         const LabelExtent& extent = !spaces_.box.isEmpty() ? spaces_ : !all_.box.isEmpty() ? all_ : own_;
         if (extent.box.isEmpty()) return std::nullopt;
         const FloorHeight floor = floorAt(extent, ofModel);
-        return StoreyHeights{label, floor.at, extent.box.min.z, extent.box.max.z, floor.bound};
+        return StoreyHeights{label, floor.at, extent.box.min.z, extent.ceiling, floor.bound};
     }
 
 private:
     struct Sum : LabelExtent {
         void add(const LabelExtent& other) {
+            ceiling = box.isEmpty() ? other.ceiling : std::max(ceiling, other.ceiling);
             box.add(other.box);
             bound = std::max(bound, other.bound);
         }
@@ -170,6 +175,7 @@ std::vector<LabelExtent> labelExtents(const volume::SemanticVolume& volume) {
         extent.box.add(scaled(toDouble(samples[l].min) - half, spacing));
         extent.box.add(scaled(toDouble(samples[l].max) + half, spacing));
         extent.floor = extent.box.min.z;
+        extent.ceiling = extent.box.max.z;
         extent.floorArea = extent.box.size().x * extent.box.size().y;
         extent.bound = spacing.z;
     }
@@ -221,15 +227,16 @@ Result<StoreyHeights> storeyHeights(const std::string& storey, const volume::Sem
     const std::vector<LabelExtent> extents = labelExtents(volume);
     StoreyExtent extent;
     std::uint32_t found = volume::kNoLabel;
-    for (const std::uint32_t l : *selected) {
-        const bool isNamed = labels[l].id == storey || labels[l].name == storey;
-        if (isNamed && model::query::isStorey(rows.get()[l])) {
-            extent.addStorey(labels[l], extents[l], volume.grid);
-            found = std::min(found, l);
-        } else {
-            extent.add(labels[l], extents[l]);
-        }
+    const auto isStoreyItself = [&](std::uint32_t l) {
+        return (labels[l].id == storey || labels[l].name == storey) && model::query::isStorey(rows.get()[l]);
+    };
+    for (std::uint32_t l = 0; l < labels.size(); ++l) {
+        if (!isStoreyItself(l)) continue;
+        extent.addStorey(labels[l], extents[l], volume.grid);
+        found = std::min(found, l);
     }
+    for (const std::uint32_t l : *selected)
+        if (!isStoreyItself(l)) extent.add(labels[l], extents[l]);
     const auto heights = extent.heights(found, roomFloors(volume, extents));
     if (!heights) return Error(Code::NothingSelected, fmt::format("the storey '{}' has no voxels", storey));
     return *heights;

@@ -109,7 +109,7 @@ TEST(StoreyFloors, PlansStoreysAndAreasHaveOneFloor) {
     ASSERT_EQ(levels.size(), 1u);
     ASSERT_TRUE(plane);
     EXPECT_EQ(storeys[0].floor, levels[0].floor);
-    EXPECT_DOUBLE_EQ(dot(plane->normal, plane->point - boxes.volume.grid.origin()), levels[0].floor + 1.1);
+    EXPECT_NEAR(dot(plane->normal, plane->point - boxes.volume.grid.origin()), levels[0].floor + 1.1, 1e-12);
     const auto areas = measureFloorAreas(boxes.volume, levels);
     ASSERT_TRUE(areas);
     EXPECT_NEAR(areas->levels[0].gross, 7.5 * 5.5, 1e-4) << "cut above the slab, not within";

@@ -233,7 +233,9 @@ std::uint64_t addThinParts(const IndexMesh& mesh, const IndexFromLocal& indexFro
     }
     const auto ties =
         std::stable_partition(raw.begin(), raw.end(), [&](const ClaimedBox& box) { return box.claim == claims.thin; });
-    return addDisjoint({raw.begin(), ties}, boxes) + addDisjoint({ties, raw.end()}, boxes);
+    const std::span<const ClaimedBox> all(raw);
+    const auto count = static_cast<std::size_t>(ties - raw.begin());
+    return addDisjoint(all.first(count), boxes) + addDisjoint(all.subspan(count), boxes);
 }
 
 }  // namespace svt::voxelize

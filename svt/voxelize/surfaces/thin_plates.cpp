@@ -12,7 +12,7 @@
 namespace svt::voxelize {
 namespace {
 
-constexpr double kOpposite = -0.94;  // cosine between the two sides of a plate: 20 degrees
+constexpr double kOpposite = -0.99;  // cosine between the two sides of a plate: 8 degrees; a wedge is no plate
 constexpr double kAlmost = 0.99;     // of the longest component of a normal: as long, but for rounding
 constexpr std::int32_t kStrip = 32;  // rows at a time
 constexpr std::uint64_t kLooks = 34'000'000, kLooksPerFace = 256;

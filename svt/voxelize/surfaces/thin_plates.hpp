@@ -21,7 +21,7 @@ struct ThinClaims {
 };
 
 /// Adds, for each sample line along the dominant axis of a face, the nearest sample to the middle of the material behind
-/// the face, where the material has no sample. Faces within 20 degrees of each other are the two sides of a plate.
+/// the face, where the material has no sample. Faces within 8 degrees of each other are the two sides of a plate.
 /// Cost: O(n log n) in triangles, then the sample lines of plates. Past 34 million boxes looked at, and 256 a face,
 /// the faces that are left get nothing.
 void addThinPlates(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, Vec3i dimension,

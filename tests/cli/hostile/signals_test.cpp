@@ -10,6 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <csignal>
 #include <functional>
 #include <optional>
@@ -33,8 +35,17 @@ public:
         std::vector<char*> pointers;
         for (std::string& text : texts) pointers.push_back(text.data());
         pointers.push_back(nullptr);
+        std::array<int, 2> started{};  // closed when the child becomes svt
+        if (::pipe2(started.data(), O_CLOEXEC) != 0) ADD_FAILURE() << "no pipe";
         child_ = ::fork();
-        if (child_ != 0) return;
+        if (child_ != 0) {
+            ::close(started[1]);
+            char none = 0;
+            while (::read(started[0], &none, 1) < 0 && errno == EINTR) {
+            }
+            ::close(started[0]);
+            return;
+        }
         for (const int signal : {SIGTERM, SIGHUP, SIGINT, SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_DFL);
         const int nothing = ::open("/dev/null", O_RDWR);
         for (const int stream : {0, 1, 2}) ::dup2(nothing, stream);
