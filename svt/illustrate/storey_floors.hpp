@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace svt::illustrate {
@@ -23,12 +24,11 @@ struct LabelExtent {
     Box3d box;             ///< empty where the label has neither a mesh nor voxels
     double floor = 0;      ///< of a space: the height of most of its floor; of others, and on slopes, box.min.z
     double floorArea = 0;  ///< m2 at that height; of voxels and slopes that of the box seen from above
-    double ceiling = 0;    ///< of a space: the height of most of its level ceiling; of others, and on slopes, box.max.z
     double bound = 0;      ///< of all heights here: 0 of meshes, one voxel of voxels
 };
 
 /// The extents of all labels; entry l is label l. A space stands on the height at which most of the area of its faces lies
-/// that look down, so the recess of a hatch or a shaft is not its floor. Its ceiling likewise.
+/// that look down, so the recess of a hatch or a shaft is not its floor.
 /// Cost: O(triangles, n log n of those of spaces), and that of analyze::labelBoxes().
 [[nodiscard]] std::vector<LabelExtent> labelExtents(const volume::SemanticVolume& volume);
 
@@ -48,7 +48,7 @@ struct FloorHeight {
 struct StoreyHeights {
     std::uint32_t label = 0;
     double floor = 0;         ///< on which most of its rooms stand
-    double low = 0, top = 0;  ///< lowest point and highest ceiling of its spaces; without any, of all that is on it
+    double low = 0, top = 0;  ///< of its rooms and other spaces; without any, of all that is on it
     double bound = 0;  ///< by which `floor` may be off: 0 from meshes and declared elevations, one voxel from voxels
 };
 
@@ -62,6 +62,13 @@ struct StoreyHeights {
 /// The same with existing rows, which must be those of volume.labels.
 [[nodiscard]] Result<StoreyHeights> storeyHeights(const std::string& storey, const volume::SemanticVolume& volume,
                                                   const analyze::LabelRows& rows);
+
+/// Where the voxels of a storey's spaces begin and end, metres above the grid's lower corner: the part that a picture shows of
+/// the storey. The voxels of ceilings and other surfaces that bound the spaces are outside.
+/// \return the heights, or NothingSelected if there is no such storey, or it has no voxels
+[[nodiscard]] Result<std::pair<double, double>> storeyVoxels(const std::string& storey,
+                                                             const volume::SemanticVolume& volume,
+                                                             const analyze::LabelRows& rows);
 
 /// All storeys with meshes or voxels, with their heights as storeyHeights() gives them; the lowest first, those of equal
 /// height by label.

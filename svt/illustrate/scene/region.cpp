@@ -334,14 +334,11 @@ private:
         std::string name = text;
         if (name.size() >= 2 && (name.front() == '"' || name.front() == '\'') && name.back() == name.front())
             name = name.substr(1, name.size() - 2);
-        const auto heights = storeyHeights(name, context_.volume, context_.rows);
+        const auto heights = storeyVoxels(name, context_.volume, context_.rows);
         if (!heights) return heights.error();
         const Vec3d spacing = grid().spacing();
         const auto reach = [&](int axis) { return grid().dimension()[axis] * spacing[axis]; };
-        // Voxels are whole: half of one of the ceiling would hide what is below.
-        const double first = std::ceil(heights->low / spacing.z), end = std::ceil(heights->top / spacing.z);
-        return boxOf({-reach(0), -reach(1), (first - 0.5) * spacing.z},
-                     {2 * reach(0), 2 * reach(1), (end - 0.5) * spacing.z});
+        return boxOf({-reach(0), -reach(1), heights->first}, {2 * reach(0), 2 * reach(1), heights->second});
     }
 
     // A region without points, beside the grid: there is nothing to be around.

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace svt::illustrate {
 namespace {
@@ -44,23 +45,19 @@ public:
             extent_.box.add(corner[n]);
         }
         const Vec3d twice = cross(corner[1] - corner[0], corner[2] - corner[0]);
-        if (!isSpace_ || !(std::abs(twice.z) > kLevelCosine * length(twice))) return;
-        const FloorHeight level{(corner[0].z + corner[1].z + corner[2].z) / 3, 0.5 * std::abs(twice.z), 0};
-        (twice.z < 0 ? floors_ : ceilings_).push_back(level);
+        if (isSpace_ && -twice.z > kLevelCosine * length(twice))
+            levels_.push_back({(corner[0].z + corner[1].z + corner[2].z) / 3, -0.5 * twice.z, 0});
     }
 
     LabelExtent get() {
         const Vec3d size = extent_.box.size();
         extent_.floor = extent_.box.min.z;
         extent_.floorArea = size.x * size.y;
-        extent_.ceiling = extent_.box.max.z;
-        for (std::vector<FloorHeight>* levels : {&floors_, &ceilings_})
-            std::sort(levels->begin(), levels->end(), isLowerFloor);
-        if (const auto floor = mainFloor(floors_, -kInfinity, kInfinity)) {
+        std::sort(levels_.begin(), levels_.end(), isLowerFloor);
+        if (const auto floor = mainFloor(levels_, -kInfinity, kInfinity)) {
             extent_.floor = floor->at;
             extent_.floorArea = floor->area;
         }
-        if (const auto ceiling = mainFloor(ceilings_, extent_.floor, kInfinity)) extent_.ceiling = ceiling->at;
         return extent_;
     }
 
@@ -69,7 +66,7 @@ private:
     const std::array<Vec3d, 3>& axes_;
     bool isSpace_;
     LabelExtent extent_;
-    std::vector<FloorHeight> floors_, ceilings_;  // of level faces that look down and up
+    std::vector<FloorHeight> levels_;  // of faces that look down
 };
 
 // What a storey is made of, and the heights that follow.
@@ -99,13 +96,12 @@ public:
         const LabelExtent& extent = !spaces_.box.isEmpty() ? spaces_ : !all_.box.isEmpty() ? all_ : own_;
         if (extent.box.isEmpty()) return std::nullopt;
         const FloorHeight floor = floorAt(extent, ofModel);
-        return StoreyHeights{label, floor.at, extent.box.min.z, extent.ceiling, floor.bound};
+        return StoreyHeights{label, floor.at, extent.box.min.z, extent.box.max.z, floor.bound};
     }
 
 private:
     struct Sum : LabelExtent {
         void add(const LabelExtent& other) {
-            ceiling = box.isEmpty() ? other.ceiling : std::max(ceiling, other.ceiling);
             box.add(other.box);
             bound = std::max(bound, other.bound);
         }
@@ -155,6 +151,15 @@ private:
     std::vector<std::uint32_t> labels_;
 };
 
+Result<std::vector<std::uint32_t>> labelsOnStorey(const std::string& storey, const analyze::LabelRows& rows) {
+    std::string quoted;
+    for (const char c : storey) {
+        if (c == '"' || c == '\\') quoted += '\\';
+        quoted += c;
+    }
+    return analyze::selectLabels(rows, fmt::format("storey=\"{}\"", quoted));
+}
+
 }  // namespace
 
 std::vector<LabelExtent> labelExtents(const volume::SemanticVolume& volume) {
@@ -175,7 +180,6 @@ std::vector<LabelExtent> labelExtents(const volume::SemanticVolume& volume) {
         extent.box.add(scaled(toDouble(samples[l].min) - half, spacing));
         extent.box.add(scaled(toDouble(samples[l].max) + half, spacing));
         extent.floor = extent.box.min.z;
-        extent.ceiling = extent.box.max.z;
         extent.floorArea = extent.box.size().x * extent.box.size().y;
         extent.bound = spacing.z;
     }
@@ -216,12 +220,7 @@ Result<StoreyHeights> storeyHeights(const std::string& storey, const volume::Sem
 
 Result<StoreyHeights> storeyHeights(const std::string& storey, const volume::SemanticVolume& volume,
                                     const analyze::LabelRows& rows) {
-    std::string quoted;
-    for (const char c : storey) {
-        if (c == '"' || c == '\\') quoted += '\\';
-        quoted += c;
-    }
-    const auto selected = analyze::selectLabels(rows, fmt::format("storey=\"{}\"", quoted));
+    const auto selected = labelsOnStorey(storey, rows);
     if (!selected) return selected.error();
     const auto& labels = volume.labels.labels;
     const std::vector<LabelExtent> extents = labelExtents(volume);
@@ -240,6 +239,22 @@ Result<StoreyHeights> storeyHeights(const std::string& storey, const volume::Sem
     const auto heights = extent.heights(found, roomFloors(volume, extents));
     if (!heights) return Error(Code::NothingSelected, fmt::format("the storey '{}' has no voxels", storey));
     return *heights;
+}
+
+Result<std::pair<double, double>> storeyVoxels(const std::string& storey, const volume::SemanticVolume& volume,
+                                               const analyze::LabelRows& rows) {
+    const auto selected = labelsOnStorey(storey, rows);
+    if (!selected) return selected.error();
+    const auto boxes = analyze::labelBoxes(volume.columns, volume.labels);
+    analyze::SampleBox spaces, all;
+    for (const std::uint32_t l : *selected) {
+        all.add(boxes[l]);
+        if (model::isSpace(volume.labels.labels[l].className)) spaces.add(boxes[l]);
+    }
+    if (all.isEmpty()) return Error(Code::NothingSelected, fmt::format("the storey '{}' has no voxels", storey));
+    const analyze::SampleBox& box = spaces.isEmpty() ? all : spaces;
+    const double spacing = volume.grid.spacing().z;
+    return std::pair((box.min.z - 0.5) * spacing, (box.max.z + 0.5) * spacing);
 }
 
 std::vector<StoreyHeights> findStoreys(const volume::SemanticVolume& volume) {
