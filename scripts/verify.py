@@ -54,6 +54,7 @@ CHECKS = {
     "check": Check("make -s check", 2, False),
     "test": Check("make -s test", 50, False),
     "fuzz": Check("make -s fuzz SECONDS=120", 45, False),
+    "slurm": Check("scripts/setup.sh slurm && make -s build && scripts/test_slurm.sh build/release/bin/svt long", 12),
     **{
         f"asan/{part}": Check(f"scripts/setup.sh && scripts/sanitize.sh asan {folders}", 25)
         for part, folders in FOLDERS.items()
@@ -77,7 +78,6 @@ CHECKS = {
         "make -s npm && scripts/test_npm.sh build/release/bin/svt",
         30,
     ),
-    "slurm": Check("scripts/setup.sh slurm && make -s build && scripts/test_slurm.sh build/release/bin/svt long", 12),
 }
 
 
