@@ -152,6 +152,7 @@ describe("tables and several models", () => {
     await visit.choose({ name: "other.csv", bytes: Buffer.from(`feature,owner\n${rooms[0]},Cleo\n`) });
     await visit.message("Owners are those of other.csv");
     assert.deepEqual(await inPage("s.engine.select('owner=Ada').catch(() => [])"), []);
+    await visit.settled();
     await visit.choose({ name: "bad.csv", bytes: Buffer.from("feature,owner\nno such thing,Ada\n") });
     await visit.page
       .locator("#message.bad")

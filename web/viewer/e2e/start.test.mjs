@@ -26,8 +26,8 @@ describe("start", () => {
     const all = Math.max(...each);
     t.diagnostic(`own ${Math.round(own / 1000)} kB, all ${Math.round(all / 1000)} kB, compressed`);
     assert.ok(own <= 300_000, `own scripts and styles: ${own} bytes compressed, at most 300000`);
-    // Of these the module has 1.5 MB: cities, and inlining, which turns the view faster than bytes cost at the start.
-    assert.ok(all <= 1_750_000, `all: ${all} bytes compressed, at most 1750000`);
+    // Of these the module has 1.5 MB: cities with all that draws them, and inlining, which turns the view faster than bytes cost at the start.
+    assert.ok(all <= 1_800_000, `all: ${all} bytes compressed, at most 1800000`);
   });
 
   it("says what of others it holds, with versions", () => {
