@@ -16,6 +16,6 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
   set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
 endif()
-# ccache passes paths below the checkout relative to the build folder, so both spellings are mapped.
-file(RELATIVE_PATH root_from_build ${CMAKE_BINARY_DIR} ${PROJECT_SOURCE_DIR})
-add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/= -ffile-prefix-map=${root_from_build}=)
+# Only the absolute path is mapped. ccache passes paths relative to the build folder; mapped as well, the names of headers
+# would lead nowhere, and no precompiled header of another clone would be found.
+add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
