@@ -8,6 +8,8 @@ import re
 import sys
 from pathlib import Path
 
+from findings import report
+
 SECTIONS = ["## When", "## Example", "## What to do"]
 
 
@@ -65,13 +67,5 @@ def findings(root: Path) -> list[str]:
     return found
 
 
-def main() -> int:
-    root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent
-    problems = findings(root)
-    for problem in problems:
-        print(problem, file=sys.stderr)
-    return 1 if problems else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(report(findings))

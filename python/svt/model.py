@@ -91,7 +91,7 @@ def read(
     keep_far_features
         Keep features that lie far away from all others.
     allow_truncated
-        Read what is there of a file that was cut off (IFC, CityJSONSeq); a finding says so.
+        Read a file that was cut off (IFC, CityJSONSeq) up to the cut; a finding says so.
     progress
         Called with (stage, fraction).
 

@@ -4,6 +4,7 @@
 
 #include <svt/volume/semantic_volume.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,10 +25,19 @@ struct SolidOverlapOptions {
     std::uint64_t work = std::uint64_t{1} << 30;
 };
 
-/// All pairs of solids with a common volume that exceeds its bound, and all pairs that share voxels, ordered by (a, b).
+struct SolidOverlaps {
+    /// Ordered by (a, b): solids with a common volume that exceeds its bound, and all that share voxels.
+    std::vector<SolidOverlap> pairs;
+    /// Solids of which the volume keeps no closed mesh: an overlap between samples is not found.
+    std::size_t withoutMesh = 0;
+    /// False where the work did not suffice for all pairs: an overlap between samples may be missing.
+    bool isComplete = true;
+};
+
+/// The overlaps of all solids.
 /// Cost: O(n log n) in solids, then for each pair whose boxes overlap its triangles there; at most `work`.
-[[nodiscard]] std::vector<SolidOverlap> solidOverlaps(const volume::SemanticVolume& volume,
-                                                      const SolidOverlapOptions& options = {});
+[[nodiscard]] SolidOverlaps solidOverlaps(const volume::SemanticVolume& volume,
+                                          const SolidOverlapOptions& options = {});
 
 /// Whether one label belongs to the other by the model's hierarchy or groups: a room in its building, a door in the flat
 /// that has its wall as a member.

@@ -69,7 +69,7 @@ public:
 
     /// Reads city.json and the root of the index, and proves what it reads: city.json by its digest, in a folder index.bin,
     /// ids.bin and packs.bin by size and SHA-256 (of files over 64 MiB the size alone). The files of a server, and larger
-    /// ones, are proven page by page when they are read. Cities of earlier programs tell no digests; of them pages alone are
+    /// ones, are proven page by page when they are read. Cities of earlier programs have no digests: only their pages are
     /// proven.
     /// \param folder  or the address of one (http://, https://), which is read by requests for ranges
     /// \return the city, or BadCity where one of them is missing or damaged; PlanVersion; CannotOpen where a server does

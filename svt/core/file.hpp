@@ -54,24 +54,24 @@ private:
 
 /// The bytes of a regular file in memory, read-only. Move-only; they stay valid for the lifetime of the object.
 /// Replacing the file by rename (as AtomicFile does) leaves them as they are.
-class MappedFile {
+class FileBytes {
 public:
     static constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
     /// Reads the whole file; what other programs do to it later does not matter. An empty file gives an empty span.
     /// \return the file, or CannotOpen that says why: missing, a folder, no permission, a pipe or device, or a size that
     ///         changes while it is read; InputTooBig for more than `maxBytes`, or than there is memory for
-    [[nodiscard]] static Result<MappedFile> open(const std::filesystem::path& path, std::uint64_t maxBytes = kNoLimit);
+    [[nodiscard]] static Result<FileBytes> read(const std::filesystem::path& path, std::uint64_t maxBytes = kNoLimit);
     /// Maps the file, for one that may be larger than memory and is read from its begin to its end. If another program
     /// shortens it, access raises SIGBUS, as with every mapping. Cost: O(1), pages are read when touched.
-    /// \return as open()
-    [[nodiscard]] static Result<MappedFile> map(const std::filesystem::path& path, std::uint64_t maxBytes = kNoLimit);
+    /// \return as read()
+    [[nodiscard]] static Result<FileBytes> map(const std::filesystem::path& path, std::uint64_t maxBytes = kNoLimit);
 
-    MappedFile(MappedFile&& other) noexcept;
-    MappedFile& operator=(MappedFile&& other) noexcept;
-    MappedFile(const MappedFile&) = delete;
-    MappedFile& operator=(const MappedFile&) = delete;
-    ~MappedFile();
+    FileBytes(FileBytes&& other) noexcept;
+    FileBytes& operator=(FileBytes&& other) noexcept;
+    FileBytes(const FileBytes&) = delete;
+    FileBytes& operator=(const FileBytes&) = delete;
+    ~FileBytes();
 
     [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
     /// The same bytes as characters; no encoding is checked.
@@ -80,7 +80,7 @@ public:
     }
 
 private:
-    MappedFile() = default;
+    FileBytes() = default;
 
     std::span<const std::byte> bytes_;
     std::unique_ptr<std::byte[]> own_;  // null of a mapping
@@ -90,7 +90,7 @@ private:
 /// Replacing the file by rename leaves the open one as it is. Threads: parts may be read at once.
 class PartFile {
 public:
-    /// \return the file, or CannotOpen as MappedFile
+    /// \return the file, or CannotOpen as FileBytes
     [[nodiscard]] static Result<PartFile> open(const std::filesystem::path& path);
 
     PartFile(PartFile&& other) noexcept;

@@ -34,7 +34,7 @@ struct MemoryGrant {
 [[nodiscard]] std::optional<MemoryGrant> memoryGrant();
 
 /// From now on allocations fail (std::bad_alloc) that would take the data of this process beyond `bytes`. Files of
-/// MappedFile::map() do not count. Where a sanitizer watches, which takes address space of its own, memoryFigures() tells it alone.
+/// FileBytes::map() do not count. Where a sanitizer watches, which takes address space of its own, only memoryFigures() reports it.
 /// \param by  what set the limit, for MemoryFigures::limitedBy
 void limitMemory(std::uint64_t bytes, std::string_view by);
 

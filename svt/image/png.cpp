@@ -174,7 +174,7 @@ Result<void> writeBytes(const std::filesystem::path& path, const Result<std::vec
 }
 
 Result<void> readFile(const std::filesystem::path& path, Target& target) {
-    const auto file = MappedFile::open(path);
+    const auto file = FileBytes::read(path);
     if (!file) return file.error();
     if (auto decoded = decode(file->bytes(), target); !decoded)
         return Error(decoded.error().code(), decoded.error().message(), Place{path.string(), 0, 0, {}});

@@ -37,7 +37,7 @@ struct BuildOptions {
     int crs = 0;  ///< EPSG code of a projection in metres that files are brought to; 0: see ReadOptions
     bool keepFarFeatures = false;      ///< features of files that lie far away from all others are not left out
     bool extrudeFootprints = false;    ///< footprints with a height as attribute become bodies
-    bool allowTruncated = false;       ///< of files that were cut off, what is there is read
+    bool allowTruncated = false;       ///< read files that were cut off up to the cut
     bool splitLayers = false;          ///< walls and slabs of IFC files become the layers of their material
     bool assignThematicBodies = true;  ///< assigns material between hull and rooms to the nearest boundary surface
     bool usePatterns = false;          ///< use the patterns of the built-in style

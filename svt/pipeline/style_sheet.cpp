@@ -183,7 +183,7 @@ Vec3f shade(Vec3f color, std::size_t phase) {
 
 Result<std::string> readText(const std::filesystem::path& file) {
     constexpr std::uint64_t kMaxBytes = std::uint64_t{16} << 20;
-    const auto mapped = MappedFile::open(file, kMaxBytes);
+    const auto mapped = FileBytes::read(file, kMaxBytes);
     if (!mapped) return mapped.error();
     return std::string(mapped->text());
 }

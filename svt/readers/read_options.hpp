@@ -23,7 +23,7 @@ struct ReadOptions {
     int axisOrder = 0;
     bool keepFarFeatures = false;    ///< features far away from all others are not left out
     bool extrudeFootprints = false;  ///< footprints with a height as attribute become bodies
-    bool allowTruncated = false;     ///< of a file that was cut off, what is there is read (IFC, CityJSONSeq)
+    bool allowTruncated = false;     ///< read a file that was cut off up to the cut (IFC, CityJSONSeq)
     bool splitLayers = false;        ///< IFC: walls and slabs become the layers of their material
 };
 

@@ -53,7 +53,7 @@ Reply replyTo(const ChildResult& result, const ChildLimits& limits, const fs::pa
                         "server allows",
                         result.signal, limits.memoryBytes >> 20));
     if (result.exitCode != 0) return refusalOf(result.messages);
-    auto file = MappedFile::open(volume);
+    auto file = FileBytes::read(volume);
     if (!file) return Reply::error(500, codeTag(file.error().code()), "the conversion left no volume");
     Reply reply;
     reply.type = "application/vnd.svt+zip";

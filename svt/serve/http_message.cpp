@@ -148,8 +148,8 @@ Bytes Bytes::of(std::string text) {
     return {std::as_bytes(std::span(*owner)), owner};
 }
 
-Bytes Bytes::of(MappedFile file) {
-    auto owner = std::make_shared<const MappedFile>(std::move(file));
+Bytes Bytes::of(FileBytes file) {
+    auto owner = std::make_shared<const FileBytes>(std::move(file));
     return {owner->bytes(), owner};
 }
 

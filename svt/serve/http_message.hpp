@@ -24,7 +24,7 @@ struct Bytes {
     std::shared_ptr<const void> owner;
 
     [[nodiscard]] static Bytes of(std::string text);
-    [[nodiscard]] static Bytes of(MappedFile file);
+    [[nodiscard]] static Bytes of(FileBytes file);
     [[nodiscard]] std::string_view text() const noexcept {
         return {reinterpret_cast<const char*>(data.data()), data.size()};
     }

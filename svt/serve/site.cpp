@@ -258,7 +258,7 @@ Result<void> Site::addFolder(const fs::path& folder) {
     std::uint64_t total = 0;
     std::vector<Bytes> contents;
     for (const Found& found : *files) {
-        const auto file = MappedFile::open(found.file);
+        const auto file = FileBytes::read(found.file);
         if (!file) return file.error();
         total += file->bytes().size();
         if (total > kMaxFolderBytes)

@@ -43,7 +43,7 @@ struct LabelReadOptions {
 /// Cost: O(samples). Memory: the columns, and two slices (of Zarr a band of chunks); never the dense volume.
 /// \return the volume, or CannotOpen; BadNrrd, BadImage or BadVolume with what is wrong; InputTooBig; BadDimension,
 ///         GridTooLarge; BadJson for a table; BadChecksum where table or
-///         samples are no longer those that were written; Cancelled
+///         samples differ from those that were written; Cancelled
 [[nodiscard]] Result<volume::SemanticVolume> readLabelVolume(const std::filesystem::path& path,
                                                              const LabelReadOptions& options = {});
 

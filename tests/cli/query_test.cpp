@@ -194,6 +194,10 @@ TEST(QueryReports, OverlapsThinnerThanAVoxelAreTold) {
     std::sort(volumes.begin(), volumes.end());
     EXPECT_NEAR(volumes[0], 0.001 * 2 * 2, 1e-4);
     EXPECT_NEAR(volumes[1], 0.04 * 2 * 2, 1e-4);
+    // Without meshes they are unknown, and the command says so.
+    (void)runSvtWell(folder.path(), {"build", "thin.gml", "-o", "voxels.svt", "--spacing", "0.2", "--vectors", "none"});
+    const CommandResult voxels = runSvt(folder.path(), {"query", "voxels.svt", "all", "--overlaps", "--json"});
+    EXPECT_NE(voxels.err.find("5 solids have no closed mesh"), std::string::npos) << voxels.toString();
 }
 
 TEST(QueryReports, ThePartyWallOfTheTowerIsHalfEachOnes) {

@@ -462,7 +462,7 @@ protected:
         return text.substr(0, text.find('\n'));
     }
     [[nodiscard]] std::string bytesOf(const std::string& file) const {
-        const auto mapped = MappedFile::open(folder_.path() / file);
+        const auto mapped = FileBytes::read(folder_.path() / file);
         return mapped ? std::string(mapped->text()) : std::string();
     }
 
@@ -511,7 +511,7 @@ TEST(Motion, PicturesOfASeriesAreThoseOfTheScene) {
     }
     runSvtWell(folder.path(), {"render", "house.svt", "-o", "p.png", "--scene", "move.scene.json", "--frames", "3"});
     const auto same = [&](const char* a, const char* b) {
-        const auto first = MappedFile::open(folder.path() / a), second = MappedFile::open(folder.path() / b);
+        const auto first = FileBytes::read(folder.path() / a), second = FileBytes::read(folder.path() / b);
         return first && second && first->text() == second->text();
     };
     for (const auto& [file, plane] :
@@ -527,7 +527,7 @@ TEST(Motion, AMovingSectionIsKeptInTheWrittenScene) {
     runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
     runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.25"});
     const auto same = [&](const std::string& a, const std::string& b) {
-        const auto first = MappedFile::open(folder.path() / a), second = MappedFile::open(folder.path() / b);
+        const auto first = FileBytes::read(folder.path() / a), second = FileBytes::read(folder.path() / b);
         return first && second && first->text() == second->text();
     };
     const std::vector<std::vector<std::string>> cases{{"--section", "z=6..1"},

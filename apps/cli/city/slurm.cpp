@@ -143,7 +143,7 @@ Result<void> keepOptions(const EngineJob& job, const SlurmJobs& jobs) {
 
 std::string resubmitLine(const std::filesystem::path& folder) {
     std::string line = fmt::format("svt city run {}", shellQuoted(folder.string()));
-    const auto file = MappedFile::open(optionsFile(folder), 1 << 20);
+    const auto file = FileBytes::read(optionsFile(folder), 1 << 20);
     if (!file) return line;
     const Json json = Json::parse(file->text(), nullptr, false);
     if (!json.is_object() || !json.contains("options") || !json["options"].is_array()) return line;

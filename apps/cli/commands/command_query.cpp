@@ -103,7 +103,7 @@ int printReport(const volume::SemanticVolume& volume, const Labels& selected, co
 }
 
 int printOwners(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
-    const auto file = MappedFile::open(arguments.owners);
+    const auto file = FileBytes::read(arguments.owners);
     if (!file) return fail(file.error());
     const auto owners = analyze::parseOwners(file->text(), arguments.owners.string(), volume.labels);
     if (!owners) return fail(owners.error());

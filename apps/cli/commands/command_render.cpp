@@ -165,7 +165,7 @@ Result<std::vector<volume::SemanticVolume>> addInputs(const RenderArguments& arg
     }
     if (auto joined = illustrate::joinLabels(volume, details); !joined) return joined.error();
     if (arguments.owners.empty()) return details;
-    const auto table = MappedFile::open(arguments.owners);
+    const auto table = FileBytes::read(arguments.owners);
     if (!table) return table.error();
     if (auto added =
             illustrate::addOwnerAttributes(volume, table->text(), arguments.owners.string(), arguments.build.threads);

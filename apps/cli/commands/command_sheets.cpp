@@ -39,7 +39,7 @@ struct SheetsArguments {
 Result<illustrate::SheetSet> readSet(const SheetsArguments& arguments) {
     illustrate::SheetSet set;
     if (!arguments.setFile.empty()) {
-        const auto file = MappedFile::open(arguments.setFile);
+        const auto file = FileBytes::read(arguments.setFile);
         if (!file) return file.error();
         auto parsed = illustrate::parseSheetSet(file->text(), arguments.setFile.string());
         if (!parsed) return parsed.error();

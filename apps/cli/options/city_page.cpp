@@ -34,7 +34,7 @@ Result<serve::SiteModel> cityModel(const std::filesystem::path& input, const std
     std::sort(files.begin(), files.end());
     for (const std::string& file : files) {
         // All of a city may be larger than memory, and whoever writes one replaces its files.
-        auto bytes = MappedFile::map(input / file);
+        auto bytes = FileBytes::map(input / file);
         if (!bytes) return bytes.error();
         model.cityFiles.emplace_back(file, serve::Bytes::of(std::move(*bytes)));
     }

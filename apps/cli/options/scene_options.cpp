@@ -196,7 +196,7 @@ void addInsets(const SceneArguments& arguments, Scene& scene) {
 
 Result<Scene> readScene(const std::filesystem::path& file) {
     constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
-    const auto mapped = MappedFile::open(file);
+    const auto mapped = FileBytes::read(file);
     if (!mapped) return mapped.error();
     if (mapped->bytes().size() > kMaxBytes)
         return Error(Code::InputTooBig, fmt::format("{}: a scene of more than 16 MiB", file.string()));

@@ -22,10 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kHeadBytes = 4096;
-
 // A model as the bytes of a .svt; the temporary file is removed.
-Result<MappedFile> built(const fs::path& input, const BuildArguments& build, Diagnostics& diagnostics) {
+Result<FileBytes> built(const fs::path& input, const BuildArguments& build, Diagnostics& diagnostics) {
     const TerminalProgress progress;
     const auto volume = loadVolume(input, build, progress.get(), diagnostics);
     if (!volume) return volume.error();
@@ -34,18 +32,13 @@ Result<MappedFile> built(const fs::path& input, const BuildArguments& build, Dia
         return Error(Code::CannotWrite, "there is no folder for temporary files; set TMPDIR to one");
     const fs::path file = folder.path() / "model.svt";
     if (const auto written = volume::writeSvt(*volume, file); !written) return written.error();
-    return MappedFile::map(file);  // nobody else knows it
+    return FileBytes::map(file);  // nobody else knows it
 }
 
 Result<serve::SiteModel> modelOf(const fs::path& input, const std::string& name, const BuildArguments& build,
                                  Diagnostics& diagnostics) {
     if (isCity(input)) return cityModel(input, name);
-    const auto head = PartFile::open(input);
-    if (!head) return head.error();
-    const auto begin = head->read(0, kHeadBytes);
-    if (!begin) return begin.error();
-    const bool isSvt = volume::looksLikeSvt(std::as_bytes(std::span(*begin)));
-    auto file = isSvt ? MappedFile::open(input) : built(input, build, diagnostics);
+    auto file = volume::isSvtFile(input) ? FileBytes::read(input) : built(input, build, diagnostics);
     if (!file) return file.error();
     const auto opened = volume::openSvt(file->bytes(), input.string());
     if (!opened) return opened.error();

@@ -102,7 +102,7 @@ Result<void> Film::finish(const Progress* progress) {
     if (done.exitCode != 0)
         return Error(Code::CannotWrite, fmt::format("{}: ffmpeg could not encode it: {}", output_.string(),
                                                     done.messages.empty() ? "it was stopped" : done.messages));
-    const auto film = MappedFile::open(encoded);
+    const auto film = FileBytes::read(encoded);
     if (!film) return film.error();
     if (auto written = writeFileAtomically(output_, film->bytes()); !written) return written.error();
     return {};

@@ -33,7 +33,7 @@ void beQuiet() noexcept;
 /// Prints "svt: error ..." to stderr and returns the exit code.
 int fail(const Error& error);
 
-/// Prints a text to stderr as it is. Never throws: a message that nobody can receive is no reason to stop.
+/// Prints a text to stderr, unchanged. Never throws: the command goes on where stderr is closed or full.
 void printMessage(std::string_view text) noexcept;
 
 /// Prints "svt: ..." to stderr, unless quiet.

@@ -21,8 +21,8 @@ struct GivenOption {
 };
 
 /// Checks the files that the options name:
-/// - an input is no pipe, socket or device, which could be read without end or wait forever (/dev/stdin may lead to a
-///   file); folders are given only where an option takes them
+/// - no input is a pipe, a socket or a device: reading one may wait forever or never end. /dev/stdin is an input where it
+///   leads to a file. A folder is an input only where the option takes folders
 /// - an output ends as its formats do; with several formats it must have an ending, unless --format tells the format
 /// - no output is a file that is read (by device and inode, through links; with the files that a style names), no two
 ///   outputs are one file, and no output takes the place of a file of another kind, told by its first 4 KiB

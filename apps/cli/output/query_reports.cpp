@@ -1,5 +1,7 @@
 #include <apps/cli/output/query_reports.hpp>
 
+#include <apps/cli/output/messages.hpp>
+
 #include <svt/analyze/gaps.hpp>
 #include <svt/analyze/label_measures.hpp>
 #include <svt/analyze/solid_overlaps.hpp>
@@ -181,7 +183,17 @@ Table overlapTable(const volume::SemanticVolume& volume, const Labels& selected)
     table.columns = {{"a", "a (has it)"}, {"aClass", "class"}, {"aName", "name"},    {"b", "b (claims it)"},
                      {"bClass", "class"}, {"bName", "name"},   {"nested", "nested"}, {"voxels", ""},
                      {"volume", "m3"},    {"bound", "+- m3"},  {"exact", "exact"}};
-    for (const analyze::SolidOverlap& overlap : analyze::solidOverlaps(volume)) {
+    const analyze::SolidOverlaps overlaps = analyze::solidOverlaps(volume);
+    if (overlaps.withoutMesh > 0)
+        note(
+            fmt::format("{} solids have no closed mesh in this volume: their overlaps are counted in voxels, and those "
+                        "between samples are not found; build the volume with --vectors meshes, or close the solids",
+                        overlaps.withoutMesh));
+    if (!overlaps.isComplete)
+        note(
+            "the solids have too many faces to compare all pairs: overlaps between samples may be missing; query a "
+            "part");
+    for (const analyze::SolidOverlap& overlap : overlaps.pairs) {
         if (!isIn(selected, overlap.a) && !isIn(selected, overlap.b)) continue;
         std::vector<Json> row;
         addNames(row, volume.labels, overlap.a);

@@ -105,23 +105,31 @@ public:
     OverlapFinder(const volume::SemanticVolume& volume, std::uint64_t work)
         : volume_(volume), labels_(volume.labels.labels), work_(work), solids_(solidsOf(volume)) {}
 
-    std::vector<SolidOverlap> run() {
+    SolidOverlaps run() {
         for (const volume::Overlap& overlap : volume_.labels.overlaps) {
             SolidOverlap& found = found_[{overlap.a, overlap.b}];
             found = {overlap.a, overlap.b, overlap.voxels,  double(overlap.voxels) * volume_.grid.voxelVolume(),
                      kInfinity, false,     overlap.isNested};
         }
         compareAll();
-        std::vector<SolidOverlap> overlaps;
+        SolidOverlaps overlaps;
         for (const auto& [pair, overlap] : found_)
-            if (overlap.voxels > 0 || overlap.volume > overlap.bound) overlaps.push_back(overlap);
+            if (overlap.voxels > 0 || overlap.volume > overlap.bound) overlaps.pairs.push_back(overlap);
+        const auto all = std::ranges::count_if(labels_, [](const volume::Label& label) {
+            return hasClosedMesh(label.filling) || label.filling == volume::Filling::Winding;
+        });
+        overlaps.withoutMesh = static_cast<std::size_t>(all) - solids_.size();
+        overlaps.isComplete = isComplete_;
         return overlaps;
     }
 
 private:
     // Takes steps of the work; false if there are not so many left.
     bool take(std::uint64_t steps) {
-        if (steps > work_) return false;
+        if (steps > work_) {
+            isComplete_ = false;
+            return false;
+        }
         work_ -= steps;
         return true;
     }
@@ -174,6 +182,7 @@ private:
     const volume::SemanticVolume& volume_;
     const std::vector<volume::Label>& labels_;
     std::uint64_t work_;
+    bool isComplete_ = true;
     std::vector<Solid> solids_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, SolidOverlap> found_;
 };
@@ -184,7 +193,7 @@ bool areNested(const volume::LabelTable& table, std::uint32_t a, std::uint32_t b
     return isAncestor(table, a, b) || isAncestor(table, b, a) || isMember(table, a, b) || isMember(table, b, a);
 }
 
-std::vector<SolidOverlap> solidOverlaps(const volume::SemanticVolume& volume, const SolidOverlapOptions& options) {
+SolidOverlaps solidOverlaps(const volume::SemanticVolume& volume, const SolidOverlapOptions& options) {
     return OverlapFinder(volume, options.work).run();
 }
 

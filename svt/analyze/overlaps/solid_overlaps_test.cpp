@@ -73,7 +73,7 @@ TEST(SolidOverlaps, BoxesThatOverlapByAMillimetre) {
     Solids solids;
     solids.addBox("a", {0, 0, 0}, {2, 3, 1});
     solids.addBox("b", {1.999, 1, 0.5}, {5, 9, 4}, true);
-    const auto overlaps = solidOverlaps(solids.volume);
+    const auto overlaps = solidOverlaps(solids.volume).pairs;
     ASSERT_EQ(overlaps.size(), 1u);
     EXPECT_EQ(overlaps[0].a, 0u) << "the smaller one has it";
     EXPECT_EQ(overlaps[0].b, 1u);
@@ -89,7 +89,7 @@ TEST(SolidOverlaps, BoxesThatTouchDoNotOverlap) {
     solids.addBox("beside", {2, 0, 0}, {4, 3, 1}, true);
     solids.addBox("above", {0.3, 0.2, 1}, {4, 3, 2});
     solids.addBox("edge", {2, 3, 0}, {4, 5, 1});
-    EXPECT_TRUE(solidOverlaps(solids.volume).empty());
+    EXPECT_TRUE(solidOverlaps(solids.volume).pairs.empty());
 }
 
 TEST(SolidOverlaps, DoubledSolidsOverlapWholly) {
@@ -102,7 +102,7 @@ TEST(SolidOverlaps, DoubledSolidsOverlapWholly) {
     };
     solids.addBox("pane", {0.2, 0.1, 0.3}, {1.4, 0.14, 2.3}, false, place);
     solids.addBox("again", {0.2, 0.1, 0.3}, {1.4, 0.14, 2.3}, true, place);
-    const auto overlaps = solidOverlaps(solids.volume);
+    const auto overlaps = solidOverlaps(solids.volume).pairs;
     ASSERT_EQ(overlaps.size(), 1u);
     EXPECT_NEAR(overlaps[0].volume, 1.2 * 0.04 * 2, overlaps[0].bound);
     EXPECT_NEAR(overlaps[0].volume, 1.2 * 0.04 * 2, 2e-5);
@@ -114,7 +114,7 @@ TEST(SolidOverlaps, ABoxTurnedByAnEighthMeetsItsLikeInAnOctagon) {
     solids.addBox("b", {-1, -1, 0.25}, {1, 1, 0.75}, false, [](Vec3d p) {
         return Vec3d{(p.x - p.y) * std::numbers::sqrt2 / 2, (p.x + p.y) * std::numbers::sqrt2 / 2, p.z};
     });
-    const auto overlaps = solidOverlaps(solids.volume);
+    const auto overlaps = solidOverlaps(solids.volume).pairs;
     ASSERT_EQ(overlaps.size(), 1u);
     EXPECT_NEAR(overlaps[0].volume, 8 * (std::numbers::sqrt2 - 1) * 0.5, overlaps[0].bound);
 }
@@ -124,7 +124,7 @@ TEST(SolidOverlaps, ARoofThroughABox) {
     Solids solids;
     solids.addBox("box", {0, 0, 0.5}, {4, 2, 1.5});
     solids.addBox("wedge", {0, 0, 0}, {4, 2, 1}, false, [](Vec3d p) { return Vec3d{p.x, p.y, p.z * p.x / 2}; });
-    const auto overlaps = solidOverlaps(solids.volume);
+    const auto overlaps = solidOverlaps(solids.volume).pairs;
     ASSERT_EQ(overlaps.size(), 1u);
     // Over x: from 1 to 3 it rises from 0 to 1, then the box is full.
     EXPECT_NEAR(overlaps[0].volume, 2 * (0.5 * 2 + 1), overlaps[0].bound);
@@ -135,20 +135,25 @@ TEST(SolidOverlaps, WithoutMeshesOrPastTheWorkVoxelsTell) {
     solids.addBox("a", {0, 0, 0}, {2, 3, 1});
     solids.addBox("b", {1, 1, 0}, {5, 9, 4});
     solids.volume.labels.overlaps = {{1, 0, 2, false}};
-    auto overlaps = solidOverlaps(solids.volume);
+    auto overlaps = solidOverlaps(solids.volume).pairs;
     ASSERT_EQ(overlaps.size(), 1u);
     EXPECT_EQ(overlaps[0].a, 1u) << "as the voxels have it";
     EXPECT_EQ(overlaps[0].voxels, 2u);
     EXPECT_NEAR(overlaps[0].volume, 2, overlaps[0].bound);
     EXPECT_TRUE(overlaps[0].isExact);
     for (const std::uint64_t work : {0u, 1u, 20u, 30u}) {
-        overlaps = solidOverlaps(solids.volume, {.work = work});
+        const SolidOverlaps found = solidOverlaps(solids.volume, {.work = work});
+        EXPECT_FALSE(found.isComplete) << work;
+        overlaps = found.pairs;
         ASSERT_EQ(overlaps.size(), 1u);
         EXPECT_FALSE(overlaps[0].isExact) << work;
         EXPECT_TRUE(std::isinf(overlaps[0].bound)) << work;
     }
+    EXPECT_TRUE(solidOverlaps(solids.volume).isComplete);
+    EXPECT_EQ(solidOverlaps(solids.volume).withoutMesh, 0u);
     solids.volume.vectors = {};
-    overlaps = solidOverlaps(solids.volume);
+    EXPECT_EQ(solidOverlaps(solids.volume).withoutMesh, 2u) << "thin overlaps of both are unknown";
+    overlaps = solidOverlaps(solids.volume).pairs;
     ASSERT_EQ(overlaps.size(), 1u);
     EXPECT_FALSE(overlaps[0].isExact);
     EXPECT_DOUBLE_EQ(overlaps[0].volume, 2) << "two voxels of a cubic metre";
@@ -163,7 +168,7 @@ TEST(SolidOverlaps, ComparisonsAreCountedBeforeTheyAreMade) {
     };
     for (const double x : {0.0, 0.5, 2.0, 4.0}) add(a, x);
     for (const double x : {1.0, 1.2, 8.0}) add(b, x);
-    // 0.5 meets both of 1.0 and 1.2; 2.0 meets 1.2; 0.0 touches 1.0 alone.
+    // 0.5 meets both of 1.0 and 1.2; 2.0 meets 1.2; 0.0 touches only 1.0.
     EXPECT_EQ(comparisons(a, b), 3u);
     RoofTriangle upright;
     EXPECT_FALSE(makeRoofTriangle({Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{1, 0, 1}}, upright));

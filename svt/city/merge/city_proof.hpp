@@ -25,9 +25,9 @@ void putProofs(nlohmann::ordered_json& json, std::string_view index, std::string
 /// Whether a text has the digest that it tells. True for one of earlier programs, which tells no digest at all.
 [[nodiscard]] bool hasOwnDigest(std::string_view text, const nlohmann::json& json);
 
-/// What is told of the files; nothing in cities of earlier programs. Throws what nlohmann throws.
+/// Sizes and digests of the files that city.json names; none in cities of earlier programs. Throws the exceptions of nlohmann.
 [[nodiscard]] std::optional<CityProof> readProof(const nlohmann::json& json);
-/// Compares a file with what is told of it.
+/// Compares a file with its size and digest in city.json.
 /// \return nothing, or what is wrong with it; or an error of the store
 [[nodiscard]] Result<std::string> differenceOf(const Store& store, const char* name, const CityProof::File& file);
 

@@ -598,7 +598,7 @@ TEST_F(SmallCity, NamesFilesOfAnotherMerge) {
     EXPECT_TRUE(City::open(folder / "city"));
 }
 
-// Of a page, which has ranges alone: the root and the fence are those that city.json names.
+// A page has only ranges: the root and the fence are those that city.json names.
 TEST_F(SmallCity, NamesFilesOfAnotherMergeByRangesAlone) {
     write(folder / "files", samples::CityProfile::Dutch, 1);
     build(plan());

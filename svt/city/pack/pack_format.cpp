@@ -186,7 +186,7 @@ std::string reportJson(const PackReport& report) {
 Result<PackReport> readReport(const std::filesystem::path& path) {
     const Error damaged(Code::CityIncomplete, "there is no report of the pack, or a damaged one; run its task again",
                         {path.string(), 0, 0, {}});
-    const auto file = MappedFile::open(path, std::uint64_t{64} << 20);
+    const auto file = FileBytes::read(path, std::uint64_t{64} << 20);
     if (!file) return damaged;
     PackReport report;
     try {

@@ -132,7 +132,7 @@ bool CityPainter::takeBack(const CameraView& view, const illustrate::Painting& p
 
 Result<illustrate::Painting> CityPainter::paint(illustrate::Scene scene, const render::CastOptions& options) {
     if (auto looked = lookAround(scene); !looked) return looked.error();
-    // The camera alone: queries find nothing in the frame.
+    // Only the camera matters: queries find nothing in the frame.
     std::vector<std::string> ignored;
     illustrate::Scene plain = scene;
     plain.colorBy.clear();

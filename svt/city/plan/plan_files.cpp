@@ -177,9 +177,9 @@ Result<Plan> readPlan(const std::filesystem::path& folder, const std::string& pr
     std::error_code failed;
     if (!std::filesystem::exists(path, failed))
         return badPlan(folder, "the folder has no plan of a city (plan/plan.json)");
-    const auto file = MappedFile::open(path, kMaxPlanJson);
+    const auto file = FileBytes::read(path, kMaxPlanJson);
     if (!file) return file.error();
-    const auto tiles = MappedFile::open(planFile(folder, "tiles.bin"));
+    const auto tiles = FileBytes::read(planFile(folder, "tiles.bin"));
     if (!tiles) return badPlan(folder, "the plan lacks tiles.bin");
     Plan plan;
     try {
@@ -192,7 +192,7 @@ Result<Plan> readPlan(const std::filesystem::path& folder, const std::string& pr
     } catch (const Json::exception&) {
         return badPlan(path, "the plan is damaged");
     }
-    const auto packs = MappedFile::open(planFile(folder, "packs.bin"));
+    const auto packs = FileBytes::read(planFile(folder, "packs.bin"));
     if (!packs) return badPlan(folder, "the plan lacks packs.bin");
     if (packs->text().size() != plan.packs * sizeof(Digest))
         return badPlan(planFile(folder, "packs.bin"), "the digests of packs are damaged");

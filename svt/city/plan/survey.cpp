@@ -61,7 +61,7 @@ public:
         }
         if (file->isTruncated())
             diagnostics_.add(Severity::Warning, Code::Truncated,
-                             "the last line ends within its object: the file was cut off; what is there was read",
+                             "the last line ends within its object: the file was cut off; it was read up to the cut",
                              {path_.string(), 0, 0, {}});
         tellSkipped();
         survey_.files.push_back(entry_);

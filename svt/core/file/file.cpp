@@ -148,12 +148,12 @@ int readAt(int descriptor, std::uint64_t offset, std::span<std::byte> to, std::s
 
 }  // namespace
 
-Result<MappedFile> MappedFile::open(const fs::path& path, std::uint64_t maxBytes) {
+Result<FileBytes> FileBytes::read(const fs::path& path, std::uint64_t maxBytes) {
     std::uint64_t size = 0;
     const auto input = openInput(path, maxBytes, size);
     if (!input) return input.error();
     const Descriptor descriptor(*input);
-    MappedFile file;
+    FileBytes file;
     try {
         file.own_ = std::make_unique_for_overwrite<std::byte[]>(static_cast<std::size_t>(size));
     } catch (const std::bad_alloc&) {
@@ -174,12 +174,12 @@ Result<MappedFile> MappedFile::open(const fs::path& path, std::uint64_t maxBytes
     return file;
 }
 
-Result<MappedFile> MappedFile::map(const fs::path& path, std::uint64_t maxBytes) {
+Result<FileBytes> FileBytes::map(const fs::path& path, std::uint64_t maxBytes) {
     std::uint64_t size = 0;
     const auto input = openInput(path, maxBytes, size);
     if (!input) return input.error();
     const Descriptor descriptor(*input);
-    MappedFile file;
+    FileBytes file;
     if (size == 0) return file;
     void* memory = ::mmap(nullptr, static_cast<std::size_t>(size), PROT_READ, MAP_PRIVATE, *input, 0);
     if (memory == MAP_FAILED) return cannotOpen(path, errno);
@@ -187,22 +187,22 @@ Result<MappedFile> MappedFile::map(const fs::path& path, std::uint64_t maxBytes)
     return file;
 }
 
-MappedFile::MappedFile(MappedFile&& other) noexcept
+FileBytes::FileBytes(FileBytes&& other) noexcept
     : bytes_(std::exchange(other.bytes_, {})), own_(std::move(other.own_)) {}
 
-MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
+FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {
     std::swap(bytes_, other.bytes_);
     std::swap(own_, other.own_);
     return *this;
 }
 
-MappedFile::~MappedFile() {
+FileBytes::~FileBytes() {
     if (!bytes_.empty() && own_ == nullptr) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
 }
 
 Result<PartFile> PartFile::open(const fs::path& path) {
     PartFile file;
-    const auto input = openInput(path, MappedFile::kNoLimit, file.size_);
+    const auto input = openInput(path, FileBytes::kNoLimit, file.size_);
     if (!input) return input.error();
     file.descriptor_ = *input;
     file.path_ = path;

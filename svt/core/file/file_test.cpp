@@ -25,39 +25,39 @@ using test::writeText;
 
 bool mentions(const Error& error, std::string_view words) { return error.toString().find(words) != std::string::npos; }
 
-TEST(MappedFile, ShowsTheBytesOfTheFile) {
+TEST(FileBytes, ShowsTheBytesOfTheFile) {
     const TemporaryFolder folder;
     writeText(folder / "a", std::string("one\0two", 7));
-    auto file = MappedFile::open(folder / "a");
+    auto file = FileBytes::read(folder / "a");
     ASSERT_TRUE(file) << file.error().toString();
     EXPECT_EQ(file->text(), std::string_view("one\0two", 7));
     EXPECT_EQ(file->bytes().size(), 7u);
 }
 
-TEST(MappedFile, MovingKeepsTheBytes) {
+TEST(FileBytes, MovingKeepsTheBytes) {
     const TemporaryFolder folder;
     writeText(folder / "a", "first");
     writeText(folder / "b", "second");
-    auto a = MappedFile::open(folder / "a");
-    auto b = MappedFile::open(folder / "b");
+    auto a = FileBytes::read(folder / "a");
+    auto b = FileBytes::read(folder / "b");
     ASSERT_TRUE(a && b);
-    MappedFile moved = std::move(*a);
+    FileBytes moved = std::move(*a);
     EXPECT_EQ(moved.text(), "first");
     moved = std::move(*b);
     EXPECT_EQ(moved.text(), "second");
 }
 
-TEST(MappedFile, KeepsItsBytesWhereTheFileIsShortened) {
+TEST(FileBytes, KeepsItsBytesWhereTheFileIsShortened) {
     const TemporaryFolder folder;
     const std::string text(1 << 20, 'x');
     writeText(folder / "a", text);
-    const auto file = MappedFile::open(folder / "a");
+    const auto file = FileBytes::read(folder / "a");
     ASSERT_TRUE(file);
     fs::resize_file(folder / "a", 0);
     EXPECT_EQ(file->text(), text);
 }
 
-TEST(MappedFile, ASizeThatChangesWhileItIsReadIsAnErrorAndNoSignal) {
+TEST(FileBytes, ASizeThatChangesWhileItIsReadIsAnErrorAndNoSignal) {
     const TemporaryFolder folder;
     const std::string text(4 << 20, 'x');
     writeText(folder / "a", text);
@@ -67,7 +67,7 @@ TEST(MappedFile, ASizeThatChangesWhileItIsReadIsAnErrorAndNoSignal) {
             for (const std::size_t size : {std::size_t{100}, text.size()}) fs::resize_file(folder / "a", size);
     });
     for (int i = 0; i < 200; ++i) {
-        const auto file = MappedFile::open(folder / "a");
+        const auto file = FileBytes::read(folder / "a");
         if (file)
             EXPECT_TRUE(file->bytes().size() == 100 || file->bytes().size() == text.size());
         else
@@ -78,20 +78,20 @@ TEST(MappedFile, ASizeThatChangesWhileItIsReadIsAnErrorAndNoSignal) {
     writer.join();
 }
 
-TEST(MappedFile, MapsAsItReads) {
+TEST(FileBytes, MapsAsItReads) {
     const TemporaryFolder folder;
     writeText(folder / "a", "text");
     writeText(folder / "empty", "");
-    auto file = MappedFile::map(folder / "a");
+    auto file = FileBytes::map(folder / "a");
     ASSERT_TRUE(file);
     EXPECT_EQ(file->text(), "text");
-    auto read = MappedFile::open(folder / "empty");
+    auto read = FileBytes::read(folder / "empty");
     ASSERT_TRUE(read);
     std::swap(*file, *read);
     EXPECT_EQ(read->text(), "text");
     EXPECT_TRUE(file->bytes().empty());
-    EXPECT_EQ(MappedFile::map(folder / "a", 3).error().code(), Code::InputTooBig);
-    EXPECT_EQ(MappedFile::map(folder / "b").error().code(), Code::CannotOpen);
+    EXPECT_EQ(FileBytes::map(folder / "a", 3).error().code(), Code::InputTooBig);
+    EXPECT_EQ(FileBytes::map(folder / "b").error().code(), Code::CannotOpen);
 }
 
 TEST(PartFile, ReadsPartsAsFarAsTheFileGoes) {
@@ -120,15 +120,15 @@ TEST(PartFile, KeepsAFileThatIsReplaced) {
     EXPECT_EQ(*file->read(0, 10), "first");
 }
 
-TEST(MappedFile, EmptyFileIsAnEmptySpan) {
+TEST(FileBytes, EmptyFileIsAnEmptySpan) {
     const TemporaryFolder folder;
     writeText(folder / "empty", "");
-    auto file = MappedFile::open(folder / "empty");
+    auto file = FileBytes::read(folder / "empty");
     ASSERT_TRUE(file);
     EXPECT_TRUE(file->bytes().empty());
 }
 
-TEST(MappedFile, SaysWhyItCannotOpen) {
+TEST(FileBytes, SaysWhyItCannotOpen) {
     const TemporaryFolder folder;
     writeText(folder / "file", "x");
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
@@ -143,7 +143,7 @@ TEST(MappedFile, SaysWhyItCannotOpen) {
         {"/dev/zero", "pipe or device"},
     };
     for (const auto& c : cases) {
-        auto file = MappedFile::open(c.path);
+        auto file = FileBytes::read(c.path);
         ASSERT_FALSE(file) << c.path;
         EXPECT_EQ(file.error().code(), Code::CannotOpen);
         EXPECT_EQ(file.error().where().file, c.path.string());
@@ -151,12 +151,12 @@ TEST(MappedFile, SaysWhyItCannotOpen) {
     }
 }
 
-TEST(MappedFile, SaysThatPermissionIsMissing) {
+TEST(FileBytes, SaysThatPermissionIsMissing) {
     if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
     const TemporaryFolder folder;
     writeText(folder / "secret", "x");
     fs::permissions(folder / "secret", fs::perms::none);
-    auto file = MappedFile::open(folder / "secret");
+    auto file = FileBytes::read(folder / "secret");
     ASSERT_FALSE(file);
     EXPECT_TRUE(mentions(file.error(), "no permission")) << file.error().toString();
 }

@@ -66,7 +66,7 @@ bool isXmlCharacter(std::uint32_t code) noexcept {
     return code < 0xD800 || (code >= 0xE000 && code <= 0x10FFFF && code != 0xFFFE && code != 0xFFFF);
 }
 
-// References such as "&#0;" to what is no character: the parser ends a text there, or keeps it.
+// References to characters that XML does not allow, such as "&#0;": the parser ends a text there, or keeps them.
 void noteBadReferences(string_view content, std::uint64_t begin, Part& part) {
     for (std::size_t at = content.find("&#"); at != string_view::npos; at = content.find("&#", at + 2)) {
         const bool isHex = content.substr(at + 2).starts_with('x');
@@ -78,7 +78,7 @@ void noteBadReferences(string_view content, std::uint64_t begin, Part& part) {
         if (after == from || after == end || *after != ';' || (!isTooLarge && isXmlCharacter(code))) continue;
         part.findings.add(
             Severity::Warning, Code::BadXml,
-            fmt::format("the reference '{}' stands for no character of XML: the id or text that holds it is "
+            fmt::format("the reference '{}' is no character that XML allows: the id or text that holds it is "
                         "damaged, or ends there",
                         content.substr(at, static_cast<std::size_t>(after + 1 - content.data()) - at).substr(0, 40)),
             begin + at);

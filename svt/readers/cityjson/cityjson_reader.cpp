@@ -319,9 +319,9 @@ private:
         const std::string found = "the last line ends within its object: the file was cut off";
         if (!options_.allowTruncated)
             return Error(Code::Truncated,
-                         found + "; copy or export it again, or read what is there (--allow-truncated)",
+                         found + "; copy or export it again, or read it up to the cut (--allow-truncated)",
                          place(headLine + before));
-        diagnostics_.add(Severity::Warning, Code::Truncated, found + "; what is there was read",
+        diagnostics_.add(Severity::Warning, Code::Truncated, found + "; it was read up to the cut",
                          place(headLine + before));
         return {};
     }

@@ -29,9 +29,9 @@ struct FeatureFile::State {
     bool allowsTruncated = false, isTruncated = false;
     TextStream stream;
     GmlMembers gml{{}};
-    std::string head;                  // of CityJSON: its line
-    std::string unpacked;              // CityJSON of a gzip file
-    std::optional<MappedFile> mapped;  // CityJSON, and what is one feature
+    std::string head;                 // of CityJSON: its line
+    std::string unpacked;             // CityJSON of a gzip file
+    std::optional<FileBytes> mapped;  // CityJSON, and what is one feature
     std::optional<JsonObjects> objects;
     std::size_t nextObject = 0;
     std::string line;
@@ -151,7 +151,7 @@ Result<void> FeatureFile::State::openJson() {
         unpacked = stream.window();
         text = unpacked;
     } else {
-        auto file = MappedFile::open(path);
+        auto file = FileBytes::read(path);
         if (!file) return file.error();
         mapped.emplace(std::move(*file));
         text = mapped->text();
@@ -184,7 +184,7 @@ Result<bool> FeatureFile::State::nextLine(FeatureText& feature) {
         if (isTruncated && !allowsTruncated)
             return Error(Code::Truncated,
                          "the last line ends within its object: the file was cut off; copy or export it again, or read "
-                         "what is there (--allow-truncated)",
+                         "it up to the cut (--allow-truncated)",
                          {path.string(), stream.line(), 0, {}});
         stream.discard(stream.base() + text.size() + (end == std::string_view::npos ? 0 : 1));
         if (features::skipJsonBlanks(text, 0) != text.size()) return true;
@@ -211,7 +211,7 @@ Result<bool> FeatureFile::next(FeatureText& feature) {
         case FeatureFormat::Whole: break;
     }
     if (state.nextObject++ != 0) return false;
-    auto file = MappedFile::open(state.path);
+    auto file = FileBytes::read(state.path);
     if (!file) return file.error();
     state.mapped.emplace(std::move(*file));
     feature = {{0, state.mapped->bytes().size()}, state.mapped->text()};

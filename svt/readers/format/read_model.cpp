@@ -268,7 +268,7 @@ Result<model::BuildingModel> readModel(Bytes bytes, string_view name, const Read
 
 Result<model::BuildingModel> readModel(const std::filesystem::path& path, const ReadOptions& options,
                                        Diagnostics* diagnostics) {
-    const Result<MappedFile> file = MappedFile::open(path, options.maxBytes);
+    const Result<FileBytes> file = FileBytes::read(path, options.maxBytes);
     if (!file) return file.error();
     return readModel(file->bytes(), path.string(), options, diagnostics);
 }

@@ -1,4 +1,4 @@
-// A file that was cut off is an error wherever it was cut, unless the caller takes what is there.
+// A file that was cut off is an error wherever it was cut, unless the caller takes the part before the cut.
 #include <svt/core/file.hpp>
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/readers/citygml/citygml_documents_test.hpp>

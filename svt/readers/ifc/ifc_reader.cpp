@@ -92,8 +92,8 @@ private:
             fmt::format("the file ends behind the record #{}, without END-ISO-10303-21: it was cut off", last.id);
         if (!options_.allowTruncated)
             return Error(Code::Truncated,
-                         found + "; copy or export it again, or read what is there (--allow-truncated)", where);
-        diagnostics_.add(Severity::Warning, Code::Truncated, found + "; what is there was read", where);
+                         found + "; copy or export it again, or read it up to the cut (--allow-truncated)", where);
+        diagnostics_.add(Severity::Warning, Code::Truncated, found + "; it was read up to the cut", where);
         return {};
     }
 

@@ -88,7 +88,7 @@ private:
         }
     }
 
-    // A relation of a product to itself, which is told.
+    // A relation of a product to itself, which is reported.
     bool isOfItself(const Fields& fields) {
         const RecordIndex product = file_.follow(fields[4]);
         if (product == kNoRecord || product != file_.follow(fields[5])) return false;
@@ -113,7 +113,7 @@ private:
     void tellCircle(std::size_t product) {
         std::vector<RecordIndex> path;
         std::unordered_map<std::size_t, std::size_t> steps;
-        // What an earlier walk came through leads to a circle that is told.
+        // What an earlier walk came through leads to a circle that is reported.
         while (product != Product::kNoProduct && onWay_.insert(product).second) {
             steps.emplace(product, path.size());
             path.push_back(result_.products[product].record);

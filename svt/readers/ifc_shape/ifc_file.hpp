@@ -74,7 +74,7 @@ enum class Entity : std::uint16_t {
 #undef X
 };
 
-/// So many reasons why something of a product is left out are kept; few of them are told.
+/// Number of reasons kept for parts of a product that are left out; the finding names a few of them.
 inline constexpr std::size_t kMaxLeftOut = 1000;
 
 /// "IfcPolyline"

@@ -257,7 +257,7 @@ Result<SemanticVolume> readSvt(std::span<const std::byte> bytes, const std::stri
 }
 
 Result<SemanticVolume> readSvt(const std::filesystem::path& path) {
-    const auto file = MappedFile::open(path);
+    const auto file = FileBytes::read(path);
     if (!file) return file.error();
     return readSvt(file->bytes(), path.string());
 }

@@ -160,9 +160,9 @@ Result<void> openBeside(const fs::path& path, pugi::xml_node texture, LabelImage
     const pugi::xml_node uri = childOf(texture, "imageURI");
     const auto beside = fileBeside(path, uri.child_value());
     if (!beside) return beside.error();
-    auto mapped = MappedFile::map(*beside);
+    auto mapped = FileBytes::map(*beside);
     if (!mapped) return mapped.error();
-    auto samples = openNrrd(std::make_shared<const MappedFile>(std::move(*mapped)));
+    auto samples = openNrrd(std::make_shared<const FileBytes>(std::move(*mapped)));
     if (!samples) return Error(samples.error().code(), samples.error().message(), Place{beside->string(), 0, 0, {}});
     if (samples->dimension != image.dimension)
         return badAde("the file beside the document has another dimension than the document says");

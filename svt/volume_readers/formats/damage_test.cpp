@@ -1,4 +1,4 @@
-// Files that svt wrote, damaged: each becomes the same volume, or somebody is told.
+// Files that svt wrote, damaged: each becomes the same volume, or the damage is reported.
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/volume/sample_volume_test.hpp>
 #include <svt/volume/volume_json.hpp>

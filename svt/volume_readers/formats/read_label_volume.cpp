@@ -45,9 +45,9 @@ LabelFormat formatOf(const SharedFile& file) {
 }
 
 Result<SharedFile> openShared(const std::filesystem::path& path) {
-    auto file = MappedFile::map(path);
+    auto file = FileBytes::map(path);
     if (!file) return file.error();
-    return std::make_shared<const MappedFile>(std::move(*file));
+    return std::make_shared<const FileBytes>(std::move(*file));
 }
 
 Result<LabelImage> openImage(const SharedFile& file, const std::filesystem::path& path) {

@@ -65,7 +65,7 @@ struct LabelImage {
 };
 
 /// A mapped file that lives as long as somebody reads from it.
-using SharedFile = std::shared_ptr<const MappedFile>;
+using SharedFile = std::shared_ptr<const FileBytes>;
 
 /// Checks what a header says before anything is allocated by it: 1 to 65535 samples along each axis (a grid has two at
 /// least), 8, 16 or 32 bits, and compressed samples that can be as many as that.

@@ -88,7 +88,7 @@ std::optional<volume::SvtHeader> headerOf(const LabelImage& image) {
     return std::move(*header);
 }
 
-/// The names of a header, or of a text that has names alone.
+/// The names of a header, or of a text that has only names.
 void takeNames(const std::optional<volume::SvtHeader>& header, std::string_view text, volume::SemanticVolume& volume) {
     if (header) {
         volume.crsName = header->crsName;

@@ -26,15 +26,15 @@ Error inFile(const fs::path& file, Code code, std::string message) {
 }
 
 /// A file in the folder `root`, which has no links in it; nothing where there is none.
-Result<std::optional<MappedFile>> openInside(const fs::path& root, const fs::path& file, std::uint64_t maxBytes) {
+Result<std::optional<FileBytes>> openInside(const fs::path& root, const fs::path& file, std::uint64_t maxBytes) {
     std::error_code failed;
-    if (!fs::exists(file, failed)) return std::optional<MappedFile>();
+    if (!fs::exists(file, failed)) return std::optional<FileBytes>();
     const fs::path real = fs::canonical(file, failed);
     if (failed || std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end())
         return inFile(file, Code::BadImage, "it leads out of the folder of the volume, and is not followed there");
-    auto opened = MappedFile::open(real, maxBytes);
+    auto opened = FileBytes::read(real, maxBytes);
     if (!opened) return opened.error();
-    return std::optional<MappedFile>(std::move(*opened));
+    return std::optional<FileBytes>(std::move(*opened));
 }
 
 /// The JSON of a file; null where there is none.

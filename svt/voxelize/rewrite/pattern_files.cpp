@@ -112,7 +112,7 @@ Result<std::shared_ptr<const PatternTexels>> readPatternRaw(const std::filesyste
         if (dimension[axis] < 1 || dimension[axis] > kLargestRaw)
             return badImage(file, fmt::format("dimension {} is out of range; 1 to {} cells along an axis are possible",
                                               dimension[axis], kLargestRaw));
-    const auto mapped = MappedFile::open(file);
+    const auto mapped = FileBytes::read(file);
     if (!mapped) return mapped.error();
     const std::size_t expected = std::size_t(dimension.x) * std::size_t(dimension.y) * std::size_t(dimension.z);
     if (mapped->bytes().size() != expected)

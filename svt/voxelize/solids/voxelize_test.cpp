@@ -292,7 +292,7 @@ TEST(Voxelize, ALeafStaysWholeHoweverItsFaceIsCut) {
 }
 
 // A side of the plate lies on the samples at x = 0.5, and so does a surface of equal rank. Whether those samples count as
-// inside of the plate hangs on the side; that the plate has them does not.
+// inside of the plate depends on the side; that the plate has them does not.
 TEST(Voxelize, APlateWithSamplesOnASideHasThemAsIfInside) {
     for (const auto& [low, high] : {std::pair{0.44, 0.5}, {0.5, 0.56}}) {
         test::ObjectMesh surface;

@@ -3,7 +3,7 @@
 /// Plates of a solid that are thinner than a voxel: panes, leaves, jambs, sheets of metal.
 ///
 /// What is thin is decided on each sample line by itself: from where the line enters the solid to where it leaves through a
-/// face that is nearly parallel. So it does not hang on how faces are cut into triangles, nor on what else stands behind a
+/// face that is nearly parallel. So it does not depend on the triangulation of faces, nor on other parts behind a
 /// face: a jamb is a plate beside the door's leaf, too.
 
 #include <svt/voxelize/tiles/tile_plan.hpp>
@@ -15,7 +15,7 @@ namespace svt::voxelize {
 /// Claims of an object for its thin parts.
 struct ThinClaims {
     std::uint32_t thin = 0;
-    /// Of a plate without a sample that has one on a side, within 1/128 voxel. On which side of a face such a tie falls hangs
+    /// Of a plate without a sample that has one on a side, within 1/128 voxel. On which side of a face such a tie falls depends
     /// on the axes of the grid; had it fallen to the other, the sample would be inside. So it claims as what is inside.
     std::uint32_t tied = 0;
 };

@@ -49,7 +49,7 @@ std::string_view adeNamespace(CityGmlVersion version) noexcept {
 }
 
 Result<ModelDocument> ModelDocument::open(const std::filesystem::path& path) {
-    auto mapped = MappedFile::open(path);
+    auto mapped = FileBytes::read(path);
     if (!mapped) return mapped.error();
     const std::string_view text = mapped->text();
     const std::string_view head = text.substr(0, kHeadBytes);

@@ -33,7 +33,7 @@ public:
 private:
     [[nodiscard]] Result<void> write(std::string_view text, AtomicFile& file) const;
 
-    std::optional<MappedFile> mapped_;
+    std::optional<FileBytes> mapped_;
     std::string begin_, end_;  // of a plain document
     std::size_t cut_ = 0;      // of a mapped one
     CityGmlVersion version_ = CityGmlVersion::V3;

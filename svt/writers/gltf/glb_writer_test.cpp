@@ -157,7 +157,7 @@ struct Glb {
 
     static Glb read(const std::filesystem::path& path) {
         Glb glb;
-        const auto file = MappedFile::open(path);
+        const auto file = FileBytes::read(path);
         EXPECT_TRUE(file);
         const std::string_view text = file->text();
         const auto word = [&](std::size_t at) {
@@ -402,7 +402,7 @@ TEST_F(GlbWriter, BytesDoNotDependOnThreads) {
         options.threads = threads;
         ASSERT_TRUE(writeGlb(volume, folder / std::to_string(threads), options));
     }
-    const auto one = MappedFile::open(folder / "1"), two = MappedFile::open(folder / "2");
+    const auto one = FileBytes::read(folder / "1"), two = FileBytes::read(folder / "2");
     EXPECT_EQ(one->text(), two->text());
 }
 

@@ -215,7 +215,7 @@ std::uint32_t NrrdImage::sample(std::size_t index) const noexcept {
 }
 
 Result<NrrdImage> readNrrd(const std::filesystem::path& path, const NrrdReadOptions& options) {
-    auto file = MappedFile::open(path);
+    auto file = FileBytes::read(path);
     if (!file) return file.error();
     auto image = readImage(file->bytes(), file->text(), options);
     if (!image) return Error(image.error().code(), image.error().message(), Place{path.string(), 0, 0, {}});

@@ -61,7 +61,7 @@ Result<void> checkPixelCount(Vec3i dimension, std::uint64_t maxVoxels) {
 Result<void> checkSibling(const fs::path& file, std::string_view begin) {
     std::error_code ignored;
     if (!fs::exists(file, ignored)) return {};
-    const auto there = MappedFile::open(file);
+    const auto there = FileBytes::read(file);
     if (there && (there->bytes().empty() || there->text().starts_with(begin))) return {};
     return Error(Code::WouldDestroy,
                  "the file is to hold the samples beside the document, and what is there is something else; give the "
