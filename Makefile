@@ -73,7 +73,8 @@ check:
 verify:
 	@scripts/verify.py $(CHECKS)
 
-asan tsan: setup
+asan tsan:
+	@scripts/setup.sh checks
 	@scripts/sanitize.sh $@
 
 tidy:

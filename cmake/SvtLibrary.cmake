@@ -102,6 +102,7 @@ const char* const kSourceRoot = \"${PROJECT_SOURCE_DIR}\";\n}\n")
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
     target_compile_options(${name} PRIVATE -O1)  # tests are compiled more often than they run
   endif()
+  svt_unity(${name})
   svt_precompile(${name} svt_precompiled_test)
   # The label is the folder: ctest -L '^render$'.
   string(REGEX REPLACE "^svt_|_test$" "" folder ${name})

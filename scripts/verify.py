@@ -56,10 +56,10 @@ CHECKS = {
     "fuzz": Check("make -s fuzz SECONDS=120", 45, False),
     "slurm": Check("scripts/setup.sh slurm && make -s build && scripts/test_slurm.sh build/release/bin/svt long", 12),
     **{
-        f"asan/{part}": Check(f"scripts/setup.sh && scripts/sanitize.sh asan {folders}", 25)
+        f"asan/{part}": Check(f"scripts/setup.sh checks && scripts/sanitize.sh asan {folders}", 25)
         for part, folders in FOLDERS.items()
     },
-    "tsan": Check("scripts/setup.sh && scripts/sanitize.sh tsan", 25),
+    "tsan": Check("scripts/setup.sh checks && scripts/sanitize.sh tsan", 25),
     "tidy": Check("make -s tidy", 20),
     **{
         f"analyzer/{part}": Check(f"scripts/setup.sh checks && scripts/tidy.py --analyzer --only '{pattern}'", 25)

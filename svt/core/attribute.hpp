@@ -15,7 +15,7 @@ using AttributeValue = std::variant<std::string, std::int64_t, double, bool>;
 struct Attribute {
     std::string name;
     AttributeValue value;
-    std::string unit;  ///< unit of measure (uom), else empty
+    std::string unit{};  ///< unit of measure (uom), else empty
 
     friend bool operator==(const Attribute&, const Attribute&) = default;
 };

@@ -16,8 +16,6 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-constexpr int kDone = 0, kUsage = 2, kInput = 3, kInvalid = 4, kLimit = 8;
-
 struct BadInput {
     const char* name;                    ///< of the test
     const char* what;                    ///< the defect, in words
@@ -1082,7 +1080,7 @@ TEST_P(WorstInput, IsBuiltInBoundedWorkAndMemory) {
     const TemporaryFolder folder;
     ASSERT_NO_FATAL_FAILURE(writeWorst(folder, GetParam()));
     const CommandResult result = runSvt(folder.path(), {"build", "worst.json", "-o", "worst.svt", "--memory", "2048"},
-                                        {.seconds = std::string(GetParam()) == "fan" ? 360 : 160});
+                                        {.seconds = std::string(GetParam()) == "fan" ? 360.0 : 160.0});
     EXPECT_FALSE(result.isTimeout) << result.toString();
     EXPECT_EQ(result.exitCode, 0) << result.toString();
 }

@@ -59,14 +59,14 @@ TEST_F(CityFolder, HasTheSameBytesHoweverItsTasksAreRun) {
         runWell({"city", "run", profile, "--jobs", "3"});
         const auto read = [&](const char* name) { return readText(folder / profile / name); };
         const std::string pack = read("packs/00000.svtp"), index = read("index.bin"), ids = read("ids.bin"),
-                          json = read("city.json");
+                          catalog = read("city.json");
         std::filesystem::remove_all(folder / profile / "packs");
         runWell({"city", "task", profile, "0", "--of", "1", "--threads", "2"});
         runWell({"city", "merge", profile});
         EXPECT_EQ(read("packs/00000.svtp"), pack);
         EXPECT_EQ(read("index.bin"), index);
         EXPECT_EQ(read("ids.bin"), ids);
-        EXPECT_EQ(read("city.json"), json);
+        EXPECT_EQ(read("city.json"), catalog);
     }
 }
 
@@ -379,12 +379,12 @@ TEST_F(CityInput, AnswersQueriesAsOneVolume) {
     runWell({"convert", "city", "converted.csv", "-q"});
     EXPECT_EQ(tiles, sortedLines("converted.csv"));
 
-    const auto json = [&](const std::vector<std::string>& arguments) {
+    const auto jsonOf = [&](const std::vector<std::string>& arguments) {
         return runSvtForJson(folder.path(), arguments);
     };
-    const auto largest = json({"query", "city", "class=Building", "--sort", "height", "--first", "5", "--json"});
+    const auto largest = jsonOf({"query", "city", "class=Building", "--sort", "height", "--first", "5", "--json"});
     ASSERT_EQ(largest.size(), 5u);
-    const auto same = json({"query", "all.svt", "class=Building", "--sort", "height", "--first", "5", "--json"});
+    const auto same = jsonOf({"query", "all.svt", "class=Building", "--sort", "height", "--first", "5", "--json"});
     for (std::size_t n = 0; n < 5; ++n) EXPECT_EQ(largest[n].at("id"), same[n].at("id"));
     for (std::size_t n = 1; n < 5; ++n) EXPECT_GE(largest[n - 1].at("height"), largest[n].at("height"));
 
@@ -392,16 +392,16 @@ TEST_F(CityInput, AnswersQueriesAsOneVolume) {
     const double middle = (largest[4].at("lowest").get<double>() + largest[4].at("highest").get<double>()) / 2 + 0.25;
     const std::string plane = "z=abs(" + std::to_string(middle) + ")";
     std::size_t expected = 0;
-    const auto all = json({"query", "city", "class=Building", "--json"});
+    const auto all = jsonOf({"query", "city", "class=Building", "--json"});
     ASSERT_EQ(all.size(), 64u);
     for (const auto& row : all) expected += row.at("lowest") < middle && row.at("highest") > middle;
     EXPECT_GT(expected, 0u);
-    EXPECT_EQ(json({"query", "city", "class=Building", "--cut", plane, "--json"}).size(), expected);
+    EXPECT_EQ(jsonOf({"query", "city", "class=Building", "--cut", plane, "--json"}).size(), expected);
 
     double volume = 0, sum = 0;
     for (const auto& row : all) volume += row.at("volume").get<double>();
     std::size_t count = 0;
-    for (const auto& row : json({"query", "city", "class=Building", "--by", "roofType", "--json"})) {
+    for (const auto& row : jsonOf({"query", "city", "class=Building", "--by", "roofType", "--json"})) {
         sum += row.at("volume").get<double>();
         count += row.at("features").get<std::size_t>();
     }

@@ -96,8 +96,8 @@ TEST_F(Convert, SegmentationHasTheKeysOfSlicer) {
     ASSERT_NE(entry, std::string::npos);
     std::istringstream parts(header.substr(entry + 17, header.find('|', entry) - entry - 17));
     int part = 0;
-    for (std::string text; std::getline(parts, text, '~'); ++part)
-        EXPECT_EQ(std::count(text.begin(), text.end(), '^'), part == 0 || part == 4 ? 0 : 2) << part << ": " << text;
+    for (std::string term; std::getline(parts, term, '~'); ++part)
+        EXPECT_EQ(std::count(term.begin(), term.end(), '^'), part == 0 || part == 4 ? 0 : 2) << part << ": " << term;
     EXPECT_EQ(part, 7);
     // Box c: i from 0 to 9 or so (1 m by 0.11), above a.
     const std::size_t extent = header.find("\nSegment2_Extent:=");

@@ -17,8 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
-constexpr int kUsage = 2, kOutput = 5;
-
 class Outputs : public ::testing::Test {
 protected:
     Outputs() {

@@ -427,7 +427,9 @@ TEST_F(SmallHouse, LineDrawingsRefuseWhatTheyDoNotHaveFromScenesToo) {
                 folder.path(), {"render", "house.svt", "-o", output, "--size", "160x90", "--scene", "l.scene.json"});
             EXPECT_EQ(result.exitCode != 0, option != nullptr) << result.toString();
             EXPECT_EQ(std::filesystem::exists(folder / output), option == nullptr) << member;
-            if (option != nullptr) EXPECT_NE(result.err.find(option), std::string::npos) << result.toString();
+            if (option != nullptr) {
+                EXPECT_NE(result.err.find(option), std::string::npos) << result.toString();
+            }
         }
     }
 }

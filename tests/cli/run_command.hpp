@@ -14,6 +14,9 @@
 
 namespace svt::test {
 
+/// Exit codes of the command.
+inline constexpr int kDone = 0, kUsage = 2, kInput = 3, kInvalid = 4, kOutput = 5, kLimit = 8, kCancelled = 9;
+
 /// Root of the checkout that the test was built from.
 [[nodiscard]] const std::string& sourceRoot();
 /// Folder of the build that the running test belongs to.
@@ -26,8 +29,8 @@ struct Limits {
     std::uint64_t memoryBytes = std::uint64_t{1} << 30;  ///< address space; no limit if a sanitizer needs more
     std::uint64_t fileBytes = 0;                         ///< largest file that may be written; 0: no limit
     /// Mounts a file system of 4 KiB over this folder, seen by the command alone; empty: none.
-    std::filesystem::path tinyDisk;
-    std::filesystem::path stdoutFile;  ///< receives stdout; empty: stdout is stored in the result
+    std::filesystem::path tinyDisk{};
+    std::filesystem::path stdoutFile{};  ///< receives stdout; empty: stdout is stored in the result
 };
 
 struct CommandResult {

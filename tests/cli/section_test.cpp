@@ -122,9 +122,9 @@ TEST(Section, SheetsAreLinesInAllFormats) {
     buildHouse(folder.path());
     runSvtWell(folder.path(), {"section", "house.svt", "-o", "plan.dxf", "-o", "plan.geojson", "-o", "plan.svg",
                                "--show", "class=ClosureSurface"});
-    const auto json = nlohmann::json::parse(readText(folder / "plan.geojson"));
-    ASSERT_GE(json["features"].size(), 1u);
-    for (const auto& feature : json["features"]) {
+    const auto drawn = nlohmann::json::parse(readText(folder / "plan.geojson"));
+    ASSERT_GE(drawn["features"].size(), 1u);
+    for (const auto& feature : drawn["features"]) {
         EXPECT_EQ(feature["geometry"]["type"], "MultiLineString");
         EXPECT_EQ(feature["properties"]["area"], 0);
         EXPECT_EQ(feature["properties"]["exact"], true);
@@ -194,10 +194,10 @@ TEST(Section, GeojsonHasAreasInTheModelsCrs) {
     const TemporaryFolder folder;
     buildHouse(folder.path());
     runSvtWell(folder.path(), {"section", "house.svt", "-o", "plan.geojson", "--hide", "class=ClosureSurface"});
-    const auto json = nlohmann::json::parse(readText(folder / "plan.geojson"));
-    EXPECT_GT(json["features"].size(), 20u);
+    const auto drawn = nlohmann::json::parse(readText(folder / "plan.geojson"));
+    EXPECT_GT(drawn["features"].size(), 20u);
     int polygons = 0;
-    for (const auto& feature : json["features"]) {
+    for (const auto& feature : drawn["features"]) {
         if (feature["geometry"]["type"] != "MultiPolygon") continue;  // sheets
         ++polygons;
         double area = 0;
@@ -212,11 +212,11 @@ TEST(Section, GeojsonHasAreasInTheModelsCrs) {
     }
     if (!hasProgram("ogrinfo")) GTEST_SKIP() << "no ogrinfo here";
     const std::string info = outputOf(folder.path(), "ogrinfo -al -so plan.geojson");
-    EXPECT_NE(info.find("Feature Count: " + std::to_string(json["features"].size())), std::string::npos) << info;
+    EXPECT_NE(info.find("Feature Count: " + std::to_string(drawn["features"].size())), std::string::npos) << info;
     EXPECT_NE(info.find("25832"), std::string::npos) << info;
     EXPECT_NE(info.find("area: Real"), std::string::npos) << info;
     // OGR's own areas.
-    const std::string query = "SELECT id, area, OGR_GEOM_AREA AS g FROM \"" + json["name"].get<std::string>() + "\"";
+    const std::string query = "SELECT id, area, OGR_GEOM_AREA AS g FROM \"" + drawn["name"].get<std::string>() + "\"";
     const std::string rows = outputOf(folder.path(), "ogr2ogr -f CSV /vsistdout/ plan.geojson -sql '" + query + "'");
     const std::regex row(R"row(\n"?([^,"]+)"?,([0-9.]+),([0-9.]+))row");
     int count = 0;
@@ -231,9 +231,9 @@ TEST(Section, UprightGeojsonLiesOnThePlane) {
     buildHouse(folder.path());
     runSvtWell(folder.path(), {"section", "house.svt", "-o", "cut.geojson", "--plane", "0.6,0.8,0.1,-8", "--hide",
                                "class=ClosureSurface"});
-    const auto json = nlohmann::json::parse(readText(folder / "cut.geojson"));
-    const auto vectorOf = [&](const char* key, int n) { return json["plane"][key][n].get<double>(); };
-    for (const auto& feature : json["features"]) {
+    const auto drawn = nlohmann::json::parse(readText(folder / "cut.geojson"));
+    const auto vectorOf = [&](const char* key, int n) { return drawn["plane"][key][n].get<double>(); };
+    for (const auto& feature : drawn["features"]) {
         if (feature["geometry"]["type"] != "MultiPolygon") continue;
         for (const auto& polygon : feature["geometry"]["coordinates"])
             for (const auto& ring : polygon)

@@ -58,7 +58,9 @@ Sample sampleOf(std::int64_t reach) {
                            y = (std::int64_t(n) * 104729) % (2 * reach) - reach;
         const Vec3i size{40 + std::int32_t(n % 3) * 4, 36, 12};
         sample.volumes.push_back(boxes({x, y, std::int64_t(n % 5) * 2 - 4}, size, n + 1));
-        const auto tile = [](std::int64_t first, std::int32_t n) { return std::int32_t((first + n / 2) >> 6); };
+        const auto tile = [](std::int64_t first, std::int32_t length) {
+            return std::int32_t((first + length / 2) >> 6);
+        };
         sample.ranges.push_back({{x, y}, {x + size.x - 1, y + size.y - 1}, {6, tile(x, size.x), tile(y, size.y)}});
     }
     return sample;
@@ -151,7 +153,9 @@ void expectColumn(const volume::SemanticVolume& made, std::int32_t i, std::int32
     const double low = bottom + step * (isFloating ? runs[0].end : 0), high = bottom + step * runs[highest].end;
     EXPECT_LE(std::abs(low - double(own.low) / double(own.area)), step / 2);
     // At least one sample high.
-    if (high - low > step) EXPECT_LE(std::abs(high - double(own.top) / double(own.area)), step / 2);
+    if (high - low > step) {
+        EXPECT_LE(std::abs(high - double(own.top) / double(own.area)), step / 2);
+    }
     expectShares(labelAt(runs[highest].scalar), own.roof, std::pow(4, detail - 1), detail);
     if (runs[highest].end - (isFloating ? runs[0].end : 0) < 2 || own.side.empty()) return;
     double faces = 0;

@@ -229,8 +229,10 @@ TEST_F(SmallCity, ShowsRoofsAndWallsAtDetailOne) {
                         ASSERT_EQ(own.size(), 1u) << "its body, where nothing else is";
                         continue;
                     }
-                    for (const auto& [name, samples] : own)
-                        if (name != root.className) ASSERT_LE(samples, own.at(label.className));
+                    for (const auto& [name, samples] : own) {
+                        if (name == root.className) continue;
+                        ASSERT_LE(samples, own.at(label.className));
+                    }
                 }
     }
     EXPECT_GT(cells["RoofSurface"], 1000u);

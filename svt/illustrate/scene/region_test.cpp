@@ -9,7 +9,7 @@ namespace svt::illustrate {
 namespace {
 
 // Air of 10 x 10 x 10 m around a block of 2 m in its middle, turned by 90 degrees: the grid's x is the world's y.
-volume::SemanticVolume block() {
+volume::SemanticVolume turnedBlock() {
     volume::SemanticVolume volume;
     volume.grid = *volume::Grid::fromParts({21, 21, 21}, {0.5, 0.5, 0.5}, {100, 200, 30},
                                            {Vec3d{0, 1, 0}, Vec3d{-1, 0, 0}, Vec3d{0, 0, 1}});
@@ -47,7 +47,7 @@ bool contains(const std::vector<render::ConvexPart>& parts, Vec3d p) {
 
 class RegionTest : public ::testing::Test {
 protected:
-    const volume::SemanticVolume volume_ = block();
+    const volume::SemanticVolume volume_ = turnedBlock();
     const analyze::LabelRows rows_{volume_.labels};
     const RegionContext context_{volume_, rows_, frontCamera(), 1.5};
 

@@ -23,10 +23,10 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> pairsOf(const std::vector<O
 }
 using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-const Vec3d kLow{0, 0, 0}, kHigh{4, 3, 2};
+const Vec3d kNear{0, 0, 0}, kFar{4, 3, 2};
 
 TEST(FindOpenEdges, ClosedBoxHasNone) {
-    EXPECT_TRUE(findOpenEdges(boxMesh(kLow, kHigh).triangles).empty());
+    EXPECT_TRUE(findOpenEdges(boxMesh(kNear, kFar).triangles).empty());
     EXPECT_TRUE(findOpenEdges({}).empty());
 }
 
@@ -35,7 +35,7 @@ TEST(FindOpenEdges, SingleTriangleIsOpenAllRound) {
 }
 
 TEST(FindOpenEdges, MissingTriangleLeavesTheEdgesOfItsNeighbours) {
-    auto triangles = boxMesh(kLow, kHigh).triangles;
+    auto triangles = boxMesh(kNear, kFar).triangles;
     const Triangle gone = triangles[5];
     triangles.erase(triangles.begin() + 5);
     Pairs expected;
@@ -54,7 +54,7 @@ TEST(FindOpenEdges, AnEdgeIsListedAsOftenAsItIsMissing) {
 
 TEST(FindOpenEdges, FacesInsideThatCancelAreClosed) {
     // A wall inside of the box, used in both directions.
-    auto mesh = boxMesh(kLow, kHigh);
+    auto mesh = boxMesh(kNear, kFar);
     for (const auto& t : trianglesOf({{0, 1, 7}, {1, 0, 7}})) mesh.triangles.push_back(t);
     EXPECT_TRUE(findOpenEdges(mesh.triangles).empty());
 }
@@ -62,7 +62,7 @@ TEST(FindOpenEdges, FacesInsideThatCancelAreClosed) {
 // A box of 4 x 3 x 2 m whose south face is divided at x = `at`, so that its bottom and top edges have T-junctions with
 // the faces above and below.
 ObjectMesh boxWithCutFace(double noise = 0) {
-    auto mesh = boxMesh(kLow, kHigh);
+    auto mesh = boxMesh(kNear, kFar);
     std::erase_if(mesh.triangles, [](const Triangle& t) {  // south: corners 0, 1, 5, 4
         return std::all_of(t.corners.begin(), t.corners.end(),
                            [](std::uint32_t c) { return c == 0 || c == 1 || c == 4 || c == 5; });
@@ -153,7 +153,7 @@ TEST(CutAtTJunctions, SeveralPointsOnOneEdgeAndOnBothSides) {
 }
 
 TEST(CutAtTJunctions, ClosedMeshIsNotTouched) {
-    auto mesh = boxMesh(kLow, kHigh);
+    auto mesh = boxMesh(kNear, kFar);
     const auto before = mesh.triangles;
     EXPECT_EQ(cutAtTJunctions(mesh.vertices, mesh.triangles, 1e-4), 0u);
     ASSERT_EQ(mesh.triangles.size(), before.size());
@@ -221,7 +221,7 @@ TEST(RemoveDoubledFaces, VeryManyDoubledFacesTakeNoTime) {
     ObjectMesh mesh;
     for (std::uint32_t i = 0; i < kCount; ++i) {
         const Vec3d low{5.0 * (i % 100), 4.0 * (i / 100), 0};
-        ObjectMesh box = boxMesh(low, low + kHigh);
+        ObjectMesh box = boxMesh(low, low + kFar);
         for (const auto& t : trianglesOf({{5, 7, 6}, {5, 6, 4}})) box.triangles.push_back(t);
         append(mesh, box);
     }
@@ -232,7 +232,7 @@ TEST(RemoveDoubledFaces, VeryManyDoubledFacesTakeNoTime) {
 }
 
 TEST(RemoveDoubledFaces, FaceWithTheOtherDiagonalGoes) {
-    auto mesh = boxMesh(kLow, kHigh);
+    auto mesh = boxMesh(kNear, kFar);
     for (const auto& t : trianglesOf({{5, 7, 6}, {5, 6, 4}})) mesh.triangles.push_back(t);  // the top once more
     ASSERT_FALSE(findOpenEdges(mesh.triangles).empty());
     EXPECT_EQ(removeDoubledFaces(mesh.vertices, mesh.triangles), 2u);
@@ -241,18 +241,18 @@ TEST(RemoveDoubledFaces, FaceWithTheOtherDiagonalGoes) {
 }
 
 TEST(RemoveDoubledFaces, HolesAndClosedMeshesAreLeftAlone) {
-    auto closed = boxMesh(kLow, kHigh).triangles;
-    EXPECT_EQ(removeDoubledFaces(boxMesh(kLow, kHigh).vertices, closed), 0u);
+    auto closed = boxMesh(kNear, kFar).triangles;
+    EXPECT_EQ(removeDoubledFaces(boxMesh(kNear, kFar).vertices, closed), 0u);
     EXPECT_EQ(closed.size(), 12u);
-    auto open = boxMesh(kLow, kHigh).triangles;
+    auto open = boxMesh(kNear, kFar).triangles;
     open.resize(10);
-    EXPECT_EQ(removeDoubledFaces(boxMesh(kLow, kHigh).vertices, open), 0u);
+    EXPECT_EQ(removeDoubledFaces(boxMesh(kNear, kFar).vertices, open), 0u);
     EXPECT_EQ(open.size(), 10u);
 }
 
 TEST(OrientConsistently, TurnedFacesAreTurnedBack) {
     for (const std::vector<std::size_t>& turned : {std::vector<std::size_t>{0}, {3, 4}, {1, 5, 8, 11}}) {
-        auto mesh = boxMesh(kLow, kHigh);
+        auto mesh = boxMesh(kNear, kFar);
         for (const std::size_t t : turned) std::swap(mesh.triangles[t].corners[1], mesh.triangles[t].corners[2]);
         EXPECT_EQ(orientConsistently(mesh.triangles), turned.size());
         EXPECT_TRUE(findOpenEdges(mesh.triangles).empty());
@@ -261,7 +261,7 @@ TEST(OrientConsistently, TurnedFacesAreTurnedBack) {
 }
 
 TEST(OrientConsistently, ComponentThatAgreesStays) {
-    auto mesh = boxMesh(kLow, kHigh);
+    auto mesh = boxMesh(kNear, kFar);
     test::turnOver(mesh.triangles);  // facing inwards, but consistent
     append(mesh, boxMesh({10, 0, 0}, {11, 1, 1}));
     std::swap(mesh.triangles[12].corners[1], mesh.triangles[12].corners[2]);
@@ -284,7 +284,7 @@ TEST(OrientConsistently, MoebiusStripStays) {
 }
 
 TEST(OrientOutwards, InwardBoxIsTurned) {
-    auto mesh = boxMesh(kLow, kHigh);
+    auto mesh = boxMesh(kNear, kFar);
     EXPECT_EQ(orientOutwards(mesh.vertices, mesh.triangles), 0u);
     test::turnOver(mesh.triangles);
     EXPECT_EQ(orientOutwards(mesh.vertices, mesh.triangles), 12u);
@@ -294,10 +294,10 @@ TEST(OrientOutwards, InwardBoxIsTurned) {
 TEST(OrientOutwards, VoidsKeepFacingInwards) {
     auto hole = boxMesh({1, 1, 0.5}, {2, 2, 1.5});
     test::turnOver(hole.triangles);
-    auto outerFirst = boxMesh(kLow, kHigh);
+    auto outerFirst = boxMesh(kNear, kFar);
     append(outerFirst, hole);
     auto voidFirst = hole;
-    append(voidFirst, boxMesh(kLow, kHigh));
+    append(voidFirst, boxMesh(kNear, kFar));
     for (auto& mesh : {&outerFirst, &voidFirst}) {
         EXPECT_EQ(orientOutwards(mesh->vertices, mesh->triangles), 0u);
         EXPECT_NEAR(signedVolume(mesh->vertices, mesh->triangles), 23, 1e-12);
@@ -357,7 +357,7 @@ TEST(OrientOutwards, InwardBoxBesideAnotherIsNoVoid) {
 }
 
 TEST(FindComponents, NumbersGoByTheFirstTriangle) {
-    auto mesh = boxMesh(kLow, kHigh);
+    auto mesh = boxMesh(kNear, kFar);
     append(mesh, boxMesh({10, 0, 0}, {11, 1, 1}));
     std::swap(mesh.triangles[1], mesh.triangles[13]);
     const auto component = findComponents(mesh.triangles);
@@ -371,7 +371,7 @@ TEST(FindComponents, ATouchingCornerJoinsNothing) {
 }
 
 TEST(FindBoundaryLoops, LoopBoundsTheMissingFace) {
-    auto mesh = boxMesh(kLow, kHigh);
+    auto mesh = boxMesh(kNear, kFar);
     std::erase_if(mesh.triangles, [](const Triangle& t) {  // the top: corners 4 to 7
         return std::all_of(t.corners.begin(), t.corners.end(), [](std::uint32_t c) { return c >= 4; });
     });
@@ -407,7 +407,7 @@ TEST(FindBoundaryLoops, ChainsThatDoNotCloseAreLeftOut) {
 
 TEST(SignedVolume, IsExactFarFromTheOrigin) {
     const Vec3d world{458877, 5438353, 111};
-    const auto mesh = boxMesh(kLow + world, kHigh + world);
+    const auto mesh = boxMesh(kNear + world, kFar + world);
     EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), 24, 1e-9);
     EXPECT_EQ(signedVolume({}, {}), 0);
 }

@@ -291,9 +291,11 @@ TEST(ExactFigures, AreThoseOfTheDesign) {
     const Figures& figures = expected();
     const auto described = samples::describeSample(samples::SampleKind::House, {});
     ASSERT_TRUE(described);
-    for (const samples::SampleComponent& component : *described)
-        if (const auto found = figures.find("volume of " + component.id); found != figures.end())
-            EXPECT_NEAR(found->second.value, component.volume, 1e-6 * component.volume) << component.id;
+    for (const samples::SampleComponent& component : *described) {
+        const auto found = figures.find("volume of " + component.id);
+        if (found == figures.end()) continue;
+        EXPECT_NEAR(found->second.value, component.volume, 1e-6 * component.volume) << component.id;
+    }
     EXPECT_NEAR(figures.at("level Attic").value - figures.at("level Ground floor").value, 5.56, 2e-6);
 }
 

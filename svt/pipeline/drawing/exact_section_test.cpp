@@ -6,6 +6,7 @@
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/pipeline/build_volume.hpp>
+#include <svt/pipeline/drawing/section_planes_test.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/samples/sample.hpp>
 
@@ -227,13 +228,7 @@ void compareLines(const Workpiece& work, const illustrate::SectionDrawing& drawi
 /// Nine planes parallel to the axes and four oblique ones through the middle.
 std::vector<illustrate::SectionPlane> planesThrough(const volume::Grid& grid) {
     const Vec3d size = scaled(toDouble(grid.dimension() - Vec3i{1, 1, 1}), grid.spacing());
-    std::vector<illustrate::SectionPlane> planes;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double part : {0.2137, 0.4871, 0.7529}) {
-            Vec3d normal;
-            normal[axis] = axis == 1 ? -1 : 1;
-            planes.push_back({normal, grid.origin() + size * part});
-        }
+    std::vector<illustrate::SectionPlane> planes = test::axisPlanesThrough(grid);
     for (const Vec3d normal : {Vec3d{0.6, 0.8, 0}, Vec3d{0.5, 0.6, 0.4}, Vec3d{-0.2, 0.5, 0.9}, Vec3d{0.7, -0.1, -0.3}})
         planes.push_back({normalized(normal), grid.origin() + size * 0.4637});
     return planes;

@@ -166,12 +166,12 @@ std::pair<PlanePoint, PlanePoint> boxOf(const illustrate::SectionDrawing& drawin
     return {low, high};
 }
 
-struct Tally {
+struct LinesSeen {
     std::size_t views = 0, needed = 0, missing = 0, drawn = 0, needless = 0;
 };
 
 void compareView(const mesh::MeshSet& meshes, const std::vector<std::uint32_t>& labelOfObject,
-                 const volume::SemanticVolume& volume, const illustrate::SectionPlane& plane, Tally& tally) {
+                 const volume::SemanticVolume& volume, const illustrate::SectionPlane& plane, LinesSeen& tally) {
     illustrate::SectionOptions options;
     options.beyond.visible = true;
     const auto drawing = illustrate::drawSection(volume, plane, options);
@@ -228,8 +228,8 @@ void compareView(const mesh::MeshSet& meshes, const std::vector<std::uint32_t>& 
     }
 }
 
-Tally compareModel(model::BuildingModel model) {
-    Tally tally;
+LinesSeen castBeside(model::BuildingModel model) {
+    LinesSeen tally;
     BuildOptions options;
     options.vectors.meshes = true;
     const mesh::MeshSet meshes = *mesh::buildMeshes(model);
@@ -251,7 +251,7 @@ Tally compareModel(model::BuildingModel model) {
     return tally;
 }
 
-void expectSeen(const std::string& name, const Tally& tally) {
+void expectSeen(const std::string& name, const LinesSeen& tally) {
     // The row of docs/dev/drawings.md.
     std::printf("| %s | %zu | %zu | %zu | %zu | %zu |\n", name.c_str(), tally.views, tally.needed, tally.missing,
                 tally.drawn, tally.needless);
@@ -268,7 +268,7 @@ TEST_P(LinesBeyondOfFile, AreWhatRaysSee) {
     SVT_NEEDS_DATA(file, GetParam());
     auto model = readModels(std::span(&file, 1), {}, nullptr);
     ASSERT_TRUE(model);
-    expectSeen(GetParam(), compareModel(std::move(*model)));
+    expectSeen(GetParam(), castBeside(std::move(*model)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Shared, LinesBeyondOfFile,
@@ -282,7 +282,7 @@ TEST(LinesBeyondOfSample, HouseAndTowerAreWhatRaysSee) {
         auto model = readers::readModel(std::as_bytes(std::span(*text)), "sample.gml");
         ASSERT_TRUE(model);
         expectSeen(kind == samples::SampleKind::House ? "house (generated)" : "tower (generated)",
-                   compareModel(std::move(*model)));
+                   castBeside(std::move(*model)));
     }
 }
 

@@ -4,6 +4,7 @@
 #include <svt/core/test_data_test.hpp>
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/pipeline/build_volume.hpp>
+#include <svt/pipeline/drawing/section_planes_test.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/samples/sample.hpp>
 
@@ -48,18 +49,6 @@ double thicknessOf(const illustrate::SectionComponent& component) {
     return 2 * component.area / border;
 }
 
-std::vector<illustrate::SectionPlane> planesThrough(const volume::Grid& grid) {
-    const Vec3d size = scaled(toDouble(grid.dimension() - Vec3i{1, 1, 1}), grid.spacing());
-    std::vector<illustrate::SectionPlane> planes;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double part : {0.2137, 0.4871, 0.7529}) {
-            Vec3d normal;
-            normal[axis] = axis == 1 ? -1 : 1;
-            planes.push_back({normal, grid.origin() + size * part});
-        }
-    return planes;
-}
-
 AreaErrors compareWithMeshes(model::BuildingModel model, const std::string& name, Vec3d spacing) {
     AreaErrors errors;
     BuildOptions options;
@@ -70,7 +59,7 @@ AreaErrors compareWithMeshes(model::BuildingModel model, const std::string& name
     if (!built) return errors;
     const volume::SemanticVolume& volume = built->volume;
     const auto bricks = volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes});
-    for (const illustrate::SectionPlane& plane : planesThrough(volume.grid)) {
+    for (const illustrate::SectionPlane& plane : test::axisPlanesThrough(volume.grid)) {
         illustrate::SectionOptions byVoxels;
         byVoxels.useMeshes = false;
         const auto exact = illustrate::drawSection(volume, plane);

@@ -108,8 +108,10 @@ TEST(Truncated, SequencesAreErrorsBetweenTheirLines) {
         const auto model = read(std::string_view(text).substr(0, size));
         const bool isWhole = size == second || size + 1 == second || size == third || size + 1 == third;
         ASSERT_EQ(bool(model), isWhole) << text.substr(0, size);
-        if (size > third) EXPECT_EQ(model.error().code(), Code::Truncated);
-        if (size > third) EXPECT_EQ(model.error().where().line, 3u);
+        if (size > third) {
+            EXPECT_EQ(model.error().code(), Code::Truncated);
+            EXPECT_EQ(model.error().where().line, 3u);
+        }
     }
     Diagnostics log;
     const auto model = read(std::string_view(text).substr(0, text.size() - 40), true, &log);
@@ -170,7 +172,9 @@ TEST(Truncated, AFileThatShrinksWhileItIsReadEndsNoProgram) {
     });
     for (int i = 0; i < 50; ++i) {
         const auto model = readModel(path);
-        if (model) EXPECT_EQ(model->features.back().id, "wall");
+        if (model) {
+            EXPECT_EQ(model->features.back().id, "wall");
+        }
     }
     isDone = true;
     writer.join();

@@ -123,7 +123,9 @@ TEST(ZipMember, AnyDamageIsAnErrorOrChangesNothing) {
                 std::string damaged = whole;
                 damaged[at] = static_cast<char>(damaged[at] ^ (1 << bit));
                 const auto model = read(damaged);
-                if (model) EXPECT_EQ(described(*model), expected) << "byte " << at << ", bit " << bit;
+                if (model) {
+                    EXPECT_EQ(described(*model), expected) << "byte " << at << ", bit " << bit;
+                }
                 errors += model ? 0 : 1;
             }
         EXPECT_GT(errors, 100);

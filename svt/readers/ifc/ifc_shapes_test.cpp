@@ -367,12 +367,12 @@ TEST(IfcShapes, FacetedSolidsWithHollows) {
         return text;
     }();
     const auto shell = [](int id, int firstPoint, int firstFace) {
-        constexpr int kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                      {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+        constexpr int kCorners[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                        {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
         std::string text, list;
         for (int f = 0; f < 6; ++f) {
             const int face = firstFace + 3 * f;
-            const auto& c = kFaces[f];
+            const auto& c = kCorners[f];
             text += fmt::format(
                 "#{}=IFCPOLYLOOP((#{},#{},#{},#{}));\n#{}=IFCFACEOUTERBOUND(#{},.T.);\n#{}=IFCFACE((#{}));\n", face,
                 firstPoint + c[0], firstPoint + c[1], firstPoint + c[2], firstPoint + c[3], face + 1, face, face + 2,

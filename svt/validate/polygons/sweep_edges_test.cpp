@@ -14,21 +14,21 @@ std::vector<FlatEdge> edgesOf(const std::vector<std::vector<Point2>>& rings) {
     return edges;
 }
 
-const std::vector<Point2> kSquare{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+const std::vector<Point2> kOutline{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
 
 TEST(MeetBeyondEnds, SimpleRingsDoNot) {
-    EXPECT_FALSE(meetBeyondEnds(edgesOf({kSquare})));
+    EXPECT_FALSE(meetBeyondEnds(edgesOf({kOutline})));
     EXPECT_FALSE(
-        meetBeyondEnds(edgesOf({kSquare, {{2, 2}, {2, 4}, {4, 4}, {4, 2}}, {{5, 2}, {5, 4}, {7, 4}, {7, 2}}})));
+        meetBeyondEnds(edgesOf({kOutline, {{2, 2}, {2, 4}, {4, 4}, {4, 2}}, {{5, 2}, {5, 4}, {7, 4}, {7, 2}}})));
     EXPECT_FALSE(meetBeyondEnds(edgesOf({{{0, 0}, {5, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 5}}}))) << "straight corners";
 }
 
 TEST(MeetBeyondEnds, WhatTouchesOrCrossesDoes) {
     EXPECT_TRUE(meetBeyondEnds(edgesOf({{{0, 0}, {10, 10}, {10, 0}, {0, 10}}}))) << "a bow tie";
-    EXPECT_TRUE(meetBeyondEnds(edgesOf({kSquare, {{0, 5}, {4, 6}, {4, 4}}}))) << "a corner on an edge";
-    EXPECT_TRUE(meetBeyondEnds(edgesOf({kSquare, {{0, 0}, {4, 6}, {6, 4}}}))) << "a corner on a corner";
-    EXPECT_TRUE(meetBeyondEnds(edgesOf({kSquare, {{10, 2}, {10, 4}, {7, 3}}}))) << "an edge on an edge";
-    EXPECT_TRUE(meetBeyondEnds(edgesOf({kSquare, kSquare})));
+    EXPECT_TRUE(meetBeyondEnds(edgesOf({kOutline, {{0, 5}, {4, 6}, {4, 4}}}))) << "a corner on an edge";
+    EXPECT_TRUE(meetBeyondEnds(edgesOf({kOutline, {{0, 0}, {4, 6}, {6, 4}}}))) << "a corner on a corner";
+    EXPECT_TRUE(meetBeyondEnds(edgesOf({kOutline, {{10, 2}, {10, 4}, {7, 3}}}))) << "an edge on an edge";
+    EXPECT_TRUE(meetBeyondEnds(edgesOf({kOutline, kOutline})));
     EXPECT_TRUE(meetBeyondEnds(edgesOf({{{0, 0}, {10, 0}, {4, 0}, {4, 8}}}))) << "folded back";
     EXPECT_TRUE(meetBeyondEnds(edgesOf({{{0, 0}, {10, 0}, {10, 0}, {4, 8}}}))) << "an edge without length";
 }

@@ -53,7 +53,7 @@ std::vector<FacePlane> somePlanes(std::size_t count) {
 
 FacePlane planeAlongZ(double offset) { return {{{0, 0, 1}, offset}, {0, 0, 0}, {800, 700, 65535}}; }
 
-std::vector<std::byte> frameOf(const Bytes& bytes) {
+std::vector<std::byte> frameOfBytes(const Bytes& bytes) {
     std::vector<std::byte> frame(ZSTD_compressBound(bytes.size()));
     frame.resize(ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), 3));
     return frame;
@@ -84,7 +84,7 @@ const Bytes kExampleBytes{2,                                   // count
 std::vector<std::byte> exampleWith(std::size_t at, const Bytes& bytes) {
     Bytes changed = kExampleBytes;
     std::copy(bytes.begin(), bytes.end(), changed.begin() + static_cast<std::ptrdiff_t>(at));
-    return frameOf(changed);
+    return frameOfBytes(changed);
 }
 
 void expectRefused(const std::vector<std::byte>& frame, std::string_view reason, Vec3i dimension = kDimension) {
@@ -138,7 +138,7 @@ TEST(FacePlanes, TheExampleOfTheFormatIsWrittenAndRead) {
     const auto frame = compressFacePlanes(kExample);
     ASSERT_TRUE(frame);
     EXPECT_EQ(unpacked(*frame), kExampleBytes);
-    const auto read = readFacePlanes(frameOf(kExampleBytes), {9, 6, 4});
+    const auto read = readFacePlanes(frameOfBytes(kExampleBytes), {9, 6, 4});
     ASSERT_TRUE(read) << read.error().toString();
     expectSame(*read, kExample);
 }
@@ -181,11 +181,11 @@ TEST(FacePlanes, WrongOnesAreFound) {
 TEST(FacePlanes, DamagedOnesAreRefused) {
     expectRefused({}, "no zstd frame");
     expectRefused(std::vector<std::byte>(40, std::byte{7}), "no zstd frame");
-    expectRefused(frameOf({}), "0 planes are said to be in 0 bytes");
-    expectRefused(frameOf({1, 0, 0}), "1 planes are said to be in 2 bytes");
-    expectRefused(frameOf({0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0}), "4294967295 planes are said to be in 1 bytes");
-    expectRefused(frameOf({0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0}), "are said to be in");
-    expectRefused(frameOf({0, 0}), "1 bytes are left over");
+    expectRefused(frameOfBytes({}), "0 planes are said to be in 0 bytes");
+    expectRefused(frameOfBytes({1, 0, 0}), "1 planes are said to be in 2 bytes");
+    expectRefused(frameOfBytes({0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0}), "4294967295 planes are said to be in 1 bytes");
+    expectRefused(frameOfBytes({0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0}), "are said to be in");
+    expectRefused(frameOfBytes({0, 0}), "1 bytes are left over");
     expectRefused(exampleWith(1, {1}), "the normal of none before it");
     expectRefused(exampleWith(1, {2}), "the normal of none before it");
     expectRefused(exampleWith(2, {1}), "the normal of none before it");
@@ -196,23 +196,23 @@ TEST(FacePlanes, DamagedOnesAreRefused) {
     expectRefused(exampleWith(39, {0xF0, 0, 0x7F}), "plane 0 has the offset inf");
     expectRefused(exampleWith(49, {0}), "plane 0 is within voxels [2, 2) along x");
     expectRefused(exampleWith(53, {0xFF}), "cut short");
-    expectRefused(frameOf(kExampleBytes), "plane 1 is within voxels [8, 9) along x, there are 8", {8, 6, 4});
+    expectRefused(frameOfBytes(kExampleBytes), "plane 1 is within voxels [8, 9) along x, there are 8", {8, 6, 4});
     Bytes longer = kExampleBytes;
     longer.push_back(0);
-    expectRefused(frameOf(longer), "1 bytes are left over");
+    expectRefused(frameOfBytes(longer), "1 bytes are left over");
     // 65536 above the smallest voxel of the last plane.
     Bytes far(kExampleBytes.begin(), kExampleBytes.end() - 1);
     far.insert(far.end(), {0x80, 0x80, 4});
-    expectRefused(frameOf(far), "beyond voxel 65535");
+    expectRefused(frameOfBytes(far), "beyond voxel 65535");
     // A difference of -1 from 0.
     expectRefused(exampleWith(43, {1, 0}), "beyond voxel 65535");
-    expectRefused(frameOf(Bytes(std::size_t{64} << 20, 0)), "are possible");
+    expectRefused(frameOfBytes(Bytes(std::size_t{64} << 20, 0)), "are possible");
 }
 
 TEST(FacePlanes, MoreNormalsThanBytesAreRefused) {
     Bytes bytes{100};
     bytes.resize(1 + 100 * 15, 0);
-    expectRefused(frameOf(bytes), "100 normals are said to be in 1400 bytes");
+    expectRefused(frameOfBytes(bytes), "100 normals are said to be in 1400 bytes");
 }
 
 TEST(FacePlanes, TooManyAreRefused) {
@@ -224,7 +224,7 @@ TEST(FacePlanes, TooManyAreRefused) {
     std::mt19937 random(1);
     for (std::size_t at = bytes.size() / 2; at < bytes.size(); at += 64)
         bytes[at] = static_cast<std::uint8_t>(random());
-    expectRefused(frameOf(bytes), "16777217 planes are over the limit of 16777216");
+    expectRefused(frameOfBytes(bytes), "16777217 planes are over the limit of 16777216");
 }
 
 TEST(FacePlanes, WhatRepeatsVeryOftenIsReadBack) {
@@ -243,7 +243,8 @@ TEST(FacePlanes, EveryTruncationIsRefused) {
         expectRefused({frame->begin(), frame->begin() + static_cast<std::ptrdiff_t>(size)}, "the face planes: ");
     const Bytes bytes = unpacked(*frame);
     for (std::size_t size = 0; size < bytes.size(); ++size)
-        expectRefused(frameOf({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}), "the face planes: ");
+        expectRefused(frameOfBytes({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}),
+                      "the face planes: ");
 }
 
 TEST(FacePlanes, EveryChangedByteIsToldOrReadsAsPlanes) {
@@ -268,7 +269,7 @@ TEST(FacePlanes, EveryChangedByteIsToldOrReadsAsPlanes) {
         for (std::size_t at = 0; at < bytes.size(); ++at) {
             Bytes damaged = bytes;
             damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ value);
-            expectSafe(frameOf(damaged));
+            expectSafe(frameOfBytes(damaged));
         }
     }
 }

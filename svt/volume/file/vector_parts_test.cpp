@@ -26,7 +26,7 @@ VectorParts someParts() {
     return parts;
 }
 
-std::vector<std::byte> frameOf(const std::vector<std::uint8_t>& bytes) {
+std::vector<std::byte> frameWith(const std::vector<std::uint8_t>& bytes) {
     std::vector<std::byte> frame(ZSTD_compressBound(bytes.size()));
     frame.resize(ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), 3));
     return frame;
@@ -72,13 +72,13 @@ TEST(VectorParts, TheExamplesOfTheFormatRead) {
     expected.points = {{0, 0, 0}, {1 << 20, 0, 0}, {1 << 20, 1 << 20, 0}};
     expected.segments = {{2, {0, 1}}};
     expected.triangles = {{0, {0, 1, 2}}};
-    const auto parts = readVectorParts(frameOf({20,   3,    1,    1, 0, 0x80, 0x80, 0x80, 0x01, 0, 0, 0, 0x80,
-                                                0x80, 0x80, 0x01, 0, 0, 0,    2,    0,    0,    0, 0, 0, 0}),
+    const auto parts = readVectorParts(frameWith({20,   3,    1,    1, 0, 0x80, 0x80, 0x80, 0x01, 0, 0, 0, 0x80,
+                                                  0x80, 0x80, 0x01, 0, 0, 0,    2,    0,    0,    0, 0, 0, 0}),
                                        kLabels);
     ASSERT_TRUE(parts) << parts.error().toString();
     EXPECT_EQ(*parts, expected);
     const auto old = readTenthParts(
-        frameOf({3, 1, 1, 0, 0, 0, 0xA0, 0x9C, 0x01, 0, 0, 0, 0xA0, 0x9C, 0x01, 0, 2, 0, 2, 0, 0, 2, 2}), kLabels);
+        frameWith({3, 1, 1, 0, 0, 0, 0xA0, 0x9C, 0x01, 0, 0, 0, 0xA0, 0x9C, 0x01, 0, 2, 0, 2, 0, 0, 2, 2}), kLabels);
     ASSERT_TRUE(old) << old.error().toString();
     EXPECT_EQ(*old, expected);
 }
@@ -86,22 +86,22 @@ TEST(VectorParts, TheExamplesOfTheFormatRead) {
 TEST(VectorParts, DamagedOnesAreRefused) {
     expectRefused({}, "no zstd frame");
     expectRefused(std::vector<std::byte>(40, std::byte{7}), "no zstd frame");
-    expectRefused(frameOf({}), "are said to be in");
-    expectRefused(frameOf({9, 0, 0, 0}), "the unit is said to be 2^-9 m");
-    expectRefused(frameOf({21, 0, 0, 0}), "the unit is said to be 2^-21 m");
-    expectRefused(frameOf({0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0, 0}), "the unit is said to be 2^-4294967295 m");
-    expectRefused(frameOf({20, 1, 0, 0, 2, 2}), "are said to be in 2 bytes");
-    expectRefused(frameOf({20, 0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0, 1}), "are said to be in");
-    expectRefused(frameOf({20, 1, 0, 0, 2, 2, 2, 2}), "1 bytes are left over");
-    expectRefused(frameOf({20, 1, 0, 0, 2, 2, 0x80}), "cut short");
-    expectRefused(frameOf({20, 1, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0, 0}), "longer than 32 bits");
-    expectRefused(frameOf({20, 1, 1, 0, 0, 0, 0, 9, 0, 2}), "segment 0 is of label 9, there are 9");
-    expectRefused(frameOf({20, 1, 1, 0, 0, 0, 0, 1, 0, 0}), "segment 0 uses point 1, there are 1");
-    expectRefused(frameOf({20, 1, 0, 1, 0, 0, 0, 1, 2, 0, 0}), "triangle 0 uses point 4294967295");
+    expectRefused(frameWith({}), "are said to be in");
+    expectRefused(frameWith({9, 0, 0, 0}), "the unit is said to be 2^-9 m");
+    expectRefused(frameWith({21, 0, 0, 0}), "the unit is said to be 2^-21 m");
+    expectRefused(frameWith({0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0, 0}), "the unit is said to be 2^-4294967295 m");
+    expectRefused(frameWith({20, 1, 0, 0, 2, 2}), "are said to be in 2 bytes");
+    expectRefused(frameWith({20, 0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0, 1}), "are said to be in");
+    expectRefused(frameWith({20, 1, 0, 0, 2, 2, 2, 2}), "1 bytes are left over");
+    expectRefused(frameWith({20, 1, 0, 0, 2, 2, 0x80}), "cut short");
+    expectRefused(frameWith({20, 1, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0, 0}), "longer than 32 bits");
+    expectRefused(frameWith({20, 1, 1, 0, 0, 0, 0, 9, 0, 2}), "segment 0 is of label 9, there are 9");
+    expectRefused(frameWith({20, 1, 1, 0, 0, 0, 0, 1, 0, 0}), "segment 0 uses point 1, there are 1");
+    expectRefused(frameWith({20, 1, 0, 1, 0, 0, 0, 1, 2, 0, 0}), "triangle 0 uses point 4294967295");
     // 3, then a difference that wraps around to 2.
-    expectRefused(frameOf({20, 1, 2, 0, 0, 0, 0, 3, 0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 2, 2, 2}), "out of the order");
+    expectRefused(frameWith({20, 1, 2, 0, 0, 0, 0, 3, 0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 2, 2, 2}), "out of the order");
     std::vector<std::uint8_t> zeros(std::size_t{64} << 20, 0);
-    expectRefused(frameOf(zeros), "are possible");
+    expectRefused(frameWith(zeros), "are possible");
 }
 
 TEST(VectorParts, AnyDamageIsToldOrReadsAsParts) {

@@ -14,10 +14,10 @@ namespace {
 using volume::Grid;
 using Voxel = std::tuple<int, int, int>;
 
-const Vec3i kDimension{20, 20, 20};
+const Vec3i kUnits{20, 20, 20};
 
 Grid unitGrid() {
-    return *Grid::fromParts(kDimension, {1, 1, 1}, {0, 0, 0}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    return *Grid::fromParts(kUnits, {1, 1, 1}, {0, 0, 0}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
 }
 
 std::set<Voxel> voxelsOf(const std::vector<ClaimedBox>& boxes) {
@@ -49,15 +49,14 @@ mesh::ObjectMesh quadMesh(Vec3d a, Vec3d b, Vec3d c, Vec3d d) {
 std::set<Voxel> thinSheet(const mesh::ObjectMesh& mesh, bool boundsBody = false) {
     const auto meshes = test::meshSetOf({mesh});
     std::vector<ClaimedBox> boxes;
-    addThinSheet(makeIndexMesh(meshes.objects[0], IndexFromLocal(meshes, unitGrid())), kDimension, 5, boundsBody,
-                 boxes);
+    addThinSheet(makeIndexMesh(meshes.objects[0], IndexFromLocal(meshes, unitGrid())), kUnits, 5, boundsBody, boxes);
     return voxelsOf(boxes);
 }
 
 std::set<Voxel> conservativeSheet(const mesh::ObjectMesh& mesh) {
     const auto meshes = test::meshSetOf({mesh});
     std::vector<ClaimedBox> boxes;
-    addConservativeSheet(makeIndexMesh(meshes.objects[0], IndexFromLocal(meshes, unitGrid())), kDimension, 5, boxes);
+    addConservativeSheet(makeIndexMesh(meshes.objects[0], IndexFromLocal(meshes, unitGrid())), kUnits, 5, boxes);
     return voxelsOf(boxes);
 }
 
@@ -219,7 +218,7 @@ std::pair<std::set<Voxel>, std::uint64_t> thinParts(const mesh::ObjectMesh& mesh
     const IndexFromLocal indexFromLocal(meshes, unitGrid());
     std::vector<ClaimedBox> boxes;
     const std::uint64_t count =
-        addThinParts(makeIndexMesh(meshes.objects[0], indexFromLocal), indexFromLocal, kDimension, {5, 5}, boxes);
+        addThinParts(makeIndexMesh(meshes.objects[0], indexFromLocal), indexFromLocal, kUnits, {5, 5}, boxes);
     return {voxelsOf(boxes), count};
 }
 

@@ -99,7 +99,7 @@ struct TwoRooms : Painted {
     }
 };
 
-CellPlan planOf(const SemanticVolume& volume) {
+CellPlan cellsOf(const SemanticVolume& volume) {
     auto plan = indoor::planCells(volume, {});
     EXPECT_TRUE(plan) << plan.error().message();
     return plan ? std::move(*plan) : CellPlan{};
@@ -131,7 +131,7 @@ void expectLinked(const std::string& document) {
 
 TEST(IndoorGmlWriter, RoomsAndTheirDoorsAreCellsThatTouch) {
     TwoRooms house;
-    const CellPlan plan = planOf(house.done());
+    const CellPlan plan = cellsOf(house.done());
     ASSERT_EQ(plan.cells.size(), 4u);
     EXPECT_NEAR(volumeOf(plan.cells[0].body), 1.5 * 2.6 * 2.2, 1e-9);
     EXPECT_NEAR(volumeOf(plan.cells[1].body), 1.8 * 2.6 * 2.2, 1e-9);
@@ -155,7 +155,7 @@ TEST(IndoorGmlWriter, KeptMeshesAreTakenExactly) {
     house.done();
     // The room of the voxels is 1.5 m wide, its mesh 1.512.
     house.addMesh(house.west, {0.15, 0.15, 0.15}, {1.662, 2.75, 2.35});
-    const CellPlan plan = planOf(house.volume);
+    const CellPlan plan = cellsOf(house.volume);
     ASSERT_EQ(plan.cells.size(), 4u);
     EXPECT_NEAR(volumeOf(plan.cells[0].body), 1.512 * 2.6 * 2.2, 1e-4);
     EXPECT_NEAR(volumeOf(plan.cells[2].body), (1.95 - 1.662) * 1.0 * 2.0, 1e-4) << "the door reaches to the mesh";
@@ -168,7 +168,7 @@ TEST(IndoorGmlWriter, DoorsReachRoomsOfOtherSlopes) {
     TwoRooms house;
     for (int j = 10; j < 20; ++j) house.fill(volume::kNoLabel, {15 + j / 10, j, 2}, {17, j + 1, 24});
     house.fill(house.west, {15, 15, 2}, {16, 16, 24});
-    const CellPlan plan = planOf(house.done());
+    const CellPlan plan = cellsOf(house.done());
     ASSERT_EQ(plan.cells.size(), 4u);
     EXPECT_EQ(plan.cells[2].kind, "ConnectionSpace");
     EXPECT_EQ(plan.transitions.size(), 3u);
@@ -178,12 +178,12 @@ TEST(IndoorGmlWriter, DoorsReachRoomsOfOtherSlopes) {
 TEST(IndoorGmlWriter, AWallBehindADoorIsNoWay) {
     TwoRooms house;
     house.fill(house.wall, {19, 10, 2}, {20, 20, 22});
-    const CellPlan plan = planOf(house.done());
+    const CellPlan plan = cellsOf(house.done());
     ASSERT_EQ(plan.cells.size(), 4u);
     EXPECT_EQ(plan.cells[2].kind, "AnchorSpace") << "it opens to one room alone";
     EXPECT_EQ(plan.transitions.size(), 2u);
     house.fill(house.wall, {17, 10, 2}, {18, 20, 22});
-    EXPECT_EQ(planOf(house.done()).cells.size(), 3u) << "a door without rooms is no cell";
+    EXPECT_EQ(cellsOf(house.done()).cells.size(), 3u) << "a door without rooms is no cell";
 }
 
 TEST(IndoorGmlWriter, RoomsThatTouchAreJoinedWhereOneCanWalk) {
@@ -193,7 +193,7 @@ TEST(IndoorGmlWriter, RoomsThatTouchAreJoinedWhereOneCanWalk) {
     open.fill(a, {2, 2, 2}, {17, 28, 13});
     open.fill(b, {17, 10, 2}, {38, 20, 13});
     open.fill(above, {2, 2, 13}, {17, 28, 24});
-    const CellPlan plan = planOf(open.done());
+    const CellPlan plan = cellsOf(open.done());
     ASSERT_EQ(plan.boundaries.size(), 2u);
     ASSERT_EQ(plan.transitions.size(), 1u);
     EXPECT_EQ(std::pair(plan.transitions[0].a, plan.transitions[0].b), std::pair(std::size_t{0}, std::size_t{1}));
@@ -209,7 +209,7 @@ TEST(IndoorGmlWriter, StatesLieWithinBentRooms) {
     const auto room = ell.add("a", "BuildingRoom");
     ell.fill(room, {2, 2, 2}, {38, 5, 24});
     ell.fill(room, {2, 2, 2}, {5, 28, 24});
-    const CellPlan plan = planOf(ell.done());
+    const CellPlan plan = cellsOf(ell.done());
     ASSERT_EQ(plan.cells.size(), 1u);
     const Vec3d at = plan.cells[0].inner / 0.1;
     EXPECT_EQ(ell.volume.columns.scalarAt(int(std::lround(at.x)), int(std::lround(at.y)), int(std::lround(at.z))),
@@ -223,7 +223,7 @@ TEST(IndoorGmlWriter, PiecesAndHollowsOfARoomAreKept) {
     two.fill(room, {2, 2, 2}, {14, 14, 14});
     two.fill(column, {5, 5, 5}, {9, 9, 9});
     two.fill(room, {20, 2, 2}, {30, 12, 12});
-    const CellPlan plan = planOf(two.done());
+    const CellPlan plan = cellsOf(two.done());
     ASSERT_EQ(plan.cells.size(), 2u);
     EXPECT_EQ(plan.cells[0].body.cavities.size(), 1u);
     EXPECT_NEAR(volumeOf(plan.cells[0].body), 1.728 - 0.064, 1e-9);
@@ -240,7 +240,7 @@ TEST(IndoorGmlWriter, FacesHaveTheirHoles) {
     const auto room = block.add("a", "BuildingRoom");
     block.fill(room, {2, 2, 2}, {14, 14, 14});
     block.fill(volume::kNoLabel, {6, 6, 2}, {9, 9, 14});
-    const auto faces = indoor::facesOf(planOf(block.done()).cells[0].body.shell);
+    const auto faces = indoor::facesOf(cellsOf(block.done()).cells[0].body.shell);
     EXPECT_EQ(faces.size(), 10u);
     EXPECT_EQ(std::count_if(faces.begin(), faces.end(), [](const auto& rings) { return rings.size() == 2; }), 2);
 }

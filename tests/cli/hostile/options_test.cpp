@@ -19,8 +19,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using Arguments = std::vector<std::string>;
 
-constexpr int kUsage = 2, kInput = 3, kOutput = 5;
-
 // The commands with their options, as `svt describe json` prints them.
 const json& declaredCommands() {
     static const json commands = [] {

@@ -22,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
-constexpr int kCancelled = 9, kOutput = 5;
 constexpr int kEndingSignals[] = {SIGTERM, SIGHUP, SIGINT, SIGPIPE};
 
 // A process of `svt` that the test can send signals to. Its temporary folder is `folder`/tmp.
