@@ -4,6 +4,7 @@
 #   make demo-city  a generated town of 3000 buildings as a city, pictures and figures under build/demo-city; then the page
 #   make demo     a generated house, its volume and pictures under build/demo; then the viewer, and how to open it
 #   make test     all tests
+#   make fast     the tests of the folders that differ from the upstream branch, or from the commit BASE=
 #   make web      the library as a WebAssembly module: build/web/svt.js and svt.wasm
 #   make viewer   the page that shows buildings, with that module: build/release/share/svt/viewer
 #   make python   the Python module svt: build/release/python, and a wheel in build/wheel
@@ -14,6 +15,7 @@
 #   make tsan     the thread sanitizer on what is parallel
 #   make tidy     clang-tidy over all sources
 #   make fuzz     each fuzz target for a minute (SECONDS=600 for longer; RUNS=3000 for the same inputs each time)
+#   make coverage the lines and branches of each folder that tests reach
 #   make mutants  changes in the sources that tests do not notice (FOLDERS="volume voxelize", COUNT=30)
 #   make install  the command with manual and viewer, the libraries: PREFIX=/usr/local DESTDIR=
 #   make package  .deb files for Debian 12: build/package
@@ -22,7 +24,7 @@
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := build
-.PHONY: verify build demo demo-city install package npm python test web viewer bench check asan tsan tidy fuzz mutants clean setup
+.PHONY: verify coverage fast build demo demo-city install package npm python test web viewer bench check asan tsan tidy fuzz mutants clean setup
 SECONDS ?= 60
 FOLDERS ?= volume voxelize mesh render readers
 COUNT ?= 30
@@ -56,6 +58,9 @@ test:
 	@$(MAKE) -s python
 	@scripts/test.sh
 
+fast: setup
+	@scripts/test.sh changed $(BASE)
+
 web:
 	@scripts/setup.sh web
 	@scripts/web_dependencies.sh
@@ -84,6 +89,9 @@ tidy:
 fuzz:
 	@scripts/setup.sh checks
 	@scripts/fuzz.sh $(if $(RUNS),$(RUNS)runs,$(SECONDS))
+
+coverage:
+	@scripts/coverage.py
 
 mutants: setup
 	@scripts/mutants.py $(FOLDERS) --count $(COUNT)
