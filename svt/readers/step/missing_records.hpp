@@ -30,10 +30,12 @@ public:
     /// \param reference  a value of a record of the file, as Fields or a cursor gave it
     void note(Value reference);
 
-    /// Whether something was noted since the last take().
+    /// Whether something was noted since the last take() or drop().
     [[nodiscard]] bool isAny() const noexcept { return !recent_.empty(); }
     /// What was noted since the last call, in words, each once: "#9999, to which attribute 1 of #201 IFCWALL refers".
     [[nodiscard]] std::vector<std::string> take();
+    /// Drops the notes since the last take(); report() still has them.
+    void drop() noexcept { recent_.clear(); }
 
     /// One finding (DanglingReference) for each reference that was noted, in the order of the file.
     /// \param name  of the file
@@ -41,7 +43,7 @@ public:
 
 private:
     const StepFile& file_;
-    std::vector<Value> recent_;  // since take(), at most kMaxTaken
+    std::vector<Value> recent_;  // since take() or drop(), at most kMaxTaken
     std::vector<Value> known_;   // each once up to kMaxKnown
     std::unordered_set<const char*> isKnown_;
     std::size_t more_ = 0;  // beyond

@@ -62,22 +62,52 @@ Result<fs::path> fileBeside(const fs::path& document, std::string_view reference
 }
 
 /// The numbers of svt:image, without their head.
-ReadSamples pixelSamples(SharedFile file, std::string_view text) {
-    return [file = std::move(file), text](std::span<std::byte> out) mutable -> Result<void> {
-        if (out.empty() && text.find_first_not_of(" \t\r\n") != std::string_view::npos)
-            return badAde("the image of the volume has more numbers than its dimension says, or something else");
+class PixelSource {
+public:
+    PixelSource(SharedFile file, std::string_view text) : file_(std::move(file)), rest_(text) {}
+
+    Result<void> read(std::span<std::byte> out) {
+        if (out.empty()) {
+            if (auto done = skipSpace(); !done) return done;
+            if (!text_.empty())
+                return badAde("the image of the volume has more numbers than its dimension says, or something else");
+        }
         for (; !out.empty(); out = out.subspan(4)) {
-            text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+            if (auto done = skipSpace(); !done) return done;
             std::uint32_t value = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
             if (error != std::errc())
                 return badAde("the image of the volume has fewer numbers than its dimension says");
-            text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+            text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
             std::memcpy(out.data(), &value, 4);
         }
         return {};
-    };
-}
+    }
+
+private:
+    static constexpr std::size_t kPiece = std::size_t{1} << 20;
+    static constexpr std::size_t kLongest = 32;  // more characters than a number has
+
+    /// Leaves a whole number at the begin of the text, or nothing where the file has none.
+    Result<void> skipSpace() {
+        for (;;) {
+            text_.remove_prefix(std::min(text_.find_first_not_of(" \t\r\n"), text_.size()));
+            if (text_.size() >= kLongest || rest_.empty()) return {};
+            const auto stored = std::as_bytes(std::span(rest_)).first(std::min(rest_.size(), kPiece));
+            std::string buffer;
+            const auto piece = file_->part(stored, buffer);
+            if (!piece) return piece.error();
+            rest_.remove_prefix(stored.size());
+            window_ = std::string(text_).append(reinterpret_cast<const char*>(piece->data()), piece->size());
+            text_ = window_;
+        }
+    }
+
+    SharedFile file_;
+    std::string_view rest_;  // of the file, behind the window
+    std::string window_;
+    std::string_view text_;  // of the window
+};
 
 /// Slices as PNG with 16 bits, bottom slice first, read one at a time.
 ReadSamples sliceSamples(std::vector<fs::path> files, Vec3i dimension) {
@@ -160,9 +190,9 @@ Result<void> openBeside(const fs::path& path, pugi::xml_node texture, LabelImage
     const pugi::xml_node uri = childOf(texture, "imageURI");
     const auto beside = fileBeside(path, uri.child_value());
     if (!beside) return beside.error();
-    auto mapped = FileBytes::map(*beside);
-    if (!mapped) return mapped.error();
-    auto samples = openNrrd(std::make_shared<const FileBytes>(std::move(*mapped)));
+    const auto file = LabelFile::open(*beside);
+    if (!file) return file.error();
+    auto samples = openNrrd(*file);
     if (!samples) return Error(samples.error().code(), samples.error().message(), Place{beside->string(), 0, 0, {}});
     if (samples->dimension != image.dimension)
         return badAde("the file beside the document has another dimension than the document says");
@@ -188,7 +218,8 @@ Result<LabelImage> withPixels(LabelImage image, const SharedFile& file, std::str
     image.bits = 32;
     // A number takes two characters at least, and becomes four bytes.
     if (auto checked = checkImage(image, 2 * list.size() + 4, false, Code::BadImage); !checked) return checked.error();
-    image.read = pixelSamples(file, list);
+    auto source = std::make_shared<PixelSource>(file, list);
+    image.read = [source](std::span<std::byte> out) { return source->read(out); };
     return image;
 }
 

@@ -44,12 +44,6 @@ LabelFormat formatOf(const SharedFile& file) {
     return LabelFormat::None;
 }
 
-Result<SharedFile> openShared(const std::filesystem::path& path) {
-    auto file = FileBytes::map(path);
-    if (!file) return file.error();
-    return std::make_shared<const FileBytes>(std::move(*file));
-}
-
 Result<LabelImage> openImage(const SharedFile& file, const std::filesystem::path& path) {
     switch (formatOf(file)) {
         case LabelFormat::Nrrd: return openNrrd(file);
@@ -71,7 +65,7 @@ Result<LabelImage> openImage(const SharedFile& file, const std::filesystem::path
 
 bool looksLikeLabelVolume(const std::filesystem::path& path) {
     if (looksLikeZarr(path)) return true;
-    const auto file = openShared(path);
+    const auto file = LabelFile::open(path);
     return file && formatOf(*file) != LabelFormat::None;
 }
 
@@ -95,7 +89,7 @@ Result<volume::SemanticVolume> readLabelVolume(const std::filesystem::path& path
     Code code = Code::BadImage;
     const auto opened = [&]() -> Result<LabelImage> {
         if (looksLikeZarr(path)) return openZarr(path, maxBytes);
-        const auto file = openShared(path);
+        const auto file = LabelFile::open(path);
         if (!file) return file.error();
         if ((*file)->text().starts_with("NRRD")) code = Code::BadNrrd;
         return openImage(*file, path);

@@ -2,18 +2,17 @@
 /// \file
 /// A label volume of another format while it is read: what its header says, and its samples as a stream.
 
-#include <svt/core/file.hpp>
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
 #include <svt/volume/column_volume.hpp>
 #include <svt/volume/grid.hpp>
+#include <svt/volume_readers/samples/label_file.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -64,16 +63,13 @@ struct LabelImage {
     }
 };
 
-/// A mapped file that lives as long as somebody reads from it.
-using SharedFile = std::shared_ptr<const FileBytes>;
-
 /// Checks what a header says before anything is allocated by it: 1 to 65535 samples along each axis (a grid has two at
 /// least), 8, 16 or 32 bits, and compressed samples that can be as many as that.
 /// \param storedBytes  of the samples in the file
 /// \return nothing, or `code` with what was found
 [[nodiscard]] Result<void> checkImage(const LabelImage& image, std::uint64_t storedBytes, bool isCompressed, Code code);
 
-/// Samples that stand in the file as they are, and nothing behind them.
+/// Samples that stand in the file as they are, and nothing behind them. `bytes` is a part of the file.
 [[nodiscard]] ReadSamples plainSamples(SharedFile file, std::span<const std::byte> bytes, Code code);
 /// Samples in gzip members, one behind the other.
 [[nodiscard]] ReadSamples gzipSamples(SharedFile file, std::span<const std::byte> bytes, Code code);

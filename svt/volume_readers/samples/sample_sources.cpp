@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstring>
 #include <new>
+#include <string>
 #include <utility>
 
 namespace svt::volume_readers {
@@ -37,52 +38,64 @@ public:
     Result<void> read(std::span<std::byte> out) {
         if (out.empty()) return finish();
         while (!out.empty()) {
-            const std::size_t input = std::min(rest_.size(), kStep), room = std::min(out.size(), kStep);
-            stream_.next_in = zlibBytes(rest_.data());
-            stream_.avail_in = static_cast<uInt>(input);
+            if (auto filled = fill(); !filled) return filled;
+            const std::size_t room = std::min(out.size(), kStep);
             stream_.next_out = zlibBytes(out.data());
             stream_.avail_out = static_cast<uInt>(room);
             const int status = inflate(&stream_, Z_NO_FLUSH);
-            rest_ = rest_.subspan(input - stream_.avail_in);
             const std::size_t made = room - stream_.avail_out;
             out = out.subspan(made);
             isBetween_ = status == Z_STREAM_END;
-            if (status == Z_STREAM_END && !rest_.empty()) {
+            if (status == Z_STREAM_END && !isSpent()) {
                 inflateReset(&stream_);
                 continue;
             }
             if (status != Z_OK && status != Z_STREAM_END)
                 return Error(code_, "the compressed samples are damaged or cut short");
-            if (made == 0 && !out.empty() && (rest_.empty() || status == Z_STREAM_END))
+            if (made == 0 && !out.empty() && isSpent())
                 return Error(code_, "the compressed samples are fewer than the sizes say");
         }
         return {};
     }
 
 private:
+    [[nodiscard]] bool isSpent() const noexcept { return rest_.empty() && stream_.avail_in == 0; }
+
+    /// Gives zlib the next piece of the file where it has none.
+    Result<void> fill() {
+        if (stream_.avail_in != 0) return {};
+        const auto stored = rest_.first(std::min(rest_.size(), kPiece));
+        const auto piece = file_->part(stored, buffer_);
+        if (!piece) return piece.error();
+        rest_ = rest_.subspan(stored.size());
+        stream_.next_in = zlibBytes(piece->data());
+        stream_.avail_in = static_cast<uInt>(piece->size());
+        return {};
+    }
+
     /// Reads to the end of the last member, whose checksum and size zlib compares.
     Result<void> finish() {
-        while (!(isBetween_ && rest_.empty())) {
-            if (isBetween_ && rest_[0] != std::byte{0x1F}) return trailing(code_, rest_.size());
-            const std::size_t input = std::min(rest_.size(), kStep);
+        while (!(isBetween_ && isSpent())) {
+            if (auto filled = fill(); !filled) return filled;
+            if (isBetween_ && *stream_.next_in != 0x1F) return trailing(code_, rest_.size() + stream_.avail_in);
             std::byte beyond{};
-            stream_.next_in = zlibBytes(rest_.data());
-            stream_.avail_in = static_cast<uInt>(input);
             stream_.next_out = zlibBytes(&beyond);
             stream_.avail_out = 1;
             const int status = inflate(&stream_, Z_NO_FLUSH);
-            rest_ = rest_.subspan(input - stream_.avail_in);
             if (stream_.avail_out == 0) return Error(code_, "the compressed samples are more than the sizes say");
             isBetween_ = status == Z_STREAM_END;
             if (isBetween_) inflateReset(&stream_);
-            if (status != Z_STREAM_END && (status != Z_OK || rest_.empty()))
+            if (status != Z_STREAM_END && (status != Z_OK || isSpent()))
                 return Error(code_, "the end of the compressed samples is damaged or cut short");
         }
         return {};
     }
 
+    static constexpr std::size_t kPiece = std::size_t{1} << 20;
+
     SharedFile file_;
-    std::span<const std::byte> rest_;
+    std::span<const std::byte> rest_;  // what zlib has not been given
+    std::string buffer_;
     Code code_;
     z_stream stream_{};
     bool isBetween_ = false;  // members, or behind the last one
@@ -113,14 +126,16 @@ private:
         if (block_ == blocks_.size()) return Error(code_, "the samples are fewer than the sizes say");
         const ZlibBlock& block = blocks_[block_++];
         at_ = 0;
+        const auto stored = file_->part(block.stored, buffer_);
+        if (!stored) return stored.error();
         if (!isCompressed_) {
-            bytes_.assign(block.stored.begin(), block.stored.end());
+            bytes_.assign(stored->begin(), stored->end());
             return {};
         }
         bytes_.resize(static_cast<std::size_t>(block.size));
         uLongf size = static_cast<uLongf>(block.size);
-        const int status = uncompress(zlibBytes(bytes_.data()), &size, zlibBytes(block.stored.data()),
-                                      static_cast<uLong>(block.stored.size()));
+        const int status =
+            uncompress(zlibBytes(bytes_.data()), &size, zlibBytes(stored->data()), static_cast<uLong>(stored->size()));
         if (status == Z_MEM_ERROR) throw std::bad_alloc();
         if (status != Z_OK || size != block.size)
             return Error(code_, fmt::format("block {} of the compressed samples is damaged or cut short", block_ - 1));
@@ -133,6 +148,7 @@ private:
     Code code_;
     std::size_t block_ = 0, at_ = 0;
     std::vector<std::byte> bytes_;
+    std::string buffer_;
 };
 
 }  // namespace
@@ -159,10 +175,13 @@ Result<void> checkImage(const LabelImage& image, std::uint64_t storedBytes, bool
 }
 
 ReadSamples plainSamples(SharedFile file, std::span<const std::byte> bytes, Code code) {
-    return [file = std::move(file), bytes, code](std::span<std::byte> out) mutable -> Result<void> {
+    return [file = std::move(file), bytes, code,
+            buffer = std::string()](std::span<std::byte> out) mutable -> Result<void> {
         if (bytes.size() < out.size()) return Error(code, "the samples are fewer than the sizes say");
         if (out.empty() && !bytes.empty()) return trailing(code, bytes.size());
-        std::copy_n(bytes.begin(), out.size(), out.begin());
+        const auto part = file->part(bytes.first(out.size()), buffer);
+        if (!part) return part.error();
+        std::copy(part->begin(), part->end(), out.begin());
         bytes = bytes.subspan(out.size());
         return {};
     };

@@ -1,0 +1,26 @@
+#include <svt/volume_readers/samples/label_file.hpp>
+
+namespace svt::volume_readers {
+
+Result<SharedFile> LabelFile::open(const std::filesystem::path& path, std::uint64_t maxInMemory) {
+    auto parts = PartFile::open(path);
+    if (!parts) return parts.error();
+    const bool isInMemory = parts->size() <= maxInMemory;
+    auto bytes = isInMemory ? FileBytes::read(path) : FileBytes::map(path);
+    if (!bytes) return bytes.error();
+    std::optional<PartFile> kept;
+    if (!isInMemory) kept = std::move(*parts);
+    return SharedFile(new LabelFile(std::move(*bytes), std::move(kept)));
+}
+
+Result<std::span<const std::byte>> LabelFile::part(std::span<const std::byte> stored, std::string& buffer) const {
+    if (!parts_ || stored.empty()) return stored;
+    auto read = parts_->read(static_cast<std::uint64_t>(stored.data() - bytes().data()), stored.size());
+    if (!read) return read.error();
+    buffer = std::move(*read);
+    if (buffer.size() < stored.size())
+        return Error(Code::CannotOpen, "another program shortened the file while it was read");
+    return std::as_bytes(std::span(buffer));
+}
+
+}  // namespace svt::volume_readers
