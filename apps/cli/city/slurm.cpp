@@ -1,18 +1,16 @@
 #include <apps/cli/city/engines.hpp>
 #include <apps/cli/city/run_packs.hpp>
+#include <apps/cli/output/json_output.hpp>
 
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
 namespace svt::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kAtATime = 64;  // elements of an array that run together
 

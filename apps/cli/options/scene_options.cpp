@@ -230,9 +230,9 @@ Result<Scene> SceneArguments::toScene(std::optional<int> pictures) const {
     for (const illustrate::ScenePass& pass : last->passes) cuts.push_back(pass.cut);
     const illustrate::Motion motion = scene->motion.value_or(illustrate::Motion{});
     // The last picture of a film is one picture before its end.
-    const double seconds =
+    const double lastSecond =
         pictures ? motion.seconds : std::max(1, illustrate::pictureCount(motion) - 1) / double(motion.rate);
-    if (auto added = illustrate::addCutKey(*scene, cuts, std::min(seconds, motion.seconds)); !added)
+    if (auto added = illustrate::addCutKey(*scene, cuts, std::min(lastSecond, motion.seconds)); !added)
         return Error(Code::BadArgument, "--section: " + added.error().message());
     return scene;
 }
