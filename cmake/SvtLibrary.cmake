@@ -94,7 +94,7 @@ function(svt_test name)
   set(root ${CMAKE_BINARY_DIR}/source_root_test.cpp)
   file(CONFIGURE OUTPUT ${root} CONTENT "namespace svt::test {\nextern const char* const kSourceRoot;\n\
 const char* const kSourceRoot = \"${PROJECT_SOURCE_DIR}\";\n}\n")
-  set_source_files_properties(${root} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties(${root} PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
   add_executable(${name} ${ARG_SOURCES} ${root})
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF)  # as the precompiled header of tests
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gtest GTest::gtest_main)
