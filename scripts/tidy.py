@@ -7,7 +7,7 @@ It reads what the preset `tidy` compiles: several sources of a folder at once, w
 what they share is read once. Units without findings are remembered for all checkouts of the user, in
 $XDG_CACHE_HOME/svt/tidy, by the digest of their preprocessed text, command and checks.
   --only PATTERN  only units with a source whose path matches the regular expression
-  --analyzer      clang's path-sensitive analyzer instead, source by source: an hour and more
+  --analyzer      clang's path-sensitive analyzer instead, source by source, over all but the tests
 """
 import argparse
 import concurrent.futures
@@ -49,6 +49,10 @@ def units_of(build: pathlib.Path) -> list[tuple[pathlib.Path, str, list[pathlib.
         if sources and all(path.is_relative_to(ROOT) and not path.is_relative_to(ROOT / "build") for path in sources):
             units.append((unit, entry["command"], sources))
     return units
+
+
+def is_test(path: pathlib.Path) -> bool:
+    return path.stem.endswith("_test") or path.is_relative_to(ROOT / "tests")
 
 
 def precompiled_headers(build: pathlib.Path) -> list[str]:
@@ -114,7 +118,7 @@ def main() -> int:
             mark.touch()
             return []
         tidy = ["clang-tidy", "-p", str(build), "--quiet"]
-        if all(path.stem.endswith("_test") or path.is_relative_to(ROOT / "tests") for path in sources):
+        if all(is_test(path) for path in sources):
             tidy.append(f"--checks={NOT_IN_TESTS}")
         if arguments.analyzer:
             tidy.append("--checks=-*,clang-analyzer-*,-clang-analyzer-optin.performance.Padding")
@@ -127,6 +131,8 @@ def main() -> int:
         return findings
 
     units = [unit for unit in units_of(build) if any(re.search(arguments.only, str(path)) for path in unit[2])]
+    if arguments.analyzer:
+        units = [unit for unit in units if not all(is_test(path) for path in unit[2])]
     print(f"tidy: {len(units)} units, {sum(len(sources) for _, _, sources in units)} sources", flush=True)
     found = set()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

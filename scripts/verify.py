@@ -62,12 +62,10 @@ CHECKS = {
     "tsan": Check("scripts/setup.sh checks && scripts/sanitize.sh tsan", 25),
     "tidy": Check("make -s tidy", 20),
     **{
-        f"analyzer/{part}": Check(f"scripts/setup.sh checks && scripts/tidy.py --analyzer --only '{pattern}'", 25)
+        f"analyzer/{part}": Check(f"scripts/setup.sh checks && scripts/tidy.py --analyzer --only '{pattern}'", 20)
         for part, pattern in {
-            "data": "/svt/(core|image|model|crs|readers|mesh|validate)/",
-            "volumes": "/svt/(volume|volume_readers|voxelize|analyze|samples|serve|pipeline|city)/",
-            "pictures": "/svt/(render|render_gl|illustrate|writers)/",
-            "command": "/(apps|tests)/",
+            "library": "/svt/(core|image|model|crs|readers|mesh|validate|volume|volume_readers|voxelize|analyze|render)/",
+            "programs": "/svt/(render_gl|illustrate|writers|samples|serve|pipeline|city)/|/(apps|python)/",
         }.items()
     },
     "gcc": Check("scripts/setup.sh && scripts/build.sh dev", 25),
