@@ -1,5 +1,6 @@
 // Hostile clients and their cost: no file outside the folder is served, memory, threads and time are bounded, and an
 // honest client is still answered.
+#include <svt/core/sanitized.hpp>
 #include <svt/serve/http_client_test.hpp>
 
 #include <fmt/format.h>
@@ -13,12 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 using test::TemporaryFolder;
 using test::writeText;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool hasSanitizer = true;  // the sanitizer's own memory would be measured
-#else
-constexpr bool hasSanitizer = false;
-#endif
 
 std::uint64_t residentBytes() {
     std::ifstream in("/proc/self/statm");
@@ -40,7 +35,8 @@ void expectNoGrowth(int rounds, const Attack& attack) {
     for (int round = 0; round < rounds; ++round) attack();
     const std::int64_t growth = static_cast<std::int64_t>(residentBytes()) - before;
     testing::Test::RecordProperty("growthBytes", std::to_string(growth));
-    EXPECT_TRUE(hasSanitizer || growth < kMaxGrowth) << growth << " bytes";
+    // The sanitizer would measure its own memory.
+    EXPECT_TRUE(kIsSanitized || growth < kMaxGrowth) << growth << " bytes";
 }
 
 // Sends `part` repeatedly; the server must close the connection.

@@ -4,6 +4,7 @@
 #include "small_model.hpp"
 
 #include <svt/core/deflate.hpp>
+#include <svt/core/sanitized.hpp>
 
 #include <fmt/format.h>
 
@@ -257,16 +258,8 @@ const std::vector<BadInput> kEndless{
 };
 INSTANTIATE_TEST_SUITE_P(Endless, BadInputTest, ::testing::ValuesIn(kEndless), nameOf);
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kTakesAnyMemory = true;
-#elif defined(__has_feature)
-constexpr bool kTakesAnyMemory = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-constexpr bool kTakesAnyMemory = false;
-#endif
-
 TEST(BadInput, ModelOverTheMemoryIsToldWithTheFileAndTheLimit) {
-    if (kTakesAnyMemory) GTEST_SKIP() << "no limit is set for a sanitizer";
+    if (kIsSanitized) GTEST_SKIP() << "no limit is set for a sanitizer";
     const TemporaryFolder folder;
     std::string names;
     for (int i = 0; i < 400'000; ++i)
@@ -1058,11 +1051,7 @@ class WorstInput : public ::testing::TestWithParam<const char*> {};
 
 // Writes the model as worst.json.
 void writeWorst(const TemporaryFolder& folder, const char* kind) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    const std::string count = "2000";
-#else
-    const std::string count = "20000";
-#endif
+    const std::string count = kIsSanitized ? "2000" : "20000";
     const std::string write = std::string("python3 " + sourceRoot() + "/scripts/worst_inputs.py ") + kind + " " +
                               count + " '" + (folder / "worst.json").string() + "'";
     ASSERT_EQ(std::system(write.c_str()), 0);

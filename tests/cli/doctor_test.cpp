@@ -1,6 +1,8 @@
 // What `svt doctor` says of this machine, and of one that lacks something.
 #include "run_command.hpp"
 
+#include <svt/core/sanitized.hpp>
+
 #include <cstdlib>
 #include <optional>
 #include <regex>
@@ -11,12 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool hasSanitizer = true;  // which needs more address space than any limit
-#else
-constexpr bool hasSanitizer = false;
-#endif
 
 // A graphics driver compiles shaders, and maps more memory than it uses.
 Limits limits() {
@@ -181,7 +177,7 @@ TEST(Doctor, SeesADiskThatIsNearlyFull) {
 }
 
 TEST(Doctor, SeesALimitOfMemory) {
-    if (hasSanitizer) GTEST_SKIP() << "no limit is set for a sanitizer";
+    if (kIsSanitized) GTEST_SKIP() << "no limit is set for a sanitizer";
     const TemporaryFolder folder;
     Limits small;  // 1 GiB
     small.seconds = 60;

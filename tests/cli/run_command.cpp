@@ -14,6 +14,7 @@
 #include <csignal>
 #include <thread>
 
+#include <svt/core/sanitized.hpp>
 #include <svt/core/test_data_test.hpp>
 
 namespace svt::test {
@@ -21,18 +22,7 @@ namespace {
 
 constexpr int kExecFailed = 126, kMountFailed = 125;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool hasSanitizer = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool hasSanitizer = true;
-#else
-constexpr bool hasSanitizer = false;
-#endif
-#else
-constexpr bool hasSanitizer = false;
-#endif
-constexpr double kSlowdown = hasSanitizer ? 20 : 1;
+constexpr double kSlowdown = kIsSanitized ? 20 : 1;
 constexpr double kHangSeconds = 600 * kSlowdown;
 
 // Mounts a file system of 4 KiB that is visible only to this process and disappears with it.
@@ -58,7 +48,7 @@ double secondsOf(const timeval& time) { return double(time.tv_sec) + double(time
     ::dup2(nothing, 0);
     ::dup2(out, 1);
     ::dup2(err, 2);
-    if (!hasSanitizer) limit(RLIMIT_AS, limits.memoryBytes);
+    if (!kIsSanitized) limit(RLIMIT_AS, limits.memoryBytes);
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, static_cast<std::uint64_t>(std::ceil(limits.seconds * kSlowdown)));
     if (limits.fileBytes != 0) limit(RLIMIT_FSIZE, limits.fileBytes);

@@ -1,6 +1,7 @@
 // The viewer's page and its data from the real command, with a stand-in for the page.
 #include "run_command.hpp"
 
+#include <svt/core/sanitized.hpp>
 #include <svt/serve/http_client_test.hpp>
 
 #include <fcntl.h>
@@ -12,12 +13,6 @@ namespace svt::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool hasSanitizer = true;  // which needs more address space than a conversion may use
-#else
-constexpr bool hasSanitizer = false;
-#endif
 
 void makePage(const fs::path& folder) {
     fs::create_directories(folder / "page/assets");
@@ -162,7 +157,7 @@ TEST_F(ServeTest, StopsWhileItDraws) {
 }
 
 TEST_F(ServeTest, UploadsAreConverted) {
-    if (hasSanitizer) GTEST_SKIP() << "a sanitizer needs more address space than a conversion may have";
+    if (kIsSanitized) GTEST_SKIP() << "a sanitizer needs more address space than a conversion may have";
     runSvtWell(folder.path(), {"build", "house.gml", "-o", "fine.svt", "--vectors", "edges"});
     Serving serving(folder.path(),
                     {"serve", "--viewer", "page", "--port", "0", "--allow-uploads", "--max-upload", "2"});
@@ -178,7 +173,7 @@ TEST_F(ServeTest, UploadsAreConverted) {
 }
 
 TEST_F(ServeTest, ConversionsKeepToTheirLimits) {
-    if (hasSanitizer) GTEST_SKIP() << "a sanitizer needs more address space than a conversion may have";
+    if (kIsSanitized) GTEST_SKIP() << "a sanitizer needs more address space than a conversion may have";
     Serving serving(folder.path(),
                     {"serve", "--viewer", "page", "--port", "0", "--allow-uploads", "--convert-memory", "64"});
     runSvtWell(folder.path(), {"sample", "district", "--columns", "4", "--rows", "4", "-o", "houses.gml"});

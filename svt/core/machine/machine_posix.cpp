@@ -2,6 +2,7 @@
 
 #include <svt/core/file.hpp>
 #include <svt/core/machine/control_group.hpp>
+#include <svt/core/sanitized.hpp>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -93,16 +94,6 @@ void setDataLimit(rlim_t bytes) {
     ownLimit().isSet = true;
 }
 
-constexpr bool isSanitized() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    return true;
-#elif defined(__has_feature)
-    return __has_feature(address_sanitizer) || __has_feature(memory_sanitizer) || __has_feature(thread_sanitizer);
-#else
-    return false;
-#endif
-}
-
 std::string faultOf(int status) {
     if (WIFSIGNALED(status)) return fmt::format("ended by signal {}", WTERMSIG(status));
     return WEXITSTATUS(status) == 0 ? "" : fmt::format("ended with code {}", WEXITSTATUS(status));
@@ -142,12 +133,12 @@ MemoryFigures memoryFigures() {
 void limitMemory(std::uint64_t bytes, std::string_view by) {
     ownLimit().by = by;
     ownLimit().bytes = bytes;
-    if (!isSanitized()) setDataLimit(static_cast<rlim_t>(bytes));
+    if (!kIsSanitized) setDataLimit(static_cast<rlim_t>(bytes));
 }
 
 void limitMemoryToMachine() {
     rlimit data{};
-    if (isSanitized() || ::getrlimit(RLIMIT_DATA, &data) != 0 || data.rlim_cur != RLIM_INFINITY) return;
+    if (kIsSanitized || ::getrlimit(RLIMIT_DATA, &data) != 0 || data.rlim_cur != RLIM_INFINITY) return;
     const MemoryFigures figures = memoryFigures();
     const std::optional<std::uint64_t> bytes = figures.limitBytes ? figures.limitBytes : figures.totalBytes;
     if (!bytes || figures.limitedBy == "ulimit -v") return;

@@ -1,6 +1,7 @@
 #include <svt/core/machine.hpp>
 
 #include <svt/core/machine/control_group.hpp>
+#include <svt/core/sanitized.hpp>
 #include <svt/core/temporary_folder_test.hpp>
 
 #include <gtest/gtest.h>
@@ -18,15 +19,6 @@ namespace svt {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Sanitizers take address space of their own, so the limit is told and not held.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool isSanitized = true;
-#elif defined(__has_feature)
-constexpr bool isSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-constexpr bool isSanitized = false;
-#endif
 
 // Linux as far as controlGroupLimits() reads it.
 class ControlGroups : public ::testing::Test {
@@ -134,7 +126,7 @@ TEST(LimitMemory, AllocationsBeyondItFailAndThoseBelowDoNot) {
     });
     if (result.text.find("none") == 0) GTEST_SKIP() << "this machine grants less than 900 MB";
     EXPECT_EQ(result.fault, "");
-    EXPECT_EQ(result.text, std::string("before told granted little ") + (isSanitized ? "too much" : "no more"));
+    EXPECT_EQ(result.text, std::string("before told granted little ") + (kIsSanitized ? "too much" : "no more"));
 }
 
 TEST(InOwnProcess, TellsWhatWasSaidAndWrittenToStderr) {
