@@ -215,6 +215,19 @@ TEST_F(ServeTest, PublishedFolderIsWhatIsServed) {
     runSvtWell(folder.path(), {"publish", "house.svt", "-o", "site", "--viewer", "page", "--force"});
 }
 
+TEST_F(ServeTest, FilesThatAreShortenedEndTheReplyAlone) {
+    runSvtWell(folder.path(), {"sample", "city", "--buildings", "20", "-o", "files"});
+    runSvtWell(folder.path(), {"city", "plan", "files", "-o", "city", "--spacing", "0.5", "-q"});
+    runSvtWell(folder.path(), {"city", "run", "city", "-q"});
+    Serving serving(folder.path(), {"serve", "city", "--viewer", "page", "--port", "0"});
+    const std::string pack = "GET /models/city/packs/00000.svtp";
+    EXPECT_TRUE(serving.ask(pack).body == readText(folder / "city/packs/00000.svtp"));
+    fs::resize_file(folder / "city/packs/00000.svtp", 100);
+    EXPECT_EQ(serving.ask(pack).status, 0) << "no whole reply";
+    EXPECT_EQ(serving.ask("GET /").status, 200) << "the server goes on";
+    EXPECT_EQ(serving.stop(SIGINT), 0) << serving.err();
+}
+
 TEST_F(ServeTest, WhatIsMissingIsSaid) {
     const auto result = [&](const std::vector<std::string>& arguments) { return runSvt(folder.path(), arguments); };
     const CommandResult noPage = result({"publish", "house.svt", "-o", "site", "--viewer", "nowhere"});
