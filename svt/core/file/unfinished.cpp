@@ -55,7 +55,8 @@ struct Registry {
     std::mutex mutex;
     std::map<std::uint64_t, Item> items;
     std::array<int, 2> pipe{-1, -1};
-    std::atomic<int> wake{-1};  // end of the pipe that signals write to; -1: no thread waits
+    std::atomic<int> wake{-1};           // end of the pipe that signals write to; -1: no thread waits
+    std::atomic<bool> isWatched{false};  // the thread has begun, and holds no lock of an allocator
 };
 
 constexpr auto kTimeToEnd = std::chrono::seconds(5);
@@ -114,6 +115,8 @@ void removePath(const fs::path& path) noexcept {
 }
 
 void watch(Registry& watched) {
+    watched.isWatched = true;
+    watched.isWatched.notify_all();
     unsigned char signal = 0;
     while (::read(watched.pipe[0], &signal, 1) < 0 && errno == EINTR) {
     }
@@ -151,7 +154,11 @@ void startWatching(Registry& own) noexcept {
         watch(*static_cast<Registry*>(watched));
         return nullptr;
     };
-    if (::pthread_create(&thread, &attributes, run, &own) == 0) own.wake = own.pipe[1];
+    if (::pthread_create(&thread, &attributes, run, &own) == 0) {
+        own.wake = own.pipe[1];
+        // Whoever copies the process next would copy the locks that a beginning thread holds, as those of a sanitizer.
+        own.isWatched.wait(false);
+    }
     ::pthread_attr_destroy(&attributes);
 }
 
