@@ -1,6 +1,6 @@
 // Hostile clients and their cost: no file outside the folder is served, memory, threads and time are bounded, and an
 // honest client is still answered.
-#include <svt/core/sanitized.hpp>
+#include <svt/core/machine.hpp>
 #include <svt/serve/http_client_test.hpp>
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include "small_model.hpp"
 
 #include <svt/core/deflate.hpp>
-#include <svt/core/sanitized.hpp>
+#include <svt/core/machine.hpp>
 
 #include <fmt/format.h>
 

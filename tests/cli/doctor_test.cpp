@@ -1,7 +1,7 @@
 // What `svt doctor` says of this machine, and of one that lacks something.
 #include "run_command.hpp"
 
-#include <svt/core/sanitized.hpp>
+#include <svt/core/machine.hpp>
 
 #include <cstdlib>
 #include <optional>

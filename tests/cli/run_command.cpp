@@ -14,7 +14,7 @@
 #include <csignal>
 #include <thread>
 
-#include <svt/core/sanitized.hpp>
+#include <svt/core/machine.hpp>
 #include <svt/core/test_data_test.hpp>
 
 namespace svt::test {

@@ -1,7 +1,7 @@
 // The viewer's page and its data from the real command, with a stand-in for the page.
 #include "run_command.hpp"
 
-#include <svt/core/sanitized.hpp>
+#include <svt/core/machine.hpp>
 #include <svt/serve/http_client_test.hpp>
 
 #include <fcntl.h>

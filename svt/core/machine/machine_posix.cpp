@@ -2,7 +2,6 @@
 
 #include <svt/core/file.hpp>
 #include <svt/core/machine/control_group.hpp>
-#include <svt/core/sanitized.hpp>
 
 #include <fcntl.h>
 #include <fmt/format.h>

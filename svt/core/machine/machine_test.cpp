@@ -1,7 +1,6 @@
 #include <svt/core/machine.hpp>
 
 #include <svt/core/machine/control_group.hpp>
-#include <svt/core/sanitized.hpp>
 #include <svt/core/temporary_folder_test.hpp>
 
 #include <gtest/gtest.h>
