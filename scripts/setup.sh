@@ -25,7 +25,7 @@ web=(emscripten libfast-float-dev dpkg-dev chromium)
 slurm=(slurmctld slurmd slurm-client munge python3-yaml)
 python=(python3-dev pybind11-dev python3-numpy python3-scipy)
 debian=(debootstrap lintian dpkg-dev)
-checks=(clang clang-tidy clang-tools libclang-rt-14-dev)
+checks=(clang clang-tidy clang-tools libclang-rt-14-dev llvm)
 # A Node.js from another source has its own npm, which conflicts with Debian's.
 node=()
 command -v node >/dev/null || node+=(nodejs)

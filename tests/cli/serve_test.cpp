@@ -215,7 +215,7 @@ TEST_F(ServeTest, PublishedFolderIsWhatIsServed) {
     runSvtWell(folder.path(), {"publish", "house.svt", "-o", "site", "--viewer", "page", "--force"});
 }
 
-TEST_F(ServeTest, FilesThatAreShortenedEndTheReplyAlone) {
+TEST_F(ServeTest, AShortenedFileEndsOnlyItsReply) {
     runSvtWell(folder.path(), {"sample", "city", "--buildings", "20", "-o", "files"});
     runSvtWell(folder.path(), {"city", "plan", "files", "-o", "city", "--spacing", "0.5", "-q"});
     runSvtWell(folder.path(), {"city", "run", "city", "-q"});

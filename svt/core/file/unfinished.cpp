@@ -56,7 +56,7 @@ struct Registry {
     std::map<std::uint64_t, Item> items;
     std::array<int, 2> pipe{-1, -1};
     std::atomic<int> wake{-1};           // end of the pipe that signals write to; -1: no thread waits
-    std::atomic<bool> isWatched{false};  // the thread has begun, and holds no lock of an allocator
+    std::atomic<bool> isWatched{false};  // the thread has started, and holds no lock of the allocator
 };
 
 constexpr auto kTimeToEnd = std::chrono::seconds(5);
@@ -156,7 +156,7 @@ void startWatching(Registry& own) noexcept {
     };
     if (::pthread_create(&thread, &attributes, run, &own) == 0) {
         own.wake = own.pipe[1];
-        // Whoever copies the process next would copy the locks that a beginning thread holds, as those of a sanitizer.
+        // A thread that starts holds locks of the allocator. A copy of the process made meanwhile would never release them.
         own.isWatched.wait(false);
     }
     ::pthread_attr_destroy(&attributes);

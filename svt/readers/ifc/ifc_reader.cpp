@@ -349,7 +349,7 @@ private:
             if (++done % 64 == 0)
                 Progress::tell(options_.progress, "read", double(done) / double(structure_.order.size()));
             const Product& product = structure_.products[p];
-            file_.missing().drop();  // what was read before is no part of this product's shape
+            file_.missing().drop();  // these belong to other records
             file_.guard().beginProduct();
             const RecordIndex definition = shapeOf(product.record);
             if (definition == kNoRecord && !file_.missing().isAny()) continue;

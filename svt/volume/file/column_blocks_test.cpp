@@ -1,9 +1,9 @@
 #include <svt/volume/column_blocks.hpp>
 #include <svt/volume/file/zip_container.hpp>
+#include <svt/volume/file/zstd_frame_test.hpp>
 #include <svt/volume/random_columns_test.hpp>
 
 #include <gtest/gtest.h>
-#include <zstd.h>
 
 #include <functional>
 
@@ -45,12 +45,6 @@ struct Changed {
         EXPECT_NE(volume.error().message().find(reason), std::string::npos) << volume.error().message();
     }
 };
-
-std::vector<std::byte> frameOf(std::span<const std::byte> bytes) {
-    std::vector<std::byte> frame(ZSTD_compressBound(bytes.size()));
-    frame.resize(ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), 3));
-    return frame;
-}
 
 TEST(ColumnBlocks, VolumeComesBackWithAnyNumberOfThreads) {
     const Vec3i dimension{700, 300, 30};
@@ -132,21 +126,22 @@ TEST(ColumnBlocks, FramesOfOtherContentAreRefused) {
     changed.replaceFrame({});
     changed.expectRefused(Code::BadVolume, "no zstd frame");
     // Two frames that together have the right size.
-    std::vector<std::byte> two = frameOf(std::vector<std::byte>(10));
-    const std::vector<std::byte> second = frameOf(std::vector<std::byte>(changed.columns.index[1].streamBytes - 10));
+    std::vector<std::byte> two = test::zstdFrameOf(std::vector<std::uint8_t>(10));
+    const std::vector<std::byte> second =
+        test::zstdFrameOf(std::vector<std::uint8_t>(changed.columns.index[1].streamBytes - 10));
     two.insert(two.end(), second.begin(), second.end());
     changed.replaceFrame(two);
     changed.expectRefused(Code::BadVolume, "no zstd frame");
     const std::size_t size = changed.columns.index[1].streamBytes;
-    changed.replaceFrame(frameOf(std::vector<std::byte>(size, std::byte{1})));
+    changed.replaceFrame(test::zstdFrameOf(std::vector<std::uint8_t>(size, 1)));
     changed.expectRefused(Code::BadVolume, "lengths of its streams do not fit");
-    changed.replaceFrame(frameOf(std::vector<std::byte>(size, std::byte{0xFF})));
+    changed.replaceFrame(test::zstdFrameOf(std::vector<std::uint8_t>(size, 0xFF)));
     changed.expectRefused(Code::BadVolume, "lengths of its streams do not fit");
 }
 
 TEST(ColumnBlocks, FrameThatUnpacksToMoreThanSaidIsRefused) {
     Changed changed;
-    changed.replaceFrame(frameOf(std::vector<std::byte>(50'000'000)));
+    changed.replaceFrame(test::zstdFrameOf(std::vector<std::uint8_t>(50'000'000)));
     changed.expectRefused(Code::BadVolume, "no zstd frame of the size");
     changed.columns.index[1].streamBytes = 50'000'000;
     changed.expectRefused(Code::BadVolume, "are said to unpack to 50000000");

@@ -1,5 +1,7 @@
 #include <svt/volume/face_planes.hpp>
 
+#include <svt/volume/file/zstd_frame_test.hpp>
+
 #include <gtest/gtest.h>
 #include <zstd.h>
 
@@ -53,12 +55,6 @@ std::vector<FacePlane> somePlanes(std::size_t count) {
 
 FacePlane planeAlongZ(double offset) { return {{{0, 0, 1}, offset}, {0, 0, 0}, {800, 700, 65535}}; }
 
-std::vector<std::byte> frameOfBytes(const Bytes& bytes) {
-    std::vector<std::byte> frame(ZSTD_compressBound(bytes.size()));
-    frame.resize(ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), 3));
-    return frame;
-}
-
 Bytes unpacked(const std::vector<std::byte>& frame) {
     Bytes bytes(static_cast<std::size_t>(ZSTD_getFrameContentSize(frame.data(), frame.size())));
     EXPECT_EQ(ZSTD_decompress(bytes.data(), bytes.size(), frame.data(), frame.size()), bytes.size());
@@ -84,7 +80,7 @@ const Bytes kExampleBytes{2,                                   // count
 std::vector<std::byte> exampleWith(std::size_t at, const Bytes& bytes) {
     Bytes changed = kExampleBytes;
     std::copy(bytes.begin(), bytes.end(), changed.begin() + static_cast<std::ptrdiff_t>(at));
-    return frameOfBytes(changed);
+    return test::zstdFrameOf(changed);
 }
 
 void expectRefused(const std::vector<std::byte>& frame, std::string_view reason, Vec3i dimension = kDimension) {
@@ -138,7 +134,7 @@ TEST(FacePlanes, TheExampleOfTheFormatIsWrittenAndRead) {
     const auto frame = compressFacePlanes(kExample);
     ASSERT_TRUE(frame);
     EXPECT_EQ(unpacked(*frame), kExampleBytes);
-    const auto read = readFacePlanes(frameOfBytes(kExampleBytes), {9, 6, 4});
+    const auto read = readFacePlanes(test::zstdFrameOf(kExampleBytes), {9, 6, 4});
     ASSERT_TRUE(read) << read.error().toString();
     expectSame(*read, kExample);
 }
@@ -181,11 +177,11 @@ TEST(FacePlanes, WrongOnesAreFound) {
 TEST(FacePlanes, DamagedOnesAreRefused) {
     expectRefused({}, "no zstd frame");
     expectRefused(std::vector<std::byte>(40, std::byte{7}), "no zstd frame");
-    expectRefused(frameOfBytes({}), "0 planes are said to be in 0 bytes");
-    expectRefused(frameOfBytes({1, 0, 0}), "1 planes are said to be in 2 bytes");
-    expectRefused(frameOfBytes({0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0}), "4294967295 planes are said to be in 1 bytes");
-    expectRefused(frameOfBytes({0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0}), "are said to be in");
-    expectRefused(frameOfBytes({0, 0}), "1 bytes are left over");
+    expectRefused(test::zstdFrameOf({}), "0 planes are said to be in 0 bytes");
+    expectRefused(test::zstdFrameOf({1, 0, 0}), "1 planes are said to be in 2 bytes");
+    expectRefused(test::zstdFrameOf({0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0}), "4294967295 planes are said to be in 1 bytes");
+    expectRefused(test::zstdFrameOf({0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0}), "are said to be in");
+    expectRefused(test::zstdFrameOf({0, 0}), "1 bytes are left over");
     expectRefused(exampleWith(1, {1}), "the normal of none before it");
     expectRefused(exampleWith(1, {2}), "the normal of none before it");
     expectRefused(exampleWith(2, {1}), "the normal of none before it");
@@ -196,23 +192,23 @@ TEST(FacePlanes, DamagedOnesAreRefused) {
     expectRefused(exampleWith(39, {0xF0, 0, 0x7F}), "plane 0 has the offset inf");
     expectRefused(exampleWith(49, {0}), "plane 0 is within voxels [2, 2) along x");
     expectRefused(exampleWith(53, {0xFF}), "cut short");
-    expectRefused(frameOfBytes(kExampleBytes), "plane 1 is within voxels [8, 9) along x, there are 8", {8, 6, 4});
+    expectRefused(test::zstdFrameOf(kExampleBytes), "plane 1 is within voxels [8, 9) along x, there are 8", {8, 6, 4});
     Bytes longer = kExampleBytes;
     longer.push_back(0);
-    expectRefused(frameOfBytes(longer), "1 bytes are left over");
+    expectRefused(test::zstdFrameOf(longer), "1 bytes are left over");
     // 65536 above the smallest voxel of the last plane.
     Bytes far(kExampleBytes.begin(), kExampleBytes.end() - 1);
     far.insert(far.end(), {0x80, 0x80, 4});
-    expectRefused(frameOfBytes(far), "beyond voxel 65535");
+    expectRefused(test::zstdFrameOf(far), "beyond voxel 65535");
     // A difference of -1 from 0.
     expectRefused(exampleWith(43, {1, 0}), "beyond voxel 65535");
-    expectRefused(frameOfBytes(Bytes(std::size_t{64} << 20, 0)), "are possible");
+    expectRefused(test::zstdFrameOf(Bytes(std::size_t{64} << 20, 0)), "are possible");
 }
 
 TEST(FacePlanes, MoreNormalsThanBytesAreRefused) {
     Bytes bytes{100};
     bytes.resize(1 + 100 * 15, 0);
-    expectRefused(frameOfBytes(bytes), "100 normals are said to be in 1400 bytes");
+    expectRefused(test::zstdFrameOf(bytes), "100 normals are said to be in 1400 bytes");
 }
 
 TEST(FacePlanes, TooManyAreRefused) {
@@ -224,7 +220,7 @@ TEST(FacePlanes, TooManyAreRefused) {
     std::mt19937 random(1);
     for (std::size_t at = bytes.size() / 2; at < bytes.size(); at += 64)
         bytes[at] = static_cast<std::uint8_t>(random());
-    expectRefused(frameOfBytes(bytes), "16777217 planes are over the limit of 16777216");
+    expectRefused(test::zstdFrameOf(bytes), "16777217 planes are over the limit of 16777216");
 }
 
 TEST(FacePlanes, WhatRepeatsVeryOftenIsReadBack) {
@@ -243,7 +239,7 @@ TEST(FacePlanes, EveryTruncationIsRefused) {
         expectRefused({frame->begin(), frame->begin() + static_cast<std::ptrdiff_t>(size)}, "the face planes: ");
     const Bytes bytes = unpacked(*frame);
     for (std::size_t size = 0; size < bytes.size(); ++size)
-        expectRefused(frameOfBytes({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}),
+        expectRefused(test::zstdFrameOf({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)}),
                       "the face planes: ");
 }
 
@@ -269,7 +265,7 @@ TEST(FacePlanes, EveryChangedByteIsToldOrReadsAsPlanes) {
         for (std::size_t at = 0; at < bytes.size(); ++at) {
             Bytes damaged = bytes;
             damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ value);
-            expectSafe(frameOfBytes(damaged));
+            expectSafe(test::zstdFrameOf(damaged));
         }
     }
 }

@@ -1,7 +1,8 @@
 #include <svt/volume/vector_parts.hpp>
 
+#include <svt/volume/file/zstd_frame_test.hpp>
+
 #include <gtest/gtest.h>
-#include <zstd.h>
 
 #include <limits>
 #include <random>
@@ -24,12 +25,6 @@ VectorParts someParts() {
     for (std::uint32_t n = 0; n < 90; ++n) parts.segments.push_back({n / 10, {point(), point()}});
     for (std::uint32_t n = 0; n < 80; ++n) parts.triangles.push_back({n / 20 + 4, {point(), point(), point()}});
     return parts;
-}
-
-std::vector<std::byte> frameWith(const std::vector<std::uint8_t>& bytes) {
-    std::vector<std::byte> frame(ZSTD_compressBound(bytes.size()));
-    frame.resize(ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), 3));
-    return frame;
 }
 
 void expectRefused(const std::vector<std::byte>& frame, std::string_view reason) {
@@ -72,13 +67,14 @@ TEST(VectorParts, TheExamplesOfTheFormatRead) {
     expected.points = {{0, 0, 0}, {1 << 20, 0, 0}, {1 << 20, 1 << 20, 0}};
     expected.segments = {{2, {0, 1}}};
     expected.triangles = {{0, {0, 1, 2}}};
-    const auto parts = readVectorParts(frameWith({20,   3,    1,    1, 0, 0x80, 0x80, 0x80, 0x01, 0, 0, 0, 0x80,
-                                                  0x80, 0x80, 0x01, 0, 0, 0,    2,    0,    0,    0, 0, 0, 0}),
+    const auto parts = readVectorParts(test::zstdFrameOf({20,   3,    1,    1, 0, 0x80, 0x80, 0x80, 0x01, 0, 0, 0, 0x80,
+                                                          0x80, 0x80, 0x01, 0, 0, 0,    2,    0,    0,    0, 0, 0, 0}),
                                        kLabels);
     ASSERT_TRUE(parts) << parts.error().toString();
     EXPECT_EQ(*parts, expected);
     const auto old = readTenthParts(
-        frameWith({3, 1, 1, 0, 0, 0, 0xA0, 0x9C, 0x01, 0, 0, 0, 0xA0, 0x9C, 0x01, 0, 2, 0, 2, 0, 0, 2, 2}), kLabels);
+        test::zstdFrameOf({3, 1, 1, 0, 0, 0, 0xA0, 0x9C, 0x01, 0, 0, 0, 0xA0, 0x9C, 0x01, 0, 2, 0, 2, 0, 0, 2, 2}),
+        kLabels);
     ASSERT_TRUE(old) << old.error().toString();
     EXPECT_EQ(*old, expected);
 }
@@ -86,22 +82,23 @@ TEST(VectorParts, TheExamplesOfTheFormatRead) {
 TEST(VectorParts, DamagedOnesAreRefused) {
     expectRefused({}, "no zstd frame");
     expectRefused(std::vector<std::byte>(40, std::byte{7}), "no zstd frame");
-    expectRefused(frameWith({}), "are said to be in");
-    expectRefused(frameWith({9, 0, 0, 0}), "the unit is said to be 2^-9 m");
-    expectRefused(frameWith({21, 0, 0, 0}), "the unit is said to be 2^-21 m");
-    expectRefused(frameWith({0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0, 0}), "the unit is said to be 2^-4294967295 m");
-    expectRefused(frameWith({20, 1, 0, 0, 2, 2}), "are said to be in 2 bytes");
-    expectRefused(frameWith({20, 0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0, 1}), "are said to be in");
-    expectRefused(frameWith({20, 1, 0, 0, 2, 2, 2, 2}), "1 bytes are left over");
-    expectRefused(frameWith({20, 1, 0, 0, 2, 2, 0x80}), "cut short");
-    expectRefused(frameWith({20, 1, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0, 0}), "longer than 32 bits");
-    expectRefused(frameWith({20, 1, 1, 0, 0, 0, 0, 9, 0, 2}), "segment 0 is of label 9, there are 9");
-    expectRefused(frameWith({20, 1, 1, 0, 0, 0, 0, 1, 0, 0}), "segment 0 uses point 1, there are 1");
-    expectRefused(frameWith({20, 1, 0, 1, 0, 0, 0, 1, 2, 0, 0}), "triangle 0 uses point 4294967295");
+    expectRefused(test::zstdFrameOf({}), "are said to be in");
+    expectRefused(test::zstdFrameOf({9, 0, 0, 0}), "the unit is said to be 2^-9 m");
+    expectRefused(test::zstdFrameOf({21, 0, 0, 0}), "the unit is said to be 2^-21 m");
+    expectRefused(test::zstdFrameOf({0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0, 0}), "the unit is said to be 2^-4294967295 m");
+    expectRefused(test::zstdFrameOf({20, 1, 0, 0, 2, 2}), "are said to be in 2 bytes");
+    expectRefused(test::zstdFrameOf({20, 0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 0, 1}), "are said to be in");
+    expectRefused(test::zstdFrameOf({20, 1, 0, 0, 2, 2, 2, 2}), "1 bytes are left over");
+    expectRefused(test::zstdFrameOf({20, 1, 0, 0, 2, 2, 0x80}), "cut short");
+    expectRefused(test::zstdFrameOf({20, 1, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0, 0}), "longer than 32 bits");
+    expectRefused(test::zstdFrameOf({20, 1, 1, 0, 0, 0, 0, 9, 0, 2}), "segment 0 is of label 9, there are 9");
+    expectRefused(test::zstdFrameOf({20, 1, 1, 0, 0, 0, 0, 1, 0, 0}), "segment 0 uses point 1, there are 1");
+    expectRefused(test::zstdFrameOf({20, 1, 0, 1, 0, 0, 0, 1, 2, 0, 0}), "triangle 0 uses point 4294967295");
     // 3, then a difference that wraps around to 2.
-    expectRefused(frameWith({20, 1, 2, 0, 0, 0, 0, 3, 0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 2, 2, 2}), "out of the order");
+    expectRefused(test::zstdFrameOf({20, 1, 2, 0, 0, 0, 0, 3, 0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0, 2, 2, 2}),
+                  "out of the order");
     std::vector<std::uint8_t> zeros(std::size_t{64} << 20, 0);
-    expectRefused(frameWith(zeros), "are possible");
+    expectRefused(test::zstdFrameOf(zeros), "are possible");
 }
 
 TEST(VectorParts, AnyDamageIsToldOrReadsAsParts) {

@@ -78,6 +78,8 @@ public:
             const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
             if (error != std::errc())
                 return badAde("the image of the volume has fewer numbers than its dimension says");
+            if (end == text_.data() + text_.size() && !rest_.empty())
+                return badAde("a number of the image of the volume has too many digits");
             text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
             std::memcpy(out.data(), &value, 4);
         }
@@ -86,13 +88,14 @@ public:
 
 private:
     static constexpr std::size_t kPiece = std::size_t{1} << 20;
-    static constexpr std::size_t kLongest = 32;  // more characters than a number has
+    static constexpr std::string_view kSpace = " \t\r\n";
 
-    /// Leaves a whole number at the begin of the text, or nothing where the file has none.
+    /// Leaves a number at the beginning of the text, whole unless it has more than kPiece digits; nothing at the end.
     Result<void> skipSpace() {
         for (;;) {
-            text_.remove_prefix(std::min(text_.find_first_not_of(" \t\r\n"), text_.size()));
-            if (text_.size() >= kLongest || rest_.empty()) return {};
+            text_.remove_prefix(std::min(text_.find_first_not_of(kSpace), text_.size()));
+            const bool isWhole = text_.find_first_of(kSpace) != std::string_view::npos;
+            if (isWhole || rest_.empty() || text_.size() > kPiece) return {};
             const auto stored = std::as_bytes(std::span(rest_)).first(std::min(rest_.size(), kPiece));
             std::string buffer;
             const auto piece = file_->part(stored, buffer);

@@ -8,6 +8,8 @@ Result<SharedFile> LabelFile::open(const std::filesystem::path& path, std::uint6
     const bool isInMemory = parts->size() <= maxInMemory;
     auto bytes = isInMemory ? FileBytes::read(path) : FileBytes::map(path);
     if (!bytes) return bytes.error();
+    if (bytes->bytes().size() != parts->size())
+        return Error(Code::CannotOpen, "another program changed the file while it was opened");
     std::optional<PartFile> kept;
     if (!isInMemory) kept = std::move(*parts);
     return SharedFile(new LabelFile(std::move(*bytes), std::move(kept)));

@@ -183,7 +183,7 @@ TEST(IndoorGmlWriter, AWallBehindADoorIsNoWay) {
     EXPECT_EQ(plan.cells[2].kind, "AnchorSpace") << "it opens to one room alone";
     EXPECT_EQ(plan.transitions.size(), 2u);
     house.fill(house.wall, {17, 10, 2}, {18, 20, 22});
-    EXPECT_EQ(cellsOf(house.done()).cells.size(), 3u) << "a door without rooms is no cell";
+    EXPECT_EQ(cellsOf(house.done()).cells.size(), 3u) << "a door that joins no rooms becomes no cell";
 }
 
 TEST(IndoorGmlWriter, RoomsThatTouchAreJoinedWhereOneCanWalk) {
