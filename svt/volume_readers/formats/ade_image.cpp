@@ -96,7 +96,7 @@ private:
             text_.remove_prefix(std::min(text_.find_first_not_of(kSpace), text_.size()));
             const bool isWhole = text_.find_first_of(kSpace) != std::string_view::npos;
             if (isWhole || rest_.empty() || text_.size() > kPiece) return {};
-            const auto stored = std::as_bytes(std::span(rest_)).first(std::min(rest_.size(), kPiece));
+            const auto stored = std::as_bytes(std::span(rest_.data(), std::min(rest_.size(), kPiece)));
             std::string buffer;
             const auto piece = file_->part(stored, buffer);
             if (!piece) return piece.error();
