@@ -39,7 +39,26 @@ export const kSceneMembers = {
 PAGE_MEMBERS_END = """\
 } as const;
 
+/** A `*.scene.json`: docs/formats/scene.schema.json. The page edits it, the library draws it. */
+export interface Scene %s
+
 export type SceneMember = keyof typeof kSceneMembers;
+
+/** All that a declaration may say. */
+export interface DeclaredMember {
+  readonly type: "flag" | "whole" | "number" | "text" | "object" | "list";
+  readonly unit?: string;
+  readonly minimum?: number;
+  readonly maximum?: number;
+  readonly choices?: readonly (string | number)[];
+  readonly default?: string | number | boolean | readonly number[];
+  /** Takes an array of such values. */
+  readonly repeats?: true;
+  /** Of `svt render`, with its heading in help. */
+  readonly option?: string;
+  readonly group?: string;
+  readonly help: string;
+}
 
 /** The members that declare something: SceneMemberWith<"minimum" | "maximum"> are those with a range. */
 export type SceneMemberWith<Key extends string> = {
@@ -203,6 +222,37 @@ def sheets_schema(described: dict) -> str:
     return json.dumps(schema | object_schema(members, ""), indent=2, ensure_ascii=False) + "\n"
 
 
+def value_type(member: dict) -> str:
+    """The TypeScript type of one value of a member."""
+    if "choices" in member:
+        return " | ".join(json.dumps(choice) for choice in choice_values(member))
+    return {"flag": "boolean", "whole": "number", "number": "number"}.get(member["kind"], "string")
+
+
+def member_type(members: dict[str, dict], pointer: str) -> str:
+    """The TypeScript type of a member with all that is below it."""
+    member = members[pointer]
+    below = [name for name in members if name.startswith(pointer + "/")]
+    if member["kind"] == "object":
+        return object_type(members, pointer) if below else "Scene"
+    if member["kind"] == "list":
+        return f"{object_type(members, pointer + '/*')}[]"
+    if member.get("repeats"):
+        return f"{value_type(member)}[]"
+    if member.get("count", 1) > 1:
+        return f"[{', '.join([value_type(member)] * member['count'])}]"
+    return value_type(member)
+
+
+def object_type(members: dict[str, dict], pointer: str) -> str:
+    own = [name for name in members if name.rpartition("/")[0] == pointer and not name.endswith("*")]
+    rows = [
+        f"{name.rpartition('/')[2]}{'' if members[name].get('required') else '?'}: {member_type(members, name)};"
+        for name in own
+    ]
+    return "{ " + " ".join(rows) + " }"
+
+
 def page_member(member: dict) -> str:
     """The line of a member for the page."""
     values = {"type": member["kind"]}
@@ -213,13 +263,16 @@ def page_member(member: dict) -> str:
         values["choices"] = choice_values(member)
     if "default" in member:
         values["default"] = default_value(member)
+    values |= {key: member[key] for key in ("repeats", "option", "group") if key in member}
     values["help"] = member.get("help", "")
     said = ", ".join(f"{key}: {json.dumps(value, ensure_ascii=False)}" for key, value in values.items())
     return f"  {json.dumps(member['name'])}: {{ {said} }},\n"
 
 
 def page_members(described: dict) -> str:
-    return PAGE_MEMBERS_BEGIN + "".join(map(page_member, described["sceneMembers"])) + PAGE_MEMBERS_END
+    members = {member["name"]: member for member in described["sceneMembers"]}
+    table = "".join(map(page_member, members.values()))
+    return PAGE_MEMBERS_BEGIN + table + PAGE_MEMBERS_END % object_type(members, "").replace("; ", ";\n  ")
 
 
 def page_endings(described: dict) -> str:

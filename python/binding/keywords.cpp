@@ -1,6 +1,7 @@
 #include "keywords.hpp"
 
 #include <svt/core/edit_distance.hpp>
+#include <svt/core/text.hpp>
 
 #include <fmt/format.h>
 

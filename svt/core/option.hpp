@@ -8,7 +8,6 @@
 #include <limits>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace svt {
 
@@ -35,8 +34,8 @@ enum class FileUse : std::uint8_t {
 
 /// The declaration of an option of the command line or of a member of a JSON file.
 struct Option {
-    std::string_view
-        name;  ///< "--fov", "-o,--output"; "input" of an argument; "/camera/zoom" of a file, * for any index
+    /// "--fov", "-o,--output"; "input" of an argument; "/camera/zoom" of a file, * for any index.
+    std::string_view name;
     OptionKind kind = OptionKind::Text;
     std::string_view value{};  ///< what stands for the value in help: "QUERY", "F.svt"; empty: by kind
     std::string_view unit{};   ///< of numbers: "metres", "pixels", "degrees"; empty: none
@@ -46,11 +45,12 @@ struct Option {
     std::string_view otherwise{};  ///< in words what holds where none is given: "by look"
     std::string_view help{};       ///< what it does; a sentence without its first capital and full stop
     std::string_view group{};      ///< heading in help
-    std::string_view
-        member{};  ///< of the command line: the member of a scene that it sets; gives all that is not given here
-    std::string_view excludes{};  ///< other options that may not be given with it: "--lens|--cutaway"
-    int count = 1;                ///< values, with commas between them on the command line
-    int leastCount = 1;           ///< fewer are allowed down to this; 0: the option may stand without a value
+    std::string_view option{};     ///< of a member of a scene: the option of `svt render` that sets it
+    std::string_view member{};     ///< of such an option: the member
+    std::string_view like{};       ///< a member of a scene that gives all that is not given here
+    std::string_view excludes{};   ///< other options that may not be given with it: "--lens|--cutaway"
+    int count = 1;                 ///< values, with commas between them on the command line
+    int leastCount = 1;            ///< fewer are allowed down to this; 0: the option may stand without a value
     bool isRequired = false;
     bool mayRepeat = false;  ///< may be given several times; an array in a file
     FileUse file = FileUse::None;
@@ -59,9 +59,6 @@ struct Option {
     std::string_view numberedBy{};  ///< of an output: the option that says how many files there are, P_0000.png, ...
     bool isForModels = false;       ///< says how a model becomes a volume; without meaning where only volumes are read
 };
-
-/// The parts of "a|b|c".
-[[nodiscard]] std::vector<std::string_view> splitChoices(std::string_view choices);
 
 /// "--output" of "-o,--output".
 [[nodiscard]] std::string_view longName(const Option& option) noexcept;

@@ -92,4 +92,7 @@ template <class Integer>
 [[nodiscard]] std::string lowerAscii(std::string_view text);
 [[nodiscard]] bool equalsIgnoringCase(std::string_view a, std::string_view b) noexcept;
 
+/// The parts of "a|b|c"; none of an empty text.
+[[nodiscard]] std::vector<std::string_view> splitChoices(std::string_view choices);
+
 }  // namespace svt

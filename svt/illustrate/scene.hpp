@@ -5,6 +5,7 @@
 /// to the viewer.
 
 #include <svt/analyze/selection.hpp>
+#include <svt/core/names.hpp>
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
 #include <svt/illustrate/color_by.hpp>
@@ -20,11 +21,12 @@
 
 namespace svt::illustrate {
 
-/// What a named view is fitted to.
+/// The part of the volume that a named view is fitted to.
 enum class Fit : std::uint8_t {
     Visible,  ///< what the passes draw: not what is hidden or cut away
     All       ///< the whole volume, so that pictures of several scenes have one camera
 };
+constexpr auto namesOf(Fit) { return std::to_array<Name<Fit>>({{Fit::Visible, "visible"}, {Fit::All, "all"}}); }
 
 /// The camera of a scene: a named view, and members that override it. Points are in metres from the grid's lower
 /// corner, along world axes.
@@ -87,11 +89,18 @@ enum class Look : std::uint8_t {
     Blueprint,  ///< white lines on blue
     Dark        ///< for slides: colours on near black
 };
+constexpr auto namesOf(Look) {
+    return std::to_array<Name<Look>>(
+        {{Look::Plain, "plain"}, {Look::Paper, "paper"}, {Look::Blueprint, "blueprint"}, {Look::Dark, "dark"}});
+}
 
 /// How a scene changes with time, see motion.hpp.
 struct Motion {
     /// How a member goes from key to key.
     enum class Pace : std::uint8_t { Smooth, Even };
+    friend constexpr auto namesOf(Pace) {
+        return std::to_array<Name<Pace>>({{Pace::Smooth, "smooth"}, {Pace::Even, "even"}});
+    }
     struct Key {
         double at = 0;      ///< seconds
         std::string scene;  ///< JSON object: the members of the scene that have these values then
@@ -109,6 +118,12 @@ struct Motion {
 /// A small picture in a corner of the picture, with a frame in the picture around what it shows.
 struct Inset {
     enum class Corner : std::uint8_t { TopRight, BottomRight, TopLeft, BottomLeft };
+    friend constexpr auto namesOf(Corner) {
+        return std::to_array<Name<Corner>>({{Corner::TopRight, "top-right"},
+                                            {Corner::BottomRight, "bottom-right"},
+                                            {Corner::TopLeft, "top-left"},
+                                            {Corner::BottomLeft, "bottom-left"}});
+    }
 
     Corner corner = Corner::TopRight;
     double size = 0.3;  ///< share of the picture's width and height, 0.05 to 0.5
@@ -126,6 +141,20 @@ struct Sun {
     friend bool operator==(const Sun&, const Sun&) = default;
 };
 
+/// Lines between objects and where the depth jumps. Members that are set override the look's.
+struct BorderLook {
+    std::optional<float> strength, width, cutWidth;  ///< 0..1; pixels; pixels, around what is cut
+    std::optional<Vec3f> color;
+    friend bool operator==(const BorderLook&, const BorderLook&) = default;
+};
+
+/// Hatches of what is cut. Members that are set override the look's.
+struct HatchLook {
+    std::optional<bool> show;
+    std::optional<double> spacing;  ///< metres; unset: the largest 1, 2 or 5 * 10^n m within 11 pixels (4.4 to 11)
+    friend bool operator==(const HatchLook&, const HatchLook&) = default;
+};
+
 struct Scene {
     std::int32_t width = 1280, height = 720;  ///< pixels
     int samples = 4;                          ///< rays per pixel
@@ -133,11 +162,8 @@ struct Scene {
     SceneCamera camera;
     std::optional<Vec3f> background;  ///< overrides the look's
     bool isTransparent = false;       ///< no background at all
-    /// Override the look's.
-    std::optional<float> lineStrength, lineWidth, cutWidth;
-    std::optional<Vec3f> lineColor;
-    std::optional<bool> hasHatches;
-    std::optional<double> hatchSpacing;  ///< metres; unset: the largest 1, 2 or 5 * 10^n m within 11 pixels (4.4 to 11)
+    BorderLook lines;
+    HatchLook hatches;
     std::optional<float> ambientOcclusion;
     std::vector<std::string> names;  ///< queries: labels with name tags beside the picture, see name_tags.hpp
     std::string colorBy;             ///< see color_by.hpp; with a legend. Empty: colours by style
@@ -161,6 +187,10 @@ enum class Context : std::uint8_t {
     Shell,  ///< the outer hull of the building, as glass
     None
 };
+constexpr auto namesOf(Context) {
+    return std::to_array<Name<Context>>(
+        {{Context::Ghost, "ghost"}, {Context::Solid, "solid"}, {Context::Shell, "shell"}, {Context::None, "none"}});
+}
 
 /// Turns the scene's only pass into an S-Lens: inside `region` the model is drawn without what `cut` cuts away, in
 /// front of the context (Ropinski and Hinrichs 2005; section 5.1 of the paper).
@@ -198,8 +228,5 @@ void addCutaway(Scene& scene, const std::string& query, double margin);
 
 /// The JSON of a scene that has this camera and nothing else.
 [[nodiscard]] std::string cameraJson(const SceneCamera& camera);
-
-[[nodiscard]] std::string_view lookName(Look look) noexcept;
-[[nodiscard]] std::optional<Look> lookFromName(std::string_view name) noexcept;
 
 }  // namespace svt::illustrate

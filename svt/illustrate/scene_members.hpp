@@ -1,24 +1,40 @@
 #pragma once
 /// \file
-/// The members of a scene file (`*.scene.json`), declared once: parseScene() reads by this table, the options of
-/// `svt render` take their ranges and defaults from it, and docs/formats/scene.schema.json and the controls' limits of
-/// the viewer page (web/viewer/src/generated/scene_members.ts) are written from it.
+/// The declarations of the members of a scene file (`*.scene.json`). parseScene(), writeScene() and the options of
+/// `svt render` follow from them, as do docs/formats/scene.schema.json and the limits of the page's controls
+/// (web/viewer/src/generated/scene_members.ts).
 
 #include <svt/core/option.hpp>
+#include <svt/core/result.hpp>
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace svt::illustrate {
 
+struct Scene;
+
 /// All members, an object before its own; named by JSON pointers with * for any index: "/passes/*/styles/*/opacity".
 [[nodiscard]] std::span<const Option> sceneMembers() noexcept;
 
-/// The member of that name, or of a pointer with indices such as "/passes/0/level"; there must be one.
+/// The member of that name, or of a pointer with indices such as "/passes/0/level"; null if there is none. An index behind
+/// a member with several values is left out: "/camera/eye/0" is "/camera/eye".
+[[nodiscard]] const Option* findSceneMember(std::string_view pointer);
+
+/// The same where there must be one.
 [[nodiscard]] const Option& sceneMember(std::string_view pointer);
 
-/// Names of the members of an object: {"strength", "width", ...} of "/lines"; "" is the scene.
-[[nodiscard]] std::vector<std::string_view> sceneMembersOf(std::string_view pointer);
+/// A member that an option of the command line, or a keyword, sets.
+struct GivenMember {
+    std::string option;               ///< for messages: "--zoom"
+    std::string_view member;          ///< "/camera/zoom"; * is the first element
+    std::vector<std::string> values;  ///< as texts that its declaration allows; a flag may have none
+};
+
+/// Sets a member. Values of a member that may repeat are appended.
+/// \return success, or BadArgument that names the option
+[[nodiscard]] Result<void> setSceneMember(Scene& scene, const GivenMember& given);
 
 }  // namespace svt::illustrate

@@ -21,6 +21,7 @@
 /// to that room. A component that touches no space keeps its place in the tree and the groups. A component that belongs
 /// to something above the requested level is a group by itself, with all below it.
 
+#include <svt/core/names.hpp>
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
@@ -33,11 +34,13 @@
 namespace svt::illustrate {
 
 enum class ShellLevel : std::uint8_t { Component, Room, Unit, Storey, Building };
-inline constexpr std::array<ShellLevel, 5> kShellLevels{ShellLevel::Component, ShellLevel::Room, ShellLevel::Unit,
-                                                        ShellLevel::Storey, ShellLevel::Building};
-
-[[nodiscard]] std::string_view shellLevelName(ShellLevel level) noexcept;  ///< "component", "room", ...
-[[nodiscard]] std::optional<ShellLevel> shellLevelFromName(std::string_view name) noexcept;
+constexpr auto namesOf(ShellLevel) {
+    return std::to_array<Name<ShellLevel>>({{ShellLevel::Component, "component"},
+                                            {ShellLevel::Room, "room"},
+                                            {ShellLevel::Unit, "unit"},
+                                            {ShellLevel::Storey, "storey"},
+                                            {ShellLevel::Building, "building"}});
+}
 
 /// A level that a model has.
 struct ShellStep {
@@ -64,7 +67,7 @@ public:
 
 private:
     // Per label: the feature of each level that holds it; at Component the label itself. kNoLabel: none.
-    using Holders = std::array<std::uint32_t, kShellLevels.size()>;
+    using Holders = std::array<std::uint32_t, kNames<ShellLevel>.size()>;
 
     std::vector<Holders> holders_;
     std::vector<std::uint32_t> component_;  // per label: the component of which it is a part

@@ -3,6 +3,7 @@
 /// Description of a frame, as plain data: camera, light, background, and ordered passes, each with styles and clips.
 /// World space is the volume's, in metres. Sections, lenses and highlights are composed of these parts.
 
+#include <svt/core/names.hpp>
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
 #include <svt/render/clip_region.hpp>
@@ -92,6 +93,10 @@ struct Pass {
         /// of space that no ray enters twice, such as volumes beside each other and the gaps between them.
         Part
     };
+    /// Of the ways that a scene may name.
+    friend constexpr auto namesOf(Join) {
+        return std::to_array<Name<Join>>({{Join::Over, "over"}, {Join::Replace, "replace"}, {Join::Depth, "depth"}});
+    }
 
     std::vector<Style> styles;      ///< by scalar; scalars beyond the end are hidden. The transfer function
     std::vector<ClipRegion> clips;  ///< a point is drawn if no region cuts it away and all KeepOnly regions contain it;

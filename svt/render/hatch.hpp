@@ -3,10 +3,10 @@
 /// Hatches of caps (cut faces): they show the material of a component as building drawings do (after ISO 128-3 and
 /// DIN 1356-1).
 
+#include <svt/core/names.hpp>
+
+#include <array>
 #include <cstdint>
-#include <optional>
-#include <span>
-#include <string_view>
 
 namespace svt::render {
 
@@ -23,11 +23,18 @@ enum class Hatch : std::uint8_t {
     General              ///< wide lines rising to the right: any other solid
 };
 
-/// "masonry", "reinforced-concrete", ..., "none".
-[[nodiscard]] std::string_view hatchName(Hatch hatch) noexcept;
-/// All names, in the order of the enum.
-[[nodiscard]] std::span<const std::string_view> hatchNames() noexcept;
-[[nodiscard]] std::optional<Hatch> hatchFromName(std::string_view name) noexcept;
+constexpr auto namesOf(Hatch) {
+    return std::to_array<Name<Hatch>>({{Hatch::None, "none"},
+                                       {Hatch::Masonry, "masonry"},
+                                       {Hatch::Concrete, "concrete"},
+                                       {Hatch::ReinforcedConcrete, "reinforced-concrete"},
+                                       {Hatch::Timber, "timber"},
+                                       {Hatch::Insulation, "insulation"},
+                                       {Hatch::Earth, "earth"},
+                                       {Hatch::Steel, "steel"},
+                                       {Hatch::Glass, "glass"},
+                                       {Hatch::General, "general"}});
+}
 
 /// How a hatch is drawn. All in metres.
 struct HatchPen {

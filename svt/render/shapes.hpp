@@ -2,6 +2,7 @@
 /// \file
 /// Lines and triangles that a pass draws inside the volume, composited by depth, as plain data.
 
+#include <svt/core/names.hpp>
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -15,6 +16,10 @@ namespace svt::render {
 
 /// How hidden parts of a line, those behind something opaque, are drawn.
 enum class HiddenLines : std::uint8_t { None, Faint, Dashed };
+constexpr auto namesOf(HiddenLines) {
+    return std::to_array<Name<HiddenLines>>(
+        {{HiddenLines::Faint, "faint"}, {HiddenLines::Dashed, "dashed"}, {HiddenLines::None, "none"}});
+}
 
 /// World space, metres.
 struct Line {

@@ -6,6 +6,7 @@
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/version.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/illustrate/scene_members.hpp>
 #include <svt/illustrate/sheet_set.hpp>
 #include <svt/readers/read_model.hpp>
@@ -56,6 +57,7 @@ Json optionJson(const Option& option) {
     text("otherwise", option.otherwise);
     text("help", option.help);
     text("group", option.group);
+    text("option", option.option);
     text("member", option.member);
     list("excludes", option.excludes);
     if (option.count != 1) json["count"] = option.count;

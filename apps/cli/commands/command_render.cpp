@@ -96,7 +96,7 @@ Result<Series> seriesOf(const RenderArguments& arguments, const illustrate::Scen
     Series series;
     const illustrate::Motion motion = moving.motion.value_or(illustrate::Motion{});
     if (!isFilm(arguments.output)) {
-        if (arguments.frames == 1 && arguments.scene.turn)
+        if (arguments.frames == 1 && arguments.scene.isGiven("/motion/turn"))
             return Error(Code::BadArgument,
                          "--turn moves the camera; --frames says in how many pictures, 2 or more; a film "
                          "(-o P.webm) has them anyway");
@@ -273,7 +273,7 @@ int runLineDrawing(const RenderArguments& arguments, const Series& series, const
     printDiagnostics(diagnostics, arguments.verbose);
     if (!volume) return fail(volume.error());
     illustrate::LineViewOptions options;
-    options.hidden = arguments.scene.hiddenLines == "dashed";
+    options.hidden = arguments.scene.hiddenLines == render::HiddenLines::Dashed;
     options.threads = arguments.build.threads;
     for (int frame = 0; frame < arguments.frames; ++frame) {
         progress.beginPart(frame, arguments.frames);
@@ -294,18 +294,19 @@ int runLineDrawing(const RenderArguments& arguments, const Series& series, const
     return kDone;
 }
 
-// What needs all of a model at once.
-Result<void> checkForCity(const RenderArguments& arguments) {
-    const auto& scene = arguments.scene;
-    const std::pair<bool, const char*> needs[] = {{isLineDrawing(arguments.output), "-o .svg or .pdf"},
-                                                  {!arguments.with.empty(), "--with"},
-                                                  {!arguments.owners.empty(), "--owners"},
-                                                  {arguments.gl, "--gl"},
-                                                  {scene.explode.has_value(), "--explode"},
-                                                  {!scene.insets.empty(), "--inset"},
-                                                  {!scene.cutaway.empty(), "--cutaway"},
-                                                  {scene.wireframe.has_value(), "--wireframe"},
-                                                  {!scene.meshes.empty(), "--vectors"}};
+// Refuses what needs all of a model at once, whether an option or a scene file asks for it.
+Result<void> checkForCity(const RenderArguments& arguments, const illustrate::Scene& scene) {
+    const auto isIn = [&](auto has) { return std::ranges::any_of(scene.passes, has); };
+    const std::pair<bool, const char*> needs[] = {
+        {isLineDrawing(arguments.output), "-o .svg or .pdf"},
+        {!arguments.with.empty(), "--with"},
+        {!arguments.owners.empty(), "--owners"},
+        {arguments.gl, "--gl"},
+        {scene.explode != 0, "--explode"},
+        {!scene.insets.empty(), "--inset"},
+        {!arguments.scene.cutaway.empty(), "--cutaway"},
+        {isIn([](const auto& pass) { return !pass.lines.empty(); }), "--wireframe"},
+        {isIn([](const auto& pass) { return !pass.meshes.empty(); }), "--vectors"}};
     for (const auto& [isGiven, option] : needs)
         if (isGiven)
             return Error(Code::BadArgument,
@@ -315,7 +316,7 @@ Result<void> checkForCity(const RenderArguments& arguments) {
 
 // Pictures of a city: for each of them, its tiles are chosen and read.
 int runCityRender(const RenderArguments& arguments, Series& series, const illustrate::Scene& moving) {
-    if (auto checked = checkForCity(arguments); !checked) return fail(checked.error());
+    if (auto checked = checkForCity(arguments, moving); !checked) return fail(checked.error());
     TerminalProgress progress;
     auto opened = city::City::open(arguments.input);
     if (!opened) return fail(opened.error());

@@ -30,13 +30,12 @@ int printLevels(const volume::SemanticVolume& volume, bool isJson) {
     if (!isJson) {
         fmt::print("{:<12} {:>10} {:>10}\n", "level", "features", "groups");
         for (const illustrate::ShellStep& step : steps)
-            fmt::print("{:<12} {:>10} {:>10}\n", illustrate::shellLevelName(step.level), step.features, step.groups);
+            fmt::print("{:<12} {:>10} {:>10}\n", nameOf(step.level), step.features, step.groups);
         return kDone;
     }
     Json rows = Json::array();
     for (const illustrate::ShellStep& step : steps)
-        rows.push_back(
-            {{"level", illustrate::shellLevelName(step.level)}, {"features", step.features}, {"groups", step.groups}});
+        rows.push_back({{"level", nameOf(step.level)}, {"features", step.features}, {"groups", step.groups}});
     print(rows);
     return kDone;
 }
@@ -84,7 +83,7 @@ Result<Json> makeShell(const volume::SemanticVolume& volume, const ShellArgument
         options.of = std::move(*selected);
     }
     Progress::tell(progress, "shell", 0);
-    const auto shell = illustrate::extractShell(volume, *illustrate::shellLevelFromName(arguments.level), options);
+    const auto shell = illustrate::extractShell(volume, *fromName<illustrate::ShellLevel>(arguments.level), options);
     if (!shell) return shell.error();
     Progress::tell(progress, "write", 0);
     auto written = writeShell(*shell, volume, arguments, progress);

@@ -1,5 +1,6 @@
 #include <apps/cli/options/catalog.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/illustrate/scene_members.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/writers/volume_formats.hpp>
@@ -333,14 +334,6 @@ constexpr Option kRender[] = {
      .formats = "png|svg|pdf|webm|mp4|gif|webp",
      .mayLackEnding = true,
      .numberedBy = "--frames"},
-    {.name = "--camera", .help = "where the picture is taken from", .group = "View", .member = "/camera/preset"},
-    {.name = "--around", .group = "View", .member = "/camera/around"},
-    {.name = "--fit", .group = "View", .member = "/camera/fit"},
-    {.name = "--ortho", .kind = Flag, .group = "View", .member = "/camera/parallel"},
-    {.name = "--eye", .value = "X,Y,Z", .group = "View", .member = "/camera/eye"},
-    {.name = "--target", .value = "X,Y,Z", .group = "View", .member = "/camera/target"},
-    {.name = "--fov", .group = "View", .member = "/camera/fieldOfView"},
-    {.name = "--zoom", .group = "View", .member = "/camera/zoom"},
     {.name = "--size",
      .value = "WxH",
      .byDefault = "1280x720",
@@ -353,7 +346,6 @@ constexpr Option kRender[] = {
      .byDefault = "300",
      .help = "pixels per inch, for sizes in mm; stored in the picture",
      .group = "View"},
-    {.name = "--samples", .group = "View", .member = "/samples"},
     {.name = "--section",
      .value = "PLANE",
      .help =
@@ -361,8 +353,7 @@ constexpr Option kRender[] = {
          "metres from the lower corner; z=0..6 moves in films and with --frames",
      .group = "Cut",
      .mayRepeat = true},
-    {.name = "--cut", .group = "Cut", .member = "/passes/*/cut"},
-    {.name = "--keep", .group = "Cut", .member = "/passes/*/keep"},
+    {.name = "--cut", .group = "Cut", .like = "/passes/*/cut"},
     {.name = "--lens",
      .value = "REGION",
      .help = "S-Lens: in this region the model is cut by --section, the rest is the context",
@@ -380,20 +371,14 @@ constexpr Option kRender[] = {
      .group = "Illustrate",
      .excludes = "--lens|--highlight"},
     {.name = "--context",
-     .choices = "ghost|solid|shell|none",
+     .choices = choicesOf<illustrate::Context>(),
      .byDefault = "ghost",
      .help = "what is around a lens or highlight",
      .group = "Illustrate"},
     {.name = "--context-level",
      .help = "level of detail of what is around a lens, highlight or cutaway, 0 is the finest",
      .group = "Illustrate",
-     .member = "/passes/*/level"},
-    {.name = "--shell", .group = "Illustrate", .member = "/passes/*/shell"},
-    {.name = "--names", .group = "Illustrate", .member = "/names"},
-    {.name = "--color-by", .group = "Illustrate", .member = "/colorBy"},
-    {.name = "--title", .group = "Illustrate", .member = "/title"},
-    {.name = "--scale-bar", .kind = Flag, .group = "Illustrate", .member = "/scaleBar"},
-    {.name = "--north-arrow", .kind = Flag, .group = "Illustrate", .member = "/northArrow"},
+     .like = "/passes/*/level"},
     {.name = "--inset",
      .value = "QUERY",
      .help = "draw what the query selects once more, larger, in a corner, with a frame that shows where",
@@ -406,15 +391,12 @@ constexpr Option kRender[] = {
      .group = "Illustrate",
      .mayRepeat = true,
      .file = FileUse::OtherInput},
-    {.name = "--explode", .value = "DISTANCE", .group = "Illustrate", .member = "/explode"},
-    {.name = "--cells", .kind = Flag, .group = "Illustrate", .member = "/passes/*/cells"},
+    {.name = "--cells", .kind = Flag, .group = "Illustrate", .like = "/passes/*/cells"},
     {.name = "--owners",
      .value = "T.csv",
      .help = "who owns what, for --color-by owner: a table of feature and owner",
      .group = "Illustrate",
      .file = FileUse::OtherInput},
-    {.name = "--sun", .group = "Illustrate", .member = "/sun/time"},
-    {.name = "--place", .value = "LAT,LON", .group = "Illustrate", .member = "/sun/place"},
     {.name = "--wireframe",
      .value = "QUERY",
      .help =
@@ -422,12 +404,9 @@ constexpr Option kRender[] = {
          "visible",
      .group = "Lines",
      .leastCount = 0},
-    {.name = "--hidden-lines", .group = "Lines", .member = "/passes/*/lines/*/hidden"},
-    {.name = "--wire-width", .help = "width of the edges", .group = "Lines", .member = "/passes/*/lines/*/width"},
-    {.name = "--wire-color", .group = "Lines", .member = "/passes/*/lines/*/color"},
-    {.name = "--vectors", .group = "Lines", .member = "/passes/*/meshes"},
-    {.name = "--hide", .group = "Style", .member = "/passes/*/hide"},
-    {.name = "--show", .group = "Style", .member = "/passes/*/show"},
+    {.name = "--hidden-lines", .group = "Lines", .like = "/passes/*/lines/*/hidden"},
+    {.name = "--wire-width", .help = "width of the edges", .group = "Lines", .like = "/passes/*/lines/*/width"},
+    {.name = "--wire-color", .group = "Lines", .like = "/passes/*/lines/*/color"},
     {.name = "--color",
      .value = "QUERY:COLOR",
      .help = "colour by query, such as 'name=\"Unterzug-1\":red'",
@@ -438,11 +417,6 @@ constexpr Option kRender[] = {
      .help = "share of light stopped by 1 m, 0 to 1, by query",
      .group = "Style",
      .mayRepeat = true},
-    {.name = "--look",
-     .help = "plain, paper (for print), blueprint or dark (for slides)",
-     .group = "Style",
-     .member = "/look"},
-    {.name = "--hatch", .kind = Flag, .group = "Style", .member = "/hatches/show"},
     {.name = "--hatch-of",
      .value = "QUERY:HATCH",
      .help =
@@ -450,13 +424,7 @@ constexpr Option kRender[] = {
          "none",
      .group = "Style",
      .mayRepeat = true},
-    {.name = "--hatch-spacing", .group = "Style", .member = "/hatches/spacing"},
-    {.name = "--edges", .group = "Style", .member = "/lines/strength"},
-    {.name = "--line-width", .group = "Style", .member = "/lines/width"},
-    {.name = "--cut-width", .group = "Style", .member = "/lines/cutWidth"},
-    {.name = "--level", .group = "Style", .member = "/passes/*/level", .excludes = "--gl"},
-    {.name = "--background", .group = "Style", .member = "/background"},
-    {.name = "--transparent", .kind = Flag, .group = "Style", .member = "/transparent"},
+    {.name = "--level", .group = "Style", .like = "/passes/*/level", .excludes = "--gl"},
     {.name = "--scene",
      .value = "S.scene.json",
      .help = "scene file; the other options change it",
@@ -475,9 +443,6 @@ constexpr Option kRender[] = {
      .byDefault = "1",
      .help = "number of pictures P_0000.png, ... of a section that moves, or of the scene's motion",
      .group = "Motion"},
-    {.name = "--turn", .group = "Motion", .member = "/motion/turn"},
-    {.name = "--seconds", .help = "how long the motion lasts", .group = "Motion", .member = "/motion/seconds"},
-    {.name = "--rate", .help = "pictures a second of a film", .group = "Motion", .member = "/motion/rate"},
     {.name = "--gl",
      .kind = Flag,
      .help = "draw by OpenGL ES 3.0, the finest level; needs a driver, but no display",
@@ -1136,7 +1101,8 @@ std::span<const CommandText> commandTexts() {
          {kCheck, kMemory, kQuiet, kVerbose}},
         {"render",
          "Draw pictures of a volume or model: PNG, films, lines as SVG and PDF",
-         {kRender, kQuiet, kVerbose, kStyle, kGrid, kModel, kMemory, kVoxels}},
+         {kRender, kQuiet, kVerbose, kStyle, kGrid, kModel, kMemory, kVoxels},
+         true},
         {"section",
          "Draw what a plane cuts (SVG, PDF, DXF, GeoJSON)",
          {kSection, kQuiet, kVerbose, kGrid, kModel, kMemory, kStyle, kVoxels}},
@@ -1174,28 +1140,45 @@ std::span<const CommandText> commandTexts() {
     return kCommands;
 }
 
+namespace {
+
+// Gives an option all that it does not say itself from a member of a scene.
+void fillFrom(Option& option, const Option& member) {
+    const auto fill = [](auto& own, const auto& other, bool isOwn) {
+        if (!isOwn) own = other;
+    };
+    fill(option.kind, member.kind, option.kind != Text);
+    fill(option.value, member.value, !option.value.empty());
+    fill(option.help, member.help, !option.help.empty());
+    fill(option.choices, member.choices, !option.choices.empty());
+    if (option.kind != Flag) fill(option.byDefault, member.byDefault, !option.byDefault.empty());
+    fill(option.otherwise, member.otherwise, !option.otherwise.empty());
+    option.unit = member.unit;
+    option.least = member.least;
+    option.most = member.most;
+    option.count = member.count;
+    option.leastCount = member.leastCount;
+    option.mayRepeat = member.mayRepeat;
+}
+
+// The options that set a member of a scene, each before the first option of its group.
+void addSceneOptions(std::vector<Option>& options) {
+    for (const Option& member : illustrate::sceneMembers()) {
+        if (member.option.empty()) continue;
+        Option option{.name = member.option, .group = member.group, .member = member.name};
+        fillFrom(option, member);
+        const auto isOfGroup = [&](const Option& other) { return other.group == option.group && other.member.empty(); };
+        options.insert(std::ranges::find_if(options, isOfGroup), option);
+    }
+}
+
+}  // namespace
+
 std::vector<Option> optionsOf(const CommandText& command) {
     std::vector<Option> options;
     for (const auto set : command.sets)
         for (Option option : set) {
-            if (!option.member.empty()) {
-                const Option& member = illustrate::sceneMember(option.member);
-                const auto fill = [](auto& own, const auto& other, bool isOwn) {
-                    if (!isOwn) own = other;
-                };
-                fill(option.kind, member.kind, option.kind != Text);
-                fill(option.value, member.value, !option.value.empty());
-                fill(option.help, member.help, !option.help.empty());
-                fill(option.choices, member.choices, !option.choices.empty());
-                if (option.kind != Flag) fill(option.byDefault, member.byDefault, !option.byDefault.empty());
-                fill(option.otherwise, member.otherwise, !option.otherwise.empty());
-                option.unit = member.unit;
-                option.least = member.least;
-                option.most = member.most;
-                option.count = member.count;
-                option.leastCount = member.leastCount;
-                option.mayRepeat = member.mayRepeat;
-            }
+            if (!option.like.empty()) fillFrom(option, illustrate::sceneMember(option.like));
             if (option.formats == kVolumeFormats) {
                 option.formats = volumeFormatNames();
                 option.help = volumeFormatHelp();
@@ -1203,6 +1186,7 @@ std::vector<Option> optionsOf(const CommandText& command) {
             if (option.help == kModelFiles) option.help = modelFilesHelp();
             options.push_back(option);
         }
+    if (command.hasScene) addSceneOptions(options);
     return options;
 }
 

@@ -16,6 +16,7 @@ struct CommandText {
     std::string_view name;
     std::string_view help;
     std::vector<std::span<const Option>> sets;
+    bool hasScene = false;  ///< also the options that set members of a scene (Option::option)
 };
 
 /// All commands, in the order in which help lists them.

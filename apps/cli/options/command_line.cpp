@@ -226,6 +226,14 @@ void Command::take(std::string_view option, Take take) {
     found.take = std::move(take);
 }
 
+void Command::takeMembers(std::vector<illustrate::GivenMember>& to) {
+    for (const auto& [option, take_] : connections_)
+        if (!option.member.empty())
+            take(longName(option), [&to, name = std::string(longName(option)), member = option.member](auto& values) {
+                to.push_back({name, member, values});
+            });
+}
+
 double Command::number(const std::string& text) {
     return parseNumber(text).value_or(0);  // faultOf() has seen it
 }

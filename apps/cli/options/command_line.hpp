@@ -5,6 +5,8 @@
 #include <apps/cli/options/catalog.hpp>
 
 #include <svt/core/file.hpp>
+#include <svt/core/names.hpp>
+#include <svt/illustrate/scene_members.hpp>
 
 #include <filesystem>
 #include <functional>
@@ -36,6 +38,9 @@ public:
     void set(std::string_view option, T& to);
     /// Values go to a function.
     void take(std::string_view option, Take take);
+
+    /// Values of all options that set a member of a scene (Option::member) go to `to`, in the order of the catalog.
+    void takeMembers(std::vector<illustrate::GivenMember>& to);
 
     /// The default of an option, as it would be written; empty: none.
     [[nodiscard]] std::string_view byDefault(std::string_view option) { return connection(option).option.byDefault; }
@@ -79,6 +84,8 @@ void Command::assign(const std::string& text, T& to) {
         to = text == "true";
     else if constexpr (std::is_arithmetic_v<T>)
         to = static_cast<T>(number(text));
+    else if constexpr (Named<T>)
+        to = fromName<T>(text).value_or(to);  // faultOf() has seen it
     else if constexpr (std::is_same_v<T, std::filesystem::path>)
         to = userPath(text);
     else

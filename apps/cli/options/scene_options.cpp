@@ -17,7 +17,6 @@
 namespace svt::cli {
 namespace {
 
-using illustrate::Context;
 using illustrate::Scene;
 
 // Splits "query:value" at the last colon (or equals sign) that is followed by a value.
@@ -107,17 +106,16 @@ Result<void> addStyles(const SceneArguments& arguments, illustrate::ScenePass& p
     for (const std::string& text : arguments.hatchOf) {
         const auto parts = splitValue(text, "--hatch-of", "'class=WallSurface:insulation'");
         if (!parts) return parts.error();
-        const auto hatch = render::hatchFromName(parts->second);
+        const auto hatch = fromName<render::Hatch>(parts->second);
         if (!hatch)
             return Error(Code::BadArgument, fmt::format("--hatch-of '{}': unknown hatch '{}'; possible are {}", text,
-                                                        parts->second, fmt::join(render::hatchNames(), ", ")));
+                                                        parts->second, listedNames<render::Hatch>()));
         pass.styles.push_back({parts->first, {}, {}, *hatch, false});
     }
     return {};
 }
 
-Result<void> addVectors(const SceneArguments& arguments, illustrate::ScenePass& pass) {
-    pass.meshes.insert(pass.meshes.end(), arguments.meshes.begin(), arguments.meshes.end());
+Result<void> addEdges(const SceneArguments& arguments, illustrate::ScenePass& pass) {
     if (!arguments.wireframe) return {};
     illustrate::SceneLines lines;
     lines.select = *arguments.wireframe;
@@ -127,9 +125,7 @@ Result<void> addVectors(const SceneArguments& arguments, illustrate::ScenePass& 
         if (!color) return Error(Code::BadArgument, "--wire-color: " + color.error().message());
         lines.color = *color;
     }
-    lines.hidden = arguments.hiddenLines == "dashed" ? render::HiddenLines::Dashed
-                   : arguments.hiddenLines == "none" ? render::HiddenLines::None
-                                                     : render::HiddenLines::Faint;
+    lines.hidden = arguments.hiddenLines;
     pass.lines.push_back(lines);
     return {};
 }
@@ -147,23 +143,15 @@ std::string quoted(const std::string& plane) {
 
 Result<void> addPass(const SceneArguments& arguments, const std::vector<std::string>& sections, Scene& scene) {
     illustrate::ScenePass& pass = scene.passes.front();
-    pass.show.insert(pass.show.end(), arguments.show.begin(), arguments.show.end());
-    pass.hide.insert(pass.hide.end(), arguments.hide.begin(), arguments.hide.end());
     if (auto added = addStyles(arguments, pass); !added) return added;
-    if (auto added = addVectors(arguments, pass); !added) return added;
+    if (auto added = addEdges(arguments, pass); !added) return added;
     std::string section;
     for (const std::string& text : sections) section = either(section, quoted(text));
-    if (!arguments.keep.empty()) pass.keep = arguments.keep;
     if (!arguments.cut.empty()) pass.cut = either(pass.cut, fmt::format("({})", arguments.cut));
     // With a lens, sections cut only inside it.
     if (arguments.lens.empty()) pass.cut = either(pass.cut, section);
-    if (!arguments.shell.empty()) pass.form.shell = illustrate::shellLevelFromName(arguments.shell);
-    const Context context = arguments.context == "ghost"   ? Context::Ghost
-                            : arguments.context == "solid" ? Context::Solid
-                            : arguments.context == "shell" ? Context::Shell
-                                                           : Context::None;
-    if (!arguments.lens.empty()) addLens(scene, arguments.lens, section, context);
-    if (!arguments.highlights.empty()) addHighlight(scene, arguments.highlights, context);
+    if (!arguments.lens.empty()) addLens(scene, arguments.lens, section, arguments.context);
+    if (!arguments.highlights.empty()) addHighlight(scene, arguments.highlights, arguments.context);
     if (!arguments.cutaway.empty()) addCutaway(scene, arguments.cutaway, 0.15);
     if (arguments.contextLevel && scene.passes.size() == 2) scene.passes.front().form.level = arguments.contextLevel;
     for (illustrate::ScenePass& any : scene.passes) any.form.hasCells = any.form.hasCells || arguments.hasCells;
@@ -207,6 +195,10 @@ Result<Scene> readScene(const std::filesystem::path& file) {
 
 int SceneArguments::printedDpi() const { return dpi ? *dpi : size && isMetric(*size) ? dpiByDefault : 0; }
 
+bool SceneArguments::isGiven(std::string_view member) const {
+    return std::ranges::any_of(members, [&](const illustrate::GivenMember& given) { return given.member == member; });
+}
+
 Result<Scene> SceneArguments::toScene(std::optional<int> pictures) const {
     Scene file;
     if (!sceneFile.empty()) {
@@ -240,115 +232,45 @@ Result<Scene> SceneArguments::toScene(std::optional<int> pictures) const {
 Result<Scene> SceneArguments::stillScene(Scene scene, const std::vector<std::string>& still, bool isSeries) const {
     if (size)
         if (auto parsed = parseSize(*size, dpi.value_or(dpiByDefault), scene); !parsed) return parsed.error();
-    if (samples) scene.samples = *samples;
-    if (look) scene.look = *illustrate::lookFromName(*look);
-    if (camera) scene.camera.preset = *camera;
-    if (!around.empty()) scene.camera.around = around;
-    if (fit) scene.camera.fit = *fit == "all" ? illustrate::Fit::All : illustrate::Fit::Visible;
+    for (const illustrate::GivenMember& given : members)
+        if (auto done = setSceneMember(scene, given); !done) return done.error();
     // A series is seen by one camera, whatever each of its pictures shows.
-    if (!fit && isSeries) scene.camera.fit = illustrate::Fit::All;
-    if (isParallel) scene.camera.isParallel = true;
-    if (fov) scene.camera.fieldOfView = *fov;
-    if (zoom) scene.camera.zoom = *zoom;
-    if (eye.size() == 3) scene.camera.eye = Vec3d{eye[0], eye[1], eye[2]};
-    if (target.size() == 3) scene.camera.target = Vec3d{target[0], target[1], target[2]};
-    if (background) {
-        const auto parsed = image::parseColor(*background);
-        if (!parsed) return Error(Code::BadArgument, "--background: " + parsed.error().message());
-        scene.background = *parsed;
-    }
-    if (isTransparent) scene.isTransparent = true;
-    const auto narrow = [](double value) { return static_cast<float>(value); };
-    if (edges) scene.lineStrength = narrow(*edges);
-    if (lineWidth) scene.lineWidth = narrow(*lineWidth);
-    if (cutWidth) scene.cutWidth = narrow(*cutWidth);
-    if (hasHatches) scene.hasHatches = true;
-    if (hatchSpacing) scene.hatchSpacing = hatchSpacing;
-    if (!title.empty()) scene.title = title;
-    if (hasScaleBar) scene.hasScaleBar = true;
-    if (hasNorthArrow) scene.hasNorthArrow = true;
-    if (!colorBy.empty()) scene.colorBy = colorBy;
-    scene.names.insert(scene.names.end(), names.begin(), names.end());
+    if (isSeries && !isGiven("/camera/fit")) scene.camera.fit = illustrate::Fit::All;
+    if (scene.sun && scene.sun->time.empty())
+        return Error(Code::BadArgument, "--place says where the sun shines; --sun says when");
+    if (scene.motion && !scene.motion->keys.empty() && scene.motion->keys.back().at > scene.motion->seconds)
+        return Error(Code::BadArgument, fmt::format("--seconds {} ends before the last key of the scene, at {} s",
+                                                    scene.motion->seconds, scene.motion->keys.back().at));
     if (auto added = addPass(*this, still, scene); !added) return added.error();
     if (insets.size() + scene.insets.size() > 4)
         return Error(Code::BadArgument,
                      fmt::format("{} insets; a picture has 4 corners", insets.size() + scene.insets.size()));
     addInsets(*this, scene);
-    if (explode) scene.explode = *explode;
-    if (!sunTime.empty()) {
-        if (!scene.sun) scene.sun.emplace();
-        scene.sun->time = sunTime;
-    }
-    if (place.size() == 2) {
-        if (!scene.sun) return Error(Code::BadArgument, "--place says where the sun shines; --sun says when");
-        scene.sun->place = {place[0], place[1]};
-    }
-    if (turn || seconds || rate) {
-        if (!scene.motion) scene.motion.emplace();
-        if (turn) scene.motion->turn = *turn;
-        if (seconds) scene.motion->seconds = *seconds;
-        if (rate) scene.motion->rate = *rate;
-        if (!scene.motion->keys.empty() && scene.motion->keys.back().at > scene.motion->seconds)
-            return Error(Code::BadArgument, fmt::format("--seconds {} ends before the last key of the scene, at {} s",
-                                                        scene.motion->seconds, scene.motion->keys.back().at));
-    }
     return scene;
 }
 
 void SceneArguments::connect(Command& command) {
     dpiByDefault = parseInteger<int>(command.byDefault("--dpi")).value_or(dpiByDefault);
-    command.set("--camera", camera);
-    command.set("--around", around);
-    command.set("--fit", fit);
-    command.set("--ortho", isParallel);
-    command.set("--turn", turn);
-    command.set("--seconds", seconds);
-    command.set("--rate", rate);
-    command.set("--eye", eye);
-    command.set("--target", target);
-    command.set("--fov", fov);
-    command.set("--zoom", zoom);
+    command.takeMembers(members);
     command.set("--size", size);
     command.set("--dpi", dpi);
-    command.set("--samples", samples);
     command.set("--section", sections);
     command.set("--cut", cut);
-    command.set("--keep", keep);
     command.set("--lens", lens);
     command.set("--highlight", highlights);
     command.set("--cutaway", cutaway);
     command.set("--context", context);
     command.set("--context-level", contextLevel);
-    command.set("--shell", shell);
-    command.set("--names", names);
-    command.set("--color-by", colorBy);
-    command.set("--title", title);
-    command.set("--scale-bar", hasScaleBar);
-    command.set("--north-arrow", hasNorthArrow);
     command.set("--inset", insets);
-    command.set("--explode", explode);
     command.set("--cells", hasCells);
-    command.set("--sun", sunTime);
-    command.set("--place", place);
     command.set("--wireframe", wireframe);
     command.set("--hidden-lines", hiddenLines);
     command.set("--wire-width", wireWidth);
     command.set("--wire-color", wireColor);
-    command.set("--vectors", meshes);
-    command.set("--hide", hide);
-    command.set("--show", show);
     command.set("--color", color);
     command.set("--opacity", opacity);
-    command.set("--look", look);
-    command.set("--hatch", hasHatches);
     command.set("--hatch-of", hatchOf);
-    command.set("--hatch-spacing", hatchSpacing);
-    command.set("--edges", edges);
-    command.set("--line-width", lineWidth);
-    command.set("--cut-width", cutWidth);
     command.set("--level", level);
-    command.set("--background", background);
-    command.set("--transparent", isTransparent);
     command.set("--scene", sceneFile);
 }
 

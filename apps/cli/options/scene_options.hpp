@@ -5,10 +5,12 @@
 #include <apps/cli/options/command_line.hpp>
 
 #include <svt/illustrate/scene.hpp>
+#include <svt/illustrate/scene_members.hpp>
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace svt::cli {
@@ -16,22 +18,22 @@ namespace svt::cli {
 /// Options not given are taken from the scene file, or else from the scene's defaults.
 struct SceneArguments {
     std::filesystem::path sceneFile;
-    std::optional<std::string> camera, fit, size, background, look;
-    std::vector<std::string> hide, show, color, opacity, hatchOf, sections, highlights, names, meshes, insets;
-    std::optional<std::string> wireframe, wireColor;
-    std::string hiddenLines, colorBy, title, sunTime;
-    bool hasScaleBar = false, hasNorthArrow = false, hasCells = false;
-    std::optional<double> wireWidth, explode;
-    std::string cut, keep, lens, cutaway, around, context, shell;
-    std::vector<double> eye, target, place;
-    std::optional<int> samples, dpi, level, contextLevel, rate;
-    std::optional<double> edges, lineWidth, cutWidth, hatchSpacing, fov, zoom, turn, seconds;
+    std::vector<illustrate::GivenMember> members;  ///< of the scene, as they were given
+    std::optional<std::string> size, wireframe, wireColor;
+    std::vector<std::string> color, opacity, hatchOf, sections, highlights, insets;
+    std::string cut, lens, cutaway;
+    illustrate::Context context = illustrate::Context::Ghost;
+    render::HiddenLines hiddenLines = render::HiddenLines::Faint;
+    std::optional<double> wireWidth;
+    std::optional<int> dpi, level, contextLevel;
     int dpiByDefault = 0;
-    bool isParallel = false, isTransparent = false, hasHatches = false;
+    bool hasCells = false;
 
     void connect(Command& command);
     /// Resolution to store in the picture for printing; 0: none.
     [[nodiscard]] int printedDpi() const;
+    /// Whether an option sets that member of the scene.
+    [[nodiscard]] bool isGiven(std::string_view member) const;
     /// The scene. Sections such as z=0..6 are keys of its motion: the plane is at its end in the last picture.
     /// \param pictures  drawn one by one; none: a film
     [[nodiscard]] Result<illustrate::Scene> toScene(std::optional<int> pictures) const;

@@ -300,8 +300,8 @@ LevelSource LevelSource::from(const volume::SemanticVolume& volume, LevelClasses
     return source;
 }
 
-LevelSums::LevelSums(int detail, std::array<std::int64_t, 2> first, std::array<std::int32_t, 2> size)
-    : detail(detail), first(first), size(size) {
+LevelSums::LevelSums(int ofDetail, std::array<std::int64_t, 2> firstColumn, std::array<std::int32_t, 2> columns)
+    : detail(ofDetail), first(firstColumn), size(columns) {
     const std::size_t count = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]);
     low.resize(count);
     top.resize(count);

@@ -8,16 +8,6 @@
 
 namespace svt {
 
-std::vector<std::string_view> splitChoices(std::string_view choices) {
-    std::vector<std::string_view> parts;
-    while (!choices.empty()) {
-        const std::size_t end = std::min(choices.find('|'), choices.size());
-        parts.push_back(choices.substr(0, end));
-        choices.remove_prefix(std::min(end + 1, choices.size()));
-    }
-    return parts;
-}
-
 std::string_view longName(const Option& option) noexcept {
     const std::size_t comma = option.name.find(',');
     return comma == std::string_view::npos ? option.name : option.name.substr(comma + 1);

@@ -1,4 +1,5 @@
 #include <svt/core/option.hpp>
+#include <svt/core/text.hpp>
 
 #include <gtest/gtest.h>
 

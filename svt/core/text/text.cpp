@@ -120,4 +120,14 @@ std::string xmlText(std::string_view text, bool isAttribute) {
 std::string xmlContent(std::string_view text) { return xmlText(text, false); }
 std::string xmlAttribute(std::string_view text) { return xmlText(text, true); }
 
+std::vector<std::string_view> splitChoices(std::string_view choices) {
+    std::vector<std::string_view> parts;
+    while (!choices.empty()) {
+        const std::size_t end = std::min(choices.find('|'), choices.size());
+        parts.push_back(choices.substr(0, end));
+        choices.remove_prefix(std::min(end + 1, choices.size()));
+    }
+    return parts;
+}
+
 }  // namespace svt

@@ -60,7 +60,7 @@ Scene scene() {
     scene.width = 160;
     scene.height = 120;
     scene.samples = 1;
-    scene.lineStrength = 0;
+    scene.lines.strength = 0;
     scene.ambientOcclusion = 0;
     scene.camera.fit = Fit::All;
     scene.passes[0].styles.push_back({"id=glass", {}, 0.3f, {}, false});

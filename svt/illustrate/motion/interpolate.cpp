@@ -1,6 +1,7 @@
 #include <svt/illustrate/motion/interpolate.hpp>
 
 #include <svt/core/text.hpp>
+#include <svt/illustrate/scene_members.hpp>
 #include <svt/image/color_text.hpp>
 
 #include <fmt/format.h>
@@ -61,11 +62,6 @@ Pieces cutAtNumbers(const std::string& text) {
 
 double mix(double from, double to, double share) { return share == 1 ? to : from + (to - from) * share; }
 
-bool endsWith(std::string_view pointer, std::string_view name) {
-    return pointer.size() > name.size() && pointer.substr(pointer.size() - name.size()) == name &&
-           pointer[pointer.size() - name.size() - 1] == '/';
-}
-
 std::string colorBetween(const std::string& from, const std::string& to, double share) {
     const auto a = image::parseColor(from), b = image::parseColor(to);
     if (!a || !b) return from;
@@ -91,13 +87,15 @@ std::string textBetween(const std::string& from, const std::string& to, double s
 
 Json valueBetween(const Json& from, const Json& to, double share, std::string_view pointer) {
     if (share >= 1) return to;
-    // Nothing lies between two numbers of rays, or two levels of detail.
-    if (endsWith(pointer, "samples") || endsWith(pointer, "level")) return from;
-    if (from.is_number() && to.is_number()) return mix(from.get<double>(), to.get<double>(), share);
+    const Option* member = findSceneMember(pointer);
+    if (member == nullptr) return from;
+    // Nothing lies between two whole numbers, such as levels of detail.
+    if (member->kind == OptionKind::Number && from.is_number() && to.is_number())
+        return mix(from.get<double>(), to.get<double>(), share);
     if (!from.is_string() || !to.is_string()) return from;
     const auto &a = from.get_ref<const std::string&>(), &b = to.get_ref<const std::string&>();
-    if (endsWith(pointer, "color") || endsWith(pointer, "background")) return colorBetween(a, b, share);
-    if (endsWith(pointer, "cut") || endsWith(pointer, "keep")) return textBetween(a, b, share);
+    if (member->value == "COLOR") return colorBetween(a, b, share);
+    if (member->value == "REGION") return textBetween(a, b, share);
     return from;
 }
 

@@ -155,13 +155,13 @@ TEST(Motion, WrongKeysAreNamed) {
     const auto has = [](const std::string& message, const char* text) {
         EXPECT_NE(message.find(text), std::string::npos) << message;
     };
-    has(messageOf(R"json({"keys":[{"at":1}]})json"), "/motion/keys/0: needs \"at\"");
+    has(messageOf(R"json({"keys":[{"at":1}]})json"), "/motion/keys/0: needs \"scene\"");
     has(messageOf(R"json({"keys":[{"at":1,"scene":{}},{"at":1,"scene":{}}]})json"),
         "/motion/keys/1/at: expected a later time");
     has(messageOf(R"json({"seconds":2,"keys":[{"at":3,"scene":{}}]})json"), "after the end of the motion at 2 s");
     has(messageOf(R"json({"keys":[{"at":1,"scene":{"passes":[{"cutt":"z>1"}]}}]})json"),
         "/motion/keys/0/scene: /passes/0: unknown member 'cutt'");
-    has(messageOf(R"json({"keys":[{"at":1,"scene":{"motion":{}}}]})json"), "but no motion");
+    has(messageOf(R"json({"keys":[{"at":1,"scene":{"motion":{}}}]})json"), "/motion/keys/0/scene/motion");
     has(messageOf(R"json({"keys":[{"at":1,"scene":{"size":[320,180]}}]})json"), "/motion/keys/0/scene/size");
     has(messageOf(R"json({"rate":0})json"), "/motion/rate");
     has(messageOf(R"json({"keys":[{"at":0,"scene":{"passes":[{"styles":[{"opacity":0.5}]}]}}]})json"),

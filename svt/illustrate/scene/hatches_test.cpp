@@ -36,9 +36,8 @@ TEST(Hatches, MaterialWinsOverNameAndNameOverClass) {
 }
 
 TEST(Hatches, HaveNames) {
-    for (const std::string_view name : render::hatchNames())
-        EXPECT_EQ(render::hatchName(*render::hatchFromName(name)), name);
-    EXPECT_FALSE(render::hatchFromName("bricks"));
+    for (const auto& [hatch, name] : kNames<render::Hatch>) EXPECT_EQ(fromName<render::Hatch>(name), hatch);
+    EXPECT_FALSE(fromName<render::Hatch>("bricks"));
 }
 
 }  // namespace

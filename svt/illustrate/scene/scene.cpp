@@ -25,7 +25,6 @@ namespace {
 using volume::Label;
 using volume::LabelTable;
 
-constexpr std::array<std::string_view, 4> kLookNames{"plain", "paper", "blueprint", "dark"};
 // Light of sun and sky: shadows are to be seen, and what is in them.
 constexpr float kSunKey = 0.85f, kSunAmbient = 0.46f;
 constexpr float kGhostOpacity = 0.22f;
@@ -83,10 +82,10 @@ void applyLook(const Scene& scene, render::FrameSpec& spec) {
     }
     if (scene.background) spec.background.top = spec.background.bottom = *scene.background;
     if (scene.isTransparent) spec.background.alpha = 0;
-    if (scene.lineStrength) spec.borders.strength = *scene.lineStrength;
-    if (scene.lineWidth) spec.borders.width = *scene.lineWidth;
-    if (scene.cutWidth) spec.borders.cutWidth = *scene.cutWidth;
-    if (scene.lineColor) spec.borders.color = *scene.lineColor;
+    if (scene.lines.strength) spec.borders.strength = *scene.lines.strength;
+    if (scene.lines.width) spec.borders.width = *scene.lines.width;
+    if (scene.lines.cutWidth) spec.borders.cutWidth = *scene.lines.cutWidth;
+    if (scene.lines.color) spec.borders.color = *scene.lines.color;
     if (scene.ambientOcclusion) spec.light.ambientOcclusion = *scene.ambientOcclusion;
 }
 
@@ -219,7 +218,7 @@ Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass
     const LabelTable& table = volume.labels;
     const float ghost = ghostOpacity(pass, volume.grid);
     std::vector<LabelLook> looks;
-    const bool hasHatches = scene.hasHatches.value_or(scene.look == Look::Paper || scene.look == Look::Blueprint);
+    const bool hasHatches = scene.hatches.show.value_or(scene.look == Look::Paper || scene.look == Look::Blueprint);
     std::vector<render::Hatch> hatches(table.labels.size(), render::Hatch::None);
     if (hasHatches) hatches = labelHatches(rows);
     for (std::size_t l = 0; l < table.labels.size(); ++l)
@@ -386,14 +385,6 @@ std::string anyOf(const std::vector<std::string>& queries) {
 
 }  // namespace
 
-std::string_view lookName(Look look) noexcept { return kLookNames[static_cast<std::size_t>(look)]; }
-
-std::optional<Look> lookFromName(std::string_view name) noexcept {
-    const auto found = std::ranges::find(kLookNames, name);
-    if (found == kLookNames.end()) return std::nullopt;
-    return static_cast<Look>(found - kLookNames.begin());
-}
-
 void addLens(Scene& scene, const std::string& region, const std::string& cut, Context context) {
     ScenePass detail = scene.passes.front(), around = detail;
     detail.keep = bothOf(detail.keep, region);
@@ -464,7 +455,7 @@ Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::Semant
     const SceneCamera& wanted = scene.camera;
     if (wanted.fit == Fit::Visible && wanted.around.empty() && !wanted.eye && !wanted.target)
         if (auto fitted = fitToVisible(scene, *looks, volume, rows, spec); !fitted) return fitted.error();
-    spec.hatches.spacing = scene.hatchSpacing ? *scene.hatchSpacing : roundDownTo125(11 * pixelOf(spec));
+    spec.hatches.spacing = scene.hatches.spacing ? *scene.hatches.spacing : roundDownTo125(11 * pixelOf(spec));
     if (auto checked = checkFrameSpec(spec); !checked) return checked.error();
     return spec;
 }

@@ -2,287 +2,70 @@
 
 #include <svt/core/check.hpp>
 #include <svt/core/text.hpp>
+#include <svt/illustrate/scene/scene_record.hpp>
+#include <svt/image/color_text.hpp>
 #include <svt/render/frame_spec.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace svt::illustrate {
 namespace {
 
-using enum OptionKind;
+using record::Choice, record::Codec, record::Faults, record::FormatName, record::FormatVersion, record::Json,
+    record::Member, record::member, record::memberAs, record::memberOf, record::Members, record::PlainCodec,
+    record::Written;
+
+struct Color : PlainCodec<Color, Vec3f> {
+    static constexpr void describe(Option& option) { option.value = "COLOR"; }
+    static void read(Faults& faults, const Json& json, const std::string& path, const Option& option, Vec3f& to) {
+        std::string name;
+        Codec<std::string>::read(faults, json, path, option, name);
+        if (!faults.isFine()) return;
+        const auto parsed = image::parseColor(name);
+        if (!parsed) return faults.add(path, parsed.error().message());
+        to = *parsed;
+    }
+    static Json write(const Option&, const Vec3f& from) { return image::colorText(from); }
+};
+
+// Width and height.
+struct PictureSize : PlainCodec<PictureSize, Scene> {
+    using Numbers = Codec<std::array<std::int32_t, 2>>;
+    static constexpr void describe(Option& option) { Numbers::describe(option); }
+    static void read(Faults& faults, const Json& json, const std::string& path, const Option& option, Scene& to) {
+        std::array<std::int32_t, 2> size{};
+        Numbers::read(faults, json, path, option, size);
+        to.width = size[0];
+        to.height = size[1];
+    }
+    static Json write(const Option& option, const Scene& from) {
+        return Numbers::write(option, {from.width, from.height});
+    }
+};
+
+// A JSON object kept as text: members of a scene that differ in it.
+struct SceneText : PlainCodec<SceneText, std::string> {
+    static constexpr bool kHasDefault = false;
+    static constexpr void describe(Option& option) { option.kind = OptionKind::Object; }
+    static void read(Faults& faults, const Json& json, const std::string& path, const Option&, std::string& to) {
+        if (!json.is_object()) return faults.add(path, "expected an object with members of a scene");
+        to = json.dump();
+    }
+    static Json write(const Option&, const std::string& from) { return Json::parse(from, nullptr, false); }
+};
 
 constexpr std::string_view kColor = "#rrggbb, #rgb or a colour name";
-constexpr std::string_view kHatches =
-    "none|masonry|concrete|reinforced-concrete|timber|insulation|earth|steel|glass|general";
 
-constexpr Option kMembers[] = {
-    {.name = "/format", .choices = "svt-scene", .help = "says that this is a scene"},
-    {.name = "/version", .kind = Whole, .least = 1, .most = 1, .help = "version of the format"},
-    {.name = "/size",
-     .kind = Whole,
-     .unit = "pixels",
-     .least = 1,
-     .most = render::FrameSpec::kMaxSize,
-     .byDefault = "1280,720",
-     .help = "width and height",
-     .count = 2,
-     .leastCount = 2},
-    {.name = "/samples",
-     .kind = Whole,
-     .least = 1,
-     .most = double(render::BorderLines::kMaxWidth),
-     .choices = "1|4|9|16",
-     .byDefault = "4",
-     .help = "rays per pixel"},
-    {.name = "/look",
-     .choices = "plain|paper|blueprint|dark",
-     .byDefault = "plain",
-     .help =
-         "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)"},
-    {.name = "/camera", .kind = Object, .help = "where the picture is taken from"},
-    {.name = "/camera/preset",
-     .choices = "iso|iso-se|iso-sw|iso-ne|iso-nw|front|back|left|right|top|bottom",
-     .byDefault = "iso",
-     .help = "a named view"},
-    {.name = "/camera/around", .value = "QUERY", .help = "the view shows what the query selects, as large as it fits"},
-    {.name = "/camera/fit",
-     .choices = "visible|all",
-     .byDefault = "visible",
-     .help = "a named view shows what is visible as large as possible, or always the whole volume; where eye or "
-             "target is given, or pictures are a series, all"},
-    {.name = "/camera/parallel", .kind = Flag, .byDefault = "false", .help = "parallel projection"},
-    {.name = "/camera/fieldOfView",
-     .kind = Number,
-     .unit = "degrees",
-     .least = 0.001,
-     .most = 179.999,
-     .byDefault = "30",
-     .help = "vertical field of view"},
-    {.name = "/camera/zoom",
-     .kind = Number,
-     .least = 0.01,
-     .most = 100,
-     .byDefault = "1",
-     .help = "nearer (above 1) or further than the preset"},
-    {.name = "/camera/eye",
-     .kind = Number,
-     .unit = "metres",
-     .least = -1e9,
-     .most = 1e9,
-     .help = "where the viewer stands, from the lower corner of the grid, in world axes",
-     .count = 3,
-     .leastCount = 3},
-    {.name = "/camera/target",
-     .kind = Number,
-     .unit = "metres",
-     .least = -1e9,
-     .most = 1e9,
-     .help = "what stands in the middle of the picture, from the lower corner of the grid, in world axes",
-     .count = 3,
-     .leastCount = 3},
-    {.name = "/background", .value = "COLOR", .otherwise = "by look", .help = kColor},
-    {.name = "/transparent", .kind = Flag, .byDefault = "false", .help = "leave the background transparent"},
-    {.name = "/lines", .kind = Object, .help = "lines between objects, and where the depth jumps"},
-    {.name = "/lines/strength",
-     .kind = Number,
-     .least = 0,
-     .most = 1,
-     .otherwise = "by look",
-     .help = "strength of lines between objects"},
-    {.name = "/lines/width",
-     .kind = Number,
-     .unit = "pixels",
-     .least = 0,
-     .most = double(render::BorderLines::kMaxWidth),
-     .otherwise = "by look",
-     .help = "width of lines between objects"},
-    {.name = "/lines/cutWidth",
-     .kind = Number,
-     .unit = "pixels",
-     .least = 0,
-     .most = double(render::BorderLines::kMaxWidth),
-     .otherwise = "by look",
-     .help = "width of lines around what is cut"},
-    {.name = "/lines/color", .value = "COLOR", .otherwise = "by look", .help = kColor},
-    {.name = "/hatches", .kind = Object, .help = "hatches of what is cut"},
-    {.name = "/hatches/show",
-     .kind = Flag,
-     .otherwise = "paper and blueprint do so",
-     .help = "hatch what is cut, by material or class"},
-    {.name = "/hatches/spacing",
-     .kind = Number,
-     .unit = "metres",
-     .least = 0.0001,
-     .most = 10000,
-     .otherwise = "the largest of 1, 2 or 5 times a power of ten within 11 pixels",
-     .help = "distance of hatch lines"},
-    {.name = "/ambientOcclusion",
-     .kind = Number,
-     .least = 0,
-     .most = 1,
-     .byDefault = "0.6",
-     .help = "how much corners are darkened"},
-    {.name = "/names",
-     .value = "QUERY",
-     .help = "name what is seen of the selected: inside it where the text fits, else at the sides of the picture, with "
-             "leader "
-             "lines",
-     .mayRepeat = true},
-    {.name = "/title", .value = "TEXT", .help = "write a title into the picture"},
-    {.name = "/scaleBar",
-     .kind = Flag,
-     .byDefault = "false",
-     .help = "draw a scale bar; parallel projection only, since no other picture has one scale"},
-    {.name = "/northArrow", .kind = Flag, .byDefault = "false", .help = "draw an arrow to grid north (+y)"},
-    {.name = "/colorBy",
-     .value = "KEY",
-     .help = "colour what is seen by class, name, storey, volume, area of rooms, owner, voxels or an attribute, with a "
-             "legend"},
-    {.name = "/legend", .kind = Flag, .byDefault = "true", .help = "draw what the colours of colorBy mean"},
-    {.name = "/explode",
-     .kind = Number,
-     .unit = "metres",
-     .least = 0,
-     .most = 1000,
-     .byDefault = "0",
-     .help = "draw the storeys apart, each so much higher above the one below"},
-    {.name = "/sun", .kind = Object, .help = "light by the sun, with shadows"},
-    {.name = "/sun/time",
-     .value = "TIME",
-     .help = "date and hour of the sun, such as '2026-06-21 15:00', with Z or +02:00 where it is not the time of the "
-             "meridian",
-     .isRequired = true},
-    {.name = "/sun/place",
-     .kind = Number,
-     .unit = "degrees",
-     .least = -180,
-     .most = 180,
-     .otherwise = "that of the model",
-     .help = "latitude and longitude of the building",
-     .count = 2,
-     .leastCount = 2},
-    {.name = "/sun/size",
-     .kind = Number,
-     .unit = "degrees",
-     .least = 0,
-     .most = 20,
-     .byDefault = "0.53",
-     .help = "diameter of the sun: larger is softer"},
-    {.name = "/insets", .kind = List, .least = 0, .most = 4, .help = "small pictures in the corners of the picture"},
-    {.name = "/insets/*/corner",
-     .choices = "top-right|bottom-right|top-left|bottom-left",
-     .byDefault = "top-right",
-     .help = "corner of the picture in which it stands"},
-    {.name = "/insets/*/size",
-     .kind = Number,
-     .least = 0.05,
-     .most = 0.5,
-     .byDefault = "0.3",
-     .help = "share of the picture's width and height"},
-    {.name = "/insets/*/title", .value = "TEXT", .help = "write a title into the inset"},
-    {.name = "/insets/*/mark",
-     .kind = Flag,
-     .byDefault = "true",
-     .help = "frame in the picture what the inset shows, with lines to it"},
-    {.name = "/insets/*/scene", .kind = Object, .help = "its camera, and members of the scene that are others in it"},
-    {.name = "/motion", .kind = Object, .help = "how the scene changes with time, for films"},
-    {.name = "/motion/seconds",
-     .kind = Number,
-     .unit = "seconds",
-     .least = 0.01,
-     .most = 3600,
-     .byDefault = "6",
-     .help = "how long it lasts"},
-    {.name = "/motion/rate", .kind = Whole, .least = 1, .most = 120, .byDefault = "25", .help = "pictures a second"},
-    {.name = "/motion/turn",
-     .kind = Number,
-     .unit = "degrees",
-     .least = -36000,
-     .most = 36000,
-     .byDefault = "0",
-     .help = "how far the camera goes around, counter-clockwise from above, evenly; 360: once"},
-    {.name = "/motion/pace",
-     .choices = "smooth|even",
-     .byDefault = "smooth",
-     .help = "how values go from key to key: gently at both ends, or evenly"},
-    {.name = "/motion/keys",
-     .kind = List,
-     .help = "what the scene is at some times; between them, numbers, points, "
-             "colours and the numbers of regions go from one to the next"},
-    {.name = "/motion/keys/*/at",
-     .kind = Number,
-     .unit = "seconds",
-     .least = 0,
-     .most = 3600,
-     .help = "the time, after that of the key before",
-     .isRequired = true},
-    {.name = "/motion/keys/*/scene",
-     .kind = Object,
-     .help = "members of the scene that have these values then",
-     .isRequired = true},
-    {.name = "/passes",
-     .kind = List,
-     .least = 1,
-     .most = double(render::FrameSpec::kMaxPasses),
-     .help = "passes, drawn one after the other"},
-    {.name = "/passes/*/show", .value = "QUERY", .help = "show only what the query selects", .mayRepeat = true},
-    {.name = "/passes/*/hide", .value = "QUERY", .help = "hide what the query selects", .mayRepeat = true},
-    {.name = "/passes/*/styles", .kind = List, .help = "what is given overrides the styles before it"},
-    {.name = "/passes/*/styles/*/select", .value = "QUERY", .help = "what the style is for", .isRequired = true},
-    {.name = "/passes/*/styles/*/ghost",
-     .kind = Flag,
-     .byDefault = "false",
-     .help = "coloured air where it was solid, gone where it was air"},
-    {.name = "/passes/*/styles/*/color", .value = "COLOR", .help = kColor},
-    {.name = "/passes/*/styles/*/opacity",
-     .kind = Number,
-     .least = 0,
-     .most = 1,
-     .help = "share of light stopped by 1 m; 1: solid, 0: hidden"},
-    {.name = "/passes/*/styles/*/hatch", .choices = kHatches, .help = "hatch of what is cut"},
-    {.name = "/passes/*/cut", .value = "REGION", .help = "cut away a region, such as 'z>1.2 and not box(2,2,0,4,4,3)'"},
-    {.name = "/passes/*/keep", .value = "REGION", .help = "draw nothing outside of a region, such as storey(Attic)"},
-    {.name = "/passes/*/join",
-     .choices = "over|replace|depth",
-     .byDefault = "over",
-     .help = "over: in front of what is drawn already; replace: where anything is drawn, all before it is dropped; "
-             "depth: whichever is nearer in front"},
-    {.name = "/passes/*/shell",
-     .choices = "component|room|unit|storey|building",
-     .help = "draw only the hulls of components, rooms, units, storeys or the building"},
-    {.name = "/passes/*/level",
-     .kind = Whole,
-     .least = 0,
-     .most = 6,
-     .otherwise = "as fine as the pixels show",
-     .help = "level of detail, 0 is the finest"},
-    {.name = "/passes/*/cells", .kind = Flag, .byDefault = "false", .help = "draw each voxel as a box with edges"},
-    {.name = "/passes/*/lines",
-     .kind = List,
-     .help = "feature edges of the model's meshes, at their depth inside the volume"},
-    {.name = "/passes/*/lines/*/select",
-     .value = "QUERY",
-     .otherwise = "all that is visible",
-     .help = "what the edges belong to, visible or not"},
-    {.name = "/passes/*/lines/*/width",
-     .kind = Number,
-     .unit = "pixels",
-     .least = 0.1,
-     .most = 64,
-     .byDefault = "1",
-     .help = "width of the lines"},
-    {.name = "/passes/*/lines/*/color", .value = "COLOR", .otherwise = "by look", .help = kColor},
-    {.name = "/passes/*/lines/*/hidden",
-     .choices = "faint|dashed|none",
-     .byDefault = "faint",
-     .help = "lines behind something opaque"},
-    {.name = "/passes/*/meshes",
-     .value = "QUERY",
-     .help = "draw what the query selects as meshes, not as voxels; size<M: all that is shorter than M metres along "
-             "each axis",
-     .mayRepeat = true},
-};
+void checkScene(Faults& faults, const std::string& path, const std::string& scene,
+                std::span<const char* const> absent) {
+    const Json json = Json::parse(scene, nullptr, false);
+    for (const char* member : absent)
+        if (json.contains(member)) faults.add(path + "/scene/" + member, "is that of the picture here; leave it out");
+}
 
 // "/passes/0/level" matches "/passes/*/level".
 bool matches(std::string_view pattern, std::string_view pointer) noexcept {
@@ -303,23 +86,403 @@ bool matches(std::string_view pattern, std::string_view pointer) noexcept {
 
 }  // namespace
 
-std::span<const Option> sceneMembers() noexcept { return kMembers; }
+Members<SceneCamera> membersOf(const SceneCamera*) noexcept {
+    static constexpr Member<SceneCamera> kMembers[] = {
+        memberAs<Choice, &SceneCamera::preset>(
+            {.name = "preset",
+             .choices = "iso|iso-se|iso-sw|iso-ne|iso-nw|front|back|left|right|top|bottom",
+             .help = "named view from which the picture is taken",
+             .group = "View",
+             .option = "--camera"}),
+        member<&SceneCamera::around>({.name = "around",
+                                      .value = "QUERY",
+                                      .help = "the view shows what the query selects, as large as it fits",
+                                      .group = "View",
+                                      .option = "--around"}),
+        member<&SceneCamera::fit>(
+            {.name = "fit",
+             .help =
+                 "a named view shows what is visible as large as possible, or always the whole volume; where eye or "
+                 "target is given, or pictures are a series, all",
+             .group = "View",
+             .option = "--fit"}),
+        member<&SceneCamera::isParallel>(
+            {.name = "parallel", .help = "parallel projection", .group = "View", .option = "--ortho"}),
+        member<&SceneCamera::fieldOfView>({.name = "fieldOfView",
+                                           .unit = "degrees",
+                                           .least = 0.001,
+                                           .most = 179.999,
+                                           .help = "vertical field of view",
+                                           .group = "View",
+                                           .option = "--fov"}),
+        member<&SceneCamera::zoom>({.name = "zoom",
+                                    .least = 0.01,
+                                    .most = 100,
+                                    .help = "nearer (above 1) or further than the preset",
+                                    .group = "View",
+                                    .option = "--zoom"}),
+        member<&SceneCamera::eye>({.name = "eye",
+                                   .value = "X,Y,Z",
+                                   .unit = "metres",
+                                   .least = -1e9,
+                                   .most = 1e9,
+                                   .help = "where the viewer stands, from the lower corner of the grid, in world axes",
+                                   .group = "View",
+                                   .option = "--eye"}),
+        member<&SceneCamera::target>(
+            {.name = "target",
+             .value = "X,Y,Z",
+             .unit = "metres",
+             .least = -1e9,
+             .most = 1e9,
+             .help = "what stands in the middle of the picture, from the lower corner of the grid, in world axes",
+             .group = "View",
+             .option = "--target"})};
+    return kMembers;
+}
+
+Members<BorderLook> membersOf(const BorderLook*) noexcept {
+    static constexpr Member<BorderLook> kMembers[] = {
+        member<&BorderLook::strength>({.name = "strength",
+                                       .least = 0,
+                                       .most = 1,
+                                       .otherwise = "by look",
+                                       .help = "strength of lines between objects",
+                                       .group = "Style",
+                                       .option = "--edges"}),
+        member<&BorderLook::width>({.name = "width",
+                                    .unit = "pixels",
+                                    .least = 0,
+                                    .most = double(render::BorderLines::kMaxWidth),
+                                    .otherwise = "by look",
+                                    .help = "width of lines between objects",
+                                    .group = "Style",
+                                    .option = "--line-width"}),
+        member<&BorderLook::cutWidth>({.name = "cutWidth",
+                                       .unit = "pixels",
+                                       .least = 0,
+                                       .most = double(render::BorderLines::kMaxWidth),
+                                       .otherwise = "by look",
+                                       .help = "width of lines around what is cut",
+                                       .group = "Style",
+                                       .option = "--cut-width"}),
+        memberAs<Color, &BorderLook::color>({.name = "color", .otherwise = "by look", .help = kColor})};
+    return kMembers;
+}
+
+Members<HatchLook> membersOf(const HatchLook*) noexcept {
+    static constexpr Member<HatchLook> kMembers[] = {
+        member<&HatchLook::show>({.name = "show",
+                                  .otherwise = "paper and blueprint do so",
+                                  .help = "hatch what is cut, by material or class",
+                                  .group = "Style",
+                                  .option = "--hatch"}),
+        member<&HatchLook::spacing>({.name = "spacing",
+                                     .unit = "metres",
+                                     .least = 0.0001,
+                                     .most = 10000,
+                                     .otherwise = "the largest of 1, 2 or 5 times a power of ten within 11 pixels",
+                                     .help = "distance of hatch lines",
+                                     .group = "Style",
+                                     .option = "--hatch-spacing"})};
+    return kMembers;
+}
+
+Members<Sun> membersOf(const Sun*) noexcept {
+    static constexpr Member<Sun> kMembers[] = {
+        member<&Sun::time>({.name = "time",
+                            .value = "TIME",
+                            .help = "date and hour of the sun, such as '2026-06-21 15:00', with Z or +02:00 where it "
+                                    "is not the time of the "
+                                    "meridian",
+                            .group = "Illustrate",
+                            .option = "--sun",
+                            .isRequired = true}),
+        member<&Sun::place>({.name = "place",
+                             .value = "LAT,LON",
+                             .unit = "degrees",
+                             .least = -180,
+                             .most = 180,
+                             .otherwise = "that of the model",
+                             .help = "latitude and longitude of the building",
+                             .group = "Illustrate",
+                             .option = "--place"}),
+        member<&Sun::size>({.name = "size",
+                            .unit = "degrees",
+                            .least = 0,
+                            .most = 20,
+                            .help = "diameter of the sun: larger is softer"})};
+    return kMembers;
+}
+
+Members<Inset> membersOf(const Inset*) noexcept {
+    static constexpr Member<Inset> kMembers[] = {
+        member<&Inset::corner>({.name = "corner", .help = "corner of the picture in which it stands"}),
+        member<&Inset::size>(
+            {.name = "size", .least = 0.05, .most = 0.5, .help = "share of the picture's width and height"}),
+        member<&Inset::title>({.name = "title", .value = "TEXT", .help = "write a title into the inset"}),
+        member<&Inset::hasMark>(
+            {.name = "mark", .help = "frame in the picture what the inset shows, with lines to it"}),
+        memberAs<SceneText, &Inset::scene>(
+            {.name = "scene", .help = "its camera, and members of the scene that are others in it"}, Written::Always)};
+    return kMembers;
+}
+
+Members<Motion::Key> membersOf(const Motion::Key*) noexcept {
+    static constexpr Member<Motion::Key> kMembers[] = {
+        member<&Motion::Key::at>({.name = "at",
+                                  .unit = "seconds",
+                                  .least = 0,
+                                  .most = 3600,
+                                  .help = "the time, after that of the key before",
+                                  .isRequired = true}),
+        memberAs<SceneText, &Motion::Key::scene>(
+            {.name = "scene", .help = "members of the scene that have these values then", .isRequired = true})};
+    return kMembers;
+}
+
+Members<Motion> membersOf(const Motion*) noexcept {
+    static constexpr Member<Motion> kMembers[] = {
+        member<&Motion::seconds>({.name = "seconds",
+                                  .unit = "seconds",
+                                  .least = 0.01,
+                                  .most = 3600,
+                                  .help = "duration of the motion",
+                                  .group = "Motion",
+                                  .option = "--seconds"}),
+        member<&Motion::rate>({.name = "rate",
+                               .least = 1,
+                               .most = 120,
+                               .help = "pictures per second of a film",
+                               .group = "Motion",
+                               .option = "--rate"}),
+        member<&Motion::turn>(
+            {.name = "turn",
+             .unit = "degrees",
+             .least = -36000,
+             .most = 36000,
+             .help = "how far the camera goes around, counter-clockwise from above, evenly; 360: once",
+             .group = "Motion",
+             .option = "--turn"}),
+        member<&Motion::pace>(
+            {.name = "pace", .help = "how values go from key to key: gently at both ends, or evenly"}),
+        member<&Motion::keys>({.name = "keys",
+                               .help = "what the scene is at some times; between them, numbers, points, "
+                                       "colours and the numbers of regions go from one to the next"})};
+    return kMembers;
+}
+
+Members<SceneStyle> membersOf(const SceneStyle*) noexcept {
+    static constexpr Member<SceneStyle> kMembers[] = {
+        member<&SceneStyle::select>(
+            {.name = "select", .value = "QUERY", .help = "what the style is for", .isRequired = true}),
+        member<&SceneStyle::isGhost>(
+            {.name = "ghost", .help = "coloured air where it was solid, gone where it was air"}),
+        memberAs<Color, &SceneStyle::color>({.name = "color", .help = kColor}),
+        member<&SceneStyle::opacity>(
+            {.name = "opacity", .least = 0, .most = 1, .help = "share of light stopped by 1 m; 1: solid, 0: hidden"}),
+        member<&SceneStyle::hatch>({.name = "hatch", .help = "hatch of what is cut"})};
+    return kMembers;
+}
+
+Members<SceneLines> membersOf(const SceneLines*) noexcept {
+    static constexpr Member<SceneLines> kMembers[] = {
+        member<&SceneLines::select>({.name = "select",
+                                     .value = "QUERY",
+                                     .otherwise = "all that is visible",
+                                     .help = "what the edges belong to, visible or not"}),
+        member<&SceneLines::width>(
+            {.name = "width", .unit = "pixels", .least = 0.1, .most = 64, .help = "width of the lines"}),
+        memberAs<Color, &SceneLines::color>({.name = "color", .otherwise = "by look", .help = kColor}),
+        member<&SceneLines::hidden>({.name = "hidden", .help = "lines behind something opaque"})};
+    return kMembers;
+}
+
+Members<ScenePass> membersOf(const ScenePass*) noexcept {
+    static constexpr Member<ScenePass> kMembers[] = {
+        member<&ScenePass::show>({.name = "show",
+                                  .value = "QUERY",
+                                  .help = "show only what the query selects",
+                                  .group = "Style",
+                                  .option = "--show"}),
+        member<&ScenePass::hide>({.name = "hide",
+                                  .value = "QUERY",
+                                  .help = "hide what the query selects",
+                                  .group = "Style",
+                                  .option = "--hide"}),
+        member<&ScenePass::styles>({.name = "styles", .help = "what is given overrides the styles before it"}),
+        member<&ScenePass::cut>(
+            {.name = "cut", .value = "REGION", .help = "cut away a region, such as 'z>1.2 and not box(2,2,0,4,4,3)'"}),
+        member<&ScenePass::keep>({.name = "keep",
+                                  .value = "REGION",
+                                  .help = "draw nothing outside of a region, such as storey(Attic)",
+                                  .group = "Cut",
+                                  .option = "--keep"}),
+        member<&ScenePass::join>(
+            {.name = "join",
+             .help =
+                 "over: in front of what is drawn already; replace: where anything is drawn, all before it is dropped; "
+                 "depth: whichever is nearer in front"}),
+        member<&ScenePass::form, &VolumeForm::shell>(
+            {.name = "shell",
+             .help = "draw only the hulls of components, rooms, units, storeys or the building",
+             .group = "Illustrate",
+             .option = "--shell"}),
+        member<&ScenePass::form, &VolumeForm::level>({.name = "level",
+                                                      .least = 0,
+                                                      .most = 6,
+                                                      .otherwise = "as fine as the pixels show",
+                                                      .help = "level of detail, 0 is the finest"}),
+        member<&ScenePass::lines>(
+            {.name = "lines", .help = "feature edges of the model's meshes, at their depth inside the volume"}),
+        member<&ScenePass::meshes>({.name = "meshes",
+                                    .value = "QUERY",
+                                    .help = "draw what the query selects as meshes, not as voxels; size<M: all that is "
+                                            "shorter than M metres along "
+                                            "each axis",
+                                    .group = "Lines",
+                                    .option = "--vectors"}),
+        member<&ScenePass::form, &VolumeForm::hasCells>(
+            {.name = "cells", .help = "draw each voxel as a box with edges"})};
+    return kMembers;
+}
+
+Members<Scene> membersOf(const Scene*) noexcept {
+    static constexpr Member<Scene> kMembers[] = {
+        memberOf<Scene, FormatName<Scene>>(
+            {.name = "format", .choices = "svt-scene", .help = "says that this is a scene"}),
+        memberOf<Scene, FormatVersion<Scene>>(
+            {.name = "version", .least = 1, .most = 1, .help = "version of the format"}),
+        memberOf<Scene, PictureSize>({.name = "size",
+                                      .unit = "pixels",
+                                      .least = 1,
+                                      .most = render::FrameSpec::kMaxSize,
+                                      .help = "width and height"}),
+        member<&Scene::samples>({.name = "samples",
+                                 .least = 1,
+                                 .most = double(render::BorderLines::kMaxWidth),
+                                 .choices = "1|4|9|16",
+                                 .help = "rays per pixel",
+                                 .group = "View",
+                                 .option = "--samples"}),
+        member<&Scene::look>({.name = "look",
+                              .help = "colours, lines and hatches of the whole picture: plain, paper (for print), "
+                                      "blueprint or dark (for slides)",
+                              .group = "Style",
+                              .option = "--look"}),
+        member<&Scene::title>({.name = "title",
+                               .value = "TEXT",
+                               .help = "write a title into the picture",
+                               .group = "Illustrate",
+                               .option = "--title"}),
+        member<&Scene::hasScaleBar>(
+            {.name = "scaleBar",
+             .help = "draw a scale bar; parallel projection only, since no other picture has one scale",
+             .group = "Illustrate",
+             .option = "--scale-bar"}),
+        member<&Scene::hasNorthArrow>({.name = "northArrow",
+                                       .help = "draw an arrow to grid north (+y)",
+                                       .group = "Illustrate",
+                                       .option = "--north-arrow"}),
+        member<&Scene::colorBy>({.name = "colorBy",
+                                 .value = "KEY",
+                                 .help = "colour what is seen by class, name, storey, volume, area of rooms, owner, "
+                                         "voxels or an attribute, with a "
+                                         "legend",
+                                 .group = "Illustrate",
+                                 .option = "--color-by"}),
+        member<&Scene::hasLegend>({.name = "legend", .help = "draw what the colours of colorBy mean"}),
+        member<&Scene::explode>({.name = "explode",
+                                 .value = "DISTANCE",
+                                 .unit = "metres",
+                                 .least = 0,
+                                 .most = 1000,
+                                 .help = "draw the storeys apart, each so much higher above the one below",
+                                 .group = "Illustrate",
+                                 .option = "--explode"}),
+        member<&Scene::sun>({.name = "sun", .help = "light by the sun, with shadows"}),
+        member<&Scene::insets>(
+            {.name = "insets", .least = 0, .most = 4, .help = "small pictures in the corners of the picture"}),
+        member<&Scene::camera>({.name = "camera", .help = "where the picture is taken from"}),
+        memberAs<Color, &Scene::background>(
+            {.name = "background", .otherwise = "by look", .help = kColor, .group = "Style", .option = "--background"}),
+        member<&Scene::isTransparent>({.name = "transparent",
+                                       .help = "leave the background transparent",
+                                       .group = "Style",
+                                       .option = "--transparent"}),
+        member<&Scene::lines>({.name = "lines", .help = "lines between objects, and where the depth jumps"}),
+        member<&Scene::hatches>({.name = "hatches", .help = "hatches of what is cut"}),
+        member<&Scene::ambientOcclusion>({.name = "ambientOcclusion",
+                                          .least = 0,
+                                          .most = 1,
+                                          .byDefault = "0.6",
+                                          .help = "how much corners are darkened"}),
+        member<&Scene::names>({.name = "names",
+                               .value = "QUERY",
+                               .help = "name what is seen of the selected: inside it where the text fits, else at the "
+                                       "sides of the picture, with "
+                                       "leader "
+                                       "lines",
+                               .group = "Illustrate",
+                               .option = "--names"}),
+        member<&Scene::passes>({.name = "passes",
+                                .least = 1,
+                                .most = double(render::FrameSpec::kMaxPasses),
+                                .help = "passes, drawn one after the other"},
+                               Written::Always),
+        member<&Scene::motion>({.name = "motion", .help = "how the scene changes with time, for films"})};
+    return kMembers;
+}
+
+void checkMembers(Faults& faults, const std::string& path, const Inset& inset) {
+    static constexpr const char* kAbsent[] = {"size", "motion", "insets"};
+    checkScene(faults, path, inset.scene, kAbsent);
+}
+
+void checkMembers(Faults& faults, const std::string& path, const Motion::Key& key) {
+    static constexpr const char* kAbsent[] = {"size", "motion"};
+    checkScene(faults, path, key.scene, kAbsent);
+}
+
+void checkMembers(Faults& faults, const std::string& path, const Motion& motion) {
+    for (std::size_t n = 1; n < motion.keys.size(); ++n)
+        if (motion.keys[n].at <= motion.keys[n - 1].at)
+            return faults.add(fmt::format("{}/keys/{}/at", path, n),
+                              "expected a later time than that of the key before");
+    if (!motion.keys.empty() && motion.keys.back().at > motion.seconds)
+        faults.add(path + "/keys", fmt::format("the last key is at {} s, after the end of the motion at {} s; change "
+                                               "\"seconds\"",
+                                               motion.keys.back().at, motion.seconds));
+}
+
+std::span<const Option> sceneMembers() noexcept { return record::declared<Scene>(); }
+
+const Option* findSceneMember(std::string_view pointer) {
+    for (const Option& member : sceneMembers()) {
+        const std::size_t slash = pointer.rfind('/');
+        const bool isOneValue = member.count > 1 && matches(member.name, pointer.substr(0, slash));
+        if (isOneValue || matches(member.name, pointer)) return &member;
+    }
+    return nullptr;
+}
 
 const Option& sceneMember(std::string_view pointer) {
-    const auto found = std::find_if(std::begin(kMembers), std::end(kMembers),
-                                    [&](const Option& m) { return matches(m.name, pointer); });
-    SVT_CHECK(found != std::end(kMembers));
+    const Option* found = findSceneMember(pointer);
+    SVT_CHECK(found != nullptr);
     return *found;
 }
 
-std::vector<std::string_view> sceneMembersOf(std::string_view pointer) {
-    std::vector<std::string_view> names;
-    for (const Option& member : kMembers) {
-        const std::size_t slash = member.name.rfind('/');
-        if (matches(member.name.substr(0, slash), pointer) && member.name.substr(slash + 1) != "*")
-            names.push_back(member.name.substr(slash + 1));
-    }
-    return names;
+Result<void> setSceneMember(Scene& scene, const GivenMember& given) {
+    const Option& member = sceneMember(given.member);
+    std::string pointer(given.member);
+    if (const std::size_t any = pointer.find('*'); any != std::string::npos) pointer[any] = '0';
+    Faults faults;
+    if (member.mayRepeat)
+        for (const std::string& value : given.values) record::setMember(faults, pointer + "/-", Json(value), "", scene);
+    else
+        record::setMember(faults, pointer, record::valueOfTexts(member, given.values), "", scene);
+    if (faults.isFine()) return {};
+    return Error(Code::BadArgument, fmt::format("{}: {}", given.option, faults.text()));
 }
 
 }  // namespace svt::illustrate

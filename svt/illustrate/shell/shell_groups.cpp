@@ -12,12 +12,12 @@ namespace svt::illustrate {
 namespace {
 
 using volume::kNoLabel;
-using Holders = std::array<std::uint32_t, kShellLevels.size()>;
+using Holders = std::array<std::uint32_t, kNames<ShellLevel>.size()>;
 
-constexpr std::array<std::string_view, kShellLevels.size()> kNames{"component", "room", "unit", "storey", "building"};
-constexpr std::array<std::string_view, kShellLevels.size()> kPlurals{"components", "rooms", "units", "storeys",
-                                                                     "buildings"};
-constexpr std::size_t kComponent = 0, kRoom = 1, kUnit = 2, kStorey = 3, kBuilding = 4, kLevels = kShellLevels.size();
+constexpr std::array<std::string_view, kNames<ShellLevel>.size()> kPlurals{"components", "rooms", "units", "storeys",
+                                                                           "buildings"};
+constexpr std::size_t kComponent = 0, kRoom = 1, kUnit = 2, kStorey = 3, kBuilding = 4,
+                      kLevels = kNames<ShellLevel>.size();
 
 // Level of a feature that can hold others; kComponent for all others.
 std::size_t levelOf(const model::QueryRow& row, std::span<const model::QueryRow> rows) {
@@ -132,14 +132,6 @@ Holders lowered(Holders own, std::span<const std::uint32_t> spaces, const std::v
 
 }  // namespace
 
-std::string_view shellLevelName(ShellLevel level) noexcept { return kNames[static_cast<std::size_t>(level)]; }
-
-std::optional<ShellLevel> shellLevelFromName(std::string_view name) noexcept {
-    const auto found = std::find(kNames.begin(), kNames.end(), name);
-    if (found == kNames.end()) return std::nullopt;
-    return kShellLevels[static_cast<std::size_t>(found - kNames.begin())];
-}
-
 ShellHierarchy ShellHierarchy::ofVolume(const volume::SemanticVolume& volume, int threads) {
     const std::vector<model::QueryRow> rows = analyze::queryRows(volume.labels);
     const auto count = static_cast<std::uint32_t>(rows.size());
@@ -196,7 +188,7 @@ std::vector<std::uint32_t> ShellHierarchy::groups(ShellLevel level) const {
 std::vector<ShellStep> ShellHierarchy::steps() const {
     std::vector<ShellStep> steps;
     std::vector<bool> isSeen;
-    for (const ShellLevel level : kShellLevels) {
+    for (const auto& [level, name] : kNames<ShellLevel>) {
         ShellStep step{level, 0, 0};
         const std::vector<std::uint32_t> group = groups(level);
         isSeen.assign(group.size(), false);
@@ -220,7 +212,7 @@ Result<std::vector<std::uint32_t>> groupLabels(const volume::SemanticVolume& vol
     std::string known;
     for (const ShellStep& step : hierarchy.steps()) {
         if (step.level == level) return hierarchy.groups(level);
-        known += fmt::format("{}{}", known.empty() ? "" : ", ", shellLevelName(step.level));
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", nameOf(step.level));
     }
     return Error(Code::NothingSelected, fmt::format("the model has no {} with voxels; its levels are: {}",
                                                     kPlurals[static_cast<std::size_t>(level)], known));

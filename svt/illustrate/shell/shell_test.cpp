@@ -339,8 +339,9 @@ TEST(Shell, HouseOfEightRoomsHasKnownHulls) {
 
 TEST(Shell, GroupsAreUnionsOfTheStepBelow) {
     const auto hierarchy = ShellHierarchy::ofVolume(house());
-    for (std::size_t step = 1; step < kShellLevels.size(); ++step) {
-        const auto below = hierarchy.groups(kShellLevels[step - 1]), above = hierarchy.groups(kShellLevels[step]);
+    for (std::size_t step = 1; step < kNames<ShellLevel>.size(); ++step) {
+        const auto below = hierarchy.groups(kNames<ShellLevel>[step - 1].value),
+                   above = hierarchy.groups(kNames<ShellLevel>[step].value);
         std::map<std::uint32_t, std::uint32_t> groupOfGroup;
         for (std::size_t l = 7; l < below.size(); ++l)
             EXPECT_EQ(groupOfGroup.try_emplace(below[l], above[l]).first->second, above[l])

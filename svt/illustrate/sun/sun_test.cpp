@@ -76,7 +76,7 @@ Scene fromAbove() {
     scene.samples = 1;
     scene.camera.preset = "top";
     scene.camera.isParallel = true;
-    scene.lineStrength = 0;
+    scene.lines.strength = 0;
     scene.ambientOcclusion = 0;
     scene.sun = Sun{"2026-06-21 12:00Z", {{47.0, 0.0}}, 0};
     return scene;

@@ -1,7 +1,6 @@
 #include <svt/core/deflate.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/machine.hpp>
-#include <svt/core/option.hpp>
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/readers/citygml/citygml_reader.hpp>

@@ -8,9 +8,6 @@
 namespace svt::render {
 namespace {
 
-constexpr std::array<std::string_view, 10> kHatchNames{
-    "none", "masonry", "concrete", "reinforced-concrete", "timber", "insulation", "earth", "steel", "glass", "general"};
-
 // Coverage by a line at `distance` from its centre line.
 double lineInk(double distance, const HatchPen& pen) noexcept {
     return std::clamp((pen.lineWidth / 2 + pen.pixel / 2 - distance) / pen.pixel, 0.0, 1.0) *
@@ -123,16 +120,6 @@ double hatchCoverage(Hatch hatch, double u, double v, const HatchPen& pen) noexc
         case Hatch::Glass: return strokes(u, v, pen);
     }
     return 0;
-}
-
-std::string_view hatchName(Hatch hatch) noexcept { return kHatchNames[static_cast<std::size_t>(hatch)]; }
-
-std::span<const std::string_view> hatchNames() noexcept { return kHatchNames; }
-
-std::optional<Hatch> hatchFromName(std::string_view name) noexcept {
-    const auto found = std::ranges::find(kHatchNames, name);
-    if (found == kHatchNames.end()) return std::nullopt;
-    return static_cast<Hatch>(found - kHatchNames.begin());
 }
 
 }  // namespace svt::render

@@ -38,9 +38,9 @@ TEST(Hatch, LinesCoverTheirShare) {
 }
 
 TEST(Hatch, EachIsSeenAndLeavesPaper) {
-    for (const std::string_view name : hatchNames()) {
-        if (name == "none") continue;
-        const double ink = meanInk(*hatchFromName(name), {0.2, 0.01, 0.005});
+    for (const auto& [hatch, name] : kNames<Hatch>) {
+        if (hatch == Hatch::None) continue;
+        const double ink = meanInk(hatch, {0.2, 0.01, 0.005});
         EXPECT_GT(ink, 0.005) << name;
         EXPECT_LT(ink, 0.3) << name;
     }

@@ -9,7 +9,7 @@
 namespace svt::volume_readers {
 namespace {
 
-using nlohmann::json;
+using TableJson = nlohmann::json;
 
 constexpr std::uint64_t kMaxTableBytes = std::uint64_t{256} << 20;
 constexpr std::uint64_t kMaxValue = 0xFFFFFFFFu;
@@ -18,8 +18,10 @@ Error badTable(std::size_t number, std::string_view what) {
     return Error(Code::BadJson, fmt::format("entry {} of 'labels' {}", number, what));
 }
 
-bool readValue(const json& value, ToldLabel& label) {
-    const auto isNumber = [](const json& v) { return v.is_number_unsigned() && v.get<std::uint64_t>() <= kMaxValue; };
+bool readValue(const TableJson& value, ToldLabel& label) {
+    const auto isNumber = [](const TableJson& v) {
+        return v.is_number_unsigned() && v.get<std::uint64_t>() <= kMaxValue;
+    };
     if (isNumber(value)) {
         label.first = value.get<std::uint32_t>();
         return label.first > 0;
@@ -32,11 +34,11 @@ bool readValue(const json& value, ToldLabel& label) {
     return true;
 }
 
-bool readColor(const json& value, ToldLabel& label) {
+bool readColor(const TableJson& value, ToldLabel& label) {
     label.hasColor = true;
     if (value.is_array() && value.size() == 3) {
         for (int axis = 0; axis < 3; ++axis) {
-            const json& channel = value[static_cast<std::size_t>(axis)];
+            const TableJson& channel = value[static_cast<std::size_t>(axis)];
             if (!channel.is_number()) return false;
             label.color[axis] = channel.get<float>();
             if (!(label.color[axis] >= 0 && label.color[axis] <= 1)) return false;
@@ -53,7 +55,7 @@ bool readColor(const json& value, ToldLabel& label) {
     return true;
 }
 
-bool readAttributes(const json& object, std::vector<Attribute>& attributes) {
+bool readAttributes(const TableJson& object, std::vector<Attribute>& attributes) {
     if (!object.is_object()) return false;
     for (const auto& [name, value] : object.items()) {
         Attribute& attribute = attributes.emplace_back();
@@ -72,7 +74,7 @@ bool readAttributes(const json& object, std::vector<Attribute>& attributes) {
     return true;
 }
 
-Result<void> readEntry(const json& entry, std::size_t number, UserTable& table) {
+Result<void> readEntry(const TableJson& entry, std::size_t number, UserTable& table) {
     if (!entry.is_object()) return badTable(number, "is no object");
     ToldLabel label;
     label.count = 0;
@@ -120,10 +122,11 @@ Result<UserTable> parseUserTable(std::string_view text) {
         return Error(Code::InputTooBig,
                      fmt::format("a table of {} bytes; {} are possible", text.size(), kMaxTableBytes));
     UserTable table;
-    json root;
+    TableJson root;
     try {
-        root = json::parse(text.begin(), text.end(), [](int depth, json::parse_event_t, json&) { return depth <= 16; });
-    } catch (const json::exception& exception) {
+        root = TableJson::parse(text.begin(), text.end(),
+                                [](int depth, TableJson::parse_event_t, TableJson&) { return depth <= 16; });
+    } catch (const TableJson::exception& exception) {
         return Error(Code::BadJson, fmt::format("the table of labels is no JSON: {}", exception.what()));
     }
     const auto labels = root.is_object() ? root.find("labels") : root.end();

@@ -116,7 +116,7 @@ private:
             svg_ += fmt::format(
                 "<pattern id=\"{0}\" patternUnits=\"userSpaceOnUse\" {1}{2}><rect {1} fill=\"{3}\"/><path d=\"{4}\" "
                 "fill=\"none\" stroke=\"#444\" stroke-width=\"0.13\"/>",
-                render::hatchName(style.hatch), size, turn, style.tint, style.lines);
+                nameOf(style.hatch), size, turn, style.tint, style.lines);
             if (*style.filled != '\0') svg_ += fmt::format("<path d=\"{}\" fill=\"#444\"/>", style.filled);
             svg_ += "</pattern>\n";
         }
@@ -152,7 +152,7 @@ private:
     [[nodiscard]] std::string fillOf(std::uint32_t label) const {
         if (isSpace(label)) return "#fff";
         if (style_.hatchOf(label) == Hatch::None) return "#d9d9d9";
-        return fmt::format("url(#{})", render::hatchName(style_.hatchOf(label)));
+        return fmt::format("url(#{})", nameOf(style_.hatchOf(label)));
     }
 
     void addComponents() {

@@ -32,7 +32,7 @@ void SvgCanvas::endSheet() {
             head_ += fmt::format(
                 "<pattern id=\"{0}\" patternUnits=\"userSpaceOnUse\" {1} patternTransform=\"rotate({2})\"><rect {1} "
                 "fill=\"{3}\"/><path d=\"{4}\" fill=\"none\" stroke=\"#444\" stroke-width=\"0.13\"/>",
-                render::hatchName(tile.hatch), size, shortNumber(tile.turnDegrees, 3), tile.tint, tile.lines);
+                nameOf(tile.hatch), size, shortNumber(tile.turnDegrees, 3), tile.tint, tile.lines);
             if (*tile.filled != '\0') head_ += fmt::format("<path d=\"{}\" fill=\"#444\"/>", tile.filled);
             head_ += "</pattern>\n";
         }
@@ -64,7 +64,7 @@ void SvgCanvas::fill(const std::vector<PaperPath>& paths, std::string_view color
 
 void SvgCanvas::hatch(const std::vector<PaperPath>& paths, const HatchTile& tile) {
     hatches_.insert(tile.hatch);
-    body_ += fmt::format("<path fill=\"url(#{})\" fill-rule=\"evenodd\"", render::hatchName(tile.hatch));
+    body_ += fmt::format("<path fill=\"url(#{})\" fill-rule=\"evenodd\"", nameOf(tile.hatch));
     addPaths(paths);
 }
 

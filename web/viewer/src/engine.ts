@@ -4,67 +4,19 @@
  * corner in world axes, as in scenes; pixel coordinates start at the top left.
  */
 
-import type { ChoiceOf } from "./generated/scene_members";
+import type { ChoiceOf, Scene } from "./generated/scene_members";
 
-/** A `*.scene.json`: docs/formats/scene.schema.json. The page edits it, the library draws it. */
-export interface Scene {
-  format?: "svt-scene";
-  version?: 1;
-  size?: [number, number];
-  samples?: Samples;
-  look?: Look;
-  camera?: SceneCamera;
-  background?: string;
-  transparent?: boolean;
-  lines?: { strength?: number; width?: number; cutWidth?: number; color?: string };
-  hatches?: { show?: boolean; spacing?: number };
-  ambientOcclusion?: number;
-  names?: string[];
-  title?: string;
-  scaleBar?: boolean;
-  northArrow?: boolean;
-  colorBy?: string;
-  passes?: ScenePass[];
-}
+export type { Scene } from "./generated/scene_members";
 /** Rays per pixel. */
 export type Samples = ChoiceOf<"/samples">;
 export type Look = ChoiceOf<"/look">;
-
-export interface SceneCamera {
-  preset?: string;
-  around?: string;
-  parallel?: boolean;
-  fieldOfView?: number;
-  zoom?: number;
-  eye?: Point;
-  target?: Point;
-}
-
-export interface ScenePass {
-  show?: string[];
-  hide?: string[];
-  styles?: SceneStyle[];
-  cut?: string;
-  keep?: string;
-  join?: ChoiceOf<"/passes/*/join">;
-  lines?: { select?: string; width?: number; color?: string; hidden?: HiddenLines }[];
-  meshes?: string[];
-  /** Only the hulls of groups at this level of the tree, as made by `svt shell`. */
-  shell?: ShellLevel;
-  /** Level of detail, 0 (finest) to 6; by default chosen by pixel size. */
-  level?: number;
-}
+export type SceneCamera = NonNullable<Scene["camera"]>;
+export type CameraPreset = ChoiceOf<"/camera/preset">;
+export type ScenePass = NonNullable<Scene["passes"]>[number];
 export type ShellLevel = ChoiceOf<"/passes/*/shell">;
 /** How edges behind something opaque are drawn. */
 export type HiddenLines = ChoiceOf<"/passes/*/lines/*/hidden">;
-
-export interface SceneStyle {
-  select: string;
-  color?: string;
-  opacity?: number;
-  hatch?: ChoiceOf<"/passes/*/styles/*/hatch">;
-  ghost?: boolean;
-}
+export type SceneStyle = NonNullable<ScenePass["styles"]>[number];
 
 export type Point = [number, number, number];
 

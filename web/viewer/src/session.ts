@@ -17,6 +17,7 @@ import type {
   Pick,
   Point,
   Samples,
+  CameraPreset,
   SceneCamera,
   Stretch,
   VolumeInfo,
@@ -553,7 +554,7 @@ export class Session extends EventTarget {
   }
 
   /** Moves to where the features of a query fill the picture; from a named view, or from the current direction. */
-  async goTo(query: string, preset: string | null, isFollowed = true): Promise<void> {
+  async goTo(query: string, preset: CameraPreset | null, isFollowed = true): Promise<void> {
     if (!this.engine || !this.info) return;
     if (this.isServerOnly) return this.set({ camera: null, preset: preset ?? this.state.preset });
     const now = this.state.camera;
@@ -716,8 +717,7 @@ const kStepNames: Partial<Record<keyof ViewState, TextKey>> = {
   wireframe: "wireframe",
   names: "names",
   colorBy: "colorBy",
-  scaleBar: "scaleBar",
-  northArrow: "northArrow",
+  picture: "picture",
   hatches: "hatches",
   measured: "measure",
   custom: "sceneJson",

@@ -278,8 +278,9 @@ const kTexts = {
   names: ["Names of the selection", "Namen der Auswahl"],
   colorBy: ["Colour by", "Farbe nach"],
   colorByNothing: ["class, storey, volume, owner, an attribute", "class, storey, volume, owner, ein Attribut"],
-  scaleBar: ["Scale bar", "Maßstab"],
-  northArrow: ["North arrow", "Nordpfeil"],
+  label_title: ["Title", "Titel"],
+  label_scaleBar: ["Scale bar", "Maßstab"],
+  label_northArrow: ["North arrow", "Nordpfeil"],
   legend: ["Legend", "Legende"],
   legendRange: ["from {low} to {high}", "von {low} bis {high}"],
   legendMissing: ["without a value: {n}", "ohne Wert: {n}"],
@@ -419,7 +420,8 @@ export const kGermanHelp = {
   "width and height": "Breite und Höhe",
   "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)":
     "Farben, Linien und Schraffuren des ganzen Bildes: schlicht, Papier (für den Druck), Blaupause oder dunkel (für Folien)",
-  "a named view": "eine benannte Ansicht",
+  "named view from which the picture is taken": "benannte Ansicht, aus der das Bild aufgenommen wird",
+  "write a title into the picture": "schreibt einen Titel ins Bild",
   "parallel projection": "Parallelprojektion",
   "vertical field of view": "senkrechter Blickwinkel",
   "hatch what is cut, by material or class": "schraffiert, was geschnitten ist, nach Material oder Klasse",
@@ -433,7 +435,6 @@ export const kGermanHelp = {
 } as const satisfies { [Help in HelpOf<SceneMember>]?: string };
 
 type HelpOf<Name extends SceneMember> = (typeof kSceneMembers)[Name]["help"];
-type HelpedMember = { [Name in SceneMember]: HelpOf<Name> extends keyof typeof kGermanHelp ? Name : never }[SceneMember];
 
 const kUnitSigns: Record<Unit, string> = { pixels: " px", degrees: "°", metres: " m", seconds: " s" };
 
@@ -494,10 +495,18 @@ export function movedText(planes: { text: string; by: number }[]): string {
   return planes.map(({ text, by }) => t("movedPlane", { plane: text, mm: number(1000 * by, 1) })).join(" ");
 }
 
+/** The label of a control for a member of a scene; the words of its name where no text is given. */
+export function memberLabel(member: SceneMember): string {
+  const name = member.slice(member.lastIndexOf("/") + 1);
+  const words = name.replace(/[A-Z]/g, (letter) => ` ${letter.toLowerCase()}`);
+  return `label_${name}` in kTexts ? t(`label_${name}` as TextKey) : words.charAt(0).toUpperCase() + words.slice(1);
+}
+
 /** What a member of a scene does, with its unit: the tooltip of its control. */
-export function help(member: HelpedMember): string {
-  const declared: { help: keyof typeof kGermanHelp; unit?: Unit } = kSceneMembers[member];
-  const text: string = other?.texts[declared.help] ?? (current === "de" ? kGermanHelp[declared.help] : declared.help);
+export function help(member: SceneMember): string {
+  const declared: { help: string; unit?: Unit } = kSceneMembers[member];
+  const german: Partial<Record<string, string>> = kGermanHelp;
+  const text = other?.texts[declared.help] ?? (current === "de" ? german[declared.help] : undefined) ?? declared.help;
   const unit = declared.unit ? ` (${kUnitSigns[declared.unit].trim()})` : "";
   return text.charAt(0).toUpperCase() + text.slice(1) + unit;
 }

@@ -7,38 +7,17 @@ export const kSceneMembers = {
   "/format": { type: "text", choices: ["svt-scene"], help: "says that this is a scene" },
   "/version": { type: "whole", minimum: 1, maximum: 1, help: "version of the format" },
   "/size": { type: "whole", unit: "pixels", minimum: 1, maximum: 16384, default: [1280, 720], help: "width and height" },
-  "/samples": { type: "whole", minimum: 1, maximum: 16, choices: [1, 4, 9, 16], default: 4, help: "rays per pixel" },
-  "/look": { type: "text", choices: ["plain", "paper", "blueprint", "dark"], default: "plain", help: "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)" },
-  "/camera": { type: "object", help: "where the picture is taken from" },
-  "/camera/preset": { type: "text", choices: ["iso", "iso-se", "iso-sw", "iso-ne", "iso-nw", "front", "back", "left", "right", "top", "bottom"], default: "iso", help: "a named view" },
-  "/camera/around": { type: "text", help: "the view shows what the query selects, as large as it fits" },
-  "/camera/fit": { type: "text", choices: ["visible", "all"], default: "visible", help: "a named view shows what is visible as large as possible, or always the whole volume; where eye or target is given, or pictures are a series, all" },
-  "/camera/parallel": { type: "flag", default: false, help: "parallel projection" },
-  "/camera/fieldOfView": { type: "number", unit: "degrees", minimum: 0.001, maximum: 179.999, default: 30, help: "vertical field of view" },
-  "/camera/zoom": { type: "number", minimum: 0.01, maximum: 100, default: 1, help: "nearer (above 1) or further than the preset" },
-  "/camera/eye": { type: "number", unit: "metres", minimum: -1000000000, maximum: 1000000000, help: "where the viewer stands, from the lower corner of the grid, in world axes" },
-  "/camera/target": { type: "number", unit: "metres", minimum: -1000000000, maximum: 1000000000, help: "what stands in the middle of the picture, from the lower corner of the grid, in world axes" },
-  "/background": { type: "text", help: "#rrggbb, #rgb or a colour name" },
-  "/transparent": { type: "flag", default: false, help: "leave the background transparent" },
-  "/lines": { type: "object", help: "lines between objects, and where the depth jumps" },
-  "/lines/strength": { type: "number", minimum: 0, maximum: 1, help: "strength of lines between objects" },
-  "/lines/width": { type: "number", unit: "pixels", minimum: 0, maximum: 16, help: "width of lines between objects" },
-  "/lines/cutWidth": { type: "number", unit: "pixels", minimum: 0, maximum: 16, help: "width of lines around what is cut" },
-  "/lines/color": { type: "text", help: "#rrggbb, #rgb or a colour name" },
-  "/hatches": { type: "object", help: "hatches of what is cut" },
-  "/hatches/show": { type: "flag", help: "hatch what is cut, by material or class" },
-  "/hatches/spacing": { type: "number", unit: "metres", minimum: 0.0001, maximum: 10000, help: "distance of hatch lines" },
-  "/ambientOcclusion": { type: "number", minimum: 0, maximum: 1, default: 0.6, help: "how much corners are darkened" },
-  "/names": { type: "text", help: "name what is seen of the selected: inside it where the text fits, else at the sides of the picture, with leader lines" },
-  "/title": { type: "text", help: "write a title into the picture" },
-  "/scaleBar": { type: "flag", default: false, help: "draw a scale bar; parallel projection only, since no other picture has one scale" },
-  "/northArrow": { type: "flag", default: false, help: "draw an arrow to grid north (+y)" },
-  "/colorBy": { type: "text", help: "colour what is seen by class, name, storey, volume, area of rooms, owner, voxels or an attribute, with a legend" },
+  "/samples": { type: "whole", minimum: 1, maximum: 16, choices: [1, 4, 9, 16], default: 4, option: "--samples", group: "View", help: "rays per pixel" },
+  "/look": { type: "text", choices: ["plain", "paper", "blueprint", "dark"], default: "plain", option: "--look", group: "Style", help: "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)" },
+  "/title": { type: "text", option: "--title", group: "Illustrate", help: "write a title into the picture" },
+  "/scaleBar": { type: "flag", default: false, option: "--scale-bar", group: "Illustrate", help: "draw a scale bar; parallel projection only, since no other picture has one scale" },
+  "/northArrow": { type: "flag", default: false, option: "--north-arrow", group: "Illustrate", help: "draw an arrow to grid north (+y)" },
+  "/colorBy": { type: "text", option: "--color-by", group: "Illustrate", help: "colour what is seen by class, name, storey, volume, area of rooms, owner, voxels or an attribute, with a legend" },
   "/legend": { type: "flag", default: true, help: "draw what the colours of colorBy mean" },
-  "/explode": { type: "number", unit: "metres", minimum: 0, maximum: 1000, default: 0, help: "draw the storeys apart, each so much higher above the one below" },
+  "/explode": { type: "number", unit: "metres", minimum: 0, maximum: 1000, default: 0, option: "--explode", group: "Illustrate", help: "draw the storeys apart, each so much higher above the one below" },
   "/sun": { type: "object", help: "light by the sun, with shadows" },
-  "/sun/time": { type: "text", help: "date and hour of the sun, such as '2026-06-21 15:00', with Z or +02:00 where it is not the time of the meridian" },
-  "/sun/place": { type: "number", unit: "degrees", minimum: -180, maximum: 180, help: "latitude and longitude of the building" },
+  "/sun/time": { type: "text", option: "--sun", group: "Illustrate", help: "date and hour of the sun, such as '2026-06-21 15:00', with Z or +02:00 where it is not the time of the meridian" },
+  "/sun/place": { type: "number", unit: "degrees", minimum: -180, maximum: 180, option: "--place", group: "Illustrate", help: "latitude and longitude of the building" },
   "/sun/size": { type: "number", unit: "degrees", minimum: 0, maximum: 20, default: 0.53, help: "diameter of the sun: larger is softer" },
   "/insets": { type: "list", minimum: 0, maximum: 4, help: "small pictures in the corners of the picture" },
   "/insets/*/corner": { type: "text", choices: ["top-right", "bottom-right", "top-left", "bottom-left"], default: "top-right", help: "corner of the picture in which it stands" },
@@ -46,17 +25,30 @@ export const kSceneMembers = {
   "/insets/*/title": { type: "text", help: "write a title into the inset" },
   "/insets/*/mark": { type: "flag", default: true, help: "frame in the picture what the inset shows, with lines to it" },
   "/insets/*/scene": { type: "object", help: "its camera, and members of the scene that are others in it" },
-  "/motion": { type: "object", help: "how the scene changes with time, for films" },
-  "/motion/seconds": { type: "number", unit: "seconds", minimum: 0.01, maximum: 3600, default: 6, help: "how long it lasts" },
-  "/motion/rate": { type: "whole", minimum: 1, maximum: 120, default: 25, help: "pictures a second" },
-  "/motion/turn": { type: "number", unit: "degrees", minimum: -36000, maximum: 36000, default: 0, help: "how far the camera goes around, counter-clockwise from above, evenly; 360: once" },
-  "/motion/pace": { type: "text", choices: ["smooth", "even"], default: "smooth", help: "how values go from key to key: gently at both ends, or evenly" },
-  "/motion/keys": { type: "list", help: "what the scene is at some times; between them, numbers, points, colours and the numbers of regions go from one to the next" },
-  "/motion/keys/*/at": { type: "number", unit: "seconds", minimum: 0, maximum: 3600, help: "the time, after that of the key before" },
-  "/motion/keys/*/scene": { type: "object", help: "members of the scene that have these values then" },
+  "/camera": { type: "object", help: "where the picture is taken from" },
+  "/camera/preset": { type: "text", choices: ["iso", "iso-se", "iso-sw", "iso-ne", "iso-nw", "front", "back", "left", "right", "top", "bottom"], default: "iso", option: "--camera", group: "View", help: "named view from which the picture is taken" },
+  "/camera/around": { type: "text", option: "--around", group: "View", help: "the view shows what the query selects, as large as it fits" },
+  "/camera/fit": { type: "text", choices: ["visible", "all"], default: "visible", option: "--fit", group: "View", help: "a named view shows what is visible as large as possible, or always the whole volume; where eye or target is given, or pictures are a series, all" },
+  "/camera/parallel": { type: "flag", default: false, option: "--ortho", group: "View", help: "parallel projection" },
+  "/camera/fieldOfView": { type: "number", unit: "degrees", minimum: 0.001, maximum: 179.999, default: 30, option: "--fov", group: "View", help: "vertical field of view" },
+  "/camera/zoom": { type: "number", minimum: 0.01, maximum: 100, default: 1, option: "--zoom", group: "View", help: "nearer (above 1) or further than the preset" },
+  "/camera/eye": { type: "number", unit: "metres", minimum: -1000000000, maximum: 1000000000, option: "--eye", group: "View", help: "where the viewer stands, from the lower corner of the grid, in world axes" },
+  "/camera/target": { type: "number", unit: "metres", minimum: -1000000000, maximum: 1000000000, option: "--target", group: "View", help: "what stands in the middle of the picture, from the lower corner of the grid, in world axes" },
+  "/background": { type: "text", option: "--background", group: "Style", help: "#rrggbb, #rgb or a colour name" },
+  "/transparent": { type: "flag", default: false, option: "--transparent", group: "Style", help: "leave the background transparent" },
+  "/lines": { type: "object", help: "lines between objects, and where the depth jumps" },
+  "/lines/strength": { type: "number", minimum: 0, maximum: 1, option: "--edges", group: "Style", help: "strength of lines between objects" },
+  "/lines/width": { type: "number", unit: "pixels", minimum: 0, maximum: 16, option: "--line-width", group: "Style", help: "width of lines between objects" },
+  "/lines/cutWidth": { type: "number", unit: "pixels", minimum: 0, maximum: 16, option: "--cut-width", group: "Style", help: "width of lines around what is cut" },
+  "/lines/color": { type: "text", help: "#rrggbb, #rgb or a colour name" },
+  "/hatches": { type: "object", help: "hatches of what is cut" },
+  "/hatches/show": { type: "flag", option: "--hatch", group: "Style", help: "hatch what is cut, by material or class" },
+  "/hatches/spacing": { type: "number", unit: "metres", minimum: 0.0001, maximum: 10000, option: "--hatch-spacing", group: "Style", help: "distance of hatch lines" },
+  "/ambientOcclusion": { type: "number", minimum: 0, maximum: 1, default: 0.6, help: "how much corners are darkened" },
+  "/names": { type: "text", repeats: true, option: "--names", group: "Illustrate", help: "name what is seen of the selected: inside it where the text fits, else at the sides of the picture, with leader lines" },
   "/passes": { type: "list", minimum: 1, maximum: 64, help: "passes, drawn one after the other" },
-  "/passes/*/show": { type: "text", help: "show only what the query selects" },
-  "/passes/*/hide": { type: "text", help: "hide what the query selects" },
+  "/passes/*/show": { type: "text", repeats: true, option: "--show", group: "Style", help: "show only what the query selects" },
+  "/passes/*/hide": { type: "text", repeats: true, option: "--hide", group: "Style", help: "hide what the query selects" },
   "/passes/*/styles": { type: "list", help: "what is given overrides the styles before it" },
   "/passes/*/styles/*/select": { type: "text", help: "what the style is for" },
   "/passes/*/styles/*/ghost": { type: "flag", default: false, help: "coloured air where it was solid, gone where it was air" },
@@ -64,20 +56,118 @@ export const kSceneMembers = {
   "/passes/*/styles/*/opacity": { type: "number", minimum: 0, maximum: 1, help: "share of light stopped by 1 m; 1: solid, 0: hidden" },
   "/passes/*/styles/*/hatch": { type: "text", choices: ["none", "masonry", "concrete", "reinforced-concrete", "timber", "insulation", "earth", "steel", "glass", "general"], help: "hatch of what is cut" },
   "/passes/*/cut": { type: "text", help: "cut away a region, such as 'z>1.2 and not box(2,2,0,4,4,3)'" },
-  "/passes/*/keep": { type: "text", help: "draw nothing outside of a region, such as storey(Attic)" },
+  "/passes/*/keep": { type: "text", option: "--keep", group: "Cut", help: "draw nothing outside of a region, such as storey(Attic)" },
   "/passes/*/join": { type: "text", choices: ["over", "replace", "depth"], default: "over", help: "over: in front of what is drawn already; replace: where anything is drawn, all before it is dropped; depth: whichever is nearer in front" },
-  "/passes/*/shell": { type: "text", choices: ["component", "room", "unit", "storey", "building"], help: "draw only the hulls of components, rooms, units, storeys or the building" },
+  "/passes/*/shell": { type: "text", choices: ["component", "room", "unit", "storey", "building"], option: "--shell", group: "Illustrate", help: "draw only the hulls of components, rooms, units, storeys or the building" },
   "/passes/*/level": { type: "whole", minimum: 0, maximum: 6, help: "level of detail, 0 is the finest" },
-  "/passes/*/cells": { type: "flag", default: false, help: "draw each voxel as a box with edges" },
   "/passes/*/lines": { type: "list", help: "feature edges of the model's meshes, at their depth inside the volume" },
   "/passes/*/lines/*/select": { type: "text", help: "what the edges belong to, visible or not" },
   "/passes/*/lines/*/width": { type: "number", unit: "pixels", minimum: 0.1, maximum: 64, default: 1, help: "width of the lines" },
   "/passes/*/lines/*/color": { type: "text", help: "#rrggbb, #rgb or a colour name" },
   "/passes/*/lines/*/hidden": { type: "text", choices: ["faint", "dashed", "none"], default: "faint", help: "lines behind something opaque" },
-  "/passes/*/meshes": { type: "text", help: "draw what the query selects as meshes, not as voxels; size<M: all that is shorter than M metres along each axis" },
+  "/passes/*/meshes": { type: "text", repeats: true, option: "--vectors", group: "Lines", help: "draw what the query selects as meshes, not as voxels; size<M: all that is shorter than M metres along each axis" },
+  "/passes/*/cells": { type: "flag", default: false, help: "draw each voxel as a box with edges" },
+  "/motion": { type: "object", help: "how the scene changes with time, for films" },
+  "/motion/seconds": { type: "number", unit: "seconds", minimum: 0.01, maximum: 3600, default: 6, option: "--seconds", group: "Motion", help: "duration of the motion" },
+  "/motion/rate": { type: "whole", minimum: 1, maximum: 120, default: 25, option: "--rate", group: "Motion", help: "pictures per second of a film" },
+  "/motion/turn": { type: "number", unit: "degrees", minimum: -36000, maximum: 36000, default: 0, option: "--turn", group: "Motion", help: "how far the camera goes around, counter-clockwise from above, evenly; 360: once" },
+  "/motion/pace": { type: "text", choices: ["smooth", "even"], default: "smooth", help: "how values go from key to key: gently at both ends, or evenly" },
+  "/motion/keys": { type: "list", help: "what the scene is at some times; between them, numbers, points, colours and the numbers of regions go from one to the next" },
+  "/motion/keys/*/at": { type: "number", unit: "seconds", minimum: 0, maximum: 3600, help: "the time, after that of the key before" },
+  "/motion/keys/*/scene": { type: "object", help: "members of the scene that have these values then" },
 } as const;
 
+/** A `*.scene.json`: docs/formats/scene.schema.json. The page edits it, the library draws it. */
+export interface Scene { format?: "svt-scene";
+  version?: number;
+  size?: [number, number];
+  samples?: 1 | 4 | 9 | 16;
+  look?: "plain" | "paper" | "blueprint" | "dark";
+  title?: string;
+  scaleBar?: boolean;
+  northArrow?: boolean;
+  colorBy?: string;
+  legend?: boolean;
+  explode?: number;
+  sun?: { time: string;
+  place?: [number, number];
+  size?: number;
+  };
+  insets?: { corner?: "top-right" | "bottom-right" | "top-left" | "bottom-left";
+  size?: number;
+  title?: string;
+  mark?: boolean;
+  scene?: Scene;
+  }[];
+  camera?: { preset?: "iso" | "iso-se" | "iso-sw" | "iso-ne" | "iso-nw" | "front" | "back" | "left" | "right" | "top" | "bottom";
+  around?: string;
+  fit?: "visible" | "all";
+  parallel?: boolean;
+  fieldOfView?: number;
+  zoom?: number;
+  eye?: [number, number, number];
+  target?: [number, number, number];
+  };
+  background?: string;
+  transparent?: boolean;
+  lines?: { strength?: number;
+  width?: number;
+  cutWidth?: number;
+  color?: string;
+  };
+  hatches?: { show?: boolean;
+  spacing?: number;
+  };
+  ambientOcclusion?: number;
+  names?: string[];
+  passes?: { show?: string[];
+  hide?: string[];
+  styles?: { select: string;
+  ghost?: boolean;
+  color?: string;
+  opacity?: number;
+  hatch?: "none" | "masonry" | "concrete" | "reinforced-concrete" | "timber" | "insulation" | "earth" | "steel" | "glass" | "general";
+  }[];
+  cut?: string;
+  keep?: string;
+  join?: "over" | "replace" | "depth";
+  shell?: "component" | "room" | "unit" | "storey" | "building";
+  level?: number;
+  lines?: { select?: string;
+  width?: number;
+  color?: string;
+  hidden?: "faint" | "dashed" | "none";
+  }[];
+  meshes?: string[];
+  cells?: boolean;
+  }[];
+  motion?: { seconds?: number;
+  rate?: number;
+  turn?: number;
+  pace?: "smooth" | "even";
+  keys?: { at: number;
+  scene: Scene;
+  }[];
+  };
+  }
+
 export type SceneMember = keyof typeof kSceneMembers;
+
+/** All that a declaration may say. */
+export interface DeclaredMember {
+  readonly type: "flag" | "whole" | "number" | "text" | "object" | "list";
+  readonly unit?: string;
+  readonly minimum?: number;
+  readonly maximum?: number;
+  readonly choices?: readonly (string | number)[];
+  readonly default?: string | number | boolean | readonly number[];
+  /** Takes an array of such values. */
+  readonly repeats?: true;
+  /** Of `svt render`, with its heading in help. */
+  readonly option?: string;
+  readonly group?: string;
+  readonly help: string;
+}
 
 /** The members that declare something: SceneMemberWith<"minimum" | "maximum"> are those with a range. */
 export type SceneMemberWith<Key extends string> = {

@@ -1,7 +1,7 @@
 /** A view as shell commands: `svt render` with options if they suffice, else with a scene file; before it, what makes or fetches its model. */
 
 import type { Scene } from "../engine";
-import { kSceneMembers } from "../generated/scene_members";
+import { kSceneMembers, type DeclaredMember, type SceneMember } from "../generated/scene_members";
 import { focusQueries, regionOf, type Described } from "./scene_of";
 import type { ViewState } from "./view_state";
 
@@ -43,25 +43,29 @@ export function commandOf(state: ViewState, { scene, effects }: Described, { fil
   return commands.map((command) => command.map(shellWord).join(" ")).join(" && ");
 }
 
+/** The value at a pointer whose * is the first element. */
+function valueAt(scene: Scene, pointer: SceneMember): unknown {
+  let value: unknown = scene;
+  for (const step of pointer.slice(1).split("/")) value = (value as Record<string, unknown> | undefined)?.[step === "*" ? "0" : step];
+  return value;
+}
+
+/** The words that set a member; none for its default. */
+function optionWords({ type, option = "", repeats, default: byDefault }: DeclaredMember, value: unknown): string[] {
+  if (value === undefined || value === byDefault) return [];
+  if (type === "flag") return [option];
+  const values = repeats ? (value as unknown[]) : [value];
+  return values.flatMap((one) => [option, Array.isArray(one) ? one.join(",") : String(one)]);
+}
+
 /** What is as a scene has it by default is left out: the options of `svt render` have these defaults, too. */
 function options(state: ViewState, scene: Scene, effects: Described["effects"]): string[] {
-  const camera = scene.camera ?? {};
   const words = ["--size", (scene.size ?? kSceneMembers["/size"].default).join("x")];
   const add = (option: string, ...values: string[]) => values.forEach((value) => words.push(option, value));
-  if (camera.preset && camera.preset !== kSceneMembers["/camera/preset"].default) add("--camera", camera.preset);
-  if (camera.parallel) words.push("--ortho");
-  if (camera.zoom !== undefined && camera.zoom !== kSceneMembers["/camera/zoom"].default) add("--zoom", String(camera.zoom));
-  if (camera.eye) add("--eye", camera.eye.join(","));
-  if (camera.target) add("--target", camera.target.join(","));
-  if (camera.fieldOfView !== undefined && camera.fieldOfView !== kSceneMembers["/camera/fieldOfView"].default)
-    add("--fov", String(camera.fieldOfView));
-  if (scene.look) add("--look", scene.look);
-  if (state.hatches) words.push("--hatch");
-  add("--show", ...state.show);
-  add("--hide", ...state.hide);
+  for (const [name, member] of Object.entries(kSceneMembers) as [SceneMember, DeclaredMember][])
+    if (member.option) words.push(...optionWords(member, valueAt(scene, name)));
   for (const style of state.styles) if (style.color) add("--color", `${style.select}:${style.color}`);
   for (const style of state.styles) if (style.opacity !== undefined) add("--opacity", `${style.select}:${style.opacity}`);
-  if (state.shell) add("--shell", state.shell);
   if (effects.lens) {
     add("--lens", effects.lens.region);
     if (!state.sections.length) add("--section", effects.lens.cut);
@@ -71,10 +75,6 @@ function options(state: ViewState, scene: Scene, effects: Described["effects"]):
   if (effects.cutaway) add("--cutaway", effects.cutaway.query);
   const context = effects.lens?.context ?? effects.highlight?.context;
   if (context && context !== "ghost") add("--context", context);
-  add("--names", ...(scene.names ?? []));
-  if (scene.colorBy) add("--color-by", scene.colorBy);
-  if (scene.scaleBar) words.push("--scale-bar");
-  if (scene.northArrow) words.push("--north-arrow");
   // Last, since its query is optional.
   if (state.wireframe) {
     if (state.wireframe !== kSceneMembers["/passes/*/lines/*/hidden"].default) add("--hidden-lines", state.wireframe);

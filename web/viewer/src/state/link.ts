@@ -4,8 +4,8 @@
  */
 
 import type { Scene } from "../engine";
-import { kSceneMembers } from "../generated/scene_members";
-import { isAllowed } from "./member_controls";
+import { kSceneMembers, type SceneMember } from "../generated/scene_members";
+import { isAllowed, isValueOf, kPlainMembers } from "./member_controls";
 import { initialState, type ViewState } from "./view_state";
 
 const kMaxBytes = 4 << 20;
@@ -76,6 +76,12 @@ export function restored(value: unknown): ViewState {
   const state: Record<string, unknown> = { ...initial };
   for (const key of Object.keys(initial))
     if (key in given && isLike(initial[key as keyof ViewState], given[key], key)) state[key] = given[key];
+  const picture = (typeof given.picture === "object" && given.picture) || given; // older links have these members themselves
+  state.picture = Object.fromEntries(
+    kPlainMembers
+      .map((name) => [name.slice(1), (picture as Record<string, unknown>)[name.slice(1)]] as const)
+      .filter(([key, member]) => member !== undefined && member !== false && isValueOf(`/${key}` as SceneMember, member)),
+  );
   return state as unknown as ViewState;
 }
 

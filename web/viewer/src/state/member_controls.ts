@@ -3,7 +3,14 @@
  * what the page narrows or sets otherwise on purpose stands here with its reason, and nowhere else.
  */
 
-import { kSceneMembers, type ChoiceOf, type SceneMember, type SceneMemberWith } from "../generated/scene_members";
+import {
+  kSceneMembers,
+  type ChoiceOf,
+  type DeclaredMember,
+  type Scene,
+  type SceneMember,
+  type SceneMemberWith,
+} from "../generated/scene_members";
 
 export interface MemberRange {
   member: SceneMemberWith<"minimum" | "maximum">;
@@ -33,6 +40,32 @@ export function rangeOfControl(control: keyof typeof kRanges): { minimum: number
 export function isAllowed(member: SceneMemberWith<"minimum" | "maximum">, value: number): boolean {
   const { minimum, maximum } = kSceneMembers[member];
   return value >= minimum && value <= maximum;
+}
+
+/** Why a plain member of the picture has no control made from its declaration. */
+const kWithoutPlainControl: Partial<Record<SceneMember, string>> = {
+  "/colorBy": "offers the attributes of the model",
+  "/explode": "features are picked where they stand",
+};
+
+type TopLevel<Name> = Name extends `/${infer Key}` ? (Key extends `${string}/${string}` ? never : Key) : never;
+/** The names of members at the top of a scene. */
+export type PlainMember = TopLevel<SceneMember> & keyof Scene;
+
+/** The members of the picture whose controls are made from their declarations, in the order of these. */
+export const kPlainMembers = (Object.keys(kSceneMembers) as SceneMember[]).filter((name) => {
+  const member: DeclaredMember = kSceneMembers[name];
+  const isPlain = (member.type === "flag" || member.type === "text" || member.type === "number") && !member.repeats;
+  return isPlain && member.group === "Illustrate" && name.lastIndexOf("/") === 0 && !(name in kWithoutPlainControl);
+});
+
+/** Whether a plain member may have the value. */
+export function isValueOf(name: SceneMember, value: unknown): boolean {
+  const { type, choices, minimum = -Infinity, maximum = Infinity }: DeclaredMember = kSceneMembers[name];
+  if (choices) return (choices as readonly unknown[]).includes(value);
+  if (type === "flag") return typeof value === "boolean";
+  if (type === "text") return typeof value === "string";
+  return typeof value === "number" && value >= minimum && value <= maximum;
 }
 
 /** Named views on buttons, in the order of the keys 1 to 7; the other slanted ones are a turn of the mouse away. */

@@ -1,6 +1,6 @@
 /** State to scene: a pure function, the only place that determines what is drawn. */
 
-import type { Effects, Point, Samples, Scene, SceneCamera, ScenePass } from "../engine";
+import type { CameraPreset, Effects, Point, Samples, Scene, SceneCamera, ScenePass } from "../engine";
 import { parallelZoom, type Box } from "../camera/camera";
 import { add, distance, normalized, scale, sub } from "../camera/vec";
 import { kSceneMembers } from "../generated/scene_members";
@@ -48,7 +48,7 @@ export function sceneCamera(
   camera: Camera | null,
   box: Box,
   aspect: number,
-  named: string = kSceneMembers["/camera/preset"].default,
+  named: CameraPreset = kSceneMembers["/camera/preset"].default,
 ): SceneCamera {
   if (!camera) return { preset: named };
   const preset = presetFor(camera);
@@ -122,8 +122,8 @@ export function sceneOf(
   if (state.hatches !== null) scene.hatches = { show: state.hatches };
   if (state.names && state.selection.length) scene.names = state.selection.map(ofId);
   if (state.colorBy) scene.colorBy = state.colorBy;
-  if (state.scaleBar && camera.parallel) scene.scaleBar = true;
-  if (state.northArrow) scene.northArrow = true;
+  Object.assign(scene, state.picture);
+  if (!camera.parallel) delete scene.scaleBar;
   scene.passes = [passOf(state)];
   if (state.custom) return { scene: { ...state.custom, ...scene, passes: state.custom.passes ?? [{}] }, effects: {} };
   return { scene, effects: effectsOf(state, box) };

@@ -62,14 +62,14 @@ describe("scene of the state", () => {
   });
 
   it("colours by an attribute and draws what a plan needs", () => {
-    const shown = state({ colorBy: "storey", scaleBar: true, northArrow: true });
+    const shown = state({ colorBy: "storey", picture: { scaleBar: true, northArrow: true } });
     const { scene } = sceneOf(shown, box, size);
     expect(scene.colorBy).toBe("storey");
     expect(scene.northArrow).toBe(true);
     expect(scene.scaleBar, "in perspective there is no one scale").toBeUndefined();
     const parallel = { ...shown, camera: { eye: [1, 2, 50], target: [1, 2, 0], fieldOfView: 30, parallel: true, height: 10 } } as ViewState;
     expect(sceneOf(parallel, box, size).scene.scaleBar).toBe(true);
-    expect(commandOf(shown, sceneOf(shown, box, size), given)).toContain("--color-by storey --north-arrow");
+    expect(commandOf(shown, sceneOf(shown, box, size), given)).toContain("--north-arrow --color-by storey");
   });
 
   it("names the selection, draws lines and hulls, hatches or not", () => {

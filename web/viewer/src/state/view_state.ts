@@ -1,7 +1,8 @@
 /** The complete view as one plain object. `sceneOf()` makes a scene from it; tools modify only this object. */
 
-import type { Context, HiddenLines, Look, Point, Scene, SceneStyle, ShellLevel } from "../engine";
-import { kSceneMembers } from "../generated/scene_members";
+import type { CameraPreset, Context, HiddenLines, Look, Point, Scene, SceneStyle, ShellLevel } from "../engine";
+import { kSceneMembers, type DeclaredMember, type SceneMember } from "../generated/scene_members";
+import type { PlainMember } from "./member_controls";
 
 /** z is up, except in views straight down or up: there it is the grid's y axis. */
 export interface Camera {
@@ -53,7 +54,7 @@ export interface ViewState {
   /** null: not yet known; `preset` is shown. */
   camera: Camera | null;
   /** Named view, see render::cameraPresetNames(). */
-  preset: string;
+  preset: CameraPreset;
   look: Look;
   /** Queries; the page keeps its own short even if much is hidden (visibility.ts). */
   hide: string[];
@@ -73,9 +74,8 @@ export interface ViewState {
   names: boolean;
   /** What colours and a legend in the picture tell: class, storey, volume, an attribute, ...; empty: nothing. */
   colorBy: string;
-  /** Drawn where the projection is parallel. */
-  scaleBar: boolean;
-  northArrow: boolean;
+  /** Members of the scene that have no control of their own; those with their defaults are absent. */
+  picture: Partial<Pick<Scene, PlainMember>>;
   /** Ids. */
   selection: string[];
   /** Points measured between, metres from the grid's lower corner. */
@@ -101,8 +101,7 @@ export function initialState(look: Look = kSceneMembers["/look"].default): ViewS
     wireframe: null,
     names: false,
     colorBy: "",
-    scaleBar: kSceneMembers["/scaleBar"].default,
-    northArrow: kSceneMembers["/northArrow"].default,
+    picture: {},
     selection: [],
     measured: [],
     custom: null,
@@ -116,6 +115,14 @@ export function withStyle(styles: SceneStyle[], select: string, change: Partial<
   for (const key of Object.keys(after) as (keyof SceneStyle)[]) if (after[key] === undefined) delete after[key];
   const others = styles.filter((style) => style.select !== select);
   return Object.keys(after).length > 1 ? [...others, after] : others;
+}
+
+/** Sets a plain member of the picture; its default, or a text without characters, takes it out. */
+export function withMember(picture: ViewState["picture"], name: SceneMember, value: unknown): ViewState["picture"] {
+  const { default: byDefault = "" }: DeclaredMember = kSceneMembers[name];
+  const key = name.slice(1);
+  const others = Object.fromEntries(Object.entries(picture).filter(([other]) => other !== key));
+  return value === byDefault ? others : { ...others, [key]: value };
 }
 
 /** The same view of a volume whose grid begins elsewhere: points move by `by`, planes along their normals. */

@@ -4,6 +4,9 @@ import { css, html, nothing } from "lit";
 import type { HiddenLines } from "../engine";
 import { kSceneMembers } from "../generated/scene_members";
 import { help, t } from "../texts";
+import { kPlainMembers, type PlainMember } from "../state/member_controls";
+import { withMember } from "../state/view_state";
+import { plainControl } from "../ui/plain_control";
 import { controls, Part } from "../ui/part";
 
 const kLooks = kSceneMembers["/look"].choices;
@@ -17,12 +20,12 @@ export class LookTool extends Part {
 
   protected override uses() {
     const { state, info, isLegendShown } = this.session;
-    return [state.look, state.wireframe, state.names, state.colorBy, state.scaleBar, state.northArrow, info, isLegendShown];
+    return [state.look, state.wireframe, state.names, state.colorBy, state.picture, info, isLegendShown];
   }
 
   override render() {
     const { session } = this;
-    const { look, wireframe, names, colorBy, scaleBar, northArrow } = session.state;
+    const { look, wireframe, names, colorBy, picture } = session.state;
     const hasEdges = session.info?.hasEdges ?? false;
     return html`
       <div class="segments" role="radiogroup" aria-label=${t("look")} title=${help("/look")}>${kLooks.map(
@@ -47,10 +50,7 @@ export class LookTool extends Part {
       <h3 id="color-by-title">${t("colorBy")}</h3>
       <input id="color-by" list="color-by-keys" aria-labelledby="color-by-title" title=${help("/colorBy")} placeholder=${t("colorByNothing")} .value=${colorBy} @change=${(e: Event) => session.set({ colorBy: (e.target as HTMLInputElement).value.trim() })} />
       <datalist id="color-by-keys">${[...kColorKeys, ...(session.owners.file ? ["owner"] : []), ...(session.info?.attributes ?? [])].map((key) => html`<option value=${key}></option>`)}</datalist>
-      <div class="row">
-        <label class="check" title=${help("/scaleBar")}><input type="checkbox" id="scale-bar" .checked=${scaleBar} @change=${(e: Event) => session.set({ scaleBar: (e.target as HTMLInputElement).checked })} />${t("scaleBar")}</label>
-        <label class="check" title=${help("/northArrow")}><input type="checkbox" id="north-arrow" .checked=${northArrow} @change=${(e: Event) => session.set({ northArrow: (e.target as HTMLInputElement).checked })} />${t("northArrow")}</label>
-      </div>
+      ${kPlainMembers.map((name) => plainControl(name, picture[name.slice(1) as PlainMember], (value) => session.set({ picture: withMember(picture, name, value) })))}
     `;
   }
 }
