@@ -69,7 +69,6 @@ CHECKS = {
         }.items()
     },
     "gcc": Check("scripts/setup.sh && scripts/build.sh dev", 25),
-    "clang": Check("scripts/setup.sh checks && scripts/build.sh dev-clang", 25),
     "mutants": Check("scripts/setup.sh && scripts/mutants.py --changed --count 10", 25),
     "packages": Check(
         "scripts/setup.sh packages && make -s package && scripts/test_deb.sh && scripts/test_package.sh && "
