@@ -43,8 +43,7 @@ Result<void> runParts(const Arguments& arguments, const std::vector<Input>& inpu
         if (auto done = benchRead(options, report); !done) return done;
     for (const Input& input : inputs) {
         if (options.isQuick && input.name == kTurnedHouse) continue;
-        const auto workload = loadWorkload(input);
-        if (!workload) return workload.error();
+        SVT_TRY(workload, loadWorkload(input));
         if (isAsked("voxelize"))
             if (auto done = benchVoxelize(*workload, options, report); !done) return done;
         if (isAsked("render"))
@@ -59,8 +58,7 @@ Result<void> runParts(const Arguments& arguments, const std::vector<Input>& inpu
 }
 
 Result<void> runAll(const Arguments& arguments, Report& report) {
-    const auto inputs = findInputs(arguments.options.scratch, report.skipped);
-    if (!inputs) return inputs.error();
+    SVT_TRY(inputs, findInputs(arguments.options.scratch, report.skipped));
     if (arguments.profile.empty()) return runParts(arguments, *inputs, report);
     return runProfilePiece(kPieces.at(arguments.profile), inputs->front());
 }

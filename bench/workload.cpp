@@ -86,19 +86,16 @@ Result<std::vector<Input>> findInputs(const std::filesystem::path& scratch, std:
     const std::filesystem::path house = dataDir() / "fzk_haus_citygml3.gml";
     if (std::filesystem::exists(house)) {
         inputs.push_back({kHouse, house});
-        const auto text = readText(house);
-        if (!text) return text.error();
+        SVT_TRY(text, readText(house));
         inputs.push_back({kTurnedHouse, scratch / "turned.gml"});
-        if (const auto written = writeText(turnedCityGml(*text, kTurnDegrees), inputs.back().file); !written)
-            return written.error();
+        SVT_DO(writeText(turnedCityGml(*text, kTurnDegrees), inputs.back().file));
     } else {
         skipped.push_back(
             "FZK-Haus: no fzk_haus_citygml3.gml in the data directory; set SVT_DATA_DIR to the folder that has it");
     }
-    const auto tower = samples::writeSample(samples::SampleKind::Tower, samples::SampleFormat::CityGml3, {});
-    if (!tower) return tower.error();
+    SVT_TRY(tower, samples::writeSample(samples::SampleKind::Tower, samples::SampleFormat::CityGml3, {}));
     inputs.push_back({"tower", scratch / "tower.gml"});
-    if (const auto written = writeText(*tower, inputs.back().file); !written) return written.error();
+    SVT_DO(writeText(*tower, inputs.back().file));
     return inputs;
 }
 
@@ -138,25 +135,21 @@ Result<Input> writeDistrict(const std::filesystem::path& scratch) {
 Result<Input> writeTowerCityGml2(const std::filesystem::path& scratch) {
     samples::SampleOptions options;
     options.thematic = true;
-    const auto tower = samples::writeSample(samples::SampleKind::Tower, samples::SampleFormat::CityGml2, options);
-    if (!tower) return tower.error();
+    SVT_TRY(tower, samples::writeSample(samples::SampleKind::Tower, samples::SampleFormat::CityGml2, options));
     Input input{"tower, CityGML 2.0", scratch / "tower_citygml2.gml"};
-    if (const auto written = writeText(withoutGroups(*tower), input.file); !written) return written.error();
+    SVT_DO(writeText(withoutGroups(*tower), input.file));
     return input;
 }
 
 Result<Workload> loadWorkload(const Input& input) {
     Workload workload;
     workload.name = input.name;
-    auto model = readers::readModel(input.file);
-    if (!model) return model.error();
+    SVT_TRY(model, readers::readModel(input.file));
     workload.model = std::move(*model);
-    auto meshes = mesh::buildMeshes(workload.model);
-    if (!meshes) return meshes.error();
+    SVT_TRY(meshes, mesh::buildMeshes(workload.model));
     workload.meshes = std::move(*meshes);
     const std::array sheets{&pipeline::defaultStyle(false)};
-    auto labels = pipeline::makeLabels(workload.model, workload.meshes, sheets);
-    if (!labels) return labels.error();
+    SVT_TRY(labels, pipeline::makeLabels(workload.model, workload.meshes, sheets));
     workload.labels = std::move(*labels);
     return workload;
 }

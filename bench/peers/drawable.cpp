@@ -9,15 +9,12 @@
 namespace svt::bench {
 
 Result<Drawable> makeDrawable(const Workload& workload, Vec3i dimension, int threads) {
-    const auto grid = gridOver(workload, dimension);
-    if (!grid) return grid.error();
+    SVT_TRY(grid, gridOver(workload, dimension));
     voxelize::VoxelizeOptions options;
     options.threads = threads;
-    auto voxels = voxelize::voxelize(workload.meshes, *grid, workload.labels.claims, options);
-    if (!voxels) return voxels.error();
+    SVT_TRY(voxels, voxelize::voxelize(workload.meshes, *grid, workload.labels.claims, options));
     std::vector<volume::FacePlane> planes = voxelize::findFacePlanes(workload.meshes, *grid);
-    auto bricks = volume::BrickVolume::fromColumns(voxels->columns, {.planes = planes, .threads = threads});
-    if (!bricks) return bricks.error();
+    SVT_TRY(bricks, volume::BrickVolume::fromColumns(voxels->columns, {.planes = planes, .threads = threads}));
     return Drawable{*grid, std::move(voxels->columns), std::move(planes), std::move(*bricks)};
 }
 
@@ -43,8 +40,7 @@ Result<render::FrameSpec> makeFrameSpec(const volume::Grid& grid, std::vector<re
     spec.height = height;
     render::PresetOptions preset;
     preset.aspect = double(width) / height;
-    auto camera = render::cameraPreset("iso", grid, preset);
-    if (!camera) return camera.error();
+    SVT_TRY(camera, render::cameraPreset("iso", grid, preset));
     spec.camera = *camera;
     render::Pass pass;
     pass.styles = std::move(styles);

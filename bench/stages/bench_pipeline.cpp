@@ -33,15 +33,11 @@ Result<void> benchSize(const Input& input, const Workload& workload, Vec3i dimen
     const std::filesystem::path target = options.scratch / "stages.svt";
     pipeline::BuildOptions buildOptions;
     buildOptions.dimension = dimension;
-    const auto built = pipeline::buildVolume(files, buildOptions);
-    if (!built) return built.error();
+    SVT_TRY(built, pipeline::buildVolume(files, buildOptions));
     const volume::SemanticVolume& volume = built->volume;
-    const auto fileBytes = volume::writeSvt(volume, target);
-    if (!fileBytes) return fileBytes.error();
-    const auto bricks = volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes});
-    if (!bricks) return bricks.error();
-    const auto levels = volume::buildLodPyramid(volume.columns, volume.grid);
-    if (!levels) return levels.error();
+    SVT_TRY(fileBytes, volume::writeSvt(volume, target));
+    SVT_TRY(bricks, volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes}));
+    SVT_TRY(levels, volume::buildLodPyramid(volume.columns, volume.grid));
 
     // Failures of this stage were already reported above; only time counts here.
     const auto done = [](const auto& result) { static_cast<void>(result.hasValue()); };

@@ -51,15 +51,13 @@ std::uint64_t crossingsOf(const mesh::MeshSet& meshes, const volume::Grid& grid)
 }  // namespace
 
 Result<void> runProfilePiece(ProfilePiece piece, const Input& input) {
-    const auto workload = loadWorkload(input);
-    if (!workload) return workload.error();
-    const auto drawable = makeDrawable(*workload, kGrid, 1);
-    if (!drawable) return drawable.error();
+    SVT_TRY(workload, loadWorkload(input));
+    SVT_TRY(drawable, makeDrawable(*workload, kGrid, 1));
     const bool isOpaque = piece != ProfilePiece::Translucent;
-    const auto spec = makeFrameSpec(
-        drawable->grid, isOpaque ? opaqueStyles(workload->labels.table) : translucentStyles(workload->labels.table),
-        kWidth, kHeight);
-    if (!spec) return spec.error();
+    SVT_TRY(spec,
+            makeFrameSpec(drawable->grid,
+                          isOpaque ? opaqueStyles(workload->labels.table) : translucentStyles(workload->labels.table),
+                          kWidth, kHeight));
     if (piece == ProfilePiece::Count) {
         fmt::print("{}\n", Json{{"machine", describeMachine()},
                                 {"input", input.name},
@@ -69,13 +67,11 @@ Result<void> runProfilePiece(ProfilePiece piece, const Input& input) {
     } else if (piece == ProfilePiece::Voxelize) {
         voxelize::VoxelizeOptions options;
         options.threads = 1;
-        const auto volume = voxelize::voxelize(workload->meshes, drawable->grid, workload->labels.claims, options);
-        if (!volume) return volume.error();
+        SVT_TRY(volume, voxelize::voxelize(workload->meshes, drawable->grid, workload->labels.claims, options));
     } else if (piece != ProfilePiece::Prepare) {
         render::CastOptions options;
         options.threads = 1;
-        const auto frame = render::castRays(drawable->bricks, drawable->grid, *spec, options);
-        if (!frame) return frame.error();
+        SVT_TRY(frame, render::castRays(drawable->bricks, drawable->grid, *spec, options));
     }
     return {};
 }

@@ -26,8 +26,7 @@ std::size_t countUses(const model::BuildingModel& model) {
 Result<Row> readRow(const Input& input, const BenchOptions& options) {
     tell(fmt::format("read {}", input.file.filename().string()));
     const double bytes = double(std::filesystem::file_size(input.file));
-    const auto model = readers::readModel(input.file);
-    if (!model) return model.error();
+    SVT_TRY(model, readers::readModel(input.file));
     std::vector<Contestant> contestants;
     for (const int threads : {0, 1}) {
         readers::ReadOptions readOptions;
@@ -70,8 +69,7 @@ Result<Row> readRow(const Input& input, const BenchOptions& options) {
 }  // namespace
 
 Result<void> benchRead(const BenchOptions& options, Report& report) {
-    auto tower = writeTowerCityGml2(options.scratch);
-    if (!tower) return tower.error();
+    SVT_TRY(tower, writeTowerCityGml2(options.scratch));
     std::vector<Input> inputs{*tower};
     for (const auto& [name, file] : {std::pair{"FZK-Haus, CityGML 3.0", "fzk_haus_citygml3.gml"},
                                      std::pair{"FZK-Haus, CityJSON 2.0", "fzk_haus.city.json"},
@@ -79,8 +77,7 @@ Result<void> benchRead(const BenchOptions& options, Report& report) {
                                      std::pair{"Berlin, CityGML 1.0", "berlin_lod2_citygml1.gml"}})
         if (std::filesystem::exists(dataDir() / file)) inputs.push_back({name, dataDir() / file});
     for (const Input& input : inputs) {
-        auto row = readRow(input, options);
-        if (!row) return row.error();
+        SVT_TRY(row, readRow(input, options));
         report.rows.push_back(std::move(*row));
     }
     return {};

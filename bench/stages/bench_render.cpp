@@ -56,8 +56,7 @@ struct OurPicture {
 };
 
 Result<OurPicture> pictureWithoutLight(const Frame& frame) {
-    auto cast = render::castRays(frame.drawable.bricks, frame.drawable.grid, dark(frame.spec));
-    if (!cast) return cast.error();
+    SVT_TRY(cast, render::castRays(frame.drawable.bricks, frame.drawable.grid, dark(frame.spec)));
     image::Image<image::Rgba8> color =
         frame.look == Look::Opaque ? flatPicture(cast->label, frame.styles) : linearPicture(cast->color, 2);
     return OurPicture{std::move(color), std::move(cast->label)};
@@ -77,12 +76,11 @@ public:
         : workload_(workload), options_(options), report_(report) {}
 
     Result<void> run() {
-        const auto drawable = makeDrawable(workload_, gridSize(options_.isQuick));
-        if (!drawable) return drawable.error();
-        if (auto done = frames(*drawable, nullptr); !done) return done;
-        if (auto done = edits(*drawable); !done) return done;
-        if (auto done = illustrations(*drawable); !done) return done;
-        if (auto done = wireframes(*drawable); !done) return done;
+        SVT_TRY(drawable, makeDrawable(workload_, gridSize(options_.isQuick)));
+        SVT_DO(frames(*drawable, nullptr));
+        SVT_DO(edits(*drawable));
+        SVT_DO(illustrations(*drawable));
+        SVT_DO(wireframes(*drawable));
         if (options_.isQuick || (workload_.name != kHouse && workload_.name != kTurnedHouse)) return {};
         const auto larger = makeDrawable(workload_, kLargeGrid);
         return larger ? frames(*larger, &*drawable) : larger.error();
@@ -108,18 +106,16 @@ private:
             noDense = fmt::format("{} of dense labels do not fit into the {} that are free", bytesText(denseBytes),
                                   bytesText(free));
         } else {
-            auto scalars = volume::toDense<std::uint16_t>(drawable.columns);
-            if (!scalars) return scalars.error();
+            SVT_TRY(scalars, volume::toDense<std::uint16_t>(drawable.columns));
             dense = {drawable.grid.dimension(), std::move(*scalars)};
         }
         for (const Look look : {Look::Opaque, Look::Translucent}) {
-            const auto frame = makeFrame(workload_, drawable, look);
-            if (!frame) return frame.error();
+            SVT_TRY(frame, makeFrame(workload_, drawable, look));
             Row row = newRow(look == Look::Opaque ? "opaque frame" : "translucent frame",
                              fmt::format("{}, {} x {} pixels", sizeText(drawable.grid.dimension()), frame->spec.width,
                                          frame->spec.height));
             if (!noDense.empty()) row.missing.push_back(noDense);
-            if (auto done = besidePeers(*frame, dense, smaller, row); !done) return done;
+            SVT_DO(besidePeers(*frame, dense, smaller, row));
             report_.rows.push_back(std::move(row));
         }
         return {};
@@ -143,8 +139,7 @@ private:
     Result<void> besidePeers(const Frame& frame, const DenseLabels& dense, const Drawable* smaller, Row& row) {
         const std::vector<render::Style> styles = stylesForPeers(frame);
         const render::FrameSpec flat = unlit(frame.spec);
-        const auto ours = pictureWithoutLight(frame);
-        if (!ours) return ours.error();
+        SVT_TRY(ours, pictureWithoutLight(frame));
         std::vector<Contestant> contestants{{"SVT, lit", [&] { cast(frame.drawable, frame.spec); }},
                                             {"SVT, unlit", [&] { cast(frame.drawable, flat); }}};
         const auto peers = makePeers(dense, smaller == nullptr, row);
@@ -163,8 +158,7 @@ private:
                                    }});
         render::FrameSpec smallerSpec;
         if (smaller != nullptr) {
-            auto smallerFrame = makeFrame(workload_, *smaller, frame.look);
-            if (!smallerFrame) return smallerFrame.error();
+            SVT_TRY(smallerFrame, makeFrame(workload_, *smaller, frame.look));
             smallerSpec = std::move(smallerFrame->spec);
             contestants.push_back(
                 {"SVT at " + sizeText(smaller->grid.dimension()), [&] { cast(*smaller, smallerSpec); }});
@@ -224,8 +218,7 @@ private:
     // time.
     Result<void> edits(const Drawable& drawable) {
         Row row = newRow("section frame", fmt::format("{}, 1280 x 720 pixels", sizeText(drawable.grid.dimension())));
-        auto spec = makeFrameSpec(drawable.grid, opaqueStyles(workload_.labels.table), 1280, 720);
-        if (!spec) return spec.error();
+        SVT_TRY(spec, makeFrameSpec(drawable.grid, opaqueStyles(workload_.labels.table), 1280, 720));
         const double height = drawable.grid.spacing().z * (drawable.grid.dimension().z - 1);
         const auto planeAt = [&](double share) {
             return render::ClipRegion::plane({0, 0, 1}, drawable.grid.origin() + Vec3d{0, 0, height * share});
@@ -257,8 +250,7 @@ private:
     // A lens over the solid model, and a highlight with the rest as ghost; the same with another lens position and
     // another highlighted object before each frame; and the plain frame with as many pixels.
     Result<void> illustrations(const Drawable& drawable) {
-        const auto plain = makeFrameSpec(drawable.grid, opaqueStyles(workload_.labels.table), 1280, 720);
-        if (!plain) return plain.error();
+        SVT_TRY(plain, makeFrameSpec(drawable.grid, opaqueStyles(workload_.labels.table), 1280, 720));
         const Vec3d spacing = drawable.grid.spacing();
         const Vec3i dimension = drawable.grid.dimension();
         const auto pointAt = [&](double x, double y, double z) {
@@ -311,14 +303,12 @@ private:
 
     // The feature edges of all meshes, and of rooms alone, inside the volume; rooms are 5 % air, all else is opaque.
     Result<void> wireframes(const Drawable& drawable) {
-        auto plain = makeFrameSpec(drawable.grid, opaqueStyles(workload_.labels.table), 1280, 720);
-        if (!plain) return plain.error();
+        SVT_TRY(plain, makeFrameSpec(drawable.grid, opaqueStyles(workload_.labels.table), 1280, 720));
         std::vector<render::Style>& styles = plain->passes[0].styles;
         for (std::size_t scalar = 1; scalar < styles.size(); ++scalar)
             if (styles[scalar].opacity == 0) styles[scalar].opacity = 0.05f;
-        const auto parts = pipeline::makeVectorParts(workload_.meshes, workload_.labels.labelOfObject, drawable.grid,
-                                                     {.edges = true, .meshes = false});
-        if (!parts) return parts.error();
+        SVT_TRY(parts, pipeline::makeVectorParts(workload_.meshes, workload_.labels.labelOfObject, drawable.grid,
+                                                 {.edges = true, .meshes = false}));
         const auto& labels = workload_.labels.table.labels;
         render::LineSet all, rooms;
         for (const auto& segment : parts->segments) {

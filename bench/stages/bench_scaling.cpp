@@ -88,15 +88,11 @@ Result<Built> buildAndCast(const Input& input) {
     const std::array files{input.file};
     pipeline::BuildOptions buildOptions;
     buildOptions.spacing = Vec3d{0.05, 0.05, 0.05};
-    auto output = pipeline::buildVolume(files, buildOptions);
-    if (!output) return output.error();
-    auto bricks = volume::BrickVolume::fromColumns(output->volume.columns, forPictures(output->volume.planes));
-    if (!bricks) return bricks.error();
-    auto spec = makeFrameSpec(output->volume.grid, opaqueStyles(output->volume.labels), kWidth, kHeight);
-    if (!spec) return spec.error();
+    SVT_TRY(output, pipeline::buildVolume(files, buildOptions));
+    SVT_TRY(bricks, volume::BrickVolume::fromColumns(output->volume.columns, forPictures(output->volume.planes)));
+    SVT_TRY(spec, makeFrameSpec(output->volume.grid, opaqueStyles(output->volume.labels), kWidth, kHeight));
     Built built{std::move(*output), std::move(*bricks), std::move(*spec)};
-    const auto frame = render::castRays(built.bricks, built.output.volume.grid, built.spec);
-    if (!frame) return frame.error();
+    SVT_TRY(frame, render::castRays(built.bricks, built.output.volume.grid, built.spec));
     return built;
 }
 
@@ -107,8 +103,7 @@ Result<void> benchScaling(const Workload& workload, const BenchOptions& options,
     if (!options.isQuick)
         dimensions.insert(dimensions.end(), {{1000, 875, 500}, {2000, 1750, 1000}, {4000, 3500, 2000}});
     for (const Vec3i dimension : dimensions) {
-        auto row = scalingRow(workload, dimension, options);
-        if (!row) return row.error();
+        SVT_TRY(row, scalingRow(workload, dimension, options));
         report.rows.push_back(std::move(*row));
     }
     return {};
@@ -116,8 +111,7 @@ Result<void> benchScaling(const Workload& workload, const BenchOptions& options,
 
 Result<void> benchDistrict(const BenchOptions& options, Report& report) {
     tell("district");
-    const auto input = writeDistrict(options.scratch);
-    if (!input) return input.error();
+    SVT_TRY(input, writeDistrict(options.scratch));
     Result<Built> built = Error(Code::Internal, "not built");
     const std::uint64_t peak = peakMemoryOf([&] { built = buildAndCast(*input); });
     if (!built) return built.error();

@@ -86,10 +86,8 @@ Result<voxelize::VoxelizeResult> runOurs(const Solids& solids, const volume::Gri
 Result<Row> voxelizeRow(const Workload& workload, const Solids& solids, Vec3i dimension, bool withOpenVdb,
                         const BenchOptions& options) {
     tell(fmt::format("voxelize {} {}", workload.name, sizeText(dimension)));
-    const auto grid = gridOver(workload, dimension);
-    if (!grid) return grid.error();
-    const auto ours = runOurs(solids, *grid, 0, true);
-    if (!ours) return ours.error();
+    SVT_TRY(grid, gridOver(workload, dimension));
+    SVT_TRY(ours, runOurs(solids, *grid, 0, true));
 
     Row row;
     row.stage = "voxelize";
@@ -107,8 +105,7 @@ Result<Row> voxelizeRow(const Workload& workload, const Solids& solids, Vec3i di
                                }});
     const auto measured = measureInTurns(contestants, options.measure);
     // The peers use voxel centers and lose parts thinner than a voxel, so they are compared with the same rule.
-    const auto centersOnly = runOurs(solids, *grid, 0, false);
-    if (!centersOnly) return centersOnly.error();
+    SVT_TRY(centersOnly, runOurs(solids, *grid, 0, false));
     row.ours = measured[0];
     row.resultBytes = ours->columns.sizeBytes();
     row.extra["objects"] = solids.meshes.objects.size();
@@ -146,11 +143,10 @@ Solids openedSolids(const Solids& solids) {
 Result<Row> openShellsRow(const Workload& workload, const Solids& solids, Vec3i dimension,
                           const BenchOptions& options) {
     tell(fmt::format("voxelize {}, opened, {}", workload.name, sizeText(dimension)));
-    const auto grid = gridOver(workload, dimension);
-    if (!grid) return grid.error();
+    SVT_TRY(grid, gridOver(workload, dimension));
     const Solids opened = openedSolids(solids);
     // Parts thinner than a voxel are kept for closed solids alone.
-    if (const auto ours = runOurs(opened, *grid, 0, false); !ours) return ours.error();
+    SVT_DO(runOurs(opened, *grid, 0, false));
     const auto measured =
         measureInTurns({{"SVT", [&] { static_cast<void>(runOurs(opened, *grid, 0, false).hasValue()); }},
                         {"SVT, closed", [&] { static_cast<void>(runOurs(solids, *grid, 0, false).hasValue()); }}},
@@ -175,14 +171,12 @@ Result<void> benchVoxelize(const Workload& workload, const BenchOptions& options
     std::vector<Vec3i> sizes{gridSize(options.isQuick)};
     if (isHouse && !options.isQuick) sizes.insert(sizes.begin(), kSmallGrid);
     for (const Vec3i dimension : sizes) {
-        auto row = voxelizeRow(workload, solids, dimension, isHouse && dimension == kSmallGrid, options);
-        if (!row) return row.error();
+        SVT_TRY(row, voxelizeRow(workload, solids, dimension, isHouse && dimension == kSmallGrid, options));
         report.rows.push_back(std::move(*row));
     }
     if (!isHouse) return {};
     for (const Vec3i dimension : {Vec3i{300, 300, 200}, Vec3i{800, 700, 400}}) {
-        auto row = openShellsRow(workload, solids, dimension, options);
-        if (!row) return row.error();
+        SVT_TRY(row, openShellsRow(workload, solids, dimension, options));
         report.rows.push_back(std::move(*row));
     }
     return {};

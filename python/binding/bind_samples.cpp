@@ -76,8 +76,7 @@ py::tuple rays(const SharedVolume& volume, const PointArray& origins, const Poin
                const py::object& report) {
     const std::span<const Vec3d> from = pointsOf(origins, "origins"), along = pointsOf(directions, "directions");
     auto found = longCall(report, [&](const Progress* progress) -> Result<render::RayIntervals> {
-        const auto bricks = volume->bricks(progress);
-        if (!bricks) return bricks.error();
+        SVT_TRY(bricks, volume->bricks(progress));
         const auto& v = volume->volume();
         return render::labelsAlongRays(**bricks, v.grid, v.labels, from, along, 0, progress);
     });

@@ -39,8 +39,7 @@ SharedSection drawSection(const SharedVolume& volume, const std::string& plane, 
     section->volume = volume;
     section->drawing = longCall(report, [&](const Progress*) -> Result<illustrate::SectionDrawing> {
         const auto& v = volume->volume();
-        const auto cut = plane.empty() ? illustrate::defaultSectionPlane(v) : illustrate::parseSectionPlane(plane, v);
-        if (!cut) return cut.error();
+        SVT_TRY(cut, plane.empty() ? illustrate::defaultSectionPlane(v) : illustrate::parseSectionPlane(plane, v));
         std::vector<std::string> nothing;
         illustrate::SectionOptions options{.show = show,
                                            .hide = hide,

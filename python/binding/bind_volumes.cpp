@@ -122,14 +122,12 @@ std::uint64_t save(const SharedVolume& volume, const Path& path, const py::dict&
     return longCall(report, [&](const Progress* progress) -> Result<std::uint64_t> {
         std::optional<volume::SemanticVolume> part;
         if (arguments.isPart()) {
-            auto made = arguments.partOf(volume->volume(), 0);
-            if (!made) return made.error();
+            SVT_TRY(made, arguments.partOf(volume->volume(), 0));
             part = std::move(*made);
         }
         const volume::SemanticVolume& written = part ? *part : volume->volume();
         if (path.extension() == ".svt") return volume::writeSvt(written, path);
-        auto options = arguments.options(written);
-        if (!options) return options.error();
+        SVT_TRY(options, arguments.options(written));
         options->progress = progress;
         return writers::writeVolume(written, path, *options);
     });

@@ -5,9 +5,9 @@ namespace svt::python {
 Result<const volume::BrickVolume*> VolumeObject::bricks(const Progress* progress) {
     const std::lock_guard lock(making_);
     if (!bricks_) {
-        auto made = volume::BrickVolume::fromColumns(
-            volume_.columns, {.faces = volume::BrickFaces::Slopes, .planes = volume_.planes, .progress = progress});
-        if (!made) return made.error();
+        SVT_TRY(made, volume::BrickVolume::fromColumns(
+                          volume_.columns,
+                          {.faces = volume::BrickFaces::Slopes, .planes = volume_.planes, .progress = progress}));
         bricks_ = std::move(*made);
     }
     return &*bricks_;

@@ -27,8 +27,7 @@ Result<std::vector<std::uint32_t>> LabelRows::selectNothing(const std::string& m
 }
 
 Result<std::vector<std::uint32_t>> selectLabels(const LabelRows& rows, std::string_view text) {
-    const auto query = model::Query::parse(text);
-    if (!query) return query.error();
+    SVT_TRY(query, model::Query::parse(text));
     std::vector<std::uint32_t> selected = query->select(rows.get());
     if (!selected.empty()) return selected;
     const std::string reason = query->unknownValue(rows.get());

@@ -16,6 +16,8 @@ namespace svt {
 ///     Result<Grid> grid = Grid::fromDimension(box, {800, 700, 400});
 ///     if (!grid) return grid.error();
 ///     use(*grid);
+///
+/// SVT_TRY(grid, Grid::fromDimension(box, {800, 700, 400})) stands for the first two lines.
 template <class T>
 class [[nodiscard]] Result {
 public:
@@ -83,3 +85,14 @@ private:
 };
 
 }  // namespace svt
+
+/// Declares `name` as the Result of an expression. If that failed, the function returns its error.
+#define SVT_TRY(name, ...)   \
+    auto name = __VA_ARGS__; \
+    if (!name) return std::move(name).error()
+
+/// Evaluates an expression of type Result<void>. If that failed, the function returns its error.
+#define SVT_DO(...)                                                                           \
+    do {                                                                                      \
+        if (auto svt_result = __VA_ARGS__; !svt_result) return std::move(svt_result).error(); \
+    } while (false)

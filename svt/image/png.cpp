@@ -168,14 +168,12 @@ Result<void> decode(std::span<const std::byte> bytes, Target& target) {
 
 Result<void> writeBytes(const std::filesystem::path& path, const Result<std::vector<std::byte>>& bytes) {
     if (!bytes) return bytes.error();
-    const auto written = writeFileAtomically(path, std::span<const std::byte>(*bytes));
-    if (!written) return written.error();
+    SVT_TRY(written, writeFileAtomically(path, std::span<const std::byte>(*bytes)));
     return {};
 }
 
 Result<void> readFile(const std::filesystem::path& path, Target& target) {
-    const auto file = FileBytes::read(path);
-    if (!file) return file.error();
+    SVT_TRY(file, FileBytes::read(path));
     if (auto decoded = decode(file->bytes(), target); !decoded)
         return Error(decoded.error().code(), decoded.error().message(), Place{path.string(), 0, 0, {}});
     return {};
@@ -204,19 +202,19 @@ Result<void> writePng(const std::filesystem::path& path, const Image<std::uint16
 
 Result<Image<Rgba8>> decodePng(std::span<const std::byte> bytes, std::int32_t maxSize) {
     Target target{false, maxSize};
-    if (auto decoded = decode(bytes, target); !decoded) return decoded.error();
+    SVT_DO(decode(bytes, target));
     return std::move(target.color);
 }
 
 Result<Image<Rgba8>> readPng(const std::filesystem::path& path, std::int32_t maxSize) {
     Target target{false, maxSize};
-    if (auto done = readFile(path, target); !done) return done.error();
+    SVT_DO(readFile(path, target));
     return std::move(target.color);
 }
 
 Result<Image<std::uint16_t>> readGrayPng(const std::filesystem::path& path) {
     Target target{true};
-    if (auto done = readFile(path, target); !done) return done.error();
+    SVT_DO(readFile(path, target));
     return std::move(target.gray);
 }
 

@@ -112,11 +112,9 @@ Result<Prepared> prepare(model::BuildingModel& model, const BuildOptions& option
     meshOptions.measuresThickness = false;  // below: only what is thinner than a voxel matters
     meshOptions.threads = options.threads;
     meshOptions.progress = options.progress;
-    auto meshes = mesh::buildMeshes(model, meshOptions, log);
-    if (!meshes) return meshes.error();
+    SVT_TRY(meshes, mesh::buildMeshes(model, meshOptions, log));
     std::optional<SpacingChoice> choice;
-    const auto grid = chooseGrid(*meshes, options, &choice);
-    if (!grid) return grid.error();
+    SVT_TRY(grid, chooseGrid(*meshes, options, &choice));
     if (options.grid)
         if (const auto checked = checkGivenGrid(model, *meshes, *grid, log); !checked) return checked.error();
     const Vec3d spacing = grid->spacing();
@@ -125,8 +123,7 @@ Result<Prepared> prepare(model::BuildingModel& model, const BuildOptions& option
     addCapFeatures(model, *meshes);
     std::vector<const StyleSheet*> sheets{&defaultStyle(options.usePatterns)};
     if (options.style != nullptr) sheets.push_back(options.style);
-    auto labelled = makeLabels(model, *meshes, sheets);
-    if (!labelled) return labelled.error();
+    SVT_TRY(labelled, makeLabels(model, *meshes, sheets));
     for (voxelize::PatternedObject& object : labelled->patterns) voxelize::fitPattern(object, grid->spacing());
     return Prepared{std::move(*meshes), *grid, std::move(choice), std::move(*labelled)};
 }
@@ -256,8 +253,7 @@ Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> f
     if (files.empty()) return Error(Code::BadArgument, "no input file");
     readers::ModelJoiner joiner(log);
     for (const std::filesystem::path& file : files) {
-        auto model = readers::readModel(file, options, log);
-        if (!model) return model.error();
+        SVT_TRY(model, readers::readModel(file, options, log));
         joiner.add(std::move(*model));
         options.likelyCrs = joiner.joined().crs.epsg;
     }
@@ -320,8 +316,7 @@ Result<BuildOutput> buildFrom(model::BuildingModel& model, const BuildOptions& o
     BuildOutput output;
     BuildReport& report = output.report;
     auto start = Clock::now();
-    auto prepared = prepare(model, options, log);
-    if (!prepared) return prepared.error();
+    SVT_TRY(prepared, prepare(model, options, log));
     if (!keepsContent) dropContent(model);
     const auto& [meshes, grid, choice, labelled] = *prepared;
     report.seconds.mesh = secondsSince(start);
@@ -329,8 +324,7 @@ Result<BuildOutput> buildFrom(model::BuildingModel& model, const BuildOptions& o
     start = Clock::now();
     std::vector<voxelize::BodyGroup> groups;
     if (options.assignThematicBodies) groups = findBodyGroups(meshes, labelled);
-    auto voxels = makeVoxels(*prepared, groups, options);
-    if (!voxels) return voxels.error();
+    SVT_TRY(voxels, makeVoxels(*prepared, groups, options));
     report.seconds.voxelize = secondsSince(start);
 
     start = Clock::now();
@@ -345,9 +339,8 @@ Result<BuildOutput> buildFrom(model::BuildingModel& model, const BuildOptions& o
     report.spacing = choice;
     for (const std::uint64_t count : voxels->uncertainVoxels) report.uncertainVoxels += count;
     Progress::tell(options.progress, "pack", 0.5);
-    auto vectors = makeVectorParts(meshes, labelled.labelOfObject, grid, options.vectors,
-                                   {model.lines, labelled.labelOfLine}, options.threads);
-    if (!vectors) return vectors.error();
+    SVT_TRY(vectors, makeVectorParts(meshes, labelled.labelOfObject, grid, options.vectors,
+                                     {model.lines, labelled.labelOfLine}, options.threads));
     output.volume.vectors = std::move(*vectors);
     Progress::tell(options.progress, "pack", 0.7);
     output.volume.planes = voxelize::findFacePlanes(meshes, grid);
@@ -379,11 +372,9 @@ Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, co
     reading.keepFarFeatures = options.keepFarFeatures;
     reading.extrudeFootprints = options.extrudeFootprints;
     reading.allowTruncated = options.allowTruncated;
-    auto model = readModels(files, reading, log);
-    if (!model) return model.error();
+    SVT_TRY(model, readModels(files, reading, log));
     const double readSeconds = secondsSince(start);
-    auto output = buildFrom(*model, options, false, log);
-    if (!output) return output.error();
+    SVT_TRY(output, buildFrom(*model, options, false, log));
     output->report.seconds.read = readSeconds;
     output->report.seconds.total = secondsSince(start);
     return output;

@@ -83,8 +83,7 @@ Result<void> readCells(const json& value, const std::string& path, const std::fi
     if (pattern.kind != voxelize::PatternKind::Raw)
         return badStyle(path + ".file", "only the types image and raw read a file");
     if (!value.contains("dimension")) return badStyle(path, "type raw needs \"dimension\": [x, y, z]");
-    const auto dimension = vectorOf(value["dimension"], path + ".dimension");
-    if (!dimension) return dimension.error();
+    SVT_TRY(dimension, vectorOf(value["dimension"], path + ".dimension"));
     for (int axis = 0; axis < 3; ++axis)
         if (const double v = (*dimension)[axis]; !(v >= 1 && v <= 1024 && v == std::floor(v)))
             return badStyle(path + ".dimension",
@@ -112,15 +111,13 @@ Result<void> readPattern(const json& value, const std::string& path, const std::
         return badStyle(path + ".type", fmt::format("expected one of {}", fmt::join(names, ", ")));
     }
     if (value.contains("size")) {
-        const auto size = vectorOf(value["size"], path + ".size");
-        if (!size) return size.error();
+        SVT_TRY(size, vectorOf(value["size"], path + ".size"));
         pattern.size = *size;
     }
     for (const auto& [name, target] :
          {std::pair<const char*, double*>{"line", &pattern.line}, {"angle", &pattern.angleDegrees}}) {
         if (!value.contains(name)) continue;
-        const auto number = numberOf(value[name], path + "." + name);
-        if (!number) return number.error();
+        SVT_TRY(number, numberOf(value[name], path + "." + name));
         *target = *number;
     }
     if (value.contains("seed")) {
@@ -128,12 +125,11 @@ Result<void> readPattern(const json& value, const std::string& path, const std::
             return badStyle(path + ".seed", "expected a whole number from 0 to 4294967295");
         pattern.seed = static_cast<std::uint32_t>(value["seed"].get<std::uint64_t>());
     }
-    if (auto texels = readCells(value, path, folder, pattern); !texels) return texels.error();
+    SVT_DO(readCells(value, path, folder, pattern));
     auto made = voxelize::makePattern(std::move(pattern));
     if (!made) return atPath(path, made.error());
     if (value.contains("colors")) {
-        auto colors = colorsOf(value["colors"], path + ".colors");
-        if (!colors) return colors.error();
+        SVT_TRY(colors, colorsOf(value["colors"], path + ".colors"));
         rule.patternColors = std::move(*colors);
     }
     rule.pattern = std::move(*made);
@@ -141,8 +137,7 @@ Result<void> readPattern(const json& value, const std::string& path, const std::
 }
 
 Result<StyleRule> readRule(const json& value, const std::string& path, const std::filesystem::path& folder) {
-    if (auto checked = checkMembers(value, path, {"select", "color", "opacity", "pattern", "comment"}); !checked)
-        return checked.error();
+    SVT_DO(checkMembers(value, path, {"select", "color", "opacity", "pattern", "comment"}));
     if (!value.contains("select") || !value["select"].is_string())
         return badStyle(path, "expected \"select\" with a query");
     auto query = model::Query::parse(value["select"].get<std::string>());
@@ -155,8 +150,7 @@ Result<StyleRule> readRule(const json& value, const std::string& path, const std
         rule.color = *color;
     }
     if (value.contains("opacity")) {
-        const auto opacity = numberOf(value["opacity"], path + ".opacity");
-        if (!opacity) return opacity.error();
+        SVT_TRY(opacity, numberOf(value["opacity"], path + ".opacity"));
         if (!(*opacity >= 0 && *opacity <= 1))
             return badStyle(path + ".opacity", fmt::format("{} is out of range; 0 to 1 are possible", *opacity));
         rule.opacity = static_cast<float>(*opacity);
@@ -183,8 +177,7 @@ Vec3f shade(Vec3f color, std::size_t phase) {
 
 Result<std::string> readText(const std::filesystem::path& file) {
     constexpr std::uint64_t kMaxBytes = std::uint64_t{16} << 20;
-    const auto mapped = FileBytes::read(file, kMaxBytes);
-    if (!mapped) return mapped.error();
+    SVT_TRY(mapped, FileBytes::read(file, kMaxBytes));
     return std::string(mapped->text());
 }
 
@@ -206,7 +199,7 @@ Result<json> parseRules(std::string_view text) {
     if (deepest > 64) return badStyle("file", fmt::format("nested {} deep; 64 levels are possible", deepest));
     json root = json::parse(text.begin(), text.end(), nullptr, false);
     if (root.is_discarded()) return badStyle("file", "not well-formed JSON");
-    if (auto checked = checkMembers(root, "file", {"rules", "$schema", "comment"}); !checked) return checked.error();
+    SVT_DO(checkMembers(root, "file", {"rules", "$schema", "comment"}));
     if (!root.contains("rules") || !root["rules"].is_array()) return badStyle("file", "expected \"rules\": [...]");
     return root;
 }
@@ -231,21 +224,18 @@ const StyleSheet& defaultStyle(bool withPatterns) {
 }
 
 Result<StyleSheet> parseStyleSheet(std::string_view text, const std::filesystem::path& folder) {
-    const auto root = parseRules(text);
-    if (!root) return root.error();
+    SVT_TRY(root, parseRules(text));
     const json& rules = root->at("rules");
     StyleSheet sheet;
     for (std::size_t r = 0; r < rules.size(); ++r) {
-        auto rule = readRule(rules[r], fmt::format("rules[{}]", r), folder);
-        if (!rule) return rule.error();
+        SVT_TRY(rule, readRule(rules[r], fmt::format("rules[{}]", r), folder));
         sheet.rules.push_back(std::move(*rule));
     }
     return sheet;
 }
 
 Result<StyleSheet> readStyleSheet(const std::filesystem::path& file) {
-    const auto text = readText(file);
-    if (!text) return text.error();
+    SVT_TRY(text, readText(file));
     auto sheet = parseStyleSheet(*text, file.parent_path());
     // An error in the file of a pattern keeps that file as its place.
     if (!sheet && sheet.error().where().file.empty())

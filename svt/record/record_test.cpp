@@ -23,12 +23,12 @@ struct Cart {
     int seats = 2;
     bool isOpen = false;
     Side side = Side::Left;
-    std::string name;
-    std::optional<double> load;
-    std::optional<Vec3d> hook;
-    Lamp lamp;
-    std::optional<Wheel> spare;
-    std::vector<std::string> goods;
+    std::string name{};
+    std::optional<double> load{};
+    std::optional<Vec3d> hook{};
+    Lamp lamp{};
+    std::optional<Wheel> spare{};
+    std::vector<std::string> goods{};
     std::vector<Wheel> wheels{{"oak", 0.5}};
     friend bool operator==(const Cart&, const Cart&) = default;
 };

@@ -643,8 +643,7 @@ HttpServer::~HttpServer() = default;
 
 Result<HttpServer> HttpServer::listen(Site site, std::vector<Route> routes, const ServerOptions& options) {
     int port = 0;
-    auto listener = openListener(options, port);
-    if (!listener) return listener.error();
+    SVT_TRY(listener, openListener(options, port));
     auto loop = std::make_unique<Loop>(std::move(site), options, std::move(*listener), port);
     for (Route& route : routes) loop->addRoute(std::move(route));
     return HttpServer(std::move(loop));

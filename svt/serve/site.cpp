@@ -253,13 +253,11 @@ void Site::allowOrigin(const std::string& origin) {
 }
 
 Result<void> Site::addFolder(const fs::path& folder) {
-    const auto files = filesOf(folder);
-    if (!files) return files.error();
+    SVT_TRY(files, filesOf(folder));
     std::uint64_t total = 0;
     std::vector<Bytes> contents;
     for (const Found& found : *files) {
-        const auto file = FileBytes::read(found.file);
-        if (!file) return file.error();
+        SVT_TRY(file, FileBytes::read(found.file));
         total += file->bytes().size();
         if (total > kMaxFolderBytes)
             return Error(Code::InputTooBig,
@@ -333,7 +331,7 @@ Reply Site::reply(const Request& request) const {
 
 Result<Site> viewerSite(const fs::path& viewer, std::span<const SiteModel> models) {
     Site site;
-    if (auto added = site.addFolder(viewer); !added) return added.error();
+    SVT_DO(site.addFolder(viewer));
     if (site.find("/index.html") == nullptr)
         return cannotOpen(viewer,
                           "the folder has no index.html, so it holds no viewer's page; `make viewer` builds it");
@@ -420,7 +418,7 @@ Result<void> checkSiteFolder(const fs::path& folder, bool mayReplace) {
 }
 
 Result<std::uint64_t> writeSite(const Site& site, const fs::path& folder, bool mayReplace) {
-    if (auto checked = checkSiteFolder(folder, mayReplace); !checked) return checked.error();
+    SVT_DO(checkSiteFolder(folder, mayReplace));
     std::error_code error;
     const bool isThere = fs::exists(folder, error);
     const Unfinished made = Unfinished::path([&] {
@@ -442,8 +440,7 @@ Result<std::uint64_t> writeSite(const Site& site, const fs::path& folder, bool m
         for (const auto& [path, resource] : site.resources()) {
             const fs::path file = staging.path / path.substr(1);
             makeFolders(file.parent_path());
-            const auto written = writeFileAtomically(file, resource.bytes.data);
-            if (!written) return written.error();
+            SVT_TRY(written, writeFileAtomically(file, resource.bytes.data));
             total += *written;
         }
         for (const auto& [path, resource] : site.resources())

@@ -34,7 +34,7 @@ Result<Grid> Grid::fromDimension(const Box3d& envelope, Vec3i dimension) {
     if (envelope.isEmpty() || !isFinite(envelope.min) || !isFinite(envelope.max))
         return Error(Code::BadDimension, "the envelope is empty: there is no geometry to lay a grid over");
     const Vec3d count{double(dimension.x), double(dimension.y), double(dimension.z)};
-    if (auto checked = checkDimension(count); !checked) return checked.error();
+    SVT_DO(checkDimension(count));
     Vec3d size = envelope.size();
     const double largest = std::max({size.x, size.y, size.z});
     const double smallest = std::max(largest * 1e-3, 1e-3);
@@ -65,7 +65,7 @@ Result<Grid> Grid::fromSpacing(const Box3d& envelope, Vec3d spacing) {
         // margin, half of it at each side.
         count[axis] = std::max(0.0, std::ceil(size[axis] / spacing[axis] - 1e-6)) + 2;
     }
-    if (auto checked = checkDimension(count); !checked) return checked.error();
+    SVT_DO(checkDimension(count));
     Grid grid;
     for (int axis = 0; axis < 3; ++axis) {
         grid.dimension_[axis] = static_cast<std::int32_t>(count[axis]);
@@ -76,8 +76,7 @@ Result<Grid> Grid::fromSpacing(const Box3d& envelope, Vec3d spacing) {
 }
 
 Result<Grid> Grid::fromParts(Vec3i dimension, Vec3d spacing, Vec3d origin, const std::array<Vec3d, 3>& axes) {
-    if (auto checked = checkDimension({double(dimension.x), double(dimension.y), double(dimension.z)}); !checked)
-        return checked.error();
+    SVT_DO(checkDimension({double(dimension.x), double(dimension.y), double(dimension.z)}));
     for (int axis = 0; axis < 3; ++axis)
         if (!(spacing[axis] > 0) || !std::isfinite(spacing[axis]) || !std::isfinite(origin[axis]))
             return Error(Code::BadDimension, "spacing must be greater than 0 and origin finite");

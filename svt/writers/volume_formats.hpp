@@ -19,22 +19,6 @@
 
 namespace svt::writers {
 
-/// A row of the table.
-struct VolumeFormat {
-    std::string_view name;  ///< of the option, such as "nrrd"; unique
-    std::string_view
-        endings;  ///< of files, "|" between them: ".nii|.nii.gz"; the longest that fits a name tells its format
-    std::string_view holds;    ///< what is written, as the manual says it
-    std::string_view readers;  ///< who reads it
-    bool isDense = false;      ///< every sample is written
-};
-
-/// All formats, in the order of the manual.
-[[nodiscard]] std::span<const VolumeFormat> volumeFormats() noexcept;
-
-/// The format that the name of `path` tells by its ending, in any case; null: none of them.
-[[nodiscard]] const VolumeFormat* volumeFormatOf(const std::filesystem::path& path);
-
 /// Where a format that is a document (X3D, CityGML) has the samples.
 enum class TextureKind : std::uint8_t {
     Pixel,     ///< PixelTexture3D: numbers in the document
@@ -68,6 +52,25 @@ struct VolumeWriteOptions {
     int threads = 0;                          ///< maximum; 0: all cores. The bytes do not depend on it.
     const Progress* progress = nullptr;       ///< stages by format
 };
+
+/// A format, declared beside its code.
+struct VolumeFormat {
+    std::string_view name;  ///< of the option, such as "nrrd"; unique
+    /// Of files, "|" between them: ".nii|.nii.gz"; the longest that fits a name decides its format.
+    std::string_view endings;
+    std::string_view holds;    ///< content, for the manual
+    std::string_view readers;  ///< programs that read it
+    bool isDense = false;      ///< every sample is written
+    /// Writes a file, see writeVolume().
+    Result<std::uint64_t> (*write)(const volume::SemanticVolume& volume, const std::filesystem::path& path,
+                                   const VolumeWriteOptions& options);
+};
+
+/// All formats, in the order of the manual.
+[[nodiscard]] std::span<const VolumeFormat> volumeFormats() noexcept;
+
+/// The format that the name of `path` tells by its ending, in any case; null: none of them.
+[[nodiscard]] const VolumeFormat* volumeFormatOf(const std::filesystem::path& path);
 
 /// Writes the volume in the format that the file's name tells, all or nothing; equal volumes give equal bytes.
 /// Memory of dense formats: below 256 MB besides volume and label table, whatever the dense size.

@@ -23,10 +23,8 @@ std::string keyOf(const std::vector<city::IndexEntry>& entries) {
 
 Result<void> CityPage::open() {
     if (city_) return {};
-    auto opened = city::City::open(bytes_.store(), {});
-    if (!opened) return opened.error();
-    auto frame = city::frameVolume(*opened);
-    if (!frame) return frame.error();
+    SVT_TRY(opened, city::City::open(bytes_.store(), {}));
+    SVT_TRY(frame, city::frameVolume(*opened));
     city_ = std::move(*opened);
     frame_ = std::move(*frame);
     return {};
@@ -39,17 +37,15 @@ Result<city::ChosenTiles> CityPage::choose(const CityWish& wish) {
     seen.camera = wish.scene->camera;
     seen.width = wish.scene->width;
     seen.height = wish.scene->height;
-    const auto spec = illustrate::makeFrameSpec(seen, frame_);
-    if (!spec) return spec.error();
+    SVT_TRY(spec, illustrate::makeFrameSpec(seen, frame_));
     city::CameraView view = city::cameraViewOf(*spec, frame_.grid);
     view.pixel *= std::max(1.0, wish.pixels);
     return city::chooseTiles(*city_, view, wish.memoryBytes);
 }
 
 Result<CityPage::Look> CityPage::look(const CityWish& wish) {
-    if (auto opened = open(); !opened) return opened.error();
-    auto chosen = choose(wish);
-    if (!chosen) return chosen.error();
+    SVT_DO(open());
+    SVT_TRY(chosen, choose(wish));
     Look look;
     look.pixels = chosen->pixels * std::max(1.0, wish.pixels);
     look.key = keyOf(chosen->entries);
@@ -71,8 +67,7 @@ Result<CityPage::Look> CityPage::look(const CityWish& wish) {
     }
     if (!parts) return parts.error();
     bytes_.forget();
-    auto joined = city::joinTiles(*city_, frame_, *chosen, std::move(*parts));
-    if (!joined) return joined.error();
+    SVT_TRY(joined, city::joinTiles(*city_, frame_, *chosen, std::move(*parts)));
     look.tiles = chosen->entries.size();
     for (const city::IndexEntry& entry : chosen->entries) look.bytes += entry.size;
     if (!chosen->entries.empty()) {
@@ -85,18 +80,15 @@ Result<CityPage::Look> CityPage::look(const CityWish& wish) {
 
 Result<illustrate::SceneCamera> CityPage::find(const std::string& id, const illustrate::SceneCamera& now,
                                                double aspect) {
-    if (auto opened = open(); !opened) return opened.error();
-    const auto places = city_->find(id);
-    if (!places) return places.error();
+    SVT_DO(open());
+    SVT_TRY(places, city_->find(id));
     for (const city::City::Place& place : *places) {
         const double side = city::tileSide(place.tile, 0, city_->spacing());
-        const auto entries = city_->find(
-            0, {place.tile.x * side, place.tile.y * side, (place.tile.x + 1) * side, (place.tile.y + 1) * side});
-        if (!entries) return entries.error();
+        SVT_TRY(entries, city_->find(0, {place.tile.x * side, place.tile.y * side, (place.tile.x + 1) * side,
+                                         (place.tile.y + 1) * side}));
         for (const city::IndexEntry& entry : *entries) {
             if (!(entry.tile == place.tile)) continue;
-            const auto tile = city_->read(entry);
-            if (!tile) return tile.error();
+            SVT_TRY(tile, city_->read(entry));
             auto camera = illustrate::makeView("id=" + id, "", now, aspect, *tile);
             if (!camera) continue;  // another id of the same hash
             const Vec3d by = tile->grid.origin() - frame_.grid.origin();

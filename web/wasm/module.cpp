@@ -120,8 +120,7 @@ Result<Reply> open(const Arguments& arguments) {
         options.isDraft = wanted.value("draft", false);
         options.memoryBytes = static_cast<std::uint64_t>(std::max(0.0, wanted.value("memory", 0.0)));
     }
-    auto opened = Session::open(files, options, &progress);
-    if (!opened) return opened.error();
+    SVT_TRY(opened, Session::open(files, options, &progress));
     session = std::move(*opened);
     return Reply(infoOf(*session));
 }
@@ -130,7 +129,7 @@ Result<Reply> open(const Arguments& arguments) {
 Result<Reply> owners(const Arguments& arguments) {
     const auto bytes = arguments.bytes();
     const std::string_view table(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (auto done = session->setOwners(table, arguments.text(0)); !done) return done.error();
+    SVT_DO(session->setOwners(table, arguments.text(0)));
     return Reply(std::string("null"));
 }
 
@@ -143,24 +142,21 @@ Json jsonOf(Vec3d p) { return Json::array({p.x, p.y, p.z}); }
 
 // (point) -> the eye of who stands near it, or null
 Result<Reply> stand(const Arguments& arguments) {
-    const auto wanted = pointAt(arguments, 0);
-    if (!wanted) return wanted.error();
+    SVT_TRY(wanted, pointAt(arguments, 0));
     const auto place = standingPlace(*session, *wanted);
     return Reply((place ? jsonOf(*place) : Json(nullptr)).dump());
 }
 
 // (eye, step) -> the eye after it
 Result<Reply> step(const Arguments& arguments) {
-    const auto eye = pointAt(arguments, 0), by = pointAt(arguments, 1);
-    if (!eye) return eye.error();
+    SVT_TRY(eye, pointAt(arguments, 0), by = pointAt(arguments, 1));
     if (!by) return by.error();
     return Reply(jsonOf(afterStep(*session, *eye, *by)).dump());
 }
 
 // (scene) -> [{text, by}]: its section planes that lie in faces of the model, and how far they are moved
 Result<Reply> movedPlanes(const Arguments& arguments) {
-    const auto scene = arguments.scene(0);
-    if (!scene) return scene.error();
+    SVT_TRY(scene, arguments.scene(0));
     Json list = Json::array();
     for (const illustrate::MovedPlane& plane : illustrate::planesInFaces(*scene, session->volume()))
         list.push_back({{"text", plane.text}, {"by", plane.by}});
@@ -169,18 +165,16 @@ Result<Reply> movedPlanes(const Arguments& arguments) {
 
 // The bytes of DejaVuSans.ttf -> nothing. Needed before names are drawn.
 Result<Reply> font(const Arguments& arguments) {
-    if (auto done = setFont(arguments.bytes()); !done) return done.error();
+    SVT_DO(setFont(arguments.bytes()));
     return Reply(std::string("null"));
 }
 
 // (scene) -> what the colours of its colorBy mean: {title, isRamp, low, high, entries: [{text, count}], missing}
 Result<Reply> legend(const Arguments& arguments) {
-    const auto scene = arguments.scene(0);
-    if (!scene) return scene.error();
+    SVT_TRY(scene, arguments.scene(0));
     illustrate::ColorScale scale;
     const analyze::LabelRows rows(session->volume().labels);
-    if (const auto spec = illustrate::makeFrameSpec(*scene, session->volume(), rows, &scale); !spec)
-        return spec.error();
+    SVT_DO(illustrate::makeFrameSpec(*scene, session->volume(), rows, &scale));
     Json entries = Json::array();
     for (const auto& entry : scale.entries) entries.push_back({{"text", entry.text}, {"count", entry.count}});
     return Reply(Json{{"title", scale.title},
@@ -194,23 +188,20 @@ Result<Reply> legend(const Arguments& arguments) {
 
 // (scene, width, height, whether a draft will do) -> RGBA, row by row from the top
 Result<Reply> draw(const Arguments& arguments) {
-    auto scene = arguments.picture(0);
-    if (!scene) return scene.error();
+    SVT_TRY(scene, arguments.picture(0));
     scene->width = arguments.pixels(1);
     scene->height = arguments.pixels(2);
-    const auto frame = session->draw(*scene, arguments.at(3) == true);
-    if (!frame) return frame.error();
+    SVT_TRY(frame, session->draw(*scene, arguments.at(3) == true));
     return Reply(std::as_bytes(std::span((*frame)->color.pixels())));
 }
 
 // (scene, width, height, whether it is an invisible trial) -> nothing; drawn into the current context
 Result<Reply> drawGl(const Arguments& arguments) {
-    auto scene = arguments.scene(0);
-    if (!scene) return scene.error();
+    SVT_TRY(scene, arguments.scene(0));
     scene->width = arguments.pixels(1);
     scene->height = arguments.pixels(2);
     const auto purpose = arguments.at(3) == true ? Session::Purpose::Trial : Session::Purpose::Shown;
-    if (auto drawn = session->drawGl(*scene, purpose); !drawn) return drawn.error();
+    SVT_DO(session->drawGl(*scene, purpose));
     return Reply(std::string("null"));
 }
 Result<Reply> dropGl(const Arguments&) {
@@ -220,8 +211,7 @@ Result<Reply> dropGl(const Arguments&) {
 
 // (scene, effects) -> scene
 Result<Reply> compose(const Arguments& arguments) {
-    auto scene = arguments.scene(0);
-    if (!scene) return scene.error();
+    SVT_TRY(scene, arguments.scene(0));
     const Json& effects = arguments.at(1);
     const auto textOf = [](const Json& of, const char* member) { return of.value(member, std::string()); };
     if (const auto lens = effects.find("lens"); lens != effects.end())
@@ -264,8 +254,7 @@ Json sceneCameraJson(illustrate::SceneCamera camera) {
 Result<Reply> view(const Arguments& arguments) {
     const auto now = illustrate::parseScene(Json{{"camera", arguments.at(2)}}.dump(), "camera");
     if (!now) return now.error();
-    auto camera = session->view(arguments.text(0), arguments.text(1), now->camera);
-    if (!camera) return camera.error();
+    SVT_TRY(camera, session->view(arguments.text(0), arguments.text(1), now->camera));
     return Reply(sceneCameraJson(std::move(*camera)).dump());
 }
 
@@ -303,8 +292,7 @@ Result<Reply> cityLook(const Arguments& arguments) {
     if (!cityPage || arguments.at(0) == true) cityPage = std::make_unique<CityPage>();
     CityWish wish;
     if (arguments.at(1).is_object()) {
-        auto scene = arguments.scene(1);
-        if (!scene) return scene.error();
+        SVT_TRY(scene, arguments.scene(1));
         scene->width = arguments.pixels(2);
         scene->height = arguments.pixels(3);
         wish.scene = std::move(*scene);
@@ -347,34 +335,28 @@ Result<Reply> cityFind(const Arguments& arguments) {
 
 // (scene) -> PNG
 Result<Reply> picture(const Arguments& arguments) {
-    const auto scene = arguments.picture(0);
-    if (!scene) return scene.error();
-    auto png = session->picture(*scene);
-    if (!png) return png.error();
+    SVT_TRY(scene, arguments.picture(0));
+    SVT_TRY(png, session->picture(*scene));
     return Reply(std::move(*png));
 }
 
 // (scene) -> PNG, 16 bits gray: the scalar of each pixel
 Result<Reply> labels(const Arguments& arguments) {
-    const auto scene = arguments.picture(0);
-    if (!scene) return scene.error();
-    auto png = session->labels(*scene);
-    if (!png) return png.error();
+    SVT_TRY(scene, arguments.picture(0));
+    SVT_TRY(png, session->labels(*scene));
     return Reply(std::move(*png));
 }
 
 // (plane, format, {beyond, above, dimensions}) -> the file's bytes
 Result<Reply> drawing(const Arguments& arguments) {
     const volume::SemanticVolume& volume = session->volume();
-    const auto plane = illustrate::parseSectionPlane(arguments.text(0), volume);
-    if (!plane) return plane.error();
+    SVT_TRY(plane, illustrate::parseSectionPlane(arguments.text(0), volume));
     const Json& wanted = arguments.at(2);
     illustrate::SectionOptions options;
     options.beyond.visible = wanted.is_object() && wanted.value("beyond", false);
     options.beyond.above = wanted.is_object() && wanted.value("above", false);
     options.dimensions = wanted.is_object() && wanted.value("dimensions", false);
-    const auto drawn = illustrate::drawSection(volume, *plane, options);
-    if (!drawn) return drawn.error();
+    SVT_TRY(drawn, illustrate::drawSection(volume, *plane, options));
     if (drawn->components.empty() && drawn->beyond.empty())
         return Error(Code::BadSection,
                      fmt::format("the plane '{}' cuts nothing that is shown; move it", arguments.text(0)));
@@ -391,8 +373,7 @@ Result<Reply> drawing(const Arguments& arguments) {
 Result<Reply> sheets(const Arguments& arguments) {
     if (!hasFont()) return Error(Code::BadArgument, "sheets cannot be drawn without their font; give it first");
     const volume::SemanticVolume& volume = session->volume();
-    auto chosen = illustrate::chooseSheetViews(volume);
-    if (!chosen) return chosen.error();
+    SVT_TRY(chosen, illustrate::chooseSheetViews(volume));
     const auto language = arguments.text(0) == "de" ? writers::SheetLanguage::German : writers::SheetLanguage::English;
     writers::SheetContent content;
     content.levels = std::move(chosen->levels);
@@ -407,12 +388,10 @@ Result<Reply> sheets(const Arguments& arguments) {
         options.smallestArea = 1e-4;
         options.beyond = view.beyond;
         options.dimensions = view.kind == illustrate::ViewKind::Plan;
-        auto drawn = illustrate::drawSection(volume, view.plane, options);
-        if (!drawn) return drawn.error();
+        SVT_TRY(drawn, illustrate::drawSection(volume, view.plane, options));
         content.views.push_back({std::move(view), std::move(*drawn), groups[content.views.size()]});
     }
-    const auto areas = illustrate::measureFloorAreas(volume, content.levels);
-    if (!areas) return areas.error();
+    SVT_TRY(areas, illustrate::measureFloorAreas(volume, content.levels));
     content.tables = writers::makeAreaTables(*areas, content.levels, language);
     const auto made = writers::makeSvgSheets(content, volume, {0, "A3", language, {}});
     if (!made) return made.error();

@@ -245,8 +245,7 @@ std::string pickOf(Session& session, double x, double y, double reach) {
 }
 
 Result<std::string> intervalsOf(Session& session, double x, double y) {
-    const auto intervals = session.along(x, y);
-    if (!intervals) return intervals.error();
+    SVT_TRY(intervals, session.along(x, y));
     Json list = Json::array();
     for (const render::LabelInterval& interval : *intervals) {
         Json row = namesOf(session.volume().labels.labels[interval.label]);
@@ -259,8 +258,7 @@ Result<std::string> intervalsOf(Session& session, double x, double y) {
 
 Result<std::string> selectionOf(const Session& session, const std::string& query) {
     const auto& table = session.volume().labels;
-    const auto selected = analyze::selectLabels(table, query);
-    if (!selected) return selected.error();
+    SVT_TRY(selected, analyze::selectLabels(table, query));
     Json list = Json::array();
     for (const std::uint32_t l : *selected) list.push_back(table.labels[l].id);
     return textOf(list);

@@ -37,8 +37,7 @@ Result<void> build(std::span<const NamedBytes> files, const OpenOptions& options
     reading.progress = progress;
     readers::ModelJoiner joiner(&findings);
     for (const NamedBytes& file : files) {
-        auto model = readers::readModel(file.bytes, file.name, reading, &findings);
-        if (!model) return model.error();
+        SVT_TRY(model, readers::readModel(file.bytes, file.name, reading, &findings));
         joiner.add(std::move(*model));
     }
     pipeline::BuildOptions building;
@@ -48,8 +47,7 @@ Result<void> build(std::span<const NamedBytes> files, const OpenOptions& options
     else if (options.memoryBytes != 0)
         building.memoryBytes = std::min(building.memoryBytes, options.memoryBytes);
     building.progress = progress;
-    auto output = pipeline::buildVolume(joiner.joined(), building, &findings);
-    if (!output) return output.error();
+    SVT_TRY(output, pipeline::buildVolume(joiner.joined(), building, &findings));
     if (output->report.spacing) into.spacingReason = output->report.spacing->reason;
     into.volumes.push_back(std::move(output->volume));
     return {};
@@ -61,22 +59,19 @@ Result<Loaded> load(std::span<const NamedBytes> files, const OpenOptions& option
     const bool hasVolumes = std::any_of(files.begin(), files.end(),
                                         [](const NamedBytes& file) { return volume::looksLikeSvt(file.bytes); });
     if (!hasVolumes) {
-        if (auto built = build(files, options, progress, findings, loaded); !built) return built.error();
+        SVT_DO(build(files, options, progress, findings, loaded));
         return loaded;
     }
     for (std::size_t n = 0; n < files.size(); ++n) {
         if (!volume::looksLikeSvt(files[n].bytes)) {
-            if (auto built = build(files.subspan(n, 1), options, progress, findings, loaded); !built)
-                return built.error();
+            SVT_DO(build(files.subspan(n, 1), options, progress, findings, loaded));
             continue;
         }
-        auto volume = volume::readSvt(files[n].bytes, files[n].name);
-        if (!volume) return volume.error();
+        SVT_TRY(volume, volume::readSvt(files[n].bytes, files[n].name));
         loaded.volumes.push_back(std::move(*volume));
     }
     auto& volumes = loaded.volumes;
-    if (auto joined = illustrate::joinLabels(volumes.front(), std::span(volumes).subspan(1)); !joined)
-        return joined.error();
+    SVT_DO(illustrate::joinLabels(volumes.front(), std::span(volumes).subspan(1)));
     return loaded;
 }
 
@@ -123,8 +118,7 @@ const volume::SemanticVolume& Session::volumeOf(std::uint32_t label) const {
 Result<illustrate::SceneCamera> Session::view(const std::string& query, const std::string& preset,
                                               const illustrate::SceneCamera& now) const {
     if (!isOfParts_ || query.empty()) return illustrate::makeView(query, preset, now, aspect(), volume_);
-    const auto selected = analyze::selectLabels(volume_.labels, query);
-    if (!selected) return selected.error();
+    SVT_TRY(selected, analyze::selectLabels(volume_.labels, query));
     for (const std::uint32_t label : *selected) {
         const volume::SemanticVolume& part = volumeOf(label);
         if (&part == &volume_) continue;
@@ -172,8 +166,7 @@ std::unique_ptr<Session> Session::around(std::uint32_t label) const {
 Result<std::unique_ptr<Session>> Session::open(std::span<const NamedBytes> files, const OpenOptions& options,
                                                const Progress* progress) {
     Diagnostics findings;
-    auto loaded = load(files, options, progress, findings);
-    if (!loaded) return loaded.error();
+    SVT_TRY(loaded, load(files, options, progress, findings));
     std::unique_ptr<Session> session(new Session(std::move(loaded->volumes), std::move(findings)));
     session->spacingReason_ = std::move(loaded->spacingReason);
     session->labelOfScalar_ = session->volume_.labels.labelOfScalar();
@@ -185,7 +178,7 @@ Result<void> Session::setOwners(std::string_view table, std::string_view file) {
         for (volume::Label& label : volume_.labels.labels)
             if (!label.attributes.empty() && label.attributes.back().name == "owner") label.attributes.pop_back();
     hasOwners_ = false;
-    if (auto added = illustrate::addOwnerAttributes(volume_, table, file); !added) return added;
+    SVT_DO(illustrate::addOwnerAttributes(volume_, table, file));
     hasOwners_ = true;
     return {};
 }
@@ -231,8 +224,7 @@ Result<const render::Frame*> Session::draw(const illustrate::Scene& scene, bool 
 }
 
 Result<void> Session::drawGl(const illustrate::Scene& scene, Purpose purpose) {
-    auto spec = illustrate::makeFrameSpec(scene, volume_);
-    if (!spec) return spec.error();
+    SVT_TRY(spec, illustrate::makeFrameSpec(scene, volume_));
     const auto forms = illustrate::volumeForms(scene);
     const int level = forms.front().level.value_or(render::levelForView(*spec, volume_.grid));
     const bool hasMore =
@@ -243,11 +235,10 @@ Result<void> Session::drawGl(const illustrate::Scene& scene, Purpose purpose) {
     if (!gl_) {
         const auto whole = painter_.form({{}, 0}, *spec);
         if (!whole) return whole.error();
-        auto made = render_gl::GlRenderer::make(whole->bricks(), volume_.grid);
-        if (!made) return made.error();
+        SVT_TRY(made, render_gl::GlRenderer::make(whole->bricks(), volume_.grid));
         gl_ = std::move(*made);
     }
-    if (auto drawn = gl_->draw(*spec); !drawn) return drawn;
+    SVT_DO(gl_->draw(*spec));
     if (purpose == Purpose::Trial) return {};
     lastSpec_ = std::move(*spec);
     lastForms_ = forms;
@@ -264,16 +255,13 @@ void Session::dropGl() {
 double Session::aspect() const noexcept { return lastSpec_ ? double(lastSpec_->width) / lastSpec_->height : 16.0 / 9; }
 
 Result<std::vector<std::byte>> Session::picture(const illustrate::Scene& scene) {
-    const auto painting = painter_.paint(scene, castOptions());
-    if (!painting) return painting.error();
+    SVT_TRY(painting, painter_.paint(scene, castOptions()));
     return image::encodePng(painting->frame.color);
 }
 
 Result<std::vector<std::byte>> Session::labels(const illustrate::Scene& scene) {
-    const auto painting = painter_.paint(scene, castOptions());
-    if (!painting) return painting.error();
-    const auto gray = render::grayFromLabels(painting->frame.label);
-    if (!gray) return gray.error();
+    SVT_TRY(painting, painter_.paint(scene, castOptions()));
+    SVT_TRY(gray, render::grayFromLabels(painting->frame.label));
     return image::encodePng(*gray);
 }
 
@@ -343,8 +331,7 @@ std::optional<Picked> Session::pickedAt(const render_gl::PickedPixel& pixel, con
 
 Result<std::vector<render::LabelInterval>> Session::along(double x, double y) {
     if (!lastSpec_) return std::vector<render::LabelInterval>{};
-    const auto painter = painter_.apart(lastApart_);
-    if (!painter) return painter.error();
+    SVT_TRY(painter, painter_.apart(lastApart_));
     const auto whole = (*painter)->form({{}, 0}, *lastSpec_);
     if (!whole) return whole.error();
     const auto ray = render::viewRay(*lastSpec_, whole->grid(), x, y);

@@ -37,8 +37,7 @@ public:
         Batch batch;
         readers::FeatureText feature;
         while (true) {
-            const auto found = file_.next(feature);
-            if (!found) return found.error();
+            SVT_TRY(found, file_.next(feature));
             if (*found) {
                 batch.texts.emplace_back(feature.text);
                 batch.lines.push_back(feature.line);
@@ -72,7 +71,7 @@ private:
         }
         dropRepeated(findings);
         findDuplicates(*model, findings);
-        if (auto taken = take_(*model, findings); !taken) return taken.error();
+        SVT_DO(take_(*model, findings));
         return true;
     }
 

@@ -32,8 +32,7 @@ void addFindings(const volume::SemanticVolume& tile, Counted& counted, Diagnosti
 // Reads all tiles of a detail; damaged ones are findings.
 Result<void> readAll(const city::City& city, int detail, const Progress* progress, Counted& counted,
                      Diagnostics& findings) {
-    const auto entries = city::allTiles(city, detail);
-    if (!entries) return entries.error();
+    SVT_TRY(entries, city::allTiles(city, detail));
     ProgressCounter counter(progress, "tiles", entries->size());
     for (const city::IndexEntry& entry : *entries) {
         if (Progress::isCancelled(progress)) return Error(Code::Cancelled, "stopped between tiles");

@@ -58,8 +58,7 @@ Result<void> forEachTile(const city::City& city, const std::vector<double>& box,
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     std::array<double, 4> rectangle{-kInfinity, -kInfinity, kInfinity, kInfinity};
     if (!box.empty()) rectangle = {box[0], box[1], box[3], box[4]};
-    auto entries = city.find(0, rectangle);
-    if (!entries) return entries.error();
+    SVT_TRY(entries, city.find(0, rectangle));
     if (isWanted) std::erase_if(*entries, [&](const city::IndexEntry& entry) { return !isWanted(entry); });
     const std::size_t batch = 2 * static_cast<std::size_t>(threads > 0 ? threads : hardwareThreads());
     ProgressCounter counter(progress, "tiles", entries->size());
@@ -72,7 +71,7 @@ Result<void> forEachTile(const city::City& city, const std::vector<double>& box,
         if (Progress::isCancelled(progress)) return Error(Code::Cancelled, "stopped between tiles");
         for (auto& volume : read) {
             if (!*volume) return volume->error();
-            if (auto done = work(**volume); !done) return done;
+            SVT_DO(work(**volume));
             volume.reset();
             counter.add();
         }

@@ -58,13 +58,12 @@ public:
     }
 
     Result<Table> run(const Progress* progress) {
-        auto entries = city::allTiles(city_, 0);
-        if (!entries) return entries.error();
+        SVT_TRY(entries, city::allTiles(city_, 0));
         entries_ = std::move(*entries);
         ProgressCounter counter(progress, "tiles", entries_.size());
         for (std::size_t n = 0; n < entries_.size(); ++n) {
             if (Progress::isCancelled(progress)) return Error(Code::Cancelled, "stopped between tiles");
-            if (auto done = compare(n); !done) return done.error();
+            SVT_DO(compare(n));
             tiles_.erase(n);
             counter.add();
         }
@@ -76,8 +75,7 @@ private:
 
     Result<std::shared_ptr<const Tile>> tile(std::size_t n) {
         if (const auto known = tiles_.find(n); known != tiles_.end()) return known->second;
-        auto volume = city_.read(entries_[n]);
-        if (!volume) return volume.error();
+        SVT_TRY(volume, city_.read(entries_[n]));
         auto made = std::make_shared<Tile>();
         made->volume = std::move(*volume);
         const std::vector<volume::Label>& labels = made->volume.labels.labels;
@@ -86,8 +84,7 @@ private:
             made->rootOf.push_back(labels[l].parent == volume::kNoLabel ? l : made->rootOf[labels[l].parent]);
         made->isSelected.assign(labels.size(), false);
         std::vector<std::string> nothing;
-        const auto selected = analyze::selectLabels(analyze::LabelRows(made->volume.labels, &nothing), query_);
-        if (!selected) return selected.error();
+        SVT_TRY(selected, analyze::selectLabels(analyze::LabelRows(made->volume.labels, &nothing), query_));
         for (const std::uint32_t l : *selected) made->isSelected[made->rootOf[l]] = true;
         // The last one in the order of the curve is needed last.
         if (tiles_.size() >= kMostTiles) tiles_.erase(std::prev(tiles_.end()));
@@ -96,8 +93,7 @@ private:
     }
 
     Result<void> compare(std::size_t n) {
-        const auto own = tile(n);
-        if (!own) return own.error();
+        SVT_TRY(own, tile(n));
         Pairs within;
         for (const volume::Overlap& overlap : (*own)->volume.labels.overlaps) {
             const std::uint32_t a = (*own)->rootOf[overlap.a], b = (*own)->rootOf[overlap.b];
@@ -106,8 +102,7 @@ private:
         add(within, **own, **own, entries_[n].tile.toString());
         for (std::size_t other = n + 1; other < entries_.size(); ++other) {
             if (!meet(entries_[n], entries_[other])) continue;
-            const auto next = tile(other);
-            if (!next) return next.error();
+            SVT_TRY(next, tile(other));
             add(commonSamples(**own, **next), **own, **next,
                 entries_[n].tile.toString() + " " + entries_[other].tile.toString());
         }
@@ -147,8 +142,7 @@ private:
 }  // namespace
 
 Result<Table> cityOverlaps(const std::filesystem::path& folder, const std::string& query, const Progress* progress) {
-    const auto city = city::City::open(folder);
-    if (!city) return city.error();
+    SVT_TRY(city, city::City::open(folder));
     return Overlaps(*city, query).run(progress);
 }
 

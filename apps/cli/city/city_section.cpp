@@ -126,24 +126,20 @@ bool cuts(const illustrate::SectionPlane& plane, const volume::Grid& grid) {
 
 Result<CitySection> cutCity(const std::filesystem::path& folder, const std::string& text,
                             const illustrate::SectionOptions& options, const Progress* progress) {
-    const auto city = city::City::open(folder);
-    if (!city) return city.error();
-    auto frame = city::frameVolume(*city);
-    if (!frame) return frame.error();
-    const auto plane = illustrate::parseSectionPlane(text, *frame);
-    if (!plane) return plane.error();
+    SVT_TRY(city, city::City::open(folder));
+    SVT_TRY(frame, city::frameVolume(*city));
+    SVT_TRY(plane, illustrate::parseSectionPlane(text, *frame));
     Collector collector(*plane, std::move(*frame));
     const auto cut = [&](const volume::SemanticVolume& tile) -> Result<void> {
         if (!cuts(*plane, tile.grid)) return {};
-        auto drawing = illustrate::drawSection(tile, *plane, options);
-        if (!drawing) return drawing.error();
+        SVT_TRY(drawing, illustrate::drawSection(tile, *plane, options));
         collector.add(std::move(*drawing), tile);
         return {};
     };
     // Of a building its middle is in the tile: it reaches out by half of its length at most.
     constexpr double kReach = 500;
     const auto isWanted = [&](const city::IndexEntry& entry) { return mayCut(*plane, entry, kReach); };
-    if (auto done = forEachTile(*city, {}, options.threads, progress, cut, isWanted); !done) return done.error();
+    SVT_DO(forEachTile(*city, {}, options.threads, progress, cut, isWanted));
     return collector.finish();
 }
 

@@ -32,10 +32,8 @@ public:
     CitySquares(const city::City& city, int finest) : city_(city), finestDetail_(finest) {}
 
     Result<void> find() {
-        auto entries = city::allTiles(city_, 0);
-        if (!entries) return entries.error();
-        auto coarse = city::allTiles(city_, 1);
-        if (!coarse) return coarse.error();
+        SVT_TRY(entries, city::allTiles(city_, 0));
+        SVT_TRY(coarse, city::allTiles(city_, 1));
         if (entries->empty()) return Error(Code::NothingSelected, "the city has no tiles");
         layOut(*entries);
         for (const IndexEntry& entry : finestDetail_ == 0 ? *entries : *coarse) add(entry, true);
@@ -117,8 +115,7 @@ private:
 Result<std::vector<volume::SemanticVolume>> volumesOf(const city::City& city, const Square& square) {
     std::vector<volume::SemanticVolume> volumes;
     for (const IndexEntry& entry : square.tiles) {
-        auto volume = city.read(entry);
-        if (!volume) return volume.error();
+        SVT_TRY(volume, city.read(entry));
         volumes.push_back(std::move(*volume));
     }
     if (square.detail < city::kFirstClassDetail) return volumes;
@@ -141,13 +138,12 @@ Result<std::uint64_t> writeCityTiles(const city::City& city, const std::filesyst
                                      const writers::VolumeWriteOptions& options, int finest, int threads,
                                      const Progress* progress) {
     CitySquares found(city, finest);
-    if (auto done = found.find(); !done) return done.error();
+    SVT_DO(found.find());
     writers::CityTilesetFrame frame = found.frame();
     frame.source = path.filename().string();
     frame.write = options;
     frame.write.progress = progress;
-    auto tileset = writers::CityTileset::create(path, frame);
-    if (!tileset) return tileset.error();
+    SVT_TRY(tileset, writers::CityTileset::create(path, frame));
     const std::vector<Square> squares = found.squares();
     const std::size_t batch = 2 * static_cast<std::size_t>(threads > 0 ? threads : hardwareThreads());
     ProgressCounter counter(progress, "tiles", squares.size());
@@ -164,7 +160,7 @@ Result<std::uint64_t> writeCityTiles(const city::City& city, const std::filesyst
         });
         for (std::size_t n = 0; n < count; ++n) {
             if (!*made[n]) return made[n]->error();
-            if (auto added = (*tileset)->add(squares[begin + n].node, **made[n]); !added) return added.error();
+            SVT_DO((*tileset)->add(squares[begin + n].node, **made[n]));
             made[n].reset();
             counter.add();
         }

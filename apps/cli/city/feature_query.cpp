@@ -64,16 +64,13 @@ public:
     Result<void> open(Diagnostics& diagnostics) {
         const TerminalProgress progress;
         if (isCity(query_.input)) {
-            auto opened = city::City::open(query_.input);
-            if (!opened) return opened.error();
+            SVT_TRY(opened, city::City::open(query_.input));
             city_.emplace(std::move(*opened));
-            auto frame = city::frameVolume(*city_);
-            if (!frame) return frame.error();
+            SVT_TRY(frame, city::frameVolume(*city_));
             frame_ = std::move(*frame);
             return {};
         }
-        auto loaded = loadVolume(query_.input, query_.build, progress.get(), diagnostics);
-        if (!loaded) return loaded.error();
+        SVT_TRY(loaded, loadVolume(query_.input, query_.build, progress.get(), diagnostics));
         frame_ = std::move(*loaded);
         return {};
     }
@@ -91,14 +88,11 @@ public:
         std::array<double, 4> rectangle{-1e300, -1e300, 1e300, 1e300};
         const std::vector<double>& box = query_.box;
         if (!box.empty()) rectangle = {box[0], box[1], box[3], box[4]};
-        const auto entries = city_->find(0, rectangle);
-        if (!entries) return entries.error();
+        SVT_TRY(entries, city_->find(0, rectangle));
         for (const city::IndexEntry& entry : *entries) {
-            const auto bytes = city_->readBytes(entry);
-            if (!bytes) return bytes.error();
-            const auto tile = volume::openSvt(std::as_bytes(std::span(*bytes)), entry.tile.toString());
-            if (!tile) return tile.error();
-            if (auto done = work(tile->labels); !done) return done;
+            SVT_TRY(bytes, city_->readBytes(entry));
+            SVT_TRY(tile, volume::openSvt(std::as_bytes(std::span(*bytes)), entry.tile.toString()));
+            SVT_DO(work(tile->labels));
         }
         return {};
     }
@@ -119,8 +113,7 @@ public:
         printDiagnostics(diagnostics, false);
         if (!opened) return opened;
         if (!query_.cut.empty()) {
-            auto plane = illustrate::parseSectionPlane(query_.cut, source_.frame());
-            if (!plane) return plane.error();
+            SVT_TRY(plane, illustrate::parseSectionPlane(query_.cut, source_.frame()));
             plane_ = *plane;
         }
         for (std::size_t at = 0; at < query_.by.size();) {
@@ -162,8 +155,7 @@ private:
     Result<void> beginFile() {
         std::map<std::string, Kind> attributes;
         const auto add = [&](const volume::LabelTable& labels) -> Result<void> {
-            const auto selected = select(labels);
-            if (!selected) return selected.error();
+            SVT_TRY(selected, select(labels));
             for (const std::uint32_t l : *selected)
                 for (const Attribute& attribute : labels.labels[l].attributes) {
                     const Kind kind = kindOf(attribute.value);
@@ -174,7 +166,7 @@ private:
                 }
             return {};
         };
-        if (auto done = source_.forEachTable(add); !done) return done;
+        SVT_DO(source_.forEachTable(add));
         columns_ = ownColumns();
         for (const auto& [name, kind] : attributes) {
             // Names of columns are not told apart by case, and one table has each once.
@@ -189,8 +181,7 @@ private:
             placeOf_[name] = columns_.size();
             columns_.push_back({unique, kind});
         }
-        auto layer = writers::FeatureLayer::create(query_.output, columns_, source_.frame().crsName);
-        if (!layer) return layer.error();
+        SVT_TRY(layer, writers::FeatureLayer::create(query_.output, columns_, source_.frame().crsName));
         layer_ = std::move(*layer);
         return {};
     }
@@ -206,15 +197,14 @@ private:
     }
 
     Result<void> ask(const volume::SemanticVolume& volume) {
-        const auto selected = select(volume.labels);
-        if (!selected) return selected.error();
+        SVT_TRY(selected, select(volume.labels));
         if (selected->empty()) return {};
         for (FeatureRow& row : featureRows(volume, *selected, plane_ ? &*plane_ : nullptr)) {
             if ((plane_ && !row.isCut) || !isInBox(row)) continue;
             ++count_;
             const volume::Label& label = volume.labels.labels[row.label];
             if (!keys_.empty()) addToSum(row, label);
-            if (auto added = take(std::move(row), label); !added) return added;
+            SVT_DO(take(std::move(row), label));
         }
         return {};
     }

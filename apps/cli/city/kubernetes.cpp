@@ -81,8 +81,7 @@ std::string head(const Settings& settings, const std::string& name) {
 }  // namespace
 
 Result<std::string> kubernetesJobs(const EngineJob& job, const city::Plan& plan) {
-    const auto settings = settingsOf(job);
-    if (!settings) return settings.error();
+    SVT_TRY(settings, settingsOf(job));
     const std::filesystem::path mount = std::filesystem::path(settings->at("mount")).lexically_normal();
     std::vector<std::filesystem::path> needed{job.folder};
     for (const city::PlanFile& file : plan.files) needed.emplace_back(file.path);

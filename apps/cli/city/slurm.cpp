@@ -117,8 +117,7 @@ Result<SlurmJobs> submitToSlurm(const EngineJob& job, const std::vector<std::uin
     std::error_code failed;
     std::filesystem::create_directories(job.folder / "logs", failed);
     if (failed) return Error(Code::CannotWrite, "the folder of logs cannot be made", {job.folder.string(), 0, 0, {}});
-    const auto array = submit(slurmArray(job, open, tasks), job.folder);
-    if (!array) return array.error();
+    SVT_TRY(array, submit(slurmArray(job, open, tasks), job.folder));
     const auto merge = submit(slurmMerge(job, *array), job.folder);
     if (!merge)
         return Error(merge.error().code(),

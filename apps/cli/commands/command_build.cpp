@@ -54,8 +54,7 @@ Result<volume::Grid> gridOfVolume(const std::filesystem::path& path, const Build
     if (!build.dimension.empty() || !build.spacing.empty() || build.axes != "world")
         return Error(Code::BadArgument,
                      "--grid-of excludes --dimension, --spacing and --axes; the other volume has them already");
-    const auto volume = volume::readSvt(path);
-    if (!volume) return volume.error();
+    SVT_TRY(volume, volume::readSvt(path));
     return volume->grid;
 }
 
@@ -101,9 +100,8 @@ Result<pipeline::BuildOutput> builtOf(const BuildCommandArguments& arguments, co
                      "the input is a label volume, which has its grid; leave out --dimension, --spacing, --axes and "
                      "--grid-of, or make it coarser by svt convert --level");
     const auto start = std::chrono::steady_clock::now();
-    auto read = volume_readers::readLabelVolume(arguments.inputs.front(),
-                                                {arguments.labels, 0, options.progress, &diagnostics});
-    if (!read) return read.error();
+    SVT_TRY(read, volume_readers::readLabelVolume(arguments.inputs.front(),
+                                                  {arguments.labels, 0, options.progress, &diagnostics}));
     pipeline::BuildOutput output{std::move(*read), {}};
     for (const volume::Label& label : output.volume.labels.labels) output.report.objects += label.count > 0 ? 1 : 0;
     output.report.seconds.read = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -116,25 +114,20 @@ Result<void> takePart(const BuildCommandArguments& arguments, volume::SemanticVo
         const auto& b = arguments.box;
         const auto samples = volume::samplesIn(volume.grid, Box3d{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}});
         if (!samples) return samples.error();
-        auto cropped = volume::croppedVolume(volume, *samples);
-        if (!cropped) return cropped.error();
+        SVT_TRY(cropped, volume::croppedVolume(volume, *samples));
         volume = std::move(*cropped);
     }
     if (arguments.only.empty()) return {};
-    const auto labels = analyze::selectLabels(volume.labels, arguments.only);
-    if (!labels) return labels.error();
-    const auto box = analyze::boxAround(*labels, volume, fmt::format("what --only '{}' selects", arguments.only));
-    if (!box) return box.error();
-    auto selected = volume::selectedVolume(volume, *labels);
-    if (!selected) return selected.error();
+    SVT_TRY(labels, analyze::selectLabels(volume.labels, arguments.only));
+    SVT_TRY(box, analyze::boxAround(*labels, volume, fmt::format("what --only '{}' selects", arguments.only)));
+    SVT_TRY(selected, volume::selectedVolume(volume, *labels));
     volume::IndexBox samples{box->min, box->max + Vec3i{1, 1, 1}};
     // One more sample on each side, as a build has it; at least two along each axis.
     for (int axis = 0; axis < 3; ++axis) {
         samples.begin[axis] = std::max(0, samples.begin[axis] - 1);
         samples.end[axis] = std::min(volume.grid.dimension()[axis], samples.end[axis] + 1);
     }
-    auto cropped = volume::croppedVolume(*selected, samples);
-    if (!cropped) return cropped.error();
+    SVT_TRY(cropped, volume::croppedVolume(*selected, samples));
     volume = std::move(*cropped);
     return {};
 }

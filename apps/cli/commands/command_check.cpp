@@ -158,13 +158,11 @@ Result<void> checkModel(const model::BuildingModel& model, const CheckArguments&
     validate::ValidateOptions validation = arguments.validation;
     validation.lod = arguments.lod;
     validation.progress = progress;
-    const auto report = validate::validateModel(model, validation);
-    if (!report) return report.error();
+    SVT_TRY(report, validate::validateModel(model, validation));
     mesh::MeshOptions options;
     options.lod.lod = arguments.lod;
     options.progress = progress;
-    const auto scene = mesh::buildMeshes(model, options, &diagnostics);
-    if (!scene) return scene.error();
+    SVT_TRY(scene, mesh::buildMeshes(model, options, &diagnostics));
     const Diagnostics others = diagnostics;
     const Checked checked{model, *report, validation, *scene, others};
     addFindings(diagnostics, checked);
@@ -227,8 +225,7 @@ int exitCodeFor(const Diagnostics& diagnostics) {
 Result<void> report(const CheckArguments& arguments, const Checked& checked, const Diagnostics& diagnostics) {
     const std::string inputFile = arguments.inputs.front().string();
     if (!arguments.report.empty()) {
-        const auto written = writeFileAtomically(arguments.report, htmlReport(checked, inputFile));
-        if (!written) return written.error();
+        SVT_TRY(written, writeFileAtomically(arguments.report, htmlReport(checked, inputFile)));
     }
     if (arguments.format == "val3dity") {
         print(val3dityJson(checked, inputFile));

@@ -68,8 +68,7 @@ Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& sel
     if (arguments.gaps) return gapTable(volume, selected);
     if (arguments.areas) return areaTable(volume, selected, threads);
     if (!arguments.along.empty()) {
-        const auto ray = illustrate::parsePickRay(arguments.along, volume.grid);
-        if (!ray) return ray.error();
+        SVT_TRY(ray, illustrate::parsePickRay(arguments.along, volume.grid));
         return rayTable(volume, selected, *ray, threads);
     }
     Diagnostics diagnostics;

@@ -58,13 +58,12 @@ public:
                          "out --gl");
         if (!context_) {
             unlimitMemory();  // drivers reserve what they never use
-            auto context = render_gl::EglContext::make();
-            if (!context) return context.error();
+            SVT_TRY(context, render_gl::EglContext::make());
             context_.emplace(std::move(*context));
         }
         if (drawn_ != &volumes[0].bricks()) {
-            auto renderer = render_gl::GlRenderer::make(volumes[0].bricks(), volumes[0].grid(), {.threads = threads_});
-            if (!renderer) return renderer.error();
+            SVT_TRY(renderer,
+                    render_gl::GlRenderer::make(volumes[0].bricks(), volumes[0].grid(), {.threads = threads_}));
             renderer_.emplace(std::move(*renderer));
             drawn_ = &volumes[0].bricks();
         }
@@ -117,20 +116,17 @@ Result<Series> seriesOf(const RenderArguments& arguments, const illustrate::Scen
                      "(--section z=6..1), or give a scene with motion");
     series.count = illustrate::pictureCount(motion);
     series.seconds = 1.0 / motion.rate;
-    auto film = Film::begin(arguments.output, motion.rate);
-    if (!film) return film.error();
+    SVT_TRY(film, Film::begin(arguments.output, motion.rate));
     series.film.emplace(std::move(*film));
     return series;
 }
 
 Result<void> writeBuffers(const render::Frame& frame, const RenderArguments& arguments, int number) {
     const auto at = [&](const std::filesystem::path& file) { return numberedFile(file, number, arguments.frames); };
-    if (auto written = image::writePng(at(arguments.output), frame.color, arguments.scene.printedDpi()); !written)
-        return written;
+    SVT_DO(image::writePng(at(arguments.output), frame.color, arguments.scene.printedDpi()));
     if (!arguments.labelOutput.empty()) {
-        const auto gray = render::grayFromLabels(frame.label);
-        if (!gray) return gray.error();
-        if (auto written = image::writePng(at(arguments.labelOutput), *gray); !written) return written;
+        SVT_TRY(gray, render::grayFromLabels(frame.label));
+        SVT_DO(image::writePng(at(arguments.labelOutput), *gray));
     }
     if (!arguments.depthOutput.empty())
         return image::writePng(at(arguments.depthOutput), render::grayFromDepth(frame.depth, 0.001));
@@ -159,14 +155,12 @@ Result<std::vector<volume::SemanticVolume>> addInputs(const RenderArguments& arg
                                                       Diagnostics& diagnostics, volume::SemanticVolume& volume) {
     std::vector<volume::SemanticVolume> details;
     for (const auto& file : arguments.with) {
-        auto detail = loadVolume(file, arguments.build, progress, diagnostics);
-        if (!detail) return detail.error();
+        SVT_TRY(detail, loadVolume(file, arguments.build, progress, diagnostics));
         details.push_back(std::move(*detail));
     }
-    if (auto joined = illustrate::joinLabels(volume, details); !joined) return joined.error();
+    SVT_DO(illustrate::joinLabels(volume, details));
     if (arguments.owners.empty()) return details;
-    const auto table = FileBytes::read(arguments.owners);
-    if (!table) return table.error();
+    SVT_TRY(table, FileBytes::read(arguments.owners));
     if (auto added =
             illustrate::addOwnerAttributes(volume, table->text(), arguments.owners.string(), arguments.build.threads);
         !added)
@@ -233,14 +227,12 @@ Result<void> writeLineView(const RenderArguments& arguments, const illustrate::L
     const double width = 25.4 * pixels / dpi;
     const auto path = numberedFile(arguments.output, number, arguments.frames);
     if (endingOf(path) == ".svg") {
-        if (auto written = writeFileAtomically(path, writers::makeViewSvg(view, volume, width)); !written)
-            return written.error();
+        SVT_DO(writeFileAtomically(path, writers::makeViewSvg(view, volume, width)));
         return {};
     }
-    const auto pdf = writers::makeViewPdf(view, volume, width);
-    if (!pdf) return pdf.error();
+    SVT_TRY(pdf, writers::makeViewPdf(view, volume, width));
     if (number == 0 && !writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
-    if (auto written = writeFileAtomically(path, *pdf); !written) return written.error();
+    SVT_DO(writeFileAtomically(path, *pdf));
     return {};
 }
 

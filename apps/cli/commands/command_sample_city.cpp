@@ -28,8 +28,7 @@ samples::CityProfile profileOf(const std::string& name) {
 }
 
 Result<samples::CitySampleCount> writeFile(const SampleCityArguments& arguments, int number, const Progress* progress) {
-    auto file = AtomicFile::create(arguments.output / citySampleFileName(arguments.options, number));
-    if (!file) return file.error();
+    SVT_TRY(file, AtomicFile::create(arguments.output / citySampleFileName(arguments.options, number)));
     std::optional<Error> failed;
     const auto count = writeCitySample(arguments.options, number, [&](std::string_view text) {
         auto done = Progress::isCancelled(progress) ? Result<void>(Error(Code::Cancelled, "stopped while writing"))
@@ -39,7 +38,7 @@ Result<samples::CitySampleCount> writeFile(const SampleCityArguments& arguments,
     });
     if (failed) return *failed;
     if (!count) return count;
-    if (const auto committed = file->commit(); !committed) return committed.error();
+    SVT_DO(file->commit());
     return count;
 }
 

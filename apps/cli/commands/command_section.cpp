@@ -41,8 +41,7 @@ Result<std::uint64_t> writeDrawing(const illustrate::SectionDrawing& drawing, co
     if (ending == ".dxf") return writers::writeDxf(drawing, volume, path, dxf);
     if (ending == ".geojson") return writers::writeGeojson(drawing, volume, path);
     if (ending == ".pdf") {
-        const auto pdf = writers::makeSectionPdf(drawing, volume, scale);
-        if (!pdf) return pdf.error();
+        SVT_TRY(pdf, writers::makeSectionPdf(drawing, volume, scale));
         if (!writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
         return writeFileAtomically(path, *pdf);
     }

@@ -39,10 +39,8 @@ struct SheetsArguments {
 Result<illustrate::SheetSet> readSet(const SheetsArguments& arguments) {
     illustrate::SheetSet set;
     if (!arguments.setFile.empty()) {
-        const auto file = FileBytes::read(arguments.setFile);
-        if (!file) return file.error();
-        auto parsed = illustrate::parseSheetSet(file->text(), arguments.setFile.string());
-        if (!parsed) return parsed.error();
+        SVT_TRY(file, FileBytes::read(arguments.setFile));
+        SVT_TRY(parsed, illustrate::parseSheetSet(file->text(), arguments.setFile.string()));
         set = std::move(*parsed);
     }
     if (arguments.paper) set.paper = *arguments.paper;
@@ -52,8 +50,7 @@ Result<illustrate::SheetSet> readSet(const SheetsArguments& arguments) {
     set.dimensions = set.dimensions && !arguments.noDimensions;
     set.tables = set.tables && !arguments.noTables;
     if (arguments.scale.empty()) return set;
-    const auto scale = parseScale(arguments.scale);
-    if (!scale) return scale.error();
+    SVT_TRY(scale, parseScale(arguments.scale));
     set.scale = *scale;
     return set;
 }
@@ -62,8 +59,7 @@ Result<illustrate::SheetSet> readSet(const SheetsArguments& arguments) {
 Result<illustrate::SheetViews> chooseViews(illustrate::SheetSet& set, const volume::SemanticVolume& volume,
                                            int threads) {
     if (!set.sheets.empty()) return illustrate::viewsOfSet(set, volume);
-    auto chosen = illustrate::chooseSheetViews(volume, threads);
-    if (!chosen) return chosen.error();
+    SVT_TRY(chosen, illustrate::chooseSheetViews(volume, threads));
     set.sheets = illustrate::sheetSetOf(*chosen, volume).sheets;
     for (illustrate::SheetView& view : chosen->views) view.beyond.above = view.beyond.above && set.above;
     return chosen;
@@ -71,8 +67,7 @@ Result<illustrate::SheetViews> chooseViews(illustrate::SheetSet& set, const volu
 
 Result<writers::SheetContent> drawViews(illustrate::SheetSet& set, const SheetsArguments& arguments,
                                         const volume::SemanticVolume& volume) {
-    auto chosen = chooseViews(set, volume, arguments.build.threads);
-    if (!chosen) return chosen.error();
+    SVT_TRY(chosen, chooseViews(set, volume, arguments.build.threads));
     writers::SheetContent content;
     content.levels = std::move(chosen->levels);
     std::vector<std::string> nothing;
@@ -90,14 +85,12 @@ Result<writers::SheetContent> drawViews(illustrate::SheetSet& set, const SheetsA
         options.beyond = view.beyond;
         options.dimensions = view.kind == illustrate::ViewKind::Plan && set.dimensions;
         if (content.views.empty()) options.nothing = &nothing;
-        auto drawing = bricks ? illustrate::drawSection(volume, *bricks, view.plane, options)
-                              : illustrate::drawSection(volume, view.plane, options);
-        if (!drawing) return drawing.error();
+        SVT_TRY(drawing, bricks ? illustrate::drawSection(volume, *bricks, view.plane, options)
+                                : illustrate::drawSection(volume, view.plane, options));
         // Where one view needs bricks, so do the others: they are made once more and kept.
         if (!bricks && std::ranges::any_of(drawing->components, [](const auto& c) { return !c.isExact; })) {
-            auto made = volume::BrickVolume::fromColumns(volume.columns,
-                                                         {.planes = volume.planes, .threads = arguments.build.threads});
-            if (!made) return made.error();
+            SVT_TRY(made, volume::BrickVolume::fromColumns(
+                              volume.columns, {.planes = volume.planes, .threads = arguments.build.threads}));
             bricks = std::move(*made);
         }
         content.views.push_back({std::move(view), std::move(*drawing), groups[content.views.size()]});
@@ -139,17 +132,16 @@ std::string fileNameOf(const writers::SheetContent& content, std::size_t number)
 
 Result<void> writeDxfFolder(const writers::SheetContent& content, const volume::SemanticVolume& volume,
                             const std::filesystem::path& folder, const writers::DxfOptions& options) {
-    if (auto made = makeFolder(folder); !made) return made;
+    SVT_DO(makeFolder(folder));
     for (std::size_t n = 0; n < content.views.size(); ++n) {
         const auto path = folder / (fileNameOf(content, n) + ".dxf");
-        if (auto written = writers::writeDxf(content.views[n].drawing, volume, path, options); !written)
-            return written.error();
+        SVT_DO(writers::writeDxf(content.views[n].drawing, volume, path, options));
     }
     return {};
 }
 
 Result<void> writeSvgFolder(const std::vector<std::string>& sheets, const std::filesystem::path& folder) {
-    if (auto made = makeFolder(folder); !made) return made;
+    SVT_DO(makeFolder(folder));
     for (std::size_t n = 0; n < sheets.size(); ++n)
         if (auto written = writeFileAtomically(folder / fmt::format("sheet-{}.svg", n + 1), sheets[n]); !written)
             return written.error();

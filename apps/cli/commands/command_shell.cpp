@@ -50,8 +50,7 @@ Result<Json> writeShell(const volume::SemanticVolume& shell, const volume::Seman
                         const ShellArguments& arguments, const Progress* progress) {
     Json json;
     if (endingOf(arguments.output) == ".svt") {
-        const auto bytes = volume::writeSvt(shell, arguments.output);
-        if (!bytes) return bytes.error();
+        SVT_TRY(bytes, volume::writeSvt(shell, arguments.output));
         json["bytes"] = *bytes;
         return json;
     }
@@ -60,8 +59,7 @@ Result<Json> writeShell(const volume::SemanticVolume& shell, const volume::Seman
     options.planesOf = &volume;
     options.threads = arguments.build.threads;
     options.progress = progress;
-    const auto report = writers::writeGlb(shell, arguments.output, options);
-    if (!report) return report.error();
+    SVT_TRY(report, writers::writeGlb(shell, arguments.output, options));
     json["bytes"] = report->bytes;
     json["triangles"] = report->triangles;
     json["meshes"] = report->meshes;
@@ -78,16 +76,13 @@ Result<Json> makeShell(const volume::SemanticVolume& volume, const ShellArgument
     options.threads = arguments.build.threads;
     options.progress = progress;
     if (!arguments.of.empty()) {
-        auto selected = analyze::selectLabels(volume.labels, arguments.of);
-        if (!selected) return selected.error();
+        SVT_TRY(selected, analyze::selectLabels(volume.labels, arguments.of));
         options.of = std::move(*selected);
     }
     Progress::tell(progress, "shell", 0);
-    const auto shell = illustrate::extractShell(volume, *fromName<illustrate::ShellLevel>(arguments.level), options);
-    if (!shell) return shell.error();
+    SVT_TRY(shell, illustrate::extractShell(volume, *fromName<illustrate::ShellLevel>(arguments.level), options));
     Progress::tell(progress, "write", 0);
-    auto written = writeShell(*shell, volume, arguments, progress);
-    if (!written) return written.error();
+    SVT_TRY(written, writeShell(*shell, volume, arguments, progress));
     Json json;
     json["level"] = arguments.level;
     json["voxels"] = filledVoxels(*shell);

@@ -37,8 +37,7 @@ void drawByGl(const Say& say) {
         painter,
         [&made](std::span<const render::DrawnVolume> volumes, const render::FrameSpec& spec) -> Result<render::Frame> {
             if (!made) {
-                auto gl = render_gl::GlRenderer::make(volumes[0].bricks(), volumes[0].grid());
-                if (!gl) return gl.error();
+                SVT_TRY(gl, render_gl::GlRenderer::make(volumes[0].bricks(), volumes[0].grid()));
                 made.emplace(std::move(*gl));
             }
             return made->read(spec);

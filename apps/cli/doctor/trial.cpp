@@ -23,15 +23,12 @@ bool isApart(image::Rgba8 a, image::Rgba8 b) {
 }  // namespace
 
 Result<TestVolume> buildTestVolume() {
-    const auto text = samples::writeSample(samples::SampleKind::House, samples::SampleFormat::CityGml3, {});
-    if (!text) return text.error();
+    SVT_TRY(text, samples::writeSample(samples::SampleKind::House, samples::SampleFormat::CityGml3, {}));
     const auto start = Clock::now();
-    auto model = readers::readModel(std::as_bytes(std::span(text->data(), text->size())), "house.gml");
-    if (!model) return model.error();
+    SVT_TRY(model, readers::readModel(std::as_bytes(std::span(text->data(), text->size())), "house.gml"));
     pipeline::BuildOptions options;
     options.spacing = Vec3d{0.2, 0.2, 0.2};
-    auto output = pipeline::buildVolume(*model, options);
-    if (!output) return output.error();
+    SVT_TRY(output, pipeline::buildVolume(*model, options));
     return TestVolume{std::move(output->volume), secondsSince(start)};
 }
 
@@ -44,8 +41,7 @@ Result<TestPicture> drawTestPicture(illustrate::ScenePainter& painter, const ill
     TestPicture picture;
     for (double* seconds : {&picture.firstSeconds, &picture.seconds}) {
         const auto start = Clock::now();
-        auto painting = painter.paint(scene, draw);
-        if (!painting) return painting.error();
+        SVT_TRY(painting, painter.paint(scene, draw));
         *seconds = secondsSince(start);
         picture.frame = std::move(painting->frame);
     }

@@ -71,8 +71,7 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
     if (!dimension.empty() && !spacing.empty())
         return Error(Code::BadArgument, "--dimension and --spacing exclude each other; give one of them");
     if (!dimension.empty()) {
-        const auto triple = parseTriple(dimension, "--dimension", "samples, 2 to 65535");
-        if (!triple) return triple.error();
+        SVT_TRY(triple, parseTriple(dimension, "--dimension", "samples, 2 to 65535"));
         Vec3i samples;
         for (int axis = 0; axis < 3; ++axis) {
             const double value = (*triple)[axis];
@@ -86,8 +85,7 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
         options.dimension = samples;
     }
     if (!spacing.empty()) {
-        const auto triple = parseTriple(spacing, "--spacing", "metres, greater than 0");
-        if (!triple) return triple.error();
+        SVT_TRY(triple, parseTriple(spacing, "--spacing", "metres, greater than 0"));
         for (int axis = 0; axis < 3; ++axis)
             if (const double metres = (*triple)[axis]; !(metres > 0) || !std::isfinite(metres))
                 return Error(
@@ -108,8 +106,7 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
     options.sheets = sheets == "thin" ? voxelize::SheetMode::Thin : voxelize::SheetMode::Conservative;
     options.keepThinParts = !noThin;
     options.threads = threads;
-    const auto code = parseCrs(crs);
-    if (!code) return code.error();
+    SVT_TRY(code, parseCrs(crs));
     options.crs = *code;
     options.keepFarFeatures = keepFarFeatures;
     options.extrudeFootprints = extrudeFootprints;
@@ -117,8 +114,7 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
     options.splitLayers = layers;
     options.vectors = vectors;
     if (!style.empty()) {
-        auto sheet = pipeline::readStyleSheet(style);
-        if (!sheet) return sheet.error();
+        SVT_TRY(sheet, pipeline::readStyleSheet(style));
         styleSheet = std::move(*sheet);
         options.style = &*styleSheet;
     }
@@ -132,12 +128,10 @@ Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input, co
     if (volume_readers::looksLikeLabelVolume(input))
         return volume_readers::readLabelVolume(input, {{}, 0, progress, &diagnostics});
     std::optional<pipeline::StyleSheet> sheet;
-    auto options = arguments.options(sheet);
-    if (!options) return options.error();
+    SVT_TRY(options, arguments.options(sheet));
     options->progress = progress;
     if (grid != nullptr) options->grid = *grid;
-    auto output = pipeline::buildVolume(std::span(&input, 1), *options, &diagnostics);
-    if (!output) return output.error();
+    SVT_TRY(output, pipeline::buildVolume(std::span(&input, 1), *options, &diagnostics));
     if (const auto& choice = output->report.spacing; choice && choice->spacing != pipeline::SpacingChoice::kUsual)
         note("spacing: " + choice->reason);
     return std::move(output->volume);

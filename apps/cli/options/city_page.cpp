@@ -17,8 +17,7 @@ bool isCity(const std::filesystem::path& input) {
 }
 
 Result<serve::SiteModel> cityModel(const std::filesystem::path& input, const std::string& name) {
-    const auto city = city::City::open(input);
-    if (!city) return city.error();
+    SVT_TRY(city, city::City::open(input));
     const std::string location = input.string();
     const std::filesystem::path folder(location.substr(0, location.find_last_not_of('/') + 1));
     serve::SiteModel model{name, folder.filename().string(), {}, location, {}};
@@ -34,8 +33,7 @@ Result<serve::SiteModel> cityModel(const std::filesystem::path& input, const std
     std::sort(files.begin(), files.end());
     for (const std::string& file : files) {
         // All of a city may be larger than memory, and whoever writes one replaces its files.
-        auto bytes = FileBytes::map(input / file);
-        if (!bytes) return bytes.error();
+        SVT_TRY(bytes, FileBytes::map(input / file));
         model.cityFiles.emplace_back(file, serve::Bytes::of(std::move(*bytes)));
     }
     return model;
@@ -45,16 +43,14 @@ Result<volume::SemanticVolume> pageVolume(const std::filesystem::path& folder) {
     // Of the members: about as much as the page loads in some seconds, and draws within its memory.
     constexpr std::uint64_t kMostBytes = 6'000'000;
     constexpr double kMostSamples = 8192;
-    const auto city = city::City::open(folder);
-    if (!city) return city.error();
+    SVT_TRY(city, city::City::open(folder));
     const Box3d& box = city->box();
     const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
     city::Extract extract;
     extract.box = {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z};
     extract.hasBox = true;
     for (extract.detail = 0; extract.detail < city->topDetail(); ++extract.detail) {
-        const auto entries = city::allTiles(*city, extract.detail);
-        if (!entries) return entries.error();
+        SVT_TRY(entries, city::allTiles(*city, extract.detail));
         std::uint64_t bytes = 0;
         for (const city::IndexEntry& entry : *entries) bytes += entry.size;
         if (bytes <= kMostBytes && extent / city::spacingOf(extract.detail, city->spacing()).x <= kMostSamples) break;

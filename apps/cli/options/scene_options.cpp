@@ -87,15 +87,13 @@ Result<SectionEnds> endsOf(const std::vector<std::string>& sections) {
 
 Result<void> addStyles(const SceneArguments& arguments, illustrate::ScenePass& pass) {
     for (const std::string& text : arguments.color) {
-        const auto parts = splitValue(text, "--color", "'name=\"Unterzug-1\":red'");
-        if (!parts) return parts.error();
+        SVT_TRY(parts, splitValue(text, "--color", "'name=\"Unterzug-1\":red'"));
         const auto color = image::parseColor(parts->second);
         if (!color) return Error(Code::BadArgument, "--color: " + color.error().message());
         pass.styles.push_back({parts->first, *color, {}, {}, false});
     }
     for (const std::string& text : arguments.opacity) {
-        const auto parts = splitValue(text, "--opacity", "'class=BuildingRoom:0.2'");
-        if (!parts) return parts.error();
+        SVT_TRY(parts, splitValue(text, "--opacity", "'class=BuildingRoom:0.2'"));
         const auto value = parseNumber(withoutBlanks(parts->second));
         if (!value || !(*value >= 0 && *value <= 1))
             return Error(Code::BadArgument,
@@ -104,8 +102,7 @@ Result<void> addStyles(const SceneArguments& arguments, illustrate::ScenePass& p
         pass.styles.push_back({parts->first, {}, static_cast<float>(*value), {}, false});
     }
     for (const std::string& text : arguments.hatchOf) {
-        const auto parts = splitValue(text, "--hatch-of", "'class=WallSurface:insulation'");
-        if (!parts) return parts.error();
+        SVT_TRY(parts, splitValue(text, "--hatch-of", "'class=WallSurface:insulation'"));
         const auto hatch = fromName<render::Hatch>(parts->second);
         if (!hatch)
             return Error(Code::BadArgument, fmt::format("--hatch-of '{}': unknown hatch '{}'; possible are {}", text,
@@ -143,8 +140,8 @@ std::string quoted(const std::string& plane) {
 
 Result<void> addPass(const SceneArguments& arguments, const std::vector<std::string>& sections, Scene& scene) {
     illustrate::ScenePass& pass = scene.passes.front();
-    if (auto added = addStyles(arguments, pass); !added) return added;
-    if (auto added = addEdges(arguments, pass); !added) return added;
+    SVT_DO(addStyles(arguments, pass));
+    SVT_DO(addEdges(arguments, pass));
     std::string section;
     for (const std::string& text : sections) section = either(section, quoted(text));
     if (!arguments.cut.empty()) pass.cut = either(pass.cut, fmt::format("({})", arguments.cut));
@@ -184,8 +181,7 @@ void addInsets(const SceneArguments& arguments, Scene& scene) {
 
 Result<Scene> readScene(const std::filesystem::path& file) {
     constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
-    const auto mapped = FileBytes::read(file);
-    if (!mapped) return mapped.error();
+    SVT_TRY(mapped, FileBytes::read(file));
     if (mapped->bytes().size() > kMaxBytes)
         return Error(Code::InputTooBig, fmt::format("{}: a scene of more than 16 MiB", file.string()));
     return illustrate::parseScene(mapped->text(), file.string());
@@ -206,8 +202,7 @@ Result<Scene> SceneArguments::toScene(std::optional<int> pictures) const {
         if (!read) return read;
         file = std::move(*read);
     }
-    const auto ends = endsOf(sections);
-    if (!ends) return ends.error();
+    SVT_TRY(ends, endsOf(sections));
     const bool isSeries = pictures.value_or(2) > 1;
     if (!ends->moving.empty() && !isSeries)
         return Error(Code::BadArgument,
@@ -241,7 +236,7 @@ Result<Scene> SceneArguments::stillScene(Scene scene, const std::vector<std::str
     if (scene.motion && !scene.motion->keys.empty() && scene.motion->keys.back().at > scene.motion->seconds)
         return Error(Code::BadArgument, fmt::format("--seconds {} ends before the last key of the scene, at {} s",
                                                     scene.motion->seconds, scene.motion->keys.back().at));
-    if (auto added = addPass(*this, still, scene); !added) return added.error();
+    SVT_DO(addPass(*this, still, scene));
     if (insets.size() + scene.insets.size() > 4)
         return Error(Code::BadArgument,
                      fmt::format("{} insets; a picture has 4 corners", insets.size() + scene.insets.size()));

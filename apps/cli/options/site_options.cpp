@@ -25,23 +25,20 @@ namespace fs = std::filesystem;
 // A model as the bytes of a .svt; the temporary file is removed.
 Result<FileBytes> built(const fs::path& input, const BuildArguments& build, Diagnostics& diagnostics) {
     const TerminalProgress progress;
-    const auto volume = loadVolume(input, build, progress.get(), diagnostics);
-    if (!volume) return volume.error();
+    SVT_TRY(volume, loadVolume(input, build, progress.get(), diagnostics));
     const PrivateFolder folder;
     if (folder.path().empty())
         return Error(Code::CannotWrite, "there is no folder for temporary files; set TMPDIR to one");
     const fs::path file = folder.path() / "model.svt";
-    if (const auto written = volume::writeSvt(*volume, file); !written) return written.error();
+    SVT_DO(volume::writeSvt(*volume, file));
     return FileBytes::map(file);  // nobody else knows it
 }
 
 Result<serve::SiteModel> modelOf(const fs::path& input, const std::string& name, const BuildArguments& build,
                                  Diagnostics& diagnostics) {
     if (isCity(input)) return cityModel(input, name);
-    auto file = volume::isSvtFile(input) ? FileBytes::read(input) : built(input, build, diagnostics);
-    if (!file) return file.error();
-    const auto opened = volume::openSvt(file->bytes(), input.string());
-    if (!opened) return opened.error();
+    SVT_TRY(file, volume::isSvtFile(input) ? FileBytes::read(input) : built(input, build, diagnostics));
+    SVT_TRY(opened, volume::openSvt(file->bytes(), input.string()));
     const std::string title = opened->modelName.empty() ? input.stem().string() : opened->modelName;
     return serve::SiteModel{name, title, serve::Bytes::of(std::move(*file))};
 }
@@ -105,8 +102,7 @@ private:
         painter_.reset();
         volume_.reset();
         opened_ = nullptr;
-        auto volume = volumeOf(*wanted);
-        if (!volume) return volume.error();
+        SVT_TRY(volume, volumeOf(*wanted));
         volume_ = std::move(*volume);
         painter_.emplace(*volume_, threads_);
         opened_ = wanted;
@@ -155,18 +151,15 @@ Result<serve::PagePreview> pagePreview(std::span<const serve::SiteModel> models,
     if (!address.empty() && address.back() != '/') address += '/';
     preview.address = std::move(address);
     preview.size = {kWidth, kHeight, 0};
-    const auto volume = volumeOf(models.front());
-    if (!volume) return volume.error();
+    SVT_TRY(volume, volumeOf(models.front()));
     illustrate::Scene scene;
     scene.width = kWidth;
     scene.height = kHeight;
     render::CastOptions options;
     options.threads = threads;
     options.isAdaptive = true;
-    const auto painting = illustrate::ScenePainter(*volume, threads).paint(scene, options);
-    if (!painting) return painting.error();
-    const auto png = image::encodePng(painting->frame.color);
-    if (!png) return png.error();
+    SVT_TRY(painting, illustrate::ScenePainter(*volume, threads).paint(scene, options));
+    SVT_TRY(png, image::encodePng(painting->frame.color));
     preview.picture = serve::Bytes::of(std::string(reinterpret_cast<const char*>(png->data()), png->size()));
     return preview;
 }

@@ -39,8 +39,7 @@ Result<volume::SemanticVolume> WriteArguments::partOf(volume::SemanticVolume vol
         volume = std::move(*cropped);
     }
     if (!select.empty()) {
-        const auto labels = analyze::selectLabels(volume.labels, select);
-        if (!labels) return labels.error();
+        SVT_TRY(labels, analyze::selectLabels(volume.labels, select));
         auto selected = volume::selectedVolume(volume, *labels);
         if (!selected) return selected;
         volume = std::move(*selected);
@@ -72,8 +71,7 @@ Result<writers::VolumeWriteOptions> WriteArguments::options(const volume::Semant
     options.maxBoxes = static_cast<std::size_t>(maxBoxes);
     for (const auto& [query, labels] : {std::pair{&holes, &options.holes}, std::pair{&vents, &options.vents}}) {
         if (query->empty()) continue;
-        auto selected = analyze::selectLabels(part.labels, *query);
-        if (!selected) return selected.error();
+        SVT_TRY(selected, analyze::selectLabels(part.labels, *query));
         *labels = std::move(*selected);
     }
     return options;

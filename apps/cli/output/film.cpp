@@ -102,9 +102,8 @@ Result<void> Film::finish(const Progress* progress) {
     if (done.exitCode != 0)
         return Error(Code::CannotWrite, fmt::format("{}: ffmpeg could not encode it: {}", output_.string(),
                                                     done.messages.empty() ? "it was stopped" : done.messages));
-    const auto film = FileBytes::read(encoded);
-    if (!film) return film.error();
-    if (auto written = writeFileAtomically(output_, film->bytes()); !written) return written.error();
+    SVT_TRY(film, FileBytes::read(encoded));
+    SVT_DO(writeFileAtomically(output_, film->bytes()));
     return {};
 }
 

@@ -256,7 +256,7 @@ fs::path numberedFile(const fs::path& file, int number, int count) {
 }
 
 Result<void> checkFiles(std::span<const GivenOption> given) {
-    if (auto checked = checkInputs(given); !checked) return checked;
+    SVT_DO(checkInputs(given));
     const std::vector<Input> inputs = inputsOf(given);
     const std::vector<OutputFile> outputs = outputsOf(given);
     const bool mayChooseFormat = std::ranges::any_of(
@@ -264,11 +264,11 @@ Result<void> checkFiles(std::span<const GivenOption> given) {
     for (const OutputFile& output : outputs)
         if (output.isFirst)
             if (auto checked = checkEnding(output, mayChooseFormat); !checked) return checked;
-    if (auto checked = checkMeaning(given, inputs); !checked) return checked;
-    if (auto checked = checkMeetings(inputs, outputs); !checked) return checked;
+    SVT_DO(checkMeaning(given, inputs));
+    SVT_DO(checkMeetings(inputs, outputs));
     std::error_code ignored;
     for (const OutputFile& output : outputs) {
-        if (auto checked = checkContent(output); !checked) return checked;
+        SVT_DO(checkContent(output));
         // Of numbered files in one folder one is tried, and what is there already.
         if (!output.isFirst && !fs::exists(output.path, ignored)) continue;
         auto checked = output.formats.empty() ? checkFolder(output.path) : checkWritable(output.path);

@@ -160,11 +160,10 @@ Table neighborTable(const volume::SemanticVolume& volume, const Labels& selected
 
 Result<Table> rayTable(const volume::SemanticVolume& volume, const Labels& selected, const illustrate::PickRay& ray,
                        int threads) {
-    const auto bricks = volume::BrickVolume::fromColumns(
-        volume.columns, {.faces = volume::BrickFaces::Slopes, .planes = volume.planes, .threads = threads});
-    if (!bricks) return bricks.error();
-    const auto stretches = render::labelsAlong(*bricks, volume.grid, volume.labels, ray.origin, ray.direction);
-    if (!stretches) return stretches.error();
+    SVT_TRY(bricks,
+            volume::BrickVolume::fromColumns(
+                volume.columns, {.faces = volume::BrickFaces::Slopes, .planes = volume.planes, .threads = threads}));
+    SVT_TRY(stretches, render::labelsAlong(*bricks, volume.grid, volume.labels, ray.origin, ray.direction));
     Table table;
     table.columns = {{"id", "id"},        {"class", "class"}, {"name", "name"},
                      {"enter", "from m"}, {"leave", "to m"},  {"length", "length m"}};
@@ -228,8 +227,7 @@ Table gapTable(const volume::SemanticVolume& volume, const Labels& selected) {
 
 Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& selected, int threads) {
     const auto levels = illustrate::findLevels(volume);
-    const auto areas = illustrate::measureFloorAreas(volume, levels, threads);
-    if (!areas) return areas.error();
+    SVT_TRY(areas, illustrate::measureFloorAreas(volume, levels, threads));
     Table table{{{"kind", "kind"},
                  {"id", "id"},
                  {"number", "number"},
@@ -290,8 +288,7 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
 
 Result<Table> parcelTable(const volume::SemanticVolume& volume, const Labels& selected,
                           const volume::SemanticVolume& parcels, int threads) {
-    const auto shared = analyze::sharedVoxels(volume, parcels, threads);
-    if (!shared) return shared.error();
+    SVT_TRY(shared, analyze::sharedVoxels(volume, parcels, threads));
     Table table;
     table.columns = {{"id", "id"},         {"class", "class"},  {"name", "name"},
                      {"parcel", "parcel"}, {"parcelClass", ""}, {"parcelName", "name"},

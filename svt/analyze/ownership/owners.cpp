@@ -47,8 +47,7 @@ public:
         TableRow row;
         row.line = line_;
         while (true) {
-            auto field = nextField();
-            if (!field) return field.error();
+            SVT_TRY(field, nextField());
             row.fields.push_back(std::move(*field));
             if (isAtEnd()) break;
             const char c = text_[at_++];
@@ -164,8 +163,7 @@ Result<std::vector<std::uint32_t>> resolve(const std::string& feature, const vol
     if (!model::Query::parse(feature))
         return Error(Code::NothingSelected, fmt::format("'{}' is neither the id of a feature nor a query{}", feature,
                                                         features.nearest(feature)));
-    auto selected = selectLabels(labels, feature);
-    if (!selected) return selected.error();
+    SVT_TRY(selected, selectLabels(labels, feature));
     return features.under(std::move(*selected));
 }
 
@@ -211,8 +209,7 @@ Result<OwnerTable> parseOwners(std::string_view text, std::string_view file, con
     std::uint64_t visits = 0;
     TableReader reader(text, file);
     while (!reader.isAtEnd()) {
-        const auto row = reader.next();
-        if (!row) return row.error();
+        SVT_TRY(row, reader.next());
         if (row->fields.empty() || isHeader(*row)) continue;
         const Place place{std::string(file), row->line, 0, {}};
         if (row->fields.size() != 2 || row->fields[0].empty() || row->fields[1].empty())

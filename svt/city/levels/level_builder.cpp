@@ -86,11 +86,9 @@ Result<LevelMember> LevelBuilder::memberOf(const Ready& ready) const {
     LevelMember result;
     result.member.tile = ready.key.tile;
     result.member.detail = ready.key.detail;
-    const auto volume = ready.sums.volume(spacing_, classes_, crsName_);
-    if (!volume) return volume.error();
+    SVT_TRY(volume, ready.sums.volume(spacing_, classes_, crsName_));
     if (volume->labels.labels.empty()) return result;
-    auto bytes = volume::svtBytes(*volume);
-    if (!bytes) return bytes.error();
+    SVT_TRY(bytes, volume::svtBytes(*volume));
     result.bytes = std::move(*bytes);
     const Vec3d half = volume->grid.spacing() * 0.5;
     result.member.box.min = volume->grid.origin() - half;

@@ -95,13 +95,12 @@ Result<City> City::open(const std::filesystem::path& folder) { return open(openS
 Result<City> City::open(std::shared_ptr<const Store> store, const std::filesystem::path& folder) {
     City city(folder);
     city.store_ = std::move(store);
-    const auto text = city.store_->read("city.json", 0, 1 << 20);
-    if (!text) return text.error();
+    SVT_TRY(text, city.store_->read("city.json", 0, 1 << 20));
     if (text->empty()) return city.damaged("city.json", "the folder has no merged city");
-    if (auto read = city.readJson(*text); !read) return read.error();
-    if (auto proven = city.proveFolder(); !proven) return proven.error();
-    if (auto read = city.readRoot(); !read) return read.error();
-    if (auto read = city.readPackSizes(); !read) return read.error();
+    SVT_DO(city.readJson(*text));
+    SVT_DO(city.proveFolder());
+    SVT_DO(city.readRoot());
+    SVT_DO(city.readPackSizes());
     return city;
 }
 
@@ -138,16 +137,14 @@ Result<void> City::proveFolder() const {
     if (!proof_ || !store_->isLocal()) return {};
     for (const auto& [name, file] :
          {std::pair{"index.bin", &proof_->index}, {"ids.bin", &proof_->ids}, {"packs.bin", &proof_->packs}}) {
-        const auto difference = differenceOf(*store_, name, *file);
-        if (!difference) return difference.error();
+        SVT_TRY(difference, differenceOf(*store_, name, *file));
         if (!difference->empty()) return damaged(name, *difference);
     }
     return {};
 }
 
 Result<void> City::readRoot() {
-    const auto read = store_->read("index.bin", 0, kIndexHead + kIndexPage);
-    if (!read) return read.error();
+    SVT_TRY(read, store_->read("index.bin", 0, kIndexHead + kIndexPage));
     const std::string& head = *read;
     Taker from(head);
     const std::string_view magic = from.text(8);
@@ -165,8 +162,7 @@ Result<void> City::readRoot() {
 }
 
 Result<void> City::readPackSizes() {
-    const auto sizes = store_->read("packs.bin", 0, std::size_t{packs_} * kPackEntry);
-    if (!sizes) return sizes.error();
+    SVT_TRY(sizes, store_->read("packs.bin", 0, std::size_t{packs_} * kPackEntry));
     // Nobody gives a page the digests of whole packs.
     if (proof_ && !sizes->empty() && hexOf(digestOf(*sizes)) != proof_->packs.sha256)
         return damaged("packs.bin", "the file is damaged or of another merge: its digest is not the one of city.json");
@@ -176,8 +172,7 @@ Result<void> City::readPackSizes() {
 }
 
 Result<void> City::readEntries(const Page& page, std::vector<IndexEntry>& to) const {
-    const auto bytes = store_->read("index.bin", kIndexHead + root_.size() + page.offset, page.size);
-    if (!bytes) return bytes.error();
+    SVT_TRY(bytes, store_->read("index.bin", kIndexHead + root_.size() + page.offset, page.size));
     const auto entries = idHash(*bytes) == page.checksum ? takeEntries(*bytes) : std::nullopt;
     if (!entries) return damaged("index.bin", fmt::format("the page at byte {} is damaged", page.offset));
     to.insert(to.end(), entries->begin(), entries->end());
@@ -196,11 +191,10 @@ Result<std::vector<IndexEntry>> City::find(int detail, const std::array<double, 
             !meets(rectangle, ref.rectangle[0], ref.rectangle[1], ref.rectangle[2], ref.rectangle[3]))
             continue;
         if (ref.isLeaf) {
-            if (auto read = readEntries({ref}, found); !read) return read.error();
+            SVT_DO(readEntries({ref}, found));
             continue;
         }
-        const auto bytes = store_->read("index.bin", kIndexHead + root_.size() + ref.offset, ref.size);
-        if (!bytes) return bytes.error();
+        SVT_TRY(bytes, store_->read("index.bin", kIndexHead + root_.size() + ref.offset, ref.size));
         const auto below = idHash(*bytes) == ref.checksum ? takeRefs(*bytes) : std::nullopt;
         // A page stands before those that refer to it, so this ends.
         const bool isBefore =
@@ -236,8 +230,7 @@ Result<std::vector<City::Place>> City::find(const std::string& id) const {
         return damaged("ids.bin", "the index of ids is missing or damaged");
     if (proof_ && (proof_->fence != sum || proof_->idCount != count))
         return damaged("ids.bin", "the ids are not the ones that city.json names: they are of another merge");
-    const auto read = store_->read(path, kIdHead, fenceSize);
-    if (!read) return read.error();
+    SVT_TRY(read, store_->read(path, kIdHead, fenceSize));
     const std::string& fence = *read;
     if (fence.size() != fenceSize || idHash(fence) != sum) return damaged("ids.bin", "the fence of the ids is damaged");
     std::vector<std::uint64_t> first;
@@ -248,8 +241,7 @@ Result<std::vector<City::Place>> City::find(const std::string& id) const {
     page -= page > 0 ? 1 : 0;
     std::vector<Place> found;
     for (; page < pages && first[page] <= hash; ++page) {
-        const auto own = store_->read(path, kIdHead + fenceSize + page * kIdPage, kIdPage);
-        if (!own) return own.error();
+        SVT_TRY(own, store_->read(path, kIdHead + fenceSize + page * kIdPage, kIdPage));
         const std::string& bytes = *own;
         Taker tail(std::string_view(bytes).substr(std::min(bytes.size(), kIdPage - 8)));
         if (bytes.size() != kIdPage || tail.take<std::uint64_t>() != idHash(bytes.substr(0, kIdPage - 8)))
@@ -272,8 +264,7 @@ Result<std::string> City::readBytes(const IndexEntry& entry) const {
     const std::string name = packName(entry.pack);
     auto bytes = store_->read(name, entry.offset, entry.size);
     if (!bytes) return bytes;
-    const auto size = store_->size(name);
-    if (!size) return size.error();
+    SVT_TRY(size, store_->size(name));
     if (entry.pack < packSizes_.size() && *size != packSizes_[entry.pack])
         return badMember(store_->place(name), entry, "the pack is not as long as when the city was merged");
     if (bytes->size() != entry.size)
@@ -282,8 +273,7 @@ Result<std::string> City::readBytes(const IndexEntry& entry) const {
 }
 
 Result<volume::SemanticVolume> City::read(const IndexEntry& entry) const {
-    const auto bytes = readBytes(entry);
-    if (!bytes) return bytes.error();
+    SVT_TRY(bytes, readBytes(entry));
     const std::string place = store_->place(packName(entry.pack));
     auto volume = volume::readSvt(std::as_bytes(std::span(*bytes)), place);
     if (!volume) return badMember(place, entry, volume.error().message());
@@ -361,8 +351,7 @@ Result<std::vector<IndexEntry>> entriesOf(const City& city, const Extract& extra
     if (extract.hasBox) rectangle = {extract.box[0], extract.box[1], extract.box[3], extract.box[4]};
     std::vector<TileKey> tiles = extract.tiles;
     for (const std::string& id : extract.ids) {
-        const auto places = city.find(id);
-        if (!places) return places.error();
+        SVT_TRY(places, city.find(id));
         if (places->empty())
             return Error(Code::NothingSelected, fmt::format("the city has no building with the id '{}'", id));
         for (const City::Place& place : *places) tiles.push_back(place.tile);
@@ -385,12 +374,10 @@ Result<volume::SemanticVolume> extractVolume(const City& city, const Extract& ex
                      fmt::format("detail {}: the coarsest of this city is {}", extract.detail, city.topDetail()));
     if (extract.detail >= kFirstClassDetail && !extract.ids.empty())
         return Error(Code::BadArgument, "details 2 and up have classes, no buildings; choose by --box or --tile");
-    const auto entries = entriesOf(city, extract);
-    if (!entries) return entries.error();
+    SVT_TRY(entries, entriesOf(city, extract));
     std::vector<volume::SemanticVolume> parts;
     for (const IndexEntry& entry : *entries) {
-        auto volume = city.read(entry);
-        if (!volume) return volume.error();
+        SVT_TRY(volume, city.read(entry));
         if (!extract.ids.empty()) {
             const std::vector<std::uint32_t> kept = labelsOf(volume->labels, extract.ids);
             if (kept.empty()) continue;

@@ -81,16 +81,14 @@ std::optional<CityProof> readProof(const nlohmann::json& json) {
 }
 
 Result<std::string> differenceOf(const Store& store, const char* name, const CityProof::File& file) {
-    const auto size = store.size(name);
-    if (!size) return size.error();
+    SVT_TRY(size, store.size(name));
     if (*size != file.bytes)
         return fmt::format("the file has {} bytes, and city.json says {}: it is damaged or of another merge", *size,
                            file.bytes);
     if (*size > kMostProvenBytes) return std::string();
     Sha256 sum;
     for (std::uint64_t at = 0; at < *size; at += kPiece) {
-        const auto piece = store.read(name, at, kPiece);
-        if (!piece) return piece.error();
+        SVT_TRY(piece, store.read(name, at, kPiece));
         sum.add(*piece);
     }
     if (hexOf(sum.finish()) == file.sha256) return std::string();

@@ -90,7 +90,7 @@ public:
         for (std::size_t n = 0; n < packs.size(); ++n) {
             Progress::tell(progress, "levels", double(n) / double(packs.size()));
             if (Progress::isCancelled(progress)) return Error(Code::Cancelled, "stopped while merging");
-            if (auto added = addPack(packs[n], threads, builder); !added) return added;
+            SVT_DO(addPack(packs[n], threads, builder));
         }
         for (std::size_t detail = 0; detail < writers_.size(); ++detail)
             if (auto done = finish(static_cast<int>(detail)); !done) return done;
@@ -111,8 +111,7 @@ private:
     };
 
     Result<void> addPack(std::uint32_t number, int threads, LevelBuilder& builder) {
-        const auto pack = Pack::open(packPath(folder_, number), plan_.packDigests[number]);
-        if (!pack) return pack.error();
+        SVT_TRY(pack, Pack::open(packPath(folder_, number), plan_.packDigests[number]));
         std::vector<const PackMember*> members;
         for (const PackMember& member : pack->members())
             if (member.detail == 1) members.push_back(&member);
@@ -143,12 +142,10 @@ private:
         if (!to.writer) {
             const auto details = static_cast<std::uint32_t>(merged_.top - kFirstClassDetail + 1);
             to.number = plan_.packs + to.series++ * details + static_cast<std::uint32_t>(merged_.top - detail);
-            auto writer = PackWriter::create(packPath(folder_, to.number), plan_.digest);
-            if (!writer) return writer.error();
+            SVT_TRY(writer, PackWriter::create(packPath(folder_, to.number), plan_.digest));
             to.writer = std::move(*writer);
         }
-        const auto added = to.writer->add(member.member, member.bytes);
-        if (!added) return added.error();
+        SVT_TRY(added, to.writer->add(member.member, member.bytes));
         addEntry(*added, to.number, 0, merged_);
         return {};
     }
@@ -156,8 +153,7 @@ private:
     Result<void> finish(int detail) {
         Writing& own = writers_[static_cast<std::size_t>(detail)];
         if (!own.writer) return {};
-        auto sum = own.writer->commit();
-        if (!sum) return sum.error();
+        SVT_TRY(sum, own.writer->commit());
         done_[own.number] = {own.writer->size(), digestFromHex(*sum)};
         own.writer.reset();
         return {};
@@ -302,24 +298,21 @@ Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& pl
             merged.packs.append(32, '\0');
             continue;
         }
-        const auto report = provenReport(folder, plan, number, false);
-        if (!report) return report.error();
+        SVT_TRY(report, provenReport(folder, plan, number, false));
         put(merged.packs, report->bytes);
         const Digest digest = digestFromHex(report->sha256);
         merged.packs.append(reinterpret_cast<const char*>(digest.data()), digest.size());
-        const auto pack = Pack::open(packPath(folder, number), plan.packDigests[number]);
-        if (!pack) return pack.error();
+        SVT_TRY(pack, Pack::open(packPath(folder, number), plan.packDigests[number]));
         addPack(*pack, number, plan.options.spacing, merged);
     }
-    if (auto done = LevelPacks(folder, plan, merged).run(threads, progress); !done) return done.error();
+    SVT_DO(LevelPacks(folder, plan, merged).run(threads, progress));
     const std::string index = indexBytes(merged.entries), ids = idsBytes(std::move(merged.ids));
     for (const auto& [name, text] : {std::pair<const char*, const std::string*>{"packs.bin", &merged.packs},
                                      {"index.bin", &index},
                                      {"ids.bin", &ids}})
         if (const auto written = writeFileAtomically(folder / name, *text); !written) return written.error();
     // Last: while it is the one before, it names other files, and the city is merged again.
-    const auto written = writeFileAtomically(folder / "city.json", cityJson(plan, status, merged, index, ids));
-    if (!written) return written.error();
+    SVT_TRY(written, writeFileAtomically(folder / "city.json", cityJson(plan, status, merged, index, ids)));
     return status;
 }
 

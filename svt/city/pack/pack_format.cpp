@@ -71,15 +71,14 @@ bool takeMember(Taker& from, std::uint64_t bodyEnd, PackMember& member) {
 Result<PackWriter> PackWriter::create(const std::filesystem::path& path, const std::string& content) {
     std::error_code failed;
     std::filesystem::create_directories(path.parent_path(), failed);
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
+    SVT_TRY(file, AtomicFile::create(path));
     PackWriter writer(std::move(*file));
     std::string head(kHead);
     put(head, kPackVersion);
     put(head, std::uint32_t{0});
     const Digest digest = digestFromHex(content);
     head.append(reinterpret_cast<const char*>(digest.data()), digest.size());
-    if (auto written = writer.write(head); !written) return written.error();
+    SVT_DO(writer.write(head));
     return writer;
 }
 
@@ -90,12 +89,12 @@ Result<void> PackWriter::write(std::span<const std::byte> bytes) {
 
 Result<PackMember> PackWriter::add(PackMember member, std::span<const std::byte> bytes) {
     const std::string zeros((kAlignment - file_.size() % kAlignment) % kAlignment, '\0');
-    if (auto written = write(zeros); !written) return written.error();
+    SVT_DO(write(zeros));
     member.offset = file_.size();
     member.size = bytes.size();
     putMember(directory_, member);
     ++count_;
-    if (auto written = write(bytes); !written) return written.error();
+    SVT_DO(write(bytes));
     return member;
 }
 
@@ -108,19 +107,17 @@ Result<std::string> PackWriter::commit() {
     put(tail, static_cast<std::uint64_t>(directory.size()));
     put(tail, sumOf(directory));
     tail += kTail;
-    if (auto written = write(directory + tail); !written) return written.error();
-    if (const auto done = file_.commit(); !done) return done.error();
+    SVT_DO(write(directory + tail));
+    SVT_DO(file_.commit());
     return hexOf(sum_.finish());
 }
 
 Result<Pack> Pack::open(const std::filesystem::path& path, const std::string& content) {
-    auto file = PartFile::open(path);
-    if (!file) return file.error();
+    SVT_TRY(file, PartFile::open(path));
     const std::uint64_t bytes = file->size();
     if (bytes < kHeadBytes + kTailBytes) return badPack(path, "this is not a pack");
     const std::uint64_t tailBegin = bytes - kTailBytes;
-    const auto headText = file->read(0, kHeadBytes), tailText = file->read(tailBegin, kTailBytes);
-    if (!headText) return headText.error();
+    SVT_TRY(headText, file->read(0, kHeadBytes), tailText = file->read(tailBegin, kTailBytes));
     if (!tailText) return tailText.error();
     if (!headText->starts_with(kHead)) return badPack(path, "this is not a pack");
     Taker head(std::string_view(*headText).substr(kHead.size()));
@@ -136,8 +133,7 @@ Result<Pack> Pack::open(const std::filesystem::path& path, const std::string& co
     const auto offset = tail.take<std::uint64_t>(), size = tail.take<std::uint64_t>(), sum = tail.take<std::uint64_t>();
     if (tail.text(kTail.size()) != kTail || offset < kHeadBytes || offset > tailBegin || size != tailBegin - offset)
         return badPack(path, "the directory of the pack is damaged, or its end is missing");
-    const auto directory = file->read(offset, static_cast<std::size_t>(size));
-    if (!directory) return directory.error();
+    SVT_TRY(directory, file->read(offset, static_cast<std::size_t>(size)));
     if (directory->size() != size || sumOf(*directory) != sum)
         return badPack(path, "the directory of the pack is damaged, or its end is missing");
     Pack pack(path, std::move(*file));
@@ -151,8 +147,7 @@ Result<Pack> Pack::open(const std::filesystem::path& path, const std::string& co
 }
 
 Result<volume::SemanticVolume> Pack::read(const PackMember& member) const {
-    const auto bytes = file_.read(member.offset, static_cast<std::size_t>(member.size));
-    if (!bytes) return bytes.error();
+    SVT_TRY(bytes, file_.read(member.offset, static_cast<std::size_t>(member.size)));
     auto volume = volume::readSvt(std::as_bytes(std::span(*bytes)));
     if (!volume)
         return badPack(path_, fmt::format("tile {}, detail {}, is damaged ({})", member.tile.toString(), member.detail,
@@ -220,12 +215,10 @@ Result<PackReport> provenReport(const std::filesystem::path& folder, const Plan&
     if (std::filesystem::file_size(path, failed) != report->bytes || failed)
         return open("the pack is missing, or has another size than its report says");
     if (!isProven) return report;
-    const auto file = PartFile::open(path);
-    if (!file) return file.error();
+    SVT_TRY(file, PartFile::open(path));
     Sha256 sum;
     for (std::uint64_t at = 0; at < file->size(); at += kPieceBytes) {
-        const auto piece = file->read(at, kPieceBytes);
-        if (!piece) return piece.error();
+        SVT_TRY(piece, file->read(at, kPieceBytes));
         sum.add(*piece);
     }
     if (hexOf(sum.finish()) != report->sha256) return open("the pack has another SHA-256 than its report says");

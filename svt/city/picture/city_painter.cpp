@@ -12,8 +12,7 @@
 namespace svt::city {
 
 Result<CityPainter> CityPainter::make(City city, const CityPaintOptions& options) {
-    auto frame = frameVolume(city);
-    if (!frame) return frame.error();
+    SVT_TRY(frame, frameVolume(city));
     return CityPainter(std::move(city), std::move(*frame), options);
 }
 
@@ -24,12 +23,10 @@ Result<void> CityPainter::lookAround(illustrate::Scene& scene) const {
         return Error(Code::BadArgument, "around: of a city, a building by its id is known: id=ID");
     Extract extract;
     extract.ids.push_back(scene.camera.around.substr(3));
-    const auto part = extractVolume(city_, extract);
-    if (!part) return part.error();
+    SVT_TRY(part, extractVolume(city_, extract));
     illustrate::SceneCamera now = scene.camera;
     now.around.clear();
-    auto camera = illustrate::makeView("", now.preset, now, double(scene.width) / scene.height, *part);
-    if (!camera) return camera.error();
+    SVT_TRY(camera, illustrate::makeView("", now.preset, now, double(scene.width) / scene.height, *part));
     const Vec3d by = part->grid.origin() - frame_.grid.origin();
     if (camera->eye) camera->eye = *camera->eye + by;
     if (camera->target) camera->target = *camera->target + by;
@@ -60,14 +57,12 @@ std::vector<float> hidingDepths(const render::Frame& frame, const render::FrameS
 
 // Reads what is chosen.
 Result<JoinedTiles> CityPainter::read() const {
-    auto parts = readTiles(city_, chosen_, options_.threads, options_.progress);
-    if (!parts) return parts.error();
+    SVT_TRY(parts, readTiles(city_, chosen_, options_.threads, options_.progress));
     return joinTiles(city_, frame_, chosen_, std::move(*parts));
 }
 
 Result<illustrate::Painting> CityPainter::draw(const illustrate::Scene& scene, const render::CastOptions& options) {
-    const auto tiles = read();
-    if (!tiles) return tiles.error();
+    SVT_TRY(tiles, read());
     nothing_.clear();
     illustrate::ScenePainter painter(tiles->frame, options_.threads);
     painter.tolerateNothing(&nothing_);
@@ -86,8 +81,7 @@ Result<void> CityPainter::leaveOutHidden(illustrate::Scene scene, const CameraVi
     const ChosenTiles all = chosen_;
     chosen_ = nearestOf(city_, view, all, kShare);
     chosen_.near = 0;
-    const auto tiles = read();
-    if (!tiles) return tiles.error();
+    SVT_TRY(tiles, read());
     scene.width = std::max(1, scene.width / kSmaller);
     scene.height = std::max(1, scene.height / kSmaller);
     scene.samples = 1;
@@ -131,18 +125,16 @@ bool CityPainter::takeBack(const CameraView& view, const illustrate::Painting& p
 }
 
 Result<illustrate::Painting> CityPainter::paint(illustrate::Scene scene, const render::CastOptions& options) {
-    if (auto looked = lookAround(scene); !looked) return looked.error();
+    SVT_DO(lookAround(scene));
     // Only the camera matters: queries find nothing in the frame.
     std::vector<std::string> ignored;
     illustrate::Scene plain = scene;
     plain.colorBy.clear();
-    const auto spec = illustrate::makeFrameSpec(plain, frame_, analyze::LabelRows(frame_.labels, &ignored));
-    if (!spec) return spec.error();
+    SVT_TRY(spec, illustrate::makeFrameSpec(plain, frame_, analyze::LabelRows(frame_.labels, &ignored)));
     const CameraView view = cameraViewOf(*spec, frame_.grid);
-    auto chosen = chooseTiles(city_, view, options_.memoryBytes);
-    if (!chosen) return chosen.error();
+    SVT_TRY(chosen, chooseTiles(city_, view, options_.memoryBytes));
     chosen_ = std::move(*chosen);
-    if (auto done = leaveOutHidden(scene, view, options); !done) return done.error();
+    SVT_DO(leaveOutHidden(scene, view, options));
     for (;;) {
         auto painting = draw(scene, options);
         if (!painting || leftOut_.empty() || !takeBack(view, *painting)) return painting;

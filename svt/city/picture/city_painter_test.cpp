@@ -57,10 +57,8 @@ illustrate::Scene smallScene() {
 
 // What a page does with the tiles that it has fetched.
 Result<JoinedTiles> tilesOfAPage(const ChosenTiles& chosen) {
-    const auto frame = frameVolume(smallCity());
-    if (!frame) return frame.error();
-    auto parts = readTiles(smallCity(), chosen);
-    if (!parts) return parts.error();
+    SVT_TRY(frame, frameVolume(smallCity()));
+    SVT_TRY(parts, readTiles(smallCity(), chosen));
     return joinTiles(smallCity(), *frame, chosen, std::move(*parts));
 }
 

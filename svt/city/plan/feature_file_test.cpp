@@ -81,8 +81,7 @@ std::size_t expectSameFeatures(const std::filesystem::path& path) {
     const auto done = again->pick(spans, [&](std::size_t n, std::string_view text) -> Result<void> {
         EXPECT_EQ(text, texts[n]);
         ++picked;
-        const auto model = again->read(std::span(&text, 1), options, nullptr);
-        if (!model) return model.error();
+        SVT_TRY(model, again->read(std::span(&text, 1), options, nullptr));
         describe(*model, found);
         return {};
     });

@@ -203,8 +203,7 @@ private:
 Result<void> writePlan(const std::filesystem::path& folder, const Survey& survey, const Tiling& tiling, Plan& plan) {
     std::error_code failed;
     std::filesystem::create_directories(folder / "plan", failed);
-    auto features = AtomicFile::create(folder / "plan" / "features.bin");
-    if (!features) return features.error();
+    SVT_TRY(features, AtomicFile::create(folder / "plan" / "features.bin"));
     Sha256 featureSum;
     PackDigests packDigests(plan);
     std::string tiles;
@@ -217,7 +216,7 @@ Result<void> writePlan(const std::filesystem::path& folder, const Survey& survey
             const std::string bytes = featureBytes(feature);
             featureSum.add(bytes);
             packDigests.add(feature);
-            if (auto written = features->write(bytes); !written) return written;
+            SVT_DO(features->write(bytes));
         }
     }
     plan.featuresDigest = hexOf(featureSum.finish());
@@ -227,12 +226,11 @@ Result<void> writePlan(const std::filesystem::path& folder, const Survey& survey
     sum.add(tiles);
     sum.add(packs);
     plan.digest = hexOf(sum.finish());
-    if (auto done = features->commit(); !done) return done.error();
-    if (auto done = writeFileAtomically(folder / "plan" / "tiles.bin", tiles); !done) return done.error();
-    if (auto done = writeFileAtomically(folder / "plan" / "packs.bin", packs); !done) return done.error();
+    SVT_DO(features->commit());
+    SVT_DO(writeFileAtomically(folder / "plan" / "tiles.bin", tiles));
+    SVT_DO(writeFileAtomically(folder / "plan" / "packs.bin", packs));
     // Last, so that there is no plan without its parts.
-    if (auto done = writeFileAtomically(folder / "plan" / "plan.json", planJson(plan, plan.digest)); !done)
-        return done.error();
+    SVT_DO(writeFileAtomically(folder / "plan" / "plan.json", planJson(plan, plan.digest)));
     return {};
 }
 
@@ -302,7 +300,7 @@ Result<Plan> planSurveyed(const Survey& survey, const std::filesystem::path& fol
     }
     plan.features = tiling.order().size();
     tiling.cut(plan);
-    if (auto written = writePlan(folder, survey, tiling, plan); !written) return written.error();
+    SVT_DO(writePlan(folder, survey, tiling, plan));
     return plan;
 }
 

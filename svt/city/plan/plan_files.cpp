@@ -177,8 +177,7 @@ Result<Plan> readPlan(const std::filesystem::path& folder, const std::string& pr
     std::error_code failed;
     if (!std::filesystem::exists(path, failed))
         return badPlan(folder, "the folder has no plan of a city (plan/plan.json)");
-    const auto file = FileBytes::read(path, kMaxPlanJson);
-    if (!file) return file.error();
+    SVT_TRY(file, FileBytes::read(path, kMaxPlanJson));
     const auto tiles = FileBytes::read(planFile(folder, "tiles.bin"));
     if (!tiles) return badPlan(folder, "the plan lacks tiles.bin");
     Plan plan;

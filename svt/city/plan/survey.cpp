@@ -35,8 +35,7 @@ public:
         : path_(path), options_(options), survey_(survey), diagnostics_(diagnostics) {}
 
     Result<void> run() {
-        auto file = readers::FeatureFile::open(path_, reading());
-        if (!file) return file.error();
+        SVT_TRY(file, readers::FeatureFile::open(path_, reading()));
         std::error_code failed;
         entry_ = {std::filesystem::absolute(path_, failed).lexically_normal().string(),
                   std::filesystem::file_size(path_, failed), 0, 0, 0};
@@ -45,15 +44,14 @@ public:
         Batch batch;
         while (true) {
             readers::FeatureText feature;
-            const auto found = file->next(feature);
-            if (!found) return found.error();
+            SVT_TRY(found, file->next(feature));
             if (*found) {
                 batch.texts.emplace_back(feature.text);
                 batch.spans.push_back(feature.span);
                 batch.bytes += feature.text.size();
             }
             if ((!*found || batch.bytes >= kBatchBytes) && !batch.texts.empty()) {
-                if (auto taken = takeBatch(*file, batch); !taken) return taken;
+                SVT_DO(takeBatch(*file, batch));
                 batch = {};
             }
             if (!*found) break;

@@ -25,8 +25,7 @@ Result<Content> contentOf(const fs::path& folder, const Plan& plan) {
     Content content;
     for (std::uint32_t pack = 0; pack < plan.packs; ++pack) {
         const auto [first, last] = plan.tilesOf(pack);
-        const auto features = readPlanFeatures(folder, plan, first, last);
-        if (!features) return features.error();
+        SVT_TRY(features, readPlanFeatures(folder, plan, first, last));
         std::size_t n = 0;
         for (std::size_t t = first; t < last; ++t) {
             const PlanTile& tile = plan.tiles[t];
@@ -104,8 +103,7 @@ Result<std::uint64_t> takeBack(const fs::path& folder, const Plan& now) {
             auto report = readReport(reportAside);
             if (!failed && report) {
                 report->pack = pack;
-                const auto written = writeFileAtomically(reportPath(folder, pack), reportJson(*report));
-                if (!written) return written.error();
+                SVT_TRY(written, writeFileAtomically(reportPath(folder, pack), reportJson(*report)));
                 fs::remove(reportAside, failed);
             }
             if (failed) return cannotMove(aside);
@@ -141,8 +139,7 @@ Result<Plan> updatePlan(std::span<const fs::path> files, const fs::path& folder,
     // An update that was killed between its files leaves no plan that can be read; what it put aside is taken back.
     if (!before && !fs::exists(folder / "plan", failed)) return before.error();
     if (!before) before = Plan();
-    const auto contentBefore = contentOf(folder, *before);
-    if (!contentBefore) return contentBefore.error();
+    SVT_TRY(contentBefore, contentOf(folder, *before));
     // The new plan is made beside the old one, which stays where anything fails.
     const fs::path aside = folder / "plan-new";
     fs::remove_all(aside, failed);
@@ -151,8 +148,7 @@ Result<Plan> updatePlan(std::span<const fs::path> files, const fs::path& folder,
         fs::remove_all(aside, failed);
         return now;
     }
-    const auto contentNow = contentOf(aside, *now);
-    if (!contentNow) return contentNow.error();
+    SVT_TRY(contentNow, contentOf(aside, *now));
     compare(*contentBefore, *contentNow, changes);
     if (before->digest == now->digest) {  // the same files and options
         fs::remove_all(aside, failed);
@@ -162,7 +158,7 @@ Result<Plan> updatePlan(std::span<const fs::path> files, const fs::path& folder,
     }
     // Until all is merged again there is no city.
     fs::remove(folder / "city.json", failed);
-    if (auto moved = putAside(folder, *before, *now); !moved) return moved.error();
+    SVT_DO(putAside(folder, *before, *now));
     for (const char* name : {"features.bin", "tiles.bin", "packs.bin", "plan.json"}) {
         fs::rename(aside / "plan" / name, folder / "plan" / name, failed);
         if (failed)
@@ -170,8 +166,7 @@ Result<Plan> updatePlan(std::span<const fs::path> files, const fs::path& folder,
                          {(folder / "plan").string(), 0, 0, {}});
     }
     fs::remove_all(aside, failed);
-    const auto kept = takeBack(folder, *now);
-    if (!kept) return kept.error();
+    SVT_TRY(kept, takeBack(folder, *now));
     changes.keptPacks = *kept;
     removeOthers(folder, *now);
     return now;

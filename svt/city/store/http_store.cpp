@@ -150,7 +150,7 @@ public:
     }
     Result<std::uint64_t> size(const std::string& name) const override {
         if (const auto known = knownSize(name); known != 0) return known;
-        if (const auto byte = read(name, 0, 1); !byte) return byte.error();
+        SVT_DO(read(name, 0, 1));
         return knownSize(name);
     }
     std::string place(const std::string& name) const override { return address_ + "/" + name; }

@@ -18,13 +18,11 @@ public:
     explicit FolderStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
     Result<std::string> read(const std::string& name, std::uint64_t offset, std::size_t size) const override {
-        const auto file = open(name);
-        if (!file) return file.error();
+        SVT_TRY(file, open(name));
         return *file != nullptr ? (*file)->read(offset, size) : Result<std::string>(std::string());
     }
     Result<std::uint64_t> size(const std::string& name) const override {
-        const auto file = open(name);
-        if (!file) return file.error();
+        SVT_TRY(file, open(name));
         return *file != nullptr ? (*file)->size() : std::uint64_t{0};
     }
     bool isLocal() const noexcept override { return true; }
@@ -41,8 +39,7 @@ private:
         const std::filesystem::path path = folder_ / name;
         std::error_code failed;
         if (!std::filesystem::exists(path, failed)) return Open();
-        auto opened = PartFile::open(path);
-        if (!opened) return opened.error();
+        SVT_TRY(opened, PartFile::open(path));
         const std::string which = fmt::format("{} {}", fileIdentity(path), opened->size());
         if (seen_.emplace(name, which).first->second != which)
             return Error(Code::BadCity, "the file was replaced while it was read; open the city again",

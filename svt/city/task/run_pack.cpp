@@ -132,7 +132,7 @@ public:
             if (Progress::isCancelled(options_.progress)) return Error(Code::Cancelled, "stopped while building");
             for (const auto& [feature, reason] : said.failed) skips_.emplace(feature, reason);
             if (!said.tile) return failed(fmt::format("its process {}", faultText(result, said)));
-            if (auto tried = tryTile(*said.tile, faultText(result, said)); !tried) return tried.error();
+            SVT_DO(tryTile(*said.tile, faultText(result, said)));
         }
         return failed("too many of its tiles cannot be built");
     }
@@ -177,10 +177,8 @@ private:
     // \return whether all of it was built; false: the tile that was begun last cannot be built
     Result<bool> build(const Say& say) {
         Watch watch;
-        const auto features = PackFeatures::read(folder_, plan_, pack_);
-        if (!features) return features.error();
-        auto writer = PackWriter::create(packPath(folder_, pack_), plan_.packDigests[pack_]);
-        if (!writer) return writer.error();
+        SVT_TRY(features, PackFeatures::read(folder_, plan_, pack_));
+        SVT_TRY(writer, PackWriter::create(packPath(folder_, pack_), plan_.packDigests[pack_]));
         PackReport report{pack_, plan_.packDigests[pack_], {}, 0, 0, 0, {}};
         const auto [first, last] = plan_.tilesOf(pack_);
         for (std::size_t tile = first; tile < last; ++tile) {
@@ -193,28 +191,25 @@ private:
             auto built = buildTile(*features, all, plan_.options, options_.threads);
             if (!built) return false;
             if (!*built) continue;
-            if (auto added = addTile(*writer, plan_.tiles[tile].key, **built, report); !added) return added.error();
+            SVT_DO(addTile(*writer, plan_.tiles[tile].key, **built, report));
         }
         watch.begin(3600);
         report.bytes = writer->size();
-        auto sum = writer->commit();
-        if (!sum) return sum.error();
+        SVT_TRY(sum, writer->commit());
         report.sha256 = *sum;
         report.members = writer->count();
         report.bytes = writer->size();
         for (const auto& [feature, reason] : skips_) report.skipped.push_back(features->skipped(feature, reason));
         std::error_code ignored;
         std::filesystem::create_directories(folder_ / "reports", ignored);
-        const auto written = writeFileAtomically(reportPath(folder_, pack_), reportJson(report));
-        if (!written) return written.error();
+        SVT_TRY(written, writeFileAtomically(reportPath(folder_, pack_), reportJson(report)));
         return true;
     }
 
     static Result<void> addTile(PackWriter& writer, const TileKey& key, const BuiltTile& tile, PackReport& report) {
         for (const int detail : {0, 1}) {
             const volume::SemanticVolume& volume = detail == 0 ? tile.full : tile.buildings;
-            const auto bytes = volume::svtBytes(volume);
-            if (!bytes) return bytes.error();
+            SVT_TRY(bytes, volume::svtBytes(volume));
             PackMember member;
             member.tile = key;
             member.detail = detail;
@@ -223,7 +218,7 @@ private:
             member.box.max =
                 volume.grid.origin() + scaled(toDouble(volume.grid.dimension()), volume.grid.spacing()) - half;
             if (detail == 0) member.buildings = tile.labels;
-            if (auto added = writer.add(std::move(member), *bytes); !added) return added.error();
+            SVT_DO(writer.add(std::move(member), *bytes));
         }
         report.buildings += tile.labels.size();
         return {};
@@ -246,8 +241,7 @@ private:
             from = *said.feature + 1;
         }
         if (skips_.size() != before) return {};
-        const auto features = readPlanFeatures(folder_, plan_, tile, tile + 1);
-        if (!features) return features.error();
+        SVT_TRY(features, readPlanFeatures(folder_, plan_, tile, tile + 1));
         const std::uint64_t offset = plan_.tiles[tile].firstFeature - plan_.tiles[plan_.tilesOf(pack_)[0]].firstFeature;
         for (std::size_t n = 0; n < features->size(); ++n)
             skips_.emplace(
@@ -261,8 +255,7 @@ private:
     // In a process of its own.
     Result<bool> tryFeatures(std::size_t tile, std::uint32_t from, const Say& say) {
         Watch watch;
-        const auto features = PackFeatures::read(folder_, plan_, pack_);
-        if (!features) return features.error();
+        SVT_TRY(features, PackFeatures::read(folder_, plan_, pack_));
         for (const std::uint32_t n : chosen(*features, tile)) {
             if (n < from) continue;
             say(fmt::format("@feature {}\n", n));

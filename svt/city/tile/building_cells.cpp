@@ -233,9 +233,8 @@ Result<volume::SemanticVolume> buildingsOf(const volume::SemanticVolume& full, i
     volume::SemanticVolume result;
     const ColumnVolume columns = CellColumns(full.columns, parts).run(threads);
     const Vec3d step = full.grid.spacing();
-    const auto grid = volume::Grid::fromParts(columns.dimension(), step * 2.0,
-                                              full.grid.worldFromIndex({0.5, 0.5, 0.5}), full.grid.axes());
-    if (!grid) return grid.error();
+    SVT_TRY(grid, volume::Grid::fromParts(columns.dimension(), step * 2.0, full.grid.worldFromIndex({0.5, 0.5, 0.5}),
+                                          full.grid.axes()));
     result.grid = *grid;
     result.labels = std::move(parts.table);
     const auto counts = columns.countVoxels(result.labels.scalarCount());

@@ -14,8 +14,7 @@ Result<PackFeatures> PackFeatures::read(const std::filesystem::path& folder, con
     const auto [first, last] = plan.tilesOf(pack);
     if (first == last) return Error(Code::BadArgument, fmt::format("the plan has no pack {}", pack));
     PackFeatures result(plan);
-    auto features = readPlanFeatures(folder, plan, first, last);
-    if (!features) return features.error();
+    SVT_TRY(features, readPlanFeatures(folder, plan, first, last));
     result.first_ = plan.tiles[first].firstFeature;
     result.features_ = std::move(*features);
     result.texts_.resize(result.features_.size());
@@ -29,7 +28,7 @@ Result<PackFeatures> PackFeatures::read(const std::filesystem::path& folder, con
         const std::uint32_t file = result.features_[order[begin]].file;
         std::size_t end = begin;
         while (end < order.size() && result.features_[order[end]].file == file) ++end;
-        if (auto done = result.readFile(file, std::span(order).subspan(begin, end - begin)); !done) return done.error();
+        SVT_DO(result.readFile(file, std::span(order).subspan(begin, end - begin)));
         begin = end;
     }
     return result;
@@ -44,8 +43,7 @@ Result<void> PackFeatures::readFile(std::uint32_t file, std::span<const std::uin
     std::error_code failed;
     if (std::filesystem::file_size(entry.path, failed) != entry.size || failed)
         return changed("the file is missing or has another size than when the city was planned");
-    auto opened = readers::FeatureFile::open(entry.path);
-    if (!opened) return opened.error();
+    SVT_TRY(opened, readers::FeatureFile::open(entry.path));
     std::vector<readers::FeatureSpan> spans;
     for (const std::uint32_t n : features) spans.push_back(features_[n].span);
     auto picked = opened->pick(spans, [&](std::size_t s, std::string_view text) -> Result<void> {
@@ -83,8 +81,7 @@ Result<model::BuildingModel> PackFeatures::model(std::span<const std::uint32_t> 
         options.axisOrder = plan_->files[file].axisOrder;
         options.keepFarFeatures = true;
         options.allowTruncated = true;  // the plan has what of the file is to be read
-        auto model = files_.at(file).read(views, options, nullptr);
-        if (!model) return model.error();
+        SVT_TRY(model, files_.at(file).read(views, options, nullptr));
         joiner.add(std::move(*model));
     }
     if (joiner.count() == 0) return Error(Code::EmptyModel, "no features");
@@ -110,26 +107,22 @@ Result<volume::Grid> latticeGrid(const Box3d& box, double spacing) {
 
 Result<std::optional<BuiltTile>> buildTile(const PackFeatures& features, std::span<const std::uint32_t> chosen,
                                            const CityOptions& options, int threads) {
-    auto model = features.model(chosen, threads);
-    if (!model) return model.error();
+    SVT_TRY(model, features.model(chosen, threads));
     Box3d box;
     for (const model::Feature& feature : model->features)
         for (const model::Geometry& geometry : feature.geometries) box.add(model->bounds(geometry));
     if (box.isEmpty()) return std::optional<BuiltTile>();
-    const auto grid = latticeGrid(box, options.spacing);
-    if (!grid) return grid.error();
+    SVT_TRY(grid, latticeGrid(box, options.spacing));
     pipeline::BuildOptions building;
     building.grid = *grid;
     building.lod.lod = options.lod;
     building.threads = threads;
-    auto built = pipeline::buildVolume(*model, building);
-    if (!built) return built.error();
+    SVT_TRY(built, pipeline::buildVolume(*model, building));
     BuiltTile tile;
     tile.full = std::move(built->volume);
     // Names of files on the machine that built are no part of a city.
     tile.full.source.clear();
-    auto buildings = buildingsOf(tile.full, threads);
-    if (!buildings) return buildings.error();
+    SVT_TRY(buildings, buildingsOf(tile.full, threads));
     tile.buildings = std::move(*buildings);
     const std::vector<volume::Label>& labels = tile.full.labels.labels;
     for (std::uint32_t l = 0; l < labels.size(); ++l)

@@ -278,8 +278,7 @@ Result<std::vector<volume::SemanticVolume>> readTiles(const City& city, const Ch
             joined.push_back(std::move(parts.front()));
             continue;
         }
-        auto volume = joinVolumes(parts, entries[begin].detail >= kFirstClassDetail);
-        if (!volume) return volume.error();
+        SVT_TRY(volume, joinVolumes(parts, entries[begin].detail >= kFirstClassDetail));
         joined.push_back(std::move(*volume));
     }
     return joined;

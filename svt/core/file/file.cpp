@@ -150,8 +150,7 @@ int readAt(int descriptor, std::uint64_t offset, std::span<std::byte> to, std::s
 
 Result<FileBytes> FileBytes::read(const fs::path& path, std::uint64_t maxBytes) {
     std::uint64_t size = 0;
-    const auto input = openInput(path, maxBytes, size);
-    if (!input) return input.error();
+    SVT_TRY(input, openInput(path, maxBytes, size));
     const Descriptor descriptor(*input);
     FileBytes file;
     try {
@@ -176,8 +175,7 @@ Result<FileBytes> FileBytes::read(const fs::path& path, std::uint64_t maxBytes) 
 
 Result<FileBytes> FileBytes::map(const fs::path& path, std::uint64_t maxBytes) {
     std::uint64_t size = 0;
-    const auto input = openInput(path, maxBytes, size);
-    if (!input) return input.error();
+    SVT_TRY(input, openInput(path, maxBytes, size));
     const Descriptor descriptor(*input);
     FileBytes file;
     if (size == 0) return file;
@@ -202,8 +200,7 @@ FileBytes::~FileBytes() {
 
 Result<PartFile> PartFile::open(const fs::path& path) {
     PartFile file;
-    const auto input = openInput(path, FileBytes::kNoLimit, file.size_);
-    if (!input) return input.error();
+    SVT_TRY(input, openInput(path, FileBytes::kNoLimit, file.size_));
     file.descriptor_ = *input;
     file.path_ = path;
     return file;
@@ -354,7 +351,7 @@ Result<void> AtomicFile::writeZeros(std::uint64_t count) {
     static constexpr std::byte kZeros[4096]{};
     while (count > 0) {
         const auto piece = static_cast<std::size_t>(std::min<std::uint64_t>(count, sizeof(kZeros)));
-        if (auto written = write(std::span(kZeros, piece)); !written) return written;
+        SVT_DO(write(std::span(kZeros, piece)));
         count -= piece;
     }
     return {};
@@ -362,7 +359,7 @@ Result<void> AtomicFile::writeZeros(std::uint64_t count) {
 
 Result<std::uint64_t> AtomicFile::commit() {
     if (descriptor_ < 0) return fail(failed_ != 0 ? failed_ : EBADF);
-    if (auto flushed = flush(); !flushed) return flushed.error();
+    SVT_DO(flush());
     const bool isDirect = temporary_.empty();
     // Without fsync, a crash after the rename could leave an empty file in place of the old one.
     if (!isDirect && ::fsync(descriptor_) != 0) return fail(errno);

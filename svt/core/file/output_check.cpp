@@ -52,7 +52,7 @@ Result<void> checkWritable(const fs::path& target) {
                              "no permission to write here; change the permissions or choose another name");
     }
     // Only the attempt tells what permissions, read-only file systems and the like allow.
-    if (const auto file = AtomicFile::create(target); !file) return file.error();
+    SVT_DO(AtomicFile::create(target));
     if (const std::uintmax_t space = spaceLeft(target); space < kLeastSpace)
         return cannotWriteTo(
             target, Code::DiskFull,

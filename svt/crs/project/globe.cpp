@@ -30,8 +30,7 @@ Result<Vec3d> placeOnEarth(int epsg, Vec3d place) {
     if (const auto zone = project::findZone(horizontal)) {
         found = project::TransverseMercator(zone->ellipsoid, zone->zone).inverse(place);
     } else {
-        const auto degrees = project::placeInDegrees(horizontal, place);
-        if (!degrees) return degrees.error();
+        SVT_TRY(degrees, project::placeInDegrees(horizontal, place));
         found = {degrees->place.x, degrees->place.y, place.z};
     }
     if (!isPlaceOnEarth(found))
@@ -60,15 +59,13 @@ GlobeFrame frameAt(Vec3d place) noexcept {
 }
 
 Result<GlobeFrame> frameOf(int epsg, Vec3d place) {
-    const auto at = placeOnEarth(epsg, place);
-    if (!at) return at.error();
+    SVT_TRY(at, placeOnEarth(epsg, place));
     GlobeFrame frame = frameAt(*at);
     for (int axis = 0; axis < 2; ++axis) {
         Vec3d ahead = place, behind = place;
         ahead[axis] += kStep;
         behind[axis] -= kStep;
-        const auto to = placeOnEarth(epsg, ahead), from = placeOnEarth(epsg, behind);
-        if (!to) return to.error();
+        SVT_TRY(to, placeOnEarth(epsg, ahead), from = placeOnEarth(epsg, behind));
         if (!from) return from.error();
         frame.axes[static_cast<std::size_t>(axis)] = (earthCentred(*to) - earthCentred(*from)) * (1 / (2 * kStep));
     }

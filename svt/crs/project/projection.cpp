@@ -72,8 +72,7 @@ Result<Projection> Projection::toUsualMetres(int source, Vec3d place) {
         const auto zone = project::usualZone(4326, place);
         return project::projBetween(source, zone->epsg);
     }
-    const auto degrees = project::placeInDegrees(source, place);
-    if (!degrees) return degrees.error();
+    SVT_TRY(degrees, project::placeInDegrees(source, place));
     if (!isOnEarth(degrees->place))
         return Error(Code::CannotProject,
                      fmt::format("({}, {}) is outside of what EPSG:{} can describe", place.x, place.y, source));

@@ -11,8 +11,7 @@ namespace svt::illustrate {
 Result<std::vector<double>> areasFor(std::string_view key, const volume::SemanticVolume& volume) {
     std::vector<double> areas;
     if (!equalsIgnoringCase(key, "area")) return areas;
-    const auto measured = measureFloorAreas(volume, findLevels(volume));
-    if (!measured) return measured.error();
+    SVT_TRY(measured, measureFloorAreas(volume, findLevels(volume)));
     areas.resize(volume.labels.labels.size(), 0);
     for (const RoomArea& room : measured->rooms) areas[room.label] = room.area;
     return areas;
@@ -20,8 +19,7 @@ Result<std::vector<double>> areasFor(std::string_view key, const volume::Semanti
 
 Result<void> addOwnerAttributes(volume::SemanticVolume& volume, std::string_view table, std::string_view file,
                                 int threads) {
-    const auto owners = analyze::parseOwners(table, file, volume.labels);
-    if (!owners) return owners.error();
+    SVT_TRY(owners, analyze::parseOwners(table, file, volume.labels));
     const auto contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, threads);
     std::vector<std::string> names(volume.labels.labels.size());
     for (std::size_t l = 0; l < names.size(); ++l)

@@ -197,8 +197,7 @@ Result<NameTags> findNameTags(const std::vector<std::string>& queries, const vol
     const auto& labels = volume.labels.labels;
     std::vector<bool> isSelected(labels.size(), false);
     for (const std::string& query : queries) {
-        const auto selected = analyze::selectLabels(rows, query);
-        if (!selected) return selected.error();
+        SVT_TRY(selected, analyze::selectLabels(rows, query));
         for (const std::uint32_t l : *selected) isSelected[l] = true;
     }
     const std::vector<std::uint32_t> labelOf = volume.labels.labelOfScalar();

@@ -102,7 +102,7 @@ public:
 
     Result<FloorAreas> run() {
         areas_.levels.resize(levels_.size());
-        if (auto cut = cutLevels(); !cut) return cut.error();
+        SVT_DO(cutLevels());
         addRooms();
         addComponents();
         return std::move(areas_);
@@ -120,9 +120,8 @@ private:
                                      levels_[n].bound};
             areas_.levels[n].isExact = levels_[n].bound == 0;
             if (!meetsGrid(plane, volume_.grid)) continue;
-            const auto drawing = bricks_ != nullptr ? drawSection(volume_, *bricks_, plane, options)
-                                                    : drawSection(volume_, plane, options);
-            if (!drawing) return drawing.error();
+            SVT_TRY(drawing, bricks_ != nullptr ? drawSection(volume_, *bricks_, plane, options)
+                                                : drawSection(volume_, plane, options));
             for (const SectionComponent& component : drawing->components) {
                 const volume::Label& label = volume_.labels.labels[component.label];
                 if (model::classRank(label.className) == model::ClassRank::Other) continue;

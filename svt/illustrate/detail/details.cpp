@@ -120,8 +120,7 @@ Result<void> joinLabels(volume::SemanticVolume& volume, std::span<volume::Semant
             return Error(Code::BadArgument,
                          fmt::format("{} has coordinates of {}, but {} of {}; build both with the same --crs",
                                      volume.source, volume.crsName, detail.source, detail.crsName));
-        auto scalars = joiner.join(detail.labels);
-        if (!scalars) return scalars.error();
+        SVT_TRY(scalars, joiner.join(detail.labels));
         detail.columns = volume::replaceScalars(detail.columns, *scalars);
     }
     for (volume::SemanticVolume& detail : details) detail.labels = volume.labels;

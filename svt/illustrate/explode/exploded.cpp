@@ -223,8 +223,7 @@ Result<volume::SemanticVolume> explodeStoreys(const volume::SemanticVolume& volu
                         "distance or a larger --spacing",
                         parts.highest + 1, distance, height));
     dimension.z = static_cast<std::int32_t>(height);
-    auto higher = volume::Grid::fromParts(dimension, grid.spacing(), grid.origin(), grid.axes());
-    if (!higher) return higher.error();
+    SVT_TRY(higher, volume::Grid::fromParts(dimension, grid.spacing(), grid.origin(), grid.axes()));
     const Lift lift{parts, static_cast<std::int32_t>(steps), dimension.z, volume.labels.labelOfScalar()};
     const volume::ColumnVolume& columns = volume.columns;
     std::vector<ColumnTileData> tiles(columns.tiles().size());

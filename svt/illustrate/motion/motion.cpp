@@ -168,8 +168,7 @@ Result<void> turnCamera(Scene& scene, const Scene& start, double degrees, const 
     const double aspect = double(scene.width) / scene.height;
     if (!camera.eye || !camera.target) {
         const SceneCamera named = camera;
-        auto view = makeView(camera.around, camera.preset, camera, aspect, volume);
-        if (!view) return view.error();
+        SVT_TRY(view, makeView(camera.around, camera.preset, camera, aspect, volume));
         camera = std::move(*view);
         if (named.around.empty() && !named.isParallel) {
             const auto points = pointsToShow(start, volume);
@@ -245,9 +244,8 @@ Result<void> checkMotion(const Scene& scene, const std::string& name) {
     const Json base = Json::parse(writeScene(withoutMotion(scene)));
     const Timeline timeline = timelineOf(base, *scene.motion);
     for (std::size_t n = 0; n < scene.motion->keys.size(); ++n) {
-        const auto then = parsed(plainAt(base, timeline, scene.motion->keys[n].at, scene.motion->pace),
-                                 fmt::format("{}: /motion/keys/{}/scene", name, n));
-        if (!then) return then.error();
+        SVT_TRY(then, parsed(plainAt(base, timeline, scene.motion->keys[n].at, scene.motion->pace),
+                             fmt::format("{}: /motion/keys/{}/scene", name, n)));
     }
     return {};
 }

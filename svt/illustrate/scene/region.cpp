@@ -107,7 +107,7 @@ private:
             auto other = parseAnd(depth);
             if (!other) return other;
             region->insert(region->end(), other->begin(), other->end());
-            if (auto checked = checkCount(*region); !checked) return checked.error();
+            SVT_DO(checkCount(*region));
         }
         return region;
     }
@@ -156,7 +156,7 @@ private:
                 joined.halfSpaces.insert(joined.halfSpaces.end(), q.halfSpaces.begin(), q.halfSpaces.end());
                 joined.rounds.insert(joined.rounds.end(), q.rounds.begin(), q.rounds.end());
                 result.push_back(std::move(joined));
-                if (auto checked = checkCount(result); !checked) return checked.error();
+                SVT_DO(checkCount(result));
             }
         return result;
     }
@@ -187,8 +187,7 @@ private:
             return parsePlane();
         }
         ++at_;
-        const auto arguments = takeArguments();
-        if (!arguments) return arguments.error();
+        SVT_TRY(arguments, takeArguments());
         if (name == "box") return makeBox(*arguments);
         if (name == "ball") return makeBall(*arguments);
         if (name == "cylinder") return makeCylinder(*arguments);
@@ -219,8 +218,7 @@ private:
             }
         }
         if (begin == at_) return wrong("expected a region such as z>1.2 or box(0,0,0,1,1,1)");
-        const auto parsed = parseSectionPlane(plane, context_.volume, context_.rows);
-        if (!parsed) return parsed.error();
+        SVT_TRY(parsed, parseSectionPlane(plane, context_.volume, context_.rows));
         const double hair = hairOffFaces(*parsed, context_.volume);
         if (hair != 0 && context_.moved != nullptr) context_.moved->push_back({plane, hair});
         return Parts{{{{parsed->normal, hair - dot(parsed->normal, parsed->point)}}, {}}};
@@ -268,8 +266,7 @@ private:
     }
 
     Result<Parts> makeBox(const std::string& text) const {
-        const auto n = numbersOf("box", text, 6, "x0,y0,z0,x1,y1,z1");
-        if (!n) return n.error();
+        SVT_TRY(n, numbersOf("box", text, 6, "x0,y0,z0,x1,y1,z1"));
         const Vec3d low{std::min((*n)[0], (*n)[3]), std::min((*n)[1], (*n)[4]), std::min((*n)[2], (*n)[5])};
         const Vec3d high{std::max((*n)[0], (*n)[3]), std::max((*n)[1], (*n)[4]), std::max((*n)[2], (*n)[5])};
         if (!(low.x < high.x && low.y < high.y && low.z < high.z)) return bad("box", "has no inside");
@@ -277,15 +274,13 @@ private:
     }
 
     Result<Parts> makeBall(const std::string& text) const {
-        const auto n = numbersOf("ball", text, 4, "x,y,z,r");
-        if (!n) return n.error();
+        SVT_TRY(n, numbersOf("ball", text, 4, "x,y,z,r"));
         if (!((*n)[3] > 0)) return bad("ball", fmt::format("a radius of {} m; it must be greater than 0", (*n)[3]));
         return Parts{{{}, {RoundBody::ball(world({(*n)[0], (*n)[1], (*n)[2]}), (*n)[3])}}};
     }
 
     Result<Parts> makeCylinder(const std::string& text) const {
-        const auto n = numbersOf("cylinder", text, 7, "x,y,z,dx,dy,dz,r");
-        if (!n) return n.error();
+        SVT_TRY(n, numbersOf("cylinder", text, 7, "x,y,z,dx,dy,dz,r"));
         const Vec3d axis = worldDirection({(*n)[3], (*n)[4], (*n)[5]});
         if (!((*n)[6] > 0)) return bad("cylinder", fmt::format("a radius of {} m; it must be greater than 0", (*n)[6]));
         if (!(length(axis) > 0)) return bad("cylinder", "its axis is zero");
@@ -298,8 +293,7 @@ private:
         const auto plan = parseNumbers(std::string_view(text).substr(0, semicolon), kMostNumbers);
         if (semicolon == std::string::npos || !plan || plan->size() < 6 || plan->size() % 2 != 0)
             return bad("prism", fmt::format("expected {}, found '{}'", expected, text));
-        const auto heights = numbersOf("prism", text.substr(semicolon + 1), 2, expected);
-        if (!heights) return heights.error();
+        SVT_TRY(heights, numbersOf("prism", text.substr(semicolon + 1), 2, expected));
         const double low = std::min((*heights)[0], (*heights)[1]), high = std::max((*heights)[0], (*heights)[1]);
         if (!(low < high)) return bad("prism", "has no height");
         std::vector<Vec3d> polygon;
@@ -326,7 +320,7 @@ private:
             add({0, 0, -1}, {0, 0, high});
             parts.push_back(std::move(part));
         }
-        if (auto checked = checkCount(parts); !checked) return checked.error();
+        SVT_DO(checkCount(parts));
         return parts;
     }
 
@@ -334,8 +328,7 @@ private:
         std::string name = text;
         if (name.size() >= 2 && (name.front() == '"' || name.front() == '\'') && name.back() == name.front())
             name = name.substr(1, name.size() - 2);
-        const auto heights = storeyVoxels(name, context_.volume, context_.rows);
-        if (!heights) return heights.error();
+        SVT_TRY(heights, storeyVoxels(name, context_.volume, context_.rows));
         const Vec3d spacing = grid().spacing();
         const auto reach = [&](int axis) { return grid().dimension()[axis] * spacing[axis]; };
         return boxOf({-reach(0), -reach(1), heights->first}, {2 * reach(0), 2 * reach(1), heights->second});
@@ -356,17 +349,14 @@ private:
                                              text.substr(semicolon + 1)));
             margin = (*numbers)[0];
         }
-        auto selected = analyze::selectLabels(context_.rows, text.substr(0, semicolon));
-        if (!selected) return selected.error();
+        SVT_TRY(selected, analyze::selectLabels(context_.rows, text.substr(0, semicolon)));
         return std::pair(std::move(*selected), margin);
     }
 
     Result<Parts> makeAround(const std::string& text) const {
-        const auto selection = selectionOf("around", text);
-        if (!selection) return selection.error();
+        SVT_TRY(selection, selectionOf("around", text));
         if (selection->first.empty()) return nowhere();
-        const auto box = analyze::boxAround(selection->first, context_.volume, "what around() selects");
-        if (!box) return box.error();
+        SVT_TRY(box, analyze::boxAround(selection->first, context_.volume, "what around() selects"));
         Vec3d low, high;
         for (int axis = 0; axis < 3; ++axis) {
             low[axis] = (box->min[axis] - 0.5) * grid().spacing()[axis] - selection->second;
@@ -376,18 +366,15 @@ private:
     }
 
     Result<Parts> makeView(const std::string& text) const {
-        const auto n = numbersOf("view", text, 3, "x,y,r (shares of the picture)");
-        if (!n) return n.error();
+        SVT_TRY(n, numbersOf("view", text, 3, "x,y,r (shares of the picture)"));
         if (!((*n)[2] > 0)) return bad("view", fmt::format("a radius of {}; it must be greater than 0", (*n)[2]));
         return Parts{{{}, {viewBody(context_.camera, context_.aspect, (*n)[0], (*n)[1], (*n)[2])}}};
     }
 
     Result<Parts> makeCutaway(const std::string& text) const {
-        const auto selection = selectionOf("cutaway", text);
-        if (!selection) return selection.error();
+        SVT_TRY(selection, selectionOf("cutaway", text));
         if (selection->first.empty()) return nowhere();
-        const auto all = analyze::boxAround(selection->first, context_.volume, "what cutaway() selects");
-        if (!all) return all.error();
+        SVT_TRY(all, analyze::boxAround(selection->first, context_.volume, "what cutaway() selects"));
         const auto boxes = analyze::labelBoxes(context_.volume.columns, context_.volume.labels);
         std::vector<analyze::SampleBox> targets;
         for (const std::uint32_t label : selection->first)

@@ -92,8 +92,7 @@ void applyLook(const Scene& scene, render::FrameSpec& spec) {
 // The sun instead of the light beside the camera. Below the horizon it gives none, and the sky alone is left.
 Result<void> applySun(const Scene& scene, const volume::SemanticVolume& volume, render::FrameSpec& spec) {
     if (!scene.sun) return {};
-    const auto sunlight = sunlightOf(*scene.sun, volume);
-    if (!sunlight) return sunlight.error();
+    SVT_TRY(sunlight, sunlightOf(*scene.sun, volume));
     render::Light& light = spec.light;
     light.space = render::Light::Space::World;
     light.direction = sunlight->direction;
@@ -126,11 +125,9 @@ struct ToShow {
 Result<ToShow> wholeOrAround(const SceneCamera& wanted, const volume::SemanticVolume& volume,
                              const analyze::LabelRows& rows) {
     if (wanted.around.empty()) return ToShow{volume.grid, {}};
-    const auto selected = analyze::selectLabels(rows, wanted.around);
-    if (!selected) return selected.error();
+    SVT_TRY(selected, analyze::selectLabels(rows, wanted.around));
     if (selected->empty()) return ToShow{volume.grid, {}};
-    const auto box = analyze::boxAround(*selected, volume, fmt::format("what the query '{}' selects", wanted.around));
-    if (!box) return box.error();
+    SVT_TRY(box, analyze::boxAround(*selected, volume, fmt::format("what the query '{}' selects", wanted.around)));
     return ToShow{gridOf(*box, volume.grid), {}};
 }
 
@@ -191,8 +188,7 @@ double pixelOf(const render::FrameSpec& spec) {
 Result<void> select(const analyze::LabelRows& rows, const std::vector<std::string>& queries,
                     std::vector<bool>& isSelected) {
     for (const std::string& query : queries) {
-        const auto selected = analyze::selectLabels(rows, query);
-        if (!selected) return selected.error();
+        SVT_TRY(selected, analyze::selectLabels(rows, query));
         for (const std::uint32_t l : *selected) isSelected[l] = true;
     }
     return {};
@@ -225,11 +221,10 @@ Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass
         looks.push_back({shown(table.labels[l].color, scene.look), table.labels[l].opacity,
                          table.labels[l].count > 1 ? render::Hatch::None : hatches[l]});
     std::vector<bool> isShown(table.labels.size(), pass.show.empty()), isHidden(table.labels.size(), false);
-    if (auto done = select(rows, pass.show, isShown); !done) return done.error();
-    if (auto done = select(rows, pass.hide, isHidden); !done) return done.error();
+    SVT_DO(select(rows, pass.show, isShown));
+    SVT_DO(select(rows, pass.hide, isHidden));
     for (const SceneStyle& style : pass.styles) {
-        const auto selected = analyze::selectLabels(rows, style.select);
-        if (!selected) return selected.error();
+        SVT_TRY(selected, analyze::selectLabels(rows, style.select));
         for (const std::uint32_t l : *selected) {
             LabelLook& look = looks[l];
             if (style.isGhost) {
@@ -281,8 +276,7 @@ Result<PassLooks> passLooks(const Scene& scene, const volume::SemanticVolume& vo
                             ColorScale* scale) {
     PassLooks all;
     for (const ScenePass& pass : scene.passes) {
-        auto looks = looksOf(scene, pass, volume, rows);
-        if (!looks) return looks.error();
+        SVT_TRY(looks, looksOf(scene, pass, volume, rows));
         all.push_back(std::move(*looks));
     }
     if (scene.colorBy.empty()) return all;
@@ -295,10 +289,8 @@ Result<PassLooks> passLooks(const Scene& scene, const volume::SemanticVolume& vo
                 if (labels[l].count > 0 && looks[l].opacity > least && !looks[l].isGhost) isShown[l] = 1;
         if (std::count(isShown.begin(), isShown.end(), 1) != 0) break;
     }
-    const auto areas = areasFor(scene.colorBy, volume);
-    if (!areas) return areas.error();
-    auto coloring = colorBy(scene.colorBy, rows.get(), isShown, *areas);
-    if (!coloring) return coloring.error();
+    SVT_TRY(areas, areasFor(scene.colorBy, volume));
+    SVT_TRY(coloring, colorBy(scene.colorBy, rows.get(), isShown, *areas));
     for (auto& looks : all)
         for (std::size_t l = 0; l < labels.size(); ++l)
             if (!looks[l].isRecolored && !looks[l].isGhost) {
@@ -317,14 +309,13 @@ Result<render::Pass> passOf(const Scene& scene, const ScenePass& wanted, const s
     pass.hasCells = wanted.form.hasCells;
     const auto addClip = [&](const std::string& region, render::ClipRegion::Mode mode) -> Result<void> {
         if (region.empty()) return {};
-        auto parts = parseRegion(region, context);
-        if (!parts) return parts.error();
+        SVT_TRY(parts, parseRegion(region, context));
         pass.clips.push_back({std::move(*parts), mode});
         return {};
     };
-    if (auto added = addClip(wanted.keep, render::ClipRegion::Mode::KeepOnly); !added) return added.error();
-    if (auto added = addClip(wanted.cut, render::ClipRegion::Mode::CutAway); !added) return added.error();
-    if (auto added = addShapes(wanted, context.volume, context.rows, pass); !added) return added.error();
+    SVT_DO(addClip(wanted.keep, render::ClipRegion::Mode::KeepOnly));
+    SVT_DO(addClip(wanted.cut, render::ClipRegion::Mode::CutAway));
+    SVT_DO(addShapes(wanted, context.volume, context.rows, pass));
     return pass;
 }
 
@@ -333,8 +324,7 @@ Result<std::vector<render::Pass>> passesOf(const Scene& scene, const PassLooks& 
     std::vector<render::Pass> passes;
     for (std::size_t n = 0; n < scene.passes.size(); ++n) {
         const ScenePass& wanted = scene.passes[n];
-        auto pass = passOf(scene, wanted, looks[n], context);
-        if (!pass) return pass.error();
+        SVT_TRY(pass, passOf(scene, wanted, looks[n], context));
         pass->volume = static_cast<std::uint32_t>(std::ranges::find(forms, wanted.form) - forms.begin());
         passes.push_back(std::move(*pass));
     }
@@ -345,15 +335,13 @@ Result<std::vector<render::Pass>> passesOf(const Scene& scene, const PassLooks& 
 Result<void> fitToVisible(const Scene& scene, const PassLooks& looks, const volume::SemanticVolume& volume,
                           const analyze::LabelRows& rows, render::FrameSpec& spec) {
     // Before anything is clipped: whether there are more parts than a ray has room for.
-    if (auto checked = checkFrameSpec(spec); !checked) return checked;
-    const auto camera = cameraOf(scene, volume.grid, {volume.grid, visiblePoints(spec.passes, volume)});
-    if (!camera) return camera.error();
+    SVT_DO(checkFrameSpec(spec));
+    SVT_TRY(camera, cameraOf(scene, volume.grid, {volume.grid, visiblePoints(spec.passes, volume)}));
     spec.camera = *camera;
     const bool isOfView = std::ranges::any_of(
         scene.passes, [](const ScenePass& pass) { return dependsOnView(pass.cut) || dependsOnView(pass.keep); });
     if (!isOfView) return {};
-    auto passes = passesOf(scene, looks, {volume, rows, *camera, double(scene.width) / scene.height});
-    if (!passes) return passes.error();
+    SVT_TRY(passes, passesOf(scene, looks, {volume, rows, *camera, double(scene.width) / scene.height}));
     spec.passes = std::move(*passes);
     return {};
 }
@@ -438,16 +426,12 @@ Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::Semant
         return Error(Code::BadCamera,
                      "a scale bar needs a parallel view (--ortho); in perspective what is near is larger");
     applyLook(scene, spec);
-    if (auto lit = applySun(scene, volume, spec); !lit) return lit.error();
-    const auto toShow = wholeOrAround(scene.camera, volume, rows);
-    if (!toShow) return toShow.error();
-    const auto camera = cameraOf(scene, volume.grid, *toShow);
-    if (!camera) return camera.error();
+    SVT_DO(applySun(scene, volume, spec));
+    SVT_TRY(toShow, wholeOrAround(scene.camera, volume, rows));
+    SVT_TRY(camera, cameraOf(scene, volume.grid, *toShow));
     spec.camera = *camera;
-    const auto looks = passLooks(scene, volume, rows, scale);
-    if (!looks) return looks.error();
-    auto passes = passesOf(scene, *looks, {volume, rows, *camera, double(scene.width) / scene.height});
-    if (!passes) return passes.error();
+    SVT_TRY(looks, passLooks(scene, volume, rows, scale));
+    SVT_TRY(passes, passesOf(scene, *looks, {volume, rows, *camera, double(scene.width) / scene.height}));
     spec.passes = std::move(*passes);
     // Lines are drawn between objects, not between the phases of one object's pattern.
     spec.objectOfScalar = volume.labels.labelOfScalar();
@@ -456,7 +440,7 @@ Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::Semant
     if (wanted.fit == Fit::Visible && wanted.around.empty() && !wanted.eye && !wanted.target)
         if (auto fitted = fitToVisible(scene, *looks, volume, rows, spec); !fitted) return fitted.error();
     spec.hatches.spacing = scene.hatches.spacing ? *scene.hatches.spacing : roundDownTo125(11 * pixelOf(spec));
-    if (auto checked = checkFrameSpec(spec); !checked) return checked.error();
+    SVT_DO(checkFrameSpec(spec));
     return spec;
 }
 

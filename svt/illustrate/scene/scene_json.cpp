@@ -16,7 +16,7 @@ using record::Json;
 Result<Scene> parseScene(std::string_view json, const std::string& name) {
     auto scene = record::parseRecord<Scene>(json, name, Code::BadScene);
     if (!scene) return scene;
-    if (auto checked = checkMotion(*scene, name); !checked) return checked.error();
+    SVT_DO(checkMotion(*scene, name));
     for (const Inset& inset : scene->insets)
         if (const auto made = insetScene(*scene, inset); !made) return made.error();
     return scene;

@@ -28,8 +28,7 @@ TextColors textColors(const render::Background& background) {
 Result<void> addNames(const Scene& scene, const volume::SemanticVolume& volume, const analyze::LabelRows& rows,
                       Painting& painting) {
     if (scene.names.empty()) return {};
-    auto tags = findNameTags(scene.names, volume, rows, painting.frame);
-    if (!tags) return tags.error();
+    SVT_TRY(tags, findNameTags(scene.names, volume, rows, painting.frame));
     if (!scene.colorBy.empty() && scene.hasLegend) tags->taken = legendMargin(scene.width, scene.height) * scene.width;
     const TextColors colors = textColors(painting.spec.background);
     const std::size_t drawn = drawNameTags(*tags, colors.text, colors.halo, painting.frame.color);
@@ -120,8 +119,7 @@ Result<render::DrawnVolume> ScenePainter::form(const VolumeForm& wanted, const r
 
 Result<render::DrawnVolume> ScenePainter::formOf(std::size_t number, const VolumeForm& wanted,
                                                  const render::FrameSpec& spec) {
-    auto found = findForms(number, wanted.shell);
-    if (!found) return found.error();
+    SVT_TRY(found, findForms(number, wanted.shell));
     Forms& forms = **found;
     const volume::SemanticVolume& volume = *forms.volume;
     const int level = wanted.level.value_or(wanted.hasCells ? 0 : render::levelForView(spec, volume.grid));
@@ -130,8 +128,7 @@ Result<render::DrawnVolume> ScenePainter::formOf(std::size_t number, const Volum
             auto known = forms.levels.find(own);
             if (known == forms.levels.end()) {
                 Progress::tell(progress_, "prepare", 0);
-                auto made = volume::buildLodLevel(volume.columns, volume.grid, own, threads_);
-                if (!made) return made.error();
+                SVT_TRY(made, volume::buildLodLevel(volume.columns, volume.grid, own, threads_));
                 known = forms.levels.emplace(own, std::move(*made)).first;
             }
             return render::DrawnVolume(known->second);
@@ -143,8 +140,7 @@ Result<render::DrawnVolume> ScenePainter::formOf(std::size_t number, const Volum
             .faces = volume::BrickFaces::Slopes, .planes = volume.planes, .threads = threads_, .progress = progress_};
         const bool hasSlopes = number == 0 || details_[number - 1].hasSlopes;
         if (wanted.hasCells || !hasSlopes) options = {.faces = volume::BrickFaces::Voxels, .threads = threads_};
-        auto made = volume::BrickVolume::fromColumns(volume.columns, options);
-        if (!made) return made.error();
+        SVT_TRY(made, volume::BrickVolume::fromColumns(volume.columns, options));
         bricks = std::move(*made);
     }
     return render::DrawnVolume(*bricks, volume.grid);
@@ -165,8 +161,7 @@ Result<std::vector<render::DrawnVolume>> ScenePainter::drawnVolumes(const Scene&
     for (VolumeForm wanted : forms) {
         // What is divided into parts has its shells there.
         if (!details_.empty() && details_.front().isPart) wanted.shell.reset();
-        const auto made = form(wanted, spec);
-        if (!made) return made.error();
+        SVT_TRY(made, form(wanted, spec));
         drawn.push_back(*made);
     }
     if (details_.empty()) return drawn;
@@ -176,12 +171,11 @@ Result<std::vector<render::DrawnVolume>> ScenePainter::drawnVolumes(const Scene&
         for (const VolumeForm& wanted : forms) {
             VolumeForm own = wanted;
             if (!details_[d].isPart) own.shell.reset();
-            const auto made = formOf(d + 1, own, spec);
-            if (!made) return made.error();
+            SVT_TRY(made, formOf(d + 1, own, spec));
             drawn.push_back(*made);
         }
     }
-    if (auto added = addDetailPasses(places, forms, spec, details_.front().isPart); !added) return added.error();
+    SVT_DO(addDetailPasses(places, forms, spec, details_.front().isPart));
     return drawn;
 }
 
@@ -194,8 +188,7 @@ Result<ScenePainter*> ScenePainter::apart(double distance) {
     if (!details_.empty())
         return Error(Code::BadArgument, "storeys of one volume can be drawn apart; leave out --explode, or --with");
     if (!apart_ || apart_->distance != distance) {
-        auto lifted = explodeStoreys(volume_, distance, threads_);
-        if (!lifted) return lifted.error();
+        SVT_TRY(lifted, explodeStoreys(volume_, distance, threads_));
         apart_ = std::make_unique<Apart>(distance, std::move(*lifted), threads_);
     }
     apart_->painter.nothing_ = nothing_;
@@ -204,12 +197,11 @@ Result<ScenePainter*> ScenePainter::apart(double distance) {
 }
 
 Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
-    const auto painter = apart(scene.explode);
-    if (!painter) return painter.error();
+    SVT_TRY(painter, apart(scene.explode));
     const Paint paintOne = [&](const Scene& one) { return (*painter)->paintPlain(one, draw); };
     auto painting = paintOne(scene);
     if (!painting) return painting;
-    if (auto added = (*painter)->addInsets(scene, paintOne, *painting); !added) return added.error();
+    SVT_DO((*painter)->addInsets(scene, paintOne, *painting));
     return painting;
 }
 
@@ -220,10 +212,8 @@ Result<void> ScenePainter::addInsets(const Scene& scene, const Paint& paint, Pai
     if (scene.insets.empty()) return {};
     const render::Frame whole = painting.frame;  // the picture without insets
     for (const Inset& inset : scene.insets) {
-        const auto own = insetScene(scene, inset);
-        if (!own) return own.error();
-        auto small = paint(*own);
-        if (!small) return small.error();
+        SVT_TRY(own, insetScene(scene, inset));
+        SVT_TRY(small, paint(*own));
         InsetMarks marks;
         const auto target = targetOf(*own);
         if (inset.hasMark && target)
@@ -248,39 +238,33 @@ std::optional<analyze::SampleBox> ScenePainter::targetOf(const Scene& scene) con
 Result<Painting> ScenePainter::paintPlain(const Scene& scene, const Draw& draw) {
     const analyze::LabelRows rows(volume_.labels, nothing_);
     ColorScale scale;
-    auto spec = makeFrameSpec(scene, volume_, rows, &scale);
-    if (!spec) return spec.error();
+    SVT_TRY(spec, makeFrameSpec(scene, volume_, rows, &scale));
     const float gaps = mixtures_.empty() ? 0 : seenGaps(*spec, volume_.grid);
     for (render::Pass& pass : spec->passes) mix(mixtures_, spec->background, gaps, pass);
-    const auto drawn = drawnVolumes(scene, *spec);
-    if (!drawn) return drawn.error();
+    SVT_TRY(drawn, drawnVolumes(scene, *spec));
     return finish(scene, rows, scale, std::move(*spec), *drawn, draw);
 }
 
 Result<Painting> ScenePainter::paintDraft(const Scene& scene, const render::CastOptions& options) {
-    const auto painter = apart(scene.explode);
-    if (!painter) return painter.error();
+    SVT_TRY(painter, apart(scene.explode));
     const Paint paintOne = [&](const Scene& one) { return (*painter)->draftPlain(one, options); };
     auto painting = paintOne(scene);
     if (!painting) return painting;
-    if (auto added = (*painter)->addInsets(scene, paintOne, *painting); !added) return added.error();
+    SVT_DO((*painter)->addInsets(scene, paintOne, *painting));
     return painting;
 }
 
 Result<Painting> ScenePainter::draftPlain(const Scene& scene, const render::CastOptions& options) {
     const analyze::LabelRows rows(volume_.labels, nothing_);
     ColorScale scale;
-    auto spec = makeFrameSpec(scene, volume_, rows, &scale);
-    if (!spec) return spec.error();
+    SVT_TRY(spec, makeFrameSpec(scene, volume_, rows, &scale));
     std::vector<render::DrawnVolume> drawn;
     std::vector<std::unique_ptr<volume::BrickVolume>> drafts;
     for (const VolumeForm& wanted : illustrate::volumeForms(scene)) {
-        const auto forms = findForms(0, wanted.shell);
-        if (!forms) return forms.error();
+        SVT_TRY(forms, findForms(0, wanted.shell));
         const volume::SemanticVolume& volume = *(*forms)->volume;
-        auto bricks = volume::BrickVolume::fromColumns(volume.columns,
-                                                       {.faces = volume::BrickFaces::Voxels, .threads = threads_});
-        if (!bricks) return bricks.error();
+        SVT_TRY(bricks, volume::BrickVolume::fromColumns(volume.columns,
+                                                         {.faces = volume::BrickFaces::Voxels, .threads = threads_}));
         drafts.push_back(std::make_unique<volume::BrickVolume>(std::move(*bricks)));
         drawn.emplace_back(*drafts.back(), volume.grid);
     }
@@ -290,8 +274,7 @@ Result<Painting> ScenePainter::draftPlain(const Scene& scene, const render::Cast
 Result<Painting> ScenePainter::finish(const Scene& scene, const analyze::LabelRows& rows, const ColorScale& scale,
                                       render::FrameSpec spec, std::span<const render::DrawnVolume> drawn,
                                       const Draw& draw) const {
-    auto frame = draw(drawn, spec);
-    if (!frame) return frame.error();
+    SVT_TRY(frame, draw(drawn, spec));
     Painting painting{std::move(*frame), std::move(spec)};
     const TextColors colors = textColors(painting.spec.background);
     auto& image = painting.frame.color;
@@ -299,7 +282,7 @@ Result<Painting> ScenePainter::finish(const Scene& scene, const analyze::LabelRo
     if (!scene.title.empty()) drawTitle(scene.title, colors.text, colors.halo, image);
     if (scene.hasScaleBar) drawScaleBar(painting.spec.camera, colors.text, colors.halo, image);
     if (scene.hasNorthArrow) drawNorthArrow(painting.spec.camera, colors.text, colors.halo, image);
-    if (auto named = addNames(scene, volume_, rows, painting); !named) return named.error();
+    SVT_DO(addNames(scene, volume_, rows, painting));
     return painting;
 }
 

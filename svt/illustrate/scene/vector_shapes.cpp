@@ -59,8 +59,7 @@ Result<void> addLines(const SceneLines& wanted, const volume::SemanticVolume& vo
     if (parts.segments.empty()) return missing("edges");
     std::vector<std::uint8_t> isSelected(labels.size(), 1);
     if (!wanted.select.empty()) {
-        const auto selected = analyze::selectLabels(rows, wanted.select);
-        if (!selected) return selected.error();
+        SVT_TRY(selected, analyze::selectLabels(rows, wanted.select));
         isSelected = flagsOf(*selected, labels.size());
     }
     render::LineSet set;
@@ -89,8 +88,7 @@ Result<void> addShapes(const ScenePass& wanted, const volume::SemanticVolume& vo
     if (parts.triangles.empty()) return missing("meshes");
     std::vector<std::uint8_t> isSelected(labels.size(), 0);
     for (const std::string& text : wanted.meshes) {
-        const auto selected = selectMeshes(text, volume, rows);
-        if (!selected) return selected.error();
+        SVT_TRY(selected, selectMeshes(text, volume, rows));
         for (const std::uint32_t l : *selected) isSelected[l] = 1;
     }
     const auto place = [&](std::uint32_t point) { return parts.position(point, volume.grid.origin()); };

@@ -18,8 +18,7 @@ Result<render::Camera> drawnCamera(const SceneCamera& camera, double aspect, con
     scene.camera.fit = Fit::All;  // what is visible is not known here, and must not move the camera
     scene.height = 1000;
     scene.width = static_cast<std::int32_t>(std::lround(scene.height * aspect));
-    const auto frame = makeFrameSpec(scene, volume, rows);
-    if (!frame) return frame.error();
+    SVT_TRY(frame, makeFrameSpec(scene, volume, rows));
     return frame->camera;
 }
 
@@ -27,10 +26,8 @@ Result<Box3d> boxOf(const std::string& query, const volume::SemanticVolume& volu
     const Vec3i n = volume.grid.dimension();
     analyze::SampleBox box{{0, 0, 0}, {n.x - 1, n.y - 1, n.z - 1}};
     if (!query.empty()) {
-        const auto selected = analyze::selectLabels(rows, query);
-        if (!selected) return selected.error();
-        const auto around = analyze::boxAround(*selected, volume, fmt::format("what the query '{}' selects", query));
-        if (!around) return around.error();
+        SVT_TRY(selected, analyze::selectLabels(rows, query));
+        SVT_TRY(around, analyze::boxAround(*selected, volume, fmt::format("what the query '{}' selects", query)));
         box = *around;
     }
     return analyze::worldBox(box, volume.grid);
@@ -49,22 +46,18 @@ Result<SceneCamera> makeView(const std::string& query, const std::string& preset
     view.zoom = 1;
     view.eye = view.target = {};
     if (!preset.empty()) view.preset = preset;
-    const auto named = drawnCamera(view, aspect, volume, rows);
-    if (!named) return named.error();
+    SVT_TRY(named, drawnCamera(view, aspect, volume, rows));
     view.eye = named->eye - origin;
     view.target = named->target - origin;
     if (!preset.empty()) return view;
 
-    const auto before = drawnCamera(now, aspect, volume, rows);
-    if (!before) return before.error();
-    const auto box = boxOf(query, volume, rows);
-    if (!box) return box.error();
+    SVT_TRY(before, drawnCamera(now, aspect, volume, rows));
+    SVT_TRY(box, boxOf(query, volume, rows));
     render::PresetOptions options;
     options.aspect = aspect;
     options.projection = named->projection;
     options.verticalFovDegrees = named->verticalFovDegrees;
-    const auto camera = render::cameraAlong(before->target - before->eye, before->up, *box, options);
-    if (!camera) return camera.error();
+    SVT_TRY(camera, render::cameraAlong(before->target - before->eye, before->up, *box, options));
     // A parallel view has its preset's height divided by the zoom, which also moves the eye.
     if (view.isParallel) view.zoom = named->orthographicHeight / camera->orthographicHeight;
     view.target = camera->target - origin;

@@ -52,7 +52,7 @@ public:
         section_.planeShift = cut.shift;
         chooseUnit(cut);
         addMeshSegments(cut);
-        if (const auto added = addVoxelSegments(); !added) return added.error();
+        SVT_DO(addVoxelSegments());
         if (!groups_.empty() && !addBodies()) return std::optional<ExactSection>{};
         if (!drawRegions()) return std::optional<ExactSection>{};
         return std::optional<ExactSection>(std::move(section_));

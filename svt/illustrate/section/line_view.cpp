@@ -108,8 +108,7 @@ Result<LineView> drawLineView(const volume::SemanticVolume& volume, const render
                      "a line drawing needs the model's meshes, which the volume does not keep; build it again with "
                      "--meshes, or give the model itself");
     const render::Pass& pass = frame.passes.front();
-    const auto plane = planeOfClips(pass.clips);
-    if (!plane) return plane.error();
+    SVT_TRY(plane, planeOfClips(pass.clips));
     std::vector<std::uint8_t> isDrawn(volume.labels.labels.size(), 0);
     for (std::size_t l = 0; l < isDrawn.size(); ++l) {
         const volume::Label& label = volume.labels.labels[l];
@@ -126,8 +125,7 @@ Result<LineView> drawLineView(const volume::SemanticVolume& volume, const render
         SectionOptions section;
         section.threads = options.threads;
         section.smallestArea = 1e-4;
-        auto drawing = drawLabels(volume, nullptr, **plane, isCut, section);
-        if (!drawing) return drawing.error();
+        SVT_TRY(drawing, drawLabels(volume, nullptr, **plane, isCut, section));
         view.drawing = std::move(*drawing);
         eye.hasCut = true;
         eye.cut = view.drawing.plane;

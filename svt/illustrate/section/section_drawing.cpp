@@ -29,8 +29,7 @@ Result<std::vector<std::uint8_t>> drawnLabels(const volume::LabelTable& table, c
     std::vector<std::uint8_t> isDrawn(table.labels.size(), options.show.empty() ? 1 : 0);
     for (const bool isShown : {true, false})
         for (const std::string& query : isShown ? options.show : options.hide) {
-            const auto selected = analyze::selectLabels(rows, query);
-            if (!selected) return selected.error();
+            SVT_TRY(selected, analyze::selectLabels(rows, query));
             for (const std::uint32_t label : *selected) isDrawn[label] = isShown ? 1 : 0;
         }
     if (!options.spaces)
@@ -231,8 +230,7 @@ Result<std::optional<SectionDrawing>> drawMeshes(const volume::SemanticVolume& v
     SectionDrawing drawing;
     drawing.plane = {normalized(plane.normal), plane.point, plane.bound};
     drawing.axes = makePlaneAxes(plane, volume.grid);
-    auto cut = cutExactly(volume, bricks, drawing.plane, drawing.axes, isDrawn, options.threads);
-    if (!cut) return cut.error();
+    SVT_TRY(cut, cutExactly(volume, bricks, drawing.plane, drawing.axes, isDrawn, options.threads));
     if (!*cut) return std::optional<SectionDrawing>{};
     ExactSection& section = **cut;
     drawing.isFromMeshes = true;
@@ -262,8 +260,7 @@ Result<SectionDrawing> drawSectionOf(const volume::SemanticVolume& volume, const
         return Error(Code::BadArgument,
                      fmt::format("smallest area {} m2 and tolerance {} m of a section must be finite",
                                  options.smallestArea, options.tolerance));
-    const auto drawn = drawnLabels(volume.labels, options);
-    if (!drawn) return drawn.error();
+    SVT_TRY(drawn, drawnLabels(volume.labels, options));
     return drawLabels(volume, bricks, plane, *drawn, options);
 }
 
@@ -274,8 +271,7 @@ Result<SectionDrawing> drawLabels(const volume::SemanticVolume& volume, const vo
                                   const SectionOptions& options) {
     const bool isCut = options.useMeshes && hasMeshes(volume);
     if (isCut) {
-        auto drawing = drawMeshes(volume, bricks, plane, isDrawn, options);
-        if (!drawing) return drawing.error();
+        SVT_TRY(drawing, drawMeshes(volume, bricks, plane, isDrawn, options));
         if (*drawing) {
             addLinesBeyond(**drawing, volume, isDrawn, options.beyond, options.threads);
             if (options.dimensions) (*drawing)->dimensions = findDimensions(**drawing, volume);

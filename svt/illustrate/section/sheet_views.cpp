@@ -166,8 +166,7 @@ Result<SheetViews> chooseSheetViews(const volume::SemanticVolume& volume, int th
     const int first = all.size().x >= all.size().y ? 0 : 1;
     for (int n = 0; n < 2; ++n) {
         const int axis = n == 0 ? first : 1 - first;
-        const auto at = placeOfSection(volume, axis, all, stair, threads);
-        if (!at) return at.error();
+        SVT_TRY(at, placeOfSection(volume, axis, all, stair, threads));
         const Vec3d along = grid.axes()[static_cast<std::size_t>(axis)];
         chosen.views.push_back({ViewKind::Section,
                                 n == 0 ? "A" : "B",
@@ -176,8 +175,7 @@ Result<SheetViews> chooseSheetViews(const volume::SemanticVolume& volume, int th
                                 {.visible = true}});
     }
     for (const char* side : {"north", "east", "south", "west"}) {
-        const auto plane = elevationPlane(side, volume);
-        if (!plane) return plane.error();
+        SVT_TRY(plane, elevationPlane(side, volume));
         chosen.views.push_back({ViewKind::Elevation, side, *plane, 0, {.visible = true}});
     }
     return chosen;

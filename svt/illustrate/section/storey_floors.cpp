@@ -220,8 +220,7 @@ Result<StoreyHeights> storeyHeights(const std::string& storey, const volume::Sem
 
 Result<StoreyHeights> storeyHeights(const std::string& storey, const volume::SemanticVolume& volume,
                                     const analyze::LabelRows& rows) {
-    const auto selected = labelsOnStorey(storey, rows);
-    if (!selected) return selected.error();
+    SVT_TRY(selected, labelsOnStorey(storey, rows));
     const auto& labels = volume.labels.labels;
     const std::vector<LabelExtent> extents = labelExtents(volume);
     StoreyExtent extent;
@@ -243,8 +242,7 @@ Result<StoreyHeights> storeyHeights(const std::string& storey, const volume::Sem
 
 Result<std::pair<double, double>> storeyVoxels(const std::string& storey, const volume::SemanticVolume& volume,
                                                const analyze::LabelRows& rows) {
-    const auto selected = labelsOnStorey(storey, rows);
-    if (!selected) return selected.error();
+    SVT_TRY(selected, labelsOnStorey(storey, rows));
     const auto boxes = analyze::labelBoxes(volume.columns, volume.labels);
     analyze::SampleBox spaces, all;
     for (const std::uint32_t l : *selected) {

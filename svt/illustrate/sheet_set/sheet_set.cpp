@@ -27,16 +27,14 @@ Result<SheetView> viewOf(const SetView& view, const SheetSet& set, const volume:
     made.name = view.name;
     made.beyond = {.visible = true, .hidden = view.hidden, .above = false};
     if (!view.elevation.empty()) {
-        const auto plane = elevationPlane(view.elevation, volume);
-        if (!plane) return plane.error();
+        SVT_TRY(plane, elevationPlane(view.elevation, volume));
         made.kind = ViewKind::Elevation;
         made.name = view.elevation;
         made.plane = *plane;
         return made;
     }
     const bool isPlan = !view.plan.empty();
-    const auto plane = parseSectionPlane(isPlan ? view.plan : view.section, volume);
-    if (!plane) return plane.error();
+    SVT_TRY(plane, parseSectionPlane(isPlan ? view.plan : view.section, volume));
     const Vec3d up = volume.grid.axes()[2];
     const double upright = dot(plane->normal, up);
     if (isPlan ? std::abs(upright) < 1 - 1e-9 : std::abs(upright) > 1 - 1e-9)
@@ -78,8 +76,7 @@ Result<SheetViews> viewsOfSet(const SheetSet& set, const volume::SemanticVolume&
     views.levels = findLevels(volume);
     for (const SetSheet& sheet : set.sheets)
         for (const SetView& view : sheet.views) {
-            auto made = viewOf(view, set, volume, views.levels);
-            if (!made) return made.error();
+            SVT_TRY(made, viewOf(view, set, volume, views.levels));
             views.views.push_back(std::move(*made));
         }
     return views;

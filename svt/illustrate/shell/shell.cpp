@@ -315,7 +315,7 @@ void countAgain(volume::SemanticVolume& shell) {
 
 Result<volume::SemanticVolume> extractShell(const volume::SemanticVolume& volume,
                                             std::span<const std::uint32_t> groupOf, const ShellOptions& options) {
-    if (auto checked = checkInput(volume, groupOf, options); !checked) return checked.error();
+    SVT_DO(checkInput(volume, groupOf, options));
     const std::vector<bool> isKept = keptLabels(groupOf, options.of);
     volume::SemanticVolume shell{volume.grid,      volume.labels, {}, volume.crsName,
                                  volume.modelName, volume.source, {}, volume.planes};
@@ -356,8 +356,7 @@ Result<volume::SemanticVolume> extractShell(const volume::SemanticVolume& volume
 
 Result<volume::SemanticVolume> extractShell(const volume::SemanticVolume& volume, ShellLevel level,
                                             const ShellOptions& options) {
-    const auto groupOf = groupLabels(volume, level, options.threads);
-    if (!groupOf) return groupOf.error();
+    SVT_TRY(groupOf, groupLabels(volume, level, options.threads));
     return extractShell(volume, *groupOf, options);
 }
 

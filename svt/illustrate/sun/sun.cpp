@@ -190,8 +190,7 @@ Result<Sunlight> sunlightOf(const Sun& sun, const volume::SemanticVolume& volume
         return Error(Code::BadScene,
                      "nothing in the model says where on earth it stands, and so where its sun; give its place "
                      "(--place LAT,LON)");
-    const auto day = parseSunTime(sun.time, site->longitude);
-    if (!day) return day.error();
+    SVT_TRY(day, parseSunTime(sun.time, site->longitude));
     Sunlight light{sunPosition(*day, site->latitude, site->longitude), {}, site->latitude, site->longitude};
     const double azimuth = (light.position.azimuth + site->north) * kDegree,
                  height = light.position.elevation * kDegree;

@@ -281,7 +281,7 @@ Result<MeshSet> buildMeshes(const BuildingModel& model, const MeshOptions& optio
     const ShellInput input{model, polygons, options, findSurfacesOfPolygons(model)};
     std::vector<Work> work(sources.size());
     gatherShells(sources, input, work);
-    if (const auto closed = closeShells(input, sources, work); !closed) return closed.error();
+    SVT_DO(closeShells(input, sources, work));
     Progress::tell(options.progress, "mesh", 0.7);
 
     MeshSet meshes;

@@ -239,8 +239,7 @@ bool isStorey(const QueryRow& row) {
 }  // namespace query
 
 Result<Query> Query::parse(std::string_view text) {
-    auto root = query::parse(text);
-    if (!root) return root.error();
+    SVT_TRY(root, query::parse(text));
     return Query(std::string(text), std::make_shared<const Node>(std::move(*root)));
 }
 

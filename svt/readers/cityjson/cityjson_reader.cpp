@@ -159,15 +159,14 @@ public:
             head = text_.substr(begin, text_.find('\n', begin) - begin);
             rest_ = text_.substr(begin + head.size());
         }
-        if (auto done = readHead(head, headLine, hasLines); !done) return done.error();
+        SVT_DO(readHead(head, headLine, hasLines));
         if (hasLines) {
-            if (auto done = checkEnd(headLine); !done) return done.error();
-            if (auto done = readLines(headLine); !done) return done.error();
+            SVT_DO(checkEnd(headLine));
+            SVT_DO(readLines(headLine));
         }
         if (Progress::isCancelled(options_.progress)) return cancelled();
-        if (auto done = linkObjects(std::move(objects_), name_, model_, anchors_, diagnostics_); !done)
-            return done.error();
-        if (auto done = settleCrs(model_, name_, anchors_, options_, diagnostics_); !done) return done.error();
+        SVT_DO(linkObjects(std::move(objects_), name_, model_, anchors_, diagnostics_));
+        SVT_DO(settleCrs(model_, name_, anchors_, options_, diagnostics_));
         Progress::tell(options_.progress, "read", 1);
         return std::move(model_);
     }
@@ -186,8 +185,7 @@ private:
 
     Result<void> readHead(std::string_view text, std::uint64_t line, bool hasLines) {
         const TextOrigin origin{name_, line};
-        auto root = headText_.parse(text, origin, options_.maxDepth, diagnostics_);
-        if (!root) return root.error();
+        SVT_TRY(root, headText_.parse(text, origin, options_.maxDepth, diagnostics_));
         if (Progress::isCancelled(options_.progress)) return cancelled();
         Progress::tell(options_.progress, "read", hasLines ? 0 : 0.5);
         const auto object = asObject(*root);
@@ -204,8 +202,8 @@ private:
                 Code::BadJson,
                 fmt::format("the member 'type' is '{}', expected 'CityJSON'", type ? shortened(*type) : "(absent)"),
                 place(line));
-        if (auto done = readVersion(members.version, hasLines); !done) return done;
-        if (auto done = readTransform(members.transform); !done) return done;
+        SVT_DO(readVersion(members.version, hasLines));
+        SVT_DO(readTransform(members.transform));
         readMetadata(members.metadata, model_, name_, diagnostics_);
         model_.source = name_;
         model_.materials = readMaterials(members.appearance);

@@ -75,15 +75,13 @@ double FeatureFile::progress() const noexcept {
 }
 
 Result<FeatureFile> FeatureFile::open(const std::filesystem::path& path, const ReadOptions& options) {
-    auto stream = TextStream::open(path);
-    if (!stream) return stream.error();
+    SVT_TRY(stream, TextStream::open(path));
     auto state = std::make_unique<State>();
     state->path = path;
     state->allowsTruncated = options.allowTruncated;
     state->stream = std::move(*stream);
     while (state->stream.window().size() < kShownBytes) {
-        const auto more = state->stream.more();
-        if (!more) return more.error();
+        SVT_TRY(more, state->stream.more());
         if (!*more) break;
     }
     if (state->stream.window().starts_with(kUtf8Mark)) state->stream.discard(kUtf8Mark.size());
@@ -103,10 +101,9 @@ Result<FeatureFile> FeatureFile::open(const std::filesystem::path& path, const R
 Result<void> FeatureFile::State::openGml() {
     format = FeatureFormat::CityGml;
     gml = GmlMembers(path.string());
-    if (auto begun = gml.begin(stream); !begun) return begun;
+    SVT_DO(gml.begin(stream));
     FeatureText first;
-    const auto found = gml.next(stream, first);
-    if (!found) return found.error();
+    SVT_TRY(found, gml.next(stream, first));
     if (*found) pending = first;
     return {};
 }
@@ -116,20 +113,17 @@ Result<void> FeatureFile::State::openJson() {
     std::size_t end = std::string_view::npos;
     for (std::size_t from = 0; (end = stream.window().find('\n', from)) == std::string_view::npos;) {
         from = stream.window().size();
-        const auto more = stream.more();
-        if (!more) return more.error();
+        SVT_TRY(more, stream.more());
         if (!*more) break;
     }
     if (end != std::string_view::npos) {
         const std::string_view firstLine = stream.window().substr(0, end);
         const std::size_t last = features::skipJson(firstLine, 0);
         if (last != features::kNoJson && features::skipJsonBlanks(firstLine, last) == firstLine.size()) {
-            auto lineHead = features::headOf(firstLine, path.string());
-            if (!lineHead) return lineHead.error();
+            SVT_TRY(lineHead, features::headOf(firstLine, path.string()));
             std::size_t next = end + 1;
             while ((next = features::skipJsonBlanks(stream.window(), next)) == stream.window().size()) {
-                const auto more = stream.more();
-                if (!more) return more.error();
+                SVT_TRY(more, stream.more());
                 if (!*more) break;
             }
             if (next < stream.window().size()) {
@@ -144,24 +138,20 @@ Result<void> FeatureFile::State::openJson() {
     std::string_view text;
     if (stream.isGzip()) {
         while (true) {
-            const auto more = stream.more();
-            if (!more) return more.error();
+            SVT_TRY(more, stream.more());
             if (!*more) break;
         }
         unpacked = stream.window();
         text = unpacked;
     } else {
-        auto file = FileBytes::read(path);
-        if (!file) return file.error();
+        SVT_TRY(file, FileBytes::read(path));
         mapped.emplace(std::move(*file));
         text = mapped->text();
         if (text.starts_with(kUtf8Mark)) text.remove_prefix(kUtf8Mark.size());
     }
-    auto opened = JsonObjects::open(text, path.string());
-    if (!opened) return opened.error();
+    SVT_TRY(opened, JsonObjects::open(text, path.string()));
     objects.emplace(std::move(*opened));
-    auto documentHead = features::headOf(text, path.string());
-    if (!documentHead) return documentHead.error();
+    SVT_TRY(documentHead, features::headOf(text, path.string()));
     head = std::move(*documentHead);
     return {};
 }
@@ -172,8 +162,7 @@ Result<bool> FeatureFile::State::nextLine(FeatureText& feature) {
         const std::size_t end = stream.window().find('\n', from);
         if (end == std::string_view::npos) {
             from = stream.window().size();
-            const auto more = stream.more();
-            if (!more) return more.error();
+            SVT_TRY(more, stream.more());
             if (*more) continue;
         }
         const std::string_view text = stream.window().substr(0, end);
@@ -211,8 +200,7 @@ Result<bool> FeatureFile::next(FeatureText& feature) {
         case FeatureFormat::Whole: break;
     }
     if (state.nextObject++ != 0) return false;
-    auto file = FileBytes::read(state.path);
-    if (!file) return file.error();
+    SVT_TRY(file, FileBytes::read(state.path));
     state.mapped.emplace(std::move(*file));
     feature = {{0, state.mapped->bytes().size()}, state.mapped->text()};
     return true;
@@ -228,15 +216,13 @@ Result<FeatureText> FeatureFile::State::memberAt(const FeatureSpan& span) {
         if (span.begin < stream.base()) return error(Code::InputChanged, "features are asked for out of their order");
         while (stream.base() + stream.window().size() < span.begin) {
             stream.discard(stream.base() + stream.window().size());
-            const auto more = stream.more();
-            if (!more) return more.error();
+            SVT_TRY(more, stream.more());
             if (!*more) break;
         }
         stream.discard(std::min<std::uint64_t>(span.begin, stream.base() + stream.window().size()));
     }
     while (stream.window().size() < span.size) {
-        const auto more = stream.more();
-        if (!more) return more.error();
+        SVT_TRY(more, stream.more());
         if (!*more)
             return error(Code::InputChanged, fmt::format("the file ends before byte {}", span.begin + span.size));
     }
@@ -249,7 +235,7 @@ Result<void> FeatureFile::State::pickObjects(std::span<const FeatureSpan> spans,
         const std::size_t object = objects->findAt(spans[s].begin);
         if (object == objects->count() || !(objects->spanOf(object) == spans[s]))
             return error(Code::InputChanged, fmt::format("no object begins at byte {}", spans[s].begin));
-        if (auto taken = take(s, objects->line(object)); !taken) return taken;
+        SVT_DO(take(s, objects->line(object)));
     }
     return {};
 }
@@ -261,14 +247,13 @@ Result<void> FeatureFile::pick(std::span<const FeatureSpan> spans,
     for (std::size_t s = 0; s < spans.size(); ++s) {
         FeatureText feature;
         if (state.format == FeatureFormat::Whole) {
-            if (const auto found = next(feature); !found) return found.error();
+            SVT_DO(next(feature));
             if (!(feature.span == spans[s])) return state.error(Code::InputChanged, "the file has another size");
         } else {
-            const auto member = state.memberAt(spans[s]);
-            if (!member) return member.error();
+            SVT_TRY(member, state.memberAt(spans[s]));
             feature = *member;
         }
-        if (auto taken = take(s, feature.text); !taken) return taken;
+        SVT_DO(take(s, feature.text));
     }
     return {};
 }

@@ -47,16 +47,14 @@ Result<std::size_t> GmlMembers::find(TextStream& stream, string_view what, std::
         const std::size_t found = stream.window().find(what, from);
         if (found != string_view::npos) return found;
         from = std::max(from, stream.window().size() - std::min(stream.window().size(), what.size() - 1));
-        const auto more = stream.more();
-        if (!more) return more.error();
+        SVT_TRY(more, stream.more());
         if (!*more) return cutOff(stream.base());
     }
 }
 
 Result<bool> GmlMembers::has(TextStream& stream, std::size_t at, string_view text) {
     while (stream.window().size() < at + text.size()) {
-        const auto more = stream.more();
-        if (!more) return more.error();
+        SVT_TRY(more, stream.more());
         if (!*more) return false;
     }
     return stream.window().substr(at, text.size()) == text;
@@ -68,20 +66,17 @@ Result<std::size_t> GmlMembers::skipBlanks(TextStream& stream, std::size_t at) {
     while (true) {
         while (at < stream.window().size() && isBlank(stream.window()[at])) ++at;
         if (at >= stream.window().size()) {
-            const auto more = stream.more();
-            if (!more) return more.error();
+            SVT_TRY(more, stream.more());
             if (!*more) return at;
             continue;
         }
         string_view end;
         for (const auto& [open, close] : {std::pair<string_view, string_view>{"<!--", "-->"}, {"<?", "?>"}}) {
-            const auto begins = has(stream, at, open);
-            if (!begins) return begins.error();
+            SVT_TRY(begins, has(stream, at, open));
             if (*begins) end = close;
         }
         if (end.empty()) return at;
-        const auto found = find(stream, end, at + 2);
-        if (!found) return found.error();
+        SVT_TRY(found, find(stream, end, at + 2));
         at = *found + end.size();
     }
 }
@@ -101,8 +96,7 @@ Result<std::size_t> GmlMembers::endOfTag(TextStream& stream, std::size_t at, boo
                 return at + 1;
             }
         }
-        const auto more = stream.more();
-        if (!more) return more.error();
+        SVT_TRY(more, stream.more());
         if (!*more) return cutOff(stream.base());
     }
 }
@@ -111,27 +105,23 @@ Result<std::size_t> GmlMembers::endOfTag(TextStream& stream, std::size_t at, boo
 Result<std::size_t> GmlMembers::endOfElement(TextStream& stream, std::size_t at) {
     std::uint64_t depth = 0;
     while (true) {
-        const auto open = find(stream, "<", at);
-        if (!open) return open.error();
+        SVT_TRY(open, find(stream, "<", at));
         at = *open;
         string_view close;
         for (const auto& [begin, end] :
              {std::pair<string_view, string_view>{"<!--", "-->"}, {"<![CDATA[", "]]>"}, {"<?", "?>"}}) {
             const char next = at + 1 < stream.window().size() ? stream.window()[at + 1] : '!';
             if (next != '!' && next != '?') break;
-            const auto begins = has(stream, at, begin);
-            if (!begins) return begins.error();
+            SVT_TRY(begins, has(stream, at, begin));
             if (*begins) close = end;
         }
         if (!close.empty()) {
-            const auto found = find(stream, close, at + 2);
-            if (!found) return found.error();
+            SVT_TRY(found, find(stream, close, at + 2));
             at = *found + close.size();
             continue;
         }
         bool isEmpty = false;
-        const auto end = endOfTag(stream, at + 1, isEmpty);
-        if (!end) return end.error();
+        SVT_TRY(end, endOfTag(stream, at + 1, isEmpty));
         const char next = stream.window()[at + 1];
         if (next == '!')
             return Error(Code::DtdRefused, "the file declares a DOCTYPE or entities, which are never read",
@@ -146,11 +136,9 @@ Result<std::size_t> GmlMembers::endOfElement(TextStream& stream, std::size_t at)
 }
 
 Result<void> GmlMembers::begin(TextStream& stream) {
-    const auto root = skipBlanks(stream, 0);
-    if (!root) return root.error();
+    SVT_TRY(root, skipBlanks(stream, 0));
     bool isEmpty = false;
-    const auto end = endOfTag(stream, *root + 1, isEmpty);
-    if (!end) return end.error();
+    SVT_TRY(end, endOfTag(stream, *root + 1, isEmpty));
     const string_view text = stream.window();
     if (text[*root] != '<' || text[*root + 1] == '!')
         return Error(text.substr(*root).starts_with("<!") ? Code::DtdRefused : Code::BadXml,
@@ -167,28 +155,24 @@ Result<void> GmlMembers::begin(TextStream& stream) {
 void GmlMembers::countHead() { lines_ = xml::countLines(head_) + 1; }
 
 Result<FeatureText> GmlMembers::memberHere(TextStream& stream) {
-    const auto end = endOfElement(stream, 0);
-    if (!end) return end.error();
+    SVT_TRY(end, endOfElement(stream, 0));
     return FeatureText{{stream.base(), *end}, stream.window().substr(0, *end), stream.line()};
 }
 
 Result<bool> GmlMembers::next(TextStream& stream, FeatureText& feature) {
     while (!isEnd_) {
-        const auto at = skipBlanks(stream, 0);
-        if (!at) return at.error();
+        SVT_TRY(at, skipBlanks(stream, 0));
         stream.discard(stream.base() + *at);
         if (stream.window().empty()) return cutOff(stream.base());
         if (stream.window()[0] != '<')
             return Error(Code::BadXml, fmt::format("text between the members of the model, at byte {}", stream.base()),
                          {fileName_, 0, 0, {}});
-        const auto isRootEnd = has(stream, 0, "</");
-        if (!isRootEnd) return isRootEnd.error();
+        SVT_TRY(isRootEnd, has(stream, 0, "</"));
         if (*isRootEnd) {
             isEnd_ = true;
             return false;
         }
-        const auto member = memberHere(stream);
-        if (!member) return member.error();
+        SVT_TRY(member, memberHere(stream));
         feature = *member;
         const string_view name = xml::splitName(tagNameAt(feature.text, 1)).localName;
         // What stands behind the first feature tells nothing of those before.

@@ -200,12 +200,11 @@ Result<model::BuildingModel> readZip(Bytes bytes, string_view name, const ReadOp
     if (!member) return member.error();
     std::vector<std::byte> unpacked;
     if (member->isDeflated) {
-        auto inflated = unpackedMember(*member, name, options.maxBytes);
-        if (!inflated) return inflated.error();
+        SVT_TRY(inflated, unpackedMember(*member, name, options.maxBytes));
         unpacked = std::move(*inflated);
     }
     const Bytes plain = member->isDeflated ? Bytes(unpacked) : member->packed;
-    if (auto checked = checkZipMember(*member, plain, name); !checked) return checked.error();
+    SVT_DO(checkZipMember(*member, plain, name));
     return readPlain(plain, name, options, diagnostics);
 }
 

@@ -50,7 +50,7 @@ public:
                             "STEP files",
                             file_.step().schema().substr(0, 60)),
                 place());
-        if (auto done = checkEnd(); !done) return done.error();
+        SVT_DO(checkEnd());
         model_.source = name_;
         model_.format = *version;
         readProject();
@@ -70,7 +70,7 @@ public:
             if (file_.guard().isFileSpent()) return tooMuch();
         }
         addGroups();
-        if (auto done = readShapes(styles, properties); !done) return done.error();
+        SVT_DO(readShapes(styles, properties));
         file_.missing().report(name_, diagnostics_);
         tellOfCircles();
         tellOfProducts();
@@ -542,8 +542,7 @@ private:
     Result<model::BuildingModel> placeModel() {
         if (options_.crs != 0 || !map_.crs.empty()) {
             const georeference::GivenCrs given{map_.crs, "", true, place(), {}};
-            if (auto done = georeference::georeference(model_, given, options_, diagnostics_); !done)
-                return done.error();
+            SVT_DO(georeference::georeference(model_, given, options_, diagnostics_));
         } else if (!options_.keepFarFeatures) {
             georeference::leaveOutFarFeatures(model_, {1, 1, 1}, place(), diagnostics_);
         }
@@ -586,8 +585,7 @@ Result<model::BuildingModel> readIfc(std::span<const std::byte> bytes, string_vi
     string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     Progress::tell(options.progress, "read", 0);
-    const auto step = step::StepFile::scan(text, name, log);
-    if (!step) return step.error();
+    SVT_TRY(step, step::StepFile::scan(text, name, log));
     return IfcReader(*step, name, options, log).read();
 }
 

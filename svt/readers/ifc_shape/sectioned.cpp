@@ -106,20 +106,11 @@ std::vector<Regions> readSections(const IfcFile& file, Value list, std::string& 
     return sections;
 }
 
-// Along the directrix, with sections between where it bends.
-bool addAlong(const IfcFile& file, const Fields& fields, std::vector<Station>& stations, std::vector<Regions>& sections,
-              std::string& why) {
-    std::vector<Vec3d> line;
-    if (!readCurve(file, file.follow(fields[0]), line, why)) return false;
-    const Directrix directrix(line);
-    if (directrix.points.size() < 2) {
-        why = "a sectioned solid whose directrix has no length";
-        return false;
-    }
-    const bool isVertical = fields[3].enumeration() == "T";
-    const auto canLookUp = [&](std::size_t times) { return file.guard().takeSteps(times * directrix.points.size()); };
+// Where the sections stand on the directrix.
+bool readStations(const IfcFile& file, const Fields& fields, const Directrix& directrix, bool isVertical,
+                  std::vector<Station>& stations, std::string& why) {
     for (const RecordIndex position : file.followAll(fields[2])) {
-        if (!canLookUp(1)) return false;
+        if (!file.guard().takeSteps(directrix.points.size())) return false;
         const Fields place = file.fieldsOf(position), point = file.fieldsOf(file.follow(place[0]));
         const auto distance = point[0].number();
         if (file.entityOf(position) != Entity::Axis2PlacementLinear || !distance ||
@@ -138,10 +129,13 @@ bool addAlong(const IfcFile& file, const Fields& fields, std::vector<Station>& s
                          along * file.metres(point[3]);
         stations.push_back(station);
     }
-    if (stations.size() != sections.size()) {
-        why = "a sectioned solid with more sections than places, or fewer";
-        return false;
-    }
+    return true;
+}
+
+// Adds a section at each bend of the directrix between two sections.
+bool addAtBends(const IfcFile& file, const Directrix& directrix, bool isVertical, std::vector<Station>& stations,
+                std::vector<Regions>& sections) {
+    const auto canLookUp = [&](std::size_t times) { return file.guard().takeSteps(times * directrix.points.size()); };
     std::vector<Station> all;
     std::vector<Regions> between;
     for (std::size_t s = 0; s < stations.size(); ++s) {
@@ -171,6 +165,25 @@ bool addAlong(const IfcFile& file, const Fields& fields, std::vector<Station>& s
     stations = std::move(all);
     sections = std::move(between);
     return true;
+}
+
+// Along the directrix, with sections between where it bends.
+bool addAlong(const IfcFile& file, const Fields& fields, std::vector<Station>& stations, std::vector<Regions>& sections,
+              std::string& why) {
+    std::vector<Vec3d> line;
+    if (!readCurve(file, file.follow(fields[0]), line, why)) return false;
+    const Directrix directrix(line);
+    if (directrix.points.size() < 2) {
+        why = "a sectioned solid whose directrix has no length";
+        return false;
+    }
+    const bool isVertical = fields[3].enumeration() == "T";
+    if (!readStations(file, fields, directrix, isVertical, stations, why)) return false;
+    if (stations.size() != sections.size()) {
+        why = "a sectioned solid with more sections than places, or fewer";
+        return false;
+    }
+    return addAtBends(file, directrix, isVertical, stations, sections);
 }
 
 bool addSpine(const IfcFile& file, const Fields& fields, std::vector<Station>& stations, std::size_t sections,

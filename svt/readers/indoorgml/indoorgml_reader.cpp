@@ -248,8 +248,7 @@ private:
         const Place place{std::string(name_), 0, 0, {}};
         if (options_.crs != 0 || !srsName_.empty()) {
             const georeference::GivenCrs given{srsName_, "", false, place, {}};
-            if (auto done = georeference::georeference(model_, given, options_, diagnostics_); !done)
-                return done.error();
+            SVT_DO(georeference::georeference(model_, given, options_, diagnostics_));
         } else if (!options_.keepFarFeatures) {
             georeference::leaveOutFarFeatures(model_, {1, 1, 1}, place, diagnostics_);
         }

@@ -220,7 +220,7 @@ Result<StepFile> StepFile::scan(string_view text, string_view name, Diagnostics&
     if (begin == string_view::npos || !text.substr(begin).starts_with("ISO-10303-21"))
         return Error(Code::BadStep, "the file does not begin with 'ISO-10303-21;', so it is no STEP file",
                      {std::string(name), 1, 0, {}});
-    if (const auto scanned = Scanner(file, name, diagnostics).run(); !scanned) return scanned.error();
+    SVT_DO(Scanner(file, name, diagnostics).run());
     if (file.records_.empty())
         return Error(Code::BadStep, "the file has no record such as '#1=IFCPROJECT(...);'; it seems to be cut off",
                      {std::string(name), 1, 0, {}});

@@ -69,7 +69,7 @@ Result<void> checkPass(const Pass& pass, std::size_t number) {
             return bad(fmt::format("colour and opacity of scalar {} must be 0 to 1", scalar));
     std::size_t parts = 0;
     for (const ClipRegion& clip : pass.clips) {
-        if (auto checked = checkClip(clip, fmt::format("pass {}", number)); !checked) return checked;
+        SVT_DO(checkClip(clip, fmt::format("pass {}", number)));
         parts += clip.parts.size();
     }
     if (parts > Pass::kMaxClipParts)
@@ -87,8 +87,8 @@ Result<void> checkFrameSpec(const FrameSpec& spec) {
     const int samples = spec.samplesPerPixel;
     if (samples != 1 && samples != 4 && samples != 9 && samples != 16)
         return Error(Code::BadFrame, fmt::format("{} samples per pixel are not possible; 1, 4, 9 or 16 are", samples));
-    if (auto checked = checkCamera(spec.camera); !checked) return checked;
-    if (auto checked = checkLook(spec); !checked) return checked;
+    SVT_DO(checkCamera(spec.camera));
+    SVT_DO(checkLook(spec));
     if (spec.passes.size() > FrameSpec::kMaxPasses)
         return Error(Code::BadFrame,
                      fmt::format("{} passes are over the limit of {}", spec.passes.size(), FrameSpec::kMaxPasses));

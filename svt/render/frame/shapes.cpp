@@ -30,7 +30,7 @@ Result<void> checkShapes(const std::vector<LineSet>& lines, const std::vector<Me
     std::size_t count = 0;
     for (std::size_t number = 0; number < lines.size(); ++number) {
         count += lines[number].lines.size();
-        if (auto checked = checkSet(lines[number], number); !checked) return checked;
+        SVT_DO(checkSet(lines[number], number));
     }
     if (count > kMaxShapes || triangles.size() > kMaxShapes)
         return bad(fmt::format("{} lines and {} triangles are over the limit of {} each", count, triangles.size(),

@@ -15,7 +15,7 @@ namespace svt::render {
 namespace {
 
 Result<void> checkCall(std::span<const DrawnVolume> volumes, const FrameSpec& spec, const CastOptions& options) {
-    if (auto checked = checkFrameSpec(spec); !checked) return checked;
+    SVT_DO(checkFrameSpec(spec));
     if (volumes.empty() || volumes.size() > FrameSpec::kMaxPasses)
         return Error(Code::BadArgument,
                      fmt::format("{} volumes to draw; 1 to {} are possible", volumes.size(), FrameSpec::kMaxPasses));
@@ -86,9 +86,8 @@ Result<PreparedPass> preparedPass(const Pass& pass, const PreparedFrame& frame, 
         {},
         pass.join,
         static_cast<std::uint8_t>(pass.volume)};
-    auto shapes = PassShapes::make(pass, spec, volume.rays, volume.grid, prepared.clipper, frame.lineSamples,
-                                   SampleLayout(spec).blockMargin(frame.isAdaptive), threads);
-    if (!shapes) return shapes.error();
+    SVT_TRY(shapes, PassShapes::make(pass, spec, volume.rays, volume.grid, prepared.clipper, frame.lineSamples,
+                                     SampleLayout(spec).blockMargin(frame.isAdaptive), threads));
     prepared.shapes = std::move(*shapes);
     if (!frame.isReference) prepared.hull = VisibleHull(volume.bricks, prepared.table, volume.rays, threads);
     if (spec.light.ambientOcclusion > 0 && prepared.table.hasOpaque()) {
@@ -112,14 +111,12 @@ Result<PreparedFrame> prepareFrame(std::span<const DrawnVolume> volumes, const F
     if (!frame.isAdaptive) frame.lineSamples = std::round(std::sqrt(spec.samplesPerPixel));
     frame.towardsLight = towardsLight(spec.light, frame.rays());
     if (spec.light.hasShadows && spec.light.key > 0) {
-        auto shadows = ShadowMaps::make(volumes, spec, frame.towardsLight, options);
-        if (!shadows) return shadows.error();
+        SVT_TRY(shadows, ShadowMaps::make(volumes, spec, frame.towardsLight, options));
         frame.shadows = std::move(*shadows);
     }
     frame.hatchColor = image::linearFromSrgb(spec.hatches.color);
     for (const Pass& pass : spec.passes) {
-        auto prepared = preparedPass(pass, frame, volumes[pass.volume]);
-        if (!prepared) return prepared.error();
+        SVT_TRY(prepared, preparedPass(pass, frame, volumes[pass.volume]));
         frame.hasShapes = frame.hasShapes || !prepared->shapes.isEmpty();
         frame.drawn.widen(prepared->shapes.reach());
         frame.passes.push_back(std::move(*prepared));
@@ -129,9 +126,8 @@ Result<PreparedFrame> prepareFrame(std::span<const DrawnVolume> volumes, const F
 
 Result<Frame> castFrame(std::span<const DrawnVolume> volumes, const FrameSpec& spec, const CastOptions& options,
                         bool isReference) {
-    if (auto checked = checkCall(volumes, spec, options); !checked) return checked.error();
-    auto prepared = prepareFrame(volumes, spec, options, isReference);
-    if (!prepared) return prepared.error();
+    SVT_DO(checkCall(volumes, spec, options));
+    SVT_TRY(prepared, prepareFrame(volumes, spec, options, isReference));
     const PreparedFrame& frame = *prepared;
     std::optional<PacketPasses> packets;
     if (!isReference) packets.emplace(frame);

@@ -59,7 +59,7 @@ Result<PassShapes> PassShapes::make(const Pass& pass, const FrameSpec& spec, con
     shapes.addLines(pass, spec, rays, grid, clipper);
     shapes.addTriangles(pass, spec, rays, nearest);
     if (shapes.lines_.empty() && shapes.triangles_.empty()) return PassShapes();
-    if (auto sorted = shapes.sortIntoTiles(threads); !sorted) return sorted.error();
+    SVT_DO(shapes.sortIntoTiles(threads));
     return shapes;
 }
 

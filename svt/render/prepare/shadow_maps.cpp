@@ -108,8 +108,7 @@ Result<ShadowMaps> ShadowMaps::make(std::span<const DrawnVolume> volumes, const 
         map.eye =
             right * ((box.min.x + box.max.x) / 2) + up * ((box.min.y + box.max.y) / 2) + forward * (box.min.z - 1);
         from.camera = {Camera::Projection::Orthographic, map.eye, map.eye + forward, up, 35, from.height * maps.pixel_};
-        auto frame = castRays(volumes, from, plain);
-        if (!frame) return frame.error();
+        SVT_TRY(frame, castRays(volumes, from, plain));
         map.depth = std::move(frame->depth);
         maps.maps_.push_back(std::move(map));
     }

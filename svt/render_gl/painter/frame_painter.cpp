@@ -65,7 +65,7 @@ Result<void> FramePainter::prepare(const FrameParts& parts) {
             !updated)
             return updated;
         passNeeds_.push_back(needsOf(passes_[n]));
-        if (auto prepared = prepareCast(passNeeds_[n]); !prepared) return prepared;
+        SVT_DO(prepareCast(passNeeds_[n]));
     }
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
@@ -73,7 +73,7 @@ Result<void> FramePainter::prepare(const FrameParts& parts) {
     glDisable(GL_CULL_FACE);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glBindVertexArray(0);
-    if (auto checked = checkGl("the tables of the frame"); !checked) return checked;
+    SVT_DO(checkGl("the tables of the frame"));
     return prepareResolve();
 }
 
@@ -105,8 +105,7 @@ Result<void> FramePainter::prepareCast(unsigned needs) {
     if (has(kHatches) != 0) sources.push_back(shaders::hatches());
     sources.push_back(shaders::cast());
     if (has(kShapes) != 0) sources.push_back(shaders::shapes());
-    auto program = Program::make(defines, sources);
-    if (!program) return program.error();
+    SVT_TRY(program, Program::make(defines, sources));
     cast_[needs].emplace(std::move(*program));
     return {};
 }

@@ -47,7 +47,7 @@ Result<void> forTiles(const render::FrameSpec& spec, std::int32_t size, const Bo
     for (std::int32_t y = 0; y < spec.height; y += size)
         for (std::int32_t x = 0; x < spec.width; x += size) {
             const PixelTile tile{x, y, std::min(size, spec.width - x), std::min(size, spec.height - y)};
-            if (auto done = body(tile); !done) return done;
+            SVT_DO(body(tile));
         }
     return {};
 }
@@ -74,13 +74,13 @@ struct GlRenderer::Parts {
     Target pixelTarget{};
 
     Result<void> prepare(const render::FrameSpec& spec) {
-        if (auto checked = checkFrameSpec(spec); !checked) return checked;
+        SVT_DO(checkFrameSpec(spec));
         clearGlErrors();
         return painter.prepare({spec, volume, grid, textures, limits, options});
     }
 
     Result<void> readTiles(const render::FrameSpec& spec, render::Frame& frame, bool withLabels) {
-        if (auto prepared = prepare(spec); !prepared) return prepared;
+        SVT_DO(prepare(spec));
         frame.color = image::Image<image::Rgba8>(spec.width, spec.height);
         if (withLabels) {
             frame.label = image::Image<volume::Scalar>(spec.width, spec.height);
@@ -112,11 +112,9 @@ Result<GlRenderer> GlRenderer::make(const volume::BrickVolume& volume, const vol
                                     const GlOptions& options) {
     if (volume.dimension() != grid.dimension())
         return Error(Code::BadArgument, "the grid's dimension is not the volume's");
-    if (auto checked = checkOptions(options); !checked) return checked.error();
-    const auto limits = glLimits();
-    if (!limits) return limits.error();
-    auto textures = VolumeTextures::make(volume, *limits);
-    if (!textures) return textures.error();
+    SVT_DO(checkOptions(options));
+    SVT_TRY(limits, glLimits());
+    SVT_TRY(textures, VolumeTextures::make(volume, *limits));
     return GlRenderer(
         std::unique_ptr<Parts>(new Parts{volume, grid, options, *limits, std::move(*textures), FramePainter()}));
 }
@@ -128,7 +126,7 @@ Result<void> GlRenderer::draw(const render::FrameSpec& spec) {
                                                  "graphics driver, {} pixels; draw a smaller one",
                                                  spec.width, spec.height, most));
     const FramebufferGuard bindings;
-    if (auto prepared = parts_->prepare(spec); !prepared) return prepared;
+    SVT_DO(parts_->prepare(spec));
     FramePainter& painter = parts_->painter;
     auto drawn = forTiles(spec, painter.tilePixels(), [&](const PixelTile& tile) -> Result<void> {
         painter.castSamples(tile);
@@ -143,14 +141,14 @@ Result<void> GlRenderer::draw(const render::FrameSpec& spec) {
 Result<render::Frame> GlRenderer::read(const render::FrameSpec& spec) {
     render::Frame frame;
     const FramebufferGuard bindings;
-    if (auto drawn = parts_->readTiles(spec, frame, true); !drawn) return drawn.error();
+    SVT_DO(parts_->readTiles(spec, frame, true));
     return frame;
 }
 
 Result<image::Image<image::Rgba8>> GlRenderer::readColor(const render::FrameSpec& spec) {
     render::Frame frame;
     const FramebufferGuard bindings;
-    if (auto drawn = parts_->readTiles(spec, frame, false); !drawn) return drawn.error();
+    SVT_DO(parts_->readTiles(spec, frame, false));
     return std::move(frame.color);
 }
 
@@ -159,10 +157,10 @@ Result<PickedPixel> GlRenderer::pick(const render::FrameSpec& spec, std::int32_t
         return Error(Code::BadArgument,
                      fmt::format("pixel ({}, {}) lies outside of a picture of {} x {}", x, y, spec.width, spec.height));
     const FramebufferGuard bindings;
-    if (auto prepared = parts_->prepare(spec); !prepared) return prepared.error();
+    SVT_DO(parts_->prepare(spec));
     PickedPixel picked;
     parts_->painter.pick({x, y, 1, 1}, [&](std::int32_t, std::int32_t, const PickedPixel& hit) { picked = hit; });
-    if (auto checked = checkGl("the picked pixel"); !checked) return checked.error();
+    SVT_DO(checkGl("the picked pixel"));
     return picked;
 }
 

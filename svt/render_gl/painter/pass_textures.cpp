@@ -53,8 +53,8 @@ Result<void> PassTextures::update(const render::Pass& pass, const render::FrameS
                                          : updateStyles(render::makeVoxelPass(pass, spec.objectOfScalar), spec,
                                                         volume.scalarCount(), limits);
     if (!styles) return styles;
-    if (auto updated = updateClips(pass, grid, middle, limits); !updated) return updated;
-    if (auto updated = shapes_.update(pass, spec, grid, middle, limits, threads); !updated) return updated;
+    SVT_DO(updateClips(pass, grid, middle, limits));
+    SVT_DO(shapes_.update(pass, spec, grid, middle, limits, threads));
     if (spec.light.ambientOcclusion > 0 && hasOpaque_) return updateOcclusion(volume, grid, limits, threads);
     return {};
 }
@@ -79,7 +79,7 @@ Result<void> PassTextures::updateStyles(const render::Pass& pass, const render::
         hasHatches_ = hasHatches_ || hatch != render::Hatch::None;
     }
     styleCount_ = static_cast<std::uint32_t>(table.styles().size());
-    if (auto set = styleTexture_.setArray(GL_RGBA32UI, words.data(), words.size() / 4, limits); !set) return set;
+    SVT_DO(styleTexture_.setArray(GL_RGBA32UI, words.data(), words.size() / 4, limits));
     styles_ = pass.styles;
     objects_ = spec.objectOfScalar;
     return {};
@@ -97,7 +97,7 @@ Result<void> PassTextures::updateClips(const render::Pass& pass, const volume::G
         for (const render::ConvexPart& part : region.parts) appendPart(words, part, grid, middle);
         words[head + 2] = static_cast<std::uint32_t>(words.size() / 4);
     }
-    if (auto set = clipTexture_.setArray(GL_RGBA32UI, words.data(), words.size() / 4, limits); !set) return set;
+    SVT_DO(clipTexture_.setArray(GL_RGBA32UI, words.data(), words.size() / 4, limits));
     clips_ = pass.clips;
     clipRegions_ = static_cast<std::uint32_t>(pass.clips.size());
     return {};
@@ -123,7 +123,7 @@ Result<void> PassTextures::updateOcclusion(const volume::BrickVolume& volume, co
         occlusionGains_.push_back(static_cast<float>(level.weight));
         voxels.insert(voxels.end(), level.voxels.begin(), level.voxels.end());
     }
-    if (auto set = occlusionTexture_.setArray(GL_R32UI, voxels.data(), voxels.size(), limits); !set) return set;
+    SVT_DO(occlusionTexture_.setArray(GL_R32UI, voxels.data(), voxels.size(), limits));
     occludingBodies_ = bodies_;
     occludingClips_ = clips_;
     return {};

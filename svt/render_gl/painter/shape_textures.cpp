@@ -123,9 +123,8 @@ Result<void> ShapeTextures::update(const render::Pass& pass, const render::Frame
     }
     isEmpty_ = false;
     hasTriangles_ = sorted.triangleCount > 0;
-    if (auto set = squares_.setArray(GL_RGBA32UI, sorted.squares.data(), sorted.squares.size() / 4, limits); !set)
-        return set;
-    if (auto set = list_.setArray(GL_R32UI, sorted.list.data(), sorted.list.size(), limits); !set) return set;
+    SVT_DO(squares_.setArray(GL_RGBA32UI, sorted.squares.data(), sorted.squares.size() / 4, limits));
+    SVT_DO(list_.setArray(GL_R32UI, sorted.list.data(), sorted.list.size(), limits));
     return table_.setArray(GL_RGBA32UI, table.words().data(), table.texels(), limits);
 }
 

@@ -91,11 +91,10 @@ Result<VolumeTextures> VolumeTextures::make(const BrickVolume& volume, const GlL
         {made.planes, GL_RGBA32UI, planes.data(), arrays.planes.size(), 16},
         {made.patterns, GL_R32UI, patterns.data(), patterns.size(), 4}};
     for (const Upload& upload : uploads) {
-        if (auto set = upload.texture.setArray(upload.form, upload.data, upload.count, limits); !set)
-            return set.error();
+        SVT_DO(upload.texture.setArray(upload.form, upload.data, upload.count, limits));
         made.sizeBytes += upload.count * upload.bytes;
     }
-    if (auto checked = checkGl("the bricks of the volume"); !checked) return checked.error();
+    SVT_DO(checkGl("the bricks of the volume"));
     return made;
 }
 

@@ -59,7 +59,7 @@ std::string citySampleFileName(const CitySampleOptions& options, int file) {
 }
 
 Result<CitySampleCount> writeCitySample(const CitySampleOptions& options, int file, const SampleSink& sink) {
-    if (auto checked = check(options, file); !checked) return checked.error();
+    SVT_DO(check(options, file));
     const Layout layout = Layout::of(options);
     const std::int64_t fileColumn = file % layout.fileColumns, fileRow = file / layout.fileColumns;
     const std::int64_t west = layout.firstColumn(fileColumn), east = layout.firstColumn(fileColumn + 1);

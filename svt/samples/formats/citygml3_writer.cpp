@@ -27,7 +27,7 @@ public:
                " xmlns:gml=\"http://www.opengis.net/gml/3.2\" xmlns:xlink=\"http://www.w3.org/1999/xlink\">\n<gml:name>"
             << source_.title() << "</gml:name>\n";
         gml_.envelope(source_);
-        ground();
+        gml_.ground(source_, "core");
         for (std::int64_t i = 0; i < source_.buildingCount() && !out_.hasFailed(); ++i) {
             document_ = source_.building(i);
             building();
@@ -36,25 +36,10 @@ public:
     }
 
 private:
-    void ground() {
-        const std::vector<WorldPoint> corners = source_.ground();
-        if (corners.empty()) return;
-        out_ << "<core:cityObjectMember>\n<luse:LandUse gml:id=\"ground\"><gml:name>Ground</gml:name>"
-                "<core:lod1MultiSurface><gml:MultiSurface gml:id=\"ground_surface\"><gml:surfaceMember>"
-                "<gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>";
-        for (const WorldPoint& corner : corners) {
-            gml_.position(corner, source_.decimals());
-            out_ << " ";
-        }
-        gml_.position(corners.front(), source_.decimals());
-        out_ << "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember></gml:MultiSurface>"
-                "</core:lod1MultiSurface></luse:LandUse>\n</core:cityObjectMember>\n";
-    }
-
     void building() {
         out_ << "<core:cityObjectMember>\n<bldg:Building gml:id=\"" << document_.id << "\"><gml:name>" << document_.name
              << "</gml:name>\n";
-        appearance();
+        gml_.appearance(document_, false, "core:appearance", "app:surfaceData");
         out_ << "<bldg:function>" << document_.function << "</bldg:function><bldg:roofType>" << document_.roofType
              << "</bldg:roofType><bldg:storeysAboveGround>" << document_.storeys << "</bldg:storeysAboveGround>\n";
         eachTop(Kind::Element, "buildingConstructiveElement", &CityGml3Writer::element);
@@ -84,20 +69,6 @@ private:
             (this->*writeOne)(placed, child);
             out_ << "</" << property << ">\n";
         }
-    }
-
-    void appearance() {
-        const std::vector<MaterialTargets> materials = materialTargets(document_, false);
-        if (materials.empty()) return;
-        out_ << "<core:appearance><app:Appearance gml:id=\"" << document_.id
-             << "_appearance\"><app:theme>sample</app:theme>\n";
-        for (const MaterialTargets& material : materials) {
-            out_ << "<app:surfaceData>";
-            gml_.material(material.material, document_.id + "_material" + std::to_string(int(material.material)));
-            for (const std::string& polygon : material.polygons) out_ << "<app:target>#" << polygon << "</app:target>";
-            out_ << "</app:X3DMaterial></app:surfaceData>\n";
-        }
-        out_ << "</app:Appearance></core:appearance>\n";
     }
 
     // Opening tag, name and attributes.

@@ -69,6 +69,36 @@ void GmlText::material(Material material, std::string_view id) {
          << "</app:diffuseColor><app:transparency>" << decimalText(shown.transparency) << "</app:transparency>";
 }
 
+void GmlText::ground(SampleSource& source, std::string_view module) {
+    const std::vector<WorldPoint> corners = source.ground();
+    if (corners.empty()) return;
+    out_ << "<core:cityObjectMember>\n<luse:LandUse gml:id=\"ground\"><gml:name>Ground</gml:name><" << module
+         << ":lod1MultiSurface><gml:MultiSurface gml:id=\"ground_surface\"><gml:surfaceMember>"
+            "<gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>";
+    for (const WorldPoint& corner : corners) {
+        position(corner, source.decimals());
+        out_ << " ";
+    }
+    position(corners.front(), source.decimals());
+    out_ << "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember></gml:MultiSurface></"
+         << module << ":lod1MultiSurface></luse:LandUse>\n</core:cityObjectMember>\n";
+}
+
+void GmlText::appearance(const Document& document, bool isThematic, std::string_view property,
+                         std::string_view member) {
+    const std::vector<MaterialTargets> materials = materialTargets(document, isThematic);
+    if (materials.empty()) return;
+    out_ << "<" << property << "><app:Appearance gml:id=\"" << document.id
+         << "_appearance\"><app:theme>sample</app:theme>\n";
+    for (const MaterialTargets& of : materials) {
+        out_ << "<" << member << ">";
+        material(of.material, document.id + "_material" + std::to_string(int(of.material)));
+        for (const std::string& polygon : of.polygons) out_ << "<app:target>#" << polygon << "</app:target>";
+        out_ << "</app:X3DMaterial></" << member << ">\n";
+    }
+    out_ << "</app:Appearance></" << property << ">\n";
+}
+
 std::string polygonId(const std::string& componentId, std::size_t number) {
     return componentId + "_p" + std::to_string(number);
 }

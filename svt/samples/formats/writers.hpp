@@ -31,10 +31,17 @@ public:
     void envelope(SampleSource& source);
     /// The 16 numbers of a transformation matrix: quarter turns, then the turn of the placement.
     void matrix(const PlacedPlan& placed, const Instance& instance);
-    /// app:X3DMaterial of a material, without its targets and closing tag.
-    void material(Material material, std::string_view id);
+    /// The ground as land use; nothing if the source has none.
+    /// \param module  prefix of the module whose property holds the surface
+    void ground(SampleSource& source, std::string_view module);
+    /// The colours of a building, each with its polygons; nothing without colours.
+    /// \param property  the property that holds the appearance
+    /// \param member    the property that holds a material
+    void appearance(const Document& document, bool isThematic, std::string_view property, std::string_view member);
 
 private:
+    /// app:X3DMaterial of a material, without its targets and closing tag.
+    void material(Material material, std::string_view id);
     template <class Coordinates>
     void rings(const Face& face, const Coordinates& write);
 

@@ -123,7 +123,7 @@ std::uint64_t polygonsOf(const model::BuildingModel& model, const std::vector<st
 }  // namespace
 
 Result<ValidationReport> validateModel(const model::BuildingModel& model, const ValidateOptions& options) {
-    if (auto checked = checkOptions(options); !checked) return checked.error();
+    SVT_DO(checkOptions(options));
     const Lattice lattice = latticeOf(model);
     const std::vector<std::vector<FeatureIndex>> groups = groupsOf(model);
     const std::vector<std::uint32_t> users = firstUsers(model, groups);

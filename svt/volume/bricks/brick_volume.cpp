@@ -681,7 +681,7 @@ Result<BrickVolume> BrickVolume::fromColumns(const ColumnVolume& columns, const 
     parallelFor(tiles.size(), 4, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) merger.takeTile(n, tileBricks[n]);
     });
-    if (auto finished = merger.finish(options.threads); !finished) return finished.error();
+    SVT_DO(merger.finish(options.threads));
     return volume;
 }
 

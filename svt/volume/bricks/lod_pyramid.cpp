@@ -192,8 +192,7 @@ Result<LodLevel> makeLevel(const ColumnVolume& fine, const Grid& grid, int level
     result.level = level;
     const double size = static_cast<double>(1 << level);
     const Vec3d center{(size - 1) / 2, (size - 1) / 2, (size - 1) / 2};
-    auto coarse = Grid::fromParts(dimension, grid.spacing() * size, grid.worldFromIndex(center), grid.axes());
-    if (!coarse) return coarse.error();
+    SVT_TRY(coarse, Grid::fromParts(dimension, grid.spacing() * size, grid.worldFromIndex(center), grid.axes()));
     result.grid = *coarse;
 
     const std::int32_t tilesX = (dimension.x + ColumnVolume::kTileSize - 1) / ColumnVolume::kTileSize;
@@ -218,8 +217,7 @@ Result<LodLevel> makeLevel(const ColumnVolume& fine, const Grid& grid, int level
     }
     result.mixtures = std::move(table.mixtures());
     result.columns = ColumnVolume::fromTiles(dimension, std::move(data));
-    auto bricks = BrickVolume::fromColumns(result.columns, {.faces = BrickFaces::Voxels, .threads = threads});
-    if (!bricks) return bricks.error();
+    SVT_TRY(bricks, BrickVolume::fromColumns(result.columns, {.faces = BrickFaces::Voxels, .threads = threads}));
     result.bricks = std::move(*bricks);
     return result;
 }
@@ -298,8 +296,7 @@ Result<std::vector<LodLevel>> buildLodPyramid(const ColumnVolume& columns, const
     std::vector<LodLevel> levels;
     for (int level = 1; level <= std::min(coarsest, lodLevelCount(columns.dimension())); ++level) {
         Progress::tell(progress, "prepare", double(level - 1) / coarsest);
-        auto made = buildLodLevel(columns, grid, level, threads);
-        if (!made) return made.error();
+        SVT_TRY(made, buildLodLevel(columns, grid, level, threads));
         levels.push_back(std::move(*made));
     }
     return levels;

@@ -240,8 +240,7 @@ Result<std::vector<ColumnTileData>> ColumnBlocks::decodeBlock(std::size_t number
 Result<ColumnTileData> ColumnBlocks::decodeTile(std::int32_t tileX, std::int32_t tileY,
                                                 std::span<const std::byte> frame) const {
     const std::size_t number = blockOfTile(tileX, tileY);
-    auto tiles = decodeBlock(number, frame);
-    if (!tiles) return tiles.error();
+    SVT_TRY(tiles, decodeBlock(number, frame));
     const BlockPlace place = BlockLayout(dimension_).place(number);
     return std::move(
         (*tiles)[static_cast<std::size_t>((tileY - place.tileY) * place.shape.tilesX() + tileX - place.tileX)]);

@@ -168,8 +168,7 @@ Result<std::vector<std::byte>> compressFacePlanes(std::span<const FacePlane> pla
 }
 
 Result<std::vector<FacePlane>> readFacePlanes(std::span<const std::byte> frame, Vec3i dimension) {
-    const auto bytes = unpackNumbers(frame, kPlanesName);
-    if (!bytes) return bytes.error();
+    SVT_TRY(bytes, unpackNumbers(frame, kPlanesName));
     NumberReader reader(*bytes);
     const std::uint64_t count = reader.number();
     if (!reader.isGood() || count * kPlaneBytes > reader.left())
@@ -187,7 +186,7 @@ Result<std::vector<FacePlane>> readFacePlanes(std::span<const std::byte> frame, 
     if (!reader.isGood()) return badPlanes("a number is cut short or longer than 32 bits");
     if (reader.left() != 0) return badPlanes(fmt::format("{} bytes are left over", reader.left()));
     if (!isInRange) return badPlanes("a box reaches beyond voxel 65535");
-    if (auto checked = checkFacePlanes(planes, dimension); !checked) return checked.error();
+    SVT_DO(checkFacePlanes(planes, dimension));
     return planes;
 }
 

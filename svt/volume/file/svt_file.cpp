@@ -66,10 +66,8 @@ public:
     /// Data of a stored or deflated entry, with checked CRC; unpacked into `buffer` if deflated.
     [[nodiscard]] Result<std::string_view> text(std::string_view name, std::uint64_t maxBytes,
                                                 std::vector<std::byte>& buffer) const {
-        const auto entry = find(name);
-        if (!entry) return entry.error();
-        const auto data = unpack(*entry, maxBytes, buffer);
-        if (!data) return data.error();
+        SVT_TRY(entry, find(name));
+        SVT_TRY(data, unpack(*entry, maxBytes, buffer));
         return std::string_view(reinterpret_cast<const char*>(data->data()), data->size());
     }
     /// An entry that must be stored (not deflated), as a view of the file. Its CRC is not checked.
@@ -86,7 +84,7 @@ public:
         for (const ZipEntry& entry : entries_) {
             if (entry.isDeflated || std::find(std::begin(kUsed), std::end(kUsed), entry.name) != std::end(kUsed))
                 continue;
-            if (auto checked = unpack(entry, entry.size, buffer); !checked) return checked.error();
+            SVT_DO(unpack(entry, entry.size, buffer));
         }
         return {};
     }
@@ -101,37 +99,28 @@ Result<Entries> openEntries(std::span<const std::byte> bytes) {
         return badVolume(
             "this is no .svt: a ZIP whose first entry is 'mimetype' with 'application/vnd.svt+zip' is expected, "
             "and the file may be cut short. Build one from a model with 'svt build'.");
-    auto found = readZip(bytes);
-    if (!found) return found.error();
+    SVT_TRY(found, readZip(bytes));
     return Entries(std::move(*found));
 }
 
 Result<SvtBlocks> readTables(const Entries& entries) {
     std::vector<std::byte> buffer;
-    const auto mime = entries.stored(kMimeEntry);
-    if (!mime) return mime.error();
-    const auto mimeText = entries.text(kMimeEntry, mime->size, buffer);
-    if (!mimeText) return mimeText.error();
+    SVT_TRY(mime, entries.stored(kMimeEntry));
+    SVT_TRY(mimeText, entries.text(kMimeEntry, mime->size, buffer));
     if (*mimeText != kMimeType)
         return badVolume("the entry 'mimetype' says something else than application/vnd.svt+zip");
-    const auto headerText = entries.text(kHeader, kMaxHeaderBytes, buffer);
-    if (!headerText) return headerText.error();
-    auto header = readHeaderJson(*headerText);
-    if (!header) return header.error();
-    const auto labelsText = entries.text(kLabels, kMaxLabelsBytes, buffer);
-    if (!labelsText) return labelsText.error();
-    auto labels = readLabelsJson(*labelsText);
-    if (!labels) return labels.error();
+    SVT_TRY(headerText, entries.text(kHeader, kMaxHeaderBytes, buffer));
+    SVT_TRY(header, readHeaderJson(*headerText));
+    SVT_TRY(labelsText, entries.text(kLabels, kMaxLabelsBytes, buffer));
+    SVT_TRY(labels, readLabelsJson(*labelsText));
     if (labels->scalarCount() != header->scalarCount)
         return badVolume(
             fmt::format("svt.json states {} scalars, the labels have {}", header->scalarCount, labels->scalarCount()));
-    const auto index = entries.stored(kIndex);
-    if (!index) return index.error();
-    if (auto checked = unpack(*index, index->size, buffer); !checked) return checked.error();
-    const auto frames = entries.stored(kBlocks);
-    if (!frames) return frames.error();
-    auto blocks = ColumnBlocks::open(header->grid.dimension(), header->scalarCount, index->data, frames->data.size());
-    if (!blocks) return blocks.error();
+    SVT_TRY(index, entries.stored(kIndex));
+    SVT_DO(unpack(*index, index->size, buffer));
+    SVT_TRY(frames, entries.stored(kBlocks));
+    SVT_TRY(blocks,
+            ColumnBlocks::open(header->grid.dimension(), header->scalarCount, index->data, frames->data.size()));
     return SvtBlocks{header->grid,
                      std::move(*labels),
                      std::move(*blocks),
@@ -145,26 +134,20 @@ Result<SvtBlocks> readTables(const Entries& entries) {
 template <class Content, class Read>
 Result<Content> readOptional(const Entries& entries, std::string_view name, Read read) {
     if (!entries.has(name)) return Content();
-    const auto entry = entries.stored(name);
-    if (!entry) return entry.error();
+    SVT_TRY(entry, entries.stored(name));
     std::vector<std::byte> buffer;
-    const auto frame = unpack(*entry, entry->size, buffer);
-    if (!frame) return frame.error();
+    SVT_TRY(frame, unpack(*entry, entry->size, buffer));
     return read(*frame);
 }
 
 Result<SemanticVolume> readEntries(std::span<const std::byte> bytes) {
-    const auto entries = openEntries(bytes);
-    if (!entries) return entries.error();
-    auto tables = readTables(*entries);
-    if (!tables) return tables.error();
+    SVT_TRY(entries, openEntries(bytes));
+    SVT_TRY(tables, readTables(*entries));
     std::vector<std::byte> buffer;
-    const auto frames = entries->stored(kBlocks);
-    if (!frames) return frames.error();
-    if (auto checked = unpack(*frames, frames->size, buffer); !checked) return checked.error();
-    if (auto others = entries->checkOthers(); !others) return others.error();
-    auto columns = tables->blocks.decodeAll(tables->frames);
-    if (!columns) return columns.error();
+    SVT_TRY(frames, entries->stored(kBlocks));
+    SVT_DO(unpack(*frames, frames->size, buffer));
+    SVT_DO(entries->checkOthers());
+    SVT_TRY(columns, tables->blocks.decodeAll(tables->frames));
     using Frame = std::span<const std::byte>;
     const bool isOld = !entries->has(kVectors);
     auto vectors = readOptional<VectorParts>(*entries, isOld ? kTenthParts : kVectors, [&](Frame frame) {
@@ -207,23 +190,20 @@ namespace {
 // Hands the entries of a volume's file to `write`.
 template <class Write>
 auto withEntries(const SemanticVolume& volume, Write&& write) -> decltype(write(std::span<const ZipSource>())) {
-    if (auto checked = checkWritable(volume); !checked) return checked.error();
+    SVT_DO(checkWritable(volume));
     const std::string header = writeHeaderJson(volume);
     const std::string labels = writeLabelsJson(volume.labels);
     if (labels.size() > kMaxLabelsBytes)
         return Error(Code::BadArgument, fmt::format("the label table takes {} bytes as JSON, {} are possible",
                                                     labels.size(), kMaxLabelsBytes));
-    const auto compressed = compressColumns(volume.columns);
-    if (!compressed) return compressed.error();
+    SVT_TRY(compressed, compressColumns(volume.columns));
     std::vector<std::byte> vectors, planes;
     if (!volume.vectors.isEmpty()) {
-        auto frame = compressVectorParts(volume.vectors);
-        if (!frame) return frame.error();
+        SVT_TRY(frame, compressVectorParts(volume.vectors));
         vectors = std::move(*frame);
     }
     if (!volume.planes.empty()) {
-        auto frame = compressFacePlanes(volume.planes);
-        if (!frame) return frame.error();
+        SVT_TRY(frame, compressFacePlanes(volume.planes));
         planes = std::move(*frame);
     }
     std::vector<ZipSource> entries(5);
@@ -257,8 +237,7 @@ Result<SemanticVolume> readSvt(std::span<const std::byte> bytes, const std::stri
 }
 
 Result<SemanticVolume> readSvt(const std::filesystem::path& path) {
-    const auto file = FileBytes::read(path);
-    if (!file) return file.error();
+    SVT_TRY(file, FileBytes::read(path));
     return readSvt(file->bytes(), path.string());
 }
 

@@ -119,12 +119,10 @@ Result<std::vector<std::byte>> compressVectorParts(const VectorParts& parts) {
 }
 
 Result<VectorParts> readVectorParts(std::span<const std::byte> frame, std::size_t labelCount) {
-    const auto bytes = unpackNumbers(frame, kPartsName);
-    if (!bytes) return bytes.error();
+    SVT_TRY(bytes, unpackNumbers(frame, kPartsName));
     NumberReader reader(*bytes);
     const std::uint32_t exponent = reader.number();
-    auto sized = readCounts(reader);
-    if (!sized) return sized.error();
+    SVT_TRY(sized, readCounts(reader));
     VectorParts parts = std::move(*sized);
     parts.unit = std::ldexp(1.0, -static_cast<int>(std::min(exponent, 1000u)));
     if (!isUnit(parts.unit)) return badParts(fmt::format("the unit is said to be 2^-{} m", exponent));
@@ -147,16 +145,14 @@ Result<VectorParts> readVectorParts(std::span<const std::byte> frame, std::size_
     };
     readList(parts.segments, &VectorParts::Segment::ends);
     readList(parts.triangles, &VectorParts::Triangle::corners);
-    if (auto finished = checkEnd(reader, parts, labelCount); !finished) return finished.error();
+    SVT_DO(checkEnd(reader, parts, labelCount));
     return parts;
 }
 
 Result<VectorParts> readTenthParts(std::span<const std::byte> frame, std::size_t labelCount) {
-    const auto bytes = unpackNumbers(frame, kPartsName);
-    if (!bytes) return bytes.error();
+    SVT_TRY(bytes, unpackNumbers(frame, kPartsName));
     NumberReader reader(*bytes);
-    auto sized = readCounts(reader);
-    if (!sized) return sized.error();
+    SVT_TRY(sized, readCounts(reader));
     VectorParts parts = std::move(*sized);
     Vec3i before{};
     for (Vec3i& point : parts.points) {
@@ -174,7 +170,7 @@ Result<VectorParts> readTenthParts(std::span<const std::byte> frame, std::size_t
     };
     readList(parts.segments, &VectorParts::Segment::ends);
     readList(parts.triangles, &VectorParts::Triangle::corners);
-    if (auto finished = checkEnd(reader, parts, labelCount); !finished) return finished.error();
+    SVT_DO(checkEnd(reader, parts, labelCount));
     toFinestUnit(parts);
     return parts;
 }

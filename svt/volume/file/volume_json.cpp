@@ -443,7 +443,7 @@ Result<SvtHeader> readHeaderJson(std::string_view text) {
         return stop.error;
     }
     Members members(object, "svt.json");
-    if (auto version = checkVersion(members); !version) return version.error();
+    SVT_DO(checkVersion(members));
     SvtHeader header;
     std::string byteOrder;
     std::uint32_t tileSize = 0;
@@ -497,7 +497,7 @@ Result<LabelTable> readLabelsJson(std::string_view text) {
     } catch (const StopParsing& stop) {
         return stop.error;
     }
-    if (auto checked = checkLabels(collector.table); !checked) return checked.error();
+    SVT_DO(checkLabels(collector.table));
     return std::move(collector.table);
 }
 

@@ -361,7 +361,7 @@ Result<Located> readLocal(std::span<const std::byte> bytes, ZipEntry entry, std:
     if (load<std::uint32_t>(bytes, at) != kLocalSignature)
         return badVolume("has no local header where it is said to lie");
     const auto method = load<std::uint16_t>(bytes, at + 8);
-    if (auto kind = checkKind(load<std::uint16_t>(bytes, at + 6), method); !kind) return kind.error();
+    SVT_DO(checkKind(load<std::uint16_t>(bytes, at + 6), method));
     const std::size_t nameSize = load<std::uint16_t>(bytes, at + 26);
     const std::size_t extraSize = load<std::uint16_t>(bytes, at + 28);
     const std::uint64_t dataOffset = offset + kLocalSize + nameSize + extraSize;
@@ -370,7 +370,7 @@ Result<Located> readLocal(std::span<const std::byte> bytes, ZipEntry entry, std:
     std::uint64_t localSize = load<std::uint32_t>(bytes, at + 22);
     std::uint64_t localPacked = load<std::uint32_t>(bytes, at + 18);
     const auto extra = bytes.subspan(at + kLocalSize + nameSize, extraSize);
-    if (auto resolved = resolve64(extra, {&localSize, &localPacked}); !resolved) return resolved.error();
+    SVT_DO(resolve64(extra, {&localSize, &localPacked}));
     if (textAt(bytes, at + kLocalSize, nameSize) != entry.name || localSize != entry.size ||
         localPacked != packedSize || load<std::uint32_t>(bytes, at + 14) != entry.crc ||
         (method == kDeflated) != entry.isDeflated)
@@ -443,7 +443,7 @@ Result<void> putZip(File& file, std::span<const ZipSource> entries, std::uint64_
                 parts.assign(packed.begin(), packed.end());
             }
         }
-        if (auto written = file.write(localHeader(entry, placed, zip64From)); !written) return written.error();
+        SVT_DO(file.write(localHeader(entry, placed, zip64From)));
         for (const auto part : parts)
             if (auto written = file.write(part); !written) return written.error();
         appendCentralHeader(directory, entry, placed, zip64From);
@@ -456,21 +456,19 @@ Result<void> putZip(File& file, std::span<const ZipSource> entries, std::uint64_
 
 Result<std::uint64_t> writeZip(const std::filesystem::path& path, std::span<const ZipSource> entries,
                                std::uint64_t zip64From) {
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
-    if (auto written = putZip(*file, entries, zip64From); !written) return written.error();
+    SVT_TRY(file, AtomicFile::create(path));
+    SVT_DO(putZip(*file, entries, zip64From));
     return file->commit();
 }
 
 Result<std::vector<std::byte>> zipBytes(std::span<const ZipSource> entries) {
     MemoryFile file;
-    if (auto written = putZip(file, entries, 0xFFFFFFFFu); !written) return written.error();
+    SVT_DO(putZip(file, entries, 0xFFFFFFFFu));
     return std::move(file.bytes);
 }
 
 Result<std::vector<ZipEntry>> readZip(std::span<const std::byte> bytes) {
-    const auto directory = readEnd(bytes);
-    if (!directory) return directory.error();
+    SVT_TRY(directory, readEnd(bytes));
     std::vector<Located> found;
     found.reserve(static_cast<std::size_t>(directory->count));
     std::unordered_set<std::string_view> names;

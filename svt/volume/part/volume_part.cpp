@@ -193,9 +193,8 @@ Result<SemanticVolume> croppedVolume(const SemanticVolume& volume, const IndexBo
                                                         box.begin[axis], box.end[axis], dimension[axis], axis));
     if (box == IndexBox{{}, dimension}) return volume;
     const Vec3i size = box.end - box.begin;
-    auto grid = Grid::fromParts(size, volume.grid.spacing(), volume.grid.worldFromIndex(toDouble(box.begin)),
-                                volume.grid.axes());
-    if (!grid) return grid.error();
+    SVT_TRY(grid, Grid::fromParts(size, volume.grid.spacing(), volume.grid.worldFromIndex(toDouble(box.begin)),
+                                  volume.grid.axes()));
     Cropper cropper(volume.columns, box);
     std::vector<ColumnTileData> tiles;
     for (std::int32_t j = 0; j < size.y; j += kTile)
@@ -243,8 +242,7 @@ SemanticVolume coarseOf(const SemanticVolume& volume, const LodLevel& level,
 }  // namespace
 
 Result<std::vector<SemanticVolume>> coarseVolumes(const SemanticVolume& volume, int coarsest, int threads) {
-    auto levels = buildLodPyramid(volume.columns, volume.grid, coarsest, threads);
-    if (!levels) return levels.error();
+    SVT_TRY(levels, buildLodPyramid(volume.columns, volume.grid, coarsest, threads));
     const auto labelOf = volume.labels.labelOfScalar();
     std::vector<SemanticVolume> parts;
     for (const LodLevel& level : *levels) parts.push_back(coarseOf(volume, level, labelOf));
@@ -258,8 +256,7 @@ Result<SemanticVolume> coarseVolume(const SemanticVolume& volume, int level, int
     if (const int count = lodLevelCount(volume.grid.dimension()); level > count)
         return Error(Code::BadArgument,
                      fmt::format("the volume is too small for level {}; its coarsest is {}", level, count));
-    const auto coarse = buildLodLevel(volume.columns, volume.grid, level, threads);
-    if (!coarse) return coarse.error();
+    SVT_TRY(coarse, buildLodLevel(volume.columns, volume.grid, level, threads));
     return coarseOf(volume, *coarse, volume.labels.labelOfScalar());
 }
 

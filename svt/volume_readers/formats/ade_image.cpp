@@ -68,12 +68,12 @@ public:
 
     Result<void> read(std::span<std::byte> out) {
         if (out.empty()) {
-            if (auto done = skipSpace(); !done) return done;
+            SVT_DO(skipSpace());
             if (!text_.empty())
                 return badAde("the image of the volume has more numbers than its dimension says, or something else");
         }
         for (; !out.empty(); out = out.subspan(4)) {
-            if (auto done = skipSpace(); !done) return done;
+            SVT_DO(skipSpace());
             std::uint32_t value = 0;
             const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
             if (error != std::errc())
@@ -98,8 +98,7 @@ private:
             if (isWhole || rest_.empty() || text_.size() > kPiece) return {};
             const auto stored = std::as_bytes(std::span(rest_.data(), std::min(rest_.size(), kPiece)));
             std::string buffer;
-            const auto piece = file_->part(stored, buffer);
-            if (!piece) return piece.error();
+            SVT_TRY(piece, file_->part(stored, buffer));
             rest_.remove_prefix(stored.size());
             window_ = std::string(text_).append(reinterpret_cast<const char*>(piece->data()), piece->size());
             text_ = window_;
@@ -119,8 +118,7 @@ ReadSamples sliceSamples(std::vector<fs::path> files, Vec3i dimension) {
             if (out.empty()) return {};
             if (next == files.size()) return badAde("the volume has fewer slices than its dimension says");
             const fs::path& path = files[next++];
-            const auto slice = image::readGrayPng(path);
-            if (!slice) return slice.error();
+            SVT_TRY(slice, image::readGrayPng(path));
             if (slice->width() != dimension.x || slice->height() != dimension.y)
                 return Error(Code::BadImage,
                              fmt::format("the slice has {} x {} pixels, {} x {} are expected", slice->width(),
@@ -191,10 +189,8 @@ Result<void> readGrid(pugi::xml_node texture, LabelImage& image) {
 
 Result<void> openBeside(const fs::path& path, pugi::xml_node texture, LabelImage& image) {
     const pugi::xml_node uri = childOf(texture, "imageURI");
-    const auto beside = fileBeside(path, uri.child_value());
-    if (!beside) return beside.error();
-    const auto file = LabelFile::open(*beside);
-    if (!file) return file.error();
+    SVT_TRY(beside, fileBeside(path, uri.child_value()));
+    SVT_TRY(file, LabelFile::open(*beside));
     auto samples = openNrrd(*file);
     if (!samples) return Error(samples.error().code(), samples.error().message(), Place{beside->string(), 0, 0, {}});
     if (samples->dimension != image.dimension)
@@ -220,7 +216,7 @@ Result<LabelImage> withPixels(LabelImage image, const SharedFile& file, std::str
         return badAde("the sizes of the image are not 1 component and the dimension of the volume");
     image.bits = 32;
     // A number takes two characters at least, and becomes four bytes.
-    if (auto checked = checkImage(image, 2 * list.size() + 4, false, Code::BadImage); !checked) return checked.error();
+    SVT_DO(checkImage(image, 2 * list.size() + 4, false, Code::BadImage));
     auto source = std::make_shared<PixelSource>(file, list);
     image.read = [source](std::span<std::byte> out) { return source->read(out); };
     return image;
@@ -231,13 +227,12 @@ Result<LabelImage> withSlices(LabelImage image, const fs::path& path, const pugi
     std::vector<fs::path> slices;
     for (const pugi::xml_node slice : texture.children()) {
         if (localName(slice) != "sliceURI") continue;
-        auto beside = fileBeside(path, slice.child_value());
-        if (!beside) return beside.error();
+        SVT_TRY(beside, fileBeside(path, slice.child_value()));
         slices.push_back(std::move(*beside));
     }
     if (slices.empty()) return badAde("the volume of the document has no samples that can be read");
     image.bits = 16;
-    if (auto checked = checkImage(image, ~0ull, false, Code::BadImage); !checked) return checked.error();
+    SVT_DO(checkImage(image, ~0ull, false, Code::BadImage));
     if (slices.size() != static_cast<std::size_t>(image.dimension.z))
         return badAde(fmt::format("the volume has {} slices, {} are expected", slices.size(), image.dimension.z));
     image.read = sliceSamples(std::move(slices), image.dimension);
@@ -278,7 +273,7 @@ Result<LabelImage> openAde(const SharedFile& file, const fs::path& path) {
         return badAde(fmt::format("the volume of the document is no XML: {}", parsed.description()));
     const pugi::xml_node texture = document.first_child();
     LabelImage image;
-    if (auto done = readGrid(texture, image); !done) return done.error();
+    SVT_DO(readGrid(texture, image));
     readTargets(texture, image);
     if (hasPixels) {
         std::string_view numbers = text.substr(pixels, std::min(text.find("</", pixels), end) - pixels);
@@ -286,7 +281,7 @@ Result<LabelImage> openAde(const SharedFile& file, const fs::path& path) {
         return withPixels(std::move(image), file, numbers);
     }
     if (childOf(texture, "imageURI")) {
-        if (auto done = openBeside(path, texture, image); !done) return done.error();
+        SVT_DO(openBeside(path, texture, image));
         return image;
     }
     return withSlices(std::move(image), path, texture);

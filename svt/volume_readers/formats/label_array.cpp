@@ -24,8 +24,7 @@ Result<volume::SemanticVolume> volumeFromArray(const LabelArray& array, std::str
     }
     std::optional<UserTable> table;
     if (!labelsJson.empty()) {
-        auto parsed = parseUserTable(labelsJson);
-        if (!parsed) return parsed.error();
+        SVT_TRY(parsed, parseUserTable(labelsJson));
         table = std::move(*parsed);
     }
     LabelImage image;
@@ -41,10 +40,8 @@ Result<volume::SemanticVolume> volumeFromArray(const LabelArray& array, std::str
         at += out.size();
         return {};
     };
-    auto columns = readColumns(image, maxBytes, Code::BadArgument, progress);
-    if (!columns) return columns.error();
-    auto made = makeVolume(image, std::move(*columns), table ? &*table : nullptr, array.source);
-    if (!made) return made.error();
+    SVT_TRY(columns, readColumns(image, maxBytes, Code::BadArgument, progress));
+    SVT_TRY(made, makeVolume(image, std::move(*columns), table ? &*table : nullptr, array.source));
     return std::move(made->volume);
 }
 

@@ -127,8 +127,7 @@ Result<LabelImage> readNiftiHead(std::string_view text, std::uint64_t& dataOffse
     if (text.substr(head.isSecond ? 4 : 344, 2) != "n+")
         return badNifti("the samples of the NIfTI stand in another file; save it as one .nii");
     LabelImage image;
-    if (auto done = readNiftiType(head.isSecond ? head.at<std::int16_t>(12) : head.at<std::int16_t>(70), image); !done)
-        return done.error();
+    SVT_DO(readNiftiType(head.isSecond ? head.at<std::int16_t>(12) : head.at<std::int16_t>(70), image));
     const auto axes = head.number<std::int16_t, std::int64_t>(40, 16);
     for (int axis = 0; axis < 7; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
@@ -157,7 +156,7 @@ Result<LabelImage> openNifti(const SharedFile& file, bool isGzip) {
     if (isGzip) {
         // The header, then all in front of the samples, then the samples: a stream that is read on.
         ReadSamples read = gzipSamples(file, file->bytes(), Code::BadImage);
-        if (auto done = read(std::as_writable_bytes(std::span(unpacked).first(544))); !done) return done.error();
+        SVT_DO(read(std::as_writable_bytes(std::span(unpacked).first(544))));
         std::uint64_t offset = 0;
         auto image = readNiftiHead(std::string_view(unpacked).substr(0, 544), offset);
         if (!image) return image;
@@ -166,15 +165,14 @@ Result<LabelImage> openNifti(const SharedFile& file, bool isGzip) {
             // NIfTI-1 without extensions: what was read beyond is samples.
             read = gzipSamples(file, file->bytes(), Code::BadImage);
             unpacked.assign(static_cast<std::size_t>(offset), '\0');
-            if (auto done = read(std::as_writable_bytes(std::span(unpacked))); !done) return done.error();
+            SVT_DO(read(std::as_writable_bytes(std::span(unpacked))));
         } else {
             unpacked.resize(static_cast<std::size_t>(offset));
-            if (auto done = read(std::as_writable_bytes(std::span(unpacked).subspan(544))); !done) return done.error();
+            SVT_DO(read(std::as_writable_bytes(std::span(unpacked).subspan(544))));
         }
         const std::size_t size = unpacked.starts_with(std::string_view("\x1c\2", 2)) ? 540 : 348;
         readExtensions(std::string_view(unpacked).substr(size), *image);
-        if (auto checked = checkImage(*image, file->bytes().size(), true, Code::BadImage); !checked)
-            return checked.error();
+        SVT_DO(checkImage(*image, file->bytes().size(), true, Code::BadImage));
         image->read = std::move(read);
         return image;
     }
@@ -185,7 +183,7 @@ Result<LabelImage> openNifti(const SharedFile& file, bool isGzip) {
     const std::size_t size = text.starts_with(std::string_view("\x1c\2", 2)) ? 540 : 348;
     readExtensions(text.substr(size, static_cast<std::size_t>(offset) - size), *image);
     const auto stored = file->bytes().subspan(static_cast<std::size_t>(offset));
-    if (auto checked = checkImage(*image, stored.size(), false, Code::BadImage); !checked) return checked.error();
+    SVT_DO(checkImage(*image, stored.size(), false, Code::BadImage));
     image->read = plainSamples(file, stored, Code::BadImage);
     return image;
 }

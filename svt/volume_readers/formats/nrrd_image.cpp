@@ -192,10 +192,9 @@ void readTables(const NrrdHeader& header, LabelImage& image) {
 }  // namespace
 
 Result<LabelImage> openNrrd(const SharedFile& file) {
-    const auto header = readNrrdHeader(file->text());
-    if (!header) return header.error();
+    SVT_TRY(header, readNrrdHeader(file->text()));
     LabelImage image;
-    if (auto done = readNrrdType(header->field("type"), image); !done) return done.error();
+    SVT_DO(readNrrdType(header->field("type"), image));
     if (header->field("dimension") != "3")
         return badNrrd(fmt::format("the image has {} axes, 3 are expected; write one layer of a segmentation alone",
                                    header->field("dimension")));
@@ -219,10 +218,10 @@ Result<LabelImage> openNrrd(const SharedFile& file) {
     if (image.bits > 8 && endian != "little" && endian != "big")
         return badNrrd("the field endian is missing or neither little nor big");
     image.isSwapped = endian == "big";
-    if (auto done = readNrrdPlace(*header, image); !done) return done.error();
+    SVT_DO(readNrrdPlace(*header, image));
     readTables(*header, image);
     const auto stored = file->bytes().subspan(header->dataOffset);
-    if (auto checked = checkImage(image, stored.size(), isGzip, Code::BadNrrd); !checked) return checked.error();
+    SVT_DO(checkImage(image, stored.size(), isGzip, Code::BadNrrd));
     image.read = isGzip ? gzipSamples(file, stored, Code::BadNrrd) : plainSamples(file, stored, Code::BadNrrd);
     return image;
 }

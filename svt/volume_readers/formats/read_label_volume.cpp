@@ -82,15 +82,13 @@ Result<volume::SemanticVolume> readLabelVolume(const std::filesystem::path& path
     };
     std::optional<UserTable> table;
     if (!options.labels.empty()) {
-        auto read = readUserTable(options.labels);
-        if (!read) return read.error();
+        SVT_TRY(read, readUserTable(options.labels));
         table = std::move(*read);
     }
     Code code = Code::BadImage;
     const auto opened = [&]() -> Result<LabelImage> {
         if (looksLikeZarr(path)) return openZarr(path, maxBytes);
-        const auto file = LabelFile::open(path);
-        if (!file) return file.error();
+        SVT_TRY(file, LabelFile::open(path));
         if ((*file)->text().starts_with("NRRD")) code = Code::BadNrrd;
         return openImage(*file, path);
     };

@@ -200,8 +200,7 @@ Result<LabelImage> openTiff(const SharedFile& file) {
         offset = page.next;
     }
     stack.image.isSwapped = text.starts_with("MM");
-    if (auto checked = checkImage(stack.image, stack.storedBytes, stack.isCompressed, Code::BadImage); !checked)
-        return checked.error();
+    SVT_DO(checkImage(stack.image, stack.storedBytes, stack.isCompressed, Code::BadImage));
     stack.image.read = zlibSamples(file, std::move(stack.strips), stack.isCompressed, Code::BadImage);
     return std::move(stack.image);
 }

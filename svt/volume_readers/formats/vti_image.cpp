@@ -56,7 +56,7 @@ Result<void> readSamples(const SharedFile& file, std::span<const std::byte> data
     if (!isCompressed) {
         if (!numbers.take(size) || size > numbers.rest().size()) return badVti("the appended samples are cut short");
         const auto stored = numbers.rest().first(static_cast<std::size_t>(size));
-        if (auto checked = checkImage(image, size, false, Code::BadImage); !checked) return checked;
+        SVT_DO(checkImage(image, size, false, Code::BadImage));
         image.read = plainSamples(file, stored, Code::BadImage);
         return {};
     }
@@ -76,7 +76,7 @@ Result<void> readSamples(const SharedFile& file, std::span<const std::byte> data
         rest = rest.subspan(static_cast<std::size_t>(sizes[b]));
         total += sizes[b];
     }
-    if (auto checked = checkImage(image, total, true, Code::BadImage); !checked) return checked;
+    SVT_DO(checkImage(image, total, true, Code::BadImage));
     image.read = zlibSamples(file, std::move(blocks), true, Code::BadImage);
     return {};
 }
@@ -169,8 +169,8 @@ Result<LabelImage> openVti(const SharedFile& file) {
         return badVti("the samples are not appended; save the file with appended raw data");
     if (array.attribute("NumberOfComponents").as_int(1) != 1)
         return badVti("the array has several components; one is expected");
-    if (auto done = readVtiType(array.attribute("type").value(), image); !done) return done.error();
-    if (auto done = readVtiPlace(node, piece, isCell, image); !done) return done.error();
+    SVT_DO(readVtiType(array.attribute("type").value(), image));
+    SVT_DO(readVtiPlace(node, piece, isCell, image));
     for (const pugi::xml_node field : node.child("FieldData").children("Array")) {
         const std::string_view name = field.attribute("Name").value();
         if (name == "svt_header") image.headerJson = stringOf(field.child_value());

@@ -147,7 +147,7 @@ public:
     explicit Narrower(const LabelImage& image) : image_(image), stored_(std::size_t(image.storedSliceBytes())) {}
 
     Result<void> read(std::int32_t k, std::span<std::byte> slice, Code code) {
-        if (auto done = image_.read(stored_); !done) return done;
+        SVT_DO(image_.read(stored_));
         const std::size_t size = image_.other == OtherKind::Float32 ? 4 : 8;
         for (std::size_t n = 0; n < slice.size() / 4; ++n) {
             double found = 0;
@@ -184,11 +184,11 @@ Result<ColumnVolume> readColumns(const LabelImage& image, std::uint64_t maxBytes
     std::vector<std::byte> slice(static_cast<std::size_t>(image.sliceBytes()));
     for (std::int32_t k = 0; k < image.dimension.z; ++k) {
         if (Progress::isCancelled(progress)) return Error(Code::Cancelled, "reading the labels was stopped");
-        if (auto done = narrower ? narrower->read(k, slice, code) : image.read(slice); !done) return done.error();
-        if (auto done = collector.add(k, slice); !done) return done.error();
+        SVT_DO(narrower ? narrower->read(k, slice, code) : image.read(slice));
+        SVT_DO(collector.add(k, slice));
         if (k % 64 == 0) Progress::tell(progress, "read", double(k) / image.dimension.z);
     }
-    if (auto done = image.read({}); !done) return done.error();
+    SVT_DO(image.read({}));
     return collector.finish();
 }
 

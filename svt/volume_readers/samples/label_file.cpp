@@ -3,11 +3,9 @@
 namespace svt::volume_readers {
 
 Result<SharedFile> LabelFile::open(const std::filesystem::path& path, std::uint64_t maxInMemory) {
-    auto parts = PartFile::open(path);
-    if (!parts) return parts.error();
+    SVT_TRY(parts, PartFile::open(path));
     const bool isInMemory = parts->size() <= maxInMemory;
-    auto bytes = isInMemory ? FileBytes::read(path) : FileBytes::map(path);
-    if (!bytes) return bytes.error();
+    SVT_TRY(bytes, isInMemory ? FileBytes::read(path) : FileBytes::map(path));
     if (bytes->bytes().size() != parts->size())
         return Error(Code::CannotOpen, "another program changed the file while it was opened");
     std::optional<PartFile> kept;
@@ -17,8 +15,7 @@ Result<SharedFile> LabelFile::open(const std::filesystem::path& path, std::uint6
 
 Result<std::span<const std::byte>> LabelFile::part(std::span<const std::byte> stored, std::string& buffer) const {
     if (!parts_ || stored.empty()) return stored;
-    auto read = parts_->read(static_cast<std::uint64_t>(stored.data() - bytes().data()), stored.size());
-    if (!read) return read.error();
+    SVT_TRY(read, parts_->read(static_cast<std::uint64_t>(stored.data() - bytes().data()), stored.size()));
     buffer = std::move(*read);
     if (buffer.size() < stored.size())
         return Error(Code::CannotOpen, "another program shortened the file while it was read");

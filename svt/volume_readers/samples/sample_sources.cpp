@@ -38,7 +38,7 @@ public:
     Result<void> read(std::span<std::byte> out) {
         if (out.empty()) return finish();
         while (!out.empty()) {
-            if (auto filled = fill(); !filled) return filled;
+            SVT_DO(fill());
             const std::size_t room = std::min(out.size(), kStep);
             stream_.next_out = zlibBytes(out.data());
             stream_.avail_out = static_cast<uInt>(room);
@@ -65,8 +65,7 @@ private:
     Result<void> fill() {
         if (stream_.avail_in != 0) return {};
         const auto stored = rest_.first(std::min(rest_.size(), kPiece));
-        const auto piece = file_->part(stored, buffer_);
-        if (!piece) return piece.error();
+        SVT_TRY(piece, file_->part(stored, buffer_));
         rest_ = rest_.subspan(stored.size());
         stream_.next_in = zlibBytes(piece->data());
         stream_.avail_in = static_cast<uInt>(piece->size());
@@ -76,7 +75,7 @@ private:
     /// Reads to the end of the last member, whose checksum and size zlib compares.
     Result<void> finish() {
         while (!(isBetween_ && isSpent())) {
-            if (auto filled = fill(); !filled) return filled;
+            SVT_DO(fill());
             if (isBetween_ && *stream_.next_in != 0x1F) return trailing(code_, rest_.size() + stream_.avail_in);
             std::byte beyond{};
             stream_.next_out = zlibBytes(&beyond);
@@ -126,8 +125,7 @@ private:
         if (block_ == blocks_.size()) return Error(code_, "the samples are fewer than the sizes say");
         const ZlibBlock& block = blocks_[block_++];
         at_ = 0;
-        const auto stored = file_->part(block.stored, buffer_);
-        if (!stored) return stored.error();
+        SVT_TRY(stored, file_->part(block.stored, buffer_));
         if (!isCompressed_) {
             bytes_.assign(stored->begin(), stored->end());
             return {};
@@ -179,8 +177,7 @@ ReadSamples plainSamples(SharedFile file, std::span<const std::byte> bytes, Code
             buffer = std::string()](std::span<std::byte> out) mutable -> Result<void> {
         if (bytes.size() < out.size()) return Error(code, "the samples are fewer than the sizes say");
         if (out.empty() && !bytes.empty()) return trailing(code, bytes.size());
-        const auto part = file->part(bytes.first(out.size()), buffer);
-        if (!part) return part.error();
+        SVT_TRY(part, file->part(bytes.first(out.size()), buffer));
         std::copy(part->begin(), part->end(), out.begin());
         bytes = bytes.subspan(out.size());
         return {};

@@ -252,8 +252,7 @@ Result<void> takeTold(const std::vector<ToldLabel>& given, const UserTable* user
             return Error(Code::BadVolume,
                          fmt::format("the id '{}' stands twice in the table of labels", label.id.substr(0, 80)));
     TableBuilder builder(told, user);
-    auto table = builder.build();
-    if (!table) return table.error();
+    SVT_TRY(table, builder.build());
     for (std::uint32_t& owner : owners) owner = builder.labelOfTold()[owner];
     volume.labels = std::move(*table);
     return giveScalars(volume.labels, values, owners, volume.columns);
@@ -362,14 +361,13 @@ Result<void> checkValues(const volume::SemanticVolume& volume) {
 /// The volume of a table that is given, which is taken as it is.
 Result<void> takeGiven(const UserTable& table, volume::SemanticVolume& volume) {
     if (table.labelsJson.empty()) {
-        if (auto done = takeTold(table.told, &table, volume); !done) return done;
+        SVT_DO(takeTold(table.told, &table, volume));
         countAgain(volume, false);
         return {};
     }
-    auto labels = volume::readLabelsJson(table.labelsJson);
-    if (!labels) return labels.error();
+    SVT_TRY(labels, volume::readLabelsJson(table.labelsJson));
     volume.labels = std::move(*labels);
-    if (auto done = checkValues(volume); !done) return done;
+    SVT_DO(checkValues(volume));
     countAgain(volume, true);
     return {};
 }
@@ -385,7 +383,7 @@ Result<void> takeStated(Stated stated, MadeVolume& made) {
             "the header that svt wrote into the file is missing or damaged: the grid is that of the format, and names "
             "may be "
             "missing");
-    if (auto done = checkValues(volume); !done) return done;
+    SVT_DO(checkValues(volume));
     if (!isCut) return checkSamples(volume, stated.seal);
     const Vec3i now = volume.grid.dimension(), before = stated.header->grid.dimension();
     made.warnings.push_back(fmt::format(
@@ -402,8 +400,7 @@ Result<MadeVolume> makeVolume(const LabelImage& image, volume::ColumnVolume valu
                               const std::filesystem::path& path) {
     MadeVolume made;
     volume::SemanticVolume& volume = made.volume;
-    auto grid = gridOf(image);
-    if (!grid) return grid.error();
+    SVT_TRY(grid, gridOf(image));
     volume.grid = *grid;
     volume.crsName = image.crsName;
     volume.source = path.filename().string();
@@ -412,16 +409,15 @@ Result<MadeVolume> makeVolume(const LabelImage& image, volume::ColumnVolume valu
     takeNames(header, image.headerJson, volume);
     if (table != nullptr) {
         if (header && isSamePlace(volume.grid, header->grid)) volume.grid = header->grid;
-        if (auto done = takeGiven(*table, volume); !done) return done.error();
+        SVT_DO(takeGiven(*table, volume));
         return made;
     }
-    auto stated = readStated(image, header);
-    if (!stated) return stated.error();
+    SVT_TRY(stated, readStated(image, header));
     if (*stated) {
-        if (auto done = takeStated(std::move(**stated), made); !done) return done.error();
+        SVT_DO(takeStated(std::move(**stated), made));
         return made;
     }
-    if (auto done = takeTold(image.told, nullptr, volume); !done) return done.error();
+    SVT_DO(takeTold(image.told, nullptr, volume));
     countAgain(volume, false);
     return made;
 }

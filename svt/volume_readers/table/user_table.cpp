@@ -143,8 +143,7 @@ Result<UserTable> parseUserTable(std::string_view text) {
 
 Result<UserTable> readUserTable(const std::filesystem::path& path) {
     const Place place{path.string(), 0, 0, {}};
-    const auto file = FileBytes::read(path);
-    if (!file) return file.error();
+    SVT_TRY(file, FileBytes::read(path));
     auto table = parseUserTable(file->text());
     if (!table) return Error(table.error().code(), table.error().message(), place);
     return table;

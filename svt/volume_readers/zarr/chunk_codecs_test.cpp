@@ -14,8 +14,7 @@ using namespace std::string_view_literals;
 std::span<const std::byte> bytesOf(std::string_view text) { return std::as_bytes(std::span(text.data(), text.size())); }
 
 Result<std::string> unpacked(CodecKind codec, std::string_view stored, std::uint64_t size) {
-    const auto bytes = unpackChunk(codec, bytesOf(stored), size);
-    if (!bytes) return bytes.error();
+    SVT_TRY(bytes, unpackChunk(codec, bytesOf(stored), size));
     return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
 }
 

@@ -108,10 +108,8 @@ Result<ZarrArray> readVersion2(const ZarrJson& json) {
     array.itemBytes = type[2] - '0';
     array.isSigned = type[1] == 'i';
     array.isBigEndian = type[0] == '>';
-    auto shape = sizesOf(member(json, "shape"), "the shape", kMostSide);
-    if (!shape) return shape.error();
-    auto chunk = sizesOf(member(json, "chunks"), "the chunks", kMostChunkBytes);
-    if (!chunk) return chunk.error();
+    SVT_TRY(shape, sizesOf(member(json, "shape"), "the shape", kMostSide));
+    SVT_TRY(chunk, sizesOf(member(json, "chunks"), "the chunks", kMostChunkBytes));
     array.shape = std::move(*shape);
     array.chunk = array.file = std::move(*chunk);
     array.order.resize(array.shape.size());
@@ -124,16 +122,14 @@ Result<ZarrArray> readVersion2(const ZarrJson& json) {
     if (const ZarrJson& filters = member(json, "filters"); !filters.is_null() && !filters.empty())
         return badZarr("the chunks have filters, which cannot be read; write them without");
     if (const ZarrJson& compressor = member(json, "compressor"); !compressor.is_null()) {
-        const auto codec = codecOf(textOf(member(compressor, "id")));
-        if (!codec) return codec.error();
+        SVT_TRY(codec, codecOf(textOf(member(compressor, "id"))));
         array.codecs.push_back(*codec);
     }
     const std::string separator = textOf(member(json, "dimension_separator"));
     if (!separator.empty() && separator != "/" && separator != ".")
         return badZarr("the separator of dimensions is neither '.' nor '/'");
     array.separator = separator.empty() ? '.' : separator[0];
-    const auto fill = fillOf(member(json, "fill_value"));
-    if (!fill) return fill.error();
+    SVT_TRY(fill, fillOf(member(json, "fill_value")));
     array.fill = *fill;
     return array;
 }
@@ -166,8 +162,7 @@ Result<void> readChain(const ZarrJson& json, ZarrArray& array) {
             hasBytes = true;
         } else {
             if (!hasBytes) return badZarr(fmt::format("the codec '{}' stands before 'bytes'", name.substr(0, 80)));
-            const auto kind = codecOf(name);
-            if (!kind) return kind.error();
+            SVT_TRY(kind, codecOf(name));
             array.codecs.push_back(*kind);
         }
     }
@@ -177,8 +172,7 @@ Result<void> readChain(const ZarrJson& json, ZarrArray& array) {
 }
 
 Result<void> readShards(const ZarrJson& told, ZarrArray& array) {
-    auto chunk = sizesOf(member(told, "chunk_shape"), "the chunk of a shard", kMostChunkBytes);
-    if (!chunk) return chunk.error();
+    SVT_TRY(chunk, sizesOf(member(told, "chunk_shape"), "the chunk of a shard", kMostChunkBytes));
     if (chunk->size() != array.shape.size()) return badZarr("chunks and array differ in their number of axes");
     array.chunk = std::move(*chunk);
     array.isSharded = true;
@@ -190,7 +184,7 @@ Result<void> readShards(const ZarrJson& told, ZarrArray& array) {
     index.shape = array.shape;
     index.order.resize(array.shape.size());
     std::iota(index.order.begin(), index.order.end(), std::size_t{0});
-    if (auto done = readChain(member(told, "index_codecs"), index); !done) return done;
+    SVT_DO(readChain(member(told, "index_codecs"), index));
     for (const CodecKind codec : index.codecs)
         if (codec != CodecKind::Crc32c) return badZarr("the index of shards is packed, which cannot be read");
     array.indexCodecs = index.codecs;
@@ -209,13 +203,11 @@ Result<ZarrArray> readVersion3(const ZarrJson& json) {
         return noLabels(type.empty() ? "none" : type);
     array.itemBytes = type == "bool" || bits == "8" ? 1 : bits == "16" ? 2 : bits == "32" ? 4 : 8;
     array.isSigned = kind == "int";
-    auto shape = sizesOf(member(json, "shape"), "the shape", kMostSide);
-    if (!shape) return shape.error();
+    SVT_TRY(shape, sizesOf(member(json, "shape"), "the shape", kMostSide));
     array.shape = std::move(*shape);
     const ZarrJson& grid = member(json, "chunk_grid");
     if (textOf(member(grid, "name")) != "regular") return badZarr("the chunks are no regular grid");
-    auto file = sizesOf(member(member(grid, "configuration"), "chunk_shape"), "the chunks", std::uint64_t{1} << 31);
-    if (!file) return file.error();
+    SVT_TRY(file, sizesOf(member(member(grid, "configuration"), "chunk_shape"), "the chunks", std::uint64_t{1} << 31));
     array.chunk = array.file = std::move(*file);
     array.order.resize(array.shape.size());
     std::iota(array.order.begin(), array.order.end(), std::size_t{0});
@@ -234,10 +226,8 @@ Result<ZarrArray> readVersion3(const ZarrJson& json) {
         return badZarr("the array has storage transformers, which cannot be read");
     const bool isSharded = textOf(member(codecs.front(), "name")) == "sharding_indexed";
     if (isSharded && codecs.size() > 1) return badZarr("shards that are packed as a whole cannot be read");
-    auto done = isSharded ? readShards(member(codecs.front(), "configuration"), array) : readChain(codecs, array);
-    if (!done) return done.error();
-    const auto fill = fillOf(member(json, "fill_value"));
-    if (!fill) return fill.error();
+    SVT_TRY(done, isSharded ? readShards(member(codecs.front(), "configuration"), array) : readChain(codecs, array));
+    SVT_TRY(fill, fillOf(member(json, "fill_value")));
     array.fill = *fill;
     return array;
 }
@@ -329,7 +319,7 @@ Result<ZarrArray> readZarrArray(const ZarrJson& json) {
                  : version == 3 ? readVersion3(json)
                                 : Result<ZarrArray>(badZarr("the version of Zarr is neither 2 nor 3"));
     if (!array) return array;
-    if (auto checked = checkSizes(*array); !checked) return checked.error();
+    SVT_DO(checkSizes(*array));
     return array;
 }
 
@@ -351,8 +341,7 @@ Result<ZarrScale> readZarrScale(const ZarrJson& attributes) {
     if (!isPathInside(scale.path))
         return badZarr(
             fmt::format("the finest level is '{}', which is no folder in this one", scale.path.substr(0, 80)));
-    const auto metres = unitsOf(member(first, "axes"));
-    if (!metres) return metres.error();
+    SVT_TRY(metres, unitsOf(member(first, "axes")));
     scale.scale = *metres;
     for (const ZarrJson* from : {&levels.front(), &first})
         if (auto done = applyTransformations(member(*from, "coordinateTransformations"), *metres, scale); !done)

@@ -32,15 +32,13 @@ Result<std::optional<FileBytes>> openInside(const fs::path& root, const fs::path
     const fs::path real = fs::canonical(file, failed);
     if (failed || std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end())
         return inFile(file, Code::BadImage, "it leads out of the folder of the volume, and is not followed there");
-    auto opened = FileBytes::read(real, maxBytes);
-    if (!opened) return opened.error();
+    SVT_TRY(opened, FileBytes::read(real, maxBytes));
     return std::optional<FileBytes>(std::move(*opened));
 }
 
 /// The JSON of a file; null where there is none.
 Result<ZarrJson> readJsonInside(const fs::path& root, const fs::path& file) {
-    const auto opened = openInside(root, file, kMostJsonBytes);
-    if (!opened) return opened.error();
+    SVT_TRY(opened, openInside(root, file, kMostJsonBytes));
     if (!*opened) return ZarrJson();
     const std::string_view text = (*opened)->text();
     // A bound to the depth, since nlohmann parses by calls.
@@ -124,8 +122,7 @@ private:
         std::string name = array_.prefix;
         for (std::size_t a = 3; a < array_.shape.size(); ++a) name += std::string("0") + array_.separator;
         name += fmt::format("{}{}{}{}{}", number[0], array_.separator, number[1], array_.separator, number[2]);
-        const auto opened = openInside(root_, folder_ / name, kMostChunkBytes << 6);
-        if (!opened) return opened.error();
+        SVT_TRY(opened, openInside(root_, folder_ / name, kMostChunkBytes << 6));
         if (!*opened) return {};
         const Index first{number[0] * file_[0], number[1] * file_[1], number[2] * file_[2]};
         auto done = array_.isSharded ? readShard((*opened)->bytes(), first) : readChunk((*opened)->bytes(), first);
@@ -142,8 +139,7 @@ private:
                                                 : bytes.first(static_cast<std::size_t>(indexBytes));
         index.assign(stored.begin(), stored.end());
         for (std::size_t c = array_.indexCodecs.size(); c-- > 0;) {
-            auto checked = unpackChunk(array_.indexCodecs[c], index, 0);
-            if (!checked) return checked.error();
+            SVT_TRY(checked, unpackChunk(array_.indexCodecs[c], index, 0));
             index = std::move(*checked);
         }
         const Index counts{file_[0] / chunk_[0], file_[1] / chunk_[1], file_[2] / chunk_[2]};
@@ -159,7 +155,7 @@ private:
                     return Error(Code::BadImage,
                                  "the index of a shard leads out of its file: it is damaged or cut short");
                 const auto part = bytes.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size));
-                if (auto done = readChunk(part, begin); !done) return done;
+                SVT_DO(readChunk(part, begin));
             }
         return {};
     }
@@ -175,8 +171,7 @@ private:
         std::vector<std::byte> bytes;
         const std::uint64_t size = array_.chunkBytes();
         for (std::size_t c = array_.codecs.size(); c-- > 0;) {
-            auto unpacked = unpackChunk(array_.codecs[c], stored, size);
-            if (!unpacked) return unpacked.error();
+            SVT_TRY(unpacked, unpackChunk(array_.codecs[c], stored, size));
             bytes = std::move(*unpacked);
             stored = bytes;
         }
@@ -319,8 +314,7 @@ Result<void> checkProportion(const fs::path& folder, std::uint64_t sampleBytes) 
 
 /// The metadata of an array; null where there is none.
 Result<ZarrJson> arrayJson(const fs::path& root, const fs::path& folder) {
-    auto version3 = readJsonInside(root, folder / "zarr.json");
-    if (!version3) return version3.error();
+    SVT_TRY(version3, readJsonInside(root, folder / "zarr.json"));
     if (!version3->is_null()) return version3;
     return readJsonInside(root, folder / ".zarray");
 }
@@ -339,18 +333,15 @@ Result<LabelImage> openZarr(const fs::path& folder, std::uint64_t maxBytes) {
     std::error_code failed;
     const fs::path root = fs::canonical(folder, failed);
     if (failed) return Error(Code::CannotOpen, "the folder cannot be opened: " + failed.message());
-    auto json = arrayJson(root, root);
-    if (!json) return json.error();
+    SVT_TRY(json, arrayJson(root, root));
     LabelImage image;
     fs::path at = root;
     const auto kind = json->is_null() ? json->end() : json->find("node_type");
     if (json->is_null() || (kind != json->end() && *kind == "group")) {
-        auto attributes = readJsonInside(root, root / ".zattrs");
-        if (!attributes) return attributes.error();
+        SVT_TRY(attributes, readJsonInside(root, root / ".zattrs"));
         ZarrJson told = std::move(*attributes);
         if (!json->is_null()) told = json->contains("attributes") ? (*json)["attributes"] : ZarrJson();
-        const auto scale = readZarrScale(told);
-        if (!scale) return scale.error();
+        SVT_TRY(scale, readZarrScale(told));
         at = root / scale->path;
         json = arrayJson(root, at);
         if (!json) return json.error();
@@ -365,15 +356,14 @@ Result<LabelImage> openZarr(const fs::path& folder, std::uint64_t maxBytes) {
         image.told = toldLabels(*scale);
         json->emplace("svt_group", std::move(told));
     }
-    auto array = readZarrArray(*json);
-    if (!array) return array.error();
+    SVT_TRY(array, readZarrArray(*json));
     const std::size_t axes = array->shape.size();
     for (int axis = 0; axis < 3; ++axis)
         image.dimension[axis] = static_cast<std::int32_t>(array->shape[axes - 1 - static_cast<std::size_t>(axis)]);
     image.bits = std::min(array->itemBytes, 4) * 8;
     image.isSigned = array->isSigned;
     if (const auto group = json->find("svt_group"); group != json->end() && group->is_object()) takeOwn(*group, image);
-    if (auto checked = checkImage(image, ~std::uint64_t{0}, false, Code::BadImage); !checked) return checked.error();
+    SVT_DO(checkImage(image, ~std::uint64_t{0}, false, Code::BadImage));
     if (auto checked = checkProportion(at, image.sliceBytes() * static_cast<std::uint64_t>(image.dimension.z));
         !checked)
         return checked.error();

@@ -89,8 +89,7 @@ Result<std::shared_ptr<const PatternTexels>> readPatternImage(const std::filesys
     if (maxColors < 2 || maxColors > static_cast<int>(kMaxPhases))
         return Error(Code::BadArgument,
                      fmt::format("{} colours are out of range; 2 to {} are possible", maxColors, kMaxPhases));
-    const auto image = image::readPng(file, kLargestImage);
-    if (!image) return image.error();
+    SVT_TRY(image, image::readPng(file, kLargestImage));
     auto texels = std::make_shared<PatternTexels>();
     texels->dimension = {image->width(), image->height(), 1};
     std::vector<Pixel> colors;
@@ -112,8 +111,7 @@ Result<std::shared_ptr<const PatternTexels>> readPatternRaw(const std::filesyste
         if (dimension[axis] < 1 || dimension[axis] > kLargestRaw)
             return badImage(file, fmt::format("dimension {} is out of range; 1 to {} cells along an axis are possible",
                                               dimension[axis], kLargestRaw));
-    const auto mapped = FileBytes::read(file);
-    if (!mapped) return mapped.error();
+    SVT_TRY(mapped, FileBytes::read(file));
     const std::size_t expected = std::size_t(dimension.x) * std::size_t(dimension.y) * std::size_t(dimension.z);
     if (mapped->bytes().size() != expected)
         return badImage(file, fmt::format("{} bytes found, {} x {} x {} = {} expected", mapped->bytes().size(),

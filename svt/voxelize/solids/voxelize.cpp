@@ -282,7 +282,7 @@ Result<void> fillOpenShells(const mesh::MeshSet& meshes, const volume::Grid& gri
             all.unfilled.push_back(open[n]);
             sheetVoxels += estimateSheetVoxels(meshes.objects[open[n]], indexFromLocal);
         }
-    if (auto fits = checkSheetVoxels(sheetVoxels); !fits) return fits.error();
+    SVT_DO(checkSheetVoxels(sheetVoxels));
     for (const std::uint32_t o : all.unfilled) {
         all.objects[o].faces = {};
         addSheet(makeIndexMesh(meshes.objects[o], indexFromLocal), grid, claims.thinOrder[o], false, options,
@@ -471,10 +471,9 @@ Result<VoxelizeResult> voxelize(const mesh::MeshSet& meshes, const volume::Grid&
     double sheetVoxels = 0;
     for (const mesh::ObjectMesh& object : meshes.objects)
         if (object.closure == mesh::Closure::Surface) sheetVoxels += estimateSheetVoxels(object, indexFromLocal);
-    if (auto fits = checkSheetVoxels(sheetVoxels); !fits) return fits.error();
+    SVT_DO(checkSheetVoxels(sheetVoxels));
     const Claims ordered = orderClaims(meshes, claims);
-    auto geometry = prepareObjects(meshes, grid, indexFromLocal, ordered, options);
-    if (!geometry) return geometry.error();
+    SVT_TRY(geometry, prepareObjects(meshes, grid, indexFromLocal, ordered, options));
     Tiles swept = sweepTiles(*geometry, grid.dimension(), ordered, options);
     if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
 

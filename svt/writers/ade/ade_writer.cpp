@@ -3,6 +3,7 @@
 #include <svt/writers/ade/ade_writer.hpp>
 #include <svt/writers/ade/model_document.hpp>
 #include <svt/writers/nrrd_writer.hpp>
+#include <svt/writers/volume_formats.hpp>
 #include <svt/writers/x3d/texture_files.hpp>
 
 #include <fmt/format.h>
@@ -111,7 +112,7 @@ Result<std::string> writeBeside(const volume::SemanticVolume& volume, int bits, 
     const std::string stem = stemOf(path);
     if (options.texture == TextureKind::Image) {
         const std::string name = stem + ".labels.nrrd";
-        if (auto checked = checkSibling(path.parent_path() / name, "NRRD000"); !checked) return checked.error();
+        SVT_DO(checkSibling(path.parent_path() / name, "NRRD000"));
         const auto encoding = options.isCompressed ? NrrdEncoding::Gzip : NrrdEncoding::Raw;
         const auto bytes =
             writeNrrd(volume, path.parent_path() / name, {encoding, options.threads, options.progress, false});
@@ -134,10 +135,8 @@ Result<std::string> writeBeside(const volume::SemanticVolume& volume, int bits, 
 Result<void> writePixelImage(const volume::SemanticVolume& volume, int bits, const VolumeWriteOptions& options,
                              AtomicFile& file) {
     const Vec3i dimension = volume.grid.dimension();
-    if (auto done = file.write(fmt::format("<svt:image>1 {} {} {}", dimension.x, dimension.y, dimension.z)); !done)
-        return done;
-    if (auto done = writePixelNumbers(volume, bits, {}, {"write", options.threads, options.progress}, file); !done)
-        return done;
+    SVT_DO(file.write(fmt::format("<svt:image>1 {} {} {}", dimension.x, dimension.y, dimension.z)));
+    SVT_DO(writePixelNumbers(volume, bits, {}, {"write", options.threads, options.progress}, file));
     return file.write("</svt:image>\n");
 }
 
@@ -160,8 +159,7 @@ Result<ModelDocument> documentFor(const volume::SemanticVolume& volume, const Vo
 
 Result<std::uint64_t> writeAde(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const VolumeWriteOptions& options) {
-    const auto bits = checkedSampleBits(volume);
-    if (!bits) return bits.error();
+    SVT_TRY(bits, checkedSampleBits(volume));
     if (!volume.grid.isAxisParallel())
         return Error(
             Code::BadArgument,
@@ -175,26 +173,30 @@ Result<std::uint64_t> writeAde(const volume::SemanticVolume& volume, const std::
     if (options.texture == TextureKind::Pixel)
         if (auto checked = checkPixelCount(volume.grid.dimension(), options.maxVoxels); !checked)
             return checked.error();
-    const auto document = documentFor(volume, options);
-    if (!document) return document.error();
+    SVT_TRY(document, documentFor(volume, options));
     std::string beside;
     if (options.texture != TextureKind::Pixel) {
-        auto written = writeBeside(volume, *bits, path, options);
-        if (!written) return written.error();
+        SVT_TRY(written, writeBeside(volume, *bits, path, options));
         beside = std::move(*written);
     }
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
-    if (auto done = document->writeBegin(*file); !done) return done.error();
-    if (auto done = file->write(beginningOfTexture(volume, *bits, *document, options.texture)); !done)
-        return done.error();
-    if (auto done = file->write(targets(volume.labels, *document, options.model.empty())); !done) return done.error();
+    SVT_TRY(file, AtomicFile::create(path));
+    SVT_DO(document->writeBegin(*file));
+    SVT_DO(file->write(beginningOfTexture(volume, *bits, *document, options.texture)));
+    SVT_DO(file->write(targets(volume.labels, *document, options.model.empty())));
     const auto done =
         options.texture == TextureKind::Pixel ? writePixelImage(volume, *bits, options, *file) : file->write(beside);
     if (!done) return done.error();
-    if (auto ended = file->write(endOfTexture(*document, options.texture)); !ended) return ended.error();
-    if (auto ended = document->writeEnd(*file); !ended) return ended.error();
+    SVT_DO(file->write(endOfTexture(*document, options.texture)));
+    SVT_DO(document->writeEnd(*file));
     return file->commit();
 }
+
+extern const VolumeFormat kAde{
+    .name = "ade",
+    .endings = ".ade.gml",
+    .holds = "CityGML 2.0 or 3.0: the model with the volume in it, by an application domain extension",
+    .readers = "svt build; any CityGML reader sees the model",
+    .isDense = true,
+    .write = writeAde};
 
 }  // namespace svt::writers

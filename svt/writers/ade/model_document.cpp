@@ -49,8 +49,7 @@ std::string_view adeNamespace(CityGmlVersion version) noexcept {
 }
 
 Result<ModelDocument> ModelDocument::open(const std::filesystem::path& path) {
-    auto mapped = FileBytes::read(path);
-    if (!mapped) return mapped.error();
+    SVT_TRY(mapped, FileBytes::read(path));
     const std::string_view text = mapped->text();
     const std::string_view head = text.substr(0, kHeadBytes);
     const std::size_t root = head.find("CityModel");
@@ -113,7 +112,7 @@ Result<void> ModelDocument::write(std::string_view text, AtomicFile& file) const
         const std::size_t at = std::min(text.find(kCityGml), text.size());
         const std::size_t end = std::min(text.find_first_of("\"' \t\r\n<", at), text.size());
         const bool isOld = end > at && text.substr(at, end - at).ends_with("/1.0");
-        if (auto done = file.write(text.substr(0, isOld ? end - 3 : end)); !done) return done;
+        SVT_DO(file.write(text.substr(0, isOld ? end - 3 : end)));
         if (isOld)
             if (auto done = file.write("2.0"); !done) return done;
         text.remove_prefix(end);

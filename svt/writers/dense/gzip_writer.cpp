@@ -40,7 +40,7 @@ Result<void> GzipWriter::compress(std::span<const std::byte> bytes) {
     if (!isBegun_) {
         // Deflate, no name, no time stamp (equal input gives equal bytes), unknown system.
         constexpr std::array<unsigned char, 10> kHeader{0x1F, 0x8B, 8, 0, 0, 0, 0, 0, 0, 0xFF};
-        if (auto written = file_.write(std::as_bytes(std::span(kHeader))); !written) return written;
+        SVT_DO(file_.write(std::as_bytes(std::span(kHeader))));
         isBegun_ = true;
     }
     const auto pieceAt = [&](std::size_t p) {
@@ -56,7 +56,7 @@ Result<void> GzipWriter::compress(std::span<const std::byte> bytes) {
             const std::size_t size = pieceAt(first + p).size();
             crc_ = static_cast<std::uint32_t>(crc32_combine(crc_, pieces[p].crc, static_cast<z_off_t>(size)));
             size_ += size;
-            if (auto written = file_.write(pieces[p].compressed); !written) return written;
+            SVT_DO(file_.write(pieces[p].compressed));
         }
     }
     return {};
@@ -68,7 +68,7 @@ Result<void> GzipWriter::write(std::span<const std::byte> bytes) {
         pending_.insert(pending_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(taken));
         bytes = bytes.subspan(taken);
         if (pending_.size() < kPieceBytes) return {};
-        if (auto done = compress(pending_); !done) return done;
+        SVT_DO(compress(pending_));
         pending_.clear();
     }
     const std::size_t whole = bytes.size() / kPieceBytes * kPieceBytes;
@@ -80,11 +80,11 @@ Result<void> GzipWriter::write(std::span<const std::byte> bytes) {
 }
 
 Result<void> GzipWriter::finish() {
-    if (auto done = compress(pending_); !done) return done;
+    SVT_DO(compress(pending_));
     // An empty last block with fixed Huffman codes: the bits 1, 01, 0000000.
     constexpr std::array<unsigned char, 2> kLastBlock{0x03, 0x00};
-    if (auto written = file_.write(std::as_bytes(std::span(kLastBlock))); !written) return written;
-    if (auto written = file_.write(littleEndian(crc_)); !written) return written;
+    SVT_DO(file_.write(std::as_bytes(std::span(kLastBlock))));
+    SVT_DO(file_.write(littleEndian(crc_)));
     return file_.write(littleEndian(static_cast<std::uint32_t>(size_)));
 }
 

@@ -40,7 +40,7 @@ Result<void> streamAs(const volume::ColumnVolume& columns, const StreamOptions& 
             slab.resize(std::size_t(dimension.x) * std::size_t(box.jEnd - box.jBegin) *
                         std::size_t(box.kEnd - box.kBegin));
             volume::copyBox<T>(columns, box, slab, options.threads);
-            if (auto done = sink(std::as_bytes(std::span(slab))); !done) return done;
+            SVT_DO(sink(std::as_bytes(std::span(slab))));
         }
         const double share = double(std::min(k + slices, dimension.z)) / dimension.z;
         Progress::tell(options.progress, options.stage, options.begin + (options.end - options.begin) * share);

@@ -362,15 +362,13 @@ private:
 
 Result<std::string> makeSvg(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                             const SvgOptions& options) {
-    const auto page = makeDrawingPage(drawing, options.scale);
-    if (!page) return page.error();
+    SVT_TRY(page, makeDrawingPage(drawing, options.scale));
     return SvgWriter(drawing, volume, *page).write();
 }
 
 Result<std::uint64_t> writeSvg(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                const std::filesystem::path& path, const SvgOptions& options) {
-    const auto text = makeSvg(drawing, volume, options);
-    if (!text) return text.error();
+    SVT_TRY(text, makeSvg(drawing, volume, options));
     return writeFileAtomically(path, *text);
 }
 

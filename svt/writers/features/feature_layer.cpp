@@ -43,7 +43,7 @@ public:
         return file_.write(text_.take());
     }
     Result<std::uint64_t> finish() override {
-        if (auto written = file_.write(text_.take()); !written) return written.error();
+        SVT_DO(file_.write(text_.take()));
         return file_.commit();
     }
 
@@ -90,7 +90,7 @@ public:
     }
     Result<std::uint64_t> finish() override {
         const std::string end = head_ == "," ? "\n]}\n" : head_ + "]}\n";
-        if (auto written = file_.write(end); !written) return written.error();
+        SVT_DO(file_.write(end));
         return file_.commit();
     }
 
@@ -157,8 +157,7 @@ public:
                           {std::string("features"), std::string("geom"), std::string("POLYGON"), reference_,
                            std::int64_t{0}, std::int64_t{0}});
         database_->run("COMMIT;");
-        const auto bytes = database_->bytes();
-        if (!bytes) return bytes.error();
+        SVT_TRY(bytes, database_->bytes());
         return writeFileAtomically(path_, *bytes);
     }
 
@@ -219,7 +218,7 @@ public:
     }
 
     Result<std::uint64_t> finish() override {
-        if (auto flushed = flush(); !flushed) return flushed.error();
+        SVT_DO(flush());
         Json geometry{{"encoding", "WKB"}, {"geometry_types", Json::array({"Polygon"})}};
         geometry["crs"] = nullptr;
         if (const auto epsg = static_cast<int>(crs::epsgCodeOf(crsName_)); epsg != 0)
@@ -228,7 +227,7 @@ public:
         if (bounds_[0] <= bounds_[2]) geometry["bbox"] = bounds_;
         const Json geo{{"version", "1.1.0"}, {"primary_column", kGeometry}, {"columns", {{kGeometry, geometry}}}};
         const std::pair<std::string, std::string> notes[] = {{"geo", geo.dump()}, {"crs", crsName_}, {"unit", "metre"}};
-        if (auto written = file_.write(stream_.end(notes)); !written) return written.error();
+        SVT_DO(file_.write(stream_.end(notes)));
         return file_.commit();
     }
 
@@ -260,8 +259,7 @@ private:
     }
 
     Result<void> flush() {
-        const auto group = stream_.group(rows_);
-        if (!group) return group.error();
+        SVT_TRY(group, stream_.group(rows_));
         for (TableColumn& column : rows_) column.cells.clear();
         text_ += *group;
         auto written = file_.write(text_);
@@ -284,16 +282,14 @@ Result<std::unique_ptr<FeatureLayer>> FeatureLayer::create(const std::filesystem
                                                            const std::string& crsName) {
     const std::string ending = lowerAscii(path.extension().string());
     if (ending == ".gpkg") {
-        auto database = makeSqliteDatabase();
-        if (!database) return database.error();
+        SVT_TRY(database, makeSqliteDatabase());
         return std::unique_ptr<FeatureLayer>(
             std::make_unique<PackageLayer>(path, std::move(*database), columns, crsName));
     }
     if (ending != ".csv" && ending != ".geojson" && ending != ".parquet")
         return Error(Code::BadArgument, "features are written as .csv, .geojson, .gpkg or .parquet",
                      {path.string(), 0, 0, {}});
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
+    SVT_TRY(file, AtomicFile::create(path));
     if (ending == ".csv") return std::unique_ptr<FeatureLayer>(std::make_unique<CsvLayer>(std::move(*file), columns));
     if (ending == ".parquet")
         return std::unique_ptr<FeatureLayer>(std::make_unique<GeoParquetLayer>(std::move(*file), columns, crsName));

@@ -1,4 +1,5 @@
 #include <svt/writers/glb_writer.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <svt/core/file.hpp>
 #include <svt/writers/gltf/label_surface.hpp>
@@ -199,9 +200,8 @@ Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::file
         if (v != nullptr)
             if (auto checked = checkDimension(volume.grid.dimension(), v->columns.dimension()); !checked)
                 return checked.error();
-    const auto surfaces = labelSurfaces(volume.columns, volume.labels.labelOfScalar(),
-                                        {options.maxTriangles, options.threads, options.progress});
-    if (!surfaces) return surfaces.error();
+    SVT_TRY(surfaces, labelSurfaces(volume.columns, volume.labels.labelOfScalar(),
+                                    {options.maxTriangles, options.threads, options.progress}));
     if (surfaces->empty()) return Error(Code::NothingSelected, "the volume has no voxels, so there is no surface");
 
     Progress::tell(options.progress, "vertices", 0);
@@ -228,8 +228,7 @@ Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::file
                         "fewer features",
                         length, 0xFFFFFFFFu));
     Progress::tell(options.progress, "write", 0);
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
+    SVT_TRY(file, AtomicFile::create(path));
     auto done = writeWords(*file, {kMagic, 2, length, text.size(), kJsonChunk});
     if (done) done = file->write(text);
     if (done) done = writeWords(*file, {binBytes, kBinChunk});
@@ -237,10 +236,20 @@ Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::file
         done = file->write(std::as_bytes(std::span((*positions)[m])));
     for (std::size_t m = 0; done && m < surfaces->size(); ++m) done = writeIndices(*file, (*surfaces)[m]);
     if (!done) return done.error();
-    const auto bytes = file->commit();
-    if (!bytes) return bytes.error();
+    SVT_TRY(bytes, file->commit());
     report.bytes = *bytes;
     return report;
 }
+
+extern const VolumeFormat kGlb{
+    .name = "glb",
+    .endings = ".glb",
+    .holds = "binary glTF 2.0: the surface of each label as triangles",
+    .readers = "Blender, Windows, three.js, Cesium",
+    .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
+        SVT_TRY(report, writeGlb(volume, path,
+                                 {.faces = options.faces, .threads = options.threads, .progress = options.progress}));
+        return report->bytes;
+    }};
 
 }  // namespace svt::writers

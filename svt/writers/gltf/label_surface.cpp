@@ -365,8 +365,7 @@ Result<std::vector<Rectangle>> findRectangles(const ColumnVolume& columns, std::
 Result<std::vector<LabelSurface>> labelSurfaces(const ColumnVolume& columns,
                                                 std::span<const std::uint32_t> labelOfScalar,
                                                 const SurfaceOptions& options) {
-    const auto rectangles = findRectangles(columns, labelOfScalar, options);
-    if (!rectangles) return rectangles.error();
+    SVT_TRY(rectangles, findRectangles(columns, labelOfScalar, options));
     std::vector<std::span<const Rectangle>> ofLabel;
     for (std::size_t begin = 0; begin < rectangles->size();) {
         std::size_t end = begin;

@@ -43,8 +43,7 @@ Result<std::vector<Positions>> placeVertices(const volume::SemanticVolume& volum
     volume::BrickVolume bricks;
     std::optional<SlopeVertices> slopes;
     if (faces == GlbFaces::Planes) {
-        auto made = volume::BrickVolume::fromColumns(source.columns, {.planes = source.planes, .threads = threads});
-        if (!made) return made.error();
+        SVT_TRY(made, volume::BrickVolume::fromColumns(source.columns, {.planes = source.planes, .threads = threads}));
         bricks = std::move(*made);
         slopes.emplace(bricks, labelOfScalar);
     }

@@ -3,6 +3,7 @@
 #include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/hulls/hull_writer.hpp>
 #include <svt/writers/hulls/label_hulls.hpp>
+#include <svt/writers/volume_formats.hpp>
 #include <svt/writers/x3d/texture_files.hpp>
 
 #include <fmt/format.h>
@@ -32,7 +33,7 @@ std::string lineText(std::string_view text, bool hasBlanks) {
 int colorByte(float channel) { return static_cast<int>(std::clamp(channel, 0.0f, 1.0f) * 255 + 0.5f); }
 
 Result<void> writeMaterials(const LabelHulls& hulls, const std::filesystem::path& path) {
-    if (auto checked = checkSibling(path, "# Semantic volume"); !checked) return checked;
+    SVT_DO(checkSibling(path, "# Semantic volume"));
     std::string text = "# Semantic volume texture: colours of labels\n";
     for (std::size_t s = 0; s < hulls.surfaces.size(); ++s) {
         const Label& label = hulls.label(s);
@@ -55,11 +56,11 @@ Result<void> writeObj(const LabelHulls& hulls, const std::string& materials, Pie
         for (std::size_t v = 0; v < hulls.positions[s].size(); ++v) {
             const Vec3d p = corner + hulls.fromCorner(s, v);
             fmt::format_to(std::back_inserter(out.text), "v {:.6f} {:.6f} {:.6f}\n", p.x, p.y, p.z);
-            if (auto done = out.flush(); !done) return done;
+            SVT_DO(out.flush());
         }
         for (const auto& [a, b, c] : hulls.surfaces[s].triangles) {
             fmt::format_to(std::back_inserter(out.text), "f {} {} {}\n", first + a, first + b, first + c);
-            if (auto done = out.flush(); !done) return done;
+            SVT_DO(out.flush());
         }
         first += hulls.positions[s].size();
     }
@@ -90,7 +91,7 @@ Result<void> writePly(const LabelHulls& hulls, PieceWriter& out) {
         for (std::size_t v = 0; v < hulls.positions[s].size(); ++v) {
             const Vec3d p = corner + hulls.fromCorner(s, v);
             for (int axis = 0; axis < 3; ++axis) appendBytes(out.text, p[axis]);
-            if (auto done = out.flush(); !done) return done;
+            SVT_DO(out.flush());
         }
     std::uint32_t first = 0;
     for (std::size_t s = 0; s < hulls.surfaces.size(); ++s) {
@@ -102,7 +103,7 @@ Result<void> writePly(const LabelHulls& hulls, PieceWriter& out) {
             appendBytes(out.text, static_cast<std::int32_t>(hulls.surfaces[s].label));
             for (int axis = 0; axis < 3; ++axis)
                 appendBytes(out.text, static_cast<std::uint8_t>(colorByte(color[axis])));
-            if (auto done = out.flush(); !done) return done;
+            SVT_DO(out.flush());
         }
         first += static_cast<std::uint32_t>(hulls.positions[s].size());
     }
@@ -125,7 +126,7 @@ Result<void> writeStl(const LabelHulls& hulls, PieceWriter& out) {
             for (const Vec3d v : {normal, points[0], points[1], points[2]})
                 for (int axis = 0; axis < 3; ++axis) appendBytes(out.text, static_cast<float>(v[axis]));
             appendBytes(out.text, std::uint16_t{0});
-            if (auto done = out.flush(); !done) return done;
+            SVT_DO(out.flush());
         }
     return out.flush(true);
 }
@@ -134,8 +135,7 @@ Result<void> writeStl(const LabelHulls& hulls, PieceWriter& out) {
 
 Result<std::uint64_t> writeHulls(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                  HullFormat format, const VolumeWriteOptions& options) {
-    const auto made = makeLabelHulls(volume, options);
-    if (!made) return made.error();
+    SVT_TRY(made, makeLabelHulls(volume, options));
     const LabelHulls& hulls = *made;
     std::uint64_t vertices = 0;
     for (const Positions& of : hulls.positions) vertices += of.size();
@@ -145,14 +145,36 @@ Result<std::uint64_t> writeHulls(const volume::SemanticVolume& volume, const std
     const std::filesystem::path materials = std::filesystem::path(path).replace_extension(".mtl");
     if (format == HullFormat::Obj)
         if (auto done = writeMaterials(hulls, materials); !done) return done.error();
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
+    SVT_TRY(file, AtomicFile::create(path));
     PieceWriter out(*file);
-    const auto done = format == HullFormat::Obj   ? writeObj(hulls, materials.filename().string(), out)
-                      : format == HullFormat::Ply ? writePly(hulls, out)
-                                                  : writeStl(hulls, out);
-    if (!done) return done.error();
+    SVT_TRY(done, format == HullFormat::Obj   ? writeObj(hulls, materials.filename().string(), out)
+                  : format == HullFormat::Ply ? writePly(hulls, out)
+                                              : writeStl(hulls, out));
     return file->commit();
 }
+
+extern const VolumeFormat kObj{.name = "obj",
+                               .endings = ".obj",
+                               .holds = "Wavefront OBJ: an object per label, colours in an .mtl beside it",
+                               .readers = "Blender, MeshLab, CAD, VTK",
+                               .write = [](const auto& volume, const auto& path, const auto& options) {
+                                   return writeHulls(volume, path, HullFormat::Obj, options);
+                               }};
+
+extern const VolumeFormat kPly{.name = "ply",
+                               .endings = ".ply",
+                               .holds = "PLY, binary: triangles with label and colour",
+                               .readers = "MeshLab, CloudCompare, Open3D, VTK",
+                               .write = [](const auto& volume, const auto& path, const auto& options) {
+                                   return writeHulls(volume, path, HullFormat::Ply, options);
+                               }};
+
+extern const VolumeFormat kStl{.name = "stl",
+                               .endings = ".stl",
+                               .holds = "STL, binary: triangles alone",
+                               .readers = "printers, CAD, simulation",
+                               .write = [](const auto& volume, const auto& path, const auto& options) {
+                                   return writeHulls(volume, path, HullFormat::Stl, options);
+                               }};
 
 }  // namespace svt::writers

@@ -11,8 +11,7 @@ Result<LabelHulls> makeLabelHulls(const volume::SemanticVolume& volume, const Vo
                                   {std::uint64_t{1} << 27, options.threads, options.progress});
     if (!surfaces) return surfaces.error();
     if (surfaces->empty()) return Error(Code::NothingSelected, "the volume has no voxels, so there is no surface");
-    auto positions = placeVertices(volume, *surfaces, options.faces, nullptr, options.threads, options.progress);
-    if (!positions) return positions.error();
+    SVT_TRY(positions, placeVertices(volume, *surfaces, options.faces, nullptr, options.threads, options.progress));
     return LabelHulls{std::move(*surfaces), std::move(*positions), &volume};
 }
 

@@ -56,7 +56,7 @@ public:
     }
 
     Result<CellPlan> run() {
-        if (auto shapes = findShapes(); !shapes) return shapes.error();
+        SVT_DO(findShapes());
         const auto& labels = volume_.labels.labels;
         for (std::uint32_t l = 0; l < labels.size(); ++l)
             if (isRoom(l)) addCells(l, knownKind(labels[l]), shapes_[l]);
@@ -101,8 +101,7 @@ private:
         for (std::uint32_t& owner : ownerOf)
             if (owner != kNoLabel && (!(isRoom(owner) || isDoor(owner)) || !shapes_[owner].triangles.empty()))
                 owner = kNoLabel;
-        auto voxels = voxelShapes(volume_, ownerOf, options_.threads, options_.progress);
-        if (!voxels) return voxels.error();
+        SVT_TRY(voxels, voxelShapes(volume_, ownerOf, options_.threads, options_.progress));
         for (std::uint32_t l = 0; l < labels.size(); ++l)
             if (!(*voxels)[l].triangles.empty()) {
                 shapes_[l] = std::move((*voxels)[l]);

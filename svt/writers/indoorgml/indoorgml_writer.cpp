@@ -1,4 +1,6 @@
+#include <svt/core/file.hpp>
 #include <svt/writers/indoorgml/indoorgml_writer.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <svt/core/text.hpp>
 #include <svt/writers/indoorgml/cell_plan.hpp>
@@ -258,9 +260,18 @@ private:
 }  // namespace
 
 Result<std::string> makeIndoorGml(const volume::SemanticVolume& volume, const VolumeWriteOptions& options) {
-    const auto plan = indoor::planCells(volume, options);
-    if (!plan) return plan.error();
+    SVT_TRY(plan, indoor::planCells(volume, options));
     return DocumentWriter(volume, *plan).run();
 }
+
+extern const VolumeFormat kIndoorGml{
+    .name = "indoorgml",
+    .endings = ".indoor.gml",
+    .holds = "IndoorGML 1.0.3: rooms and doors as cell spaces, their graph",
+    .readers = "InViewer, FME, navigation, svt build",
+    .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
+        SVT_TRY(document, makeIndoorGml(volume, options));
+        return writeFileAtomically(path, *document);
+    }};
 
 }  // namespace svt::writers

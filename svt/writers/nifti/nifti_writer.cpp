@@ -1,9 +1,11 @@
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 #include <svt/volume/volume_json.hpp>
+#include <svt/writers/dense/format_options.hpp>
 #include <svt/writers/dense/gzip_writer.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/nifti/nifti_writer.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <algorithm>
 #include <array>
@@ -146,20 +148,35 @@ std::string niftiBeginning(const volume::SemanticVolume& volume, int bits) {
 
 Result<std::uint64_t> writeNifti(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                  const DenseOptions& options) {
-    const auto bits = checkedSampleBits(volume);
-    if (!bits) return bits.error();
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
+    SVT_TRY(bits, checkedSampleBits(volume));
+    SVT_TRY(file, AtomicFile::create(path));
     std::optional<GzipWriter> gzip;
     if (lowerAscii(path.extension().string()) == ".gz") gzip.emplace(*file, options.threads);
     const auto write = [&](std::span<const std::byte> bytes) { return gzip ? gzip->write(bytes) : file->write(bytes); };
     const std::string head = niftiBeginning(volume, *bits);
-    if (auto done = write(std::as_bytes(std::span(head))); !done) return done.error();
-    if (auto done = streamSamples(volume.columns, *bits, {"write", options.threads, options.progress}, write); !done)
-        return done.error();
+    SVT_DO(write(std::as_bytes(std::span(head))));
+    SVT_DO(streamSamples(volume.columns, *bits, {"write", options.threads, options.progress}, write));
     if (gzip)
         if (auto done = gzip->finish(); !done) return done.error();
     return file->commit();
 }
+
+extern const VolumeFormat kNifti{.name = "nifti",
+                                 .endings = ".nii",
+                                 .holds = "NIfTI-1, or NIfTI-2 where coordinates need it",
+                                 .readers = "nibabel, ITK, 3D Slicer, FSL, SPM",
+                                 .isDense = true,
+                                 .write = [](const auto& volume, const auto& path, const auto& options) {
+                                     return writeNifti(volume, path, denseOptions(options));
+                                 }};
+
+extern const VolumeFormat kNiftiGzip{.name = "niftigz",
+                                     .endings = ".nii.gz",
+                                     .holds = "the same, compressed",
+                                     .readers = "nibabel, ITK, 3D Slicer, FSL, SPM",
+                                     .isDense = true,
+                                     .write = [](const auto& volume, const auto& path, const auto& options) {
+                                         return writeNifti(volume, path, denseOptions(options));
+                                     }};
 
 }  // namespace svt::writers

@@ -141,8 +141,7 @@ Result<Header> readHeader(std::string_view text) {
             header.image.keyValues.emplace_back(unescaped(line.substr(0, colon)), unescaped(line.substr(colon + 2)));
             continue;
         }
-        if (auto done = readField(header, trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1))); !done)
-            return done.error();
+        SVT_DO(readField(header, trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1))));
     }
     if (!header.hasDimension || !header.hasSizes || header.image.bits == 0 || header.encoding.empty())
         return bad("one of the fields type, dimension, sizes and encoding is missing");
@@ -154,8 +153,7 @@ Result<Header> readHeader(std::string_view text) {
 }
 
 Result<NrrdImage> readImage(std::span<const std::byte> bytes, std::string_view text, const NrrdReadOptions& options) {
-    auto header = readHeader(text);
-    if (!header) return header.error();
+    SVT_TRY(header, readHeader(text));
     NrrdImage& image = header->image;
     const std::span<const std::byte> stored = bytes.subspan(header->dataOffset);
     // Two sizes of 2^30 and a sample of 4 bytes fit into 64 bits; the third is checked before multiplication.
@@ -215,8 +213,7 @@ std::uint32_t NrrdImage::sample(std::size_t index) const noexcept {
 }
 
 Result<NrrdImage> readNrrd(const std::filesystem::path& path, const NrrdReadOptions& options) {
-    auto file = FileBytes::read(path);
-    if (!file) return file.error();
+    SVT_TRY(file, FileBytes::read(path));
     auto image = readImage(file->bytes(), file->text(), options);
     if (!image) return Error(image.error().code(), image.error().message(), Place{path.string(), 0, 0, {}});
     return image;

@@ -5,6 +5,7 @@
 #include <svt/writers/dense/gzip_writer.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/nrrd_writer.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
 
@@ -148,16 +149,42 @@ Result<void> writeData(const volume::ColumnVolume& columns, int bits, const Nrrd
 
 Result<std::uint64_t> writeNrrd(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                 const NrrdOptions& options) {
-    const auto bits = checkedSampleBits(volume);
-    if (!bits) return bits.error();
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
+    SVT_TRY(bits, checkedSampleBits(volume));
+    SVT_TRY(file, AtomicFile::create(path));
     std::optional<volume::ColumnVolume> merged;
     if (options.hasSegments) merged = oneScalarPerLabel(volume);
     const volume::ColumnVolume& columns = merged ? *merged : volume.columns;
-    if (auto written = file->write(headerOf(volume, columns, *bits, options)); !written) return written.error();
-    if (auto done = writeData(columns, *bits, options, *file); !done) return done.error();
+    SVT_DO(file->write(headerOf(volume, columns, *bits, options)));
+    SVT_DO(writeData(columns, *bits, options, *file));
     return file->commit();
 }
+
+namespace {
+
+NrrdOptions nrrdOptions(const VolumeWriteOptions& options, bool hasSegments) {
+    return {options.isCompressed ? NrrdEncoding::Gzip : NrrdEncoding::Raw, options.threads, options.progress,
+            hasSegments};
+}
+
+}  // namespace
+
+extern const VolumeFormat kNrrd{.name = "nrrd",
+                                .endings = ".nrrd",
+                                .holds = "NRRD: samples, with the table of labels as keys",
+                                .readers = "VTK, ITK, 3D Slicer, teem, MATLAB, pynrrd",
+                                .isDense = true,
+                                .write = [](const auto& volume, const auto& path, const auto& options) {
+                                    return writeNrrd(volume, path, nrrdOptions(options, false));
+                                }};
+
+extern const VolumeFormat kSegmentationNrrd{
+    .name = "segnrrd",
+    .endings = ".seg.nrrd",
+    .holds = "NRRD as a segmentation: a segment per label, with name, colour, class",
+    .readers = "3D Slicer",
+    .isDense = true,
+    .write = [](const auto& volume, const auto& path, const auto& options) {
+        return writeNrrd(volume, path, nrrdOptions(options, true));
+    }};
 
 }  // namespace svt::writers

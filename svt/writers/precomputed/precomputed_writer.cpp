@@ -7,6 +7,7 @@
 #include <svt/writers/hulls/label_hulls.hpp>
 #include <svt/writers/precomputed/precomputed_shards.hpp>
 #include <svt/writers/precomputed/precomputed_writer.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -154,7 +155,7 @@ Result<void> writeLevel(const volume::ColumnVolume& columns, const std::string& 
                 const std::string name =
                     fmt::format("{}/{}-{}_{}-{}_{}-{}", key, first.x, end.x, first.y, end.y, first.z, end.z);
                 const std::string_view text(reinterpret_cast<const char*>(chunks[c].data()), chunks[c].size() * 4);
-                if (auto done = folder.write(name, text); !done) return done;
+                SVT_DO(folder.write(name, text));
             }
         }
     }
@@ -163,9 +164,8 @@ Result<void> writeLevel(const volume::ColumnVolume& columns, const std::string& 
 
 /// Vertices in nanometres from the outer corner of the first voxel, along the axes of the grid.
 Result<void> writeMeshes(const volume::SemanticVolume& volume, const VolumeWriteOptions& options, NewFolder& folder) {
-    const auto hulls = makeLabelHulls(volume, options);
-    if (!hulls) return hulls.error();
-    if (auto done = folder.write("mesh/info", "{\"@type\": \"neuroglancer_legacy_mesh\"}\n"); !done) return done;
+    SVT_TRY(hulls, makeLabelHulls(volume, options));
+    SVT_DO(folder.write("mesh/info", "{\"@type\": \"neuroglancer_legacy_mesh\"}\n"));
     for (std::size_t s = 0; s < hulls->surfaces.size(); ++s) {
         std::string bytes;
         appendBytes(bytes, static_cast<std::uint32_t>(hulls->positions[s].size()));
@@ -175,7 +175,7 @@ Result<void> writeMeshes(const volume::SemanticVolume& volume, const VolumeWrite
         for (const auto& triangle : hulls->surfaces[s].triangles)
             for (const std::uint32_t vertex : triangle) appendBytes(bytes, vertex);
         const std::string name = fmt::format("{}.mesh", hulls->surfaces[s].label);
-        if (auto done = folder.write("mesh/" + name, bytes); !done) return done;
+        SVT_DO(folder.write("mesh/" + name, bytes));
         const volume::Label& label = hulls->label(s);
         for (volume::Scalar n = label.first; n < label.first + label.count; ++n)
             if (auto done =
@@ -220,16 +220,15 @@ std::vector<std::uint32_t> compressSegmentation(std::span<const std::uint32_t> v
 
 Result<std::uint64_t> writePrecomputed(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                        const VolumeWriteOptions& options) {
-    if (const auto bits = checkedSampleBits(volume); !bits) return bits.error();
+    SVT_DO(checkedSampleBits(volume));
     NewFolder folder(path);
-    if (auto made = folder.create(); !made) return made.error();
-    const auto coarser = coarserLevels(volume, options.threads);
-    if (!coarser) return coarser.error();
+    SVT_DO(folder.create());
+    SVT_TRY(coarser, coarserLevels(volume, options.threads));
     std::vector<const volume::SemanticVolume*> levels{&volume};
     for (const volume::SemanticVolume& level : *coarser) levels.push_back(&level);
-    if (auto done = folder.write("info", infoJson(levels, options)); !done) return done.error();
-    if (auto done = folder.write("properties/info", propertiesJson(volume)); !done) return done.error();
-    if (auto done = folder.write("state.json", stateJson(volume)); !done) return done.error();
+    SVT_DO(folder.write("info", infoJson(levels, options)));
+    SVT_DO(folder.write("properties/info", propertiesJson(volume)));
+    SVT_DO(folder.write("state.json", stateJson(volume)));
     for (std::size_t l = 0; l < levels.size(); ++l)
         if (auto done = options.isSharded ? writeShards(levels[l]->columns, kSide, std::to_string(l), options, folder)
                                           : writeLevel(levels[l]->columns, std::to_string(l), options, folder);
@@ -239,5 +238,13 @@ Result<std::uint64_t> writePrecomputed(const volume::SemanticVolume& volume, con
         if (auto done = writeMeshes(volume, options, folder); !done) return done.error();
     return folder.commit();
 }
+
+extern const VolumeFormat kPrecomputed{
+    .name = "precomputed",
+    .endings = ".precomputed",
+    .holds = "neuroglancer's precomputed segmentation: a folder with all levels, names and colours",
+    .readers = "neuroglancer, CloudVolume",
+    .isDense = true,
+    .write = writePrecomputed};
 
 }  // namespace svt::writers

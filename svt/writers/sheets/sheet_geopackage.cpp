@@ -225,8 +225,7 @@ private:
 }  // namespace
 
 Result<std::string> makeSheetGeoPackage(const SheetContent& content, const volume::SemanticVolume& volume) {
-    auto database = makeSqliteDatabase();
-    if (!database) return database.error();
+    SVT_TRY(database, makeSqliteDatabase());
     PackageWriter(content, volume, **database).write();
     return (*database)->bytes();
 }

@@ -170,8 +170,7 @@ private:
 };
 
 Result<SheetLayout> layOutViews(const SheetContent& content, const SheetOptions& options) {
-    const auto paper = paperOf(options.paper);
-    if (!paper) return paper.error();
+    SVT_TRY(paper, paperOf(options.paper));
     if (options.scale != 0 && !(options.scale >= 0.01 && options.scale <= 1e7))
         return Error(Code::BadArgument,
                      fmt::format("a scale of 1:{} is out of range; 1:0.01 to 1:10000000 are possible", options.scale));

@@ -313,8 +313,7 @@ private:
 
 Result<std::vector<std::string>> makeSvgSheets(const SheetContent& content, const volume::SemanticVolume& volume,
                                                const SheetOptions& options) {
-    const auto layout = layOutSheets(content, options);
-    if (!layout) return layout.error();
+    SVT_TRY(layout, layOutSheets(content, options));
     SvgCanvas canvas;
     SheetPainter(content, volume, *layout, options, canvas).paint();
     return canvas.takeDocuments();
@@ -322,10 +321,8 @@ Result<std::vector<std::string>> makeSvgSheets(const SheetContent& content, cons
 
 Result<std::string> makePdfSheets(const SheetContent& content, const volume::SemanticVolume& volume,
                                   const SheetOptions& options) {
-    const auto layout = layOutSheets(content, options);
-    if (!layout) return layout.error();
-    auto canvas = makePdfCanvas(volume.modelName.empty() ? volume.source : volume.modelName);
-    if (!canvas) return canvas.error();
+    SVT_TRY(layout, layOutSheets(content, options));
+    SVT_TRY(canvas, makePdfCanvas(volume.modelName.empty() ? volume.source : volume.modelName));
     SheetPainter(content, volume, *layout, options, **canvas).paint();
     return (*canvas)->finish();
 }

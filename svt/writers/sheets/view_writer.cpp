@@ -49,14 +49,12 @@ void addTitle(const illustrate::SectionDrawing& drawing, const volume::SemanticV
 Result<std::string> makeSectionPdf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                    double scale) {
     constexpr double kLongest = 5080;  // 14,400 points: ISO 32000-1, annex C
-    const auto page = makeDrawingPage(drawing, scale);
-    if (!page) return page.error();
+    SVT_TRY(page, makeDrawingPage(drawing, scale));
     if (page->width > kLongest || page->height > kLongest)
         return Error(Code::BadArgument,
                      fmt::format("at 1:{} the page has {:.1f} x {:.1f} m; PDF allows 5.08 m; give a smaller scale",
                                  shortNumber(scale, 2), page->width / 1000, page->height / 1000));
-    auto canvas = makePdfCanvas(titleOfView(volume));
-    if (!canvas) return canvas.error();
+    SVT_TRY(canvas, makePdfCanvas(titleOfView(volume)));
     (*canvas)->beginSheet(page->width, page->height, planeText(drawing, volume.grid));
     const double below = page->top + (page->high.v - page->low.v) * page->millimetres;
     paintDrawing(drawing, volume, {{page->left, below}, page->low, page->millimetres}, **canvas);
@@ -74,8 +72,7 @@ std::string makeViewSvg(const illustrate::LineView& view, const volume::Semantic
 }
 
 Result<std::string> makeViewPdf(const illustrate::LineView& view, const volume::SemanticVolume& volume, double width) {
-    auto canvas = makePdfCanvas(titleOfView(volume));
-    if (!canvas) return canvas.error();
+    SVT_TRY(canvas, makePdfCanvas(titleOfView(volume)));
     paintView(view, volume, width, **canvas);
     return (*canvas)->finish();
 }

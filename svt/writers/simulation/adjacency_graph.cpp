@@ -1,10 +1,12 @@
 #include <svt/analyze/contacts.hpp>
 #include <svt/analyze/label_measures.hpp>
 #include <svt/analyze/space_boundaries.hpp>
+#include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 #include <svt/volume/volume_json.hpp>
 #include <svt/writers/simulation/adjacency_graph.hpp>
 #include <svt/writers/simulation/solid_boxes.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
 
@@ -144,5 +146,22 @@ std::string makeGraphMl(const volume::SemanticVolume& volume, int threads) {
     }
     return xml += "</graph>\n</graphml>\n";
 }
+
+extern const VolumeFormat kAdjacency{
+    .name = "adjacency",
+    .endings = ".adjacency.json",
+    .holds = "what touches what, and what lies between rooms and outside, layer by layer",
+    .readers = "energy and acoustic models",
+    .write = [](const auto& volume, const auto& path, const auto& options) {
+        return writeFileAtomically(path, makeAdjacencyJson(volume, options.threads));
+    }};
+
+extern const VolumeFormat kGraphMl{.name = "graphml",
+                                   .endings = ".graphml",
+                                   .holds = "the same as a graph",
+                                   .readers = "NetworkX, Gephi, yEd",
+                                   .write = [](const auto& volume, const auto& path, const auto& options) {
+                                       return writeFileAtomically(path, makeGraphMl(volume, options.threads));
+                                   }};
 
 }  // namespace svt::writers

@@ -1,7 +1,9 @@
+#include <svt/core/file.hpp>
 #include <svt/volume/volume_json.hpp>
 #include <svt/writers/simulation/box_list.hpp>
 #include <svt/writers/simulation/solid_boxes.hpp>
 #include <svt/writers/tables/csv_text.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
 
@@ -16,8 +18,7 @@ std::string jsonOf(Vec3i v) { return fmt::format("[{},{},{}]", v.x, v.y, v.z); }
 }  // namespace
 
 Result<std::string> makeBoxTable(const volume::SemanticVolume& volume, const VolumeWriteOptions& options) {
-    const auto solids = solidBoxes(volume, options);
-    if (!solids) return solids.error();
+    SVT_TRY(solids, solidBoxes(volume, options));
     CsvText csv;
     for (const char* key : {"group", "name", "id", "class", "beginX", "beginY", "beginZ", "endX", "endY", "endZ",
                             "minX", "minY", "minZ", "maxX", "maxY", "maxZ"})
@@ -41,8 +42,7 @@ Result<std::string> makeBoxTable(const volume::SemanticVolume& volume, const Vol
 }
 
 Result<std::string> makeBoxJson(const volume::SemanticVolume& volume, const VolumeWriteOptions& options) {
-    const auto solids = solidBoxes(volume, options);
-    if (!solids) return solids.error();
+    SVT_TRY(solids, solidBoxes(volume, options));
     const volume::Grid& grid = volume.grid;
     std::string json = fmt::format(
         "{{\n\"grid\": {{\"dimension\": {}, \"spacing\": {}, \"lowerCorner\": {}, \"axes\": [{}, {}, {}], \"crs\": ",
@@ -71,5 +71,25 @@ Result<std::string> makeBoxJson(const volume::SemanticVolume& volume, const Volu
     }
     return json += "\n]\n}\n";
 }
+
+extern const VolumeFormat kBoxTable{
+    .name = "boxes",
+    .endings = ".boxes.csv",
+    .holds = "the same boxes as a table",
+    .readers = "other solvers, spreadsheets",
+    .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
+        SVT_TRY(table, makeBoxTable(volume, options));
+        return writeFileAtomically(path, *table);
+    }};
+
+extern const VolumeFormat kBoxJson{
+    .name = "boxesjson",
+    .endings = ".boxes.json",
+    .holds = "the same as JSON, with the grid's place",
+    .readers = "other solvers",
+    .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
+        SVT_TRY(json, makeBoxJson(volume, options));
+        return writeFileAtomically(path, *json);
+    }};
 
 }  // namespace svt::writers

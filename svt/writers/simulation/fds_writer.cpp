@@ -1,6 +1,8 @@
+#include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 #include <svt/writers/simulation/fds_writer.hpp>
 #include <svt/writers/simulation/solid_boxes.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
 
@@ -136,8 +138,7 @@ private:
 
 Result<std::string> makeFds(const volume::SemanticVolume& volume, std::string_view name,
                             const VolumeWriteOptions& options) {
-    const auto solids = solidBoxes(volume, options);
-    if (!solids) return solids.error();
+    SVT_TRY(solids, solidBoxes(volume, options));
     const auto groupsOf = [&](const std::vector<std::uint32_t>& labels) {
         std::vector<bool> isChosen(solids->groups.size());
         for (std::size_t g = 0; g < isChosen.size(); ++g)
@@ -151,5 +152,15 @@ Result<std::string> makeFds(const volume::SemanticVolume& volume, std::string_vi
     document.boxes(holes, vents);
     return document.take();
 }
+
+extern const VolumeFormat kFds{
+    .name = "fds",
+    .endings = ".fds",
+    .holds = "geometry for fire and smoke: components as boxes on a mesh of the voxels",
+    .readers = "FDS and Smokeview (NIST), PyroSim",
+    .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
+        SVT_TRY(document, makeFds(volume, path.stem().string(), options));
+        return writeFileAtomically(path, *document);
+    }};
 
 }  // namespace svt::writers

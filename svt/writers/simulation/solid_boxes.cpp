@@ -71,8 +71,7 @@ Result<SolidBoxes> solidBoxes(const volume::SemanticVolume& volume, const Volume
         if (group == result.groups.size()) result.groups.push_back({std::move(name), l, labels[l].color});
         for (volume::Scalar s = labels[l].first; s < labels[l].first + labels[l].count; ++s) groupOfScalar[s] = group;
     }
-    auto boxes = analyze::mergeBoxes(volume.columns, groupOfScalar, options.maxBoxes);
-    if (!boxes) return boxes.error();
+    SVT_TRY(boxes, analyze::mergeBoxes(volume.columns, groupOfScalar, options.maxBoxes));
     result.boxes = std::move(*boxes);
     return result;
 }

@@ -168,8 +168,7 @@ Result<std::string> makeParquet(const Table& table) {
                            !std::all_of(column.cells.begin(), column.cells.end(), isPresent), false});
     ParquetStream stream(std::move(columns));
     std::string file = stream.begin();
-    const auto group = stream.group(table.columns);
-    if (!group) return group.error();
+    SVT_TRY(group, stream.group(table.columns));
     return file + *group + stream.end(table.notes);
 }
 

@@ -1,5 +1,7 @@
 #include <svt/analyze/label_measures.hpp>
+#include <svt/core/file.hpp>
 #include <svt/writers/tables/table_writer.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
 
@@ -113,5 +115,43 @@ Table makeContactTable(const volume::SemanticVolume& volume, int threads) {
     }
     return table;
 }
+
+extern const VolumeFormat kObjects{.name = "objects",
+                                   .endings = ".csv",
+                                   .holds = "a line per object: class, name, parent, volume, surface, box, attributes",
+                                   .readers = "spreadsheets, pandas, databases",
+                                   .write = [](const auto& volume, const auto& path, const auto& options) {
+                                       return writeFileAtomically(path,
+                                                                  makeCsv(makeObjectTable(volume, options.threads)));
+                                   }};
+
+extern const VolumeFormat kContacts{.name = "contacts",
+                                    .endings = ".contacts.csv",
+                                    .holds = "a line per pair of objects that touch: area, faces",
+                                    .readers = "spreadsheets, pandas, databases",
+                                    .write = [](const auto& volume, const auto& path, const auto& options) {
+                                        return writeFileAtomically(path,
+                                                                   makeCsv(makeContactTable(volume, options.threads)));
+                                    }};
+
+extern const VolumeFormat kObjectParquet{
+    .name = "objectparquet",
+    .endings = ".parquet",
+    .holds = "the table of objects as Apache Parquet",
+    .readers = "pandas, DuckDB, Spark, GDAL, R",
+    .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
+        SVT_TRY(bytes, makeParquet(makeObjectTable(volume, options.threads)));
+        return writeFileAtomically(path, *bytes);
+    }};
+
+extern const VolumeFormat kContactParquet{
+    .name = "contactparquet",
+    .endings = ".contacts.parquet",
+    .holds = "the table of contacts as Apache Parquet",
+    .readers = "pandas, DuckDB, Spark, GDAL, R",
+    .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
+        SVT_TRY(bytes, makeParquet(makeContactTable(volume, options.threads)));
+        return writeFileAtomically(path, *bytes);
+    }};
 
 }  // namespace svt::writers

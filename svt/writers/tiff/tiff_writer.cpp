@@ -1,8 +1,10 @@
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 #include <svt/volume/volume_json.hpp>
+#include <svt/writers/dense/format_options.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/tiff/tiff_writer.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
 
@@ -127,11 +129,11 @@ public:
         appendTiff(head, isBig_ ? 43 : 42, 2);
         if (isBig_) appendTiff(head, 8, 4);
         appendTiff(head, isBig_ ? 16 : 8, isBig_ ? 8 : 4);
-        if (auto done = file.write(head); !done) return done;
+        SVT_DO(file.write(head));
         std::uint64_t at = head.size(), data = dataOffset_;
         for (std::int32_t page = 0; page < volume_.grid.dimension().z; ++page) {
             const std::string text = pageText(page, at, data, isBig_);
-            if (auto done = file.write(text); !done) return done;
+            SVT_DO(file.write(text));
             at += text.size();
         }
         return {};
@@ -221,15 +223,13 @@ private:
 
 Result<std::uint64_t> writeTiff(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                 TiffMetadata metadata, const DenseOptions& options) {
-    const auto bits = checkedSampleBits(volume);
-    if (!bits) return bits.error();
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
+    SVT_TRY(bits, checkedSampleBits(volume));
+    SVT_TRY(file, AtomicFile::create(path));
     const Vec3i dimension = volume.grid.dimension();
     const StreamOptions stream{"write", options.threads, options.progress};
     if (!options.isCompressed) {
         const TiffLayout layout(volume, *bits, metadata, static_cast<std::uint64_t>(dimension.y), nullptr);
-        if (auto done = layout.write(*file); !done) return done.error();
+        SVT_DO(layout.write(*file));
         if (auto done = streamSamples(volume.columns, *bits, stream, [&](auto bytes) { return file->write(bytes); });
             !done)
             return done.error();
@@ -238,11 +238,29 @@ Result<std::uint64_t> writeTiff(const volume::SemanticVolume& volume, const std:
     const std::uint64_t rowBytes = sampleBytes({dimension.x, 1, 1}, *bits);
     const std::uint64_t rows = std::clamp<std::uint64_t>(kStripBytes / rowBytes, 1, std::uint64_t(dimension.y));
     ZlibBlocks strips(volume.columns, *bits, {rowBytes * std::uint64_t(dimension.y), rowBytes * rows}, stream);
-    if (auto done = strips.compress(); !done) return done.error();
+    SVT_DO(strips.compress());
     const TiffLayout layout(volume, *bits, metadata, rows, &strips.sizes());
-    if (auto done = layout.write(*file); !done) return done.error();
-    if (auto done = strips.write(*file); !done) return done.error();
+    SVT_DO(layout.write(*file));
+    SVT_DO(strips.write(*file));
     return file->commit();
 }
+
+extern const VolumeFormat kTiff{.name = "tiff",
+                                .endings = ".tif|.tiff",
+                                .holds = "TIFF stack: a page per slice, with ImageJ's metadata",
+                                .readers = "Fiji/ImageJ, tifffile, napari, GDAL",
+                                .isDense = true,
+                                .write = [](const auto& volume, const auto& path, const auto& options) {
+                                    return writeTiff(volume, path, TiffMetadata::ImageJ, denseOptions(options));
+                                }};
+
+extern const VolumeFormat kOmeTiff{.name = "ometiff",
+                                   .endings = ".ome.tif|.ome.tiff",
+                                   .holds = "TIFF stack with OME-XML",
+                                   .readers = "Bio-Formats, tifffile, napari, QuPath",
+                                   .isDense = true,
+                                   .write = [](const auto& volume, const auto& path, const auto& options) {
+                                       return writeTiff(volume, path, TiffMetadata::Ome, denseOptions(options));
+                                   }};
 
 }  // namespace svt::writers

@@ -172,13 +172,11 @@ private:
             labelSurfaces(volume.columns, rootOfScalar(volume.labels), {std::uint64_t{1} << 27, 1, nullptr});
         if (!surfaces) return surfaces.error();
         if (surfaces->empty()) return {};
-        const auto positions = placeVertices(volume, *surfaces, frame_.write.faces, nullptr, 1, nullptr);
-        if (!positions) return positions.error();
+        SVT_TRY(positions, placeVertices(volume, *surfaces, frame_.write.faces, nullptr, 1, nullptr));
         const volume::Grid& grid = volume.grid;
         const Vec3d low = grid.worldFromIndex({-0.5, -0.5, -0.5});
         const Vec3d high = grid.worldFromIndex(toDouble(grid.dimension()) + Vec3d{-0.5, -0.5, -0.5});
-        const auto patch = lattice_->patch({low.x, low.y, high.x, high.y});
-        if (!patch) return patch.error();
+        SVT_TRY(patch, lattice_->patch({low.x, low.y, high.x, high.y}));
         if (content.mesh.positions.empty()) content.origin = patch->place(low);
         const auto& labels = volume.labels.labels;
         for (std::size_t s = 0; s < surfaces->size(); ++s) {
@@ -257,10 +255,9 @@ Result<std::unique_ptr<CityTileset>> CityTileset::create(const std::filesystem::
     // A given place is that of the corner; else the frame touches the globe in the middle.
     Vec3d reference = frame.corner;
     if (!frame.write.place) reference = reference + Vec3d{frame.side / 2, frame.side / 2, 0};
-    auto lattice = GlobeLattice::create(frame.crsName, reference, frame.write);
-    if (!lattice) return lattice.error();
+    SVT_TRY(lattice, GlobeLattice::create(frame.crsName, reference, frame.write));
     auto tileset = std::make_unique<Tileset>(path, frame, std::move(*lattice));
-    if (auto begun = tileset->begin(); !begun) return begun.error();
+    SVT_DO(tileset->begin());
     return std::unique_ptr<CityTileset>(std::move(tileset));
 }
 

@@ -39,8 +39,7 @@ Result<std::unique_ptr<GlobeLattice>> GlobeLattice::create(const std::string& cr
                                                            const VolumeWriteOptions& options) {
     volume::SemanticVolume named;
     named.crsName = crsName;
-    const auto frame = frameOfVolume(named, reference, options);
-    if (!frame) return frame.error();
+    SVT_TRY(frame, frameOfVolume(named, reference, options));
     auto lattice = std::make_unique<GlobeLattice>();
     lattice->frame_ = *frame;
     lattice->inverse_ = inverseOf(frame->axes);
@@ -55,8 +54,7 @@ Result<GlobePatch::Corner> GlobeLattice::cornerAt(std::int64_t i, std::int64_t j
         const std::lock_guard guard(mutex_);
         if (const auto known = corners_.find({i, j}); known != corners_.end()) return known->second;
     }
-    const auto degrees = crs::placeOnEarth(epsg_, {double(i) * kCell, double(j) * kCell, lift_});
-    if (!degrees) return degrees.error();
+    SVT_TRY(degrees, crs::placeOnEarth(epsg_, {double(i) * kCell, double(j) * kCell, lift_}));
     const Vec3d from = crs::earthCentred(*degrees) - frame_.origin, up = crs::frameAt(*degrees).axes[2];
     const auto inFrame = [&](Vec3d v) { return Vec3d{dot(inverse_[0], v), dot(inverse_[1], v), dot(inverse_[2], v)}; };
     const GlobePatch::Corner corner{inFrame(from), inFrame(up)};
@@ -80,8 +78,7 @@ Result<GlobePatch> GlobeLattice::patch(std::array<double, 4> rectangle) {
     patch.columns_ = endI - i + 1;
     for (std::int64_t row = j; row <= endJ; ++row)
         for (std::int64_t column = i; column <= endI; ++column) {
-            const auto corner = cornerAt(column * step, row * step);
-            if (!corner) return corner.error();
+            SVT_TRY(corner, cornerAt(column * step, row * step));
             patch.corners_.push_back(*corner);
         }
     return patch;

@@ -80,7 +80,7 @@ Result<void> QuadtreeIndex::forEachSubtree(
             node.x |= static_cast<std::uint32_t>(morton >> (2 * bit) & 1) << bit;
             node.y |= static_cast<std::uint32_t>(morton >> (2 * bit + 1) & 1) << bit;
         }
-        if (auto taken = take(node, subtreeAt(level, morton)); !taken) return taken;
+        SVT_DO(take(node, subtreeAt(level, morton)));
     }
     return {};
 }

@@ -1,4 +1,5 @@
 #include <svt/writers/tiles3d/tileset_writer.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/tiles3d/feature_glb.hpp>
@@ -18,12 +19,10 @@ Result<std::uint64_t> writeTileset(const volume::SemanticVolume& volume, const s
                                    const VolumeWriteOptions& options) {
     if (options.hasVoxels) return writeVoxelTileset(volume, path, options);
     const Vec3d corner = volume.grid.worldFromIndex({-0.5, -0.5, -0.5});
-    const auto frame = frameOfVolume(volume, corner, options);
-    if (!frame) return frame.error();
+    SVT_TRY(frame, frameOfVolume(volume, corner, options));
     NewFolder folder(path);
-    if (auto made = folder.create(); !made) return made.error();
-    const auto hulls = makeLabelHulls(volume, options);
-    if (!hulls) return hulls.error();
+    SVT_DO(folder.create());
+    SVT_TRY(hulls, makeLabelHulls(volume, options));
     const FeatureTexts texts = featureTexts(volume);
 
     const std::size_t count = hulls->surfaces.size();
@@ -35,10 +34,9 @@ Result<std::uint64_t> writeTileset(const volume::SemanticVolume& volume, const s
         if (Progress::isCancelled(options.progress))
             return Error(Code::Cancelled, "writing the volume was stopped; nothing was left");
         Progress::tell(options.progress, "write", double(begin) / double(count));
-        const auto glb = makeFeatureGlb(*hulls, begin, end, texts);
-        if (!glb) return glb.error();
+        SVT_TRY(glb, makeFeatureGlb(*hulls, begin, end, texts));
         const std::string name = fmt::format("{}.glb", children.size());
-        if (auto done = folder.write(name, *glb); !done) return done.error();
+        SVT_DO(folder.write(name, *glb));
         children.push_back({{"boundingVolume", boundingVolume(boxOfHulls(*hulls, begin, end))},
                             {"geometricError", 0},
                             {"content", {{"uri", name}}}});
@@ -55,8 +53,15 @@ Result<std::uint64_t> writeTileset(const volume::SemanticVolume& volume, const s
         root["children"] = std::move(children);
     const TilesetJson tileset{{"asset", assetOf(volume, corner)}, {"geometricError", size}, {"root", std::move(root)}};
     const std::string text = tileset.dump(1, ' ', false, TilesetJson::error_handler_t::replace) + "\n";
-    if (auto done = folder.write("tileset.json", text); !done) return done.error();
+    SVT_DO(folder.write("tileset.json", text));
     return folder.commit();
 }
+
+extern const VolumeFormat kTileset{
+    .name = "tileset",
+    .endings = ".3dtiles",
+    .holds = "3D Tiles 1.1: a folder with the surfaces on the globe, a table of components in each tile",
+    .readers = "Cesium, Unreal, Unity, ArcGIS",
+    .write = writeTileset};
 
 }  // namespace svt::writers

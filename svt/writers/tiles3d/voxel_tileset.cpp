@@ -163,8 +163,7 @@ Result<std::vector<bool>> writeTiles(const volume::SemanticVolume& volume, const
                             '\0');
     for (int level = octree.levels - 1; level >= 0; --level) {
         const int coarser = octree.levels - 1 - level;
-        auto made = volume::coarseVolume(volume, coarser, options.threads);
-        if (!made) return made.error();
+        SVT_TRY(made, volume::coarseVolume(volume, coarser, options.threads));
         const Vec3d size = scaled(toDouble(octree.tile), made->grid.spacing());
         for (std::int32_t z = 0; z < 1 << level; ++z)
             for (std::int32_t y = 0; y < 1 << level; ++y)
@@ -182,8 +181,7 @@ Result<std::vector<bool>> writeTiles(const volume::SemanticVolume& volume, const
                         isThere[Octree::before(level - 1) + Octree::morton({x / 2, y / 2, z / 2}, level - 1)] = true;
                     const Vec3d centre = scaled(size, toDouble(place) + Vec3d{0.5, 0.5, 0.5});
                     const std::string name = fmt::format("tiles/{}/{}/{}/{}.glb", level, x, y, z);
-                    if (auto done = folder.write(name, tileGlb(bytes, octree.tile, size, centre)); !done)
-                        return done.error();
+                    SVT_DO(folder.write(name, tileGlb(bytes, octree.tile, size, centre)));
                 }
     }
     return isThere;
@@ -193,11 +191,10 @@ Result<std::vector<bool>> writeTiles(const volume::SemanticVolume& volume, const
 
 Result<std::uint64_t> writeVoxelTileset(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                         const VolumeWriteOptions& options) {
-    if (const auto bits = checkedSampleBits(volume); !bits) return bits.error();
+    SVT_DO(checkedSampleBits(volume));
     const volume::Grid& grid = volume.grid;
     const Vec3d corner = grid.worldFromIndex({-0.5, -0.5, -0.5});
-    auto frame = frameOfVolume(volume, corner, options);
-    if (!frame) return frame.error();
+    SVT_TRY(frame, frameOfVolume(volume, corner, options));
     // Tiles lie along the axes of the grid.
     const std::array<Vec3d, 3> world = frame->axes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -205,10 +202,9 @@ Result<std::uint64_t> writeVoxelTileset(const volume::SemanticVolume& volume, co
         frame->axes[axis] = world[0] * along.x + world[1] * along.y + world[2] * along.z;
     }
     NewFolder folder(path);
-    if (auto made = folder.create(); !made) return made.error();
+    SVT_DO(folder.create());
     const Octree octree(grid.dimension());
-    const auto tiles = writeTiles(volume, octree, options, folder);
-    if (!tiles) return tiles.error();
+    SVT_TRY(tiles, writeTiles(volume, octree, options, folder));
     if (!tiles->front()) return Error(Code::NothingSelected, "the volume has no voxels");
     const Vec3i padded = octree.tile * (1 << (octree.levels - 1));
     const Box3d box{{0, 0, 0}, scaled(toDouble(padded), grid.spacing())};
@@ -231,9 +227,9 @@ Result<std::uint64_t> writeVoxelTileset(const volume::SemanticVolume& volume, co
     const TilesetJson tileset{{"asset", assetOf(volume, corner)}, {"schema", voxelSchema()}, {"extensionsUsed", used},
                               {"extensionsRequired", used},       {"geometricError", size},  {"root", root}};
     const std::string text = tileset.dump(1, ' ', false, TilesetJson::error_handler_t::replace) + "\n";
-    if (auto done = folder.write("subtree.subtree", subtreeOf(*tiles)); !done) return done.error();
-    if (auto done = folder.write("labels.json", volume::writeLabelsJson(volume.labels)); !done) return done.error();
-    if (auto done = folder.write("tileset.json", text); !done) return done.error();
+    SVT_DO(folder.write("subtree.subtree", subtreeOf(*tiles)));
+    SVT_DO(folder.write("labels.json", volume::writeLabelsJson(volume.labels)));
+    SVT_DO(folder.write("tileset.json", text));
     return folder.commit();
 }
 

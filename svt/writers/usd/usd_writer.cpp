@@ -1,4 +1,5 @@
 #include <svt/writers/usd/usd_writer.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <svt/analyze/label_measures.hpp>
 #include <svt/writers/dense/piece_writer.hpp>
@@ -122,7 +123,7 @@ private:
             for (std::size_t n = 0; n < count; ++n) {
                 if (n != 0) out_.text += ", ";
                 item(n);
-                if (auto done = out_.flush(); !done) return done;
+                SVT_DO(out_.flush());
             }
             out_.text += "]\n";
             return {};
@@ -157,15 +158,19 @@ private:
 
 Result<std::uint64_t> writeUsd(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const VolumeWriteOptions& options) {
-    const auto hulls = makeLabelHulls(volume, options);
-    if (!hulls) return hulls.error();
+    SVT_TRY(hulls, makeLabelHulls(volume, options));
     for (const Positions& points : hulls->positions)
         if (points.size() > 0x7FFFFFFF)
             return Error(Code::GridTooLarge, "a hull has more points than USD can number; use --level");
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
-    if (auto done = UsdDocument(*hulls, *file).write(); !done) return done.error();
+    SVT_TRY(file, AtomicFile::create(path));
+    SVT_DO(UsdDocument(*hulls, *file).write());
     return file->commit();
 }
+
+extern const VolumeFormat kUsd{.name = "usd",
+                               .endings = ".usda",
+                               .holds = "USD, as text: the surface of each label, nested as the model is",
+                               .readers = "Blender, Omniverse, Houdini, Maya, usdview",
+                               .write = writeUsd};
 
 }  // namespace svt::writers

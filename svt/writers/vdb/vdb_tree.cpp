@@ -185,7 +185,7 @@ Result<void> VdbTree::forEachChild(const Upper& upper, const Visit& visit) const
                 const State state = stateOf(block, value);
                 if (state == State::Empty) continue;
                 const auto number = static_cast<std::size_t>((x * kUpperSide + y) * kUpperSide + z);
-                if (auto done = visit(number, block, state, value); !done) return done;
+                SVT_DO(visit(number, block, state, value));
             }
     }
     return {};

@@ -1,4 +1,6 @@
+#include <svt/writers/dense/format_options.hpp>
 #include <svt/writers/vdb/vdb_writer.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <svt/core/file.hpp>
 #include <svt/volume/volume_json.hpp>
@@ -95,13 +97,13 @@ struct VdbPart {
 Result<void> writeGrid(const VdbGrid& grid, const volume::Grid& samples, AtomicFile& file) {
     const std::string head = gridHead(grid, samples);
     VdbPart topology, buffers;
-    if (auto done = grid.write(topology.sink(), buffers.sink()); !done) return done;
+    SVT_DO(grid.write(topology.sink(), buffers.sink()));
     std::string descriptor = vdbString(grid.name) + vdbString("Tree_float_5_4_3") + vdbString("");
     const std::uint64_t begin = file.size() + descriptor.size() + 3 * sizeof(std::int64_t),
                         leaves = begin + head.size() + topology.size;
     for (const std::uint64_t place : {begin, leaves, leaves + buffers.size})
         appendBytes(descriptor, static_cast<std::int64_t>(place));
-    if (auto done = file.write(descriptor + head); !done) return done;
+    SVT_DO(file.write(descriptor + head));
     const auto sink = [&](std::span<const std::byte> bytes) { return file.write(bytes); };
     auto done = topology.kept.size() == topology.size ? file.write(topology.kept) : grid.write(sink, {});
     if (!done) return done;
@@ -150,19 +152,17 @@ Result<void> checkCubes(const volume::Grid& grid) {
 
 Result<std::uint64_t> writeVdb(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const DenseOptions& options, bool hasLevelSets) {
-    if (const auto bits = checkedSampleBits(volume); !bits) return bits.error();
+    SVT_DO(checkedSampleBits(volume));
     if (volume.labels.scalarCount() > kMostScalars)
         return Error(Code::BadArgument,
                      fmt::format("{} scalars are more than the {} that a float of OpenVDB tells apart",
                                  volume.labels.scalarCount(), kMostScalars));
     if (hasLevelSets)
         if (auto checked = checkCubes(volume.grid); !checked) return checked.error();
-    const auto blocks = VdbBlocks::of(volume.columns, options.threads, options.progress);
-    if (!blocks) return blocks.error();
+    SVT_TRY(blocks, VdbBlocks::of(volume.columns, options.threads, options.progress));
     const std::vector<VdbGrid> grids = gridsOf(volume, *blocks, hasLevelSets);
     if (grids.size() == 1) return Error(Code::NothingSelected, "the volume has no voxels");
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
+    SVT_TRY(file, AtomicFile::create(path));
     std::string head;
     appendBytes(head, kMagic);
     for (const std::uint32_t number : {kFileVersion, kLibraryMajor, kLibraryMinor}) appendBytes(head, number);
@@ -173,12 +173,21 @@ Result<std::uint64_t> writeVdb(const volume::SemanticVolume& volume, const std::
                          {"labels.json", volume::writeLabelsJson(volume.labels)},
                          {"svt.json", volume::writeHeaderJson(volume)}});
     appendBytes(head, static_cast<std::uint32_t>(grids.size()));
-    if (auto done = file->write(head); !done) return done.error();
+    SVT_DO(file->write(head));
     for (std::size_t g = 0; g < grids.size(); ++g) {
         Progress::tell(options.progress, "write", double(g) / double(grids.size()));
-        if (auto done = writeGrid(grids[g], volume.grid, *file); !done) return done.error();
+        SVT_DO(writeGrid(grids[g], volume.grid, *file));
     }
     return file->commit();
 }
+
+extern const VolumeFormat kVdb{.name = "vdb",
+                               .endings = ".vdb",
+                               .holds = "OpenVDB: a grid of labels, a fog volume or level set for each class",
+                               .readers = "Blender, Houdini, Maya, Unreal, OpenVDB",
+                               .isDense = true,
+                               .write = [](const auto& volume, const auto& path, const auto& options) {
+                                   return writeVdb(volume, path, denseOptions(options), options.hasLevelSets);
+                               }};
 
 }  // namespace svt::writers

@@ -1,3 +1,4 @@
+#include <svt/writers/volume_formats.hpp>
 #include <svt/writers/vox/vox_writer.hpp>
 
 #include <svt/analyze/scalar_boxes.hpp>
@@ -159,7 +160,7 @@ public:
             if (Progress::isCancelled(options_.progress)) return cancelled();
             Progress::tell(options_.progress, "write", double(m) / double(models_.size()));
             out.text += modelChunks(models_[m]);
-            if (auto done = out.flush(); !done) return done;
+            SVT_DO(out.flush());
         }
         out.text += end;
         return out.flush(true);
@@ -292,11 +293,17 @@ Result<std::uint64_t> writeVox(const volume::SemanticVolume& volume, const std::
                                  "--max-voxels",
                                  voxels, options.maxVoxels));
     VoxFile vox(volume, options);
-    if (auto done = vox.plan(); !done) return done.error();
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
-    if (auto done = vox.write(*file); !done) return done.error();
+    SVT_DO(vox.plan());
+    SVT_TRY(file, AtomicFile::create(path));
+    SVT_DO(vox.write(*file));
     return file->commit();
 }
+
+extern const VolumeFormat kVox{.name = "vox",
+                               .endings = ".vox",
+                               .holds = "MagicaVoxel: voxels, a group for each label",
+                               .readers = "MagicaVoxel, Blender, Goxel, Unity, Godot",
+                               .isDense = true,
+                               .write = writeVox};
 
 }  // namespace svt::writers

@@ -1,6 +1,8 @@
 #include <svt/core/file.hpp>
 #include <svt/volume/volume_json.hpp>
+#include <svt/writers/dense/format_options.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
+#include <svt/writers/volume_formats.hpp>
 #include <svt/writers/vtk/vti_writer.hpp>
 
 #include <fmt/format.h>
@@ -105,7 +107,7 @@ std::string vtiBeginning(const volume::SemanticVolume& volume, int bits, bool is
 
 Result<void> writeVtkRaw(const volume::SemanticVolume& volume, int bits, const StreamOptions& stream,
                          AtomicFile& file) {
-    if (auto done = file.write(bytesOfNumbers({sampleBytes(volume.grid.dimension(), bits)})); !done) return done;
+    SVT_DO(file.write(bytesOfNumbers({sampleBytes(volume.grid.dimension(), bits)})));
     return streamSamples(volume.columns, bits, stream, [&](auto bytes) { return file.write(bytes); });
 }
 
@@ -114,10 +116,10 @@ Result<void> writeVtkZlib(const volume::SemanticVolume& volume, int bits, const 
                           AtomicFile& file) {
     const std::uint64_t bytes = sampleBytes(volume.grid.dimension(), bits);
     ZlibBlocks blocks(volume.columns, bits, {bytes, kVtkBlockBytes}, stream);
-    if (auto done = blocks.compress(); !done) return done;
+    SVT_DO(blocks.compress());
     std::vector<std::uint64_t> head{blocks.sizes().size(), kVtkBlockBytes, bytes % kVtkBlockBytes};
     head.insert(head.end(), blocks.sizes().begin(), blocks.sizes().end());
-    if (auto done = file.write(bytesOfNumbers(head)); !done) return done;
+    SVT_DO(file.write(bytesOfNumbers(head)));
     return blocks.write(file);
 }
 
@@ -125,17 +127,24 @@ Result<void> writeVtkZlib(const volume::SemanticVolume& volume, int bits, const 
 
 Result<std::uint64_t> writeVti(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const DenseOptions& options) {
-    const auto bits = checkedSampleBits(volume);
-    if (!bits) return bits.error();
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
-    if (auto done = file->write(vtiBeginning(volume, *bits, options.isCompressed)); !done) return done.error();
+    SVT_TRY(bits, checkedSampleBits(volume));
+    SVT_TRY(file, AtomicFile::create(path));
+    SVT_DO(file->write(vtiBeginning(volume, *bits, options.isCompressed)));
     const StreamOptions stream{"write", options.threads, options.progress};
     const auto done =
         options.isCompressed ? writeVtkZlib(volume, *bits, stream, *file) : writeVtkRaw(volume, *bits, stream, *file);
     if (!done) return done.error();
-    if (auto ended = file->write("\n</AppendedData>\n</VTKFile>\n"); !ended) return ended.error();
+    SVT_DO(file->write("\n</AppendedData>\n</VTKFile>\n"));
     return file->commit();
 }
+
+extern const VolumeFormat kVti{.name = "vti",
+                               .endings = ".vti",
+                               .holds = "VTK image data: a cell per voxel, the table of labels as field data",
+                               .readers = "ParaView, VTK, PyVista",
+                               .isDense = true,
+                               .write = [](const auto& volume, const auto& path, const auto& options) {
+                                   return writeVti(volume, path, denseOptions(options));
+                               }};
 
 }  // namespace svt::writers

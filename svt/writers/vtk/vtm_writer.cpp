@@ -1,3 +1,5 @@
+#include <svt/writers/dense/format_options.hpp>
+#include <svt/writers/volume_formats.hpp>
 #include <svt/writers/vtk/vtm_writer.hpp>
 
 #include <svt/core/file.hpp>
@@ -17,9 +19,8 @@ namespace svt::writers {
 
 Result<std::uint64_t> writeVtm(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const DenseOptions& options) {
-    if (const auto bits = checkedSampleBits(volume); !bits) return bits.error();
-    const auto coarser = coarserLevels(volume, options.threads);
-    if (!coarser) return coarser.error();
+    SVT_DO(checkedSampleBits(volume));
+    SVT_TRY(coarser, coarserLevels(volume, options.threads));
     const std::vector<volume::SemanticVolume>& coarse = *coarser;
     std::string text =
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" "
@@ -28,8 +29,7 @@ Result<std::uint64_t> writeVtm(const volume::SemanticVolume& volume, const std::
     for (std::size_t l = 0; l <= coarse.size(); ++l) {
         const std::string name = fmt::format("{}.level{}.vti", path.stem().string(), l);
         files.push_back(path.parent_path() / name);
-        if (auto checked = checkSibling(files.back(), "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<VTKFile"); !checked)
-            return checked.error();
+        SVT_DO(checkSibling(files.back(), "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<VTKFile"));
         text += fmt::format("<DataSet index=\"{}\" name=\"level {}\" file=\"{}\"/>\n", l, l, xmlAttribute(name));
     }
     text += "</vtkMultiBlockDataSet>\n</VTKFile>\n";
@@ -43,5 +43,14 @@ Result<std::uint64_t> writeVtm(const volume::SemanticVolume& volume, const std::
     if (!written) return written;
     return bytes + *written;
 }
+
+extern const VolumeFormat kVtm{.name = "vtm",
+                               .endings = ".vtm",
+                               .holds = "VTK multi-block data: all levels, each a .vti beside it",
+                               .readers = "ParaView, VTK",
+                               .isDense = true,
+                               .write = [](const auto& volume, const auto& path, const auto& options) {
+                                   return writeVtm(volume, path, denseOptions(options));
+                               }};
 
 }  // namespace svt::writers

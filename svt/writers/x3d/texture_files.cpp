@@ -73,7 +73,7 @@ Result<void> writePixelNumbers(const volume::SemanticVolume& volume, int bits, c
                                const StreamOptions& options, AtomicFile& file) {
     const auto width = static_cast<std::size_t>(volume.grid.dimension().x);
     std::string text;
-    return streamSamples(volume.columns, bits, options, [&](std::span<const std::byte> bytes) {
+    return streamSamples(volume.columns, bits, options, [&](std::span<const std::byte> bytes) -> Result<void> {
         // Of some MB at a time: a number takes up to eleven characters.
         const std::size_t count = bytes.size() / std::size_t(bits / 8);
         for (std::size_t begin = 0; begin < count; begin += width) {
@@ -84,10 +84,10 @@ Result<void> writePixelNumbers(const volume::SemanticVolume& volume, int bits, c
                 fmt::format_to(std::back_inserter(text), "{}", codeOf.empty() ? scalar : codeOf[scalar]);
             }
             if (text.size() < std::size_t{1} << 20 && begin + width < count) continue;
-            if (auto done = file.write(text); !done) return done;
+            SVT_DO(file.write(text));
             text.clear();
         }
-        return Result<void>();
+        return {};
     });
 }
 
@@ -111,7 +111,7 @@ Result<std::vector<std::string>> writeSlices(const volume::SemanticVolume& volum
     std::vector<std::byte> pending;
     const auto writeOne = [&](std::span<const std::byte> bytes) -> Result<void> {
         const std::string file = fmt::format("{:04}.png", files.size());
-        if (auto checked = checkSibling(folder / file, "\x89PNG"); !checked) return checked;
+        SVT_DO(checkSibling(folder / file, "\x89PNG"));
         files.push_back(name + "/" + file);
         if (kind == SliceKind::Gray16)
             return writeSlice<std::uint16_t>(bytes, dimension, bits, folder / file,
@@ -151,7 +151,7 @@ Result<SliceAtlas> writeAtlas(const volume::SemanticVolume& volume, int bits, co
                         "an axis; write it coarser by --level, or another kind by --texture",
                         dimension.z, dimension.x, dimension.y, width, height, SliceAtlas::kMaxSide));
     atlas.file = stemOf(document) + ".atlas.png";
-    if (auto checked = checkSibling(document.parent_path() / atlas.file, "\x89PNG"); !checked) return checked.error();
+    SVT_DO(checkSibling(document.parent_path() / atlas.file, "\x89PNG"));
     image::Image<image::Rgba8> picture(static_cast<std::int32_t>(width), static_cast<std::int32_t>(height));
     const auto nx = static_cast<std::uint64_t>(dimension.x), ny = static_cast<std::uint64_t>(dimension.y);
     const auto along = static_cast<std::uint64_t>(atlas.along);
@@ -167,7 +167,7 @@ Result<SliceAtlas> writeAtlas(const volume::SemanticVolume& volume, int bits, co
         return Result<void>();
     });
     if (!done) return done.error();
-    if (auto written = image::writePng(document.parent_path() / atlas.file, picture); !written) return written.error();
+    SVT_DO(image::writePng(document.parent_path() / atlas.file, picture));
     return atlas;
 }
 

@@ -1,5 +1,7 @@
 #include <svt/core/text.hpp>
+#include <svt/writers/dense/format_options.hpp>
 #include <svt/writers/dense/gzip_writer.hpp>
+#include <svt/writers/volume_formats.hpp>
 #include <svt/writers/x3d/x3d_writer.hpp>
 
 #include <fmt/format.h>
@@ -167,8 +169,7 @@ Result<std::string> writeAtlasScene(const volume::SemanticVolume& volume, int bi
                                     const std::filesystem::path& path, const DenseOptions& options) {
     std::vector<std::uint32_t> lookOf;
     for (const std::uint32_t look : palette.lookOfScalar) lookOf.push_back(palette.looks[look]);
-    const auto atlas = writeAtlas(volume, bits, lookOf, path, {"write", options.threads, options.progress});
-    if (!atlas) return atlas.error();
+    SVT_TRY(atlas, writeAtlas(volume, bits, lookOf, path, {"write", options.threads, options.progress}));
     return fmt::format(
         "<ImageTextureAtlas containerField='voxels' url='\"{}\"' numberOfSlices='{}' slicesOverX='{}' "
         "slicesOverY='{}'/>\n<OpacityMapVolumeStyle containerField='renderStyle' opacityFactor='85' "
@@ -179,16 +180,15 @@ Result<std::string> writeAtlasScene(const volume::SemanticVolume& volume, int bi
 /// An NRRD as browsers read it: bytes, components first.
 Result<void> writeColorNrrd(const volume::SemanticVolume& volume, int bits, const std::vector<std::uint32_t>& codes,
                             const std::filesystem::path& path, const DenseOptions& options) {
-    if (auto checked = checkSibling(path, "NRRD000"); !checked) return checked;
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
+    SVT_DO(checkSibling(path, "NRRD000"));
+    SVT_TRY(file, AtomicFile::create(path));
     const Vec3i dimension = volume.grid.dimension();
     const Vec3d spacing = volume.grid.spacing();
     const std::string head = fmt::format(
         "NRRD0004\ntype: uint8\ndimension: 4\nsizes: 3 {} {} {}\nspacings: nan {} {} {}\n"
         "kinds: RGB-color domain domain domain\nencoding: {}\n\n",
         dimension.x, dimension.y, dimension.z, spacing.x, spacing.y, spacing.z, options.isCompressed ? "gzip" : "raw");
-    if (auto done = file->write(head); !done) return done;
+    SVT_DO(file->write(head));
     GzipWriter gzip(*file, options.threads);
     std::vector<std::byte> colors;
     auto done = streamSamples(volume.columns, bits, {"write", options.threads, options.progress},
@@ -218,7 +218,7 @@ Result<void> writePixels(const volume::SemanticVolume& volume, int bits, const s
                                            dimension.y, dimension.z));
         !done)
         return done;
-    if (auto done = writePixelNumbers(volume, bits, codes, stream, file); !done) return done;
+    SVT_DO(writePixelNumbers(volume, bits, codes, stream, file));
     return file.write(fmt::format("'>{}</PixelTexture3D>\n", kNearest));
 }
 
@@ -228,8 +228,7 @@ Result<std::string> writeBesideScene(const volume::SemanticVolume& volume, int b
                                      TextureKind kind, const DenseOptions& options) {
     if (kind == TextureKind::Image) {
         const std::string nrrd = stemOf(path) + ".labels.nrrd";
-        if (auto done = writeColorNrrd(volume, bits, codes, path.parent_path() / nrrd, options); !done)
-            return done.error();
+        SVT_DO(writeColorNrrd(volume, bits, codes, path.parent_path() / nrrd, options));
         return fmt::format("<ImageTexture3D containerField='voxels' url='\"{}\"'>{}</ImageTexture3D>\n",
                            xmlAttribute(nrrd), kNearest);
     }
@@ -246,8 +245,7 @@ Result<std::string> writeBesideScene(const volume::SemanticVolume& volume, int b
 
 Result<std::uint64_t> writeX3d(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                TextureKind kind, std::uint64_t maxVoxels, const DenseOptions& options) {
-    const auto bits = checkedSampleBits(volume);
-    if (!bits) return bits.error();
+    SVT_TRY(bits, checkedSampleBits(volume));
     if (volume.labels.scalarCount() > 65536)
         return Error(Code::BadArgument,
                      fmt::format("{} scalars are more than the 65536 that a texture of X3D can colour; build without "
@@ -259,22 +257,29 @@ Result<std::uint64_t> writeX3d(const volume::SemanticVolume& volume, const std::
     const std::vector<std::uint32_t> codes = codesOf(palette);
     std::string beside;
     if (kind != TextureKind::Pixel) {
-        auto written = kind == TextureKind::Atlas ? writeAtlasScene(volume, *bits, palette, path, options)
-                                                  : writeBesideScene(volume, *bits, codes, path, kind, options);
-        if (!written) return written.error();
+        SVT_TRY(written, kind == TextureKind::Atlas ? writeAtlasScene(volume, *bits, palette, path, options)
+                                                    : writeBesideScene(volume, *bits, codes, path, kind, options));
         beside = std::move(*written);
     }
-    auto file = AtomicFile::create(path);
-    if (!file) return file.error();
+    SVT_TRY(file, AtomicFile::create(path));
     const bool hasLabels = kind != TextureKind::Atlas;
-    if (auto done = file->write(beginningOfX3d(volume, palette, hasLabels)); !done) return done.error();
+    SVT_DO(file->write(beginningOfX3d(volume, palette, hasLabels)));
     const StreamOptions stream{"write", options.threads, options.progress};
     const auto done =
         kind == TextureKind::Pixel ? writePixels(volume, *bits, codes, stream, *file) : file->write(beside);
     if (!done) return done.error();
-    if (auto ended = file->write((hasLabels ? endOfX3d(palette) : std::string()) + kEndOfScene); !ended)
-        return ended.error();
+    SVT_DO(file->write((hasLabels ? endOfX3d(palette) : std::string()) + kEndOfScene));
     return file->commit();
 }
+
+extern const VolumeFormat kX3d{
+    .name = "x3d",
+    .endings = ".x3d",
+    .holds = "X3D 4.0: a 3D texture as SegmentedVolumeData, with transfer function and features",
+    .readers = "X_ITE, Castle, InstantReality; X3DOM by --texture atlas",
+    .isDense = true,
+    .write = [](const auto& volume, const auto& path, const auto& options) {
+        return writeX3d(volume, path, options.texture, options.maxVoxels, denseOptions(options));
+    }};
 
 }  // namespace svt::writers

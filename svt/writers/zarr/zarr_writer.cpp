@@ -1,9 +1,11 @@
 #include <svt/core/check.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/writers/dense/coarser_levels.hpp>
+#include <svt/writers/dense/format_options.hpp>
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/dense/sample_band.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
+#include <svt/writers/volume_formats.hpp>
 #include <svt/writers/zarr/zarr_metadata.hpp>
 #include <svt/writers/zarr/zarr_writer.hpp>
 
@@ -89,7 +91,7 @@ Result<void> writeArray(const volume::ColumnVolume& columns, const std::string& 
                 if (files[f].empty()) continue;
                 const std::string name = fmt::format("{}/{}/{}/{}", folder, k / shape.file, j / shape.file, f);
                 const std::string_view text(reinterpret_cast<const char*>(files[f].data()), files[f].size());
-                if (auto done = to.write(name, text); !done) return done;
+                SVT_DO(to.write(name, text));
             }
         }
     }
@@ -100,20 +102,17 @@ Result<void> writeArray(const volume::ColumnVolume& columns, const std::string& 
 
 Result<std::uint64_t> writeZarr(const volume::SemanticVolume& volume, const fs::path& path, int version,
                                 const DenseOptions& options) {
-    const auto bits = checkedSampleBits(volume);
-    if (!bits) return bits.error();
+    SVT_TRY(bits, checkedSampleBits(volume));
     SVT_CHECK(version == 2 || version == 3);
     NewFolder folder(path);
-    if (auto made = folder.create(); !made) return made.error();
-    const auto coarser = coarserLevels(volume, options.threads);
-    if (!coarser) return coarser.error();
+    SVT_DO(folder.create());
+    SVT_TRY(coarser, coarserLevels(volume, options.threads));
     const std::vector<volume::SemanticVolume>& coarse = *coarser;
     std::vector<volume::Grid> grids{volume.grid};
     for (const volume::SemanticVolume& level : coarse) grids.push_back(level.grid);
     if (version == 2)
         if (auto done = folder.write(".zgroup", "{\"zarr_format\": 2}\n"); !done) return done.error();
-    if (auto done = folder.write(version == 2 ? ".zattrs" : "zarr.json", zarrGroupJson(volume, grids, version)); !done)
-        return done.error();
+    SVT_DO(folder.write(version == 2 ? ".zattrs" : "zarr.json", zarrGroupJson(volume, grids, version)));
     const ZarrShape shape = zarrShape(version);
     for (std::size_t l = 0; l < grids.size(); ++l) {
         const std::string name = std::to_string(l);
@@ -123,12 +122,20 @@ Result<std::uint64_t> writeZarr(const volume::SemanticVolume& volume, const fs::
             return done.error();
         const volume::ColumnVolume& columns = l == 0 ? volume.columns : coarse[l - 1].columns;
         const std::string chunks = version == 2 ? name : name + "/c";
-        const auto done = *bits == 8    ? writeArray<std::uint8_t>(columns, chunks, shape, options, folder)
-                          : *bits == 16 ? writeArray<std::uint16_t>(columns, chunks, shape, options, folder)
-                                        : writeArray<std::uint32_t>(columns, chunks, shape, options, folder);
-        if (!done) return done.error();
+        SVT_TRY(done, *bits == 8    ? writeArray<std::uint8_t>(columns, chunks, shape, options, folder)
+                      : *bits == 16 ? writeArray<std::uint16_t>(columns, chunks, shape, options, folder)
+                                    : writeArray<std::uint32_t>(columns, chunks, shape, options, folder));
     }
     return folder.commit();
 }
+
+extern const VolumeFormat kZarr{.name = "zarr",
+                                .endings = ".zarr",
+                                .holds = "Zarr v2 or v3 with OME-NGFF: a folder with all levels, colours and names",
+                                .readers = "zarr-python, zarrita, napari, neuroglancer, vizarr",
+                                .isDense = true,
+                                .write = [](const auto& volume, const auto& path, const auto& options) {
+                                    return writeZarr(volume, path, options.zarrVersion, denseOptions(options));
+                                }};
 
 }  // namespace svt::writers

@@ -1,7 +1,6 @@
 // serve and view where the program runs under Node.js: the site is written into a temporary folder, which Node.js serves
 // when main() has returned (web/npm/lib/server.mjs). Models are drawn by the page alone, and none are converted.
-#include <apps/cli/commands/commands.hpp>
-#include <apps/cli/options/site_options.hpp>
+#include <apps/cli/commands/serve_arguments.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
 
@@ -15,20 +14,6 @@ EM_JS(void, svtHostServe, (const char* orders), { Module["host"]["serve"](JSON.p
 // clang-format on
 
 namespace svt::cli {
-namespace {
-
-struct ServeArguments {
-    std::vector<std::filesystem::path> inputs;
-    SiteArguments site;
-    std::string host = "127.0.0.1";
-    std::optional<int> port;
-    std::vector<std::string> hostNames;
-    bool allowUploads = false;
-    std::uint64_t maxUploadMb = 0, convertMemoryMb = 0;
-    double convertSeconds = 0;
-    bool isView = false, noBrowser = false;
-};
-
 int runServe(const ServeArguments& arguments) {
     if (arguments.allowUploads)
         return fail(
@@ -46,41 +31,15 @@ int runServe(const ServeArguments& arguments) {
     if (folder.path().empty())
         return fail(Error(Code::CannotWrite, "there is no folder for temporary files; set TMPDIR to one"));
     if (const auto written = serve::writeSite(*site, folder.path(), true); !written) return fail(written.error());
-    constexpr int kUsualPort = 8080;
     Json orders;
     orders["folder"] = folder.path().string();
     orders["host"] = arguments.host;
-    orders["port"] = arguments.port.value_or(arguments.isView ? 0 : kUsualPort);
+    orders["port"] = arguments.wantedPort();
     orders["mayTakeOtherPort"] = !arguments.port;
     orders["hostNames"] = arguments.hostNames;
     orders["opensBrowser"] = arguments.isView && !arguments.noBrowser;
     svtHostServe(orders.dump().c_str());
     return kDone;
-}
-
-}  // namespace
-
-Action connectServe(Command& command) {
-    auto arguments = std::make_shared<ServeArguments>();
-    command.set("input", arguments->inputs);
-    command.set("--port", arguments->port);
-    command.set("--host", arguments->host);
-    command.set("--allow-host", arguments->hostNames);
-    command.set("--allow-uploads", arguments->allowUploads);
-    command.set("--max-upload", arguments->maxUploadMb);
-    command.set("--convert-memory", arguments->convertMemoryMb);
-    command.set("--convert-seconds", arguments->convertSeconds);
-    arguments->site.connect(command);
-    return [arguments] { return runServe(*arguments); };
-}
-
-Action connectView(Command& command) {
-    auto arguments = std::make_shared<ServeArguments>();
-    arguments->isView = true;
-    command.set("input", arguments->inputs);
-    command.set("--no-browser", arguments->noBrowser);
-    arguments->site.connect(command);
-    return [arguments] { return runServe(*arguments); };
 }
 
 }  // namespace svt::cli

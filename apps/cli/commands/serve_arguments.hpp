@@ -1,0 +1,36 @@
+#pragma once
+/// \file
+/// serve and view: their options, and what runs them. The program for Linux serves by itself, the one for Node.js lets
+/// Node.js serve.
+
+#include <apps/cli/options/site_options.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace svt::cli {
+
+struct ServeArguments {
+    std::vector<std::filesystem::path> inputs;
+    SiteArguments site;
+    std::string host = "127.0.0.1";
+    std::optional<int> port;  ///< unset: wantedPort(), or the next that is free
+    std::vector<std::string> hostNames;
+    bool allowUploads = false;
+    std::uint64_t maxUploadMb = 0, convertMemoryMb = 0;
+    double convertSeconds = 0;
+    bool isView = false;  ///< a browser is opened, unless noBrowser
+    bool noBrowser = false;
+
+    /// The port to listen at; 0: any.
+    [[nodiscard]] int wantedPort() const noexcept { return port.value_or(isView ? 0 : 8080); }
+};
+
+/// Serves until a signal ends it. Defined once for each platform.
+/// \return the exit code
+int runServe(const ServeArguments& arguments);
+
+}  // namespace svt::cli
