@@ -50,6 +50,7 @@ result=0
 for i in "${!names[@]}"; do
   wait "${processes[$i]}" && continue
   echo "check: ${names[$i]} failed (${remedies[$i]}); see $logs/${names[$i]}.log" >&2
+  grep -v '^$' "$logs/${names[$i]}.log" | head -n 5 >&2 || true
   result=1
 done
 exit $result

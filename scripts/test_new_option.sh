@@ -10,7 +10,7 @@ cd "$copy"
 
 # The two lines of docs/dev/howto/add-an-option.md.
 field='    double haze = 0;  ///< between the viewer and the building, 0 to 1'
-member='        member<\&Scene::haze>({.name = "haze", .least = 0, .most = 1, .help = "thickness of the haze", .group = "Illustrate", .option = "--haze"}),'
+member='        member<\&Scene::haze>("haze", "thickness of the haze", {.least = 0, .most = 1, .group = "Illustrate", .option = "--haze"}),'
 sed -i "/^    bool hasNorthArrow = false;/i\\$field" svt/illustrate/scene.hpp
 sed -i "/^        member<&Scene::hasNorthArrow>/i\\$member" svt/illustrate/scene/scene_members.cpp
 

@@ -25,12 +25,15 @@ struct FeatureReference {
 };
 
 std::shared_ptr<ModelObject> readModel(const Paths& paths, const std::string& crs, bool keepFarFeatures,
-                                       bool allowTruncated, const py::object& report) {
+                                       bool allowTruncated, bool extrudeFootprints, bool splitLayers,
+                                       const py::object& report) {
     auto read = std::make_shared<ModelObject>();
     readers::ReadOptions options;
     options.crs = valueOf(cli::parseCrs(crs));
     options.keepFarFeatures = keepFarFeatures;
     options.allowTruncated = allowTruncated;
+    options.extrudeFootprints = extrudeFootprints;
+    options.splitLayers = splitLayers;
     read->model = longCall(report, [&](const Progress* progress) {
         options.progress = progress;
         return pipeline::readModels(paths, options, &read->findings);
@@ -162,7 +165,7 @@ void bindModels(py::module_& module) {
             return FeatureReference{m, static_cast<std::uint32_t>(index)};
         });
     module.def("read", &readModel, py::arg("paths"), py::arg("crs"), py::arg("keep_far_features"),
-               py::arg("allow_truncated"), py::arg("progress"));
+               py::arg("allow_truncated"), py::arg("extrude_footprints"), py::arg("layers"), py::arg("progress"));
     module.def("build_files", &buildFiles, py::arg("paths"), py::arg("options"), py::arg("vectors"), py::arg("grid_of"),
                py::arg("progress"));
     module.def("build_model", &buildModel, py::arg("model"), py::arg("options"), py::arg("vectors"), py::arg("grid_of"),

@@ -78,6 +78,8 @@ def read(
     crs: str | int = "",
     keep_far_features: bool = False,
     allow_truncated: bool = False,
+    extrude_footprints: bool = False,
+    layers: bool = False,
     progress: Progress = None,
 ) -> Model:
     """Read a model: CityGML, CityJSON, CityJSONSeq or IFC, plain or gzip; the content tells which.
@@ -92,6 +94,10 @@ def read(
         Keep features that lie far away from all others.
     allow_truncated
         Read a file that was cut off (IFC, CityJSONSeq) up to the cut; a finding says so.
+    extrude_footprints
+        Make bodies of footprints that have a height as attribute.
+    layers
+        IFC: split walls and slabs into the layers of their material.
     progress
         Called with (stage, fraction).
 
@@ -100,7 +106,11 @@ def read(
     svt.Error
         E101 to E137, when the file cannot be read.
     """
-    return Model(_native.read(paths_of(paths), str(crs or ""), keep_far_features, allow_truncated, progress))
+    return Model(
+        _native.read(
+            paths_of(paths), str(crs or ""), keep_far_features, allow_truncated, extrude_footprints, layers, progress
+        )
+    )
 
 
 def sample(kind: str = "house", path: PathLike | None = None, *, seed: int = 1) -> str:

@@ -35,7 +35,7 @@ enum class FileUse : std::uint8_t {
 /// The declaration of an option of the command line or of a member of a JSON file.
 struct Option {
     /// "--fov", "-o,--output"; "input" of an argument; "/camera/zoom" of a file, * for any index.
-    std::string_view name;
+    std::string_view name{};
     OptionKind kind = OptionKind::Text;
     std::string_view value{};  ///< what stands for the value in help: "QUERY", "F.svt"; empty: by kind
     std::string_view unit{};   ///< of numbers: "metres", "pixels", "degrees"; empty: none

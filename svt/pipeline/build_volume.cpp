@@ -364,14 +364,9 @@ Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions&
 Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, const BuildOptions& options,
                                 Diagnostics* log) {
     const auto start = Clock::now();
-    readers::ReadOptions reading;
+    readers::ReadOptions reading = options.read;
     reading.threads = options.threads;
     reading.progress = options.progress;
-    reading.crs = options.crs;
-    reading.splitLayers = options.splitLayers;
-    reading.keepFarFeatures = options.keepFarFeatures;
-    reading.extrudeFootprints = options.extrudeFootprints;
-    reading.allowTruncated = options.allowTruncated;
     SVT_TRY(model, readModels(files, reading, log));
     const double readSeconds = secondsSince(start);
     SVT_TRY(output, buildFrom(*model, options, false, log));

@@ -34,11 +34,7 @@ struct BuildOptions {
     AxesKind axes = AxesKind::World;
     std::optional<volume::Grid> grid;  ///< grid of another volume; dimension, spacing and axes are then ignored
     model::LodChoice lod;
-    int crs = 0;  ///< EPSG code of a projection in metres that files are brought to; 0: see ReadOptions
-    bool keepFarFeatures = false;      ///< features of files that lie far away from all others are not left out
-    bool extrudeFootprints = false;    ///< footprints with a height as attribute become bodies
-    bool allowTruncated = false;       ///< read files that were cut off up to the cut
-    bool splitLayers = false;          ///< walls and slabs of IFC files become the layers of their material
+    readers::ReadOptions read;         ///< of files; threads and progress are those below
     bool assignThematicBodies = true;  ///< assigns material between hull and rooms to the nearest boundary surface
     bool usePatterns = false;          ///< use the patterns of the built-in style
     voxelize::SheetMode sheets = voxelize::SheetMode::Thin;

@@ -5,8 +5,8 @@
 ///
 ///     record::Members<Sun> membersOf(const Sun*) noexcept {
 ///         static constexpr record::Member<Sun> kMembers[] = {
-///             member<&Sun::time>({.name = "time", .help = "date and hour", .isRequired = true}),
-///             member<&Sun::size>({.name = "size", .unit = "degrees", .least = 0, .most = 20, .help = "diameter"})};
+///             member<&Sun::time>("time", "date and hour", {.isRequired = true}),
+///             member<&Sun::size>("size", "diameter", {.unit = "degrees", .least = 0, .most = 20})};
 ///         return kMembers;
 ///     }
 ///
@@ -457,7 +457,10 @@ struct Binding {
         return {};
     }
 
-    static constexpr Member<Owner> member(Option option, bool isAlwaysWritten) {
+    static constexpr Member<Owner> member(std::string_view name, std::string_view help, Option option,
+                                          bool isAlwaysWritten) {
+        option.name = name;
+        option.help = help;
         Form::describe(option);
         Member<Owner> made{option, read,      isAlwaysWritten || option.isRequired ? writeAlways : write,
                            set,    byDefault, Form::list};
@@ -471,23 +474,26 @@ struct Binding {
 enum class Written : bool { IfSet, Always };
 
 /// Declares the member of a struct that is kept in `Field`, or, of a chain of fields, in the last.
+/// \param option  further parts of the declaration
 template <auto Field, auto... Further>
-[[nodiscard]] constexpr auto member(Option option, Written written = Written::IfSet) {
+[[nodiscard]] constexpr auto member(std::string_view name, std::string_view help, Option option = {},
+                                    Written written = Written::IfSet) {
     using Owner = typename detail::FieldOf<decltype(Field)>::OwnerType;
-    return detail::Binding<Owner, void, Field, Further...>::member(option, written == Written::Always);
+    return detail::Binding<Owner, void, Field, Further...>::member(name, help, option, written == Written::Always);
 }
 
 /// The same with a codec of its own; of an optional field, the codec of its value.
 template <class As, auto Field, auto... Further>
-[[nodiscard]] constexpr auto memberAs(Option option, Written written = Written::IfSet) {
+[[nodiscard]] constexpr auto memberAs(std::string_view name, std::string_view help, Option option = {},
+                                      Written written = Written::IfSet) {
     using Owner = typename detail::FieldOf<decltype(Field)>::OwnerType;
-    return detail::Binding<Owner, As, Field, Further...>::member(option, written == Written::Always);
+    return detail::Binding<Owner, As, Field, Further...>::member(name, help, option, written == Written::Always);
 }
 
 /// Declares a member that a codec reads into the whole struct.
 template <class Owner, class As>
-[[nodiscard]] constexpr Member<Owner> memberOf(Option option) {
-    return detail::Binding<Owner, As>::member(option, true);
+[[nodiscard]] constexpr Member<Owner> memberOf(std::string_view name, std::string_view help, Option option = {}) {
+    return detail::Binding<Owner, As>::member(name, help, option, true);
 }
 
 }  // namespace svt::record

@@ -35,8 +35,8 @@ struct Cart {
 
 Members<Wheel> membersOf(const Wheel*) noexcept {
     static constexpr Member<Wheel> kMembers[] = {
-        member<&Wheel::kind>({.name = "kind", .help = "wood", .isRequired = true}),
-        member<&Wheel::radius>({.name = "radius", .unit = "metres", .least = 0.1, .most = 2, .help = "radius"})};
+        member<&Wheel::kind>("kind", "wood", {.isRequired = true}),
+        member<&Wheel::radius>("radius", "radius", {.unit = "metres", .least = 0.1, .most = 2})};
     return kMembers;
 }
 
@@ -46,18 +46,18 @@ void checkMembers(Faults& faults, const std::string& path, const Wheel& wheel) {
 
 Members<Cart> membersOf(const Cart*) noexcept {
     static constexpr Member<Cart> kMembers[] = {
-        memberOf<Cart, FormatName<Cart>>({.name = "format", .choices = "cart", .help = "a cart"}),
-        memberOf<Cart, FormatVersion<Cart>>({.name = "version", .least = 1, .most = 3, .help = "version"}),
-        member<&Cart::seats>({.name = "seats", .least = 1, .most = 9, .help = "seats"}),
-        member<&Cart::isOpen>({.name = "open", .help = "has no roof"}),
-        member<&Cart::side>({.name = "side", .help = "side of the driver"}),
-        member<&Cart::name>({.name = "name", .otherwise = "that of the owner", .help = "name"}),
-        member<&Cart::load>({.name = "load", .least = 0, .most = 1000, .help = "load"}),
-        member<&Cart::hook>({.name = "hook", .least = -10, .most = 10, .help = "place of the hook"}),
-        member<&Cart::lamp, &Lamp::strength>({.name = "lamp", .least = 0, .most = 1, .help = "strength of the lamp"}),
-        member<&Cart::spare>({.name = "spare", .help = "spare wheel"}),
-        member<&Cart::goods>({.name = "goods", .help = "goods"}),
-        member<&Cart::wheels>({.name = "wheels", .least = 1, .most = 4, .help = "wheels"}, Written::Always)};
+        memberOf<Cart, FormatName<Cart>>("format", "a cart", {.choices = "cart"}),
+        memberOf<Cart, FormatVersion<Cart>>("version", "version", {.least = 1, .most = 3}),
+        member<&Cart::seats>("seats", "seats", {.least = 1, .most = 9}),
+        member<&Cart::isOpen>("open", "has no roof"),
+        member<&Cart::side>("side", "side of the driver"),
+        member<&Cart::name>("name", "name", {.otherwise = "that of the owner"}),
+        member<&Cart::load>("load", "load", {.least = 0, .most = 1000}),
+        member<&Cart::hook>("hook", "place of the hook", {.least = -10, .most = 10}),
+        member<&Cart::lamp, &Lamp::strength>("lamp", "strength of the lamp", {.least = 0, .most = 1}),
+        member<&Cart::spare>("spare", "spare wheel"),
+        member<&Cart::goods>("goods", "goods"),
+        member<&Cart::wheels>("wheels", "wheels", {.least = 1, .most = 4}, Written::Always)};
     return kMembers;
 }
 

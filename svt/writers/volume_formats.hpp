@@ -3,6 +3,7 @@
 /// The formats that a volume can be written in: the one table that `svt convert`, its help, the completions of shells and
 /// the manual are made from, and the call that writes any of them.
 
+#include <svt/core/file_content.hpp>
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -60,6 +61,7 @@ struct VolumeFormat {
     std::string_view endings;
     std::string_view holds;    ///< content, for the manual
     std::string_view readers;  ///< programs that read it
+    FileContent content;       ///< kind of files that it may replace; Nothing: a folder
     bool isDense = false;      ///< every sample is written
     /// Writes a file, see writeVolume().
     Result<std::uint64_t> (*write)(const volume::SemanticVolume& volume, const std::filesystem::path& path,

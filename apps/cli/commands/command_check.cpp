@@ -26,8 +26,8 @@ struct CheckArguments {
     std::string format = "text";
     validate::ValidateOptions validation;
     double lod = -1;
-    std::string crs;
-    bool json = false, verbose = false, keepFarFeatures = false, extrudeFootprints = false, allowTruncated = false;
+    ReadArguments reading;
+    bool json = false, verbose = false;
 };
 
 // Why the volume of an object cannot be told although its mesh is closed; Internal: it can. A polygon that is not valid
@@ -242,20 +242,16 @@ Result<void> report(const CheckArguments& arguments, const Checked& checked, con
 int runCheck(const CheckArguments& arguments) {
     if (arguments.inputs.size() == 1 && isCity(arguments.inputs[0])) return checkCity(arguments.inputs[0]);
     Diagnostics diagnostics;
-    const auto crs = parseCrs(arguments.crs);
-    if (!crs) return fail(crs.error());
+    auto options = arguments.reading.options();
+    if (!options) return fail(options.error());
     std::optional<TerminalProgress> progress(std::in_place);
     const auto stop = [&](const Error& error) {
         progress.reset();
         printDiagnostics(diagnostics, arguments.verbose);
         return fail(error);
     };
-    readers::ReadOptions reading;
+    readers::ReadOptions& reading = *options;
     reading.progress = progress->get();
-    reading.crs = *crs;
-    reading.keepFarFeatures = arguments.keepFarFeatures;
-    reading.extrudeFootprints = arguments.extrudeFootprints;
-    reading.allowTruncated = arguments.allowTruncated;
     const bool isText = !arguments.json && arguments.format == "text";
     if (isText && arguments.report.empty() && arguments.inputs.size() == 1 && isWorthBatches(arguments.inputs[0])) {
         const auto done = checkInBatches(
@@ -287,10 +283,7 @@ Action connectCheck(Command& command) {
     command.set("--overlap", arguments->validation.overlap);
     command.set("--report", arguments->report);
     command.set("--format", arguments->format);
-    command.set("--crs", arguments->crs);
-    command.set("--keep-far-features", arguments->keepFarFeatures);
-    command.set("--extrude-footprints", arguments->extrudeFootprints);
-    command.set("--allow-truncated", arguments->allowTruncated);
+    arguments->reading.connect(command);
     command.set("--json", arguments->json);
     command.set("--verbose", arguments->verbose);
     return [arguments] { return runCheck(*arguments); };

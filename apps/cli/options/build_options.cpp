@@ -48,17 +48,28 @@ Result<int> parseCrs(const std::string& text) {
     return code;
 }
 
+void ReadArguments::connect(Command& command) {
+    command.set("--crs", crs);
+    command.set("--keep-far-features", read.keepFarFeatures);
+    command.set("--extrude-footprints", read.extrudeFootprints);
+    command.set("--allow-truncated", read.allowTruncated);
+    if (command.has("--layers")) command.set("--layers", read.splitLayers);
+}
+
+Result<readers::ReadOptions> ReadArguments::options() const {
+    SVT_TRY(code, parseCrs(crs));
+    readers::ReadOptions options = read;
+    options.crs = *code;
+    return options;
+}
+
 void BuildArguments::connect(Command& command) {
+    reading.connect(command);
     command.set("--dimension", dimension);
     command.set("--spacing", spacing);
     command.set("--axes", axes);
     command.set("--lod", lod);
     command.set("--no-bodies", noBodies);
-    command.set("--crs", crs);
-    command.set("--keep-far-features", keepFarFeatures);
-    command.set("--extrude-footprints", extrudeFootprints);
-    command.set("--allow-truncated", allowTruncated);
-    command.set("--layers", layers);
     command.set("--style", style);
     command.set("--patterns", patterns);
     command.set("--sheets", sheets);
@@ -106,12 +117,8 @@ Result<pipeline::BuildOptions> BuildArguments::options(std::optional<pipeline::S
     options.sheets = sheets == "thin" ? voxelize::SheetMode::Thin : voxelize::SheetMode::Conservative;
     options.keepThinParts = !noThin;
     options.threads = threads;
-    SVT_TRY(code, parseCrs(crs));
-    options.crs = *code;
-    options.keepFarFeatures = keepFarFeatures;
-    options.extrudeFootprints = extrudeFootprints;
-    options.allowTruncated = allowTruncated;
-    options.splitLayers = layers;
+    SVT_TRY(read, reading.options());
+    options.read = *read;
     options.vectors = vectors;
     if (!style.empty()) {
         SVT_TRY(sheet, pipeline::readStyleSheet(style));

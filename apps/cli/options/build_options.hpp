@@ -15,12 +15,22 @@
 
 namespace svt::cli {
 
+/// Options shared by all commands that read models.
+struct ReadArguments {
+    readers::ReadOptions read;
+    std::string crs;
+
+    void connect(Command& command);
+    /// The checked options.
+    [[nodiscard]] Result<readers::ReadOptions> options() const;
+};
+
 /// Options shared by all commands that turn models into volumes.
 struct BuildArguments {
-    std::string dimension, spacing, axes, sheets, style, crs;
+    ReadArguments reading;
+    std::string dimension, spacing, axes, sheets, style;
     double lod = -1;
-    bool noBodies = false, patterns = false, noThin = false, keepFarFeatures = false, extrudeFootprints = false,
-         allowTruncated = false, layers = false;
+    bool noBodies = false, patterns = false, noThin = false;
     int threads = 0;
     pipeline::VectorChoice vectors;  ///< not an option of all commands
 

@@ -213,6 +213,10 @@ Command::Command(const CommandText& text) : text_(&text) {
     }
 }
 
+bool Command::has(std::string_view option) const noexcept {
+    return std::ranges::any_of(connections_, [&](const Connection& any) { return longName(any.option) == option; });
+}
+
 Command::Connection& Command::connection(std::string_view option) {
     const auto found = std::ranges::find_if(
         connections_, [&](const Connection& connection) { return longName(connection.option) == option; });

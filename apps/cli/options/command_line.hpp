@@ -42,6 +42,8 @@ public:
     /// Values of all options that set a member of a scene (Option::member) go to `to`, in the order of the catalog.
     void takeMembers(std::vector<illustrate::GivenMember>& to);
 
+    [[nodiscard]] bool has(std::string_view option) const noexcept;
+
     /// The default of an option, as it would be written; empty: none.
     [[nodiscard]] std::string_view byDefault(std::string_view option) { return connection(option).option.byDefault; }
 

@@ -1,6 +1,5 @@
 #include <apps/cli/output/file_content.hpp>
 
-#include <svt/core/check.hpp>
 #include <svt/volume/svt_file.hpp>
 #include <svt/writers/volume_formats.hpp>
 
@@ -9,7 +8,6 @@
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace svt::cli {
@@ -40,48 +38,10 @@ constexpr FileFormat kFormats[] = {
     {"ifc", ".ifc", FileContent::Ifc},
 };
 
-// What the formats of volumes take the place of: writers::volumeFormats() has their names and endings.
-constexpr std::pair<std::string_view, FileContent> kVolumeContents[] = {
-    {"nrrd", FileContent::Nrrd},
-    {"glb", FileContent::Gltf},
-    {"segnrrd", FileContent::Nrrd},
-    {"vti", FileContent::Vtk},
-    {"nifti", FileContent::Nifti},
-    {"niftigz", FileContent::Gzip},
-    {"tiff", FileContent::Tiff},
-    {"ometiff", FileContent::Tiff},
-    {"objects", FileContent::Text},
-    {"contacts", FileContent::Text},
-    {"x3d", FileContent::X3d},
-    {"ade", FileContent::CityGml},
-    {"zarr", FileContent::Nothing},
-    {"precomputed", FileContent::Nothing},
-    {"obj", FileContent::Text},
-    {"ply", FileContent::Ply},
-    {"stl", FileContent::Unknown},
-    {"fds", FileContent::Text},
-    {"boxes", FileContent::Text},
-    {"boxesjson", FileContent::PlainJson},
-    {"graphml", FileContent::Xml},
-    {"adjacency", FileContent::PlainJson},
-    {"tileset", FileContent::Nothing},
-    {"vtm", FileContent::Vtk},
-    {"usd", FileContent::Usd},
-    {"vox", FileContent::Vox},
-    {"vdb", FileContent::Vdb},
-    {"objectparquet", FileContent::Parquet},
-    {"contactparquet", FileContent::Parquet},
-    {"indoorgml", FileContent::IndoorGml},
-};
-
 std::vector<FileFormat> volumeFileFormats() {
     std::vector<FileFormat> formats;
-    for (const writers::VolumeFormat& format : writers::volumeFormats()) {
-        const auto* content = std::find_if(std::begin(kVolumeContents), std::end(kVolumeContents),
-                                           [&](const auto& known) { return known.first == format.name; });
-        SVT_CHECK(content != std::end(kVolumeContents));
-        formats.push_back({format.name, format.endings, content->second});
-    }
+    for (const writers::VolumeFormat& format : writers::volumeFormats())
+        formats.push_back({format.name, format.endings, format.content});
     return formats;
 }
 
@@ -165,47 +125,6 @@ FileContent contentOf(const std::filesystem::path& file) {
     if (!stream) return FileContent::Unknown;
     stream.read(head.data(), head.size());
     return contentOf(std::string_view(head.data(), static_cast<std::size_t>(stream.gcount())));
-}
-
-std::string_view contentName(FileContent content) noexcept {
-    switch (content) {
-        case FileContent::Nothing: return "an empty file";
-        case FileContent::Png: return "a PNG picture";
-        case FileContent::Volume: return "a volume (.svt)";
-        case FileContent::Zip: return "a ZIP archive";
-        case FileContent::Gzip: return "a gzip file";
-        case FileContent::Gltf: return "a glTF (.glb)";
-        case FileContent::Nrrd: return "an NRRD";
-        case FileContent::Vtk: return "a file of VTK";
-        case FileContent::X3d: return "an X3D scene";
-        case FileContent::Ply: return "a PLY";
-        case FileContent::Usd: return "a USD stage";
-        case FileContent::Vox: return "a model of MagicaVoxel";
-        case FileContent::Vdb: return "an OpenVDB";
-        case FileContent::Parquet: return "a Parquet table";
-        case FileContent::Nifti: return "a NIfTI";
-        case FileContent::Tiff: return "a TIFF";
-        case FileContent::Svg: return "an SVG drawing";
-        case FileContent::Pdf: return "a PDF";
-        case FileContent::GeoPackage: return "a SQLite database";
-        case FileContent::Webm: return "a WebM film";
-        case FileContent::Mp4: return "an MP4 film";
-        case FileContent::Gif: return "a GIF";
-        case FileContent::Webp: return "a WebP picture";
-        case FileContent::Html: return "an HTML page";
-        case FileContent::CityGml: return "a CityGML model";
-        case FileContent::Xml: return "an XML file";
-        case FileContent::CityJson: return "a CityJSON model";
-        case FileContent::Ifc: return "an IFC model";
-        case FileContent::IndoorGml: return "an IndoorGML model";
-        case FileContent::GeoJson: return "a GeoJSON drawing";
-        case FileContent::Style: return "a style file";
-        case FileContent::PlainJson: return "a JSON file";
-        case FileContent::Dxf: return "a DXF drawing";
-        case FileContent::Text: return "a text file";
-        case FileContent::Unknown: break;
-    }
-    return "of another kind";
 }
 
 const FileFormat* formatOfName(std::string_view name) {

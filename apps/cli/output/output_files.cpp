@@ -200,11 +200,11 @@ Result<void> checkContent(const OutputFile& output) {
         const bool isTold = std::ranges::find(endings, ending) != endings.end();
         if (!isTold && !(output.mayLackEnding && format == output.formats.front())) continue;
         if (format->content == content) return {};
-        wanted = contentName(format->content);
+        wanted = nameOf(format->content);
     }
     return errorAt(output.path, Code::WouldDestroy,
                    fmt::format("'{}' writes {}, and what is there is {}; give another name, or remove the file",
-                               output.option, wanted, contentName(content)));
+                               output.option, wanted, nameOf(content)));
 }
 
 // A folder is tried by a file in it, or in the nearest folder above that exists.

@@ -89,100 +89,63 @@ bool matches(std::string_view pattern, std::string_view pointer) noexcept {
 Members<SceneCamera> membersOf(const SceneCamera*) noexcept {
     static constexpr Member<SceneCamera> kMembers[] = {
         memberAs<Choice, &SceneCamera::preset>(
-            {.name = "preset",
-             .choices = "iso|iso-se|iso-sw|iso-ne|iso-nw|front|back|left|right|top|bottom",
-             .help = "named view from which the picture is taken",
+            "preset", "named view from which the picture is taken",
+            {.choices = "iso|iso-se|iso-sw|iso-ne|iso-nw|front|back|left|right|top|bottom",
              .group = "View",
              .option = "--camera"}),
-        member<&SceneCamera::around>({.name = "around",
-                                      .value = "QUERY",
-                                      .help = "the view shows what the query selects, as large as it fits",
-                                      .group = "View",
-                                      .option = "--around"}),
-        member<&SceneCamera::fit>(
-            {.name = "fit",
-             .help =
-                 "a named view shows what is visible as large as possible, or always the whole volume; where eye or "
-                 "target is given, or pictures are a series, all",
-             .group = "View",
-             .option = "--fit"}),
-        member<&SceneCamera::isParallel>(
-            {.name = "parallel", .help = "parallel projection", .group = "View", .option = "--ortho"}),
-        member<&SceneCamera::fieldOfView>({.name = "fieldOfView",
-                                           .unit = "degrees",
-                                           .least = 0.001,
-                                           .most = 179.999,
-                                           .help = "vertical field of view",
-                                           .group = "View",
-                                           .option = "--fov"}),
-        member<&SceneCamera::zoom>({.name = "zoom",
-                                    .least = 0.01,
-                                    .most = 100,
-                                    .help = "nearer (above 1) or further than the preset",
-                                    .group = "View",
-                                    .option = "--zoom"}),
-        member<&SceneCamera::eye>({.name = "eye",
-                                   .value = "X,Y,Z",
-                                   .unit = "metres",
-                                   .least = -1e9,
-                                   .most = 1e9,
-                                   .help = "where the viewer stands, from the lower corner of the grid, in world axes",
-                                   .group = "View",
-                                   .option = "--eye"}),
+        member<&SceneCamera::around>("around", "the view shows what the query selects, as large as it fits",
+                                     {.value = "QUERY", .group = "View", .option = "--around"}),
+        member<&SceneCamera::fit>("fit",
+                                  "a named view shows what is visible as large as possible, or always the whole "
+                                  "volume; where eye or target is given, or pictures are a series, all",
+                                  {.group = "View", .option = "--fit"}),
+        member<&SceneCamera::isParallel>("parallel", "parallel projection", {.group = "View", .option = "--ortho"}),
+        member<&SceneCamera::fieldOfView>(
+            "fieldOfView", "vertical field of view",
+            {.unit = "degrees", .least = 0.001, .most = 179.999, .group = "View", .option = "--fov"}),
+        member<&SceneCamera::zoom>("zoom", "nearer (above 1) or further than the preset",
+                                   {.least = 0.01, .most = 100, .group = "View", .option = "--zoom"}),
+        member<&SceneCamera::eye>(
+            "eye", "where the viewer stands, from the lower corner of the grid, in world axes",
+            {.value = "X,Y,Z", .unit = "metres", .least = -1e9, .most = 1e9, .group = "View", .option = "--eye"}),
         member<&SceneCamera::target>(
-            {.name = "target",
-             .value = "X,Y,Z",
-             .unit = "metres",
-             .least = -1e9,
-             .most = 1e9,
-             .help = "what stands in the middle of the picture, from the lower corner of the grid, in world axes",
-             .group = "View",
-             .option = "--target"})};
+            "target", "what stands in the middle of the picture, from the lower corner of the grid, in world axes",
+            {.value = "X,Y,Z", .unit = "metres", .least = -1e9, .most = 1e9, .group = "View", .option = "--target"})};
     return kMembers;
 }
 
 Members<BorderLook> membersOf(const BorderLook*) noexcept {
     static constexpr Member<BorderLook> kMembers[] = {
-        member<&BorderLook::strength>({.name = "strength",
-                                       .least = 0,
-                                       .most = 1,
-                                       .otherwise = "by look",
-                                       .help = "strength of lines between objects",
-                                       .group = "Style",
-                                       .option = "--edges"}),
-        member<&BorderLook::width>({.name = "width",
-                                    .unit = "pixels",
+        member<&BorderLook::strength>(
+            "strength", "strength of lines between objects",
+            {.least = 0, .most = 1, .otherwise = "by look", .group = "Style", .option = "--edges"}),
+        member<&BorderLook::width>("width", "width of lines between objects",
+                                   {.unit = "pixels",
                                     .least = 0,
                                     .most = double(render::BorderLines::kMaxWidth),
                                     .otherwise = "by look",
-                                    .help = "width of lines between objects",
                                     .group = "Style",
                                     .option = "--line-width"}),
-        member<&BorderLook::cutWidth>({.name = "cutWidth",
-                                       .unit = "pixels",
+        member<&BorderLook::cutWidth>("cutWidth", "width of lines around what is cut",
+                                      {.unit = "pixels",
                                        .least = 0,
                                        .most = double(render::BorderLines::kMaxWidth),
                                        .otherwise = "by look",
-                                       .help = "width of lines around what is cut",
                                        .group = "Style",
                                        .option = "--cut-width"}),
-        memberAs<Color, &BorderLook::color>({.name = "color", .otherwise = "by look", .help = kColor})};
+        memberAs<Color, &BorderLook::color>("color", kColor, {.otherwise = "by look"})};
     return kMembers;
 }
 
 Members<HatchLook> membersOf(const HatchLook*) noexcept {
     static constexpr Member<HatchLook> kMembers[] = {
-        member<&HatchLook::show>({.name = "show",
-                                  .otherwise = "paper and blueprint do so",
-                                  .help = "hatch what is cut, by material or class",
-                                  .group = "Style",
-                                  .option = "--hatch"}),
-        member<&HatchLook::spacing>({.name = "spacing",
-                                     .unit = "metres",
+        member<&HatchLook::show>("show", "hatch what is cut, by material or class",
+                                 {.otherwise = "paper and blueprint do so", .group = "Style", .option = "--hatch"}),
+        member<&HatchLook::spacing>("spacing", "distance of hatch lines",
+                                    {.unit = "metres",
                                      .least = 0.0001,
                                      .most = 10000,
                                      .otherwise = "the largest of 1, 2 or 5 times a power of ten within 11 pixels",
-                                     .help = "distance of hatch lines",
                                      .group = "Style",
                                      .option = "--hatch-spacing"})};
     return kMembers;
@@ -190,247 +153,163 @@ Members<HatchLook> membersOf(const HatchLook*) noexcept {
 
 Members<Sun> membersOf(const Sun*) noexcept {
     static constexpr Member<Sun> kMembers[] = {
-        member<&Sun::time>({.name = "time",
-                            .value = "TIME",
-                            .help = "date and hour of the sun, such as '2026-06-21 15:00', with Z or +02:00 where it "
-                                    "is not the time of the "
-                                    "meridian",
-                            .group = "Illustrate",
-                            .option = "--sun",
-                            .isRequired = true}),
-        member<&Sun::place>({.name = "place",
-                             .value = "LAT,LON",
+        member<&Sun::time>("time",
+                           "date and hour of the sun, such as '2026-06-21 15:00', with Z or +02:00 where it is not the "
+                           "time of the meridian",
+                           {.value = "TIME", .group = "Illustrate", .option = "--sun", .isRequired = true}),
+        member<&Sun::place>("place", "latitude and longitude of the building",
+                            {.value = "LAT,LON",
                              .unit = "degrees",
                              .least = -180,
                              .most = 180,
                              .otherwise = "that of the model",
-                             .help = "latitude and longitude of the building",
                              .group = "Illustrate",
                              .option = "--place"}),
-        member<&Sun::size>({.name = "size",
-                            .unit = "degrees",
-                            .least = 0,
-                            .most = 20,
-                            .help = "diameter of the sun: larger is softer"})};
+        member<&Sun::size>("size", "diameter of the sun: larger is softer",
+                           {.unit = "degrees", .least = 0, .most = 20})};
     return kMembers;
 }
 
 Members<Inset> membersOf(const Inset*) noexcept {
     static constexpr Member<Inset> kMembers[] = {
-        member<&Inset::corner>({.name = "corner", .help = "corner of the picture in which it stands"}),
-        member<&Inset::size>(
-            {.name = "size", .least = 0.05, .most = 0.5, .help = "share of the picture's width and height"}),
-        member<&Inset::title>({.name = "title", .value = "TEXT", .help = "write a title into the inset"}),
-        member<&Inset::hasMark>(
-            {.name = "mark", .help = "frame in the picture what the inset shows, with lines to it"}),
-        memberAs<SceneText, &Inset::scene>(
-            {.name = "scene", .help = "its camera, and members of the scene that are others in it"}, Written::Always)};
+        member<&Inset::corner>("corner", "corner of the picture in which it stands"),
+        member<&Inset::size>("size", "share of the picture's width and height", {.least = 0.05, .most = 0.5}),
+        member<&Inset::title>("title", "write a title into the inset", {.value = "TEXT"}),
+        member<&Inset::hasMark>("mark", "frame in the picture what the inset shows, with lines to it"),
+        memberAs<SceneText, &Inset::scene>("scene", "its camera, and members of the scene that are others in it", {},
+                                           Written::Always)};
     return kMembers;
 }
 
 Members<Motion::Key> membersOf(const Motion::Key*) noexcept {
     static constexpr Member<Motion::Key> kMembers[] = {
-        member<&Motion::Key::at>({.name = "at",
-                                  .unit = "seconds",
-                                  .least = 0,
-                                  .most = 3600,
-                                  .help = "the time, after that of the key before",
-                                  .isRequired = true}),
-        memberAs<SceneText, &Motion::Key::scene>(
-            {.name = "scene", .help = "members of the scene that have these values then", .isRequired = true})};
+        member<&Motion::Key::at>("at", "the time, after that of the key before",
+                                 {.unit = "seconds", .least = 0, .most = 3600, .isRequired = true}),
+        memberAs<SceneText, &Motion::Key::scene>("scene", "members of the scene that have these values then",
+                                                 {.isRequired = true})};
     return kMembers;
 }
 
 Members<Motion> membersOf(const Motion*) noexcept {
     static constexpr Member<Motion> kMembers[] = {
-        member<&Motion::seconds>({.name = "seconds",
-                                  .unit = "seconds",
-                                  .least = 0.01,
-                                  .most = 3600,
-                                  .help = "duration of the motion",
-                                  .group = "Motion",
-                                  .option = "--seconds"}),
-        member<&Motion::rate>({.name = "rate",
-                               .least = 1,
-                               .most = 120,
-                               .help = "pictures per second of a film",
-                               .group = "Motion",
-                               .option = "--rate"}),
+        member<&Motion::seconds>(
+            "seconds", "duration of the motion",
+            {.unit = "seconds", .least = 0.01, .most = 3600, .group = "Motion", .option = "--seconds"}),
+        member<&Motion::rate>("rate", "pictures per second of a film",
+                              {.least = 1, .most = 120, .group = "Motion", .option = "--rate"}),
         member<&Motion::turn>(
-            {.name = "turn",
-             .unit = "degrees",
-             .least = -36000,
-             .most = 36000,
-             .help = "how far the camera goes around, counter-clockwise from above, evenly; 360: once",
-             .group = "Motion",
-             .option = "--turn"}),
-        member<&Motion::pace>(
-            {.name = "pace", .help = "how values go from key to key: gently at both ends, or evenly"}),
-        member<&Motion::keys>({.name = "keys",
-                               .help = "what the scene is at some times; between them, numbers, points, "
-                                       "colours and the numbers of regions go from one to the next"})};
+            "turn", "how far the camera goes around, counter-clockwise from above, evenly; 360: once",
+            {.unit = "degrees", .least = -36000, .most = 36000, .group = "Motion", .option = "--turn"}),
+        member<&Motion::pace>("pace", "how values go from key to key: gently at both ends, or evenly"),
+        member<&Motion::keys>("keys",
+                              "what the scene is at some times; between them, numbers, points, colours and the numbers "
+                              "of regions go from one to the next")};
     return kMembers;
 }
 
 Members<SceneStyle> membersOf(const SceneStyle*) noexcept {
     static constexpr Member<SceneStyle> kMembers[] = {
-        member<&SceneStyle::select>(
-            {.name = "select", .value = "QUERY", .help = "what the style is for", .isRequired = true}),
-        member<&SceneStyle::isGhost>(
-            {.name = "ghost", .help = "coloured air where it was solid, gone where it was air"}),
-        memberAs<Color, &SceneStyle::color>({.name = "color", .help = kColor}),
-        member<&SceneStyle::opacity>(
-            {.name = "opacity", .least = 0, .most = 1, .help = "share of light stopped by 1 m; 1: solid, 0: hidden"}),
-        member<&SceneStyle::hatch>({.name = "hatch", .help = "hatch of what is cut"})};
+        member<&SceneStyle::select>("select", "what the style is for", {.value = "QUERY", .isRequired = true}),
+        member<&SceneStyle::isGhost>("ghost", "coloured air where it was solid, gone where it was air"),
+        memberAs<Color, &SceneStyle::color>("color", kColor),
+        member<&SceneStyle::opacity>("opacity", "share of light stopped by 1 m; 1: solid, 0: hidden",
+                                     {.least = 0, .most = 1}),
+        member<&SceneStyle::hatch>("hatch", "hatch of what is cut")};
     return kMembers;
 }
 
 Members<SceneLines> membersOf(const SceneLines*) noexcept {
     static constexpr Member<SceneLines> kMembers[] = {
-        member<&SceneLines::select>({.name = "select",
-                                     .value = "QUERY",
-                                     .otherwise = "all that is visible",
-                                     .help = "what the edges belong to, visible or not"}),
-        member<&SceneLines::width>(
-            {.name = "width", .unit = "pixels", .least = 0.1, .most = 64, .help = "width of the lines"}),
-        memberAs<Color, &SceneLines::color>({.name = "color", .otherwise = "by look", .help = kColor}),
-        member<&SceneLines::hidden>({.name = "hidden", .help = "lines behind something opaque"})};
+        member<&SceneLines::select>("select", "what the edges belong to, visible or not",
+                                    {.value = "QUERY", .otherwise = "all that is visible"}),
+        member<&SceneLines::width>("width", "width of the lines", {.unit = "pixels", .least = 0.1, .most = 64}),
+        memberAs<Color, &SceneLines::color>("color", kColor, {.otherwise = "by look"}),
+        member<&SceneLines::hidden>("hidden", "lines behind something opaque")};
     return kMembers;
 }
 
 Members<ScenePass> membersOf(const ScenePass*) noexcept {
     static constexpr Member<ScenePass> kMembers[] = {
-        member<&ScenePass::show>({.name = "show",
-                                  .value = "QUERY",
-                                  .help = "show only what the query selects",
-                                  .group = "Style",
-                                  .option = "--show"}),
-        member<&ScenePass::hide>({.name = "hide",
-                                  .value = "QUERY",
-                                  .help = "hide what the query selects",
-                                  .group = "Style",
-                                  .option = "--hide"}),
-        member<&ScenePass::styles>({.name = "styles", .help = "what is given overrides the styles before it"}),
-        member<&ScenePass::cut>(
-            {.name = "cut", .value = "REGION", .help = "cut away a region, such as 'z>1.2 and not box(2,2,0,4,4,3)'"}),
-        member<&ScenePass::keep>({.name = "keep",
-                                  .value = "REGION",
-                                  .help = "draw nothing outside of a region, such as storey(Attic)",
-                                  .group = "Cut",
-                                  .option = "--keep"}),
-        member<&ScenePass::join>(
-            {.name = "join",
-             .help =
-                 "over: in front of what is drawn already; replace: where anything is drawn, all before it is dropped; "
-                 "depth: whichever is nearer in front"}),
+        member<&ScenePass::show>("show", "show only what the query selects",
+                                 {.value = "QUERY", .group = "Style", .option = "--show"}),
+        member<&ScenePass::hide>("hide", "hide what the query selects",
+                                 {.value = "QUERY", .group = "Style", .option = "--hide"}),
+        member<&ScenePass::styles>("styles", "what is given overrides the styles before it"),
+        member<&ScenePass::cut>("cut", "cut away a region, such as 'z>1.2 and not box(2,2,0,4,4,3)'",
+                                {.value = "REGION"}),
+        member<&ScenePass::keep>("keep", "draw nothing outside of a region, such as storey(Attic)",
+                                 {.value = "REGION", .group = "Cut", .option = "--keep"}),
+        member<&ScenePass::join>("join",
+                                 "over: in front of what is drawn already; replace: where anything is drawn, all "
+                                 "before it is dropped; depth: whichever is nearer in front"),
         member<&ScenePass::form, &VolumeForm::shell>(
-            {.name = "shell",
-             .help = "draw only the hulls of components, rooms, units, storeys or the building",
-             .group = "Illustrate",
-             .option = "--shell"}),
-        member<&ScenePass::form, &VolumeForm::level>({.name = "level",
-                                                      .least = 0,
-                                                      .most = 6,
-                                                      .otherwise = "as fine as the pixels show",
-                                                      .help = "level of detail, 0 is the finest"}),
-        member<&ScenePass::lines>(
-            {.name = "lines", .help = "feature edges of the model's meshes, at their depth inside the volume"}),
-        member<&ScenePass::meshes>({.name = "meshes",
-                                    .value = "QUERY",
-                                    .help = "draw what the query selects as meshes, not as voxels; size<M: all that is "
-                                            "shorter than M metres along "
-                                            "each axis",
-                                    .group = "Lines",
-                                    .option = "--vectors"}),
-        member<&ScenePass::form, &VolumeForm::hasCells>(
-            {.name = "cells", .help = "draw each voxel as a box with edges"})};
+            "shell", "draw only the hulls of components, rooms, units, storeys or the building",
+            {.group = "Illustrate", .option = "--shell"}),
+        member<&ScenePass::form, &VolumeForm::level>(
+            "level", "level of detail, 0 is the finest",
+            {.least = 0, .most = 6, .otherwise = "as fine as the pixels show"}),
+        member<&ScenePass::lines>("lines", "feature edges of the model's meshes, at their depth inside the volume"),
+        member<&ScenePass::meshes>("meshes",
+                                   "draw what the query selects as meshes, not as voxels; size<M: all that is shorter "
+                                   "than M metres along each axis",
+                                   {.value = "QUERY", .group = "Lines", .option = "--vectors"}),
+        member<&ScenePass::form, &VolumeForm::hasCells>("cells", "draw each voxel as a box with edges")};
     return kMembers;
 }
 
 Members<Scene> membersOf(const Scene*) noexcept {
     static constexpr Member<Scene> kMembers[] = {
-        memberOf<Scene, FormatName<Scene>>(
-            {.name = "format", .choices = "svt-scene", .help = "says that this is a scene"}),
-        memberOf<Scene, FormatVersion<Scene>>(
-            {.name = "version", .least = 1, .most = 1, .help = "version of the format"}),
-        memberOf<Scene, PictureSize>({.name = "size",
-                                      .unit = "pixels",
-                                      .least = 1,
-                                      .most = render::FrameSpec::kMaxSize,
-                                      .help = "width and height"}),
-        member<&Scene::samples>({.name = "samples",
-                                 .least = 1,
+        memberOf<Scene, FormatName<Scene>>("format", "says that this is a scene", {.choices = "svt-scene"}),
+        memberOf<Scene, FormatVersion<Scene>>("version", "version of the format", {.least = 1, .most = 1}),
+        memberOf<Scene, PictureSize>("size", "width and height",
+                                     {.unit = "pixels", .least = 1, .most = render::FrameSpec::kMaxSize}),
+        member<&Scene::samples>("samples", "rays per pixel",
+                                {.least = 1,
                                  .most = double(render::BorderLines::kMaxWidth),
                                  .choices = "1|4|9|16",
-                                 .help = "rays per pixel",
                                  .group = "View",
                                  .option = "--samples"}),
-        member<&Scene::look>({.name = "look",
-                              .help = "colours, lines and hatches of the whole picture: plain, paper (for print), "
-                                      "blueprint or dark (for slides)",
-                              .group = "Style",
-                              .option = "--look"}),
-        member<&Scene::title>({.name = "title",
-                               .value = "TEXT",
-                               .help = "write a title into the picture",
-                               .group = "Illustrate",
-                               .option = "--title"}),
-        member<&Scene::hasScaleBar>(
-            {.name = "scaleBar",
-             .help = "draw a scale bar; parallel projection only, since no other picture has one scale",
-             .group = "Illustrate",
-             .option = "--scale-bar"}),
-        member<&Scene::hasNorthArrow>({.name = "northArrow",
-                                       .help = "draw an arrow to grid north (+y)",
-                                       .group = "Illustrate",
-                                       .option = "--north-arrow"}),
-        member<&Scene::colorBy>({.name = "colorBy",
-                                 .value = "KEY",
-                                 .help = "colour what is seen by class, name, storey, volume, area of rooms, owner, "
-                                         "voxels or an attribute, with a "
-                                         "legend",
-                                 .group = "Illustrate",
-                                 .option = "--color-by"}),
-        member<&Scene::hasLegend>({.name = "legend", .help = "draw what the colours of colorBy mean"}),
-        member<&Scene::explode>({.name = "explode",
-                                 .value = "DISTANCE",
+        member<&Scene::look>(
+            "look",
+            "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)",
+            {.group = "Style", .option = "--look"}),
+        member<&Scene::title>("title", "write a title into the picture",
+                              {.value = "TEXT", .group = "Illustrate", .option = "--title"}),
+        member<&Scene::hasScaleBar>("scaleBar",
+                                    "draw a scale bar; parallel projection only, since no other picture has one scale",
+                                    {.group = "Illustrate", .option = "--scale-bar"}),
+        member<&Scene::hasNorthArrow>("northArrow", "draw an arrow to grid north (+y)",
+                                      {.group = "Illustrate", .option = "--north-arrow"}),
+        member<&Scene::colorBy>("colorBy",
+                                "colour what is seen by class, name, storey, volume, area of rooms, owner, voxels or "
+                                "an attribute, with a legend",
+                                {.value = "KEY", .group = "Illustrate", .option = "--color-by"}),
+        member<&Scene::hasLegend>("legend", "draw what the colours of colorBy mean"),
+        member<&Scene::explode>("explode", "draw the storeys apart, each so much higher above the one below",
+                                {.value = "DISTANCE",
                                  .unit = "metres",
                                  .least = 0,
                                  .most = 1000,
-                                 .help = "draw the storeys apart, each so much higher above the one below",
                                  .group = "Illustrate",
                                  .option = "--explode"}),
-        member<&Scene::sun>({.name = "sun", .help = "light by the sun, with shadows"}),
-        member<&Scene::insets>(
-            {.name = "insets", .least = 0, .most = 4, .help = "small pictures in the corners of the picture"}),
-        member<&Scene::camera>({.name = "camera", .help = "where the picture is taken from"}),
-        memberAs<Color, &Scene::background>(
-            {.name = "background", .otherwise = "by look", .help = kColor, .group = "Style", .option = "--background"}),
-        member<&Scene::isTransparent>({.name = "transparent",
-                                       .help = "leave the background transparent",
-                                       .group = "Style",
-                                       .option = "--transparent"}),
-        member<&Scene::lines>({.name = "lines", .help = "lines between objects, and where the depth jumps"}),
-        member<&Scene::hatches>({.name = "hatches", .help = "hatches of what is cut"}),
-        member<&Scene::ambientOcclusion>({.name = "ambientOcclusion",
-                                          .least = 0,
-                                          .most = 1,
-                                          .byDefault = "0.6",
-                                          .help = "how much corners are darkened"}),
-        member<&Scene::names>({.name = "names",
-                               .value = "QUERY",
-                               .help = "name what is seen of the selected: inside it where the text fits, else at the "
-                                       "sides of the picture, with "
-                                       "leader "
-                                       "lines",
-                               .group = "Illustrate",
-                               .option = "--names"}),
-        member<&Scene::passes>({.name = "passes",
-                                .least = 1,
-                                .most = double(render::FrameSpec::kMaxPasses),
-                                .help = "passes, drawn one after the other"},
-                               Written::Always),
-        member<&Scene::motion>({.name = "motion", .help = "how the scene changes with time, for films"})};
+        member<&Scene::sun>("sun", "light by the sun, with shadows"),
+        member<&Scene::insets>("insets", "small pictures in the corners of the picture", {.least = 0, .most = 4}),
+        member<&Scene::camera>("camera", "where the picture is taken from"),
+        memberAs<Color, &Scene::background>("background", kColor,
+                                            {.otherwise = "by look", .group = "Style", .option = "--background"}),
+        member<&Scene::isTransparent>("transparent", "leave the background transparent",
+                                      {.group = "Style", .option = "--transparent"}),
+        member<&Scene::lines>("lines", "lines between objects, and where the depth jumps"),
+        member<&Scene::hatches>("hatches", "hatches of what is cut"),
+        member<&Scene::ambientOcclusion>("ambientOcclusion", "how much corners are darkened",
+                                         {.least = 0, .most = 1, .byDefault = "0.6"}),
+        member<&Scene::names>("names",
+                              "name what is seen of the selected: inside it where the text fits, else at the sides of "
+                              "the picture, with leader lines",
+                              {.value = "QUERY", .group = "Illustrate", .option = "--names"}),
+        member<&Scene::passes>("passes", "passes, drawn one after the other",
+                               {.least = 1, .most = double(render::FrameSpec::kMaxPasses)}, Written::Always),
+        member<&Scene::motion>("motion", "how the scene changes with time, for films")};
     return kMembers;
 }
 

@@ -165,7 +165,7 @@ TEST(SampleFormats, TheHouseIsSplitIntoItsLayers) {
     const test::TemporaryFolder folder;
     const std::filesystem::path file = folder / "house.ifc";
     test::writeText(file, *text);
-    options.splitLayers = true;
+    options.read.splitLayers = true;
     Diagnostics log;
     const auto output = buildVolume(std::span(&file, 1), options, &log);
     ASSERT_TRUE(output) << output.error().toString();

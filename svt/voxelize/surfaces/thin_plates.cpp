@@ -59,7 +59,7 @@ public:
 
     // Calls visit(face) for all faces whose box meets `extent`. Returns how many boxes it looked at.
     template <class Visit>
-    std::uint64_t forEach(const Extent& extent, const Visit& visit) const {
+    [[nodiscard]] std::uint64_t forEach(const Extent& extent, const Visit& visit) const {
         std::uint64_t looks = 0;
         std::vector<std::uint32_t> open;
         if (!nodes_.empty()) open.push_back(0);

@@ -196,6 +196,7 @@ extern const VolumeFormat kAde{
     .endings = ".ade.gml",
     .holds = "CityGML 2.0 or 3.0: the model with the volume in it, by an application domain extension",
     .readers = "svt build; any CityGML reader sees the model",
+    .content = FileContent::CityGml,
     .isDense = true,
     .write = writeAde};
 

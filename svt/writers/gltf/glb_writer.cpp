@@ -246,6 +246,7 @@ extern const VolumeFormat kGlb{
     .endings = ".glb",
     .holds = "binary glTF 2.0: the surface of each label as triangles",
     .readers = "Blender, Windows, three.js, Cesium",
+    .content = FileContent::Gltf,
     .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
         SVT_TRY(report, writeGlb(volume, path,
                                  {.faces = options.faces, .threads = options.threads, .progress = options.progress}));

@@ -157,6 +157,7 @@ extern const VolumeFormat kObj{.name = "obj",
                                .endings = ".obj",
                                .holds = "Wavefront OBJ: an object per label, colours in an .mtl beside it",
                                .readers = "Blender, MeshLab, CAD, VTK",
+                               .content = FileContent::Text,
                                .write = [](const auto& volume, const auto& path, const auto& options) {
                                    return writeHulls(volume, path, HullFormat::Obj, options);
                                }};
@@ -165,6 +166,7 @@ extern const VolumeFormat kPly{.name = "ply",
                                .endings = ".ply",
                                .holds = "PLY, binary: triangles with label and colour",
                                .readers = "MeshLab, CloudCompare, Open3D, VTK",
+                               .content = FileContent::Ply,
                                .write = [](const auto& volume, const auto& path, const auto& options) {
                                    return writeHulls(volume, path, HullFormat::Ply, options);
                                }};
@@ -173,6 +175,7 @@ extern const VolumeFormat kStl{.name = "stl",
                                .endings = ".stl",
                                .holds = "STL, binary: triangles alone",
                                .readers = "printers, CAD, simulation",
+                               .content = FileContent::Unknown,
                                .write = [](const auto& volume, const auto& path, const auto& options) {
                                    return writeHulls(volume, path, HullFormat::Stl, options);
                                }};

@@ -269,6 +269,7 @@ extern const VolumeFormat kIndoorGml{
     .endings = ".indoor.gml",
     .holds = "IndoorGML 1.0.3: rooms and doors as cell spaces, their graph",
     .readers = "InViewer, FME, navigation, svt build",
+    .content = FileContent::IndoorGml,
     .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
         SVT_TRY(document, makeIndoorGml(volume, options));
         return writeFileAtomically(path, *document);

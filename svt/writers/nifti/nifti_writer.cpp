@@ -165,6 +165,7 @@ extern const VolumeFormat kNifti{.name = "nifti",
                                  .endings = ".nii",
                                  .holds = "NIfTI-1, or NIfTI-2 where coordinates need it",
                                  .readers = "nibabel, ITK, 3D Slicer, FSL, SPM",
+                                 .content = FileContent::Nifti,
                                  .isDense = true,
                                  .write = [](const auto& volume, const auto& path, const auto& options) {
                                      return writeNifti(volume, path, denseOptions(options));
@@ -174,6 +175,7 @@ extern const VolumeFormat kNiftiGzip{.name = "niftigz",
                                      .endings = ".nii.gz",
                                      .holds = "the same, compressed",
                                      .readers = "nibabel, ITK, 3D Slicer, FSL, SPM",
+                                     .content = FileContent::Gzip,
                                      .isDense = true,
                                      .write = [](const auto& volume, const auto& path, const auto& options) {
                                          return writeNifti(volume, path, denseOptions(options));

@@ -172,6 +172,7 @@ extern const VolumeFormat kNrrd{.name = "nrrd",
                                 .endings = ".nrrd",
                                 .holds = "NRRD: samples, with the table of labels as keys",
                                 .readers = "VTK, ITK, 3D Slicer, teem, MATLAB, pynrrd",
+                                .content = FileContent::Nrrd,
                                 .isDense = true,
                                 .write = [](const auto& volume, const auto& path, const auto& options) {
                                     return writeNrrd(volume, path, nrrdOptions(options, false));
@@ -182,6 +183,7 @@ extern const VolumeFormat kSegmentationNrrd{
     .endings = ".seg.nrrd",
     .holds = "NRRD as a segmentation: a segment per label, with name, colour, class",
     .readers = "3D Slicer",
+    .content = FileContent::Nrrd,
     .isDense = true,
     .write = [](const auto& volume, const auto& path, const auto& options) {
         return writeNrrd(volume, path, nrrdOptions(options, true));

@@ -244,6 +244,7 @@ extern const VolumeFormat kPrecomputed{
     .endings = ".precomputed",
     .holds = "neuroglancer's precomputed segmentation: a folder with all levels, names and colours",
     .readers = "neuroglancer, CloudVolume",
+    .content = FileContent::Nothing,
     .isDense = true,
     .write = writePrecomputed};
 

@@ -152,6 +152,7 @@ extern const VolumeFormat kAdjacency{
     .endings = ".adjacency.json",
     .holds = "what touches what, and what lies between rooms and outside, layer by layer",
     .readers = "energy and acoustic models",
+    .content = FileContent::PlainJson,
     .write = [](const auto& volume, const auto& path, const auto& options) {
         return writeFileAtomically(path, makeAdjacencyJson(volume, options.threads));
     }};
@@ -160,6 +161,7 @@ extern const VolumeFormat kGraphMl{.name = "graphml",
                                    .endings = ".graphml",
                                    .holds = "the same as a graph",
                                    .readers = "NetworkX, Gephi, yEd",
+                                   .content = FileContent::Xml,
                                    .write = [](const auto& volume, const auto& path, const auto& options) {
                                        return writeFileAtomically(path, makeGraphMl(volume, options.threads));
                                    }};

@@ -77,6 +77,7 @@ extern const VolumeFormat kBoxTable{
     .endings = ".boxes.csv",
     .holds = "the same boxes as a table",
     .readers = "other solvers, spreadsheets",
+    .content = FileContent::Text,
     .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
         SVT_TRY(table, makeBoxTable(volume, options));
         return writeFileAtomically(path, *table);
@@ -87,6 +88,7 @@ extern const VolumeFormat kBoxJson{
     .endings = ".boxes.json",
     .holds = "the same as JSON, with the grid's place",
     .readers = "other solvers",
+    .content = FileContent::PlainJson,
     .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
         SVT_TRY(json, makeBoxJson(volume, options));
         return writeFileAtomically(path, *json);

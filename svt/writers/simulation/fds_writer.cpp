@@ -158,6 +158,7 @@ extern const VolumeFormat kFds{
     .endings = ".fds",
     .holds = "geometry for fire and smoke: components as boxes on a mesh of the voxels",
     .readers = "FDS and Smokeview (NIST), PyroSim",
+    .content = FileContent::Text,
     .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
         SVT_TRY(document, makeFds(volume, path.stem().string(), options));
         return writeFileAtomically(path, *document);

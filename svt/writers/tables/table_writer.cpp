@@ -120,6 +120,7 @@ extern const VolumeFormat kObjects{.name = "objects",
                                    .endings = ".csv",
                                    .holds = "a line per object: class, name, parent, volume, surface, box, attributes",
                                    .readers = "spreadsheets, pandas, databases",
+                                   .content = FileContent::Text,
                                    .write = [](const auto& volume, const auto& path, const auto& options) {
                                        return writeFileAtomically(path,
                                                                   makeCsv(makeObjectTable(volume, options.threads)));
@@ -129,6 +130,7 @@ extern const VolumeFormat kContacts{.name = "contacts",
                                     .endings = ".contacts.csv",
                                     .holds = "a line per pair of objects that touch: area, faces",
                                     .readers = "spreadsheets, pandas, databases",
+                                    .content = FileContent::Text,
                                     .write = [](const auto& volume, const auto& path, const auto& options) {
                                         return writeFileAtomically(path,
                                                                    makeCsv(makeContactTable(volume, options.threads)));
@@ -139,6 +141,7 @@ extern const VolumeFormat kObjectParquet{
     .endings = ".parquet",
     .holds = "the table of objects as Apache Parquet",
     .readers = "pandas, DuckDB, Spark, GDAL, R",
+    .content = FileContent::Parquet,
     .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
         SVT_TRY(bytes, makeParquet(makeObjectTable(volume, options.threads)));
         return writeFileAtomically(path, *bytes);
@@ -149,6 +152,7 @@ extern const VolumeFormat kContactParquet{
     .endings = ".contacts.parquet",
     .holds = "the table of contacts as Apache Parquet",
     .readers = "pandas, DuckDB, Spark, GDAL, R",
+    .content = FileContent::Parquet,
     .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
         SVT_TRY(bytes, makeParquet(makeContactTable(volume, options.threads)));
         return writeFileAtomically(path, *bytes);

@@ -249,6 +249,7 @@ extern const VolumeFormat kTiff{.name = "tiff",
                                 .endings = ".tif|.tiff",
                                 .holds = "TIFF stack: a page per slice, with ImageJ's metadata",
                                 .readers = "Fiji/ImageJ, tifffile, napari, GDAL",
+                                .content = FileContent::Tiff,
                                 .isDense = true,
                                 .write = [](const auto& volume, const auto& path, const auto& options) {
                                     return writeTiff(volume, path, TiffMetadata::ImageJ, denseOptions(options));
@@ -258,6 +259,7 @@ extern const VolumeFormat kOmeTiff{.name = "ometiff",
                                    .endings = ".ome.tif|.ome.tiff",
                                    .holds = "TIFF stack with OME-XML",
                                    .readers = "Bio-Formats, tifffile, napari, QuPath",
+                                   .content = FileContent::Tiff,
                                    .isDense = true,
                                    .write = [](const auto& volume, const auto& path, const auto& options) {
                                        return writeTiff(volume, path, TiffMetadata::Ome, denseOptions(options));

@@ -62,6 +62,7 @@ extern const VolumeFormat kTileset{
     .endings = ".3dtiles",
     .holds = "3D Tiles 1.1: a folder with the surfaces on the globe, a table of components in each tile",
     .readers = "Cesium, Unreal, Unity, ArcGIS",
+    .content = FileContent::Nothing,
     .write = writeTileset};
 
 }  // namespace svt::writers

@@ -171,6 +171,7 @@ extern const VolumeFormat kUsd{.name = "usd",
                                .endings = ".usda",
                                .holds = "USD, as text: the surface of each label, nested as the model is",
                                .readers = "Blender, Omniverse, Houdini, Maya, usdview",
+                               .content = FileContent::Usd,
                                .write = writeUsd};
 
 }  // namespace svt::writers

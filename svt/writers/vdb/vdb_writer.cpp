@@ -185,6 +185,7 @@ extern const VolumeFormat kVdb{.name = "vdb",
                                .endings = ".vdb",
                                .holds = "OpenVDB: a grid of labels, a fog volume or level set for each class",
                                .readers = "Blender, Houdini, Maya, Unreal, OpenVDB",
+                               .content = FileContent::Vdb,
                                .isDense = true,
                                .write = [](const auto& volume, const auto& path, const auto& options) {
                                    return writeVdb(volume, path, denseOptions(options), options.hasLevelSets);

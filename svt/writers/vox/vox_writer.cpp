@@ -303,6 +303,7 @@ extern const VolumeFormat kVox{.name = "vox",
                                .endings = ".vox",
                                .holds = "MagicaVoxel: voxels, a group for each label",
                                .readers = "MagicaVoxel, Blender, Goxel, Unity, Godot",
+                               .content = FileContent::Vox,
                                .isDense = true,
                                .write = writeVox};
 

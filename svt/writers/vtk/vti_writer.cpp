@@ -142,6 +142,7 @@ extern const VolumeFormat kVti{.name = "vti",
                                .endings = ".vti",
                                .holds = "VTK image data: a cell per voxel, the table of labels as field data",
                                .readers = "ParaView, VTK, PyVista",
+                               .content = FileContent::Vtk,
                                .isDense = true,
                                .write = [](const auto& volume, const auto& path, const auto& options) {
                                    return writeVti(volume, path, denseOptions(options));

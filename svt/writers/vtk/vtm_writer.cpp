@@ -48,6 +48,7 @@ extern const VolumeFormat kVtm{.name = "vtm",
                                .endings = ".vtm",
                                .holds = "VTK multi-block data: all levels, each a .vti beside it",
                                .readers = "ParaView, VTK",
+                               .content = FileContent::Vtk,
                                .isDense = true,
                                .write = [](const auto& volume, const auto& path, const auto& options) {
                                    return writeVtm(volume, path, denseOptions(options));

@@ -277,6 +277,7 @@ extern const VolumeFormat kX3d{
     .endings = ".x3d",
     .holds = "X3D 4.0: a 3D texture as SegmentedVolumeData, with transfer function and features",
     .readers = "X_ITE, Castle, InstantReality; X3DOM by --texture atlas",
+    .content = FileContent::X3d,
     .isDense = true,
     .write = [](const auto& volume, const auto& path, const auto& options) {
         return writeX3d(volume, path, options.texture, options.maxVoxels, denseOptions(options));

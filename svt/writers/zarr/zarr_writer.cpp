@@ -133,6 +133,7 @@ extern const VolumeFormat kZarr{.name = "zarr",
                                 .endings = ".zarr",
                                 .holds = "Zarr v2 or v3 with OME-NGFF: a folder with all levels, colours and names",
                                 .readers = "zarr-python, zarrita, napari, neuroglancer, vizarr",
+                                .content = FileContent::Nothing,
                                 .isDense = true,
                                 .write = [](const auto& volume, const auto& path, const auto& options) {
                                     return writeZarr(volume, path, options.zarrVersion, denseOptions(options));
