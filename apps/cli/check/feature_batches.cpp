@@ -28,7 +28,7 @@ class BatchReader {
 public:
     BatchReader(FeatureFile file, readers::ReadOptions options,
                 const std::function<Result<void>(model::BuildingModel&, Diagnostics&)>& take)
-        : file_(std::move(file)), options_(std::move(options)), progress_(options_.progress), take_(take) {
+        : file_(std::move(file)), options_(options), progress_(options_.progress), take_(take) {
         options_.progress = nullptr;  // it would begin anew with each batch
         options_.keepFarFeatures = true;
     }
@@ -45,8 +45,8 @@ public:
             }
             if (*found && batch.bytes < kBatchBytes) continue;
             if (!batch.texts.empty()) {
-                const auto taken = takeBatch(batch);
-                if (!taken || !*taken) return taken;
+                SVT_TRY(taken, takeBatch(batch));
+                if (!*taken) return false;
             }
             if (!*found) return isEmpty_ ? Result<bool>(false) : Result<bool>(true);
             batch = {};
@@ -122,7 +122,7 @@ Result<bool> forEachBatch(const std::filesystem::path& file, readers::ReadOption
     auto opened = FeatureFile::open(file, options);
     if (!opened) return false;
     if (opened->format() != FeatureFormat::CityGml && opened->format() != FeatureFormat::CityJsonSeq) return false;
-    return BatchReader(std::move(*opened), std::move(options), take).run();
+    return BatchReader(std::move(*opened), options, take).run();
 }
 
 }  // namespace svt::cli

@@ -210,7 +210,8 @@ Result<bool> checkInBatches(const CheckArguments& arguments, const readers::Read
             if (checked) all.append(findings);
             return checked;
         });
-    if (!done || !*done) return done;
+    if (!done) return done.error();
+    if (!*done) return false;
     endProgress();
     if (!lines.print()) return Error(Code::DiskFull, "no space is left for temporary files in /tmp");
     printTotals(totals);

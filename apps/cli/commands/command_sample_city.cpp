@@ -37,9 +37,9 @@ Result<samples::CitySampleCount> writeFile(const SampleCityArguments& arguments,
         return done.hasValue();
     });
     if (failed) return *failed;
-    if (!count) return count;
+    if (!count) return count.error();
     SVT_DO(file->commit());
-    return count;
+    return *count;
 }
 
 int runSampleCity(SampleCityArguments& arguments) {

@@ -211,8 +211,7 @@ Result<Scene> SceneArguments::toScene(std::optional<int> pictures) const {
                                  ends->moving));
     auto scene = stillScene(file, ends->first, isSeries);
     if (!scene || ends->moving.empty()) return scene;
-    const auto last = stillScene(file, ends->last, isSeries);
-    if (!last) return last;
+    SVT_TRY(last, stillScene(file, ends->last, isSeries));
     std::vector<std::string> cuts;
     for (const illustrate::ScenePass& pass : last->passes) cuts.push_back(pass.cut);
     const illustrate::Motion motion = scene->motion.value_or(illustrate::Motion{});

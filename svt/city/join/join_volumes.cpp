@@ -29,7 +29,7 @@ public:
     Joiner(std::vector<Part> parts, Vec3i dimension) : parts_(std::move(parts)), dimension_(dimension) {}
 
     // Tiles do not depend on each other, nor on the number of threads.
-    ColumnVolume run() const {
+    [[nodiscard]] ColumnVolume run() const {
         constexpr std::int32_t kSize = ColumnVolume::kTileSize;
         const auto across = static_cast<std::size_t>((dimension_.x + kSize - 1) / kSize);
         const auto along = static_cast<std::size_t>((dimension_.y + kSize - 1) / kSize);

@@ -126,8 +126,7 @@ private:
                 if (!*volume) return volume->error();
                 volumes.push_back(std::move(**volume));
             }
-            const auto added = builder.add(volumes, [&](LevelMember member) { return write(std::move(member)); });
-            if (!added) return added;
+            SVT_DO(builder.add(volumes, [&](LevelMember member) { return write(std::move(member)); }));
         }
         return {};
     }

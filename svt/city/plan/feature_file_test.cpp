@@ -201,7 +201,7 @@ TEST(FeatureFile, NamesWhatIsDamaged) {
     EXPECT_EQ(errorOf(json + R"({"a":{},"vertices":[]})"), "BadJson");
     EXPECT_EQ(errorOf(json + R"([],"vertices":[]})"), "BadJson");
     EXPECT_EQ(errorOf(json + R"({}})"), "BadJson");
-    EXPECT_EQ(errorOf("\xFF\xFE<\0C\0"), "BadEncoding");
+    EXPECT_EQ(errorOf(std::string("\xFF\xFE<\0C\0", 6)), "BadEncoding");
     EXPECT_EQ(errorOf(std::string("\x1F\x8B\x08\0\0\0\0\0\0\xFF", 10) + std::string(40, '\xAB')), "CannotOpen");
     std::string whole;
     EXPECT_EQ(whole = errorOf(head + "</CityModel>"), "");

@@ -138,10 +138,10 @@ private:
     }
 
     // Whether some of a box is in the picture, or the shadow that it may throw upon the lowest ground.
-    bool isNeeded(const IndexEntry& entry) const { return isSeen(boxWithShadow(city_, view_, entry)); }
+    [[nodiscard]] bool isNeeded(const IndexEntry& entry) const { return isSeen(boxWithShadow(city_, view_, entry)); }
 
     // Whether no plane of the picture's frustum has all of a box at its outer side.
-    bool isSeen(const Box3d& box) const {
+    [[nodiscard]] bool isSeen(const Box3d& box) const {
         std::array<int, 5> outside{};
         for (int corner = 0; corner < 8; ++corner) {
             const Vec3d from = cornerOf(box, corner) - view_.eye;
@@ -156,7 +156,7 @@ private:
         return std::find(outside.begin(), outside.end(), 8) == outside.end();
     }
 
-    bool isTooCoarse(const IndexEntry& entry) const { return pixelsOf(city_, view_, entry) > pixels_; }
+    [[nodiscard]] bool isTooCoarse(const IndexEntry& entry) const { return pixelsOf(city_, view_, entry) > pixels_; }
 
     const City& city_;
     const CameraView& view_;
