@@ -7,13 +7,17 @@
 
 #include <apps/cli/options/scene_options.hpp>
 
+#include <svt/city/city_painter.hpp>
 #include <svt/image/png.hpp>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
+#include <cstdint>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 namespace svt::python {
 namespace {
@@ -51,6 +55,32 @@ SharedFrame draw(const SharedVolume& volume, const py::dict& given, const py::ob
         options.progress = progress;
         options.isAdaptive = true;  // as the command, whose pictures these are
         return volume->paint(scene, options, made->notes);
+    });
+    made->frame = std::move(painting.frame);
+    return made;
+}
+
+struct CityObject {
+    city::City city;
+    std::uint64_t memoryBytes;
+};
+
+SharedFrame drawCity(const CityObject& city, const py::dict& given, const py::object& report) {
+    PictureKeywords keywords;
+    const cli::SceneArguments& arguments = keywords.take(given);
+    if (!arguments.cutaway.empty())
+        throw Failure(Error(Code::BadArgument, "cutaway: for one volume only; take a part of the city"));
+    const illustrate::Scene scene = valueOf(arguments.toScene(1));
+    auto made = std::make_shared<FrameObject>();
+    made->dpi = arguments.printedDpi();
+    auto painting = longCall(report, [&](const Progress* progress) -> Result<illustrate::Painting> {
+        SVT_TRY(painter, city::CityPainter::make(city.city, {city.memoryBytes, 0, progress}));
+        render::CastOptions options;
+        options.progress = progress;
+        options.isAdaptive = true;
+        auto painted = painter->paint(scene, options);
+        made->notes = painter->nothing();
+        return painted;
     });
     made->frame = std::move(painting.frame);
     return made;
@@ -97,6 +127,22 @@ void bindPictures(py::module_& module) {
             [](const py::object& self) { return bufferOf<float>(self, self.cast<SharedFrame>()->frame.depth, false); })
         .def_property_readonly("dpi", [](const FrameObject& frame) { return frame.dpi; })
         .def_property_readonly("notes", [](const FrameObject& frame) { return frame.notes; });
+    py::class_<CityObject>(module, "City")
+        .def_property_readonly("buildings", [](const CityObject& city) { return city.city.buildings(); })
+        .def_property_readonly("spacing", [](const CityObject& city) { return city.city.spacing(); })
+        .def_property_readonly("crs", [](const CityObject& city) { return city.city.crsName(); })
+        .def_property_readonly("box", [](const CityObject& city) {
+            const auto corner = [](Vec3d p) { return std::array{p.x, p.y, p.z}; };
+            return std::pair(corner(city.city.box().min), corner(city.city.box().max));
+        });
+    module.def(
+        "open_city",
+        [](const std::filesystem::path& folder, double memoryMb) {
+            return CityObject{longCall(py::none(), [&](const Progress*) { return city::City::open(folder); }),
+                              static_cast<std::uint64_t>(memoryMb * 1e6)};
+        },
+        py::arg("folder"), py::arg("memory"));
+    module.def("draw_city", &drawCity, py::arg("city"), py::arg("options"), py::arg("progress"));
     module.def("draw", &draw, py::arg("volume"), py::arg("options"), py::arg("progress"));
     module.def("draw_keywords", [] { return PictureKeywords().describe(); });
     module.def(

@@ -13,6 +13,7 @@ leaves the interpreter to other threads, and Ctrl-C ends it. Errors are :class:`
 """
 from . import _native
 from ._native import Feature, Label
+from .city import City
 from .errors import Error, Finding, Place
 from .labels import Labels
 from .model import Model, read, sample
@@ -24,6 +25,7 @@ from .volume import Runs, Volume, build, open
 __version__: str = _native.version
 __all__ = [
     "Axes",
+    "City",
     "Component",
     "Error",
     "Feature",

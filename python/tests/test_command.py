@@ -307,6 +307,23 @@ class Command(unittest.TestCase):
             with open(path("command.png"), "rb") as a, open(path("python.png"), "rb") as b:
                 self.assertTrue(a.read() == b.read(), options)
 
+    def test_a_city_is_drawn_alike(self):
+        command("sample", "district", "--columns", "3", "--rows", "2", "-o", path("town.gml"))
+        command("city", "plan", path("town.gml"), "-o", path("town"), "--spacing", "0.4", "--quiet")
+        command("city", "run", path("town"), "--quiet")
+        city = svt.City(path("town"))
+        self.assertEqual(city.buildings, 7, "six houses, and the ground")
+        command(
+            "render", path("town"), "-o", path("command.png"), "--size", "200x150", "--look", "dark", "--zoom", "1.5"
+        )
+        city.frame(size="200x150", look="dark", zoom=1.5).save(path("python.png"))
+        with open(path("command.png"), "rb") as a, open(path("python.png"), "rb") as b:
+            self.assertTrue(a.read() == b.read())
+        with self.assertRaisesRegex(svt.Error, "for one volume only"):
+            city.render(explode=2)
+        with self.assertRaises(svt.Error):
+            svt.City(path("nowhere"))
+
     def test_labels_of_pixels_are_those_of_rays(self):
         v = svt.open(house_svt())
         frame = v.frame(size=(160, 120), samples=1)

@@ -31,6 +31,10 @@ struct JoinedTiles {
 [[nodiscard]] Result<JoinedTiles> joinTiles(const City& city, const volume::SemanticVolume& frame,
                                             const ChosenTiles& chosen, std::vector<volume::SemanticVolume> parts);
 
+/// Whether a scene can be drawn of a city, whose parts are read tile by tile.
+/// \return success, or BadArgument for a member that needs a whole model: explode, insets, or lines or meshes of a pass
+[[nodiscard]] Result<void> checkCityScene(const illustrate::Scene& scene);
+
 struct CityPaintOptions {
     std::uint64_t memoryBytes = 1'000'000'000;  ///< that tiles may take; with less they are coarser
     int threads = 0;                            ///< 0: all cores
@@ -47,8 +51,8 @@ public:
     [[nodiscard]] const volume::SemanticVolume& frame() const noexcept { return frame_; }
 
     /// Reads what the scene shows, and draws it. A camera that looks around "id=ID" shows this building.
-    /// \return the picture, or an error of makeFrameSpec(), readTiles(), castRays(); BadArgument for a camera around
-    ///         another query
+    /// \return the picture, or an error of checkCityScene(), makeFrameSpec(), readTiles(), castRays(); BadArgument for a
+    ///         camera around another query
     [[nodiscard]] Result<illustrate::Painting> paint(illustrate::Scene scene, const render::CastOptions& options);
 
     /// Tiles of the last picture.

@@ -286,24 +286,18 @@ int runLineDrawing(const RenderArguments& arguments, const Series& series, const
     return kDone;
 }
 
-// Refuses what needs all of a model at once, whether an option or a scene file asks for it.
+// Refuses what needs all of a model at once.
 Result<void> checkForCity(const RenderArguments& arguments, const illustrate::Scene& scene) {
-    const auto isIn = [&](auto has) { return std::ranges::any_of(scene.passes, has); };
-    const std::pair<bool, const char*> needs[] = {
-        {isLineDrawing(arguments.output), "-o .svg or .pdf"},
-        {!arguments.with.empty(), "--with"},
-        {!arguments.owners.empty(), "--owners"},
-        {arguments.gl, "--gl"},
-        {scene.explode != 0, "--explode"},
-        {!scene.insets.empty(), "--inset"},
-        {!arguments.scene.cutaway.empty(), "--cutaway"},
-        {isIn([](const auto& pass) { return !pass.lines.empty(); }), "--wireframe"},
-        {isIn([](const auto& pass) { return !pass.meshes.empty(); }), "--vectors"}};
+    const std::pair<bool, const char*> needs[] = {{isLineDrawing(arguments.output), "-o .svg or .pdf"},
+                                                  {!arguments.with.empty(), "--with"},
+                                                  {!arguments.owners.empty(), "--owners"},
+                                                  {arguments.gl, "--gl"},
+                                                  {!arguments.scene.cutaway.empty(), "--cutaway"}};
     for (const auto& [isGiven, option] : needs)
         if (isGiven)
             return Error(Code::BadArgument,
-                         fmt::format("{} is for one volume; take a part of the city (svt city extract)", option));
-    return {};
+                         fmt::format("{}: for one volume only; take a part of the city (svt city extract)", option));
+    return city::checkCityScene(scene);
 }
 
 // Pictures of a city: for each of them, its tiles are chosen and read.

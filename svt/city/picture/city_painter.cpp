@@ -4,12 +4,28 @@
 #include <svt/illustrate/view.hpp>
 #include <svt/render/ray_caster.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 namespace svt::city {
+
+Result<void> checkCityScene(const illustrate::Scene& scene) {
+    const auto isIn = [&](auto has) { return std::ranges::any_of(scene.passes, has); };
+    const std::pair<bool, const char*> needs[] = {
+        {scene.explode != 0, "explode"},
+        {!scene.insets.empty(), "insets"},
+        {isIn([](const auto& pass) { return !pass.lines.empty(); }), "lines of a pass (--wireframe)"},
+        {isIn([](const auto& pass) { return !pass.meshes.empty(); }), "meshes of a pass (--vectors)"}};
+    for (const auto& [isGiven, member] : needs)
+        if (isGiven)
+            return Error(Code::BadArgument,
+                         fmt::format("{}: for one volume only; take a part of the city (svt city extract)", member));
+    return {};
+}
 
 Result<CityPainter> CityPainter::make(City city, const CityPaintOptions& options) {
     SVT_TRY(frame, frameVolume(city));
@@ -125,6 +141,7 @@ bool CityPainter::takeBack(const CameraView& view, const illustrate::Painting& p
 }
 
 Result<illustrate::Painting> CityPainter::paint(illustrate::Scene scene, const render::CastOptions& options) {
+    SVT_DO(checkCityScene(scene));
     SVT_DO(lookAround(scene));
     // Only the camera matters: queries find nothing in the frame.
     std::vector<std::string> ignored;
