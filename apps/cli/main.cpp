@@ -1,4 +1,3 @@
-#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/command_line.hpp>
 #include <apps/cli/output/messages.hpp>
 
@@ -10,43 +9,13 @@
 #include <new>
 #include <system_error>
 
-namespace {
-
 using namespace svt::cli;
-
-constexpr CommandAction kCommands[] = {
-    {"sample", connectSample},
-    {"sample-city", connectSampleCity},
-    {"build", connectBuild},
-    {"info", connectInfo},
-    {"check", connectCheck},
-    {"render", connectRender},
-    {"section", connectSection},
-    {"sheets", connectSheets},
-    {"query", connectQuery},
-    {"shell", connectShell},
-    {"convert", connectConvert},
-    {"serve", connectServe},
-    {"view", connectView},
-    {"publish", connectPublish},
-    {"city-plan", connectCityPlan},
-    {"city-run", connectCityRun},
-    {"city-task", connectCityTask},
-    {"city-status", connectCityStatus},
-    {"city-merge", connectCityMerge},
-    {"city-info", connectCityInfo},
-    {"city-extract", connectCityExtract},
-    {"doctor", connectDoctor},
-    {"describe", connectDescribe},
-};
-
-}  // namespace
 
 int main(int argc, char** argv) {
     svt::openStandardStreams();
     svt::cleanUpOnSignals();
     try {
-        return runCommandLine(argc, argv, kCommands);
+        return runCommandLine(argc, argv);
     } catch (const std::bad_alloc&) {
         return failOfMemory();
     } catch (const std::system_error& error) {

@@ -1,5 +1,6 @@
-#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
@@ -191,7 +192,46 @@ int runBuild(const BuildCommandArguments& arguments) {
     return kDone;
 }
 
-}  // namespace
+constexpr Option kBuild[] = {
+    {.name = "input",
+     .value = "FILE",
+     .help =
+         "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq, IFC 2x3 to 4.3, IndoorGML; or one label "
+         "volume: NRRD, VTI, NIfTI, TIFF, a folder of Zarr, CityGML with a volume in it",
+     .isRequired = true,
+     .mayRepeat = true,
+     .file = FileUse::Model},
+    {.name = "-o,--output",
+     .value = "F.svt",
+     .help = "the volume to write",
+     .isRequired = true,
+     .file = FileUse::Output,
+     .formats = "svt"},
+};
+constexpr Option kGridOf[] = {
+    {.name = "--only",
+     .value = "QUERY",
+     .help = "keep the voxels of what the query selects alone, in the box around them",
+     .group = "Part"},
+    {.name = "--box",
+     .kind = Number,
+     .value = "X0,Y0,Z0,X1,Y1,Z1",
+     .unit = "metres",
+     .help = "keep only the samples in this box of world coordinates",
+     .group = "Part",
+     .count = 6,
+     .leastCount = 6},
+    {.name = "--labels",
+     .value = "FILE",
+     .otherwise = "what the file tells, else a label per value",
+     .help = "of a label volume: a table (JSON) that says which label each value is",
+     .file = FileUse::OtherInput},
+    {.name = "--grid-of",
+     .value = "F.svt",
+     .help = "samples where this volume has them, so that the two can be compared voxel by voxel",
+     .group = "Grid",
+     .file = FileUse::OtherInput},
+};
 
 Action connectBuild(Command& command) {
     auto arguments = std::make_shared<BuildCommandArguments>();
@@ -213,5 +253,13 @@ Action connectBuild(Command& command) {
     command.set("--verbose", arguments->verbose);
     return [arguments] { return runBuild(*arguments); };
 }
+
+}  // namespace
+
+extern const CommandText kBuildCommand{
+    .name = "build",
+    .help = "Make a volume (.svt) of one or more model files",
+    .sets = {kBuild, kGrid, kGridOf, kModel, kMemory, kStyle, kVoxels, kBuildOutput, kQuiet, kVerbose},
+    .connect = connectBuild};
 
 }  // namespace svt::cli

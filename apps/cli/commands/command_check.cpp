@@ -2,8 +2,9 @@
 #include <apps/cli/check/feature_batches.hpp>
 #include <apps/cli/city/city_check.hpp>
 #include <apps/cli/city/city_input.hpp>
-#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
@@ -274,7 +275,47 @@ int runCheck(const CheckArguments& arguments) {
     return exitCodeFor(diagnostics);
 }
 
-}  // namespace
+constexpr Option kCheck[] = {
+    {.name = "input",
+     .value = "FILE",
+     .help = "model files, or a city: its folder or address",
+     .isRequired = true,
+     .mayRepeat = true,
+     .file = FileUse::Model},
+    kModel[0],
+    kModel[2],
+    kModel[3],
+    kModel[4],
+    kModel[5],
+    {.name = "--planarity",
+     .kind = Number,
+     .unit = "m",
+     .least = 1e-6,
+     .most = 1000,
+     .byDefault = "0.01",
+     .help = "how far a point may lie from the plane of its polygon",
+     .group = "Tolerances"},
+    {.name = "--overlap",
+     .kind = Number,
+     .unit = "m",
+     .least = 0,
+     .most = 1000,
+     .otherwise = "solids that overlap by more than 1 mm are reported",
+     .help = "leave solids be that overlap by up to twice this",
+     .group = "Tolerances"},
+    {.name = "--report",
+     .value = "R.html",
+     .help = "also write a page with counts, findings and a picture of each defect",
+     .group = "Output",
+     .file = FileUse::Output,
+     .formats = "html"},
+    {.name = "--format",
+     .choices = "text|json|val3dity",
+     .byDefault = "text",
+     .help = "what to print on stdout: text, JSON, or JSON as val3dity reports it",
+     .group = "Output"},
+    kInfoOutput[0],
+};
 
 Action connectCheck(Command& command) {
     auto arguments = std::make_shared<CheckArguments>();
@@ -289,5 +330,13 @@ Action connectCheck(Command& command) {
     command.set("--verbose", arguments->verbose);
     return [arguments] { return runCheck(*arguments); };
 }
+
+}  // namespace
+
+extern const CommandText kCheckCommand{
+    .name = "check",
+    .help = "Test a model: open shells, dangling links, bad faces; exit 4 where something is wrong",
+    .sets = {kCheck, kMemory, kQuiet, kVerbose},
+    .connect = connectCheck};
 
 }  // namespace svt::cli

@@ -1,6 +1,7 @@
 #include <apps/cli/city/city_input.hpp>
-#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 
 #include <svt/city/city_folder.hpp>
@@ -55,7 +56,37 @@ int runCityExtract(const CityInfoArguments& arguments) {
     return kDone;
 }
 
-}  // namespace
+constexpr Option kCityInfo[] = {kInfoOutput[0]};
+constexpr Option kCityExtract[] = {
+    {.name = "-o,--output",
+     .value = "F.svt",
+     .help = "the volume to write",
+     .isRequired = true,
+     .file = FileUse::Output,
+     .formats = "svt"},
+    {.name = "--tile",
+     .value = "L/X/Y",
+     .help = "a whole tile, such as 9/754/11352",
+     .group = "Part",
+     .mayRepeat = true},
+    {.name = "--id", .value = "ID", .help = "a building by its id", .group = "Part", .mayRepeat = true},
+    {.name = "--box",
+     .kind = Number,
+     .value = "X,Y,Z,X,Y,Z",
+     .unit = "metres",
+     .help = "lower and upper corner in the CRS of the city",
+     .group = "Part",
+     .count = 6,
+     .leastCount = 6},
+    {.name = "--detail",
+     .kind = Whole,
+     .least = 0,
+     .most = 26,
+     .byDefault = "0",
+     .help = "0: all labels; 1: one label a building, at twice the spacing; 2: one label a class, at four times; 3 and "
+             "up: mixtures of classes, each at twice the spacing of the one before",
+     .group = "Part"},
+};
 
 Action connectCityInfo(Command& command) {
     auto arguments = std::make_shared<CityInfoArguments>();
@@ -74,5 +105,17 @@ Action connectCityExtract(Command& command) {
     command.set("--detail", arguments->detail);
     return [arguments] { return runCityExtract(*arguments); };
 }
+
+}  // namespace
+
+extern const CommandText kCityInfoCommand{.name = "city-info",
+                                          .help = "Show what is inside a city",
+                                          .sets = {kCityFolder, kCityInfo, kQuiet},
+                                          .connect = connectCityInfo};
+
+extern const CommandText kCityExtractCommand{.name = "city-extract",
+                                             .help = "Write a part of a city as a volume (.svt)",
+                                             .sets = {kCityFolder, kCityExtract, kQuiet},
+                                             .connect = connectCityExtract};
 
 }  // namespace svt::cli

@@ -1,5 +1,6 @@
-#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 #include <apps/cli/output/version.hpp>
@@ -51,7 +52,51 @@ int runCityPlan(CityPlanArguments& arguments) {
 
 }  // namespace
 
-std::string programOfCity() { return fmt::format("{} {}", versionNumber(), buildFacts().commit); }
+namespace {
+
+constexpr Option kCityPlan[] = {
+    {.name = "input",
+     .value = "FILE",
+     .help = kModelFiles,
+     .isRequired = true,
+     .mayRepeat = true,
+     .file = FileUse::Model},
+    {.name = "-o,--output",
+     .value = "DIR",
+     .help = "the folder of the city",
+     .isRequired = true,
+     .file = FileUse::OutputFolder},
+    {.name = "--spacing",
+     .kind = Number,
+     .unit = "metres",
+     .least = 0.001,
+     .most = 100,
+     .byDefault = "0.5",
+     .help = "distance of samples of the finest level",
+     .group = "Grid"},
+    kModel[0],
+    kModel[2],
+    kModel[5],
+    {.name = "--tasks",
+     .kind = Whole,
+     .least = 1,
+     .most = 1000000,
+     .otherwise = "some 5 minutes each, at most 1000",
+     .help = "number of tasks that a cluster is to run; the city does not depend on it",
+     .group = "Work"},
+    {.name = "--pack-seconds",
+     .kind = Number,
+     .unit = "seconds",
+     .least = 0.01,
+     .most = 3600,
+     .byDefault = "10",
+     .help = "expected work in a pack, the smallest part that is built, proven and built again",
+     .group = "Work"},
+    {.name = "--update",
+     .kind = Flag,
+     .help = "the folder has a plan: say which tiles change, and keep packs whose content stays",
+     .group = "Work"},
+};
 
 Action connectCityPlan(Command& command) {
     auto arguments = std::make_shared<CityPlanArguments>();
@@ -68,5 +113,12 @@ Action connectCityPlan(Command& command) {
     command.set("--verbose", arguments->verbose);
     return [arguments] { return runCityPlan(*arguments); };
 }
+
+}  // namespace
+
+extern const CommandText kCityPlanCommand{.name = "city-plan",
+                                          .help = "Plan a city of many files: which features make which tiles",
+                                          .sets = {kCityPlan, kThreads, kQuiet, kVerbose},
+                                          .connect = connectCityPlan};
 
 }  // namespace svt::cli

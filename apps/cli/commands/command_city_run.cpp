@@ -1,9 +1,11 @@
 #include <apps/cli/city/engines.hpp>
 #include <apps/cli/city/run_packs.hpp>
-#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
+#include <apps/cli/output/version.hpp>
 
 #include <svt/city/city_folder.hpp>
 #include <svt/city/city_plan.hpp>
@@ -184,7 +186,67 @@ int runCityStatus(const CityRunArguments& arguments) {
     return kDone;
 }
 
-}  // namespace
+constexpr Option kCityLimits[] = {
+    {.name = "--tile-seconds",
+     .kind = Number,
+     .unit = "seconds",
+     .least = 0.1,
+     .most = 1000000,
+     .byDefault = "120",
+     .help = "what a tile may take before its features are tried one by one",
+     .group = "Limits"},
+    {.name = "--feature-seconds",
+     .kind = Number,
+     .unit = "seconds",
+     .least = 0.1,
+     .most = 1000000,
+     .byDefault = "20",
+     .help = "what a feature may take that is tried alone; beyond, it is left out",
+     .group = "Limits"},
+};
+constexpr Option kCityRun[] = {
+    {.name = "options",
+     .value = "OPTION",
+     .help =
+         "after --: with slurm, options of sbatch, such as --partition=batch; with kubernetes, image=, claim=, mount=, "
+         "namespace=, cpu=, memory=, parallelism=",
+     .mayRepeat = true},
+    {.name = "--engine",
+     .choices = "local|slurm|kubernetes",
+     .byDefault = "local",
+     .help = "where: on this machine; as a job array of Slurm; as an Indexed Job of Kubernetes, which is printed",
+     .group = "Work"},
+    {.name = "--print", .kind = Flag, .help = "print what would be submitted, and do nothing", .group = "Work"},
+    {.name = "--jobs",
+     .kind = Whole,
+     .least = 0,
+     .most = 1024,
+     .otherwise = "one for each core",
+     .help = "packs that are built at a time; the city does not depend on it",
+     .group = "Work"},
+};
+constexpr Option kCityTask[] = {
+    {.name = "task", .kind = Whole, .least = 0, .help = "number of the task, from 0", .isRequired = true},
+    {.name = "--of",
+     .kind = Whole,
+     .least = 1,
+     .otherwise = "that of the plan",
+     .help = "number of tasks; each builds its share of the packs",
+     .group = "Work"},
+    {.name = "--threads",
+     .kind = Whole,
+     .least = 0,
+     .most = 1024,
+     .byDefault = "1",
+     .help = "number of threads, 0 for all cores; the result does not depend on it",
+     .group = "Work"},
+};
+constexpr Option kCityStatus[] = {
+    kInfoOutput[0],
+    {.name = "--proven",
+     .kind = Flag,
+     .help = "read all packs and compare their SHA-256 with the reports, not their sizes alone"},
+};
 
 Action connectCityRun(Command& command) {
     auto given = arguments(command);
@@ -216,5 +278,27 @@ Action connectCityStatus(Command& command) {
     command.set("--proven", given->isProven);
     return [given] { return runCityStatus(*given); };
 }
+
+}  // namespace
+
+extern const CommandText kCityRunCommand{.name = "city-run",
+                                         .help = "Build all of a city that is not built yet, and merge it",
+                                         .sets = {kCityFolder, kCityRun, kCityLimits, kQuiet},
+                                         .connect = connectCityRun};
+
+extern const CommandText kCityTaskCommand{.name = "city-task",
+                                          .help = "Build one task's share of a city",
+                                          .sets = {kCityFolder, kCityTask, kCityLimits, kQuiet},
+                                          .connect = connectCityTask};
+
+extern const CommandText kCityStatusCommand{.name = "city-status",
+                                            .help = "Say what of a city is built, and how to go on",
+                                            .sets = {kCityFolder, kCityStatus, kQuiet},
+                                            .connect = connectCityStatus};
+
+extern const CommandText kCityMergeCommand{.name = "city-merge",
+                                           .help = "Make the index of a city of all that is built",
+                                           .sets = {kCityFolder, kQuiet},
+                                           .connect = connectCityMerge};
 
 }  // namespace svt::cli

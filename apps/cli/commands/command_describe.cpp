@@ -1,7 +1,8 @@
-#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/describe/completions.hpp>
 #include <apps/cli/describe/man_pages.hpp>
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/version.hpp>
@@ -104,7 +105,13 @@ int runDescribe(const DescribeArguments& arguments) {
     return kDone;
 }
 
-}  // namespace
+constexpr Option kDescribe[] = {
+    {.name = "what",
+     .choices = "json|man|bash|zsh|fish",
+     .help = "json: all commands and options; man: a manual page; bash, zsh, fish: completions for that shell",
+     .isRequired = true},
+    {.name = "command", .otherwise = "the page of svt itself", .help = "with man: the command whose page is printed"},
+};
 
 Action connectDescribe(Command& command) {
     auto arguments = std::make_shared<DescribeArguments>();
@@ -112,5 +119,12 @@ Action connectDescribe(Command& command) {
     command.set("command", arguments->command);
     return [arguments] { return runDescribe(*arguments); };
 }
+
+}  // namespace
+
+extern const CommandText kDescribeCommand{.name = "describe",
+                                          .help = "Print what the command offers, for other programs",
+                                          .sets = {kDescribe},
+                                          .connect = connectDescribe};
 
 }  // namespace svt::cli

@@ -1,5 +1,6 @@
-#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/doctor/answers.hpp>
+#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 
 #include <fmt/format.h>
@@ -67,12 +68,20 @@ int runDoctor(const DoctorArguments& arguments) {
     return report.finish();
 }
 
-}  // namespace
+constexpr Option kDoctor[] = {kInfoOutput[0]};
 
 Action connectDoctor(Command& command) {
     auto arguments = std::make_shared<DoctorArguments>();
     command.set("--json", arguments->json);
     return [arguments] { return runDoctor(*arguments); };
 }
+
+}  // namespace
+
+extern const CommandText kDoctorCommand{
+    .name = "doctor",
+    .help = "Say what of this machine can be used, and what to do about what is missing",
+    .sets = {kDoctor},
+    .connect = connectDoctor};
 
 }  // namespace svt::cli

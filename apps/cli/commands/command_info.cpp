@@ -1,6 +1,7 @@
 #include <apps/cli/city/city_input.hpp>
-#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
@@ -78,8 +79,6 @@ int runInfo(const InfoArguments& arguments) {
     return kDone;
 }
 
-}  // namespace
-
 Action connectInfo(Command& command) {
     auto arguments = std::make_shared<InfoArguments>();
     command.set("input", arguments->input);
@@ -88,5 +87,13 @@ Action connectInfo(Command& command) {
     command.set("--tree", arguments->tree);
     return [arguments] { return runInfo(*arguments); };
 }
+
+}  // namespace
+
+extern const CommandText kInfoCommand{
+    .name = "info",
+    .help = "Show what is inside a volume or model",
+    .sets = {kModelInput, kGrid, kModel, kMemory, kStyle, kVoxels, kInfoOutput, kQuiet},
+    .connect = connectInfo};
 
 }  // namespace svt::cli

@@ -1,4 +1,5 @@
-#include <apps/cli/commands/commands.hpp>
+#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/options/site_options.hpp>
 #include <apps/cli/output/messages.hpp>
 
@@ -44,7 +45,18 @@ int runPublish(const PublishArguments& arguments) {
     return kDone;
 }
 
-}  // namespace
+constexpr Option kPublish[] = {
+    kSiteInputs[0],
+    {.name = "-o,--output",
+     .value = "DIR",
+     .help = "the folder to write",
+     .isRequired = true,
+     .file = FileUse::OutputFolder},
+    {.name = "--force", .kind = Flag, .help = "write into a folder that is not empty; what is not of the page stays"},
+    {.name = "--url",
+     .value = "URL",
+     .help = "where the page will be, such as https://example.org/house/, for previews of links to it"},
+};
 
 Action connectPublish(Command& command) {
     auto arguments = std::make_shared<PublishArguments>();
@@ -55,5 +67,12 @@ Action connectPublish(Command& command) {
     arguments->site.connect(command);
     return [arguments] { return runPublish(*arguments); };
 }
+
+}  // namespace
+
+extern const CommandText kPublishCommand{.name = "publish",
+                                         .help = "Write the viewer with models as a folder for any web server",
+                                         .sets = {kPublish, kQuiet, kPage, kGrid, kModel, kMemory, kStyle, kVoxels},
+                                         .connect = connectPublish};
 
 }  // namespace svt::cli

@@ -1,8 +1,9 @@
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/city/city_overlaps.hpp>
 #include <apps/cli/city/feature_query.hpp>
-#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/query_reports.hpp>
@@ -180,7 +181,74 @@ int runQuery(const QueryArguments& arguments) {
     return printReport(*volume, *selected, arguments);
 }
 
-}  // namespace
+constexpr Option kQuery[] = {
+    kModelInput[0],
+    {.name = "query", .value = "QUERY", .help = "such as 'class=BuildingRoom and volume>20'", .isRequired = true},
+    {.name = "--with",
+     .value = "LIST",
+     .help = "more columns, any of volume (by voxels), surface (m2) and box, such as volume,surface",
+     .group = "Report"},
+    {.name = "--neighbours",
+     .kind = Flag,
+     .help = "what each feature touches, with the shared area",
+     .group = "Report"},
+    {.name = "--along",
+     .value = "X,Y,Z:DX,DY,DZ",
+     .help = "what lies along a ray: a point in metres from the lower corner, and a direction",
+     .group = "Report"},
+    {.name = "--overlaps", .kind = Flag, .help = "space that two features claim", .group = "Report"},
+    {.name = "--gaps", .kind = Flag, .help = "enclosed air that belongs to no feature", .group = "Report"},
+    {.name = "--areas",
+     .kind = Flag,
+     .help = "rooms with area, height and volume, then floor areas after DIN 277-1 of each storey and in all",
+     .group = "Report"},
+    {.name = "--owners",
+     .value = "T.csv",
+     .help = "who owns what: a table of feature and owner; walls between owners are divided",
+     .group = "Report",
+     .file = FileUse::OtherInput},
+    {.name = "--parcels",
+     .value = "FILE",
+     .help = "how much of each feature lies in which parcel: a volume on the same grid, or a model",
+     .group = "Report",
+     .file = FileUse::ModelOrVolume},
+    {.name = "-o,--output",
+     .value = "FILE",
+     .help = "write rows with outline, height, volume and attributes: .csv, .geojson, .gpkg or .parquet",
+     .group = "Features",
+     .file = FileUse::Output,
+     .formats = "csv|geojson|gpkg|objectparquet"},
+    {.name = "--box",
+     .kind = Number,
+     .value = "X0,Y0,Z0,X1,Y1,Z1",
+     .unit = "metres",
+     .help = "only features whose box meets this box of world coordinates",
+     .group = "Features",
+     .count = 6,
+     .leastCount = 6},
+    {.name = "--by",
+     .value = "KEYS",
+     .help = "sums of m3 and m2 by attributes or class, such as function,district",
+     .group = "Features"},
+    {.name = "--cut",
+     .value = "PLANE",
+     .help = "only features that a plane cuts, such as 'z=abs(120)' (metres above datum)",
+     .group = "Features"},
+    {.name = "--sort", .choices = "volume|area|height", .help = "the largest first", .group = "Features"},
+    {.name = "--first",
+     .kind = Whole,
+     .least = 1,
+     .most = 1000000,
+     .otherwise = "all; 100 with --sort",
+     .help = "only so many",
+     .group = "Features"},
+    {.name = "--leaks",
+     .kind = Flag,
+     .help = "only solids whose shell has holes in the model, which were closed or filled all the same",
+     .group = "Features"},
+    {.name = "--json", .kind = Flag, .help = "print rows as JSON on stdout", .group = "Output"},
+    {.name = "--csv", .kind = Flag, .help = "print rows as CSV on stdout", .group = "Output"},
+};
 
 Action connectQuery(Command& command) {
     auto arguments = std::make_shared<QueryArguments>();
@@ -206,5 +274,12 @@ Action connectQuery(Command& command) {
     arguments->build.connect(command);
     return [arguments] { return runQuery(*arguments); };
 }
+
+}  // namespace
+
+extern const CommandText kQueryCommand{.name = "query",
+                                       .help = "List the features that a query selects, and what is around them",
+                                       .sets = {kQuery, kQuiet, kGrid, kModel, kMemory, kStyle, kVoxels},
+                                       .connect = connectQuery};
 
 }  // namespace svt::cli

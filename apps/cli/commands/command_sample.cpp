@@ -1,5 +1,5 @@
-#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
@@ -53,7 +53,46 @@ int runSample(const SampleArguments& arguments) {
     return kDone;
 }
 
-}  // namespace
+constexpr Option kSample[] = {
+    {.name = "kind", .choices = "house|tower|district", .help = "house, tower or district", .isRequired = true},
+    {.name = "-o,--output",
+     .value = "FILE",
+     .help = "model to write: .gml (CityGML 3.0), .json (CityJSON 2.0), .jsonl (CityJSONSeq), .ifc (IFC4)",
+     .isRequired = true,
+     .file = FileUse::Output,
+     .formats = "citygml|cityjson|cityjsonseq|ifc"},
+    {.name = "--format",
+     .choices = "citygml3|citygml2|cityjson|cityjsonseq|ifc",
+     .otherwise = "by extension",
+     .help = "format of the model"},
+    {.name = "--seed",
+     .kind = Whole,
+     .least = 0,
+     .byDefault = "1",
+     .help = "decides owners and the houses of a district"},
+    {.name = "--storeys", .kind = Whole, .least = 1, .most = 200, .byDefault = "8", .help = "tower: number of storeys"},
+    {.name = "--flats", .kind = Whole, .least = 2, .most = 8, .byDefault = "4", .help = "tower: flats on each storey"},
+    {.name = "--columns",
+     .kind = Whole,
+     .least = 1,
+     .most = 1000,
+     .byDefault = "4",
+     .help = "district: houses from west to east"},
+    {.name = "--rows",
+     .kind = Whole,
+     .least = 1,
+     .most = 1000,
+     .byDefault = "3",
+     .help = "district: houses from south to north"},
+    {.name = "--turn",
+     .kind = Number,
+     .unit = "degrees counter-clockwise",
+     .least = -360,
+     .most = 360,
+     .byDefault = "0",
+     .help = "turn in plan"},
+    {.name = "--thematic", .kind = Flag, .help = "CityGML 2.0: walls only as surfaces, as LoD4 has them"},
+};
 
 Action connectSample(Command& command) {
     auto arguments = std::make_shared<SampleArguments>();
@@ -70,5 +109,12 @@ Action connectSample(Command& command) {
     command.set("--thematic", options.thematic);
     return [arguments] { return runSample(*arguments); };
 }
+
+}  // namespace
+
+extern const CommandText kSampleCommand{.name = "sample",
+                                        .help = "Write a generated model: a house, a tower of flats, a district",
+                                        .sets = {kSample, kQuiet},
+                                        .connect = connectSample};
 
 }  // namespace svt::cli

@@ -1,5 +1,5 @@
-#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
@@ -76,7 +76,25 @@ int runSampleCity(SampleCityArguments& arguments) {
     return kDone;
 }
 
-}  // namespace
+constexpr Option kSampleCity[] = {
+    {.name = "--profile",
+     .choices = "3dbag|berlin|nyc|plateau",
+     .byDefault = "berlin",
+     .help = "whose files the city resembles: formats, versions, CRS and units"},
+    {.name = "--buildings",
+     .kind = Whole,
+     .least = 1,
+     .most = 100000000,
+     .byDefault = "1000",
+     .help = "number of buildings, those that stand in two files counted once"},
+    {.name = "--files", .kind = Whole, .least = 1, .most = 100000, .byDefault = "1", .help = "number of files"},
+    {.name = "--seed", .kind = Whole, .least = 0, .byDefault = "1", .help = "decides all buildings"},
+    {.name = "-o,--output",
+     .value = "DIR",
+     .help = "folder that the files are written into",
+     .isRequired = true,
+     .file = FileUse::OutputFolder},
+};
 
 Action connectSampleCity(Command& command) {
     auto arguments = std::make_shared<SampleCityArguments>();
@@ -88,5 +106,12 @@ Action connectSampleCity(Command& command) {
     command.set("--threads", arguments->threads);
     return [arguments] { return runSampleCity(*arguments); };
 }
+
+}  // namespace
+
+extern const CommandText kSampleCityCommand{.name = "sample-city",
+                                            .help = "Write a generated city: many buildings in many files",
+                                            .sets = {kSampleCity, kThreads, kQuiet},
+                                            .connect = connectSampleCity};
 
 }  // namespace svt::cli

@@ -1,8 +1,9 @@
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/city/city_section.hpp>
-#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/command_line.hpp>
 #include <apps/cli/options/paper_scale.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
@@ -147,7 +148,75 @@ int runSection(const SectionArguments& arguments) {
     return writeSection(arguments, *drawing, *volume, nothing, *scale);
 }
 
-}  // namespace
+constexpr Option kSection[] = {
+    kModelInput[0],
+    {.name = "-o,--output",
+     .value = "D.svg",
+     .help = "the drawing to write: .svg, .pdf, .dxf or .geojson",
+     .mayRepeat = true,
+     .file = FileUse::Output,
+     .formats = "svg|pdf|dxf|geojson"},
+    {.name = "--plane",
+     .value = "PLANE",
+     .otherwise = "1.1 m above the floor of the lowest storey, or the middle",
+     .help = "z=1.2, y<3, x>4, z=abs(112.3) in the CRS, storey=NAME+1.1 (1.1 m over its floor), or A,B,C,D; metres "
+             "from the lower corner",
+     .group = "Drawing"},
+    {.name = "--elevation",
+     .choices = "north|east|south|west",
+     .help = "the outside, seen from there: what stands behind a plane before the model",
+     .group = "Drawing"},
+    {.name = "--beyond", .kind = Flag, .help = "also draw what is seen behind the plane", .group = "Drawing"},
+    {.name = "--hidden",
+     .kind = Flag,
+     .help = "also draw the edges behind it that are hidden, dashed",
+     .group = "Drawing"},
+    {.name = "--above",
+     .kind = Flag,
+     .help = "also draw what is cut away, as seen from the plane, dashed and dotted",
+     .group = "Drawing"},
+    {.name = "--dimensions",
+     .kind = Flag,
+     .help = "plans: chains of dimensions around the building: openings, rooms, overall",
+     .group = "Drawing"},
+    {.name = "--iso-layers", .kind = Flag, .help = "DXF: names of layers after ISO 13567", .group = "Drawing"},
+    {.name = "--world",
+     .kind = Flag,
+     .help = "DXF: coordinates of the model's CRS; upright drawings stand in space",
+     .group = "Drawing"},
+    {.name = "--scale",
+     .value = "1:N",
+     .byDefault = "1:100",
+     .help = "scale of the SVG: 1:50 draws 1 m as 20 mm",
+     .group = "Drawing"},
+    {.name = "--hide",
+     .value = "QUERY",
+     .help = "leave out what the query selects",
+     .group = "Drawing",
+     .mayRepeat = true},
+    {.name = "--show",
+     .value = "QUERY",
+     .help = "draw only what the query selects",
+     .group = "Drawing",
+     .mayRepeat = true},
+    {.name = "--no-rooms", .kind = Flag, .help = "leave out rooms, units and storeys", .group = "Drawing"},
+    {.name = "--min-area",
+     .kind = Number,
+     .unit = "m2",
+     .least = 0,
+     .most = 1e9,
+     .byDefault = "0.0001",
+     .help = "leave out polygons smaller than this",
+     .group = "Drawing"},
+    {.name = "--table",
+     .value = "T.csv",
+     .help = "areas per component and class: .json or .csv",
+     .group = "Output",
+     .mayRepeat = true,
+     .file = FileUse::Output,
+     .formats = "json|csv"},
+    {.name = "--json", .kind = Flag, .help = "print the areas as JSON on stdout", .group = "Output"},
+};
 
 Action connectSection(Command& command) {
     auto arguments = std::make_shared<SectionArguments>();
@@ -172,5 +241,12 @@ Action connectSection(Command& command) {
     arguments->build.connect(command);
     return [arguments] { return runSection(*arguments); };
 }
+
+}  // namespace
+
+extern const CommandText kSectionCommand{.name = "section",
+                                         .help = "Draw what a plane cuts (SVG, PDF, DXF, GeoJSON)",
+                                         .sets = {kSection, kQuiet, kVerbose, kGrid, kModel, kMemory, kStyle, kVoxels},
+                                         .connect = connectSection};
 
 }  // namespace svt::cli

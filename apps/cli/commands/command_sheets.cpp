@@ -1,6 +1,7 @@
-#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/command_line.hpp>
 #include <apps/cli/options/paper_scale.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
@@ -198,7 +199,55 @@ int runSheets(const SheetsArguments& arguments) {
     return kDone;
 }
 
-}  // namespace
+constexpr Option kSheets[] = {
+    kModelInput[0],
+    {.name = "-o,--output",
+     .value = "P.pdf",
+     .help = "the sheets as one PDF, or the views as one GeoPackage (.gpkg)",
+     .file = FileUse::Output,
+     .formats = "pdf|gpkg"},
+    {.name = "--svg", .value = "DIR", .help = "also write each sheet as sheet-N.svg", .file = FileUse::OutputFolder},
+    {.name = "--dxf",
+     .value = "DIR",
+     .help = "also write each view as NAME.dxf, in metres",
+     .file = FileUse::OutputFolder},
+    {.name = "--from",
+     .value = "S.sheets.json",
+     .help = "which views stand on which sheets; the other options change it",
+     .group = "Sheets",
+     .file = FileUse::OtherInput},
+    {.name = "--write-sheets",
+     .value = "S.sheets.json",
+     .help = "also write which views stand on which sheets",
+     .group = "Sheets",
+     .file = FileUse::Output,
+     .formats = "sheets"},
+    {.name = "--scale",
+     .value = "1:N",
+     .otherwise = "1:100, or the next of 1:200, 1:500, ... at which all views fit",
+     .help = "scale of all views: 1:50 draws 1 m as 20 mm",
+     .group = "Sheets"},
+    {.name = "--paper",
+     .choices = "A4|A3|A2|A1|A0",
+     .otherwise = "A3",
+     .help = "size of a sheet, landscape",
+     .group = "Sheets"},
+    {.name = "--hide",
+     .value = "QUERY",
+     .help = "leave out what the query selects",
+     .group = "Sheets",
+     .mayRepeat = true},
+    {.name = "--iso-layers", .kind = Flag, .help = "DXF: names of layers after ISO 13567", .group = "Sheets"},
+    {.name = "--world",
+     .kind = Flag,
+     .help = "DXF: coordinates of the model's CRS; upright drawings stand in space",
+     .group = "Sheets"},
+    {.name = "--no-above", .kind = Flag, .help = "plans without what is above the cut", .group = "Sheets"},
+    {.name = "--no-dimensions", .kind = Flag, .help = "plans without chains of dimensions", .group = "Sheets"},
+    {.name = "--no-tables", .kind = Flag, .help = "no tables of rooms, floor areas and components", .group = "Sheets"},
+    {.name = "--language", .choices = "en|de", .otherwise = "en", .help = "of the words on sheets", .group = "Sheets"},
+    {.name = "--verbose", .kind = Flag, .help = "show all findings", .group = "Output"},
+};
 
 Action connectSheets(Command& command) {
     auto arguments = std::make_shared<SheetsArguments>();
@@ -221,5 +270,12 @@ Action connectSheets(Command& command) {
     arguments->build.connect(command);
     return [arguments] { return runSheets(*arguments); };
 }
+
+}  // namespace
+
+extern const CommandText kSheetsCommand{.name = "sheets",
+                                        .help = "Draw plans, sections and elevations on sheets of paper (PDF, SVG)",
+                                        .sets = {kSheets, kQuiet, kGrid, kModel, kMemory, kStyle, kVoxels},
+                                        .connect = connectSheets};
 
 }  // namespace svt::cli

@@ -1,5 +1,6 @@
-#include <apps/cli/commands/commands.hpp>
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
@@ -127,7 +128,41 @@ int runShell(const ShellArguments& arguments) {
     return kDone;
 }
 
-}  // namespace
+constexpr Option kShell[] = {
+    kModelInput[0],
+    {.name = "-o,--output",
+     .value = "FILE",
+     .help = "what to write; the extension selects the format: .svt (volume) or .glb (triangles)",
+     .file = FileUse::Output,
+     .formats = "svt|glb"},
+    {.name = "--level",
+     .choices = "component|room|unit|storey|building",
+     .byDefault = "building",
+     .help = "whose hull stays",
+     .group = "Shell"},
+    {.name = "--of",
+     .value = "QUERY",
+     .help = "only the groups that have something of what the query selects",
+     .group = "Shell"},
+    {.name = "--thickness",
+     .kind = Number,
+     .value = "M",
+     .least = 0,
+     .otherwise = "two voxels",
+     .help = "thickness of the hull in metres, rounded up to voxels",
+     .group = "Shell"},
+    {.name = "--labels",
+     .choices = "components|groups",
+     .byDefault = "components",
+     .help = "whose label the voxels keep: that of their component, or one per group",
+     .group = "Shell"},
+    kFaces,
+    {.name = "--levels",
+     .kind = Flag,
+     .help = "list which levels the model has, as --level names them, and write nothing",
+     .group = "Output"},
+    kBuildOutput[1],
+};
 
 Action connectShell(Command& command) {
     auto arguments = std::make_shared<ShellArguments>();
@@ -143,5 +178,12 @@ Action connectShell(Command& command) {
     arguments->build.connect(command);
     return [arguments] { return runShell(*arguments); };
 }
+
+}  // namespace
+
+extern const CommandText kShellCommand{.name = "shell",
+                                       .help = "Leave only the hull of rooms, flats, storeys or buildings",
+                                       .sets = {kShell, kQuiet, kGrid, kModel, kMemory, kStyle, kVoxels},
+                                       .connect = connectShell};
 
 }  // namespace svt::cli

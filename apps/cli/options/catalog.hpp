@@ -5,18 +5,26 @@
 
 #include <svt/core/option.hpp>
 
+#include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace svt::cli {
 
-/// A command: what it does, and its options in the order in which help lists them.
+class Command;
+/// Runs a command. \return the exit code
+using Action = std::function<int()>;
+
+/// A command, declared beside its code: its options in the order in which help lists them, and its work.
 struct CommandText {
     std::string_view name;
     std::string_view help;
     std::vector<std::span<const Option>> sets;
     bool hasScene = false;  ///< also the options that set members of a scene (Option::option)
+    /// Connects its options with variables of its own, and returns what runs once these are read.
+    Action (*connect)(Command&) = nullptr;
 };
 
 /// All commands, in the order in which help lists them.

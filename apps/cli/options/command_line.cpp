@@ -179,9 +179,9 @@ int reportUsage(const CLI::App& app, const CLI::ParseError& error) {
     return kUsage;
 }
 
-int runCommand(const CLI::App& app, const Given& given, const CommandText& text, Connect connect) {
+int runCommand(const CLI::App& app, const Given& given, const CommandText& text) {
     Command command(text);
-    const Action action = connect(command);
+    const Action action = text.connect(command);
     std::vector<GivenOption> all;
     for (std::size_t n = 0; n < command.connections().size(); ++n) {
         const auto& [option, take] = command.connections()[n];
@@ -242,7 +242,7 @@ double Command::number(const std::string& text) {
     return parseNumber(text).value_or(0);  // faultOf() has seen it
 }
 
-int runCommandLine(int argc, char** argv, std::span<const CommandAction> commands) {
+int runCommandLine(int argc, char** argv) {
     Parser parser;
     const std::vector<std::string> words = joinedWords(argc, argv);
     if (const std::string below = words.empty() ? "" : commandsBelow(words.front()); !below.empty()) {
@@ -267,10 +267,7 @@ int runCommandLine(int argc, char** argv, std::span<const CommandAction> command
     }
     for (const CommandText& text : commandTexts()) {
         if (!parser.app.got_subcommand(std::string(text.name))) continue;
-        const auto found = std::ranges::find(commands, text.name, &CommandAction::name);
-        SVT_CHECK(found != commands.end());
-        return runCommand(*parser.app.get_subcommand(std::string(text.name)), parser.given[text.name], text,
-                          found->connect);
+        return runCommand(*parser.app.get_subcommand(std::string(text.name)), parser.given[text.name], text);
     }
     fmt::print("{}", parser.app.help());
     return kUsage;

@@ -60,20 +60,9 @@ private:
     std::vector<Connection> connections_;
 };
 
-/// Connects the options of a command, and returns what to run once they are read.
-using Action = std::function<int()>;
-using Connect = Action (*)(Command&);
-
-/// A command of the catalog with what it does.
-struct CommandAction {
-    std::string_view name;
-    Connect connect;
-};
-
 /// Reads the command line and runs the command that it names; prints help, the version, or what is wrong with it.
-/// \param commands  one for each of commandTexts()
 /// \return the exit code
-int runCommandLine(int argc, char** argv, std::span<const CommandAction> commands);
+int runCommandLine(int argc, char** argv);
 
 /// The help text of a command; of all where `command` is empty.
 [[nodiscard]] std::string helpText(std::string_view command);

@@ -39,4 +39,6 @@ std::string versionText() {
                        facts.compiler, facts.kind, simdTargetName(), facts.openGl);
 }
 
+std::string programOfCity() { return fmt::format("{} {}", versionNumber(), buildFacts().commit); }
+
 }  // namespace svt::cli

@@ -23,4 +23,7 @@ struct BuildFacts {
 /// What `svt --version` prints: version, commit, compiler, SIMD instruction set, OpenGL.
 [[nodiscard]] std::string versionText();
 
+/// The version of this program as plans of cities name it.
+[[nodiscard]] std::string programOfCity();
+
 }  // namespace svt::cli
