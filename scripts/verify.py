@@ -68,7 +68,7 @@ CHECKS = {
             "programs": "/svt/(render_gl|illustrate|writers|samples|serve|pipeline|city)/|/(apps|python)/",
         }.items()
     },
-    "gcc": Check("scripts/setup.sh && SVT_KEEP_GOING=1 scripts/build.sh dev", 25),
+    "gcc": Check("scripts/setup.sh && SVT_KEEP_GOING=1 scripts/build.sh gcc", 15),
     "mutants": Check("scripts/setup.sh && scripts/mutants.py --changed --count 10", 25),
     "packages": Check(
         "scripts/setup.sh packages && make -s package && scripts/test_deb.sh && scripts/test_package.sh && "
