@@ -44,7 +44,7 @@ cat >between_test.cpp <<'CPP'
 #include <cstdio>
 int main() {
     using namespace svt;
-    const auto scene = illustrate::parseScene(R"({"haze":0,"motion":{"pace":"even","seconds":2,"keys":[{"at":2,"scene":{"haze":1}}]}})");
+    const auto scene = illustrate::parseScene(R"({"motion":{"pace":"even","seconds":2,"keys":[{"at":2,"scene":{"haze":1}}]}})");
     const auto now = illustrate::sceneAt(*scene, 0.5, {});
     return now && now->haze == 0.25 ? 0 : 1;
 }

@@ -10,7 +10,7 @@
 namespace svt::illustrate {
 
 /// The scene at a time of its motion, without motion itself. Each member that some key gives goes from its value at the
-/// key before to that at the key after; what the scene itself says holds at time 0. Numbers, points and colours go
+/// key before to that at the key after; the scene itself, with the defaults of members that it leaves out, holds at time 0. Numbers, points and colours go
 /// through all that lies between; so do the numbers of cuts and keeps whose text is else the same ("z>6" to "z>1"). An
 /// eye goes around its target, on a great circle. What cannot be between changes at its key. With Motion::turn the
 /// camera also goes around a vertical axis, evenly; a named view is then so far away that all that the scene

@@ -2,7 +2,9 @@
 
 #include <svt/illustrate/motion/interpolate.hpp>
 #include <svt/illustrate/scene/visible_points.hpp>
+#include <svt/illustrate/scene_members.hpp>
 #include <svt/illustrate/view.hpp>
+#include <svt/record/record.hpp>
 
 #include <fmt/format.h>
 
@@ -50,6 +52,14 @@ Timeline timelineOf(const Json& base, const Motion& motion) {
         const auto line = timeline.find(pointer);
         if (line != timeline.end() && line->second.front().first > 0)
             line->second.insert(line->second.begin(), {0.0, std::move(value)});
+    }
+    // A member that the scene leaves out begins at its default.
+    for (auto& [pointer, line] : timeline) {
+        const Option* member = findSceneMember(pointer);
+        const bool hasDefault = member != nullptr && !member->byDefault.empty() && member->count == 1;
+        if (!hasDefault || line.front().first == 0) continue;
+        const std::string text(member->byDefault);
+        line.insert(line.begin(), {0.0, record::valueOfTexts(*member, std::span(&text, 1))});
     }
     return timeline;
 }

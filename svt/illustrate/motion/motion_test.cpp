@@ -79,7 +79,7 @@ TEST(Motion, OpacitiesColoursAndZoomGoWhatIsNamedJumps) {
     EXPECT_FLOAT_EQ(*half.passes[0].styles[0].opacity, 0.75f);
     EXPECT_NEAR(half.background->x, 0.5, 0.003);
     EXPECT_NEAR(half.background->y, 0.25, 0.003);
-    EXPECT_EQ(half.camera.zoom, 1) << "a member that the scene leaves out begins with its first key";
+    EXPECT_EQ(half.camera.zoom, 1.5);
     EXPECT_EQ(at(scene, 1).look, Look::Dark);
     EXPECT_EQ(at(scene, 1.5).camera.zoom, 3);
     EXPECT_TRUE(at(scene, 1.9).names.empty());
@@ -144,6 +144,16 @@ TEST(Motion, IsReadAndWritten) {
     const auto again = parseScene(writeScene(scene));
     ASSERT_TRUE(again) << again.error().toString();
     EXPECT_EQ(*again, scene);
+}
+
+TEST(Motion, MembersThatAreLeftOutBeginAtTheirDefaults) {
+    const Scene scene = sceneOf(
+        R"json({"passes":[{}],"motion":{"seconds":2,"pace":"even","keys":[{"at":2,"scene":{"explode":4,"camera":{"zoom":3}}}]}})json");
+    const auto now = sceneAt(scene, 1, {});
+    ASSERT_TRUE(now) << now.error().toString();
+    EXPECT_EQ(now->explode, 2);
+    EXPECT_EQ(now->camera.zoom, 2);
+    EXPECT_EQ(sceneAt(scene, 0, {})->camera.zoom, 1);
 }
 
 TEST(Motion, WrongKeysAreNamed) {

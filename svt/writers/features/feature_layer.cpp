@@ -151,7 +151,7 @@ public:
         std::vector<SqliteValue> row{std::string("features"), std::string("features"), std::string("features"),
                                      std::string(), std::string("2000-01-01T00:00:00.000Z")};
         for (const double bound : bounds_) row.push_back(isEmpty ? SqliteValue() : SqliteValue(bound));
-        row.push_back(reference_);
+        row.emplace_back(reference_);
         database_->insert("gpkg_contents", row);
         database_->insert("gpkg_geometry_columns",
                           {std::string("features"), std::string("geom"), std::string("POLYGON"), reference_,
