@@ -55,7 +55,8 @@ c++ -std=c++20 -D_GLIBCXX_ASSERTIONS -I. between_test.cpp -Wl,--start-group $lib
   -lpng -lfreetype -lhwy -ldl -o between
 ./between || fail "not between its keys"
 
-PYTHONPATH=build/release/python python3 - <<'PYTHON' || fail "no keyword of Python"
+python=$(sed -n 's/^SVT_PYTHON_EXECUTABLE:FILEPATH=//p' build/release/CMakeCache.txt)
+PYTHONPATH=build/release/python "$python" - <<'PYTHON' || fail "no keyword of Python"
 import svt
 volume = svt.build("house.gml", spacing=0.4)
 volume.render(size="64x48", haze=0.5)

@@ -150,7 +150,10 @@ public:
         const bool isEmpty = !(bounds_[0] <= bounds_[2]);
         std::vector<SqliteValue> row{std::string("features"), std::string("features"), std::string("features"),
                                      std::string(), std::string("2000-01-01T00:00:00.000Z")};
-        for (const double bound : bounds_) row.push_back(isEmpty ? SqliteValue() : SqliteValue(bound));
+        for (const double bound : bounds_) {
+            row.emplace_back();
+            if (!isEmpty) row.back() = bound;
+        }
         row.emplace_back(reference_);
         database_->insert("gpkg_contents", row);
         database_->insert("gpkg_geometry_columns",
