@@ -23,7 +23,6 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <deque>
 #include <optional>

@@ -201,7 +201,7 @@ constexpr Option kCityLimits[] = {
      .least = 0.1,
      .most = 1000000,
      .byDefault = "20",
-     .help = "what a feature may take that is tried alone; beyond, it is left out",
+     .help = "time limit of a feature that is built by itself; a feature over it is left out",
      .group = "Limits"},
 };
 constexpr Option kCityRun[] = {
@@ -292,7 +292,7 @@ extern const CommandText kCityTaskCommand{.name = "city-task",
                                           .connect = connectCityTask};
 
 extern const CommandText kCityStatusCommand{.name = "city-status",
-                                            .help = "Say what of a city is built, and how to go on",
+                                            .help = "Report the built part of a city, and the next step",
                                             .sets = {kCityFolder, kCityStatus, kQuiet},
                                             .connect = connectCityStatus};
 

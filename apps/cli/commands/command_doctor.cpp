@@ -78,10 +78,9 @@ Action connectDoctor(Command& command) {
 
 }  // namespace
 
-extern const CommandText kDoctorCommand{
-    .name = "doctor",
-    .help = "Say what of this machine can be used, and what to do about what is missing",
-    .sets = {kDoctor},
-    .connect = connectDoctor};
+extern const CommandText kDoctorCommand{.name = "doctor",
+                                        .help = "Check this machine, and suggest remedies for missing parts",
+                                        .sets = {kDoctor},
+                                        .connect = connectDoctor};
 
 }  // namespace svt::cli

@@ -65,7 +65,7 @@ void announce(const ServeArguments& arguments, const serve::ServerOptions& optio
         note(fmt::format("port {} is taken; this is port {}", options.port, port));
     if (!serve::isLoopback(arguments.host))
         note(fmt::format(
-            "warning: everybody who reaches this machine at {} sees these models{}; there is no password and no "
+            "warning: everybody who reaches this machine at {} sees these models{}; the server has no password and no "
             "encryption",
             arguments.host, arguments.allowUploads ? " and may send files to be converted" : ""));
     const std::string address = addressOf(arguments.host, port);

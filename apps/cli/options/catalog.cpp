@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 
 namespace svt::cli {
 namespace {

@@ -43,6 +43,22 @@ std::vector<std::pair<std::string, Json>> leavesOf(const Json& json) {
     return leaves;
 }
 
+void put(Json& scene, const std::string& pointer, const Json& value) { scene[Pointer(pointer)] = value; }
+
+Result<Scene> parsed(const Json& scene, const std::string& name) { return parseScene(scene.dump(), name); }
+
+// The default of a member, if a scene that leaves the member out has it: a width of lines is none where there are no lines.
+std::optional<Json> defaultIn(const Json& base, const std::string& pointer) {
+    const Option* member = findSceneMember(pointer);
+    if (member == nullptr || member->byDefault.empty() || member->count != 1) return {};
+    const std::string text(member->byDefault);
+    Json value = record::valueOfTexts(*member, std::span(&text, 1)), with = base;
+    put(with, pointer, value);
+    const auto plain = parsed(base, "scene"), same = parsed(with, "scene");
+    if (!plain || !same || *plain != *same) return {};
+    return value;
+}
+
 Timeline timelineOf(const Json& base, const Motion& motion) {
     Timeline timeline;
     for (const Motion::Key& key : motion.keys)
@@ -55,11 +71,8 @@ Timeline timelineOf(const Json& base, const Motion& motion) {
     }
     // A member that the scene leaves out begins at its default.
     for (auto& [pointer, line] : timeline) {
-        const Option* member = findSceneMember(pointer);
-        const bool hasDefault = member != nullptr && !member->byDefault.empty() && member->count == 1;
-        if (!hasDefault || line.front().first == 0) continue;
-        const std::string text(member->byDefault);
-        line.insert(line.begin(), {0.0, record::valueOfTexts(*member, std::span(&text, 1))});
+        if (line.front().first == 0) continue;
+        if (auto value = defaultIn(base, pointer)) line.insert(line.begin(), {0.0, std::move(*value)});
     }
     return timeline;
 }
@@ -79,8 +92,6 @@ std::optional<Between> find(const Line& line, double seconds, Motion::Pace pace)
     const double share = (seconds - before->first) / (after->first - before->first);
     return Between{&*before, &*after, pace == Motion::Pace::Even ? share : share * share * (3 - 2 * share)};
 }
-
-void put(Json& scene, const std::string& pointer, const Json& value) { scene[Pointer(pointer)] = value; }
 
 Json plainAt(const Json& base, const Timeline& timeline, double seconds, Motion::Pace pace) {
     Json scene = base;
@@ -118,8 +129,6 @@ void goAround(Scene& scene, const Scene& before, const Scene& after, double shar
                               std::exp(mix(std::log(from.distance), std::log(to.distance)))},
                              *scene.camera.target);
 }
-
-Result<Scene> parsed(const Json& scene, const std::string& name) { return parseScene(scene.dump(), name); }
 
 // What a camera that goes around must show, metres from the grid's lower corner: all that the scene draws at its
 // beginning, whether cut away or not; the corners of the volume's box where it draws nothing.

@@ -156,6 +156,19 @@ TEST(Motion, MembersThatAreLeftOutBeginAtTheirDefaults) {
     EXPECT_EQ(sceneAt(scene, 0, {})->camera.zoom, 1);
 }
 
+TEST(Motion, ADefaultMakesNothingThatAKeyBrings) {
+    const Scene sunny = sceneOf(
+        R"json({"passes":[{}],"motion":{"seconds":2,"keys":[{"at":1,"scene":{"sun":{"time":"2026-06-21 15:00","size":2}}}]}})json");
+    const auto before = sceneAt(sunny, 0.5, {});
+    ASSERT_TRUE(before) << before.error().toString();
+    EXPECT_FALSE(before->sun);
+    EXPECT_EQ(sceneAt(sunny, 1, {})->sun->size, 2);
+    const Scene lined = sceneOf(
+        R"json({"passes":[{}],"motion":{"seconds":2,"keys":[{"at":1,"scene":{"passes":[{"lines":[{"select":"all","width":2}]}]}}]}})json");
+    EXPECT_TRUE(sceneAt(lined, 0.5, {})->passes[0].lines.empty());
+    EXPECT_EQ(sceneAt(lined, 1, {})->passes[0].lines.size(), 1u);
+}
+
 TEST(Motion, WrongKeysAreNamed) {
     const auto messageOf = [](const std::string& motion) {
         const auto scene = parseScene("{\"passes\":[{}],\"motion\":" + motion + "}", "s.json");
