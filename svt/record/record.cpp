@@ -31,6 +31,7 @@ std::string plainText(const Json& value) {
 Json valueOfTexts(const Option& option, std::span<const std::string> texts) {
     if (option.kind == OptionKind::Flag) return texts.empty() || texts.front() == "true";
     const bool isNumber = option.kind == OptionKind::Whole || option.kind == OptionKind::Number;
+    if (texts.empty() && !isNumber && option.count == 1) return std::string();
     Json values = Json::array();
     for (const std::string& text : texts) values.push_back(isNumber ? Json(parseNumber(text).value_or(0)) : Json(text));
     return option.count > 1 || values.empty() ? values : values.front();
@@ -64,6 +65,18 @@ void Choice::read(Faults& faults, const Json& json, const std::string& path, con
     const auto choices = splitChoices(option.choices);
     if (std::ranges::find(choices, to) == choices.end())
         faults.add(path, fmt::format("'{}' is not possible; possible are {}", to, fmt::join(choices, ", ")));
+}
+
+void NumberChoice::read(Faults& faults, const Json& json, const std::string& path, const Option& option, int& to) {
+    std::string name;
+    Choice::read(faults, json, path, option, name);
+    if (faults.isFine()) to = parseInteger<int>(std::string_view(name).substr(0, name.find('.'))).value_or(to);
+}
+
+Json NumberChoice::write(const Option& option, int from) {
+    for (const std::string_view choice : splitChoices(option.choices))
+        if (parseInteger<int>(choice.substr(0, choice.find('.'))) == from) return std::string(choice);
+    return Json();
 }
 
 }  // namespace svt::record

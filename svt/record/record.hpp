@@ -14,17 +14,21 @@
 /// default-constructed struct gives its default. `void checkMembers(record::Faults&, const std::string& path, const T&)`
 /// beside membersOf() may check members together; it is called after they were read.
 
+#include <svt/core/file.hpp>
 #include <svt/core/names.hpp>
 #include <svt/core/option.hpp>
 #include <svt/core/result.hpp>
 #include <svt/core/text.hpp>
 #include <svt/core/vec.hpp>
+#include <svt/record/members.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <deque>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,15 +45,23 @@ using Json = nlohmann::ordered_json;
 class Faults {
 public:
     /// \param path  of the member, a JSON pointer; "" is the whole text
-    void add(const std::string& path, std::string text) {
-        if (isFine()) path_ = path.empty() ? "/" : path, text_ = std::move(text);
+    void add(const std::string& path, std::string text) { add(path, Error(Code::Internal, std::move(text))); }
+    /// A fault with a code and a place of its own; Internal stands for the code of the text.
+    void add(const std::string& path, Error fault) {
+        if (isFine()) path_ = path.empty() ? "/" : path, fault_ = std::move(fault);
     }
-    [[nodiscard]] bool isFine() const noexcept { return text_.empty(); }
+    [[nodiscard]] bool isFine() const noexcept { return fault_.message().empty(); }
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
-    [[nodiscard]] const std::string& text() const noexcept { return text_; }
+    [[nodiscard]] const std::string& text() const noexcept { return fault_.message(); }
+    /// The fault, with `before` in front of its text.
+    /// \param code  of a fault that has none of its own
+    [[nodiscard]] Error error(Code code, const std::string& before) const {
+        return Error(fault_.code() == Code::Internal ? code : fault_.code(), before + text(), fault_.where());
+    }
 
 private:
-    std::string path_, text_;
+    std::string path_;
+    Error fault_;
 };
 
 /// How values of type T stand in JSON: describe(), read(), write(), set(), list() and kHasDefault as in PlainCodec. A member
@@ -70,10 +82,7 @@ struct Member {
     void (*list)(const std::string& pointer, std::deque<std::string>& texts, std::vector<Option>& all);
 };
 
-/// The members of a struct: membersOf(const T*) in its namespace returns them.
-template <class T>
-using Members = std::span<const Member<T>>;
-
+/// A struct with members: membersOf(const T*) in its namespace returns them.
 template <class T>
 concept Recorded = requires(const T* type) {
     membersOf(type);
@@ -152,18 +161,32 @@ void setMember(Faults& faults, std::string_view pointer, const Json& value, cons
     member->set(faults, rest, value, path + "/" + std::string(name), member->option, to);
 }
 
-/// Appends the declarations of all members of T, an object before its own; names are pointers with * for any index.
+/// Sets one member to the values of an option, as faultOf() allows them. Those of a member that may repeat are appended.
+/// \param pointer  of the member; * is the first element of a list
+template <Recorded T>
+void setTexts(Faults& faults, std::string pointer, const Option& option, std::span<const std::string> texts, T& to) {
+    if (const std::size_t any = pointer.find('*'); any != std::string::npos) pointer[any] = '0';
+    if (!option.mayRepeat) return setMember(faults, pointer, valueOfTexts(option, texts), "", to);
+    for (const std::string& text : texts) setMember(faults, pointer + "/-", valueOfTexts(option, {&text, 1}), "", to);
+}
+
+/// Appends the declaration of a member, and those of the members below it; names are pointers with * for any index.
 /// \param texts  keeps what the declarations refer to
+template <class T>
+void listMember(const Member<T>& member, const std::string& prefix, std::deque<std::string>& texts,
+                std::vector<Option>& all) {
+    Option option = member.option;
+    option.name = texts.emplace_back(prefix + "/" + std::string(member.option.name));
+    if (option.byDefault.empty() && option.otherwise.empty() && !option.isRequired)
+        option.byDefault = texts.emplace_back(member.byDefault(member.option));
+    all.push_back(option);
+    member.list(std::string(option.name), texts, all);
+}
+
+/// Appends the declarations of all members of T, an object before its own.
 template <Recorded T>
 void listMembers(const std::string& prefix, std::deque<std::string>& texts, std::vector<Option>& all) {
-    for (const Member<T>& member : membersOf<T>()) {
-        Option option = member.option;
-        option.name = texts.emplace_back(prefix + "/" + std::string(member.option.name));
-        if (option.byDefault.empty() && option.otherwise.empty() && !option.isRequired)
-            option.byDefault = texts.emplace_back(member.byDefault(member.option));
-        all.push_back(option);
-        member.list(std::string(option.name), texts, all);
-    }
+    for (const Member<T>& member : membersOf<T>()) listMember(member, prefix, texts, all);
 }
 
 /// All declarations of T, made once; they live as long as the program.
@@ -247,10 +270,39 @@ struct Codec<std::string> : PlainCodec<Codec<std::string>, std::string> {
     static Json write(const Option&, const std::string& from) { return from; }
 };
 
+/// A path as a user writes it.
+template <>
+struct Codec<std::filesystem::path> : PlainCodec<Codec<std::filesystem::path>, std::filesystem::path> {
+    static void read(Faults& faults, const Json& json, const std::string& path, const Option& option,
+                     std::filesystem::path& to) {
+        std::string text;
+        Codec<std::string>::read(faults, json, path, option, text);
+        if (faults.isFine()) to = userPath(std::move(text));
+    }
+    static Json write(const Option&, const std::filesystem::path& from) { return from.string(); }
+};
+
+/// A flag that is set where the field is false: "--no-bodies".
+struct Not : PlainCodec<Not, bool> {
+    static constexpr void describe(Option& option) { option.kind = OptionKind::Flag; }
+    static void read(Faults& faults, const Json& json, const std::string& path, const Option& option, bool& to) {
+        bool isGiven = !to;
+        Codec<bool>::read(faults, json, path, option, isGiven);
+        to = !isGiven;
+    }
+    static Json write(const Option&, bool from) { return !from; }
+};
+
 /// One of the choices that the declaration lists.
 struct Choice : PlainCodec<Choice, std::string> {
     static void read(Faults& faults, const Json& json, const std::string& path, const Option& option, std::string& to);
     static Json write(const Option&, const std::string& from) { return from; }
+};
+
+/// A whole number of which only some are possible: the choice that begins with it, such as 2 of "2.0|3.0".
+struct NumberChoice : PlainCodec<NumberChoice, int> {
+    static void read(Faults& faults, const Json& json, const std::string& path, const Option& option, int& to);
+    static Json write(const Option& option, int from);
 };
 
 template <Named E>
@@ -285,6 +337,20 @@ struct Codec<std::array<T, N>> : PlainCodec<Codec<std::array<T, N>>, std::array<
     }
 };
 
+/// N numbers, or none.
+template <std::size_t N>
+struct Numbers : PlainCodec<Numbers<N>, std::vector<double>> {
+    static constexpr bool kHasDefault = false;
+    static constexpr void describe(Option& option) { Codec<std::array<double, N>>::describe(option); }
+    static void read(Faults& faults, const Json& json, const std::string& path, const Option& option,
+                     std::vector<double>& to) {
+        std::array<double, N> values{};
+        Codec<std::array<double, N>>::read(faults, json, path, option, values);
+        to.assign(values.begin(), values.end());
+    }
+    static Json write(const Option&, const std::vector<double>& from) { return from.empty() ? Json() : Json(from); }
+};
+
 template <>
 struct Codec<Vec3d> : PlainCodec<Codec<Vec3d>, Vec3d> {
     static constexpr void describe(Option& option) { Codec<std::array<double, 3>>::describe(option); }
@@ -296,6 +362,30 @@ struct Codec<Vec3d> : PlainCodec<Codec<Vec3d>, Vec3d> {
     static Json write(const Option& option, const Vec3d& from) {
         return Codec<std::array<double, 3>>::write(option, {from.x, from.y, from.z});
     }
+};
+
+/// A value that texts stand for.
+/// \param Parse  text to Result<T>
+/// \param Text   T to text
+template <class T, auto Parse, auto Text>
+struct TextOf : PlainCodec<TextOf<T, Parse, Text>, T> {
+    static void read(Faults& faults, const Json& json, const std::string& path, const Option& option, T& to) {
+        std::string text;
+        Codec<std::string>::read(faults, json, path, option, text);
+        if (!faults.isFine()) return;
+        auto parsed = Parse(text);
+        if (!parsed) return faults.add(path, parsed.error().message());
+        to = std::move(*parsed);
+    }
+    static Json write(const Option&, const T& from) { return Text(from); }
+};
+
+/// A member without a field: any value, which is not kept.
+template <class Owner>
+struct Ignored : PlainCodec<Ignored<Owner>, Owner> {
+    static constexpr bool kHasDefault = false;
+    static void read(Faults&, const Json&, const std::string&, const Option&, Owner&) {}
+    static Json write(const Option&, const Owner&) { return {}; }
 };
 
 /// The name and version of a file format: the only choice, or the highest number, of the declaration. They have no field.
@@ -364,9 +454,9 @@ struct OptionalCodec {
 template <class T>
 struct Codec<std::optional<T>> : OptionalCodec<T, Codec<T>> {};
 
-/// A list: of texts, or of structs.
-template <class T>
-struct Codec<std::vector<T>> {
+/// A list: of texts, or of structs. `Inner` is the codec of an element.
+template <class T, class Inner = Codec<T>>
+struct ListCodec {
     static constexpr bool kHasDefault = false;
     static constexpr void describe(Option& option) {
         Recorded<T> ? static_cast<void>(option.kind = OptionKind::List) : static_cast<void>(option.mayRepeat = true);
@@ -376,11 +466,11 @@ struct Codec<std::vector<T>> {
         if (!isArray(faults, json, path, option)) return;
         to.clear();
         for (std::size_t n = 0; n < json.size() && faults.isFine(); ++n)
-            Codec<T>::read(faults, json[n], path + "/" + std::to_string(n), option, to.emplace_back());
+            Inner::read(faults, json[n], path + "/" + std::to_string(n), option, to.emplace_back());
     }
     static Json write(const Option& option, const std::vector<T>& from) {
         Json json = Json::array();
-        for (const T& value : from) json.push_back(Codec<T>::write(option, value));
+        for (const T& value : from) json.push_back(Inner::write(option, value));
         return json;
     }
     static void set(Faults& faults, std::string_view rest, const Json& json, const std::string& path,
@@ -390,12 +480,15 @@ struct Codec<std::vector<T>> {
         const std::size_t index = step == "-" ? to.size() : parseInteger<std::size_t>(step).value_or(to.size() + 1);
         if (index > to.size()) return faults.add(path, "has no element '" + std::string(step) + "'");
         if (index == to.size()) to.emplace_back();
-        Codec<T>::set(faults, below, json, path + "/" + std::to_string(index), option, to[index]);
+        Inner::set(faults, below, json, path + "/" + std::to_string(index), option, to[index]);
     }
     static void list(const std::string& pointer, std::deque<std::string>& texts, std::vector<Option>& all) {
         if constexpr (Recorded<T>) listMembers<T>(pointer + "/*", texts, all);
     }
 };
+
+template <class T>
+struct Codec<std::vector<T>> : ListCodec<T> {};
 
 // ---- declarations ---------------------------------------------------------------------------------------------------
 
@@ -421,6 +514,11 @@ requires(!std::is_void_v<As>) struct FormOf<std::optional<T>, As> {
     using Type = OptionalCodec<T, As>;
 };
 
+template <class T>
+inline constexpr bool kIsComparable = std::equality_comparable<T>;
+template <class T>
+inline constexpr bool kIsComparable<std::vector<T>> = kIsComparable<T>;
+
 template <class Owner, class As, auto... Fields>
 struct Binding {
     template <class Any>
@@ -437,7 +535,7 @@ struct Binding {
         Form::read(faults, json, path, option, field(to));
     }
     static Json write(const Option& option, const Owner& from) {
-        if constexpr (sizeof...(Fields) != 0) {
+        if constexpr (sizeof...(Fields) != 0 && kIsComparable<T>) {
             const Owner plain{};
             if (field(from) == field(plain)) return {};
         }
