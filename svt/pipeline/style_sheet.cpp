@@ -1,162 +1,147 @@
 #include <svt/pipeline/style_sheet.hpp>
 
 #include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
 #include <svt/image/color_text.hpp>
 #include <svt/pipeline/default_style.hpp>
+#include <svt/record/record.hpp>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
-#include <iterator>
 #include <utility>
 
 namespace svt::pipeline {
 namespace {
 
-using nlohmann::json;
+using record::Faults, record::Json, record::Member, record::member, record::memberAs, record::Members;
 
-Error badStyle(std::string_view path, std::string_view what) {
-    return Error(Code::BadStyle, fmt::format("style {}: {}", path, what));
-}
+using Color = record::TextOf<Vec3f, image::parseColor, image::colorText>;
 
-// An error of another stage, prefixed with the JSON path.
-Error atPath(std::string_view path, const Error& error) {
-    return Error(error.code(), fmt::format("style {}: {}", path, error.message()), error.where());
-}
-
-// Every member must be known, so that a typing error is reported.
-Result<void> checkMembers(const json& object, std::string_view path, std::initializer_list<std::string_view> known) {
-    if (!object.is_object()) return badStyle(path, fmt::format("expected an object, found {}", object.type_name()));
-    for (const auto& [key, value] : object.items()) {
-        if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-        return badStyle(path, fmt::format("unknown member '{}'; possible are {}", key, fmt::join(known, ", ")));
+// Metres along u, v and w: three numbers, or one for all.
+struct UnitSize : record::PlainCodec<UnitSize, Vec3d> {
+    static void read(Faults& faults, const Json& json, const std::string& path, const Option&, Vec3d& to) {
+        const auto isNumber = [](const Json& value) { return value.is_number(); };
+        if (isNumber(json)) return void(to = {json.get<double>(), json.get<double>(), json.get<double>()});
+        if (!json.is_array() || json.size() != 3 || !std::ranges::all_of(json, isNumber))
+            return faults.add(path, "expected a number or [length, width, height] in metres");
+        to = {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
     }
-    return {};
-}
+    static Json write(const Option& option, const Vec3d& from) { return record::Codec<Vec3d>::write(option, from); }
+};
 
-Result<double> numberOf(const json& value, const std::string& path) {
-    if (!value.is_number())
-        return badStyle(path, fmt::format("expected a number, found {}", value.dump().substr(0, 40)));
-    return value.get<double>();
-}
-
-Result<std::vector<Vec3f>> colorsOf(const json& value, const std::string& path) {
-    if (!value.is_array() || value.size() > 64) return badStyle(path, "expected an array of at most 64 colours");
-    std::vector<Vec3f> colors;
-    for (const json& entry : value) {
-        if (!entry.is_string()) return badStyle(path, "expected colours as text, such as \"#c8b49b\"");
-        auto color = image::parseColor(entry.get<std::string>());
-        if (!color) return badStyle(path, color.error().message());
-        colors.push_back(*color);
-    }
-    return colors;
-}
-
-Result<Vec3d> vectorOf(const json& value, const std::string& path) {
-    if (value.is_number()) {
-        const double v = value.get<double>();
-        return Vec3d{v, v, v};
-    }
-    if (!value.is_array() || value.size() != 3 || !value[0].is_number() || !value[1].is_number() ||
-        !value[2].is_number())
-        return badStyle(path, "expected a number or [length, width, height] in metres");
-    return Vec3d{value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
-}
-
-Result<void> readCells(const json& value, const std::string& path, const std::filesystem::path& folder,
-                       voxelize::Pattern& pattern) {
-    if (!value.contains("file")) return {};
-    if (!value["file"].is_string()) return badStyle(path + ".file", "expected a file name");
-    const std::string name = value["file"].get<std::string>();
-    const std::filesystem::path file = folder / name;
-    const std::string at = fmt::format("{}.file '{}'", path, name);
-    if (pattern.kind == voxelize::PatternKind::Image) {
-        auto texels = voxelize::readPatternImage(file);
-        if (!texels) return atPath(at, texels.error());
-        pattern.texels = *texels;
-        return {};
-    }
-    if (pattern.kind != voxelize::PatternKind::Raw)
-        return badStyle(path + ".file", "only the types image and raw read a file");
-    if (!value.contains("dimension")) return badStyle(path, "type raw needs \"dimension\": [x, y, z]");
-    SVT_TRY(dimension, vectorOf(value["dimension"], path + ".dimension"));
-    for (int axis = 0; axis < 3; ++axis)
-        if (const double v = (*dimension)[axis]; !(v >= 1 && v <= 1024 && v == std::floor(v)))
-            return badStyle(path + ".dimension",
-                            fmt::format("{} is out of range; whole numbers from 1 to 1024 are possible", v));
-    auto texels = voxelize::readPatternRaw(
-        file, {static_cast<std::int32_t>(dimension->x), static_cast<std::int32_t>(dimension->y),
-               static_cast<std::int32_t>(dimension->z)});
-    if (!texels) return atPath(at, texels.error());
-    pattern.texels = *texels;
-    return {};
-}
-
-Result<void> readPattern(const json& value, const std::string& path, const std::filesystem::path& folder,
-                         StyleRule& rule) {
-    if (auto checked =
-            checkMembers(value, path, {"type", "size", "line", "angle", "seed", "colors", "file", "dimension"});
-        !checked)
-        return checked.error();
+// Pattern, rule and sheet as they stand in a file.
+struct PatternText {
+    std::optional<voxelize::PatternKind> type;
     voxelize::Pattern pattern;
-    if (!value.contains("type") || !value["type"].is_string() ||
-        !voxelize::patternFromName(value["type"].get<std::string>(), pattern.kind)) {
-        std::vector<std::string_view> names;
-        for (int k = 0; k < voxelize::kPatternKinds; ++k)
-            names.push_back(voxelize::patternName(static_cast<voxelize::PatternKind>(k)));
-        return badStyle(path + ".type", fmt::format("expected one of {}", fmt::join(names, ", ")));
+    std::vector<Vec3f> colors;
+    std::string file;
+    std::optional<Vec3i> dimension;  // of a raw file
+};
+struct RuleText {
+    std::string select;
+    std::optional<Vec3f> color;
+    std::optional<float> opacity;
+    std::optional<PatternText> pattern;
+};
+struct SheetText {
+    std::vector<RuleText> rules;
+};
+
+struct RawSize : record::PlainCodec<RawSize, Vec3i> {
+    static void read(Faults& faults, const Json& json, const std::string& path, const Option& option, Vec3i& to) {
+        std::array<std::int32_t, 3> size{};
+        record::Codec<std::array<std::int32_t, 3>>::read(faults, json, path, option, size);
+        to = {size[0], size[1], size[2]};
     }
-    if (value.contains("size")) {
-        SVT_TRY(size, vectorOf(value["size"], path + ".size"));
-        pattern.size = *size;
-    }
-    for (const auto& [name, target] :
-         {std::pair<const char*, double*>{"line", &pattern.line}, {"angle", &pattern.angleDegrees}}) {
-        if (!value.contains(name)) continue;
-        SVT_TRY(number, numberOf(value[name], path + "." + name));
-        *target = *number;
-    }
-    if (value.contains("seed")) {
-        if (!value["seed"].is_number_unsigned() || value["seed"].get<std::uint64_t>() > 0xFFFFFFFFu)
-            return badStyle(path + ".seed", "expected a whole number from 0 to 4294967295");
-        pattern.seed = static_cast<std::uint32_t>(value["seed"].get<std::uint64_t>());
-    }
-    SVT_DO(readCells(value, path, folder, pattern));
-    auto made = voxelize::makePattern(std::move(pattern));
-    if (!made) return atPath(path, made.error());
-    if (value.contains("colors")) {
-        SVT_TRY(colors, colorsOf(value["colors"], path + ".colors"));
-        rule.patternColors = std::move(*colors);
-    }
-    rule.pattern = std::move(*made);
-    return {};
+    static Json write(const Option&, const Vec3i& from) { return {from.x, from.y, from.z}; }
+};
+
+template <class Text>
+constexpr Member<Text> comment(std::string_view name = "comment") {
+    return record::memberOf<Text, record::Ignored<Text>>(name, "not read");
 }
 
-Result<StyleRule> readRule(const json& value, const std::string& path, const std::filesystem::path& folder) {
-    SVT_DO(checkMembers(value, path, {"select", "color", "opacity", "pattern", "comment"}));
-    if (!value.contains("select") || !value["select"].is_string())
-        return badStyle(path, "expected \"select\" with a query");
-    auto query = model::Query::parse(value["select"].get<std::string>());
-    if (!query) return badStyle(path + ".select", query.error().message());
-    StyleRule rule{std::move(*query), {}, {}, {}, {}};
-    if (value.contains("color")) {
-        if (!value["color"].is_string()) return badStyle(path + ".color", "expected text such as \"#c8b49b\"");
-        const auto color = image::parseColor(value["color"].get<std::string>());
-        if (!color) return badStyle(path + ".color", color.error().message());
-        rule.color = *color;
+Members<PatternText> membersOf(const PatternText*) noexcept {
+    using All = PatternText;
+    using voxelize::Pattern;
+    static constexpr Member<All> kMembers[] = {
+        member<&All::type>("type", "what the pattern shows"),
+        memberAs<UnitSize, &All::pattern, &Pattern::size>("size", "of one unit along u (length), v (depth) and w (up)"),
+        member<&All::pattern, &Pattern::line>("line", "width of joints and lines", {.unit = "metres"}),
+        member<&All::pattern, &Pattern::angleDegrees>("angle", "hatch: from u towards w", {.unit = "degrees"}),
+        member<&All::pattern, &Pattern::seed>("seed", "wood-grain, concrete", {.least = 0, .most = 4294967295}),
+        memberAs<record::ListCodec<Vec3f, Color>, &All::colors>("colors", "one per phase", {.most = 64}),
+        member<&All::file>("file", "image: a PNG; raw: a file of bytes. Relative to the style file"),
+        memberAs<RawSize, &All::dimension>("dimension", "of a raw file", {.least = 1, .most = 1024}),
+    };
+    return kMembers;
+}
+
+void checkMembers(Faults& faults, const std::string& path, const PatternText& pattern) {
+    if (!pattern.type) return faults.add(path + "/type", "expected one of " + listedNames<voxelize::PatternKind>());
+    const bool isRaw = *pattern.type == voxelize::PatternKind::Raw;
+    if (pattern.file.empty()) return;
+    if (!isRaw && *pattern.type != voxelize::PatternKind::Image)
+        faults.add(path + "/file", "only the types image and raw read a file");
+    if (isRaw && !pattern.dimension) faults.add(path, "type raw needs \"dimension\": [x, y, z]");
+}
+
+Members<RuleText> membersOf(const RuleText*) noexcept {
+    using All = RuleText;
+    static constexpr Member<All> kMembers[] = {
+        member<&All::select>("select", "query for the features", {.isRequired = true}),
+        memberAs<Color, &All::color>("color", "#rrggbb, #rgb or a colour name"),
+        member<&All::opacity>("opacity", "share of light that one metre stops; 1 is solid", {.least = 0, .most = 1}),
+        member<&All::pattern>("pattern", "in metres, along the axes of the object"),
+        comment<All>(),
+    };
+    return kMembers;
+}
+
+Members<SheetText> membersOf(const SheetText*) noexcept {
+    static constexpr Member<SheetText> kMembers[] = {
+        member<&SheetText::rules>("rules", "in order; later rules win", {.isRequired = true}),
+        comment<SheetText>("$schema"), comment<SheetText>()};
+    return kMembers;
+}
+
+// "/rules/0/color" as people write it: "rules[0].color"; "/" is "file".
+std::string pathText(std::string_view pointer) {
+    std::string text;
+    while (pointer.size() > 1) {
+        const auto [step, rest] = record::firstStep(pointer);
+        const bool isIndex = !step.empty() && std::ranges::all_of(step, isDigit);
+        text += isIndex ? fmt::format("[{}]", step) : fmt::format("{}{}", text.empty() ? "" : ".", step);
+        pointer = rest;
     }
-    if (value.contains("opacity")) {
-        SVT_TRY(opacity, numberOf(value["opacity"], path + ".opacity"));
-        if (!(*opacity >= 0 && *opacity <= 1))
-            return badStyle(path + ".opacity", fmt::format("{} is out of range; 0 to 1 are possible", *opacity));
-        rule.opacity = static_cast<float>(*opacity);
+    return text.empty() ? "file" : text;
+}
+
+// \param path  of the rule, a JSON pointer
+Result<StyleRule> makeRule(RuleText text, const std::string& path, const std::filesystem::path& folder) {
+    const auto fault = [&](const char* member, const Error& error, const std::string& of = {}) {
+        return Error(error.code(), fmt::format("style {}{}: {}", pathText(path + member), of, error.message()),
+                     error.where());
+    };
+    auto query = model::Query::parse(text.select);
+    if (!query) return fault("/select", Error(Code::BadStyle, query.error().message()));
+    StyleRule rule{std::move(*query), text.color, text.opacity, {}, {}};
+    if (!text.pattern) return rule;
+    voxelize::Pattern& pattern = text.pattern->pattern;
+    pattern.kind = *text.pattern->type;
+    if (const std::string& name = text.pattern->file; !name.empty()) {
+        auto texels = pattern.kind == voxelize::PatternKind::Raw
+                          ? voxelize::readPatternRaw(folder / name, *text.pattern->dimension)
+                          : voxelize::readPatternImage(folder / name);
+        if (!texels) return fault("/pattern/file", texels.error(), fmt::format(" '{}'", name));
+        pattern.texels = *texels;
     }
-    if (value.contains("pattern"))
-        if (auto read = readPattern(value["pattern"], path + ".pattern", folder, rule); !read) return read.error();
+    auto made = voxelize::makePattern(std::move(pattern));
+    if (!made) return fault("/pattern", made.error());
+    rule.pattern = std::move(*made);
+    rule.patternColors = std::move(text.pattern->colors);
     return rule;
 }
 
@@ -181,8 +166,7 @@ Result<std::string> readText(const std::filesystem::path& file) {
     return std::string(mapped->text());
 }
 
-// The text as JSON with an array of rules; these are not checked.
-Result<json> parseRules(std::string_view text) {
+Result<SheetText> parseText(std::string_view text) {
     // Checks the depth first, since the parser is recursive.
     int depth = 0, deepest = 0;
     bool isText = false;
@@ -196,12 +180,17 @@ Result<json> parseRules(std::string_view text) {
         depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
         deepest = std::max(deepest, depth);
     }
-    if (deepest > 64) return badStyle("file", fmt::format("nested {} deep; 64 levels are possible", deepest));
-    json root = json::parse(text.begin(), text.end(), nullptr, false);
-    if (root.is_discarded()) return badStyle("file", "not well-formed JSON");
-    SVT_DO(checkMembers(root, "file", {"rules", "$schema", "comment"}));
-    if (!root.contains("rules") || !root["rules"].is_array()) return badStyle("file", "expected \"rules\": [...]");
-    return root;
+    Faults faults;
+    SheetText sheet;
+    const Json json = deepest > 64 ? Json() : Json::parse(text, nullptr, false);
+    if (deepest > 64)
+        faults.add("", fmt::format("nested {} deep; 64 levels are possible", deepest));
+    else if (json.is_discarded())
+        faults.add("", "not well-formed JSON");
+    else
+        record::readRecord(faults, json, "", sheet);
+    if (!faults.isFine()) return faults.error(Code::BadStyle, fmt::format("style {}: ", pathText(faults.path())));
+    return sheet;
 }
 
 void apply(const StyleRule& rule, ResolvedStyle& style) {
@@ -223,12 +212,11 @@ const StyleSheet& defaultStyle(bool withPatterns) {
     return withPatterns ? patterned : plain;
 }
 
-Result<StyleSheet> parseStyleSheet(std::string_view text, const std::filesystem::path& folder) {
-    SVT_TRY(root, parseRules(text));
-    const json& rules = root->at("rules");
+Result<StyleSheet> parseStyleSheet(std::string_view json, const std::filesystem::path& folder) {
+    SVT_TRY(read, parseText(json));
     StyleSheet sheet;
-    for (std::size_t r = 0; r < rules.size(); ++r) {
-        SVT_TRY(rule, readRule(rules[r], fmt::format("rules[{}]", r), folder));
+    for (RuleText& text : read->rules) {
+        SVT_TRY(rule, makeRule(std::move(text), fmt::format("/rules/{}", sheet.rules.size()), folder));
         sheet.rules.push_back(std::move(*rule));
     }
     return sheet;
@@ -244,16 +232,12 @@ Result<StyleSheet> readStyleSheet(const std::filesystem::path& file) {
 }
 
 std::vector<std::filesystem::path> filesOfStyle(const std::filesystem::path& file) {
-    const auto text = readText(file);
-    const auto root = text ? parseRules(*text) : Result<json>(text.error());
-    if (!root) return {};
     std::vector<std::filesystem::path> files;
-    for (const json& rule : root->at("rules")) {
-        if (!rule.is_object() || !rule.contains("pattern")) continue;
-        const json& pattern = rule["pattern"];
-        if (pattern.is_object() && pattern.contains("file") && pattern["file"].is_string())
-            files.push_back(file.parent_path() / pattern["file"].get<std::string>());
-    }
+    const auto text = readText(file);
+    const auto sheet = text ? parseText(*text) : Result<SheetText>(text.error());
+    if (!sheet) return files;
+    for (const RuleText& rule : sheet->rules)
+        if (rule.pattern && !rule.pattern->file.empty()) files.push_back(file.parent_path() / rule.pattern->file);
     return files;
 }
 

@@ -156,12 +156,11 @@ TEST(ParseStyleSheet, EmptySheetIsAllowed) {
 }
 
 TEST(ParseStyleSheet, PatternsOfAllKindsParse) {
-    for (int k = 0; k < voxelize::kPatternKinds; ++k) {
-        const auto kind = static_cast<PatternKind>(k);
+    for (const auto& [kind, name] : kNames<PatternKind>) {
         if (kind == PatternKind::Image || kind == PatternKind::Raw) continue;
-        const auto sheet = parseStyleSheet(
-            ruleWith(R"(, "pattern": {"type": ")" + std::string(patternName(kind)) + R"(", "size": 0.2})"), {});
-        ASSERT_TRUE(sheet) << patternName(kind) << ": " << sheet.error().toString();
+        const auto sheet =
+            parseStyleSheet(ruleWith(R"(, "pattern": {"type": ")" + std::string(name) + R"(", "size": 0.2})"), {});
+        ASSERT_TRUE(sheet) << name << ": " << sheet.error().toString();
         EXPECT_EQ(sheet->rules[0].pattern->kind, kind);
         EXPECT_EQ(sheet->rules[0].pattern->size, (Vec3d{0.2, 0.2, 0.2}));
     }
@@ -194,7 +193,7 @@ TEST(ParseStyleSheet, StructureErrorsNameThePlace) {
     expectBad("{", Code::BadStyle, {"file", "JSON"});
     expectBad("[]", Code::BadStyle, {"file", "object", "array"});
     expectBad("{}", Code::BadStyle, {"file", "rules"});
-    expectBad(R"({"rules": {}})", Code::BadStyle, {"file", "rules"});
+    expectBad(R"({"rules": {}})", Code::BadStyle, {"rules", "array"});
     expectBad(R"({"rules": [], "rule": 1})", Code::BadStyle, {"file", "'rule'", "rules"});
     expectBad(R"({"rules": [7]})", Code::BadStyle, {"rules[0]", "object", "number"});
     expectBad(R"({"rules": [{"select": "all"}, {"color": "red"}]})", Code::BadStyle, {"rules[1]", "select"});

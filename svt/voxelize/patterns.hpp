@@ -4,6 +4,7 @@
 /// masked by its voxels (paper, section 4.2.2 and figure 9). They are continuous in all three directions, so that every
 /// section shows them correctly.
 
+#include <svt/core/names.hpp>
 #include <svt/core/result.hpp>
 #include <svt/mesh/mesh_set.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -32,10 +33,21 @@ enum class PatternKind : std::uint8_t {
     Image,       ///< an image over length and height, constant through the depth: one phase per colour
     Raw          ///< a 3D file of bytes: one phase per value
 };
-inline constexpr int kPatternKinds = 12;
-
-[[nodiscard]] std::string_view patternName(PatternKind kind) noexcept;  ///< "brick", "wood-grain", ...
-[[nodiscard]] bool patternFromName(std::string_view name, PatternKind& kind) noexcept;
+constexpr auto namesOf(PatternKind) {
+    using enum PatternKind;
+    return std::to_array<Name<PatternKind>>({{None, "none"},
+                                             {Brick, "brick"},
+                                             {Block, "block"},
+                                             {Hatch, "hatch"},
+                                             {Stripes, "stripes"},
+                                             {Checker, "checker"},
+                                             {Grid, "grid"},
+                                             {WoodGrain, "wood-grain"},
+                                             {Concrete, "concrete"},
+                                             {Insulation, "insulation"},
+                                             {Image, "image"},
+                                             {Raw, "raw"}});
+}
 
 /// Texels of a pattern read from a file: x fastest, then y (rows bottom up), then z.
 struct PatternTexels {

@@ -12,21 +12,6 @@
 namespace svt::voxelize {
 namespace {
 
-constexpr std::array<std::pair<PatternKind, std::string_view>, kPatternKinds> kNames{{
-    {PatternKind::None, "none"},
-    {PatternKind::Brick, "brick"},
-    {PatternKind::Block, "block"},
-    {PatternKind::Hatch, "hatch"},
-    {PatternKind::Stripes, "stripes"},
-    {PatternKind::Checker, "checker"},
-    {PatternKind::Grid, "grid"},
-    {PatternKind::WoodGrain, "wood-grain"},
-    {PatternKind::Concrete, "concrete"},
-    {PatternKind::Insulation, "insulation"},
-    {PatternKind::Image, "image"},
-    {PatternKind::Raw, "raw"},
-}};
-
 // x modulo period, 0 <= result < period.
 double within(double x, double period) noexcept { return x - std::floor(x / period) * period; }
 
@@ -166,21 +151,6 @@ void appendPhases(const PatternedObject& object, const volume::Grid& grid, Vec3d
 
 }  // namespace
 
-std::string_view patternName(PatternKind kind) noexcept {
-    for (const auto& [value, name] : kNames)
-        if (value == kind) return name;
-    return "none";
-}
-
-bool patternFromName(std::string_view name, PatternKind& kind) noexcept {
-    for (const auto& [value, known] : kNames)
-        if (known == name) {
-            kind = value;
-            return true;
-        }
-    return false;
-}
-
 std::uint32_t Pattern::phaseCount() const noexcept {
     switch (kind) {
         case PatternKind::None: return 1;
@@ -236,19 +206,19 @@ Result<Pattern> makePattern(Pattern pattern) {
         if (!(pattern.size[axis] >= kSmallest && pattern.size[axis] <= kLargest))
             return Error(Code::BadPattern,
                          fmt::format("pattern {}: size {} m along {} is out of range; {} to {} m are possible",
-                                     patternName(pattern.kind), pattern.size[axis], "uvw"[axis], kSmallest, kLargest));
+                                     nameOf(pattern.kind), pattern.size[axis], "uvw"[axis], kSmallest, kLargest));
     }
     if (pattern.line == 0) pattern.line = defaults.line;
     if (!(pattern.line >= kSmallest && pattern.line <= kLargest))
         return Error(Code::BadPattern, fmt::format("pattern {}: line {} m is out of range; {} to {} m are possible",
-                                                   patternName(pattern.kind), pattern.line, kSmallest, kLargest));
+                                                   nameOf(pattern.kind), pattern.line, kSmallest, kLargest));
     if (!(std::abs(pattern.angleDegrees) <= 360))
         return Error(Code::BadPattern,
                      fmt::format("pattern {}: angle {} is out of range; -360 to 360 degrees are possible",
-                                 patternName(pattern.kind), pattern.angleDegrees));
+                                 nameOf(pattern.kind), pattern.angleDegrees));
     const bool needsTexels = pattern.kind == PatternKind::Image || pattern.kind == PatternKind::Raw;
     if (needsTexels && pattern.texels == nullptr)
-        return Error(Code::BadPattern, fmt::format("pattern {}: needs a file", patternName(pattern.kind)));
+        return Error(Code::BadPattern, fmt::format("pattern {}: needs a file", nameOf(pattern.kind)));
     return pattern;
 }
 

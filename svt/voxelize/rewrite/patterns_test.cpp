@@ -37,9 +37,9 @@ std::shared_ptr<const PatternTexels> texelsOf(std::int32_t nz, std::uint32_t pha
 
 std::vector<Pattern> allKinds() {
     std::vector<Pattern> patterns;
-    for (int k = 0; k < kPatternKinds; ++k) {
+    for (const auto& known : kNames<PatternKind>) {
         Pattern pattern;
-        pattern.kind = static_cast<PatternKind>(k);
+        pattern.kind = known.value;
         if (pattern.kind == PatternKind::Image) pattern.texels = texelsOf(1, 5);
         if (pattern.kind == PatternKind::Raw) pattern.texels = texelsOf(2, 7);
         patterns.push_back(*makePattern(pattern));
@@ -59,15 +59,9 @@ double shareOf(const Pattern& pattern, std::uint32_t phase, Vec3d reach = {10, 1
 }
 
 TEST(Pattern, NamesGoThereAndBack) {
-    for (int k = 0; k < kPatternKinds; ++k) {
-        const auto kind = static_cast<PatternKind>(k);
-        PatternKind back = PatternKind::None;
-        EXPECT_TRUE(patternFromName(patternName(kind), back));
-        EXPECT_EQ(back, kind);
-    }
-    PatternKind untouched = PatternKind::Brick;
-    EXPECT_FALSE(patternFromName("Brick ", untouched));
-    EXPECT_EQ(untouched, PatternKind::Brick);
+    EXPECT_EQ(kNames<PatternKind>.size(), 12u);
+    for (const auto& [kind, name] : kNames<PatternKind>) EXPECT_EQ(fromName<PatternKind>(nameOf(kind)), kind);
+    EXPECT_FALSE(fromName<PatternKind>("Brick "));
 }
 
 TEST(Pattern, PhasesStayInRangeAndAllOccur) {
@@ -77,11 +71,11 @@ TEST(Pattern, PhasesStayInRangeAndAllOccur) {
         std::vector<int> hits(pattern.phaseCount(), 0);
         for (int n = 0; n < 50000; ++n) {
             const std::uint32_t phase = pattern.phaseAt({uniform(random), uniform(random), uniform(random)});
-            ASSERT_LT(phase, pattern.phaseCount()) << patternName(pattern.kind);
+            ASSERT_LT(phase, pattern.phaseCount()) << nameOf(pattern.kind);
             ++hits[phase];
         }
         for (std::uint32_t phase = 0; phase < pattern.phaseCount(); ++phase)
-            EXPECT_GT(hits[phase], 0) << patternName(pattern.kind) << ' ' << phase;
+            EXPECT_GT(hits[phase], 0) << nameOf(pattern.kind) << ' ' << phase;
     }
 }
 
@@ -120,7 +114,7 @@ TEST(Pattern, RepeatsAfterItsPeriod) {
             const Vec3d p{coordinate(), coordinate(), coordinate()};
             for (const Vec3d& period : entry.periods)
                 ASSERT_EQ(entry.pattern.phaseAt(p + period), entry.pattern.phaseAt(p))
-                    << patternName(entry.pattern.kind) << " at " << p.x << ' ' << p.y << ' ' << p.z;
+                    << nameOf(entry.pattern.kind) << " at " << p.x << ' ' << p.y << ' ' << p.z;
         }
 }
 
@@ -315,8 +309,8 @@ TEST(LayPatterns, OnlyTheObjectIsStencilledWithinItsRange) {
                     ASSERT_EQ(is, 3 + pattern.phaseAt(uvw));
                     changed += is != was;
                 }
-        EXPECT_GT(changed, 100u) << patternName(pattern.kind);
-        EXPECT_TRUE(after == layPatterns(before->columns, grid, origin, {object}, 4)) << patternName(pattern.kind);
+        EXPECT_GT(changed, 100u) << nameOf(pattern.kind);
+        EXPECT_TRUE(after == layPatterns(before->columns, grid, origin, {object}, 4)) << nameOf(pattern.kind);
     }
 }
 
