@@ -4,8 +4,6 @@
 #include "long_call.hpp"
 #include "volume_object.hpp"
 
-#include <apps/cli/options/build_options.hpp>
-
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/samples/sample.hpp>
 
@@ -24,16 +22,9 @@ struct FeatureReference {
     [[nodiscard]] const model::Feature& get() const { return model->model.features[index]; }
 };
 
-std::shared_ptr<ModelObject> readModel(const Paths& paths, const std::string& crs, bool keepFarFeatures,
-                                       bool allowTruncated, bool extrudeFootprints, bool splitLayers,
-                                       const py::object& report) {
+std::shared_ptr<ModelObject> readModel(const Paths& paths, const py::dict& given, const py::object& report) {
     auto read = std::make_shared<ModelObject>();
-    readers::ReadOptions options;
-    options.crs = valueOf(cli::parseCrs(crs));
-    options.keepFarFeatures = keepFarFeatures;
-    options.allowTruncated = allowTruncated;
-    options.extrudeFootprints = extrudeFootprints;
-    options.splitLayers = splitLayers;
+    auto options = fromKeywords<readers::ReadOptions>(given);
     read->model = longCall(report, [&](const Progress* progress) {
         options.progress = progress;
         return pipeline::readModels(paths, options, &read->findings);
@@ -42,45 +33,29 @@ std::shared_ptr<ModelObject> readModel(const Paths& paths, const std::string& cr
 }
 
 /// The options of `svt build` that say how a model becomes a volume, from keywords.
-class BuildKeywords {
-public:
-    BuildKeywords() { arguments_.connect(keywords_.command()); }
-
-    const pipeline::BuildOptions& take(const py::dict& given, const std::vector<std::string>& vectors,
-                                       const SharedVolume& gridOf) {
-        keywords_.take(given);
-        // As the command does: meshes are kept where they can be, unless asked for or against.
-        arguments_.vectors = {.meshes = true, .isRequired = false};
-        if (!vectors.empty()) arguments_.vectors = {};
-        for (const std::string& kind : vectors) {
-            if (kind != "edges" && kind != "meshes" && kind != "none")
-                throw Failure(
-                    Error(Code::BadArgument, "vectors: '" + kind + "' is none of 'edges', 'meshes' and 'none'"));
-            arguments_.vectors.edges = arguments_.vectors.edges || kind == "edges";
-            arguments_.vectors.meshes = arguments_.vectors.meshes || kind == "meshes";
-        }
-        options_ = valueOf(arguments_.options(sheet_));
-        if (gridOf != nullptr) {
-            if (options_.dimension || options_.spacing)
-                throw Failure(Error(Code::BadArgument,
-                                    "grid_of excludes dimension and spacing; the other volume has them already"));
-            options_.grid = gridOf->volume().grid;
-        }
-        return options_;
+pipeline::BuildOptions buildOptions(const py::dict& given, const std::vector<std::string>& vectors,
+                                    const SharedVolume& gridOf) {
+    auto options = fromKeywords<pipeline::BuildOptions>(given);
+    // As the command does: meshes are kept where they can be, unless asked for or against.
+    if (vectors.empty()) options.vectors = {.meshes = true, .isRequired = false};
+    for (const std::string& kind : vectors) {
+        if (kind != "edges" && kind != "meshes" && kind != "none")
+            throw Failure(Error(Code::BadArgument, "vectors: '" + kind + "' is none of 'edges', 'meshes' and 'none'"));
+        options.vectors.edges = options.vectors.edges || kind == "edges";
+        options.vectors.meshes = options.vectors.meshes || kind == "meshes";
     }
-    [[nodiscard]] std::string describe() const { return keywords_.describe(); }
-
-private:
-    Keywords keywords_{"build"};
-    cli::BuildArguments arguments_;
-    std::optional<pipeline::StyleSheet> sheet_;
-    pipeline::BuildOptions options_;
-};
+    if (gridOf != nullptr) {
+        if (options.dimension || options.spacing)
+            throw Failure(
+                Error(Code::BadArgument, "grid_of excludes dimension and spacing; the other volume has them already"));
+        options.grid = gridOf->volume().grid;
+    }
+    return options;
+}
 
 SharedVolume buildFiles(const Paths& paths, const py::dict& given, const std::vector<std::string>& vectors,
                         const SharedVolume& gridOf, const py::object& report) {
-    BuildKeywords keywords;
-    pipeline::BuildOptions options = keywords.take(given, vectors, gridOf);
+    pipeline::BuildOptions options = buildOptions(given, vectors, gridOf);
     Diagnostics findings;
     auto built = longCall(report, [&](const Progress* progress) {
         options.progress = progress;
@@ -91,8 +66,7 @@ SharedVolume buildFiles(const Paths& paths, const py::dict& given, const std::ve
 
 SharedVolume buildModel(const std::shared_ptr<ModelObject>& read, const py::dict& given,
                         const std::vector<std::string>& vectors, const SharedVolume& gridOf, const py::object& report) {
-    BuildKeywords keywords;
-    pipeline::BuildOptions options = keywords.take(given, vectors, gridOf);
+    pipeline::BuildOptions options = buildOptions(given, vectors, gridOf);
     Diagnostics findings = read->findings;
     auto built = longCall(report, [&](const Progress* progress) {
         options.progress = progress;
@@ -104,13 +78,10 @@ SharedVolume buildModel(const std::shared_ptr<ModelObject>& read, const py::dict
 }
 
 std::string writeSample(const std::string& kind, std::uint64_t seed) {
-    const auto kinds = {std::pair("house", samples::SampleKind::House),
-                        {"tower", samples::SampleKind::Tower},
-                        {"district", samples::SampleKind::District}};
     samples::SampleOptions options;
     options.seed = seed;
-    for (const auto& [name, value] : kinds)
-        if (kind == name) return valueOf(samples::writeSample(value, samples::SampleFormat::CityGml3, options));
+    if (const auto known = fromName<samples::SampleKind>(kind))
+        return valueOf(samples::writeSample(*known, samples::SampleFormat::CityGml3, options));
     throw Failure(Error(Code::BadArgument, "sample '" + kind + "': possible are house, tower and district"));
 }
 
@@ -164,13 +135,12 @@ void bindModels(py::module_& module) {
             if (index >= m->model.features.size()) throw py::index_error("no feature " + std::to_string(index));
             return FeatureReference{m, static_cast<std::uint32_t>(index)};
         });
-    module.def("read", &readModel, py::arg("paths"), py::arg("crs"), py::arg("keep_far_features"),
-               py::arg("allow_truncated"), py::arg("extrude_footprints"), py::arg("layers"), py::arg("progress"));
+    module.def("read", &readModel, py::arg("paths"), py::arg("options"), py::arg("progress"));
     module.def("build_files", &buildFiles, py::arg("paths"), py::arg("options"), py::arg("vectors"), py::arg("grid_of"),
                py::arg("progress"));
     module.def("build_model", &buildModel, py::arg("model"), py::arg("options"), py::arg("vectors"), py::arg("grid_of"),
                py::arg("progress"));
-    module.def("build_keywords", [] { return BuildKeywords().describe(); });
+    module.def("build_keywords", [] { return describeKeywords(frontend::optionsOf<pipeline::BuildOptions>()); });
     module.def("sample", &writeSample, py::arg("kind"), py::arg("seed"));
 }
 

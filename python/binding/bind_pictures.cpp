@@ -5,9 +5,8 @@
 #include "long_call.hpp"
 #include "volume_object.hpp"
 
-#include <apps/cli/options/scene_options.hpp>
-
 #include <svt/city/city_painter.hpp>
+#include <svt/frontend/scene_options.hpp>
 #include <svt/image/png.hpp>
 
 #include <pybind11/stl.h>
@@ -29,32 +28,16 @@ struct FrameObject {
 };
 using SharedFrame = std::shared_ptr<FrameObject>;
 
-/// The options of `svt render` that say what a picture shows, from keywords.
-class PictureKeywords {
-public:
-    PictureKeywords() { arguments_.connect(keywords_.command()); }
-    [[nodiscard]] const cli::SceneArguments& take(const py::dict& given) {
-        keywords_.take(given);
-        return arguments_;
-    }
-    [[nodiscard]] std::string describe() const { return keywords_.describe(); }
-
-private:
-    Keywords keywords_{"render"};
-    cli::SceneArguments arguments_;
-};
-
 SharedFrame draw(const SharedVolume& volume, const py::dict& given, const py::object& report) {
-    PictureKeywords keywords;
-    const cli::SceneArguments& arguments = keywords.take(given);
-    const illustrate::Scene scene = valueOf(arguments.toScene(1));
+    const auto options = fromKeywords<frontend::SceneOptions>(given);
+    const illustrate::Scene scene = valueOf(options.toScene(1));
     auto made = std::make_shared<FrameObject>();
-    made->dpi = arguments.printedDpi();
+    made->dpi = options.printedDpi();
     auto painting = longCall(report, [&](const Progress* progress) {
-        render::CastOptions options;
-        options.progress = progress;
-        options.isAdaptive = true;  // as the command, whose pictures these are
-        return volume->paint(scene, options, made->notes);
+        render::CastOptions casting;
+        casting.progress = progress;
+        casting.isAdaptive = true;  // as the command, whose pictures these are
+        return volume->paint(scene, casting, made->notes);
     });
     made->frame = std::move(painting.frame);
     return made;
@@ -66,19 +49,18 @@ struct CityObject {
 };
 
 SharedFrame drawCity(const CityObject& city, const py::dict& given, const py::object& report) {
-    PictureKeywords keywords;
-    const cli::SceneArguments& arguments = keywords.take(given);
-    if (!arguments.cutaway.empty())
+    const auto options = fromKeywords<frontend::SceneOptions>(given);
+    if (!options.cutaway.empty())
         throw Failure(Error(Code::BadArgument, "cutaway: for one volume only; take a part of the city"));
-    const illustrate::Scene scene = valueOf(arguments.toScene(1));
+    const illustrate::Scene scene = valueOf(options.toScene(1));
     auto made = std::make_shared<FrameObject>();
-    made->dpi = arguments.printedDpi();
+    made->dpi = options.printedDpi();
     auto painting = longCall(report, [&](const Progress* progress) -> Result<illustrate::Painting> {
         SVT_TRY(painter, city::CityPainter::make(city.city, {city.memoryBytes, 0, progress}));
-        render::CastOptions options;
-        options.progress = progress;
-        options.isAdaptive = true;
-        auto painted = painter->paint(scene, options);
+        render::CastOptions casting;
+        casting.progress = progress;
+        casting.isAdaptive = true;
+        auto painted = painter->paint(scene, casting);
         made->notes = painter->nothing();
         return painted;
     });
@@ -144,7 +126,7 @@ void bindPictures(py::module_& module) {
         py::arg("folder"), py::arg("memory"));
     module.def("draw_city", &drawCity, py::arg("city"), py::arg("options"), py::arg("progress"));
     module.def("draw", &draw, py::arg("volume"), py::arg("options"), py::arg("progress"));
-    module.def("draw_keywords", [] { return PictureKeywords().describe(); });
+    module.def("draw_keywords", [] { return describeKeywords(frontend::optionsOf<frontend::SceneOptions>()); });
     module.def(
         "encode_png",
         [](const Pixels& pixels, int dpi) {

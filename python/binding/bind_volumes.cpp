@@ -5,9 +5,8 @@
 #include "long_call.hpp"
 #include "volume_object.hpp"
 
-#include <apps/cli/options/write_options.hpp>
-#include <apps/cli/output/json_output.hpp>
-
+#include <svt/frontend/volume_json.hpp>
+#include <svt/frontend/volume_part.hpp>
 #include <svt/volume/svt_file.hpp>
 #include <svt/volume/volume_json.hpp>
 #include <svt/volume_readers/label_array.hpp>
@@ -101,35 +100,30 @@ SharedVolume volumeOfArray(const py::array& samples, const std::array<double, 3>
     return std::make_shared<VolumeObject>(std::move(made));
 }
 
-/// The options of `svt convert` that say what is written, from keywords.
-class WriteKeywords {
-public:
-    WriteKeywords() { arguments_.connect(keywords_.command()); }
-    [[nodiscard]] const cli::WriteArguments& take(const py::dict& given) {
-        keywords_.take(given);
-        return arguments_;
-    }
-    [[nodiscard]] std::string describe() const { return keywords_.describe(); }
-
-private:
-    Keywords keywords_{"convert"};
-    cli::WriteArguments arguments_;
+/// The options of `svt convert` that say what is written.
+struct SaveOptions {
+    frontend::VolumePart part;
+    writers::VolumeWriteOptions write;
 };
 
+record::Members<SaveOptions> membersOf(const SaveOptions*) noexcept {
+    static constexpr record::Member<SaveOptions> kMembers[] = {frontend::part<&SaveOptions::part>("part"),
+                                                               frontend::part<&SaveOptions::write>("write")};
+    return kMembers;
+}
+
 std::uint64_t save(const SharedVolume& volume, const Path& path, const py::dict& given, const py::object& report) {
-    WriteKeywords keywords;
-    const cli::WriteArguments& arguments = keywords.take(given);
+    auto options = fromKeywords<SaveOptions>(given);
     return longCall(report, [&](const Progress* progress) -> Result<std::uint64_t> {
         std::optional<volume::SemanticVolume> part;
-        if (arguments.isPart()) {
-            SVT_TRY(made, arguments.partOf(volume->volume(), 0));
+        if (options.part.isPart()) {
+            SVT_TRY(made, options.part.of(volume->volume(), 0));
             part = std::move(*made);
         }
         const volume::SemanticVolume& written = part ? *part : volume->volume();
         if (path.extension() == ".svt") return volume::writeSvt(written, path);
-        SVT_TRY(options, arguments.options(written));
-        options->progress = progress;
-        return writers::writeVolume(written, path, *options);
+        options.write.progress = progress;
+        return writers::writeVolume(written, path, options.write);
     });
 }
 
@@ -142,11 +136,11 @@ std::vector<std::uint32_t> query(const SharedVolume& volume, const std::string& 
 /// What `svt convert` writes with --box, --select and --level.
 SharedVolume partOf(const SharedVolume& whole, const std::optional<std::array<double, 6>>& box,
                     const std::optional<std::string>& select, int level, const py::object& report) {
-    cli::WriteArguments arguments;
-    if (box) arguments.box.assign(box->begin(), box->end());
-    if (select) arguments.select = *select;
-    arguments.level = level;
-    auto made = longCall(report, [&](const Progress*) { return arguments.partOf(whole->volume(), 0); });
+    frontend::VolumePart part;
+    part.level = level;
+    if (box) part.box.assign(box->begin(), box->end());
+    if (select) part.select = *select;
+    auto made = longCall(report, [&](const Progress*) { return part.of(whole->volume(), 0); });
     return std::make_shared<VolumeObject>(std::move(made));
 }
 
@@ -271,12 +265,12 @@ void bindVolumes(py::module_& module) {
         .def("label_json", [](const SharedVolume& v) { return volume::writeLabelsJson(v->volume().labels); })
         .def("info_json",
              [](const SharedVolume& v) {
-                 return cli::infoJson(v->volume()).dump(-1, ' ', false, cli::Json::error_handler_t::replace);
+                 return frontend::infoJson(v->volume()).dump(-1, ' ', false, record::Json::error_handler_t::replace);
              })
         .def("query", &query, py::arg("text"))
         .def("part", &partOf, py::arg("box"), py::arg("select"), py::arg("level"), py::arg("progress"))
         .def("save", &save, py::arg("path"), py::arg("options"), py::arg("progress"));
-    module.def("save_keywords", [] { return WriteKeywords().describe(); });
+    module.def("save_keywords", [] { return describeKeywords(frontend::optionsOf<SaveOptions>()); });
     module.def("open", &openVolume, py::arg("path"), py::arg("labels"), py::arg("progress"));
     module.def("from_array", &volumeOfArray, py::arg("samples"), py::arg("spacing"), py::arg("origin"), py::arg("axes"),
                py::arg("labels"), py::arg("crs"), py::arg("source"), py::arg("progress"));

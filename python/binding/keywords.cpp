@@ -12,20 +12,7 @@ namespace svt::python {
 namespace {
 
 // Options of the process, which a module does not set for whoever imports it.
-bool isOfProcess(std::span<const Option> set) {
-    return std::any_of(set.begin(), set.end(), [](const Option& option) {
-        return longName(option) == "--memory" || longName(option) == "--quiet";
-    });
-}
-
-cli::CommandText commandTextOf(std::string_view name) {
-    for (cli::CommandText text : cli::commandTexts())
-        if (text.name == name) {
-            std::erase_if(text.sets, isOfProcess);
-            return text;
-        }
-    throw std::logic_error("no such command");
-}
+bool isOfProcess(const Option& option) { return longName(option) == "--memory" || longName(option) == "--quiet"; }
 
 std::string keywordOf(const Option& option) {
     std::string name(longName(option));
@@ -66,12 +53,6 @@ Failure badValue(const std::string& keyword, const std::string& what) {
     return Failure(Error(Code::BadArgument, fmt::format("{}: {}", keyword, what)));
 }
 
-std::vector<std::string> split(const std::string& text) {
-    std::vector<std::string> values(1);
-    for (const char c : text) c == ',' ? static_cast<void>(values.emplace_back()) : values.back().push_back(c);
-    return values;
-}
-
 std::vector<std::string> valuesFor(const Option& option, const std::string& keyword, const py::handle& value) {
     if (option.kind == OptionKind::Flag) {
         if (!py::isinstance<py::bool_>(value)) throw badValue(keyword, "expected True or False");
@@ -84,7 +65,7 @@ std::vector<std::string> valuesFor(const Option& option, const std::string& keyw
         throw badValue(keyword,
                        fmt::format("{} values, and it takes one; for several numbers give a tuple", texts.size()));
     for (const std::string& text : texts) {
-        const std::vector<std::string> parts = option.count == 1 ? std::vector{text} : split(text);
+        const std::vector<std::string> parts = frontend::valuesOf(option, text);
         const auto count = static_cast<int>(parts.size());
         if (option.count > 1 && (count < option.leastCount || count > option.count))
             throw badValue(keyword, fmt::format("'{}': expected {} values", text, option.count));
@@ -96,46 +77,44 @@ std::vector<std::string> valuesFor(const Option& option, const std::string& keyw
     return values;
 }
 
-}  // namespace
-
-Keywords::Keywords(std::string_view command) : text_(commandTextOf(command)), command_(text_) {}
-
-void Keywords::take(const py::dict& given) const {
-    std::vector<std::string_view> names;
-    for (const auto& [key, value] : given) {
-        if (value.is_none() || (py::isinstance<py::bool_>(value) && !value.cast<bool>())) continue;
-        const std::string keyword = py::str(key);
-        const auto& connections = command_.connections();
-        const auto found = std::find_if(connections.begin(), connections.end(), [&](const auto& connection) {
-            return connection.take != nullptr && keywordOf(connection.option) == keyword;
-        });
-        if (found == connections.end()) {
-            std::string nearest;
-            std::size_t best = 3;
-            for (const auto& [option, take] : connections)
-                if (const std::string other = keywordOf(option); take != nullptr)
-                    if (const std::size_t distance = editDistance(keyword, other, 2); distance < best) {
-                        best = distance;
-                        nearest = other;
-                    }
-            throw py::type_error(fmt::format("unexpected keyword argument '{}'{}", keyword,
-                                             nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
-        }
-        for (const std::string_view other : splitChoices(found->option.excludes))
-            if (std::find(names.begin(), names.end(), other) != names.end())
-                throw badValue(keyword, fmt::format("excludes {}; give one of them", other.substr(2)));
-        names.push_back(longName(found->option));
-        found->take(valuesFor(found->option, keyword, value));
-    }
+// Throws TypeError for an unknown keyword, with the nearest known one.
+[[noreturn]] void refuse(const std::string& keyword, std::span<const frontend::BoundOption> options) {
+    std::string nearest;
+    std::size_t best = 3;
+    for (const Option& option : options)
+        if (const std::string other = keywordOf(option); !isOfProcess(option))
+            if (const std::size_t distance = editDistance(keyword, other, 2); distance < best) {
+                best = distance;
+                nearest = other;
+            }
+    throw py::type_error(fmt::format("unexpected keyword argument '{}'{}", keyword,
+                                     nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
 }
 
-std::string Keywords::describe() const {
+}  // namespace
+
+std::vector<frontend::GivenOption> givenOptions(const py::dict& keywords,
+                                                std::span<const frontend::BoundOption> options) {
+    std::vector<frontend::GivenOption> given;
+    for (const auto& [key, value] : keywords) {
+        if (value.is_none() || (py::isinstance<py::bool_>(value) && !value.cast<bool>())) continue;
+        const std::string keyword = py::str(key);
+        const auto found = std::ranges::find_if(
+            options, [&](const Option& option) { return !isOfProcess(option) && keywordOf(option) == keyword; });
+        if (found == options.end()) refuse(keyword, options);
+        given.push_back({&*found, valuesFor(*found, keyword, value)});
+    }
+    if (const auto checked = frontend::checkExclusions(given); !checked) throw Failure(checked.error());
+    return given;
+}
+
+std::string describeKeywords(std::span<const frontend::BoundOption> options) {
     std::string text;
-    for (const auto& [option, take] : command_.connections())
-        if (take != nullptr)
+    for (const Option& option : options)
+        if (!isOfProcess(option))
             text += fmt::format("{} : {}\n    {}\n", keywordOf(option),
-                                option.kind == OptionKind::Flag ? "bool" : cli::valueText(option),
-                                cli::descriptionOf(option));
+                                option.kind == OptionKind::Flag ? "bool" : frontend::valueText(option),
+                                frontend::descriptionOf(option));
     return text;
 }
 

@@ -1,40 +1,36 @@
 #pragma once
 /// \file
-/// Keyword arguments of Python as options of a command: each option that apps/cli/options/catalog.hpp declares is a keyword
-/// of the same name with '_' for '-', is held against the same declaration, and goes into the same struct. So what can be
-/// asked for, its ranges and defaults are those of the command.
+/// Keyword arguments of Python as options of a struct (svt/frontend/option_set.hpp): each is a keyword of the same name with
+/// '_' for '-', is held against the same declaration, and sets the same member. So names, ranges and defaults are those of
+/// the command.
 ///
 ///     v.render(section="y<4", opacity={"class=BuildingRoom": 0.2}, scale_bar=True)
 ///       --section 'y<4' --opacity 'class=BuildingRoom:0.2' --scale-bar
 
 #include "failure.hpp"
 
-#include <apps/cli/options/command_line.hpp>
+#include <svt/frontend/option_set.hpp>
 
+#include <span>
 #include <string>
-#include <string_view>
+#include <vector>
 
 namespace svt::python {
 
-class Keywords {
-public:
-    /// \param command  name of the command, such as "render". Its options of the whole process (memory, quiet) are left out.
-    explicit Keywords(std::string_view command);
+/// The options that keywords give; those of the whole process (memory, quiet) are unknown. None and False are not given;
+/// True is a flag; a tuple joins its members with commas, a list repeats the option, a dict gives "key:value" each.
+/// Throws TypeError for an unknown keyword (with the nearest), Failure of BadArgument for a value.
+[[nodiscard]] std::vector<frontend::GivenOption> givenOptions(const py::dict& keywords,
+                                                              std::span<const frontend::BoundOption> options);
 
-    /// What the structs of options connect themselves to.
-    [[nodiscard]] cli::Command& command() noexcept { return command_; }
+/// A struct with the members that keywords set. Throws as givenOptions(), and Failure of setOptions().
+template <record::Recorded T>
+[[nodiscard]] T fromKeywords(const py::dict& keywords, T to = {}) {
+    valueOf(frontend::setOptions(to, givenOptions(keywords, frontend::optionsOf<T>())));
+    return to;
+}
 
-    /// Hands the values on to what is connected. None and False are not given; True is a flag; a tuple joins its members
-    /// with commas, a list repeats the option, a dict gives "key:value" each.
-    /// Throws TypeError for a keyword that nothing is connected to (with the nearest), Failure of BadArgument for a value.
-    void take(const py::dict& given) const;
-
-    /// One line for each keyword that is connected: name, value and what it does; for docstrings.
-    [[nodiscard]] std::string describe() const;
-
-private:
-    cli::CommandText text_;
-    cli::Command command_;
-};
+/// One line for each keyword: name, value and what it does; for docstrings.
+[[nodiscard]] std::string describeKeywords(std::span<const frontend::BoundOption> options);
 
 }  // namespace svt::python

@@ -163,15 +163,7 @@ class Frame:
     @property
     def notes(self) -> list[str]: ...
 
-def read(
-    paths: list[str],
-    crs: str,
-    keep_far_features: bool,
-    allow_truncated: bool,
-    extrude_footprints: bool,
-    layers: bool,
-    progress: Progress,
-) -> Model: ...
+def read(paths: list[str], options: dict[str, Any], progress: Progress) -> Model: ...
 def sample(kind: str, seed: int) -> str: ...
 def build_files(
     paths: list[str], options: dict[str, Any], vectors: list[str], grid_of: Optional[Volume], progress: Progress

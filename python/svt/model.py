@@ -106,11 +106,14 @@ def read(
     svt.Error
         E101 to E137, when the file cannot be read.
     """
-    return Model(
-        _native.read(
-            paths_of(paths), str(crs or ""), keep_far_features, allow_truncated, extrude_footprints, layers, progress
-        )
-    )
+    options = {
+        "crs": crs or None,
+        "keep_far_features": keep_far_features,
+        "allow_truncated": allow_truncated,
+        "extrude_footprints": extrude_footprints,
+        "layers": layers,
+    }
+    return Model(_native.read(paths_of(paths), options, progress))
 
 
 def sample(kind: str = "house", path: PathLike | None = None, *, seed: int = 1) -> str:

@@ -26,14 +26,14 @@ struct Scene;
 /// The same where there must be one.
 [[nodiscard]] const Option& sceneMember(std::string_view pointer);
 
-/// A member that an option of the command line, or a keyword, sets.
+/// A member with the value that an option of the command line, or a keyword, gives it.
 struct GivenMember {
-    std::string option;               ///< for messages: "--zoom"
-    std::string_view member;          ///< "/camera/zoom"; * is the first element
-    std::vector<std::string> values;  ///< as texts that its declaration allows; a flag may have none
+    std::string member;  ///< "/camera/zoom"; "/passes/0/show/-" appends
+    std::string value;   ///< JSON
+    friend bool operator==(const GivenMember&, const GivenMember&) = default;
 };
 
-/// Sets a member. Values of a member that may repeat are appended.
+/// Sets a member.
 /// \return success, or BadArgument that names the option
 [[nodiscard]] Result<void> setSceneMember(Scene& scene, const GivenMember& given);
 

@@ -14,6 +14,7 @@
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/result.hpp>
 #include <svt/illustrate/section_plane.hpp>
+#include <svt/record/members.hpp>
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
@@ -182,6 +183,9 @@ struct SectionOptions {
     /// If given, queries of show and hide that select nothing are no error, but are told here.
     std::vector<std::string>* nothing = nullptr;
 };
+
+/// Those that a user may give.
+record::Members<SectionOptions> membersOf(const SectionOptions*) noexcept;
 
 /// Cuts `volume` with `plane`. Labels that are left out become gaps, like background. Where the plane coincides with
 /// faces of voxels, the voxels on the kept side are cut; likewise where it lies in faces of meshes.

@@ -24,11 +24,13 @@
 /// - Cavities that one group alone encloses are found by union-find over background runs, and count as part of it
 ///   before the erosion (ours; shell/enclosed_air.hpp).
 
+#include <svt/core/names.hpp>
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
 #include <svt/illustrate/shell_groups.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,6 +42,9 @@ enum class ShellLabels : std::uint8_t {
     Components,  ///< unchanged, those of the components: roof and wall keep their colours
     Groups       ///< one per group, that of the label that represents it
 };
+constexpr auto namesOf(ShellLabels) {
+    return std::to_array<Name<ShellLabels>>({{ShellLabels::Components, "components"}, {ShellLabels::Groups, "groups"}});
+}
 
 struct ShellOptions {
     double thickness = 0;           ///< metres; rounded up to voxels along each axis. 0: two voxels, see extractShell

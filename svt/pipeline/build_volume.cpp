@@ -355,21 +355,34 @@ Result<BuildOutput> buildFrom(model::BuildingModel& model, const BuildOptions& o
     return output;
 }
 
-}  // namespace
-
-Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions& options, Diagnostics* log) {
-    return buildFrom(model, options, true, log);
+// Reads the style file of the options into `sheet`.
+Result<BuildOptions> withStyle(BuildOptions options, StyleSheet& sheet) {
+    if (options.style != nullptr || options.styleFile.empty()) return options;
+    SVT_TRY(read, readStyleSheet(options.styleFile));
+    sheet = std::move(*read);
+    options.style = &sheet;
+    return options;
 }
 
-Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, const BuildOptions& options,
+}  // namespace
+
+Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions& given, Diagnostics* log) {
+    StyleSheet sheet;
+    SVT_TRY(options, withStyle(given, sheet));
+    return buildFrom(model, *options, true, log);
+}
+
+Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, const BuildOptions& given,
                                 Diagnostics* log) {
     const auto start = Clock::now();
-    readers::ReadOptions reading = options.read;
-    reading.threads = options.threads;
-    reading.progress = options.progress;
+    StyleSheet sheet;
+    SVT_TRY(options, withStyle(given, sheet));
+    readers::ReadOptions reading = options->read;
+    reading.threads = options->threads;
+    reading.progress = options->progress;
     SVT_TRY(model, readModels(files, reading, log));
     const double readSeconds = secondsSince(start);
-    SVT_TRY(output, buildFrom(*model, options, false, log));
+    SVT_TRY(output, buildFrom(*model, *options, false, log));
     output->report.seconds.read = readSeconds;
     output->report.seconds.total = secondsSince(start);
     return output;

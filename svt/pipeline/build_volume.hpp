@@ -3,6 +3,7 @@
 /// Builds a semantic volume texture from model files in one call.
 
 #include <svt/core/diagnostics.hpp>
+#include <svt/core/names.hpp>
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
 #include <svt/mesh/mesh_set.hpp>
@@ -11,6 +12,7 @@
 #include <svt/pipeline/style_sheet.hpp>
 #include <svt/pipeline/vector_parts.hpp>
 #include <svt/readers/read_options.hpp>
+#include <svt/record/members.hpp>
 #include <svt/volume/semantic_volume.hpp>
 #include <svt/voxelize/voxelize.hpp>
 
@@ -26,6 +28,9 @@ enum class AxesKind : std::uint8_t {
     World,    ///< along the axes of the CRS
     Building  ///< rotated about z to the dominant horizontal edge of the model
 };
+constexpr auto namesOf(AxesKind) {
+    return std::to_array<Name<AxesKind>>({{AxesKind::World, "world"}, {AxesKind::Building, "building"}});
+}
 
 struct BuildOptions {
     std::optional<Vec3i> dimension;  ///< samples along x, y, z; overrides spacing
@@ -41,9 +46,13 @@ struct BuildOptions {
     bool keepThinParts = true;
     VectorChoice vectors;               ///< content of SemanticVolume::vectors; empty by default
     const StyleSheet* style = nullptr;  ///< applied after the built-in style
+    std::filesystem::path styleFile;    ///< read and applied where `style` is null; empty: none
     int threads = 0;
     const Progress* progress = nullptr;
 };
+
+/// Those that a user may give.
+record::Members<BuildOptions> membersOf(const BuildOptions*) noexcept;
 
 /// Figures of a build, printed by `svt build --json`.
 struct BuildReport {
@@ -66,7 +75,7 @@ struct BuildOutput {
 
 /// Reads all files into one model (ids made unique), meshes, voxelizes, labels.
 /// \param log  receives all findings; may be null
-/// \return the volume and its figures, or the first error of a stage; EmptyModel if the model is outside a given grid
+/// \return the volume and its figures, or the first error of a stage or of readStyleSheet(); EmptyModel if the model is outside a given grid
 [[nodiscard]] Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files,
                                               const BuildOptions& options = {}, Diagnostics* log = nullptr);
 

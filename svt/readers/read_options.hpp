@@ -3,6 +3,7 @@
 /// Options common to all readers: limits, threads and progress reports.
 
 #include <svt/core/progress.hpp>
+#include <svt/record/members.hpp>
 
 #include <cstdint>
 
@@ -26,5 +27,8 @@ struct ReadOptions {
     bool allowTruncated = false;     ///< read a file that was cut off up to the cut (IFC, CityJSONSeq)
     bool splitLayers = false;        ///< IFC: walls and slabs become the layers of their material
 };
+
+/// Those that a user may give.
+record::Members<ReadOptions> membersOf(const ReadOptions*) noexcept;
 
 }  // namespace svt::readers

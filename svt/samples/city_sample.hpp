@@ -3,9 +3,11 @@
 /// Generated cities: many buildings in many files, as cities publish them. Load and ground truth for whole cities, where
 /// the houses of the district (sample.hpp) weigh 20 times a real one.
 
+#include <svt/core/names.hpp>
 #include <svt/core/result.hpp>
 #include <svt/samples/sample.hpp>
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -18,6 +20,11 @@ enum class CityProfile : std::uint8_t {
     NewYork,  ///< CityGML 1.0 and 2.0 in turn, EPSG:2263 with heights, US survey feet, LoD2 surfaces alone
     Plateau   ///< CityGML 2.0, EPSG:6697 (degrees, north first), LoD1 and LoD2
 };
+constexpr auto namesOf(CityProfile) {
+    using enum CityProfile;
+    return std::to_array<Name<CityProfile>>(
+        {{Dutch, "3dbag"}, {Berlin, "berlin"}, {NewYork, "nyc"}, {Plateau, "plateau"}});
+}
 
 struct CitySampleOptions {
     CityProfile profile = CityProfile::Berlin;

@@ -4,9 +4,11 @@
 /// a district of houses. They serve as demo, as ground truth of the tests and as load of the benchmarks.
 /// README.md in this folder shows the plans.
 
+#include <svt/core/names.hpp>
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -16,6 +18,10 @@
 namespace svt::samples {
 
 enum class SampleKind : std::uint8_t { House, Tower, District };
+constexpr auto namesOf(SampleKind) {
+    using enum SampleKind;
+    return std::to_array<Name<SampleKind>>({{House, "house"}, {Tower, "tower"}, {District, "district"}});
+}
 
 enum class SampleFormat : std::uint8_t {
     CityGml3,      ///< CityGML 3.0, GML 3.2
@@ -24,6 +30,14 @@ enum class SampleFormat : std::uint8_t {
     CityJsonSeq2,  ///< CityJSON 2.0, one line for the header and one for each building
     Ifc4  ///< IFC4 as a STEP file: parametric bodies, openings, layers; components by Tag (rooms, units by Name)
 };
+constexpr auto namesOf(SampleFormat) {
+    using enum SampleFormat;
+    return std::to_array<Name<SampleFormat>>({{CityGml3, "citygml3"},
+                                              {CityGml2, "citygml2"},
+                                              {CityJson2, "cityjson"},
+                                              {CityJsonSeq2, "cityjsonseq"},
+                                              {Ifc4, "ifc"}});
+}
 
 /// What to generate. A value out of range is Code::BadArgument, with the name, the value and the range.
 struct SampleOptions {

@@ -9,12 +9,14 @@
 /// Therefore a voxel is inside exactly when its centre is, except for centres within 1/256 voxel of a face, and solids
 /// that share a face neither both claim a voxel there nor leave a gap between them.
 
+#include <svt/core/names.hpp>
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
 #include <svt/mesh/mesh_set.hpp>
 #include <svt/volume/column_volume.hpp>
 #include <svt/volume/grid.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -37,6 +39,9 @@ enum class SheetMode : std::uint8_t {
     Thin,         ///< 6-separating: of two neighbouring samples with the sheet between them, the one behind the sheet
     Conservative  ///< every voxel whose box the sheet touches (separating axis test, Akenine-Moeller 2001)
 };
+constexpr auto namesOf(SheetMode) {
+    return std::to_array<Name<SheetMode>>({{SheetMode::Thin, "thin"}, {SheetMode::Conservative, "conservative"}});
+}
 
 struct VoxelizeOptions {
     SheetMode sheets = SheetMode::Thin;         ///< for objects that are not solids

@@ -11,6 +11,7 @@
 
 #include <svt/core/result.hpp>
 #include <svt/illustrate/section_drawing.hpp>
+#include <svt/record/members.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -23,6 +24,9 @@ struct DxfOptions {
     /// Coordinates of the model's CRS, also of upright drawings, which then stand in space. Dimensions are left in plans alone.
     bool world = false;
 };
+
+/// Those that a user may give.
+record::Members<DxfOptions> membersOf(const DxfOptions*) noexcept;
 
 /// The drawing as DXF text. `volume` is the volume the drawing was made from. Equal drawings give equal bytes.
 [[nodiscard]] std::string makeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,

@@ -16,10 +16,12 @@
 /// label's colour (linear, as glTF requires); its opacity is the fraction of light that one metre of the label stops,
 /// since a surface has no thickness. No normals are written: glTF then requires flat shading.
 
+#include <svt/core/names.hpp>
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 
@@ -30,6 +32,9 @@ enum class GlbFaces : std::uint8_t {
     Planes,  ///< on the oblique planes of the original geometry, where known; see SlopeVertices
     Voxels   ///< on voxel corners: slopes are stairs
 };
+constexpr auto namesOf(GlbFaces) {
+    return std::to_array<Name<GlbFaces>>({{GlbFaces::Planes, "planes"}, {GlbFaces::Voxels, "voxels"}});
+}
 
 struct GlbOptions {
     GlbFaces faces = GlbFaces::Planes;

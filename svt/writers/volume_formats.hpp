@@ -4,11 +4,14 @@
 /// the manual are made from, and the call that writes any of them.
 
 #include <svt/core/file_content.hpp>
+#include <svt/core/names.hpp>
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
+#include <svt/record/members.hpp>
 #include <svt/volume/semantic_volume.hpp>
 #include <svt/writers/glb_writer.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -27,9 +30,18 @@ enum class TextureKind : std::uint8_t {
     Composed,  ///< ComposedTexture3D: a folder of PNG slices beside the document
     Atlas      ///< of X3D alone: one PNG beside the document, colours without labels (ImageTextureAtlas of X3DOM)
 };
+constexpr auto namesOf(TextureKind) {
+    using enum TextureKind;
+    return std::to_array<Name<TextureKind>>(
+        {{Pixel, "pixel"}, {Image, "image"}, {Composed, "composed"}, {Atlas, "atlas"}});
+}
 
 /// Which voxels of components become boxes together.
 enum class MergeBy : std::uint8_t { Label, Class, Material };
+constexpr auto namesOf(MergeBy) {
+    using enum MergeBy;
+    return std::to_array<Name<MergeBy>>({{Label, "label"}, {Class, "class"}, {Material, "material"}});
+}
 
 struct VolumeWriteOptions {
     bool isCompressed = true;           ///< of dense formats that leave the choice: gzip, zlib; else raw
@@ -48,11 +60,14 @@ struct VolumeWriteOptions {
                              ///< the lower corner; none: by the CRS of the volume
     double lift = 0;         ///< of 3D Tiles: metres that are added to heights
     bool hasVoxels = false;  ///< of 3D Tiles: voxels by the draft extensions, not surfaces
-    bool hasLevelSets = false;                ///< of OpenVDB: each class as signed distances, not as a fog volume
-    std::vector<std::uint32_t> holes, vents;  ///< of FDS: labels that are open, and that have vents on both sides
-    int threads = 0;                          ///< maximum; 0: all cores. The bytes do not depend on it.
-    const Progress* progress = nullptr;       ///< stages by format
+    bool hasLevelSets = false;           ///< of OpenVDB: each class as signed distances, not as a fog volume
+    std::string holes, vents;            ///< of FDS: queries of what is open, and of what has vents on both sides
+    int threads = 0;                     ///< maximum; 0: all cores. The bytes do not depend on it.
+    const Progress* progress = nullptr;  ///< stages by format
 };
+
+/// Those that a user may give.
+record::Members<VolumeWriteOptions> membersOf(const VolumeWriteOptions*) noexcept;
 
 /// A format, declared beside its code.
 struct VolumeFormat {

@@ -834,7 +834,7 @@ const std::vector<BadInput> kOptions{
      kGood,
      {"render", "good.gml", "-o", "o.png", "--lens", "z>1", "--cutaway", "all", "--spacing", "0.5"},
      kUsage,
-     "--cutaway excludes --lens|--lens excludes --cutaway"},
+     "--lens and --cutaway exclude each other"},
     {"RenderHatchOf",
      "a hatch of no such name",
      "good.gml",

@@ -18,7 +18,7 @@ struct FeatureQuery {
     std::string by, cut, sort;
     int first = 0;
     bool leaks = false, json = false, csv = false;
-    BuildArguments build;
+    pipeline::BuildOptions build;
 
     /// Whether an option is given that only this answers.
     [[nodiscard]] bool isAsked() const {

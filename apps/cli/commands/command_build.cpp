@@ -1,5 +1,5 @@
 #include <apps/cli/options/build_options.hpp>
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -21,18 +21,20 @@
 namespace svt::cli {
 namespace {
 
-// BuildArguments are those of all commands that build; these are of this command alone.
-struct BuildCommandArguments {
+struct BuildArguments {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path output;
     std::filesystem::path gridOf, labels;
-    BuildArguments build;
+    pipeline::BuildOptions build;
     std::string only;
     std::vector<double> box;
     bool json = false, verbose = false, strict = false;
+
+    // Meshes are kept where they can be, unless asked for or against.
+    BuildArguments() { build.vectors = {.meshes = true, .isRequired = false}; }
 };
 
-void printSummary(const pipeline::BuildOutput& built, std::uint64_t fileBytes, const BuildCommandArguments& arguments) {
+void printSummary(const pipeline::BuildOutput& built, std::uint64_t fileBytes, const BuildArguments& arguments) {
     const auto dimension = built.volume.grid.dimension();
     const auto spacing = built.volume.grid.spacing();
     fmt::print("{}: {} objects, {} x {} x {} samples of {:.4g} x {:.4g} x {:.4g} m, {:.1f} kB in {:.2f} s\n",
@@ -51,8 +53,8 @@ Json chosenSpacingJson(const std::optional<pipeline::SpacingChoice>& choice) {
             {"bytes", choice->forecast.bytes}};
 }
 
-Result<volume::Grid> gridOfVolume(const std::filesystem::path& path, const BuildArguments& build) {
-    if (!build.dimension.empty() || !build.spacing.empty() || build.axes != "world")
+Result<volume::Grid> gridOfVolume(const std::filesystem::path& path, const pipeline::BuildOptions& build) {
+    if (build.dimension || build.spacing || build.axes != pipeline::AxesKind::World)
         return Error(Code::BadArgument,
                      "--grid-of excludes --dimension, --spacing and --axes; the other volume has them already");
     SVT_TRY(volume, volume::readSvt(path));
@@ -85,7 +87,7 @@ Json productsJson(const volume::LabelTable& table, const Diagnostics& diagnostic
 }
 
 // A label volume of another program becomes a volume as it is; models are voxelized.
-Result<pipeline::BuildOutput> builtOf(const BuildCommandArguments& arguments, const pipeline::BuildOptions& options,
+Result<pipeline::BuildOutput> builtOf(const BuildArguments& arguments, const pipeline::BuildOptions& options,
                                       Diagnostics& diagnostics) {
     const bool isVolume =
         arguments.inputs.size() == 1 && volume_readers::looksLikeLabelVolume(arguments.inputs.front());
@@ -95,8 +97,7 @@ Result<pipeline::BuildOutput> builtOf(const BuildCommandArguments& arguments, co
             "--labels names the values of one label volume (NRRD, VTI, NIfTI, TIFF), and the input is none; leave "
             "it out");
     if (!isVolume) return pipeline::buildVolume(arguments.inputs, options, &diagnostics);
-    const BuildArguments& build = arguments.build;
-    if (!build.dimension.empty() || !build.spacing.empty() || !arguments.gridOf.empty() || build.axes != "world")
+    if (options.dimension || options.spacing || options.grid || options.axes != pipeline::AxesKind::World)
         return Error(Code::BadArgument,
                      "the input is a label volume, which has its grid; leave out --dimension, --spacing, --axes and "
                      "--grid-of, or make it coarser by svt convert --level");
@@ -110,7 +111,7 @@ Result<pipeline::BuildOutput> builtOf(const BuildCommandArguments& arguments, co
 }
 
 // What --box and --only leave of a volume: its samples there, and the selected components in the box around them.
-Result<void> takePart(const BuildCommandArguments& arguments, volume::SemanticVolume& volume) {
+Result<void> takePart(const BuildArguments& arguments, volume::SemanticVolume& volume) {
     if (arguments.box.size() == 6) {
         const auto& b = arguments.box;
         const auto samples = volume::samplesIn(volume.grid, Box3d{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}});
@@ -133,20 +134,18 @@ Result<void> takePart(const BuildCommandArguments& arguments, volume::SemanticVo
     return {};
 }
 
-int runBuild(const BuildCommandArguments& arguments) {
-    std::optional<pipeline::StyleSheet> sheet;
-    auto options = arguments.build.options(sheet);
-    if (!options) return fail(options.error());
+int runBuild(const BuildArguments& arguments) {
+    pipeline::BuildOptions options = arguments.build;
     if (!arguments.gridOf.empty()) {
         auto grid = gridOfVolume(arguments.gridOf, arguments.build);
         if (!grid) return fail(grid.error());
-        options->grid = *grid;
+        options.grid = *grid;
     }
     Diagnostics diagnostics;
     const auto start = std::chrono::steady_clock::now();
     std::optional<TerminalProgress> progress(std::in_place);
-    options->progress = progress->get();
-    Result<pipeline::BuildOutput> built = builtOf(arguments, *options, diagnostics);
+    options.progress = progress->get();
+    Result<pipeline::BuildOutput> built = builtOf(arguments, options, diagnostics);
     printDiagnostics(diagnostics, arguments.verbose);
     if (!built) return fail(built.error());
     if (auto taken = takePart(arguments, built->volume); !taken) return fail(taken.error());
@@ -192,74 +191,54 @@ int runBuild(const BuildCommandArguments& arguments) {
     return kDone;
 }
 
-constexpr Option kBuild[] = {
-    {.name = "input",
-     .value = "FILE",
-     .help =
-         "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq, IFC 2x3 to 4.3, IndoorGML; or one label "
-         "volume: NRRD, VTI, NIfTI, TIFF, a folder of Zarr, CityGML with a volume in it",
-     .isRequired = true,
-     .mayRepeat = true,
-     .file = FileUse::Model},
-    {.name = "-o,--output",
-     .value = "F.svt",
-     .help = "the volume to write",
-     .isRequired = true,
-     .file = FileUse::Output,
-     .formats = "svt"},
-};
-constexpr Option kGridOf[] = {
-    {.name = "--only",
-     .value = "QUERY",
-     .help = "keep only the voxels that the query selects, in the box around them",
-     .group = "Part"},
-    {.name = "--box",
-     .kind = Number,
-     .value = "X0,Y0,Z0,X1,Y1,Z1",
-     .unit = "metres",
-     .help = "keep only the samples in this box of world coordinates",
-     .group = "Part",
-     .count = 6,
-     .leastCount = 6},
-    {.name = "--labels",
-     .value = "FILE",
-     .otherwise = "what the file tells, else a label per value",
-     .help = "of a label volume: a table (JSON) that says which label each value is",
-     .file = FileUse::OtherInput},
-    {.name = "--grid-of",
-     .value = "F.svt",
-     .help = "samples where this volume has them, so that the two can be compared voxel by voxel",
-     .group = "Grid",
-     .file = FileUse::OtherInput},
+// Which vector parts are kept: a list of names.
+struct VectorNames : record::PlainCodec<VectorNames, pipeline::VectorChoice> {
+    static void read(record::Faults&, const Json& json, const std::string&, const Option&, pipeline::VectorChoice& to) {
+        const auto has = [&](const char* kind) { return std::ranges::find(json, kind) != json.end(); };
+        to = {.edges = has("edges"), .meshes = has("meshes") || !has("none")};
+    }
+    static Json write(const Option&, const pipeline::VectorChoice&) { return {}; }
 };
 
-Action connectBuild(Command& command) {
-    auto arguments = std::make_shared<BuildCommandArguments>();
-    command.set("input", arguments->inputs);
-    command.set("--output", arguments->output);
-    arguments->build.connect(command);
-    // Kept where they can be, unless asked for or against.
-    arguments->build.vectors = {.meshes = true, .isRequired = false};
-    command.set("--grid-of", arguments->gridOf);
-    command.set("--labels", arguments->labels);
-    command.take("--vectors", [arguments](const std::vector<std::string>& kinds) {
-        const auto has = [&](std::string_view kind) { return std::ranges::find(kinds, kind) != kinds.end(); };
-        arguments->build.vectors = {.edges = has("edges"), .meshes = has("meshes") || !has("none")};
-    });
-    command.set("--only", arguments->only);
-    command.set("--box", arguments->box);
-    command.set("--json", arguments->json);
-    command.set("--strict", arguments->strict);
-    command.set("--verbose", arguments->verbose);
-    return [arguments] { return runBuild(*arguments); };
+Members<BuildArguments> membersOf(const BuildArguments*) noexcept {
+    using All = BuildArguments;
+    static constexpr Member<All> kMembers[] = {
+        member<&All::inputs>("input",
+                             "model files: CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, CityJSONSeq, IFC 2x3 to 4.3, "
+                             "IndoorGML; or one label volume: NRRD, VTI, NIfTI, TIFF, a folder of Zarr, CityGML with a "
+                             "volume in it",
+                             {.value = "FILE", .isRequired = true, .file = FileUse::Model}),
+        member<&All::output>("-o,--output", "the volume to write",
+                             {.value = "F.svt", .isRequired = true, .file = FileUse::Output, .formats = "svt"}),
+        part<&All::build>("build", "Grid"),
+        member<&All::only>("--only", "keep only the voxels that the query selects, in the box around them",
+                           {.value = "QUERY", .group = "Part"}),
+        worldBox<&All::box>("keep only the samples in this box of world coordinates", "Part"),
+        member<&All::labels>(
+            "--labels", "of a label volume: a table (JSON) that says which label each value is",
+            {.value = "FILE", .otherwise = "what the file tells, else a label per value", .file = FileUse::OtherInput}),
+        member<&All::gridOf>("--grid-of",
+                             "samples where this volume has them, so that the two can be compared voxel by voxel",
+                             {.value = "F.svt", .group = "Grid", .file = FileUse::OtherInput}),
+        part<&All::build>("build", "Model|Style|Voxels"),
+        memberAs<VectorNames, &All::build, &pipeline::BuildOptions::vectors>(
+            "--vectors",
+            "edges: keep the feature edges beside the meshes, to be drawn inside the volume; none: no meshes either, "
+            "so "
+            "that sections are cut from voxels",
+            {.choices = "edges|meshes|none", .byDefault = "meshes", .group = "Output", .count = 2}),
+        jsonOption<&All::json>("print figures as JSON on stdout"),
+        member<&All::strict>("--strict", "exit 4 where the model has defects; the volume is written all the same",
+                             {.group = "Output"}),
+        quietOption<All>(),
+        verboseOption<&All::verbose>(),
+    };
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kBuildCommand{
-    .name = "build",
-    .help = "Make a volume (.svt) of one or more model files",
-    .sets = {kBuild, kGrid, kGridOf, kModel, kMemory, kStyle, kVoxels, kBuildOutput, kQuiet, kVerbose},
-    .connect = connectBuild};
+extern const CommandText kBuildCommand =
+    commandOf<BuildArguments, runBuild>("build", "Make a volume (.svt) of one or more model files");
 
 }  // namespace svt::cli

@@ -3,7 +3,7 @@
 #include <apps/cli/city/city_check.hpp>
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/options/build_options.hpp>
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -21,13 +21,18 @@
 namespace svt::cli {
 namespace {
 
+enum class ReportFormat : std::uint8_t { Text, Json, Val3dity };
+constexpr auto namesOf(ReportFormat) {
+    using enum ReportFormat;
+    return std::to_array<Name<ReportFormat>>({{Text, "text"}, {Json, "json"}, {Val3dity, "val3dity"}});
+}
+
 struct CheckArguments {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path report;
-    std::string format = "text";
+    ReportFormat format = ReportFormat::Text;
     validate::ValidateOptions validation;
-    double lod = -1;
-    ReadArguments reading;
+    pipeline::BuildOptions build;  // of these, those that say what is read, and the level of detail
     bool json = false, verbose = false;
 };
 
@@ -157,11 +162,11 @@ void printTotals(const Totals& totals) {
 Result<void> checkModel(const model::BuildingModel& model, const CheckArguments& arguments, const Progress* progress,
                         Diagnostics& diagnostics, const std::function<Result<void>(const Checked&)>& use) {
     validate::ValidateOptions validation = arguments.validation;
-    validation.lod = arguments.lod;
+    validation.lod = arguments.build.lod.lod;
     validation.progress = progress;
     SVT_TRY(report, validate::validateModel(model, validation));
     mesh::MeshOptions options;
-    options.lod.lod = arguments.lod;
+    options.lod = arguments.build.lod;
     options.progress = progress;
     SVT_TRY(scene, mesh::buildMeshes(model, options, &diagnostics));
     const Diagnostics others = diagnostics;
@@ -229,9 +234,9 @@ Result<void> report(const CheckArguments& arguments, const Checked& checked, con
     if (!arguments.report.empty()) {
         SVT_TRY(written, writeFileAtomically(arguments.report, htmlReport(checked, inputFile)));
     }
-    if (arguments.format == "val3dity") {
+    if (arguments.format == ReportFormat::Val3dity) {
         print(val3dityJson(checked, inputFile));
-    } else if (arguments.json || arguments.format == "json") {
+    } else if (arguments.json || arguments.format == ReportFormat::Json) {
         printJson(checked, checked.meshes, diagnostics);
     } else {
         Totals totals;
@@ -244,17 +249,15 @@ Result<void> report(const CheckArguments& arguments, const Checked& checked, con
 int runCheck(const CheckArguments& arguments) {
     if (arguments.inputs.size() == 1 && isCity(arguments.inputs[0])) return checkCity(arguments.inputs[0]);
     Diagnostics diagnostics;
-    auto options = arguments.reading.options();
-    if (!options) return fail(options.error());
     std::optional<TerminalProgress> progress(std::in_place);
     const auto stop = [&](const Error& error) {
         progress.reset();
         printDiagnostics(diagnostics, arguments.verbose);
         return fail(error);
     };
-    readers::ReadOptions& reading = *options;
+    readers::ReadOptions reading = arguments.build.read;
     reading.progress = progress->get();
-    const bool isText = !arguments.json && arguments.format == "text";
+    const bool isText = !arguments.json && arguments.format == ReportFormat::Text;
     if (isText && arguments.report.empty() && arguments.inputs.size() == 1 && isWorthBatches(arguments.inputs[0])) {
         const auto done = checkInBatches(
             arguments, reading, [&] { progress.reset(); }, diagnostics);
@@ -275,68 +278,38 @@ int runCheck(const CheckArguments& arguments) {
     return exitCodeFor(diagnostics);
 }
 
-constexpr Option kCheck[] = {
-    {.name = "input",
-     .value = "FILE",
-     .help = "model files, or a city: its folder or address",
-     .isRequired = true,
-     .mayRepeat = true,
-     .file = FileUse::Model},
-    kModel[0],
-    kModel[2],
-    kModel[3],
-    kModel[4],
-    kModel[5],
-    {.name = "--planarity",
-     .kind = Number,
-     .unit = "m",
-     .least = 1e-6,
-     .most = 1000,
-     .byDefault = "0.01",
-     .help = "how far a point may lie from the plane of its polygon",
-     .group = "Tolerances"},
-    {.name = "--overlap",
-     .kind = Number,
-     .unit = "m",
-     .least = 0,
-     .most = 1000,
-     .otherwise = "solids that overlap by more than 1 mm are reported",
-     .help = "leave solids be that overlap by up to twice this",
-     .group = "Tolerances"},
-    {.name = "--report",
-     .value = "R.html",
-     .help = "also write a page with counts, findings and a picture of each defect",
-     .group = "Output",
-     .file = FileUse::Output,
-     .formats = "html"},
-    {.name = "--format",
-     .choices = "text|json|val3dity",
-     .byDefault = "text",
-     .help = "what to print on stdout: text, JSON, or JSON as val3dity reports it",
-     .group = "Output"},
-    kInfoOutput[0],
-};
-
-Action connectCheck(Command& command) {
-    auto arguments = std::make_shared<CheckArguments>();
-    command.set("input", arguments->inputs);
-    command.set("--lod", arguments->lod);
-    command.set("--planarity", arguments->validation.planarity);
-    command.set("--overlap", arguments->validation.overlap);
-    command.set("--report", arguments->report);
-    command.set("--format", arguments->format);
-    arguments->reading.connect(command);
-    command.set("--json", arguments->json);
-    command.set("--verbose", arguments->verbose);
-    return [arguments] { return runCheck(*arguments); };
+Members<CheckArguments> membersOf(const CheckArguments*) noexcept {
+    using All = CheckArguments;
+    using validate::ValidateOptions;
+    static constexpr Member<All> kMembers[] = {
+        member<&All::inputs>("input", "model files, or a city: its folder or address",
+                             {.value = "FILE", .isRequired = true, .file = FileUse::Model}),
+        part<&All::build>("build", "--lod|--crs|--keep-far-features|--extrude-footprints|--allow-truncated"),
+        member<&All::validation, &ValidateOptions::planarity>(
+            "--planarity", "how far a point may lie from the plane of its polygon",
+            {.unit = "m", .least = 1e-6, .most = 1000, .group = "Tolerances"}),
+        member<&All::validation, &ValidateOptions::overlap>(
+            "--overlap", "leave solids be that overlap by up to twice this",
+            {.unit = "m",
+             .least = 0,
+             .most = 1000,
+             .otherwise = "solids that overlap by more than 1 mm are reported",
+             .group = "Tolerances"}),
+        member<&All::report>("--report", "also write a page with counts, findings and a picture of each defect",
+                             {.value = "R.html", .group = "Output", .file = FileUse::Output, .formats = "html"}),
+        member<&All::format>("--format", "what to print on stdout: text, JSON, or JSON as val3dity reports it",
+                             {.group = "Output"}),
+        jsonOption<&All::json>(),
+        part<&All::build>("build", "--memory"),
+        quietOption<All>(),
+        verboseOption<&All::verbose>(),
+    };
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kCheckCommand{
-    .name = "check",
-    .help = "Test a model: open shells, dangling links, bad faces; exit 4 where something is wrong",
-    .sets = {kCheck, kMemory, kQuiet, kVerbose},
-    .connect = connectCheck};
+extern const CommandText kCheckCommand = commandOf<CheckArguments, runCheck>(
+    "check", "Test a model: open shells, dangling links, bad faces; exit 4 where something is wrong");
 
 }  // namespace svt::cli

@@ -1,6 +1,6 @@
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/options/build_options.hpp>
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 
@@ -17,14 +17,18 @@ namespace svt::cli {
 namespace {
 
 struct CityInfoArguments {
-    std::filesystem::path folder, output;
+    std::filesystem::path folder;
     bool json = false;
+};
+
+struct CityExtractArguments {
+    std::filesystem::path folder, output;
     std::vector<std::string> tiles, ids;
     std::vector<double> box;
     int detail = 0;
 };
 
-int runCityExtract(const CityInfoArguments& arguments) {
+int runCityExtract(const CityExtractArguments& arguments) {
     city::Extract extract;
     extract.ids = arguments.ids;
     extract.detail = arguments.detail;
@@ -56,66 +60,39 @@ int runCityExtract(const CityInfoArguments& arguments) {
     return kDone;
 }
 
-constexpr Option kCityInfo[] = {kInfoOutput[0]};
-constexpr Option kCityExtract[] = {
-    {.name = "-o,--output",
-     .value = "F.svt",
-     .help = "the volume to write",
-     .isRequired = true,
-     .file = FileUse::Output,
-     .formats = "svt"},
-    {.name = "--tile",
-     .value = "L/X/Y",
-     .help = "a whole tile, such as 9/754/11352",
-     .group = "Part",
-     .mayRepeat = true},
-    {.name = "--id", .value = "ID", .help = "a building by its id", .group = "Part", .mayRepeat = true},
-    {.name = "--box",
-     .kind = Number,
-     .value = "X,Y,Z,X,Y,Z",
-     .unit = "metres",
-     .help = "lower and upper corner in the CRS of the city",
-     .group = "Part",
-     .count = 6,
-     .leastCount = 6},
-    {.name = "--detail",
-     .kind = Whole,
-     .least = 0,
-     .most = 26,
-     .byDefault = "0",
-     .help = "0: all labels; 1: one label a building, at twice the spacing; 2: one label a class, at four times; 3 and "
-             "up: mixtures of classes, each at twice the spacing of the one before",
-     .group = "Part"},
-};
-
-Action connectCityInfo(Command& command) {
-    auto arguments = std::make_shared<CityInfoArguments>();
-    command.set("folder", arguments->folder);
-    command.set("--json", arguments->json);
-    return [arguments] { return printCity(arguments->folder, arguments->json); };
+Members<CityInfoArguments> membersOf(const CityInfoArguments*) noexcept {
+    using All = CityInfoArguments;
+    static constexpr Member<All> kMembers[] = {cityFolder<&All::folder>(), jsonOption<&All::json>(),
+                                               quietOption<All>()};
+    return kMembers;
 }
 
-Action connectCityExtract(Command& command) {
-    auto arguments = std::make_shared<CityInfoArguments>();
-    command.set("folder", arguments->folder);
-    command.set("--output", arguments->output);
-    command.set("--tile", arguments->tiles);
-    command.set("--id", arguments->ids);
-    command.set("--box", arguments->box);
-    command.set("--detail", arguments->detail);
-    return [arguments] { return runCityExtract(*arguments); };
+Members<CityExtractArguments> membersOf(const CityExtractArguments*) noexcept {
+    using All = CityExtractArguments;
+    static constexpr Member<All> kMembers[] = {
+        cityFolder<&All::folder>(),
+        member<&All::output>("-o,--output", "the volume to write",
+                             {.value = "F.svt", .isRequired = true, .file = FileUse::Output, .formats = "svt"}),
+        member<&All::tiles>("--tile", "a whole tile, such as 9/754/11352", {.value = "L/X/Y", .group = "Part"}),
+        member<&All::ids>("--id", "a building by its id", {.value = "ID", .group = "Part"}),
+        worldBox<&All::box>("lower and upper corner in the CRS of the city", "Part", "X,Y,Z,X,Y,Z"),
+        member<&All::detail>(
+            "--detail",
+            "0: all labels; 1: one label a building, at twice the spacing; 2: one label a class, at four times; 3 and "
+            "up: mixtures of classes, each at twice the spacing of the one before",
+            {.least = 0, .most = 26, .group = "Part"}),
+        quietOption<All>(),
+    };
+    return kMembers;
 }
+
+int runCityInfo(const CityInfoArguments& arguments) { return printCity(arguments.folder, arguments.json); }
 
 }  // namespace
 
-extern const CommandText kCityInfoCommand{.name = "city-info",
-                                          .help = "Show what is inside a city",
-                                          .sets = {kCityFolder, kCityInfo, kQuiet},
-                                          .connect = connectCityInfo};
-
-extern const CommandText kCityExtractCommand{.name = "city-extract",
-                                             .help = "Write a part of a city as a volume (.svt)",
-                                             .sets = {kCityFolder, kCityExtract, kQuiet},
-                                             .connect = connectCityExtract};
+extern const CommandText kCityInfoCommand =
+    commandOf<CityInfoArguments, runCityInfo>("city-info", "Show what is inside a city");
+extern const CommandText kCityExtractCommand =
+    commandOf<CityExtractArguments, runCityExtract>("city-extract", "Write a part of a city as a volume (.svt)");
 
 }  // namespace svt::cli

@@ -1,11 +1,12 @@
 #include <apps/cli/options/build_options.hpp>
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 #include <apps/cli/output/version.hpp>
 
 #include <svt/city/city_plan.hpp>
+#include <svt/readers/read_model.hpp>
 
 #include <fmt/format.h>
 
@@ -16,15 +17,15 @@ struct CityPlanArguments {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path output;
     city::PlanOptions options;
-    std::string crs;
+    pipeline::BuildOptions build;  // of these, those that say what is read, and the level of detail
     bool verbose = false, isUpdate = false;
 };
 
 int runCityPlan(CityPlanArguments& arguments) {
-    const auto crs = parseCrs(arguments.crs);
-    if (!crs) return fail(crs.error());
     city::PlanOptions& options = arguments.options;
-    options.city.crs = *crs;
+    options.city.crs = arguments.build.read.crs;
+    options.city.lod = arguments.build.lod.lod;
+    options.allowTruncated = arguments.build.read.allowTruncated;
     options.program = programOfCity();
     const auto files = city::cityInputs(arguments.inputs);
     if (!files) return fail(files.error());
@@ -50,75 +51,38 @@ int runCityPlan(CityPlanArguments& arguments) {
     return kDone;
 }
 
-}  // namespace
-
-namespace {
-
-constexpr Option kCityPlan[] = {
-    {.name = "input",
-     .value = "FILE",
-     .help = kModelFiles,
-     .isRequired = true,
-     .mayRepeat = true,
-     .file = FileUse::Model},
-    {.name = "-o,--output",
-     .value = "DIR",
-     .help = "the folder of the city",
-     .isRequired = true,
-     .file = FileUse::OutputFolder},
-    {.name = "--spacing",
-     .kind = Number,
-     .unit = "metres",
-     .least = 0.001,
-     .most = 100,
-     .byDefault = "0.5",
-     .help = "distance of samples of the finest level",
-     .group = "Grid"},
-    kModel[0],
-    kModel[2],
-    kModel[5],
-    {.name = "--tasks",
-     .kind = Whole,
-     .least = 1,
-     .most = 1000000,
-     .otherwise = "some 5 minutes each, at most 1000",
-     .help = "number of tasks that a cluster is to run; the city does not depend on it",
-     .group = "Work"},
-    {.name = "--pack-seconds",
-     .kind = Number,
-     .unit = "seconds",
-     .least = 0.01,
-     .most = 3600,
-     .byDefault = "10",
-     .help = "expected work in a pack, the smallest part that is built, proven and built again",
-     .group = "Work"},
-    {.name = "--update",
-     .kind = Flag,
-     .help = "the folder has a plan: say which tiles change, and keep packs whose content stays",
-     .group = "Work"},
-};
-
-Action connectCityPlan(Command& command) {
-    auto arguments = std::make_shared<CityPlanArguments>();
-    command.set("input", arguments->inputs);
-    command.set("--output", arguments->output);
-    command.set("--spacing", arguments->options.city.spacing);
-    command.set("--lod", arguments->options.city.lod);
-    command.set("--crs", arguments->crs);
-    command.set("--allow-truncated", arguments->options.allowTruncated);
-    command.set("--tasks", arguments->options.tasks);
-    command.set("--pack-seconds", arguments->options.city.packSeconds);
-    command.set("--update", arguments->isUpdate);
-    command.set("--threads", arguments->options.threads);
-    command.set("--verbose", arguments->verbose);
-    return [arguments] { return runCityPlan(*arguments); };
+Members<CityPlanArguments> membersOf(const CityPlanArguments*) noexcept {
+    using All = CityPlanArguments;
+    using city::CityOptions, city::PlanOptions;
+    static const std::string kInputs = fmt::format("model files ({}, each also with .gz), and folders with such files",
+                                                   fmt::join(readers::modelEndings(), ", "));
+    static const Member<All> kMembers[] = {
+        member<&All::inputs>("input", kInputs, {.value = "FILE", .isRequired = true, .file = FileUse::Model}),
+        member<&All::output>("-o,--output", "the folder of the city",
+                             {.value = "DIR", .isRequired = true, .file = FileUse::OutputFolder}),
+        member<&All::options, &PlanOptions::city, &CityOptions::spacing>(
+            "--spacing", "distance of samples of the finest level",
+            {.unit = "metres", .least = 0.001, .most = 100, .group = "Grid"}),
+        part<&All::build>("build", "--lod|--crs|--allow-truncated"),
+        member<&All::options, &PlanOptions::tasks>(
+            "--tasks", "number of tasks that a cluster is to run; the city does not depend on it",
+            {.least = 1, .most = 1000000, .otherwise = "some 5 minutes each, at most 1000", .group = "Work"}),
+        member<&All::options, &PlanOptions::city, &CityOptions::packSeconds>(
+            "--pack-seconds", "expected work in a pack, the smallest part that is built, proven and built again",
+            {.unit = "seconds", .least = 0.01, .most = 3600, .group = "Work"}),
+        member<&All::isUpdate>("--update",
+                               "the folder has a plan: say which tiles change, and keep packs whose content stays",
+                               {.group = "Work"}),
+        threadsOption<&All::options, &PlanOptions::threads>(),
+        quietOption<All>(),
+        verboseOption<&All::verbose>(),
+    };
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kCityPlanCommand{.name = "city-plan",
-                                          .help = "Plan a city of many files: which features make which tiles",
-                                          .sets = {kCityPlan, kThreads, kQuiet, kVerbose},
-                                          .connect = connectCityPlan};
+extern const CommandText kCityPlanCommand = commandOf<CityPlanArguments, runCityPlan>(
+    "city-plan", "Plan a city of many files: which features make which tiles");
 
 }  // namespace svt::cli

@@ -1,6 +1,6 @@
 #include <apps/cli/city/engines.hpp>
 #include <apps/cli/city/run_packs.hpp>
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -17,26 +17,35 @@
 namespace svt::cli {
 namespace {
 
+enum class Engine : std::uint8_t { Local, Slurm, Kubernetes };
+constexpr auto namesOf(Engine) {
+    using enum Engine;
+    return std::to_array<Name<Engine>>({{Local, "local"}, {Slurm, "slurm"}, {Kubernetes, "kubernetes"}});
+}
+
 struct CityRunArguments {
     std::filesystem::path folder;
     city::PackOptions packs;
     int jobs = 0;
-    std::uint32_t task = 0, tasks = 0;
-    bool json = false, isProven = false, isPrinted = false;
-    std::string engine;
+    bool isPrinted = false;
+    Engine engine = Engine::Local;
     std::vector<std::string> options;
 };
 
-std::shared_ptr<CityRunArguments> arguments(Command& command) {
-    auto result = std::make_shared<CityRunArguments>();
-    command.set("folder", result->folder);
-    return result;
-}
+struct CityTaskArguments {
+    std::filesystem::path folder;
+    city::PackOptions packs;
+    std::uint32_t task = 0, tasks = 0;
+};
 
-void connectLimits(Command& command, CityRunArguments& to) {
-    command.set("--tile-seconds", to.packs.tileSeconds);
-    command.set("--feature-seconds", to.packs.featureSeconds);
-}
+struct CityStatusArguments {
+    std::filesystem::path folder;
+    bool json = false, isProven = false;
+};
+
+struct CityMergeArguments {
+    std::filesystem::path folder;
+};
 
 void tellSkipped(const std::vector<city::SkippedFeature>& skipped) {
     constexpr std::size_t kShown = 12;
@@ -98,7 +107,7 @@ int runEngine(const CityRunArguments& arguments, const city::Plan& plan) {
     std::error_code failed;
     const EngineJob job{std::filesystem::absolute(arguments.folder, failed).lexically_normal(), arguments.options,
                         arguments.packs};
-    if (arguments.engine == "slurm") return runSlurm(arguments, job, plan);
+    if (arguments.engine == Engine::Slurm) return runSlurm(arguments, job, plan);
     if (!arguments.isPrinted)
         return fail(Error(Code::BadArgument,
                           "--engine kubernetes needs --print: the job is printed as YAML for 'kubectl apply -f -'"));
@@ -111,7 +120,7 @@ int runEngine(const CityRunArguments& arguments, const city::Plan& plan) {
 int runCityRun(const CityRunArguments& arguments) {
     const auto plan = city::readPlan(arguments.folder, programOfCity());
     if (!plan) return fail(plan.error());
-    if (arguments.engine != "local") return runEngine(arguments, *plan);
+    if (arguments.engine != Engine::Local) return runEngine(arguments, *plan);
     if (!arguments.options.empty() || arguments.isPrinted)
         return fail(Error(Code::BadArgument, "--print and options after -- need --engine slurm or kubernetes"));
     std::optional<TerminalProgress> progress(std::in_place);
@@ -131,7 +140,7 @@ int runCityRun(const CityRunArguments& arguments) {
     return tellMissing(arguments.folder, *merged);
 }
 
-int runCityTask(const CityRunArguments& arguments) {
+int runCityTask(const CityTaskArguments& arguments) {
     const auto plan = city::readPlan(arguments.folder, programOfCity());
     if (!plan) return fail(plan.error());
     const std::uint32_t tasks = arguments.tasks == 0 ? plan->tasks : arguments.tasks;
@@ -153,7 +162,7 @@ int runCityTask(const CityRunArguments& arguments) {
     return worst;
 }
 
-int runCityMerge(const CityRunArguments& arguments) {
+int runCityMerge(const CityMergeArguments& arguments) {
     const auto plan = city::readPlan(arguments.folder, programOfCity());
     if (!plan) return fail(plan.error());
     const auto merged = city::mergeCity(arguments.folder, *plan);
@@ -164,7 +173,7 @@ int runCityMerge(const CityRunArguments& arguments) {
     return tellMissing(arguments.folder, *merged);
 }
 
-int runCityStatus(const CityRunArguments& arguments) {
+int runCityStatus(const CityStatusArguments& arguments) {
     const auto plan = city::readPlan(arguments.folder, {});
     if (!plan) return fail(plan.error());
     const city::CityStatus status = city::cityStatus(arguments.folder, *plan, arguments.isProven);
@@ -186,119 +195,86 @@ int runCityStatus(const CityRunArguments& arguments) {
     return kDone;
 }
 
-constexpr Option kCityLimits[] = {
-    {.name = "--tile-seconds",
-     .kind = Number,
-     .unit = "seconds",
-     .least = 0.1,
-     .most = 1000000,
-     .byDefault = "120",
-     .help = "what a tile may take before its features are tried one by one",
-     .group = "Limits"},
-    {.name = "--feature-seconds",
-     .kind = Number,
-     .unit = "seconds",
-     .least = 0.1,
-     .most = 1000000,
-     .byDefault = "20",
-     .help = "time limit of a feature that is built by itself; a feature over it is left out",
-     .group = "Limits"},
-};
-constexpr Option kCityRun[] = {
-    {.name = "options",
-     .value = "OPTION",
-     .help =
-         "after --: with slurm, options of sbatch, such as --partition=batch; with kubernetes, image=, claim=, mount=, "
-         "namespace=, cpu=, memory=, parallelism=",
-     .mayRepeat = true},
-    {.name = "--engine",
-     .choices = "local|slurm|kubernetes",
-     .byDefault = "local",
-     .help = "where: on this machine; as a job array of Slurm; as an Indexed Job of Kubernetes, which is printed",
-     .group = "Work"},
-    {.name = "--print", .kind = Flag, .help = "print what would be submitted, and do nothing", .group = "Work"},
-    {.name = "--jobs",
-     .kind = Whole,
-     .least = 0,
-     .most = 1024,
-     .otherwise = "one for each core",
-     .help = "packs that are built at a time; the city does not depend on it",
-     .group = "Work"},
-};
-constexpr Option kCityTask[] = {
-    {.name = "task", .kind = Whole, .least = 0, .help = "number of the task, from 0", .isRequired = true},
-    {.name = "--of",
-     .kind = Whole,
-     .least = 1,
-     .otherwise = "that of the plan",
-     .help = "number of tasks; each builds its share of the packs",
-     .group = "Work"},
-    {.name = "--threads",
-     .kind = Whole,
-     .least = 0,
-     .most = 1024,
-     .byDefault = "1",
-     .help = "number of threads, 0 for all cores; the result does not depend on it",
-     .group = "Work"},
-};
-constexpr Option kCityStatus[] = {
-    kInfoOutput[0],
-    {.name = "--proven",
-     .kind = Flag,
-     .help = "read all packs and compare their SHA-256 with the reports, not their sizes alone"},
-};
-
-Action connectCityRun(Command& command) {
-    auto given = arguments(command);
-    command.set("--jobs", given->jobs);
-    command.set("--engine", given->engine);
-    command.set("--print", given->isPrinted);
-    command.set("options", given->options);
-    connectLimits(command, *given);
-    return [given] { return runCityRun(*given); };
+template <class All>
+constexpr auto tileSeconds() {
+    return member<&All::packs, &city::PackOptions::tileSeconds>(
+        "--tile-seconds", "what a tile may take before its features are tried one by one",
+        {.unit = "seconds", .least = 0.1, .most = 1000000, .group = "Limits"});
+}
+template <class All>
+constexpr auto featureSeconds() {
+    return member<&All::packs, &city::PackOptions::featureSeconds>(
+        "--feature-seconds", "time limit of a feature that is built by itself; a feature over it is left out",
+        {.unit = "seconds", .least = 0.1, .most = 1000000, .group = "Limits"});
 }
 
-Action connectCityTask(Command& command) {
-    auto given = arguments(command);
-    command.set("task", given->task);
-    command.set("--of", given->tasks);
-    command.set("--threads", given->packs.threads);
-    connectLimits(command, *given);
-    return [given] { return runCityTask(*given); };
+Members<CityRunArguments> membersOf(const CityRunArguments*) noexcept {
+    using All = CityRunArguments;
+    static constexpr Member<All> kMembers[] = {
+        cityFolder<&All::folder>(),
+        member<&All::options>("options",
+                              "after --: with slurm, options of sbatch, such as --partition=batch; with kubernetes, "
+                              "image=, claim=, mount=, "
+                              "namespace=, cpu=, memory=, parallelism=",
+                              {.value = "OPTION"}),
+        member<&All::engine>(
+            "--engine",
+            "where: on this machine; as a job array of Slurm; as an Indexed Job of Kubernetes, which is printed",
+            {.group = "Work"}),
+        member<&All::isPrinted>("--print", "print what would be submitted, and do nothing", {.group = "Work"}),
+        member<&All::jobs>("--jobs", "packs that are built at a time; the city does not depend on it",
+                           {.least = 0, .most = 1024, .otherwise = "one for each core", .group = "Work"}),
+        tileSeconds<All>(),
+        featureSeconds<All>(),
+        quietOption<All>(),
+    };
+    return kMembers;
 }
 
-Action connectCityMerge(Command& command) {
-    auto given = arguments(command);
-    return [given] { return runCityMerge(*given); };
+Members<CityTaskArguments> membersOf(const CityTaskArguments*) noexcept {
+    using All = CityTaskArguments;
+    static constexpr Member<All> kMembers[] = {
+        cityFolder<&All::folder>(),
+        member<&All::task>("task", "number of the task, from 0", {.least = 0, .isRequired = true}),
+        member<&All::tasks>("--of", "number of tasks; each builds its share of the packs",
+                            {.least = 1, .otherwise = "that of the plan", .group = "Work"}),
+        member<&All::packs, &city::PackOptions::threads>(
+            "--threads", "number of threads, 0 for all cores; the result does not depend on it",
+            {.least = 0, .most = 1024, .group = "Work"}),
+        tileSeconds<All>(),
+        featureSeconds<All>(),
+        quietOption<All>(),
+    };
+    return kMembers;
 }
 
-Action connectCityStatus(Command& command) {
-    auto given = arguments(command);
-    command.set("--json", given->json);
-    command.set("--proven", given->isProven);
-    return [given] { return runCityStatus(*given); };
+Members<CityStatusArguments> membersOf(const CityStatusArguments*) noexcept {
+    using All = CityStatusArguments;
+    static constexpr Member<All> kMembers[] = {
+        cityFolder<&All::folder>(),
+        jsonOption<&All::json>(),
+        member<&All::isProven>("--proven",
+                               "read all packs and compare their SHA-256 with the reports, not their sizes alone"),
+        quietOption<All>(),
+    };
+    return kMembers;
+}
+
+Members<CityMergeArguments> membersOf(const CityMergeArguments*) noexcept {
+    using All = CityMergeArguments;
+    static constexpr Member<All> kMembers[] = {cityFolder<&All::folder>(), quietOption<All>()};
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kCityRunCommand{.name = "city-run",
-                                         .help = "Build all of a city that is not built yet, and merge it",
-                                         .sets = {kCityFolder, kCityRun, kCityLimits, kQuiet},
-                                         .connect = connectCityRun};
-
-extern const CommandText kCityTaskCommand{.name = "city-task",
-                                          .help = "Build one task's share of a city",
-                                          .sets = {kCityFolder, kCityTask, kCityLimits, kQuiet},
-                                          .connect = connectCityTask};
-
-extern const CommandText kCityStatusCommand{.name = "city-status",
-                                            .help = "Report the built part of a city, and the next step",
-                                            .sets = {kCityFolder, kCityStatus, kQuiet},
-                                            .connect = connectCityStatus};
-
-extern const CommandText kCityMergeCommand{.name = "city-merge",
-                                           .help = "Make the index of a city of all that is built",
-                                           .sets = {kCityFolder, kQuiet},
-                                           .connect = connectCityMerge};
+extern const CommandText kCityRunCommand =
+    commandOf<CityRunArguments, runCityRun>("city-run", "Build all of a city that is not built yet, and merge it");
+extern const CommandText kCityTaskCommand =
+    commandOf<CityTaskArguments, runCityTask>("city-task", "Build one task's share of a city");
+extern const CommandText kCityStatusCommand =
+    commandOf<CityStatusArguments, runCityStatus>("city-status", "Report the built part of a city, and the next step");
+extern const CommandText kCityMergeCommand =
+    commandOf<CityMergeArguments, runCityMerge>("city-merge", "Make the index of a city of all that is built");
 
 }  // namespace svt::cli

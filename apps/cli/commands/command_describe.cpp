@@ -1,7 +1,7 @@
 #include <apps/cli/describe/completions.hpp>
 #include <apps/cli/describe/man_pages.hpp>
 #include <apps/cli/options/build_options.hpp>
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -21,8 +21,15 @@
 namespace svt::cli {
 namespace {
 
+enum class What : std::uint8_t { Json, Man, Bash, Zsh, Fish };
+constexpr auto namesOf(What) {
+    using enum What;
+    return std::to_array<Name<What>>({{Json, "json"}, {Man, "man"}, {Bash, "bash"}, {Zsh, "zsh"}, {Fish, "fish"}});
+}
+
 struct DescribeArguments {
-    std::string what, command;
+    What what = What::Json;
+    std::string command;
 };
 
 // What a command does with the file that an option names.
@@ -73,7 +80,7 @@ Json describedJson() {
     Json json{{"version", versionNumber()}, {"commands", Json::array()}, {"sceneMembers", Json::array()}};
     for (const CommandText& command : commandTexts()) {
         Json described{{"name", command.name}, {"help", command.help}, {"options", Json::array()}};
-        for (const Option& option : optionsOf(command)) described["options"].push_back(optionJson(option));
+        for (const Option& option : command.options()) described["options"].push_back(optionJson(option));
         json["commands"].push_back(std::move(described));
     }
     for (const Option& member : illustrate::sceneMembers()) json["sceneMembers"].push_back(optionJson(member));
@@ -89,12 +96,12 @@ Json describedJson() {
 }
 
 int runDescribe(const DescribeArguments& arguments) {
-    if (arguments.what == "json") {
+    if (arguments.what == What::Json) {
         print(describedJson());
         return kDone;
     }
-    if (arguments.what != "man") {
-        fmt::print("{}", completionScript(arguments.what));
+    if (arguments.what != What::Man) {
+        fmt::print("{}", completionScript(nameOf(arguments.what)));
         return kDone;
     }
     const auto page = manPage(arguments.command);
@@ -105,26 +112,22 @@ int runDescribe(const DescribeArguments& arguments) {
     return kDone;
 }
 
-constexpr Option kDescribe[] = {
-    {.name = "what",
-     .choices = "json|man|bash|zsh|fish",
-     .help = "json: all commands and options; man: a manual page; bash, zsh, fish: completions for that shell",
-     .isRequired = true},
-    {.name = "command", .otherwise = "the page of svt itself", .help = "with man: the command whose page is printed"},
-};
-
-Action connectDescribe(Command& command) {
-    auto arguments = std::make_shared<DescribeArguments>();
-    command.set("what", arguments->what);
-    command.set("command", arguments->command);
-    return [arguments] { return runDescribe(*arguments); };
+Members<DescribeArguments> membersOf(const DescribeArguments*) noexcept {
+    using All = DescribeArguments;
+    static constexpr Member<All> kMembers[] = {
+        member<&All::what>("what",
+                           "json: all commands and options; man: a manual page; bash, zsh, fish: completions for that "
+                           "shell",
+                           {.isRequired = true}),
+        member<&All::command>("command", "with man: the command whose page is printed",
+                              {.otherwise = "the page of svt itself"}),
+    };
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kDescribeCommand{.name = "describe",
-                                          .help = "Print what the command offers, for other programs",
-                                          .sets = {kDescribe},
-                                          .connect = connectDescribe};
+extern const CommandText kDescribeCommand =
+    commandOf<DescribeArguments, runDescribe>("describe", "Print what the command offers, for other programs");
 
 }  // namespace svt::cli

@@ -1,5 +1,5 @@
 #include <apps/cli/doctor/answers.hpp>
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 
@@ -68,19 +68,14 @@ int runDoctor(const DoctorArguments& arguments) {
     return report.finish();
 }
 
-constexpr Option kDoctor[] = {kInfoOutput[0]};
-
-Action connectDoctor(Command& command) {
-    auto arguments = std::make_shared<DoctorArguments>();
-    command.set("--json", arguments->json);
-    return [arguments] { return runDoctor(*arguments); };
+Members<DoctorArguments> membersOf(const DoctorArguments*) noexcept {
+    static constexpr Member<DoctorArguments> kMembers[] = {jsonOption<&DoctorArguments::json>()};
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kDoctorCommand{.name = "doctor",
-                                        .help = "Check this machine, and suggest remedies for missing parts",
-                                        .sets = {kDoctor},
-                                        .connect = connectDoctor};
+extern const CommandText kDoctorCommand =
+    commandOf<DoctorArguments, runDoctor>("doctor", "Check this machine, and suggest remedies for missing parts");
 
 }  // namespace svt::cli

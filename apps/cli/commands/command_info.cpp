@@ -1,6 +1,6 @@
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/options/build_options.hpp>
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -13,7 +13,7 @@ namespace {
 
 struct InfoArguments {
     std::filesystem::path input;
-    BuildArguments build;
+    pipeline::BuildOptions build;
     bool json = false, tree = false;
 };
 
@@ -79,21 +79,19 @@ int runInfo(const InfoArguments& arguments) {
     return kDone;
 }
 
-Action connectInfo(Command& command) {
-    auto arguments = std::make_shared<InfoArguments>();
-    command.set("input", arguments->input);
-    arguments->build.connect(command);
-    command.set("--json", arguments->json);
-    command.set("--tree", arguments->tree);
-    return [arguments] { return runInfo(*arguments); };
+Members<InfoArguments> membersOf(const InfoArguments*) noexcept {
+    using All = InfoArguments;
+    static constexpr Member<All> kMembers[] = {
+        modelInput<&All::input>(), part<&All::build>("build"),
+        jsonOption<&All::json>(),  member<&All::tree>("--tree", "print the tree of features", {.group = "Output"}),
+        quietOption<All>(),
+    };
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kInfoCommand{
-    .name = "info",
-    .help = "Show what is inside a volume or model",
-    .sets = {kModelInput, kGrid, kModel, kMemory, kStyle, kVoxels, kInfoOutput, kQuiet},
-    .connect = connectInfo};
+extern const CommandText kInfoCommand =
+    commandOf<InfoArguments, runInfo>("info", "Show what is inside a volume or model");
 
 }  // namespace svt::cli

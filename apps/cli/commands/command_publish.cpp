@@ -1,4 +1,4 @@
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/options/site_options.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -45,34 +45,25 @@ int runPublish(const PublishArguments& arguments) {
     return kDone;
 }
 
-constexpr Option kPublish[] = {
-    kSiteInputs[0],
-    {.name = "-o,--output",
-     .value = "DIR",
-     .help = "the folder to write",
-     .isRequired = true,
-     .file = FileUse::OutputFolder},
-    {.name = "--force", .kind = Flag, .help = "write into a folder that is not empty; what is not of the page stays"},
-    {.name = "--url",
-     .value = "URL",
-     .help = "where the page will be, such as https://example.org/house/, for previews of links to it"},
-};
-
-Action connectPublish(Command& command) {
-    auto arguments = std::make_shared<PublishArguments>();
-    command.set("input", arguments->inputs);
-    command.set("--output", arguments->output);
-    command.set("--force", arguments->mayReplace);
-    command.set("--url", arguments->address);
-    arguments->site.connect(command);
-    return [arguments] { return runPublish(*arguments); };
+Members<PublishArguments> membersOf(const PublishArguments*) noexcept {
+    using All = PublishArguments;
+    static constexpr Member<All> kMembers[] = {
+        siteInputs<&All::inputs>(),
+        member<&All::output>("-o,--output", "the folder to write",
+                             {.value = "DIR", .isRequired = true, .file = FileUse::OutputFolder}),
+        member<&All::mayReplace>("--force", "write into a folder that is not empty; what is not of the page stays"),
+        member<&All::address>("--url",
+                              "where the page will be, such as https://example.org/house/, for previews of links to it",
+                              {.value = "URL"}),
+        quietOption<All>(),
+        part<&All::site>("site"),
+    };
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kPublishCommand{.name = "publish",
-                                         .help = "Write the viewer with models as a folder for any web server",
-                                         .sets = {kPublish, kQuiet, kPage, kGrid, kModel, kMemory, kStyle, kVoxels},
-                                         .connect = connectPublish};
+extern const CommandText kPublishCommand =
+    commandOf<PublishArguments, runPublish>("publish", "Write the viewer with models as a folder for any web server");
 
 }  // namespace svt::cli

@@ -2,7 +2,7 @@
 #include <apps/cli/city/city_overlaps.hpp>
 #include <apps/cli/city/feature_query.hpp>
 #include <apps/cli/options/build_options.hpp>
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -23,7 +23,7 @@ struct QueryArguments {
     std::string with, along;
     std::filesystem::path owners, parcels;
     bool neighbors = false, overlaps = false, gaps = false, areas = false;
-    BuildArguments build;
+    pipeline::BuildOptions build;
     FeatureQuery features;
     bool json = false, csv = false;
 
@@ -157,13 +157,11 @@ int runQuery(const QueryArguments& arguments) {
             Code::BadArgument,
             "--with, --neighbours, --along, --overlaps, --gaps, --areas, --owners and --parcels exclude each other; "
             "give one of them"));
-    if (arguments.json && arguments.csv)
-        return fail(Error(Code::BadArgument, "--json and --csv exclude each other; give one of them"));
     if (isCity(arguments.input) || arguments.features.isAsked()) return runFeatures(arguments);
     Diagnostics diagnostics;
     Result<volume::SemanticVolume> volume = [&] {
         const TerminalProgress progress;
-        BuildArguments build = arguments.build;
+        pipeline::BuildOptions build = arguments.build;
         if (arguments.areas || arguments.overlaps) build.vectors.meshes = true;
         return loadVolume(arguments.input, build, progress.get(), diagnostics);
     }();
@@ -181,105 +179,64 @@ int runQuery(const QueryArguments& arguments) {
     return printReport(*volume, *selected, arguments);
 }
 
-constexpr Option kQuery[] = {
-    kModelInput[0],
-    {.name = "query", .value = "QUERY", .help = "such as 'class=BuildingRoom and volume>20'", .isRequired = true},
-    {.name = "--with",
-     .value = "LIST",
-     .help = "more columns, any of volume (by voxels), surface (m2) and box, such as volume,surface",
-     .group = "Report"},
-    {.name = "--neighbours",
-     .kind = Flag,
-     .help = "what each feature touches, with the shared area",
-     .group = "Report"},
-    {.name = "--along",
-     .value = "X,Y,Z:DX,DY,DZ",
-     .help = "what lies along a ray: a point in metres from the lower corner, and a direction",
-     .group = "Report"},
-    {.name = "--overlaps", .kind = Flag, .help = "space that two features claim", .group = "Report"},
-    {.name = "--gaps", .kind = Flag, .help = "enclosed air that belongs to no feature", .group = "Report"},
-    {.name = "--areas",
-     .kind = Flag,
-     .help = "rooms with area, height and volume, then floor areas after DIN 277-1 of each storey and in all",
-     .group = "Report"},
-    {.name = "--owners",
-     .value = "T.csv",
-     .help = "who owns what: a table of feature and owner; walls between owners are divided",
-     .group = "Report",
-     .file = FileUse::OtherInput},
-    {.name = "--parcels",
-     .value = "FILE",
-     .help = "how much of each feature lies in which parcel: a volume on the same grid, or a model",
-     .group = "Report",
-     .file = FileUse::ModelOrVolume},
-    {.name = "-o,--output",
-     .value = "FILE",
-     .help = "write rows with outline, height, volume and attributes: .csv, .geojson, .gpkg or .parquet",
-     .group = "Features",
-     .file = FileUse::Output,
-     .formats = "csv|geojson|gpkg|objectparquet"},
-    {.name = "--box",
-     .kind = Number,
-     .value = "X0,Y0,Z0,X1,Y1,Z1",
-     .unit = "metres",
-     .help = "only features whose box meets this box of world coordinates",
-     .group = "Features",
-     .count = 6,
-     .leastCount = 6},
-    {.name = "--by",
-     .value = "KEYS",
-     .help = "sums of m3 and m2 by attributes or class, such as function,district",
-     .group = "Features"},
-    {.name = "--cut",
-     .value = "PLANE",
-     .help = "only features that a plane cuts, such as 'z=abs(120)' (metres above datum)",
-     .group = "Features"},
-    {.name = "--sort", .choices = "volume|area|height", .help = "the largest first", .group = "Features"},
-    {.name = "--first",
-     .kind = Whole,
-     .least = 1,
-     .most = 1000000,
-     .otherwise = "all; 100 with --sort",
-     .help = "maximum number of rows",
-     .group = "Features"},
-    {.name = "--leaks",
-     .kind = Flag,
-     .help = "only solids whose shell has holes in the model, which were closed or filled all the same",
-     .group = "Features"},
-    {.name = "--json", .kind = Flag, .help = "print rows as JSON on stdout", .group = "Output"},
-    {.name = "--csv", .kind = Flag, .help = "print rows as CSV on stdout", .group = "Output"},
-};
-
-Action connectQuery(Command& command) {
-    auto arguments = std::make_shared<QueryArguments>();
-    command.set("input", arguments->input);
-    command.set("query", arguments->query);
-    command.set("--with", arguments->with);
-    command.set("--neighbours", arguments->neighbors);
-    command.set("--along", arguments->along);
-    command.set("--overlaps", arguments->overlaps);
-    command.set("--gaps", arguments->gaps);
-    command.set("--areas", arguments->areas);
-    command.set("--owners", arguments->owners);
-    command.set("--parcels", arguments->parcels);
-    command.set("--json", arguments->json);
-    command.set("--csv", arguments->csv);
-    command.set("--output", arguments->features.output);
-    command.set("--box", arguments->features.box);
-    command.set("--by", arguments->features.by);
-    command.set("--cut", arguments->features.cut);
-    command.set("--sort", arguments->features.sort);
-    command.set("--first", arguments->features.first);
-    command.set("--leaks", arguments->features.leaks);
-    arguments->build.connect(command);
-    return [arguments] { return runQuery(*arguments); };
+Members<QueryArguments> membersOf(const QueryArguments*) noexcept {
+    using All = QueryArguments;
+    static constexpr Member<All> kMembers[] = {
+        modelInput<&All::input>(),
+        member<&All::query>("query", "such as 'class=BuildingRoom and volume>20'",
+                            {.value = "QUERY", .isRequired = true}),
+        member<&All::with>("--with",
+                           "more columns, any of volume (by voxels), surface (m2) and box, such as volume,surface",
+                           {.value = "LIST", .group = "Report"}),
+        member<&All::neighbors>("--neighbours", "what each feature touches, with the shared area", {.group = "Report"}),
+        member<&All::along>("--along",
+                            "what lies along a ray: a point in metres from the lower corner, and a direction",
+                            {.value = "X,Y,Z:DX,DY,DZ", .group = "Report"}),
+        member<&All::overlaps>("--overlaps", "space that two features claim", {.group = "Report"}),
+        member<&All::gaps>("--gaps", "enclosed air that belongs to no feature", {.group = "Report"}),
+        member<&All::areas>(
+            "--areas", "rooms with area, height and volume, then floor areas after DIN 277-1 of each storey and in all",
+            {.group = "Report"}),
+        member<&All::owners>("--owners",
+                             "who owns what: a table of feature and owner; walls between owners are divided",
+                             {.value = "T.csv", .group = "Report", .file = FileUse::OtherInput}),
+        member<&All::parcels>("--parcels",
+                              "how much of each feature lies in which parcel: a volume on the same grid, or a model",
+                              {.value = "FILE", .group = "Report", .file = FileUse::ModelOrVolume}),
+        member<&All::features, &FeatureQuery::output>(
+            "-o,--output", "write rows with outline, height, volume and attributes: .csv, .geojson, .gpkg or .parquet",
+            {.value = "FILE",
+             .group = "Features",
+             .file = FileUse::Output,
+             .formats = "csv|geojson|gpkg|objectparquet"}),
+        memberAs<record::Numbers<6>, &All::features, &FeatureQuery::box>(
+            "--box", "only features whose box meets this box of world coordinates",
+            {.value = "X0,Y0,Z0,X1,Y1,Z1", .unit = "metres", .group = "Features"}),
+        member<&All::features, &FeatureQuery::by>("--by",
+                                                  "sums of m3 and m2 by attributes or class, such as function,district",
+                                                  {.value = "KEYS", .group = "Features"}),
+        member<&All::features, &FeatureQuery::cut>(
+            "--cut", "only features that a plane cuts, such as 'z=abs(120)' (metres above datum)",
+            {.value = "PLANE", .group = "Features"}),
+        memberAs<record::Choice, &All::features, &FeatureQuery::sort>(
+            "--sort", "the largest first", {.choices = "volume|area|height", .group = "Features"}),
+        member<&All::features, &FeatureQuery::first>(
+            "--first", "maximum number of rows",
+            {.least = 1, .most = 1000000, .otherwise = "all; 100 with --sort", .group = "Features"}),
+        member<&All::features, &FeatureQuery::leaks>(
+            "--leaks", "only solids whose shell has holes in the model, which were closed or filled all the same",
+            {.group = "Features"}),
+        member<&All::json>("--json", "print rows as JSON on stdout", {.group = "Output", .excludes = "--csv"}),
+        member<&All::csv>("--csv", "print rows as CSV on stdout", {.group = "Output"}),
+        quietOption<All>(),
+        part<&All::build>("build"),
+    };
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kQueryCommand{.name = "query",
-                                       .help = "List the features that a query selects, and what is around them",
-                                       .sets = {kQuery, kQuiet, kGrid, kModel, kMemory, kStyle, kVoxels},
-                                       .connect = connectQuery};
+extern const CommandText kQueryCommand =
+    commandOf<QueryArguments, runQuery>("query", "List the features that a query selects, and what is around them");
 
 }  // namespace svt::cli

@@ -1,7 +1,6 @@
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/options/build_options.hpp>
-#include <apps/cli/options/command_line.hpp>
-#include <apps/cli/options/scene_options.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/film.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -12,6 +11,7 @@
 #include <svt/city/city_painter.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/machine.hpp>
+#include <svt/frontend/scene_options.hpp>
 #include <svt/illustrate/color_by.hpp>
 #include <svt/illustrate/details.hpp>
 #include <svt/illustrate/line_view.hpp>
@@ -40,9 +40,9 @@ namespace {
 struct RenderArguments {
     std::vector<std::filesystem::path> with;
     std::filesystem::path owners, input, output, labelOutput, depthOutput, sceneOutput;
-    BuildArguments build;
-    SceneArguments scene;
-    int frames = 0;
+    pipeline::BuildOptions build;
+    frontend::SceneOptions scene;
+    int frames = 1;
     bool gl = false;
     bool verbose = false;
 };
@@ -143,7 +143,7 @@ bool isEmpty(const render::Frame& frame) {
 }
 
 // Options to keep the vector data of the model that a scene needs.
-BuildArguments withVectors(BuildArguments build, const illustrate::Scene& scene) {
+pipeline::BuildOptions withVectors(pipeline::BuildOptions build, const illustrate::Scene& scene) {
     for (const illustrate::ScenePass& pass : scene.passes) {
         build.vectors.edges = build.vectors.edges || !pass.lines.empty();
         build.vectors.meshes = build.vectors.meshes || !pass.meshes.empty();
@@ -260,7 +260,7 @@ int runLineDrawing(const RenderArguments& arguments, const Series& series, const
     if (auto checked = checkForLines(arguments, moving); !checked) return fail(checked.error());
     Diagnostics diagnostics;
     TerminalProgress progress;
-    BuildArguments build = arguments.build;
+    pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
     const auto volume = loadVolume(arguments.input, build, progress.get(), diagnostics);
     printDiagnostics(diagnostics, arguments.verbose);
@@ -401,169 +401,53 @@ int runRender(const RenderArguments& arguments) {
     return kDone;
 }
 
-constexpr Option kRender[] = {
-    kModelInput[0],
-    {.name = "-o,--output",
-     .value = "P.png",
-     .help = "the picture to write: .png; as lines .svg or .pdf; or a film: .webm, .mp4, .gif or .webp",
-     .isRequired = true,
-     .file = FileUse::Output,
-     .formats = "png|svg|pdf|webm|mp4|gif|webp",
-     .mayLackEnding = true,
-     .numberedBy = "--frames"},
-    {.name = "--size",
-     .value = "WxH",
-     .byDefault = "1280x720",
-     .help = "width x height in pixels, or such as 160x90mm",
-     .group = "View"},
-    {.name = "--dpi",
-     .kind = Whole,
-     .least = 1,
-     .most = 4800,
-     .byDefault = "300",
-     .help = "pixels per inch, for sizes in mm; stored in the picture",
-     .group = "View"},
-    {.name = "--section",
-     .value = "PLANE",
-     .help =
-         "cut away: z=1.2 or z>1.2 (above), y<3 (before), storey=NAME+1.1 (above 1.1 m over its floor), or A,B,C,D; "
-         "metres from the lower corner; z=0..6 moves in films and with --frames",
-     .group = "Cut",
-     .mayRepeat = true},
-    {.name = "--cut", .group = "Cut", .like = "/passes/*/cut"},
-    {.name = "--lens",
-     .value = "REGION",
-     .help = "S-Lens: in this region the model is cut by --section, the rest is the context",
-     .group = "Illustrate",
-     .excludes = "--highlight|--cutaway"},
-    {.name = "--highlight",
-     .value = "QUERY",
-     .help = "light the selected, whatever stands in front; the rest is the context",
-     .group = "Illustrate",
-     .excludes = "--lens|--cutaway",
-     .mayRepeat = true},
-    {.name = "--cutaway",
-     .value = "QUERY",
-     .help = "take away what hides the selected, and no more than that",
-     .group = "Illustrate",
-     .excludes = "--lens|--highlight"},
-    {.name = "--context",
-     .choices = choicesOf<illustrate::Context>(),
-     .byDefault = "ghost",
-     .help = "what is around a lens or highlight",
-     .group = "Illustrate"},
-    {.name = "--context-level",
-     .help = "level of detail of the context of a lens, highlight or cutaway, 0 is the finest",
-     .group = "Illustrate",
-     .like = "/passes/*/level"},
-    {.name = "--inset",
-     .value = "QUERY",
-     .help = "draw what the query selects once more, larger, in a corner, with a frame that shows where",
-     .group = "Illustrate",
-     .mayRepeat = true},
-    {.name = "--with",
-     .value = "F.svt",
-     .help =
-         "another volume of the model, such as a flat at a finer spacing, drawn in place of what it has of the first",
-     .group = "Illustrate",
-     .mayRepeat = true,
-     .file = FileUse::OtherInput},
-    {.name = "--cells", .kind = Flag, .group = "Illustrate", .like = "/passes/*/cells"},
-    {.name = "--owners",
-     .value = "T.csv",
-     .help = "who owns what, for --color-by owner: a table of feature and owner",
-     .group = "Illustrate",
-     .file = FileUse::OtherInput},
-    {.name = "--wireframe",
-     .value = "QUERY",
-     .help =
-         "draw the edges of what the query selects, at their depth inside the volume; without a query: of all that is "
-         "visible",
-     .group = "Lines",
-     .leastCount = 0},
-    {.name = "--hidden-lines", .group = "Lines", .like = "/passes/*/lines/*/hidden"},
-    {.name = "--wire-width", .help = "width of the edges", .group = "Lines", .like = "/passes/*/lines/*/width"},
-    {.name = "--wire-color", .group = "Lines", .like = "/passes/*/lines/*/color"},
-    {.name = "--color",
-     .value = "QUERY:COLOR",
-     .help = "colour by query, such as 'name=\"Unterzug-1\":red'",
-     .group = "Style",
-     .mayRepeat = true},
-    {.name = "--opacity",
-     .value = "QUERY:VALUE",
-     .help = "share of light stopped by 1 m, 0 to 1, by query",
-     .group = "Style",
-     .mayRepeat = true},
-    {.name = "--hatch-of",
-     .value = "QUERY:HATCH",
-     .help =
-         "hatch by query: masonry, concrete, reinforced-concrete, timber, insulation, earth, steel, glass, general or "
-         "none",
-     .group = "Style",
-     .mayRepeat = true},
-    {.name = "--level", .group = "Style", .like = "/passes/*/level", .excludes = "--gl"},
-    {.name = "--scene",
-     .value = "S.scene.json",
-     .help = "scene file; the other options change it",
-     .group = "Scene",
-     .file = FileUse::OtherInput},
-    {.name = "--write-scene",
-     .value = "S.scene.json",
-     .help = "also write the scene that these options make",
-     .group = "Scene",
-     .file = FileUse::Output,
-     .formats = "scene"},
-    {.name = "--frames",
-     .kind = Whole,
-     .least = 1,
-     .most = 10000,
-     .byDefault = "1",
-     .help = "number of pictures P_0000.png, ... of a section that moves, or of the scene's motion",
-     .group = "Motion"},
-    {.name = "--gl",
-     .kind = Flag,
-     .help = "draw by OpenGL ES 3.0, the finest level; needs a driver, but no display",
-     .group = "Output",
-     .excludes = "--level"},
-    {.name = "--labels",
-     .value = "L.png",
-     .help = "also write the scalar of each pixel, 16-bit gray",
-     .group = "Output",
-     .file = FileUse::Output,
-     .formats = "png",
-     .numberedBy = "--frames"},
-    {.name = "--depth",
-     .value = "D.png",
-     .help = "also write the depth of each pixel in millimetres, 16-bit gray",
-     .group = "Output",
-     .file = FileUse::Output,
-     .formats = "png",
-     .numberedBy = "--frames"},
-};
-
-Action connectRender(Command& command) {
-    auto arguments = std::make_shared<RenderArguments>();
-    command.set("input", arguments->input);
-    command.set("--output", arguments->output);
-    arguments->scene.connect(command);
-    command.set("--with", arguments->with);
-    command.set("--owners", arguments->owners);
-    command.set("--write-scene", arguments->sceneOutput);
-    command.set("--frames", arguments->frames);
-    command.set("--gl", arguments->gl);
-    command.set("--labels", arguments->labelOutput);
-    command.set("--depth", arguments->depthOutput);
-    command.set("--verbose", arguments->verbose);
-    arguments->build.connect(command);
-    return [arguments] { return runRender(*arguments); };
+Members<RenderArguments> membersOf(const RenderArguments*) noexcept {
+    using All = RenderArguments;
+    static constexpr Member<All> kMembers[] = {
+        modelInput<&All::input>(),
+        member<&All::output>("-o,--output",
+                             "the picture to write: .png; as lines .svg or .pdf; or a film: .webm, .mp4, .gif or .webp",
+                             {.value = "P.png",
+                              .isRequired = true,
+                              .file = FileUse::Output,
+                              .formats = "png|svg|pdf|webm|mp4|gif|webp",
+                              .mayLackEnding = true,
+                              .numberedBy = "--frames"}),
+        part<&All::scene>("scene", "View|Cut|--lens|--highlight|--cutaway|--context|--context-level|--inset"),
+        member<&All::with>("--with",
+                           "another volume of the model, such as a flat at a finer spacing, drawn in place of what it "
+                           "has of the first",
+                           {.value = "F.svt", .group = "Illustrate", .file = FileUse::OtherInput}),
+        part<&All::scene>("scene", "--cells"),
+        member<&All::owners>("--owners", "who owns what, for --color-by owner: a table of feature and owner",
+                             {.value = "T.csv", .group = "Illustrate", .file = FileUse::OtherInput}),
+        part<&All::scene>("scene", "Lines|Style|Scene"),
+        member<&All::sceneOutput>(
+            "--write-scene", "also write the scene that these options make",
+            {.value = "S.scene.json", .group = "Scene", .file = FileUse::Output, .formats = "scene"}),
+        member<&All::frames>("--frames",
+                             "number of pictures P_0000.png, ... of a section that moves, or of the scene's motion",
+                             {.least = 1, .most = 10000, .group = "Motion"}),
+        member<&All::gl>("--gl", "draw by OpenGL ES 3.0, the finest level; needs a driver, but no display",
+                         {.group = "Output", .excludes = "--level"}),
+        member<&All::labelOutput>(
+            "--labels", "also write the scalar of each pixel, 16-bit gray",
+            {.value = "L.png", .group = "Output", .file = FileUse::Output, .formats = "png", .numberedBy = "--frames"}),
+        member<&All::depthOutput>(
+            "--depth", "also write the depth of each pixel in millimetres, 16-bit gray",
+            {.value = "D.png", .group = "Output", .file = FileUse::Output, .formats = "png", .numberedBy = "--frames"}),
+        quietOption<All>(),
+        verboseOption<&All::verbose>(),
+        part<&All::build>("build", "Style"),
+        part<&All::build>("build", "Grid|Model|Voxels"),
+        part<&All::scene>("scene", frontend::kSceneMembers),
+    };
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kRenderCommand{.name = "render",
-                                        .help = "Draw pictures of a volume or model: PNG, films, lines as SVG and PDF",
-                                        .sets = {kRender, kQuiet, kVerbose, kStyle, kGrid, kModel, kMemory, kVoxels},
-                                        .hasScene = true,
-                                        .connect = connectRender};
+extern const CommandText kRenderCommand = commandOf<RenderArguments, runRender>(
+    "render", "Draw pictures of a volume or model: PNG, films, lines as SVG and PDF");
 
 }  // namespace svt::cli

@@ -1,4 +1,4 @@
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
@@ -15,106 +15,75 @@ namespace svt::cli {
 namespace {
 
 struct SampleArguments {
-    std::string kind, format;
+    samples::SampleKind kind = samples::SampleKind::House;
+    std::optional<samples::SampleFormat> format;
     std::filesystem::path output;
     samples::SampleOptions options;
 };
 
 // The ending is one of these, which is checked before.
 samples::SampleFormat formatOf(const SampleArguments& arguments) {
+    using enum samples::SampleFormat;
+    if (arguments.format) return *arguments.format;
     const std::string ending = endingOf(arguments.output);
-    if (arguments.format == "citygml3") return samples::SampleFormat::CityGml3;
-    if (arguments.format == "citygml2") return samples::SampleFormat::CityGml2;
-    if (arguments.format == "ifc" || (arguments.format.empty() && ending == ".ifc")) return samples::SampleFormat::Ifc4;
-    if (arguments.format == "cityjson") return samples::SampleFormat::CityJson2;
-    if (arguments.format == "cityjsonseq" || ending == ".jsonl") return samples::SampleFormat::CityJsonSeq2;
-    return ending == ".json" ? samples::SampleFormat::CityJson2 : samples::SampleFormat::CityGml3;
+    return ending == ".ifc" ? Ifc4 : ending == ".jsonl" ? CityJsonSeq2 : ending == ".json" ? CityJson2 : CityGml3;
 }
 
 int runSample(const SampleArguments& arguments) {
-    const auto kind = arguments.kind == "house"   ? samples::SampleKind::House
-                      : arguments.kind == "tower" ? samples::SampleKind::Tower
-                                                  : samples::SampleKind::District;
     auto file = AtomicFile::create(arguments.output);
     if (!file) return fail(file.error());
     std::optional<Error> writeError;
     const TerminalProgress progress;
     Progress::tell(progress.get(), "write", 0);
-    const auto written = samples::writeSample(kind, formatOf(arguments), arguments.options, [&](std::string_view text) {
-        auto done = Progress::isCancelled(progress.get())
-                        ? Result<void>(Error(Code::Cancelled, "stopped while writing"))
-                        : file->write(text);
-        if (!done) writeError = done.error();
-        return done.hasValue();
-    });
+    const auto written =
+        samples::writeSample(arguments.kind, formatOf(arguments), arguments.options, [&](std::string_view text) {
+            auto done = Progress::isCancelled(progress.get())
+                            ? Result<void>(Error(Code::Cancelled, "stopped while writing"))
+                            : file->write(text);
+            if (!done) writeError = done.error();
+            return done.hasValue();
+        });
     if (writeError) return fail(*writeError);
     if (!written) return fail(written.error());
     if (auto committed = file->commit(); !committed) return fail(committed.error());
     return kDone;
 }
 
-constexpr Option kSample[] = {
-    {.name = "kind", .choices = "house|tower|district", .help = "house, tower or district", .isRequired = true},
-    {.name = "-o,--output",
-     .value = "FILE",
-     .help = "model to write: .gml (CityGML 3.0), .json (CityJSON 2.0), .jsonl (CityJSONSeq), .ifc (IFC4)",
-     .isRequired = true,
-     .file = FileUse::Output,
-     .formats = "citygml|cityjson|cityjsonseq|ifc"},
-    {.name = "--format",
-     .choices = "citygml3|citygml2|cityjson|cityjsonseq|ifc",
-     .otherwise = "by extension",
-     .help = "format of the model"},
-    {.name = "--seed",
-     .kind = Whole,
-     .least = 0,
-     .byDefault = "1",
-     .help = "decides owners and the houses of a district"},
-    {.name = "--storeys", .kind = Whole, .least = 1, .most = 200, .byDefault = "8", .help = "tower: number of storeys"},
-    {.name = "--flats", .kind = Whole, .least = 2, .most = 8, .byDefault = "4", .help = "tower: flats on each storey"},
-    {.name = "--columns",
-     .kind = Whole,
-     .least = 1,
-     .most = 1000,
-     .byDefault = "4",
-     .help = "district: houses from west to east"},
-    {.name = "--rows",
-     .kind = Whole,
-     .least = 1,
-     .most = 1000,
-     .byDefault = "3",
-     .help = "district: houses from south to north"},
-    {.name = "--turn",
-     .kind = Number,
-     .unit = "degrees counter-clockwise",
-     .least = -360,
-     .most = 360,
-     .byDefault = "0",
-     .help = "turn in plan"},
-    {.name = "--thematic", .kind = Flag, .help = "CityGML 2.0: walls only as surfaces, as LoD4 has them"},
-};
-
-Action connectSample(Command& command) {
-    auto arguments = std::make_shared<SampleArguments>();
-    command.set("kind", arguments->kind);
-    command.set("--output", arguments->output);
-    command.set("--format", arguments->format);
-    samples::SampleOptions& options = arguments->options;
-    command.set("--seed", options.seed);
-    command.set("--storeys", options.storeys);
-    command.set("--flats", options.flatsPerStorey);
-    command.set("--columns", options.columns);
-    command.set("--rows", options.rows);
-    command.set("--turn", options.turnDegrees);
-    command.set("--thematic", options.thematic);
-    return [arguments] { return runSample(*arguments); };
+Members<SampleArguments> membersOf(const SampleArguments*) noexcept {
+    using All = SampleArguments;
+    using samples::SampleOptions;
+    static constexpr Member<All> kMembers[] = {
+        member<&All::kind>("kind", "house, tower or district", {.isRequired = true}),
+        member<&All::output>(
+            "-o,--output",
+            "model to write: .gml (CityGML 3.0), .json (CityJSON 2.0), .jsonl (CityJSONSeq), .ifc (IFC4)",
+            {.value = "FILE",
+             .isRequired = true,
+             .file = FileUse::Output,
+             .formats = "citygml|cityjson|cityjsonseq|ifc"}),
+        member<&All::format>("--format", "format of the model", {.otherwise = "by extension"}),
+        member<&All::options, &SampleOptions::seed>("--seed", "decides owners and the houses of a district",
+                                                    {.least = 0}),
+        member<&All::options, &SampleOptions::storeys>("--storeys", "tower: number of storeys",
+                                                       {.least = 1, .most = 200}),
+        member<&All::options, &SampleOptions::flatsPerStorey>("--flats", "tower: flats on each storey",
+                                                              {.least = 2, .most = 8}),
+        member<&All::options, &SampleOptions::columns>("--columns", "district: houses from west to east",
+                                                       {.least = 1, .most = 1000}),
+        member<&All::options, &SampleOptions::rows>("--rows", "district: houses from south to north",
+                                                    {.least = 1, .most = 1000}),
+        member<&All::options, &SampleOptions::turnDegrees>(
+            "--turn", "turn in plan", {.unit = "degrees counter-clockwise", .least = -360, .most = 360}),
+        member<&All::options, &SampleOptions::thematic>("--thematic",
+                                                        "CityGML 2.0: walls only as surfaces, as LoD4 has them"),
+        quietOption<All>(),
+    };
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kSampleCommand{.name = "sample",
-                                        .help = "Write a generated model: a house, a tower of flats, a district",
-                                        .sets = {kSample, kQuiet},
-                                        .connect = connectSample};
+extern const CommandText kSampleCommand =
+    commandOf<SampleArguments, runSample>("sample", "Write a generated model: a house, a tower of flats, a district");
 
 }  // namespace svt::cli

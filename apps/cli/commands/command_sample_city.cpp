@@ -1,4 +1,4 @@
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
@@ -15,17 +15,10 @@ namespace svt::cli {
 namespace {
 
 struct SampleCityArguments {
-    std::string profile;
     std::filesystem::path output;
     samples::CitySampleOptions options;
     int threads = 0;
 };
-
-samples::CityProfile profileOf(const std::string& name) {
-    if (name == "3dbag") return samples::CityProfile::Dutch;
-    if (name == "nyc") return samples::CityProfile::NewYork;
-    return name == "plateau" ? samples::CityProfile::Plateau : samples::CityProfile::Berlin;
-}
 
 Result<samples::CitySampleCount> writeFile(const SampleCityArguments& arguments, int number, const Progress* progress) {
     SVT_TRY(file, AtomicFile::create(arguments.output / citySampleFileName(arguments.options, number)));
@@ -42,8 +35,7 @@ Result<samples::CitySampleCount> writeFile(const SampleCityArguments& arguments,
     return *count;
 }
 
-int runSampleCity(SampleCityArguments& arguments) {
-    arguments.options.profile = profileOf(arguments.profile);
+int runSampleCity(const SampleCityArguments& arguments) {
     std::error_code ignored;
     std::filesystem::create_directories(arguments.output, ignored);
     const TerminalProgress progress;
@@ -76,42 +68,28 @@ int runSampleCity(SampleCityArguments& arguments) {
     return kDone;
 }
 
-constexpr Option kSampleCity[] = {
-    {.name = "--profile",
-     .choices = "3dbag|berlin|nyc|plateau",
-     .byDefault = "berlin",
-     .help = "whose files the city resembles: formats, versions, CRS and units"},
-    {.name = "--buildings",
-     .kind = Whole,
-     .least = 1,
-     .most = 100000000,
-     .byDefault = "1000",
-     .help = "number of buildings, those that stand in two files counted once"},
-    {.name = "--files", .kind = Whole, .least = 1, .most = 100000, .byDefault = "1", .help = "number of files"},
-    {.name = "--seed", .kind = Whole, .least = 0, .byDefault = "1", .help = "decides all buildings"},
-    {.name = "-o,--output",
-     .value = "DIR",
-     .help = "folder that the files are written into",
-     .isRequired = true,
-     .file = FileUse::OutputFolder},
-};
-
-Action connectSampleCity(Command& command) {
-    auto arguments = std::make_shared<SampleCityArguments>();
-    command.set("--profile", arguments->profile);
-    command.set("--buildings", arguments->options.buildings);
-    command.set("--files", arguments->options.files);
-    command.set("--seed", arguments->options.seed);
-    command.set("--output", arguments->output);
-    command.set("--threads", arguments->threads);
-    return [arguments] { return runSampleCity(*arguments); };
+Members<SampleCityArguments> membersOf(const SampleCityArguments*) noexcept {
+    using All = SampleCityArguments;
+    using samples::CitySampleOptions;
+    static constexpr Member<All> kMembers[] = {
+        member<&All::options, &CitySampleOptions::profile>(
+            "--profile", "whose files the city resembles: formats, versions, CRS and units"),
+        member<&All::options, &CitySampleOptions::buildings>(
+            "--buildings", "number of buildings, those that stand in two files counted once",
+            {.least = 1, .most = 100000000}),
+        member<&All::options, &CitySampleOptions::files>("--files", "number of files", {.least = 1, .most = 100000}),
+        member<&All::options, &CitySampleOptions::seed>("--seed", "decides all buildings", {.least = 0}),
+        member<&All::output>("-o,--output", "folder that the files are written into",
+                             {.value = "DIR", .isRequired = true, .file = FileUse::OutputFolder}),
+        threadsOption<&All::threads>(),
+        quietOption<All>(),
+    };
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kSampleCityCommand{.name = "sample-city",
-                                            .help = "Write a generated city: many buildings in many files",
-                                            .sets = {kSampleCity, kThreads, kQuiet},
-                                            .connect = connectSampleCity};
+extern const CommandText kSampleCityCommand = commandOf<SampleCityArguments, runSampleCity>(
+    "sample-city", "Write a generated city: many buildings in many files");
 
 }  // namespace svt::cli

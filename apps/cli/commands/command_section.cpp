@@ -1,7 +1,7 @@
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/city/city_section.hpp>
 #include <apps/cli/options/build_options.hpp>
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/paper_scale.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -27,13 +27,14 @@ namespace {
 struct SectionArguments {
     std::filesystem::path input;
     std::vector<std::filesystem::path> outputs, tables;
-    std::string plane, elevation, scale;
-    std::vector<std::string> show, hide;
-    double minArea = 0;
-    illustrate::BeyondOptions beyond;
+    std::string plane, elevation;
+    double scale = 100;
+    illustrate::SectionOptions section;
     writers::DxfOptions dxf;
-    bool dimensions = false, noRooms = false, json = false, verbose = false;
-    BuildArguments build;
+    bool json = false, verbose = false;
+    pipeline::BuildOptions build;
+
+    SectionArguments() { section.smallestArea = 1e-4; }
 };
 
 Result<std::uint64_t> writeDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
@@ -58,13 +59,7 @@ Result<illustrate::SectionPlane> planeOf(const SectionArguments& arguments, cons
 }
 
 illustrate::SectionOptions optionsOf(const SectionArguments& arguments, std::vector<std::string>& nothing) {
-    illustrate::SectionOptions options;
-    options.show = arguments.show;
-    options.hide = arguments.hide;
-    options.spaces = !arguments.noRooms;
-    options.smallestArea = arguments.minArea;
-    options.beyond = arguments.beyond;
-    options.dimensions = arguments.dimensions;
+    illustrate::SectionOptions options = arguments.section;
     if (!arguments.elevation.empty()) options.beyond.visible = true;
     options.threads = arguments.build.threads;
     options.nothing = &nothing;
@@ -104,7 +99,7 @@ int runCitySection(const SectionArguments& arguments, double scale) {
         return fail(Error(Code::BadArgument,
                           "a city is cut by a plane that --plane gives, such as 'z=abs(50)'; elevations are drawn of a "
                           "part (svt city extract)"));
-    if (arguments.beyond.isAny() || arguments.dimensions)
+    if (arguments.section.beyond.isAny() || arguments.section.dimensions)
         return fail(Error(Code::BadArgument,
                           "--beyond, --hidden, --above and --dimensions need the meshes of a model, which a city does "
                           "not keep; leave them out"));
@@ -122,14 +117,10 @@ int runCitySection(const SectionArguments& arguments, double scale) {
 int runSection(const SectionArguments& arguments) {
     if (arguments.outputs.empty() && arguments.tables.empty() && !arguments.json)
         return fail(Error(Code::BadArgument, "nothing to write; give -o D.svg, --table T.csv or --json"));
-    if (!arguments.plane.empty() && !arguments.elevation.empty())
-        return fail(Error(Code::BadArgument, "--plane and --elevation exclude each other; give one of them"));
-    const auto scale = parseScale(arguments.scale);
-    if (!scale) return fail(scale.error());
-    if (isCity(arguments.input)) return runCitySection(arguments, *scale);
+    if (isCity(arguments.input)) return runCitySection(arguments, arguments.scale);
     Diagnostics diagnostics;
     const TerminalProgress progress;
-    BuildArguments build = arguments.build;
+    pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
     const auto volume = loadVolume(arguments.input, build, progress.get(), diagnostics);
     printDiagnostics(diagnostics, arguments.verbose);
@@ -145,108 +136,47 @@ int runSection(const SectionArguments& arguments) {
     Progress::tell(progress.get(), "section", 0);
     const auto drawing = illustrate::drawSection(*volume, *plane, optionsOf(arguments, nothing));
     if (!drawing) return fail(drawing.error());
-    return writeSection(arguments, *drawing, *volume, nothing, *scale);
+    return writeSection(arguments, *drawing, *volume, nothing, arguments.scale);
 }
 
-constexpr Option kSection[] = {
-    kModelInput[0],
-    {.name = "-o,--output",
-     .value = "D.svg",
-     .help = "the drawing to write: .svg, .pdf, .dxf or .geojson",
-     .mayRepeat = true,
-     .file = FileUse::Output,
-     .formats = "svg|pdf|dxf|geojson"},
-    {.name = "--plane",
-     .value = "PLANE",
-     .otherwise = "1.1 m above the floor of the lowest storey, or the middle",
-     .help = "z=1.2, y<3, x>4, z=abs(112.3) in the CRS, storey=NAME+1.1 (1.1 m over its floor), or A,B,C,D; metres "
-             "from the lower corner",
-     .group = "Drawing"},
-    {.name = "--elevation",
-     .choices = "north|east|south|west",
-     .help = "the outside, seen from there: what stands behind a plane before the model",
-     .group = "Drawing"},
-    {.name = "--beyond", .kind = Flag, .help = "also draw what is seen behind the plane", .group = "Drawing"},
-    {.name = "--hidden",
-     .kind = Flag,
-     .help = "also draw the edges behind it that are hidden, dashed",
-     .group = "Drawing"},
-    {.name = "--above",
-     .kind = Flag,
-     .help = "also draw what is cut away, as seen from the plane, dashed and dotted",
-     .group = "Drawing"},
-    {.name = "--dimensions",
-     .kind = Flag,
-     .help = "plans: chains of dimensions around the building: openings, rooms, overall",
-     .group = "Drawing"},
-    {.name = "--iso-layers", .kind = Flag, .help = "DXF: names of layers after ISO 13567", .group = "Drawing"},
-    {.name = "--world",
-     .kind = Flag,
-     .help = "DXF: coordinates of the model's CRS; upright drawings stand in space",
-     .group = "Drawing"},
-    {.name = "--scale",
-     .value = "1:N",
-     .byDefault = "1:100",
-     .help = "scale of the SVG: 1:50 draws 1 m as 20 mm",
-     .group = "Drawing"},
-    {.name = "--hide",
-     .value = "QUERY",
-     .help = "leave out what the query selects",
-     .group = "Drawing",
-     .mayRepeat = true},
-    {.name = "--show",
-     .value = "QUERY",
-     .help = "draw only what the query selects",
-     .group = "Drawing",
-     .mayRepeat = true},
-    {.name = "--no-rooms", .kind = Flag, .help = "leave out rooms, units and storeys", .group = "Drawing"},
-    {.name = "--min-area",
-     .kind = Number,
-     .unit = "m2",
-     .least = 0,
-     .most = 1e9,
-     .byDefault = "0.0001",
-     .help = "leave out polygons smaller than this",
-     .group = "Drawing"},
-    {.name = "--table",
-     .value = "T.csv",
-     .help = "areas per component and class: .json or .csv",
-     .group = "Output",
-     .mayRepeat = true,
-     .file = FileUse::Output,
-     .formats = "json|csv"},
-    {.name = "--json", .kind = Flag, .help = "print the areas as JSON on stdout", .group = "Output"},
-};
-
-Action connectSection(Command& command) {
-    auto arguments = std::make_shared<SectionArguments>();
-    command.set("input", arguments->input);
-    command.set("--output", arguments->outputs);
-    command.set("--plane", arguments->plane);
-    command.set("--elevation", arguments->elevation);
-    command.set("--beyond", arguments->beyond.visible);
-    command.set("--hidden", arguments->beyond.hidden);
-    command.set("--above", arguments->beyond.above);
-    command.set("--dimensions", arguments->dimensions);
-    command.set("--iso-layers", arguments->dxf.isoLayers);
-    command.set("--world", arguments->dxf.world);
-    command.set("--scale", arguments->scale);
-    command.set("--hide", arguments->hide);
-    command.set("--show", arguments->show);
-    command.set("--no-rooms", arguments->noRooms);
-    command.set("--min-area", arguments->minArea);
-    command.set("--table", arguments->tables);
-    command.set("--json", arguments->json);
-    command.set("--verbose", arguments->verbose);
-    arguments->build.connect(command);
-    return [arguments] { return runSection(*arguments); };
+Members<SectionArguments> membersOf(const SectionArguments*) noexcept {
+    using All = SectionArguments;
+    static constexpr Member<All> kMembers[] = {
+        modelInput<&All::input>(),
+        member<&All::outputs>("-o,--output", "the drawing to write: .svg, .pdf, .dxf or .geojson",
+                              {.value = "D.svg", .file = FileUse::Output, .formats = "svg|pdf|dxf|geojson"}),
+        member<&All::plane>(
+            "--plane",
+            "z=1.2, y<3, x>4, z=abs(112.3) in the CRS, storey=NAME+1.1 (1.1 m over its floor), or A,B,C,D; metres "
+            "from the lower corner",
+            {.value = "PLANE",
+             .otherwise = "1.1 m above the floor of the lowest storey, or the middle",
+             .group = "Drawing",
+             .excludes = "--elevation"}),
+        memberAs<record::Choice, &All::elevation>(
+            "--elevation", "the outside, seen from there: what stands behind a plane before the model",
+            {.choices = "north|east|south|west", .group = "Drawing"}),
+        part<&All::section>("section", "--beyond|--hidden|--above|--dimensions"),
+        part<&All::dxf>("dxf"),
+        memberAs<PaperScale, &All::scale>("--scale", "scale of the SVG: 1:50 draws 1 m as 20 mm",
+                                          {.value = "1:N", .group = "Drawing"}),
+        part<&All::section>("section", "--hide|--show|--no-rooms"),
+        member<&All::section, &illustrate::SectionOptions::smallestArea>(
+            "--min-area", "leave out polygons smaller than this",
+            {.unit = "m2", .least = 0, .most = 1e9, .group = "Drawing"}),
+        member<&All::tables>("--table", "areas per component and class: .json or .csv",
+                             {.value = "T.csv", .group = "Output", .file = FileUse::Output, .formats = "json|csv"}),
+        jsonOption<&All::json>("print the areas as JSON on stdout"),
+        quietOption<All>(),
+        verboseOption<&All::verbose>(),
+        part<&All::build>("build"),
+    };
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kSectionCommand{.name = "section",
-                                         .help = "Draw what a plane cuts (SVG, PDF, DXF, GeoJSON)",
-                                         .sets = {kSection, kQuiet, kVerbose, kGrid, kModel, kMemory, kStyle, kVoxels},
-                                         .connect = connectSection};
+extern const CommandText kSectionCommand =
+    commandOf<SectionArguments, runSection>("section", "Draw what a plane cuts (SVG, PDF, DXF, GeoJSON)");
 
 }  // namespace svt::cli

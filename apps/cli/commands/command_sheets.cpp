@@ -1,5 +1,5 @@
 #include <apps/cli/options/build_options.hpp>
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/paper_scale.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -28,12 +28,12 @@ writers::SheetLanguage languageOf(const std::string& name) {
 
 struct SheetsArguments {
     std::filesystem::path input, output, folder, dxfFolder, setFile, setOutput;
-    std::string scale;
+    std::optional<double> scale;
     std::optional<std::string> paper, language;
     std::vector<std::string> hide;
     writers::DxfOptions dxf;
     bool noAbove = false, noDimensions = false, noTables = false, verbose = false;
-    BuildArguments build;
+    pipeline::BuildOptions build;
 };
 
 // The set of the file, if one is given, changed by the options; its sheets are empty where the program is to choose.
@@ -50,9 +50,7 @@ Result<illustrate::SheetSet> readSet(const SheetsArguments& arguments) {
     set.above = set.above && !arguments.noAbove;
     set.dimensions = set.dimensions && !arguments.noDimensions;
     set.tables = set.tables && !arguments.noTables;
-    if (arguments.scale.empty()) return set;
-    SVT_TRY(scale, parseScale(arguments.scale));
-    set.scale = *scale;
+    set.scale = arguments.scale.value_or(set.scale);
     return set;
 }
 
@@ -165,7 +163,7 @@ int runSheets(const SheetsArguments& arguments) {
     const writers::SheetOptions options{set->scale, set->paper, languageOf(set->language), set->title};
     Diagnostics diagnostics;
     const TerminalProgress progress;
-    BuildArguments build = arguments.build;
+    pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
     const auto volume = loadVolume(arguments.input, build, progress.get(), diagnostics);
     printDiagnostics(diagnostics, arguments.verbose);
@@ -199,83 +197,49 @@ int runSheets(const SheetsArguments& arguments) {
     return kDone;
 }
 
-constexpr Option kSheets[] = {
-    kModelInput[0],
-    {.name = "-o,--output",
-     .value = "P.pdf",
-     .help = "the sheets as one PDF, or the views as one GeoPackage (.gpkg)",
-     .file = FileUse::Output,
-     .formats = "pdf|gpkg"},
-    {.name = "--svg", .value = "DIR", .help = "also write each sheet as sheet-N.svg", .file = FileUse::OutputFolder},
-    {.name = "--dxf",
-     .value = "DIR",
-     .help = "also write each view as NAME.dxf, in metres",
-     .file = FileUse::OutputFolder},
-    {.name = "--from",
-     .value = "S.sheets.json",
-     .help = "which views stand on which sheets; the other options change it",
-     .group = "Sheets",
-     .file = FileUse::OtherInput},
-    {.name = "--write-sheets",
-     .value = "S.sheets.json",
-     .help = "also write which views stand on which sheets",
-     .group = "Sheets",
-     .file = FileUse::Output,
-     .formats = "sheets"},
-    {.name = "--scale",
-     .value = "1:N",
-     .otherwise = "1:100, or the next of 1:200, 1:500, ... at which all views fit",
-     .help = "scale of all views: 1:50 draws 1 m as 20 mm",
-     .group = "Sheets"},
-    {.name = "--paper",
-     .choices = "A4|A3|A2|A1|A0",
-     .otherwise = "A3",
-     .help = "size of a sheet, landscape",
-     .group = "Sheets"},
-    {.name = "--hide",
-     .value = "QUERY",
-     .help = "leave out what the query selects",
-     .group = "Sheets",
-     .mayRepeat = true},
-    {.name = "--iso-layers", .kind = Flag, .help = "DXF: names of layers after ISO 13567", .group = "Sheets"},
-    {.name = "--world",
-     .kind = Flag,
-     .help = "DXF: coordinates of the model's CRS; upright drawings stand in space",
-     .group = "Sheets"},
-    {.name = "--no-above", .kind = Flag, .help = "plans without what is above the cut", .group = "Sheets"},
-    {.name = "--no-dimensions", .kind = Flag, .help = "plans without chains of dimensions", .group = "Sheets"},
-    {.name = "--no-tables", .kind = Flag, .help = "no tables of rooms, floor areas and components", .group = "Sheets"},
-    {.name = "--language", .choices = "en|de", .otherwise = "en", .help = "of the words on sheets", .group = "Sheets"},
-    {.name = "--verbose", .kind = Flag, .help = "show all findings", .group = "Output"},
-};
-
-Action connectSheets(Command& command) {
-    auto arguments = std::make_shared<SheetsArguments>();
-    command.set("input", arguments->input);
-    command.set("--output", arguments->output);
-    command.set("--svg", arguments->folder);
-    command.set("--dxf", arguments->dxfFolder);
-    command.set("--from", arguments->setFile);
-    command.set("--write-sheets", arguments->setOutput);
-    command.set("--scale", arguments->scale);
-    command.set("--paper", arguments->paper);
-    command.set("--hide", arguments->hide);
-    command.set("--iso-layers", arguments->dxf.isoLayers);
-    command.set("--world", arguments->dxf.world);
-    command.set("--no-above", arguments->noAbove);
-    command.set("--no-dimensions", arguments->noDimensions);
-    command.set("--no-tables", arguments->noTables);
-    command.set("--language", arguments->language);
-    command.set("--verbose", arguments->verbose);
-    arguments->build.connect(command);
-    return [arguments] { return runSheets(*arguments); };
+Members<SheetsArguments> membersOf(const SheetsArguments*) noexcept {
+    using All = SheetsArguments;
+    using writers::DxfOptions;
+    static constexpr Member<All> kMembers[] = {
+        modelInput<&All::input>(),
+        member<&All::output>("-o,--output", "the sheets as one PDF, or the views as one GeoPackage (.gpkg)",
+                             {.value = "P.pdf", .file = FileUse::Output, .formats = "pdf|gpkg"}),
+        member<&All::folder>("--svg", "also write each sheet as sheet-N.svg",
+                             {.value = "DIR", .file = FileUse::OutputFolder}),
+        member<&All::dxfFolder>("--dxf", "also write each view as NAME.dxf, in metres",
+                                {.value = "DIR", .file = FileUse::OutputFolder}),
+        member<&All::setFile>("--from", "which views stand on which sheets; the other options change it",
+                              {.value = "S.sheets.json", .group = "Sheets", .file = FileUse::OtherInput}),
+        member<&All::setOutput>(
+            "--write-sheets", "also write which views stand on which sheets",
+            {.value = "S.sheets.json", .group = "Sheets", .file = FileUse::Output, .formats = "sheets"}),
+        memberAs<PaperScale, &All::scale>(
+            "--scale", "scale of all views: 1:50 draws 1 m as 20 mm",
+            {.value = "1:N",
+             .otherwise = "1:100, or the next of 1:200, 1:500, ... at which all views fit",
+             .group = "Sheets"}),
+        memberAs<record::Choice, &All::paper>("--paper", "size of a sheet, landscape",
+                                              {.choices = "A4|A3|A2|A1|A0", .otherwise = "A3", .group = "Sheets"}),
+        member<&All::hide>("--hide", "leave out what the query selects", {.value = "QUERY", .group = "Sheets"}),
+        member<&All::dxf, &DxfOptions::isoLayers>("--iso-layers", "DXF: names of layers after ISO 13567",
+                                                  {.group = "Sheets"}),
+        member<&All::dxf, &DxfOptions::world>(
+            "--world", "DXF: coordinates of the model's CRS; upright drawings stand in space", {.group = "Sheets"}),
+        member<&All::noAbove>("--no-above", "plans without what is above the cut", {.group = "Sheets"}),
+        member<&All::noDimensions>("--no-dimensions", "plans without chains of dimensions", {.group = "Sheets"}),
+        member<&All::noTables>("--no-tables", "no tables of rooms, floor areas and components", {.group = "Sheets"}),
+        memberAs<record::Choice, &All::language>("--language", "of the words on sheets",
+                                                 {.choices = "en|de", .otherwise = "en", .group = "Sheets"}),
+        member<&All::verbose>("--verbose", "show all findings", {.group = "Output"}),
+        quietOption<All>(),
+        part<&All::build>("build"),
+    };
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kSheetsCommand{.name = "sheets",
-                                        .help = "Draw plans, sections and elevations on sheets of paper (PDF, SVG)",
-                                        .sets = {kSheets, kQuiet, kGrid, kModel, kMemory, kStyle, kVoxels},
-                                        .connect = connectSheets};
+extern const CommandText kSheetsCommand = commandOf<SheetsArguments, runSheets>(
+    "sheets", "Draw plans, sections and elevations on sheets of paper (PDF, SVG)");
 
 }  // namespace svt::cli

@@ -1,5 +1,5 @@
 #include <apps/cli/options/build_options.hpp>
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -10,6 +10,7 @@
 #include <svt/illustrate/shell.hpp>
 #include <svt/volume/svt_file.hpp>
 #include <svt/writers/glb_writer.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
 
@@ -20,9 +21,11 @@ namespace {
 
 struct ShellArguments {
     std::filesystem::path input, output;
-    std::string level, labels, faces, of;
-    double thickness = 0;
-    BuildArguments build;
+    std::string of;
+    illustrate::ShellLevel level = illustrate::ShellLevel::Building;
+    illustrate::ShellOptions shell;
+    writers::VolumeWriteOptions write;
+    pipeline::BuildOptions build;
     bool levels = false, json = false;
 };
 
@@ -56,7 +59,7 @@ Result<Json> writeShell(const volume::SemanticVolume& shell, const volume::Seman
         return json;
     }
     writers::GlbOptions options;
-    options.faces = arguments.faces == "voxels" ? writers::GlbFaces::Voxels : writers::GlbFaces::Planes;
+    options.faces = arguments.write.faces;
     options.planesOf = &volume;
     options.threads = arguments.build.threads;
     options.progress = progress;
@@ -70,10 +73,7 @@ Result<Json> writeShell(const volume::SemanticVolume& shell, const volume::Seman
 // Writes the shell; returns the number of voxels before and after, and figures of the output.
 Result<Json> makeShell(const volume::SemanticVolume& volume, const ShellArguments& arguments,
                        const Progress* progress) {
-    illustrate::ShellOptions options;
-    options.thickness = arguments.thickness;
-    options.labels =
-        arguments.labels == "groups" ? illustrate::ShellLabels::Groups : illustrate::ShellLabels::Components;
+    illustrate::ShellOptions options = arguments.shell;
     options.threads = arguments.build.threads;
     options.progress = progress;
     if (!arguments.of.empty()) {
@@ -81,11 +81,11 @@ Result<Json> makeShell(const volume::SemanticVolume& volume, const ShellArgument
         options.of = std::move(*selected);
     }
     Progress::tell(progress, "shell", 0);
-    SVT_TRY(shell, illustrate::extractShell(volume, *fromName<illustrate::ShellLevel>(arguments.level), options));
+    SVT_TRY(shell, illustrate::extractShell(volume, arguments.level, options));
     Progress::tell(progress, "write", 0);
     SVT_TRY(written, writeShell(*shell, volume, arguments, progress));
     Json json;
-    json["level"] = arguments.level;
+    json["level"] = nameOf(arguments.level);
     json["voxels"] = filledVoxels(*shell);
     json["voxelsBefore"] = filledVoxels(volume);
     json.update(*written);
@@ -128,62 +128,34 @@ int runShell(const ShellArguments& arguments) {
     return kDone;
 }
 
-constexpr Option kShell[] = {
-    kModelInput[0],
-    {.name = "-o,--output",
-     .value = "FILE",
-     .help = "what to write; the extension selects the format: .svt (volume) or .glb (triangles)",
-     .file = FileUse::Output,
-     .formats = "svt|glb"},
-    {.name = "--level",
-     .choices = "component|room|unit|storey|building",
-     .byDefault = "building",
-     .help = "whose hull stays",
-     .group = "Shell"},
-    {.name = "--of",
-     .value = "QUERY",
-     .help = "only the groups that have something of what the query selects",
-     .group = "Shell"},
-    {.name = "--thickness",
-     .kind = Number,
-     .value = "M",
-     .least = 0,
-     .otherwise = "two voxels",
-     .help = "thickness of the hull in metres, rounded up to voxels",
-     .group = "Shell"},
-    {.name = "--labels",
-     .choices = "components|groups",
-     .byDefault = "components",
-     .help = "whose label the voxels keep: that of their component, or one per group",
-     .group = "Shell"},
-    kFaces,
-    {.name = "--levels",
-     .kind = Flag,
-     .help = "list which levels the model has, as --level names them, and write nothing",
-     .group = "Output"},
-    kBuildOutput[1],
-};
-
-Action connectShell(Command& command) {
-    auto arguments = std::make_shared<ShellArguments>();
-    command.set("input", arguments->input);
-    command.set("--output", arguments->output);
-    command.set("--level", arguments->level);
-    command.set("--of", arguments->of);
-    command.set("--thickness", arguments->thickness);
-    command.set("--labels", arguments->labels);
-    command.set("--faces", arguments->faces);
-    command.set("--levels", arguments->levels);
-    command.set("--json", arguments->json);
-    arguments->build.connect(command);
-    return [arguments] { return runShell(*arguments); };
+Members<ShellArguments> membersOf(const ShellArguments*) noexcept {
+    using All = ShellArguments;
+    static constexpr Member<All> kMembers[] = {
+        modelInput<&All::input>(),
+        member<&All::output>("-o,--output",
+                             "what to write; the extension selects the format: .svt (volume) or .glb (triangles)",
+                             {.value = "FILE", .file = FileUse::Output, .formats = "svt|glb"}),
+        member<&All::level>("--level", "whose hull stays", {.group = "Shell"}),
+        member<&All::of>("--of", "only the groups that have something of what the query selects",
+                         {.value = "QUERY", .group = "Shell"}),
+        member<&All::shell, &illustrate::ShellOptions::thickness>(
+            "--thickness", "thickness of the hull in metres, rounded up to voxels",
+            {.value = "M", .least = 0, .otherwise = "two voxels", .group = "Shell"}),
+        member<&All::shell, &illustrate::ShellOptions::labels>(
+            "--labels", "whose label the voxels keep: that of their component, or one per group", {.group = "Shell"}),
+        part<&All::write>("write", "--faces"),
+        member<&All::levels>("--levels", "list which levels the model has, as --level names them, and write nothing",
+                             {.group = "Output"}),
+        jsonOption<&All::json>("print figures as JSON on stdout"),
+        quietOption<All>(),
+        part<&All::build>("build"),
+    };
+    return kMembers;
 }
 
 }  // namespace
 
-extern const CommandText kShellCommand{.name = "shell",
-                                       .help = "Leave only the hull of rooms, flats, storeys or buildings",
-                                       .sets = {kShell, kQuiet, kGrid, kModel, kMemory, kStyle, kVoxels},
-                                       .connect = connectShell};
+extern const CommandText kShellCommand =
+    commandOf<ShellArguments, runShell>("shell", "Leave only the hull of rooms, flats, storeys or buildings");
 
 }  // namespace svt::cli

@@ -20,8 +20,8 @@ struct ServeArguments {
     std::optional<int> port;  ///< unset: wantedPort(), or the next that is free
     std::vector<std::string> hostNames;
     bool allowUploads = false;
-    std::uint64_t maxUploadMb = 0, convertMemoryMb = 0;
-    double convertSeconds = 0;
+    std::uint64_t maxUploadMb = 200, convertMemoryMb = 2048;
+    double convertSeconds = 120;
     bool isView = false;  ///< a browser is opened, unless noBrowser
     bool noBrowser = false;
 

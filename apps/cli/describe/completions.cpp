@@ -33,7 +33,7 @@ std::string bashScript() {
     for (const CommandText& command : commandTexts()) {
         commands += fmt::format("{} ", command.name);
         std::string options = "--help ", values;
-        for (const Option& option : optionsOf(command)) {
+        for (const Option& option : command.options()) {
             if (isArgument(option)) {
                 for (const std::string_view choice : splitChoices(option.choices))
                     options += fmt::format("{} ", choice);
@@ -81,7 +81,7 @@ std::string zshScript() {
     for (const CommandText& command : commandTexts()) {
         commands += fmt::format("    '{}:{}'\n", command.name, escaped(command.help));
         cases += fmt::format("    {})\n      _arguments \\\n", command.name);
-        for (const Option& option : optionsOf(command)) {
+        for (const Option& option : command.options()) {
             const std::string choices =
                 option.choices.empty() ? "_files" : fmt::format("({})", replaced(option.choices, '|', " "));
             if (isArgument(option)) {
@@ -93,7 +93,7 @@ std::string zshScript() {
                     "        '{}{}[{}]{}' \\\n", option.mayRepeat ? "*" : "", name, escaped(option.help),
                     option.kind == OptionKind::Flag
                         ? ""
-                        : fmt::format(":{}:{}", escaped(option.choices.empty() ? valueText(option) : "value"),
+                        : fmt::format(":{}:{}", escaped(option.choices.empty() ? frontend::valueText(option) : "value"),
                                       choices));
         }
         cases += "        '--help[print help]' ;;\n";
@@ -133,7 +133,7 @@ std::string fishScript() {
         script += fmt::format("complete -c svt -n __fish_use_subcommand -f -a {} -d {}\n", command.name,
                               quoted(command.help));
     for (const CommandText& command : commandTexts())
-        for (const Option& option : optionsOf(command)) {
+        for (const Option& option : command.options()) {
             const std::string where = fmt::format("complete -c svt -n '__fish_seen_subcommand_from {}'", command.name);
             const std::string choices =
                 option.choices.empty() ? std::string() : fmt::format(" -f -a '{}'", replaced(option.choices, '|', " "));

@@ -57,13 +57,13 @@ std::string optionText(const Option& option) {
         names += fmt::format("{}\\fB{}\\fR", names.empty() ? "" : ", ", roff(rest.substr(0, comma)));
         rest.remove_prefix(std::min(comma + 1, rest.size()));
     }
-    const std::string value = valueText(option);
+    const std::string value = frontend::valueText(option);
     if (!value.empty() && option.name.starts_with('-')) names += fmt::format(" \\fI{}\\fR", roff(value));
-    return fmt::format(".TP\n{}\n{}\n", names, roff(descriptionOf(option)));
+    return fmt::format(".TP\n{}\n{}\n", names, roff(frontend::descriptionOf(option)));
 }
 
 std::string commandPage(const CommandText& command) {
-    const std::vector<Option> options = optionsOf(command);
+    const auto options = command.options();
     std::string page = header(fmt::format("svt-{}", command.name), command.help);
     page += fmt::format(".SH SYNOPSIS\n.B svt {}\n[\\fIOPTIONS\\fR]", command.name);
     for (const Option& option : options)

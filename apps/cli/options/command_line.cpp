@@ -24,35 +24,12 @@ namespace {
 // What was given, by the option's number in its command.
 using Given = std::vector<std::vector<std::string>>;
 
-// The values of an option that takes several: "a,b,c".
-std::vector<std::string> splitValues(const Option& option, const std::string& text) {
-    if (option.count == 1) return {text};
-    std::vector<std::string> values(1);
-    for (const char c : text) c == ',' ? static_cast<void>(values.emplace_back()) : values.back().push_back(c);
-    return values;
-}
-
-// What is wrong with what was given for an option, value by value; empty: nothing.
-std::string faultOfValues(const Option& option, const std::string& text) {
-    if (text.empty()) return option.leastCount == 0 ? std::string() : faultOf(option, text);
-    const std::vector<std::string> values = splitValues(option, text);
-    const auto count = static_cast<int>(values.size());
-    if (option.count > 1 && (count < option.leastCount || count > option.count))
-        return option.leastCount == option.count
-                   ? fmt::format("'{}': expected {} values with commas between them", text, option.count)
-                   : fmt::format("'{}': expected {} to {} values with commas between them", text, option.leastCount,
-                                 option.count);
-    for (const std::string& value : values)
-        if (std::string fault = faultOf(option, value); !fault.empty()) return fault;
-    return {};
-}
-
 // One option of `command` in CLI11's terms; its values are held against the declaration and kept as texts.
 CLI::Option* addOption(CLI::App& app, const Option& option, std::vector<std::string>& values) {
-    const std::string name(option.name), description = descriptionOf(option);
+    const std::string name(option.name), description = frontend::descriptionOf(option);
     if (option.kind == OptionKind::Flag) return app.add_flag(name, description);
     CLI::Option* added = app.add_option(name, values, description);
-    added->type_name(valueText(option));
+    added->type_name(frontend::valueText(option));
     if (option.leastCount == 0) {
         added->expected(0, 1)->default_str("");
     } else if (!option.name.starts_with('-')) {
@@ -63,10 +40,11 @@ CLI::Option* addOption(CLI::App& app, const Option& option, std::vector<std::str
         // Else a "--" behind its value would be taken for the end of its values, not of the options.
         if (!option.mayRepeat) added->allow_extra_args(false);
     }
-    return added->check(CLI::Validator([option](std::string& text) { return faultOfValues(option, text); }, ""));
+    return added->check(
+        CLI::Validator([option](std::string& text) { return frontend::faultOfValues(option, text); }, ""));
 }
 
-void addOptions(CLI::App& app, const std::vector<Option>& options, Given& given) {
+void addOptions(CLI::App& app, std::span<const frontend::BoundOption> options, Given& given) {
     given.resize(options.size());
     for (std::size_t n = 0; n < options.size(); ++n) {
         CLI::Option* added = addOption(app, options[n], given[n]);
@@ -148,7 +126,7 @@ struct Parser {
         app.set_version_flag("--version", versionText());
         app.failure_message(CLI::FailureMessage::simple);
         for (const CommandText& text : commandTexts())
-            addOptions(*app.add_subcommand(std::string(text.name), std::string(text.help)), optionsOf(text),
+            addOptions(*app.add_subcommand(std::string(text.name), std::string(text.help)), text.options(),
                        given[text.name]);
     }
 };
@@ -158,7 +136,7 @@ struct Parser {
 std::string faultOfEmptyValues(std::span<const std::string> words) {
     const auto text = std::ranges::find(commandTexts(), words.empty() ? "" : words.front(), &CommandText::name);
     if (text == commandTexts().end()) return {};
-    const std::vector<Option> options = optionsOf(*text);
+    const auto options = text->options();
     for (std::size_t n = 1; n < words.size() && words[n] != "--"; ++n)
         for (const Option& option : options) {
             const std::string name(longName(option));
@@ -179,68 +157,38 @@ int reportUsage(const CLI::App& app, const CLI::ParseError& error) {
     return kUsage;
 }
 
-int runCommand(const CLI::App& app, const Given& given, const CommandText& text) {
-    Command command(text);
-    const Action action = text.connect(command);
-    std::vector<GivenOption> all;
-    for (std::size_t n = 0; n < command.connections().size(); ++n) {
-        const auto& [option, take] = command.connections()[n];
-        SVT_CHECK(take != nullptr);
-        if (app.get_option(std::string(longName(option)))->count() == 0) continue;
-        std::vector<std::string> values;
-        for (const std::string& given_ : given[n])
-            for (std::string& value : splitValues(option, given_)) values.push_back(std::move(value));
-        take(values);
-        all.push_back({&option, std::move(values)});
+// Heeds the options of the process.
+void setProcess(std::span<const frontend::BoundOption> options, std::span<const frontend::GivenOption> given) {
+    if (std::ranges::any_of(options, [](const Option& option) { return option.name == "--memory"; }))
+        limitMemoryToMachine();
+    for (const auto& [option, values] : given) {
+        if (longName(*option) == "--quiet") beQuiet();
+        if (option->name == "--memory")
+            limitMemory(static_cast<std::uint64_t>(parseNumber(values.front()).value_or(0)) * 1000000, "--memory");
     }
-    if (const auto checked = checkFiles(all); !checked) return fail(checked.error());
-    return flushed(action());
+}
+
+// The options of a command that are given, in their order in help.
+std::vector<frontend::GivenOption> givenOf(const CLI::App& app, const Given& texts, const CommandText& text) {
+    std::vector<frontend::GivenOption> given;
+    const auto options = text.options();
+    for (std::size_t n = 0; n < options.size(); ++n) {
+        if (app.get_option(std::string(longName(options[n])))->count() == 0) continue;
+        frontend::GivenOption& each = given.emplace_back(frontend::GivenOption{&options[n], {}});
+        for (const std::string& value : texts[n])
+            for (std::string& part : frontend::valuesOf(options[n], value)) each.values.push_back(std::move(part));
+    }
+    return given;
+}
+
+Result<int> runCommand(std::span<const frontend::GivenOption> given, const CommandText& text) {
+    SVT_DO(frontend::checkExclusions(given));
+    setProcess(text.options(), given);
+    SVT_DO(checkFiles(given));
+    return text.run(given);
 }
 
 }  // namespace
-
-Command::Command(const CommandText& text) : text_(&text) {
-    for (const Option& option : optionsOf(text)) connections_.push_back({option, nullptr});
-    // One for all commands that have it.
-    for (const auto& [option, take_] : connections_) {
-        if (longName(option) == "--quiet") take("--quiet", [](const std::vector<std::string>&) { beQuiet(); });
-        if (longName(option) == "--memory") {
-            limitMemoryToMachine();
-            take("--memory", [](const std::vector<std::string>& values) {
-                limitMemory(static_cast<std::uint64_t>(number(values.front())) * 1000000, "--memory");
-            });
-        }
-    }
-}
-
-bool Command::has(std::string_view option) const noexcept {
-    return std::ranges::any_of(connections_, [&](const Connection& any) { return longName(any.option) == option; });
-}
-
-Command::Connection& Command::connection(std::string_view option) {
-    const auto found = std::ranges::find_if(
-        connections_, [&](const Connection& connection) { return longName(connection.option) == option; });
-    SVT_CHECK(found != connections_.end());
-    return *found;
-}
-
-void Command::take(std::string_view option, Take take) {
-    Connection& found = connection(option);
-    SVT_CHECK(found.take == nullptr);
-    found.take = std::move(take);
-}
-
-void Command::takeMembers(std::vector<illustrate::GivenMember>& to) {
-    for (const auto& [option, take_] : connections_)
-        if (!option.member.empty())
-            take(longName(option), [&to, name = std::string(longName(option)), member = option.member](auto& values) {
-                to.push_back({name, member, values});
-            });
-}
-
-double Command::number(const std::string& text) {
-    return parseNumber(text).value_or(0);  // faultOf() has seen it
-}
 
 int runCommandLine(int argc, char** argv) {
     Parser parser;
@@ -262,12 +210,15 @@ int runCommandLine(int argc, char** argv) {
     } catch (const CLI::CallForVersion& version) {
         parser.app.exit(version);
         return flushed(kDone);
+    } catch (const CLI::ExcludesError&) {  // reported by runCommand()
     } catch (const CLI::ParseError& error) {
         return reportUsage(parser.app, error);
     }
     for (const CommandText& text : commandTexts()) {
-        if (!parser.app.got_subcommand(std::string(text.name))) continue;
-        return runCommand(*parser.app.get_subcommand(std::string(text.name)), parser.given[text.name], text);
+        const std::string name(text.name);
+        if (!parser.app.got_subcommand(name)) continue;
+        const auto done = runCommand(givenOf(*parser.app.get_subcommand(name), parser.given[text.name], text), text);
+        return flushed(done ? *done : fail(done.error()));
     }
     fmt::print("{}", parser.app.help());
     return kUsage;

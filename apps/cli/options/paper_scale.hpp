@@ -2,14 +2,17 @@
 /// \file
 /// Scales of drawings as people write them.
 
-#include <svt/core/result.hpp>
+#include <svt/record/record.hpp>
 
 #include <string>
 
 namespace svt::cli {
 
 /// The number N of "1:N", or of "N" alone; 0.01 to 10000000.
-/// \return the number, or BadArgument
-[[nodiscard]] Result<double> parseScale(const std::string& text);
+struct PaperScale : record::PlainCodec<PaperScale, double> {
+    static void read(record::Faults& faults, const record::Json& json, const std::string& path, const Option& option,
+                     double& to);
+    static record::Json write(const Option& option, double from);
+};
 
 }  // namespace svt::cli

@@ -1,6 +1,7 @@
 #include <apps/cli/options/site_options.hpp>
 
 #include <apps/cli/options/city_page.hpp>
+#include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/options/viewer_folder.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
@@ -23,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // A model as the bytes of a .svt; the temporary file is removed.
-Result<FileBytes> built(const fs::path& input, const BuildArguments& build, Diagnostics& diagnostics) {
+Result<FileBytes> built(const fs::path& input, const pipeline::BuildOptions& build, Diagnostics& diagnostics) {
     const TerminalProgress progress;
     SVT_TRY(volume, loadVolume(input, build, progress.get(), diagnostics));
     const PrivateFolder folder;
@@ -34,7 +35,7 @@ Result<FileBytes> built(const fs::path& input, const BuildArguments& build, Diag
     return FileBytes::map(file);  // nobody else knows it
 }
 
-Result<serve::SiteModel> modelOf(const fs::path& input, const std::string& name, const BuildArguments& build,
+Result<serve::SiteModel> modelOf(const fs::path& input, const std::string& name, const pipeline::BuildOptions& build,
                                  Diagnostics& diagnostics) {
     if (isCity(input)) return cityModel(input, name);
     SVT_TRY(file, volume::isSvtFile(input) ? FileBytes::read(input) : built(input, build, diagnostics));
@@ -118,24 +119,30 @@ private:
 
 }  // namespace
 
-void SiteArguments::connect(Command& command) {
-    command.set("--viewer", viewer);
-    command.set("--verbose", verbose);
-    build.connect(command);
+Members<SiteArguments> membersOf(const SiteArguments*) noexcept {
+    using All = SiteArguments;
+    static constexpr Member<All> kMembers[] = {
+        member<&All::viewer>("--viewer", "folder of the page",
+                             {.value = "DIR",
+                              .otherwise = "share/svt/viewer beside the program's folder",
+                              .group = "Page",
+                              .file = FileUse::InputFolder}),
+        verboseOption<&All::verbose>("Page"),
+        part<&All::build>("build"),
+    };
+    return kMembers;
 }
 
 Result<fs::path> SiteArguments::viewerFolder() const { return findViewerFolder(viewer); }
 
 Result<std::vector<serve::SiteModel>> SiteArguments::load(const std::vector<fs::path>& inputs) const {
-    BuildArguments withEdges = build;
-    withEdges.vectors = {.edges = true, .meshes = true, .isRequired = false};
     std::vector<std::string_view> endings = readers::modelEndings();
     endings.emplace_back(".svt");
     const std::vector<std::string> names = serve::uniqueNames(inputs, endings);
     std::vector<serve::SiteModel> models;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         Diagnostics diagnostics;
-        auto model = modelOf(inputs[i], names[i], withEdges, diagnostics);
+        auto model = modelOf(inputs[i], names[i], build, diagnostics);
         printDiagnostics(diagnostics, verbose);
         if (!model) return model.error();
         models.push_back(std::move(*model));

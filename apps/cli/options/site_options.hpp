@@ -18,16 +18,18 @@ namespace svt::cli {
 /// Options of the commands that create a site.
 struct SiteArguments {
     std::filesystem::path viewer;  ///< folder of the page; empty: next to the program
-    BuildArguments build;
+    pipeline::BuildOptions build;
     bool verbose = false;
 
-    void connect(Command& command);
+    SiteArguments() { build.vectors = {.edges = true, .meshes = true, .isRequired = false}; }
     /// The folder of the page.
     /// \return CannotOpen if it does not exist
     [[nodiscard]] Result<std::filesystem::path> viewerFolder() const;
     /// The inputs as `.svt`; model files are built first, with feature edges. Findings go to stderr.
     [[nodiscard]] Result<std::vector<serve::SiteModel>> load(const std::vector<std::filesystem::path>& inputs) const;
 };
+
+record::Members<SiteArguments> membersOf(const SiteArguments*) noexcept;
 
 /// The preview of a published page: its models' titles, and a picture of the first.
 /// \param address  of the page, or empty

@@ -16,6 +16,8 @@
 namespace svt::cli {
 namespace {
 
+using frontend::GivenOption;
+
 namespace fs = std::filesystem;
 
 struct Input {

@@ -1,24 +1,18 @@
 #pragma once
 /// \file
 /// What a command reads and writes, checked for all commands at once before any of them begins: nothing that exists is
-/// destroyed, and what cannot be written is told before the work, not after it. The catalog says which options name
-/// files.
+/// destroyed, and what cannot be written is told before the work, not after it. The declarations say which options
+/// name files.
 
-#include <svt/core/option.hpp>
 #include <svt/core/result.hpp>
+#include <svt/frontend/option_set.hpp>
 
 #include <filesystem>
 #include <span>
 #include <string>
-#include <vector>
+#include <string_view>
 
 namespace svt::cli {
-
-/// An option of the command line with its values.
-struct GivenOption {
-    const Option* option = nullptr;
-    std::vector<std::string> values;
-};
 
 /// Checks the files that the options name:
 /// - no input is a pipe, a socket or a device: reading one may wait forever or never end. /dev/stdin is an input where it
@@ -31,7 +25,7 @@ struct GivenOption {
 /// Devices and pipes may be written as they are. Nothing is changed, but for leftovers of killed writers (AtomicFile).
 /// \param given  all options that were given
 /// \return nothing, or CannotOpen (an input), BadArgument (an ending, an option without meaning), WouldDestroy, CannotWrite, DiskFull
-[[nodiscard]] Result<void> checkFiles(std::span<const GivenOption> given);
+[[nodiscard]] Result<void> checkFiles(std::span<const frontend::GivenOption> given);
 
 /// The ending of a file's name in lower case, with its dot: ".png"; empty if it has none.
 [[nodiscard]] std::string endingOf(const std::filesystem::path& file);

@@ -19,17 +19,8 @@ using record::Choice, record::Codec, record::Faults, record::FormatName, record:
     record::Member, record::member, record::memberAs, record::memberOf, record::Members, record::PlainCodec,
     record::Written;
 
-struct Color : PlainCodec<Color, Vec3f> {
+struct Color : record::TextOf<Vec3f, image::parseColor, image::colorText> {
     static constexpr void describe(Option& option) { option.value = "COLOR"; }
-    static void read(Faults& faults, const Json& json, const std::string& path, const Option& option, Vec3f& to) {
-        std::string name;
-        Codec<std::string>::read(faults, json, path, option, name);
-        if (!faults.isFine()) return;
-        const auto parsed = image::parseColor(name);
-        if (!parsed) return faults.add(path, parsed.error().message());
-        to = *parsed;
-    }
-    static Json write(const Option&, const Vec3f& from) { return image::colorText(from); }
 };
 
 // Width and height.
@@ -352,16 +343,12 @@ const Option& sceneMember(std::string_view pointer) {
 }
 
 Result<void> setSceneMember(Scene& scene, const GivenMember& given) {
-    const Option& member = sceneMember(given.member);
-    std::string pointer(given.member);
-    if (const std::size_t any = pointer.find('*'); any != std::string::npos) pointer[any] = '0';
     Faults faults;
-    if (member.mayRepeat)
-        for (const std::string& value : given.values) record::setMember(faults, pointer + "/-", Json(value), "", scene);
-    else
-        record::setMember(faults, pointer, record::valueOfTexts(member, given.values), "", scene);
+    record::setMember(faults, given.member, Json::parse(given.value, nullptr, false), "", scene);
     if (faults.isFine()) return {};
-    return Error(Code::BadArgument, fmt::format("{}: {}", given.option, faults.text()));
+    std::string_view member = given.member;
+    if (member.ends_with("/-")) member.remove_suffix(2);
+    return faults.error(Code::BadArgument, fmt::format("{}: ", sceneMember(member).option));
 }
 
 }  // namespace svt::illustrate

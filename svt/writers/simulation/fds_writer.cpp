@@ -74,24 +74,25 @@ public:
         line("");
     }
 
-    void surfaces(const std::vector<bool>& hasVents) {
+    void surfaces() {
         const auto byte = [](float c) { return static_cast<int>(std::clamp(c, 0.0f, 1.0f) * 255 + 0.5f); };
         for (std::size_t g = 0; g < ids_.size(); ++g) {
             const Vec3f& c = solids_.groups[g].color;
             const std::string rgb = fmt::format("{},{},{}", byte(c.x), byte(c.y), byte(c.z));
             line("&SURF ID='{}', RGB={} /", ids_[g], rgb);
-            if (hasVents[g]) line("&SURF ID='{} vent', RGB={} /", ids_[g], rgb);
+            if (solids_.groups[g].hasVents) line("&SURF ID='{} vent', RGB={} /", ids_[g], rgb);
         }
         line("");
     }
 
-    void boxes(const std::vector<bool>& isHole, const std::vector<bool>& hasVents) {
+    void boxes() {
         for (const GroupBox& box : solids_.boxes)
             line("&OBST XB={}, SURF_ID='{}' /", bounds(box.box.begin, box.box.end), ids_[box.group]);
         for (const GroupBox& box : solids_.boxes) {
-            if (hasVents[box.group]) vents(box);
+            if (solids_.groups[box.group].hasVents) vents(box);
             // After all obstacles: a hole takes from those before it.
-            if (isHole[box.group]) line("&HOLE XB={} / {}", bounds(box.box.begin, box.box.end), ids_[box.group]);
+            if (solids_.groups[box.group].isHole)
+                line("&HOLE XB={} / {}", bounds(box.box.begin, box.box.end), ids_[box.group]);
         }
         line("");
         line("&TAIL /");
@@ -139,17 +140,10 @@ private:
 Result<std::string> makeFds(const volume::SemanticVolume& volume, std::string_view name,
                             const VolumeWriteOptions& options) {
     SVT_TRY(solids, solidBoxes(volume, options));
-    const auto groupsOf = [&](const std::vector<std::uint32_t>& labels) {
-        std::vector<bool> isChosen(solids->groups.size());
-        for (std::size_t g = 0; g < isChosen.size(); ++g)
-            isChosen[g] = std::find(labels.begin(), labels.end(), solids->groups[g].label) != labels.end();
-        return isChosen;
-    };
-    const std::vector<bool> holes = groupsOf(options.holes), vents = groupsOf(options.vents);
     FdsDocument document(volume, *solids);
     document.head(volume, name);
-    document.surfaces(vents);
-    document.boxes(holes, vents);
+    document.surfaces();
+    document.boxes();
     return document.take();
 }
 

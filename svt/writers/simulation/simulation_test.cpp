@@ -114,8 +114,8 @@ TEST(Fds, ObstaclesAreTheSolidVoxelsWithoutTheRoom) {
 TEST(Fds, HolesStandBehindAllObstaclesAndVentsOnBothSides) {
     const SemanticVolume volume = roomWithADoor();
     VolumeWriteOptions options;
-    options.holes = {2};
-    options.vents = {2};
+    options.holes = "class=Door";
+    options.vents = "class=Door";
     const auto text = makeFds(volume, "h", options);
     ASSERT_TRUE(text);
     const auto boxes = readFds(*text);
@@ -142,7 +142,7 @@ TEST(Fds, HolesStayApartWhereComponentsAreMerged) {
     const SemanticVolume volume = roomWithADoor();
     VolumeWriteOptions options;
     options.mergeBy = MergeBy::Class;
-    options.holes = {1};  // the second of two walls of one class
+    options.holes = "id=w2";  // the second of two walls of one class
     const auto text = makeFds(volume, "h", options);
     ASSERT_TRUE(text);
     double holes = 0, walls = 0;

@@ -1,5 +1,6 @@
 #include <svt/writers/simulation/solid_boxes.hpp>
 
+#include <svt/analyze/selection.hpp>
 #include <svt/analyze/space_boundaries.hpp>
 #include <svt/model/classes.hpp>
 
@@ -25,6 +26,15 @@ std::string groupName(const Label& label, MergeBy by) {
 // Surfaces of a room are one voxel of it; its furniture is not.
 bool isAir(const Label& label, bool belongsToSpace) {
     return belongsToSpace && (model::isSpace(label.className) || model::isBoundarySurface(label.className));
+}
+
+// Which labels a query selects; none for an empty one.
+Result<std::vector<bool>> selectedBy(const std::string& query, const volume::LabelTable& labels) {
+    std::vector<bool> isSelected(labels.labels.size());
+    if (query.empty()) return isSelected;
+    SVT_TRY(selected, analyze::selectLabels(labels, query));
+    for (const std::uint32_t label : *selected) isSelected[label] = true;
+    return isSelected;
 }
 
 }  // namespace
@@ -55,20 +65,19 @@ Result<SolidBoxes> solidBoxes(const volume::SemanticVolume& volume, const Volume
     if (std::none_of(isSolid.begin(), isSolid.end(), [](bool is) { return is; }))
         for (std::size_t l = 0; l < labels.size(); ++l) isSolid[l] = labels[l].voxels > 0;
 
+    SVT_TRY(isHole, selectedBy(options.holes, volume.labels));
+    SVT_TRY(hasVents, selectedBy(options.vents, volume.labels));
     SolidBoxes result;
     std::map<std::tuple<std::string, bool, bool>, std::uint32_t> known;
-    const auto isAmong = [](const std::vector<std::uint32_t>& chosen, std::uint32_t label) {
-        return std::find(chosen.begin(), chosen.end(), label) != chosen.end();
-    };
     std::vector<std::uint32_t> groupOfScalar(volume.labels.scalarCount(), volume::kNoLabel);
     for (std::uint32_t l = 0; l < labels.size(); ++l) {
         if (!isSolid[l]) continue;
         std::string name = groupName(labels[l], options.mergeBy);
         auto group = static_cast<std::uint32_t>(result.groups.size());
         if (options.mergeBy != MergeBy::Label)
-            group =
-                known.try_emplace({name, isAmong(options.holes, l), isAmong(options.vents, l)}, group).first->second;
-        if (group == result.groups.size()) result.groups.push_back({std::move(name), l, labels[l].color});
+            group = known.try_emplace({name, (*isHole)[l], (*hasVents)[l]}, group).first->second;
+        if (group == result.groups.size())
+            result.groups.push_back({std::move(name), l, labels[l].color, (*isHole)[l], (*hasVents)[l]});
         for (volume::Scalar s = labels[l].first; s < labels[l].first + labels[l].count; ++s) groupOfScalar[s] = group;
     }
     SVT_TRY(boxes, analyze::mergeBoxes(volume.columns, groupOfScalar, options.maxBoxes));

@@ -14,20 +14,21 @@ namespace svt::writers {
 
 /// What boxes are merged for: a component, or all of one class or material.
 struct SolidGroup {
-    std::string name;         ///< of the component, else its id; the class; the material
-    std::uint32_t label = 0;  ///< the component; else the first of the group
-    Vec3f color{};            ///< of that label
+    std::string name;                       ///< of the component, else its id; the class; the material
+    std::uint32_t label = 0;                ///< the component; else the first of the group
+    Vec3f color{};                          ///< of that label
+    bool isHole = false, hasVents = false;  ///< selected by options.holes, options.vents
     friend bool operator==(const SolidGroup&, const SolidGroup&) = default;
 };
 
-/// What is a hole or has vents (options.holes, options.vents) is never in one group with what is not.
+/// What is a hole or has vents is never in one group with what is not.
 struct SolidBoxes {
     std::vector<SolidGroup> groups;        ///< in the order of their first labels
     std::vector<analyze::GroupBox> boxes;  ///< GroupBox::group: index into groups
 };
 
 /// Spaces (rooms, and what bounds them as a surface) are air and are left out, unless nothing but spaces has voxels.
-/// \return the boxes, or BadArgument if there would be more than options.maxBoxes
+/// \return the boxes, or BadArgument if there would be more than options.maxBoxes; or an error of the queries
 /// Cost: that of analyze::mergeBoxes().
 [[nodiscard]] Result<SolidBoxes> solidBoxes(const volume::SemanticVolume& volume, const VolumeWriteOptions& options);
 

@@ -1,10 +1,8 @@
-#include <apps/cli/options/scene_options.hpp>
-
-#include <apps/cli/options/build_options.hpp>
-#include <apps/cli/output/messages.hpp>
+#include <svt/frontend/scene_options.hpp>
 
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
+#include <svt/frontend/option_set.hpp>
 #include <svt/illustrate/motion.hpp>
 #include <svt/image/color_text.hpp>
 #include <svt/render/camera_presets.hpp>
@@ -13,11 +11,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
-namespace svt::cli {
+namespace svt::frontend {
 namespace {
 
 using illustrate::Scene;
+using record::Faults, record::Json, record::member;
+
+constexpr int kUsualDpi = 300;
+
+// The members of a scene that options set. They are kept as they are given, since the scene is read later.
+struct GivenMembers {
+    static constexpr bool kHasDefault = false;
+    static constexpr void describe(Option& option) { option.kind = OptionKind::Object; }
+    static void read(Faults&, const Json&, const std::string&, const Option&, std::vector<illustrate::GivenMember>&) {}
+    static Json write(const Option&, const std::vector<illustrate::GivenMember>&) { return {}; }
+    static void set(Faults&, std::string_view rest, const Json& json, const std::string&, const Option&,
+                    std::vector<illustrate::GivenMember>& to) {
+        to.push_back({std::string(rest), json.dump(-1, ' ', false, Json::error_handler_t::replace)});
+    }
+    static void list(const std::string& pointer, std::deque<std::string>& texts, std::vector<Option>& all) {
+        for (const Option& member : illustrate::sceneMembers())
+            if (!member.option.empty())
+                all.push_back({.name = texts.emplace_back(pointer + std::string(member.name)),
+                               .group = member.group,
+                               .option = member.option,
+                               .member = member.name,
+                               .like = member.name});
+    }
+};
 
 // Splits "query:value" at the last colon (or equals sign) that is followed by a value.
 Result<std::pair<std::string, std::string>> splitValue(const std::string& text, std::string_view option,
@@ -42,10 +65,11 @@ Result<void> parseSize(const std::string& text, int dpi, Scene& scene) {
     const std::string numbers = inPrint ? text.substr(0, text.size() - 2) : text;
     const std::size_t at = numbers.find_first_of("xX,");
     if (at == std::string::npos) return bad();
-    const auto triple = parseTriple(numbers.substr(0, at) + "," + numbers.substr(at + 1) + ",1", "--size", "pixels");
-    if (!triple) return bad();
-    const double width = inPrint ? std::round(triple->x * dpi / 25.4) : triple->x;
-    const double height = inPrint ? std::round(triple->y * dpi / 25.4) : triple->y;
+    const auto across = parseNumber(withoutBlanks(std::string_view(numbers).substr(0, at)));
+    const auto down = parseNumber(withoutBlanks(std::string_view(numbers).substr(at + 1)));
+    if (!across || !down) return bad();
+    const double width = inPrint ? std::round(*across * dpi / 25.4) : *across;
+    const double height = inPrint ? std::round(*down * dpi / 25.4) : *down;
     const auto inRange = [](double v) { return v >= 1 && v <= render::FrameSpec::kMaxSize && v == std::floor(v); };
     if (!inRange(width) || !inRange(height))
         return Error(Code::BadFrame, fmt::format("--size '{}': 1 to {} pixels along a side are possible", text,
@@ -85,7 +109,7 @@ Result<SectionEnds> endsOf(const std::vector<std::string>& sections) {
     return ends;
 }
 
-Result<void> addStyles(const SceneArguments& arguments, illustrate::ScenePass& pass) {
+Result<void> addStyles(const SceneOptions& arguments, illustrate::ScenePass& pass) {
     for (const std::string& text : arguments.color) {
         SVT_TRY(parts, splitValue(text, "--color", "'name=\"Unterzug-1\":red'"));
         const auto color = image::parseColor(parts->second);
@@ -112,7 +136,7 @@ Result<void> addStyles(const SceneArguments& arguments, illustrate::ScenePass& p
     return {};
 }
 
-Result<void> addEdges(const SceneArguments& arguments, illustrate::ScenePass& pass) {
+Result<void> addEdges(const SceneOptions& arguments, illustrate::ScenePass& pass) {
     if (!arguments.wireframe) return {};
     illustrate::SceneLines lines;
     lines.select = *arguments.wireframe;
@@ -138,7 +162,7 @@ std::string quoted(const std::string& plane) {
     return needsQuotes ? fmt::format("'{}'", plane) : plane;
 }
 
-Result<void> addPass(const SceneArguments& arguments, const std::vector<std::string>& sections, Scene& scene) {
+Result<void> addPass(const SceneOptions& arguments, const std::vector<std::string>& sections, Scene& scene) {
     illustrate::ScenePass& pass = scene.passes.front();
     SVT_DO(addStyles(arguments, pass));
     SVT_DO(addEdges(arguments, pass));
@@ -158,7 +182,7 @@ Result<void> addPass(const SceneArguments& arguments, const std::vector<std::str
 }
 
 // An inset for each query: in the corners from the right, or from the left where a legend stands at the right.
-void addInsets(const SceneArguments& arguments, Scene& scene) {
+void addInsets(const SceneOptions& arguments, Scene& scene) {
     using enum illustrate::Inset::Corner;
     constexpr illustrate::Inset::Corner kFromRight[] = {TopRight, BottomRight, TopLeft, BottomLeft};
     constexpr illustrate::Inset::Corner kFromLeft[] = {BottomLeft, TopLeft, BottomRight, TopRight};
@@ -189,13 +213,13 @@ Result<Scene> readScene(const std::filesystem::path& file) {
 
 }  // namespace
 
-int SceneArguments::printedDpi() const { return dpi ? *dpi : size && isMetric(*size) ? dpiByDefault : 0; }
+int SceneOptions::printedDpi() const { return dpi ? *dpi : size && isMetric(*size) ? kUsualDpi : 0; }
 
-bool SceneArguments::isGiven(std::string_view member) const {
+bool SceneOptions::isGiven(std::string_view member) const {
     return std::ranges::any_of(members, [&](const illustrate::GivenMember& given) { return given.member == member; });
 }
 
-Result<Scene> SceneArguments::toScene(std::optional<int> pictures) const {
+Result<Scene> SceneOptions::toScene(std::optional<int> pictures) const {
     Scene file;
     if (!sceneFile.empty()) {
         auto read = readScene(sceneFile);
@@ -223,9 +247,9 @@ Result<Scene> SceneArguments::toScene(std::optional<int> pictures) const {
     return scene;
 }
 
-Result<Scene> SceneArguments::stillScene(Scene scene, const std::vector<std::string>& still, bool isSeries) const {
+Result<Scene> SceneOptions::stillScene(Scene scene, const std::vector<std::string>& still, bool isSeries) const {
     if (size)
-        if (auto parsed = parseSize(*size, dpi.value_or(dpiByDefault), scene); !parsed) return parsed.error();
+        if (auto parsed = parseSize(*size, dpi.value_or(kUsualDpi), scene); !parsed) return parsed.error();
     for (const illustrate::GivenMember& given : members)
         if (auto done = setSceneMember(scene, given); !done) return done.error();
     // A series is seen by one camera, whatever each of its pictures shows.
@@ -243,29 +267,57 @@ Result<Scene> SceneArguments::stillScene(Scene scene, const std::vector<std::str
     return scene;
 }
 
-void SceneArguments::connect(Command& command) {
-    dpiByDefault = parseInteger<int>(command.byDefault("--dpi")).value_or(dpiByDefault);
-    command.takeMembers(members);
-    command.set("--size", size);
-    command.set("--dpi", dpi);
-    command.set("--section", sections);
-    command.set("--cut", cut);
-    command.set("--lens", lens);
-    command.set("--highlight", highlights);
-    command.set("--cutaway", cutaway);
-    command.set("--context", context);
-    command.set("--context-level", contextLevel);
-    command.set("--inset", insets);
-    command.set("--cells", hasCells);
-    command.set("--wireframe", wireframe);
-    command.set("--hidden-lines", hiddenLines);
-    command.set("--wire-width", wireWidth);
-    command.set("--wire-color", wireColor);
-    command.set("--color", color);
-    command.set("--opacity", opacity);
-    command.set("--hatch-of", hatchOf);
-    command.set("--level", level);
-    command.set("--scene", sceneFile);
+record::Members<SceneOptions> membersOf(const SceneOptions*) noexcept {
+    using Scene = SceneOptions;
+    static constexpr record::Member<Scene> kMembers[] = {
+        record::memberAs<GivenMembers, &Scene::members>("members", ""),
+        member<&Scene::size>("--size", "width x height in pixels, or such as 160x90mm",
+                             {.value = "WxH", .byDefault = "1280x720", .group = "View"}),
+        member<&Scene::dpi>("--dpi", "pixels per inch, for sizes in mm; stored in the picture",
+                            {.least = 1, .most = 4800, .byDefault = "300", .group = "View"}),
+        member<&Scene::sections>(
+            "--section",
+            "cut away: z=1.2 or z>1.2 (above), y<3 (before), storey=NAME+1.1 (above 1.1 m over its floor), or A,B,C,D; "
+            "metres from the lower corner; z=0..6 moves in films and with --frames",
+            {.value = "PLANE", .group = "Cut"}),
+        member<&Scene::cut>("--cut", "", {.group = "Cut", .like = "/passes/*/cut"}),
+        member<&Scene::lens>("--lens", "S-Lens: in this region the model is cut by --section, the rest is the context",
+                             {.value = "REGION", .group = "Illustrate", .excludes = "--highlight|--cutaway"}),
+        member<&Scene::highlights>("--highlight",
+                                   "light the selected, whatever stands in front; the rest is the context",
+                                   {.value = "QUERY", .group = "Illustrate", .excludes = "--lens|--cutaway"}),
+        member<&Scene::cutaway>("--cutaway", "take away what hides the selected, and no more than that",
+                                {.value = "QUERY", .group = "Illustrate", .excludes = "--lens|--highlight"}),
+        member<&Scene::context>("--context", "what is around a lens or highlight", {.group = "Illustrate"}),
+        member<&Scene::contextLevel>("--context-level",
+                                     "level of detail of the context of a lens, highlight or cutaway, 0 is the finest",
+                                     {.group = "Illustrate", .like = "/passes/*/level"}),
+        member<&Scene::insets>(
+            "--inset", "draw what the query selects once more, larger, in a corner, with a frame that shows where",
+            {.value = "QUERY", .group = "Illustrate"}),
+        member<&Scene::hasCells>("--cells", "", {.group = "Illustrate", .like = "/passes/*/cells"}),
+        member<&Scene::wireframe>(
+            "--wireframe",
+            "draw the edges of what the query selects, at their depth inside the volume; without a query: of all that "
+            "is visible",
+            {.value = "QUERY", .group = "Lines", .leastCount = 0}),
+        member<&Scene::hiddenLines>("--hidden-lines", "", {.group = "Lines", .like = "/passes/*/lines/*/hidden"}),
+        member<&Scene::wireWidth>("--wire-width", "width of the edges",
+                                  {.group = "Lines", .like = "/passes/*/lines/*/width"}),
+        member<&Scene::wireColor>("--wire-color", "", {.group = "Lines", .like = "/passes/*/lines/*/color"}),
+        member<&Scene::color>("--color", "colour by query, such as 'name=\"Unterzug-1\":red'",
+                              {.value = "QUERY:COLOR", .group = "Style"}),
+        member<&Scene::opacity>("--opacity", "share of light stopped by 1 m, 0 to 1, by query",
+                                {.value = "QUERY:VALUE", .group = "Style"}),
+        member<&Scene::hatchOf>("--hatch-of",
+                                "hatch by query: masonry, concrete, reinforced-concrete, timber, insulation, earth, "
+                                "steel, glass, general or none",
+                                {.value = "QUERY:HATCH", .group = "Style"}),
+        member<&Scene::level>("--level", "", {.group = "Style", .like = "/passes/*/level", .excludes = "--gl"}),
+        member<&Scene::sceneFile>("--scene", "scene file; the other options change it",
+                                  {.value = "S.scene.json", .group = "Scene", .file = FileUse::OtherInput}),
+    };
+    return kMembers;
 }
 
-}  // namespace svt::cli
+}  // namespace svt::frontend

@@ -1,11 +1,10 @@
 #pragma once
 /// \file
-/// Command-line options that describe a picture, converted to a scene.
-
-#include <apps/cli/options/command_line.hpp>
+/// Options that describe a picture, converted to a scene: of `svt render`, and keywords of render() in Python.
 
 #include <svt/illustrate/scene.hpp>
 #include <svt/illustrate/scene_members.hpp>
+#include <svt/record/members.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -13,10 +12,10 @@
 #include <string_view>
 #include <vector>
 
-namespace svt::cli {
+namespace svt::frontend {
 
 /// Options not given are taken from the scene file, or else from the scene's defaults.
-struct SceneArguments {
+struct SceneOptions {
     std::filesystem::path sceneFile;
     std::vector<illustrate::GivenMember> members;  ///< of the scene, as they were given
     std::optional<std::string> size, wireframe, wireColor;
@@ -26,10 +25,8 @@ struct SceneArguments {
     render::HiddenLines hiddenLines = render::HiddenLines::Faint;
     std::optional<double> wireWidth;
     std::optional<int> dpi, level, contextLevel;
-    int dpiByDefault = 0;
     bool hasCells = false;
 
-    void connect(Command& command);
     /// Resolution to store in the picture for printing; 0: none.
     [[nodiscard]] int printedDpi() const;
     /// Whether an option sets that member of the scene.
@@ -44,4 +41,6 @@ private:
                                                        bool isSeries) const;
 };
 
-}  // namespace svt::cli
+record::Members<SceneOptions> membersOf(const SceneOptions*) noexcept;
+
+}  // namespace svt::frontend

@@ -1,0 +1,73 @@
+#include <svt/frontend/volume_json.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::frontend {
+
+Json toJson(const AttributeValue& value) {
+    return std::visit([](const auto& v) { return Json(v); }, value);
+}
+
+Json toJson(Vec3d v) { return Json::array({v.x, v.y, v.z}); }
+Json toJson(Vec3i v) { return Json::array({v.x, v.y, v.z}); }
+
+Json gridJson(const volume::Grid& grid) {
+    return {{"dimension", toJson(grid.dimension())},
+            {"spacing", toJson(grid.spacing())},
+            {"origin", toJson(grid.origin())},
+            {"frame", Json::array({toJson(grid.axes()[0]), toJson(grid.axes()[1]), toJson(grid.axes()[2])})}};
+}
+
+Json labelJson(const volume::LabelTable& table, std::uint32_t index, const volume::Grid& grid) {
+    const volume::Label& label = table.labels[index];
+    Json json{{"id", label.id}, {"class", label.className}, {"name", label.name}};
+    json["parent"] = label.parent == volume::kNoLabel ? Json(nullptr) : Json(table.labels[label.parent].id);
+    json["first"] = label.first;
+    json["count"] = label.count;
+    json["voxels"] = label.voxels;
+    json["volume"] = label.volume;
+    json["voxelVolume"] = double(label.voxels) * grid.voxelVolume();
+    json["closed"] = label.filling == volume::Filling::Solid || label.filling == volume::Filling::TJunctions;
+    json["filling"] = volume::fillingName(label.filling);
+    if (label.thinVoxels != 0) json["thinVoxels"] = label.thinVoxels;
+    if (label.uncertainVoxels != 0) json["uncertainVoxels"] = label.uncertainVoxels;
+    if (!label.groups.empty()) {
+        Json groups = Json::array();
+        for (const std::uint32_t group : label.groups) groups.push_back(table.labels[group].id);
+        json["groups"] = std::move(groups);
+    }
+    if (!label.attributes.empty()) {
+        Json attributes = Json::object();
+        for (const Attribute& attribute : label.attributes) attributes[attribute.name] = toJson(attribute.value);
+        json["attributes"] = std::move(attributes);
+    }
+    return json;
+}
+
+Json overlapsJson(const volume::LabelTable& table) {
+    Json list = Json::array();
+    for (const volume::Overlap& overlap : table.overlaps)
+        list.push_back({{"a", table.labels[overlap.a].id},
+                        {"b", table.labels[overlap.b].id},
+                        {"voxels", overlap.voxels},
+                        {"nested", overlap.isNested}});
+    return list;
+}
+
+Json infoJson(const volume::SemanticVolume& volume) {
+    Json json;
+    json["grid"] = gridJson(volume.grid);
+    json["scalarType"] = fmt::format("uint{}", volume.labels.scalarBits());
+    json["crs"] = volume.crsName;
+    json["name"] = volume.modelName;
+    json["source"] = volume.source;
+    json["objects"] = Json::array();
+    json["features"] = Json::array();
+    for (std::uint32_t l = 0; l < volume.labels.labels.size(); ++l)
+        json[volume.labels.labels[l].count != 0 ? "objects" : "features"].push_back(
+            labelJson(volume.labels, l, volume.grid));
+    json["overlaps"] = overlapsJson(volume.labels);
+    return json;
+}
+
+}  // namespace svt::frontend
