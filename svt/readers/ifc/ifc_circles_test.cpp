@@ -356,7 +356,7 @@ Outcome readLayered(const std::string& text) {
 TEST(IfcCircles, TheFileHasRecordsOfEveryKind) {
     const std::string text = allKinds();
     constexpr std::string_view kNames[] = {
-#define X(name) "IFC" #name,
+#define X(name, ...) "IFC" #name,
         SVT_IFC_ENTITIES(X)
 #undef X
     };

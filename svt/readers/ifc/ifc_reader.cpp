@@ -107,16 +107,15 @@ private:
     }
 
     void readProject() {
-        RecordIndex project = kNoRecord;
-        for (RecordIndex i = 0; i < file_.step().records().size() && project == kNoRecord; ++i)
-            if (file_.entityOf(i) == Entity::Project) project = i;
+        const std::vector<RecordIndex> projects = file_.all(Entity::Project);
+        const RecordIndex project = projects.empty() ? kNoRecord : projects.front();
         units_ = readUnits(file_, project, place(), diagnostics_);
         file_.lengthUnit = units_.length;
         file_.angleUnit = units_.angle;
         map_ = readMapPlace(file_, project);
         const Fields fields = file_.fieldsOf(project);
-        model_.name = fields[2].string().value_or("");
-        if (model_.name.empty()) model_.name = fields[5].string().value_or("");
+        model_.name = fields[at::Project::Name].string().value_or("");
+        if (model_.name.empty()) model_.name = fields[at::Project::LongName].string().value_or("");
     }
 
     void tellOfStructure() {
@@ -154,7 +153,7 @@ private:
     }
 
     std::string uniqueId(const Fields& fields, const Product& product) {
-        std::string id = fields[0].string().value_or("");
+        std::string id = fields[at::Root::GlobalId].string().value_or("");
         if (id.empty()) {
             id = fmt::format("{}_{}", product.ifcType, file_.step().records()[product.record].id);
             diagnostics_.add(Severity::Warning, Code::MissingId,
@@ -178,27 +177,30 @@ private:
         model::Feature feature;
         feature.id = uniqueId(fields, product);
         feature.className = product.className;
-        feature.name = fields[2].string().value_or("");
+        feature.name = fields[at::Product::Name].string().value_or("");
         feature.line = lineOf(product.record);
         const auto add = [&](string_view attribute, Value value) {
             if (auto text = value.string(); text && !text->empty())
                 feature.attributes.push_back({std::string(attribute), std::move(*text), ""});
         };
         feature.attributes.push_back({"ifcType", product.ifcType, ""});
-        add("description", fields[3]);
-        add("objectType", fields[4]);
-        add(product.kind == ProductKind::Spatial ? "longName" : "tag", fields[7]);
+        add("description", fields[at::Product::Description]);
+        add("objectType", fields[at::Product::ObjectType]);
+        if (product.kind == ProductKind::Spatial)
+            add("longName", fields[at::SpatialElement::LongName]);
+        else
+            add("tag", fields[at::Element::Tag]);
         if (product.ifcType == "IfcSpace" || product.ifcType == "IfcSpatialZone") nameSpace(fields, feature);
-        if (product.ifcType == "IfcBuildingStorey" && fields[9].number())
-            feature.attributes.push_back({"elevation", file_.metres(fields[9]), "m"});
+        if (product.ifcType == "IfcBuildingStorey")
+            addLength("elevation", fields[at::BuildingStorey::Elevation], feature);
         if (product.ifcType == "IfcSite") addSitePlace(fields, feature);
-        if (product.kind == ProductKind::Element && !fields[8].enumeration().empty() &&
-            fields[8].enumeration().size() > 1)
-            feature.attributes.push_back({"predefinedType", std::string(fields[8].enumeration()), ""});
+        const string_view predefined = fields[at::Wall::PredefinedType].enumeration();
+        if (product.kind == ProductKind::Element && predefined.size() > 1)
+            feature.attributes.push_back({"predefinedType", std::string(predefined), ""});
         if (product.ifcType == "IfcDoor" || product.ifcType == "IfcDoorStandardCase")
             addDoorOperation(product.record, properties, feature);
         if (const auto host = structure_.filled.find(product.record); host != structure_.filled.end())
-            if (auto id = file_.fieldsOf(host->second)[0].string())
+            if (auto id = file_.fieldsOf(host->second)[at::Root::GlobalId].string())
                 feature.attributes.push_back({"fills", std::move(*id), ""});
         addPresentationLayers(product, feature);
         properties.append(product.record, feature.attributes);
@@ -211,12 +213,12 @@ private:
     // How a door opens is told by itself (IFC4) or by its type or style (2x3); to which side, by the y axis of its placement.
     void addDoorOperation(RecordIndex door, const Properties& properties, model::Feature& feature) const {
         const auto known = [](string_view operation) { return operation.size() > 1 && operation != "NOTDEFINED"; };
-        string_view operation = file_.fieldsOf(door)[11].enumeration();
+        string_view operation = file_.fieldsOf(door)[at::Door::OperationType].enumeration();
         for (const RecordIndex type : properties.typesOf(door)) {
             if (known(operation)) break;
             const string_view name = file_.typeName(type);
-            if (name == "IFCDOORTYPE") operation = file_.fieldsOf(type)[10].enumeration();
-            if (name == "IFCDOORSTYLE") operation = file_.fieldsOf(type)[8].enumeration();
+            if (name == "IFCDOORTYPE") operation = file_.fieldsOf(type)[at::DoorType::OperationType].enumeration();
+            if (name == "IFCDOORSTYLE") operation = file_.fieldsOf(type)[at::DoorStyle::OperationType].enumeration();
         }
         if (!known(operation)) return;
         feature.attributes.push_back({"operationType", std::string(operation), ""});
@@ -231,12 +233,12 @@ private:
     // The name of a space is its number in the plan, its long name what people call it. A zone that somebody occupies is a
     // unit.
     static void nameSpace(const Fields& fields, model::Feature& feature) {
-        const std::string longName = fields[7].string().value_or("");
+        const std::string longName = fields[at::SpatialElement::LongName].string().value_or("");
         if (!longName.empty() && longName != feature.name) {
             if (!feature.name.empty()) feature.attributes.push_back({"number", feature.name, ""});
             feature.name = longName;
         }
-        if (fields[8].enumeration() == "OCCUPANCY") feature.className = "BuildingUnit";
+        if (fields[at::SpatialZone::PredefinedType].enumeration() == "OCCUPANCY") feature.className = "BuildingUnit";
     }
 
     // Of the representations of a product, of their items, and of what mapped items show; each once.
@@ -249,25 +251,30 @@ private:
             if (("; " + names + "; ").find("; " + found->second + "; ") == std::string::npos)
                 names += (names.empty() ? "" : "; ") + found->second;
         };
-        for (const RecordIndex representation : file_.followAll(file_.fieldsOf(shapeOf(product.record))[2])) {
+        for (const RecordIndex representation : file_.representations(shapeDefinition(product.record))) {
             add(representation);
-            for (const RecordIndex item : file_.followAll(file_.fieldsOf(representation)[3])) {
+            for (const RecordIndex item : file_.items(representation)) {
                 add(item);
                 if (file_.entityOf(item) != Entity::MappedItem) continue;
-                const RecordIndex shown = file_.follow(file_.fieldsOf(file_.follow(file_.fieldsOf(item)[0]))[1]);
+                const RecordIndex map = file_.follow(item, at::MappedItem::MappingSource);
+                const RecordIndex shown = file_.follow(map, at::RepresentationMap::MappedRepresentation);
                 add(shown);
-                for (const RecordIndex inner : file_.followAll(file_.fieldsOf(shown)[3])) add(inner);
+                for (const RecordIndex inner : file_.items(shown)) add(inner);
             }
         }
         if (!names.empty()) feature.attributes.push_back({"presentationLayer", std::move(names), ""});
     }
 
+    void addLength(string_view attribute, Value length, model::Feature& feature) const {
+        if (length.number()) feature.attributes.push_back({std::string(attribute), file_.metres(length), "m"});
+    }
+
     void addSitePlace(const Fields& fields, model::Feature& feature) const {
-        if (const auto latitude = compoundDegrees(fields[9]))
+        if (const auto latitude = compoundDegrees(fields[at::Site::RefLatitude]))
             feature.attributes.push_back({"latitude", *latitude, "deg"});
-        if (const auto longitude = compoundDegrees(fields[10]))
+        if (const auto longitude = compoundDegrees(fields[at::Site::RefLongitude]))
             feature.attributes.push_back({"longitude", *longitude, "deg"});
-        if (fields[11].number()) feature.attributes.push_back({"elevation", file_.metres(fields[11]), "m"});
+        addLength("elevation", fields[at::Site::RefElevation], feature);
         if (map_.trueNorthDegrees) feature.attributes.push_back({"trueNorth", *map_.trueNorthDegrees, "deg"});
     }
 
@@ -284,7 +291,7 @@ private:
                 model::Feature feature;
                 feature.id = uniqueId(fields, product);
                 feature.className = product.className;
-                feature.name = fields[2].string().value_or("");
+                feature.name = fields[at::Root::Name].string().value_or("");
                 feature.line = lineOf(group.record);
                 feature.attributes.push_back({"ifcType", product.ifcType, ""});
                 index = groupFeature_[group.record] = model_.addFeature(std::move(feature), model::kNoFeature);
@@ -295,11 +302,13 @@ private:
         }
     }
 
-    [[nodiscard]] RecordIndex shapeOf(RecordIndex product) const { return file_.follow(file_.fieldsOf(product)[6]); }
-    // What of it could not be read is added to `leftOut`.
+    [[nodiscard]] RecordIndex shapeDefinition(RecordIndex product) const {
+        return file_.follow(product, at::Product::Representation);
+    }
+    // Unreadable parts are added to `leftOut`.
     [[nodiscard]] Transform placementOf(RecordIndex product, std::vector<std::string>& leftOut) const {
         std::string lost;
-        const Transform placement = file_.placement(file_.follow(file_.fieldsOf(product)[5]), lost);
+        const Transform placement = file_.placement(file_.follow(product, at::Product::ObjectPlacement), lost);
         if (!lost.empty()) leftOut.push_back(std::move(lost));
         for (std::string& what : file_.missing().take()) leftOut.push_back("for its place, " + std::move(what));
         return placement;
@@ -314,7 +323,7 @@ private:
                 shape.leftOut.push_back("an opening that the file lacks");
                 continue;
             }
-            const Shape opening = shapes.readShape(shapeOf(record));
+            const Shape opening = shapes.readShape(shapeDefinition(record));
             if (opening.bodies.empty() && opening.hasRepresentation)
                 shape.leftOut.push_back("an opening without a body");
             for (const std::string& what : opening.leftOut) shape.leftOut.push_back("of an opening: " + what);
@@ -351,7 +360,7 @@ private:
             const Product& product = structure_.products[p];
             file_.missing().drop();  // these belong to other records
             file_.guard().beginProduct();
-            const RecordIndex definition = shapeOf(product.record);
+            const RecordIndex definition = shapeDefinition(product.record);
             if (definition == kNoRecord && !file_.missing().isAny()) continue;
             Shape shape = shapes.readShape(definition);
             const Transform placement = placementOf(product.record, shape.leftOut);
@@ -430,7 +439,7 @@ private:
                              fmt::format("this {} was read in part; left out: {}", type, what), where);
         }
         std::int32_t material = -1;
-        if (const auto found = styles.ofMaterial.find(properties.materialOf(structure_.products[number].record));
+        if (const auto found = styles.ofMaterial.find(properties.mainMaterial(structure_.products[number].record));
             found != styles.ofMaterial.end())
             material = found->second;
         if (options_.splitLayers && splitProduct(number, shape, placement, styles, properties, material)) return;
@@ -452,7 +461,7 @@ private:
     bool splitProduct(std::size_t number, const Shape& shape, const Transform& placement, const Styles& styles,
                       const Properties& properties, std::int32_t material) {
         const RecordIndex record = structure_.products[number].record;
-        auto layered = splitIntoLayers(file_, properties, record, shapeOf(record), shape);
+        auto layered = splitIntoLayers(file_, properties, record, shapeDefinition(record), shape);
         if (!layered) return false;
         ++withLayers_;
         const model::FeatureIndex product = featureOf_[number];

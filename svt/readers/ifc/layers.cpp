@@ -42,10 +42,10 @@ Range rangeOf(const std::vector<Body>& bodies, Vec3d direction) {
 // The line of the representation Axis in plan: nothing where there is none, a reason where it is not straight.
 std::optional<Stack> wallStack(const IfcFile& file, RecordIndex definition, std::string& why) {
     Stack stack{{0, 1, 0}, 0};
-    for (const RecordIndex representation : file.followAll(file.fieldsOf(definition)[2])) {
+    for (const RecordIndex representation : file.representations(definition)) {
         const Fields fields = file.fieldsOf(representation);
-        if (fields[1].string().value_or("") != "Axis") continue;
-        const std::vector<RecordIndex> items = file.followAll(fields[3]);
+        if (fields[at::Representation::RepresentationIdentifier].string() != "Axis") continue;
+        const std::vector<RecordIndex> items = file.followAll(fields[at::Representation::Items]);
         std::vector<Vec3d> line;
         std::string unread;
         if (items.size() != 1 || !readCurve(file, items[0], line, unread) || line.size() < 2) break;
@@ -69,20 +69,19 @@ std::optional<Stack> wallStack(const IfcFile& file, RecordIndex definition, std:
 
 // The direction in which the first extrusion of the body goes, and where it begins.
 std::optional<Stack> extrusionStack(const IfcFile& file, RecordIndex definition) {
-    for (const RecordIndex representation : file.followAll(file.fieldsOf(definition)[2])) {
+    for (const RecordIndex representation : file.representations(definition)) {
         const Fields fields = file.fieldsOf(representation);
-        const std::vector<RecordIndex> items = file.followAll(fields[3]);
-        if (fields[1].string().value_or("") != "Body" || items.empty()) continue;
+        const std::vector<RecordIndex> items = file.followAll(fields[at::Representation::Items]);
+        if (fields[at::Representation::RepresentationIdentifier].string() != "Body" || items.empty()) continue;
         RecordIndex item = items.front();
         ReadGuard::Scope scope(file.guard());
         while (scope.enter(item)) {
             const Entity entity = file.entityOf(item);
             if (entity != Entity::BooleanResult && entity != Entity::BooleanClippingResult) break;
-            item = file.follow(file.fieldsOf(item)[1]);
+            item = file.follow(item, at::BooleanResult::FirstOperand);
         }
         if (file.entityOf(item) != Entity::ExtrudedAreaSolid) return std::nullopt;
-        const Fields solid = file.fieldsOf(item);
-        const Transform axes = file.axes(file.follow(solid[1]));
+        const Transform axes = file.axes(file.follow(item, at::ExtrudedAreaSolid::Position));
         return Stack{axes.z, dot(axes.z, axes.origin)};
     }
     return std::nullopt;
@@ -127,17 +126,18 @@ public:
 
 private:
     void readLayers(const Fields& usage) {
-        for (const RecordIndex record : file_.followAll(file_.fieldsOf(file_.follow(usage[0]))[0])) {
+        const RecordIndex set = file_.follow(usage[at::MaterialLayerSetUsage::ForLayerSet]);
+        for (const RecordIndex record : file_.followAll(set, at::MaterialLayerSet::MaterialLayers)) {
             const Fields fields = file_.fieldsOf(record);
             LayerPart layer;
-            layer.material = file_.follow(fields[0]);
+            layer.material = file_.follow(fields[at::MaterialLayer::Material]);
             const Fields material = file_.fieldsOf(layer.material);
-            layer.name = material[0].string().value_or("");
-            if (layer.name.empty()) layer.name = fields[3].string().value_or("");
+            layer.name = material[at::Material::Name].string().value_or("");
+            if (layer.name.empty()) layer.name = fields[at::MaterialLayer::Name].string().value_or("");
             if (layer.name.empty()) layer.name = fmt::format("layer {}", result_.layers.size() + 1);
-            layer.function = fields[5].string().value_or("");
-            if (layer.function.empty()) layer.function = material[2].string().value_or("");
-            layer.thickness = file_.metres(fields[1]);
+            layer.function = fields[at::MaterialLayer::Category].string().value_or("");
+            if (layer.function.empty()) layer.function = material[at::Material::Category].string().value_or("");
+            layer.thickness = file_.metres(fields[at::MaterialLayer::LayerThickness]);
             if (!(layer.thickness >= 0) || !std::isfinite(layer.thickness))
                 result_.why = "a layer has no thickness that is a number of 0 or more";
             total_ += layer.thickness;
@@ -149,7 +149,7 @@ private:
 
     // Where the layers begin and end along a stack.
     [[nodiscard]] Range rangeOfLayers(const Fields& usage, const Stack& stack) const {
-        const double begin = stack.base + file_.metres(usage[3]);
+        const double begin = stack.base + file_.metres(usage[at::MaterialLayerSetUsage::OffsetFromReferenceLine]);
         return isNegative_ ? Range{begin - total_, begin} : Range{begin, begin + total_};
     }
 
@@ -158,7 +158,7 @@ private:
     }
 
     bool findStack(const Fields& usage) {
-        const std::string_view axis = usage[1].enumeration();
+        const std::string_view axis = usage[at::MaterialLayerSetUsage::LayerSetDirection].enumeration();
         if (axis == "AXIS2") {
             const auto stack = wallStack(file_, definition_, result_.why);
             if (!stack) return false;
@@ -176,7 +176,7 @@ private:
     void split(const Fields& usage) {
         for (const Body& body : shape_.bodies)
             if (!isClosed(body.faces)) result_.why = "its body is not closed";
-        isNegative_ = usage[2].enumeration() == "NEGATIVE";
+        isNegative_ = usage[at::MaterialLayerSetUsage::DirectionSense].enumeration() == "NEGATIVE";
         if (!result_.why.empty() || !findStack(usage)) return;
         const Range body = rangeOf(shape_.bodies, stack_.direction);
         Range layers = rangeOfLayers(usage, stack_);
@@ -233,9 +233,11 @@ std::optional<LayeredShape> splitIntoLayers(const IfcFile& file, const Propertie
         const Entity entity = file.entityOf(material);
         const bool isUsage = entity == Entity::MaterialLayerSetUsage;
         if (!isUsage && entity != Entity::MaterialLayerSet) continue;
-        const RecordIndex set = isUsage ? file.follow(file.fieldsOf(material)[0]) : material;
-        const std::vector<RecordIndex> layers = file.followAll(file.fieldsOf(set)[0]);
-        const auto isThick = [&](RecordIndex layer) { return file.metres(file.fieldsOf(layer)[1]) > kNoBody; };
+        const RecordIndex set = isUsage ? file.follow(material, at::MaterialLayerSetUsage::ForLayerSet) : material;
+        const std::vector<RecordIndex> layers = file.followAll(set, at::MaterialLayerSet::MaterialLayers);
+        const auto isThick = [&](RecordIndex layer) {
+            return file.metres(file.fieldsOf(layer)[at::MaterialLayer::LayerThickness]) > kNoBody;
+        };
         if (std::count_if(layers.begin(), layers.end(), isThick) < 2) continue;
         if (isUsage) return LayerSplitter(file, definition, shape).run(file.fieldsOf(material));
         if (unsplit.why.empty()) unsplit.why = "its layer set has no usage, which would say where the layers lie";

@@ -21,19 +21,21 @@ public:
         switch (file_.entityOf(item)) {
             case Entity::GeometricSet:
             case Entity::GeometricCurveSet:
-                for (const RecordIndex element : file_.followAll(fields[0])) readItem(element, place);
+                for (const RecordIndex element : file_.followAll(fields[at::GeometricSet::Elements]))
+                    readItem(element, place);
                 return;
             case Entity::AnnotationFillArea:
-                readItem(file_.follow(fields[0]), place);
-                for (const RecordIndex inner : file_.followAll(fields[1])) readItem(inner, place);
+                readItem(file_.follow(fields[at::AnnotationFillArea::OuterBoundary]), place);
+                for (const RecordIndex inner : file_.followAll(fields[at::AnnotationFillArea::InnerBoundaries]))
+                    readItem(inner, place);
                 return;
             case Entity::MappedItem: {
-                const Fields source = file_.fieldsOf(file_.follow(fields[0]));
-                const Transform origin = file_.axes(file_.follow(source[0]));
-                const Transform inner =
-                    place.after(file_.transformation(file_.follow(fields[1]))).after(origin.inverse());
-                for (const RecordIndex shown : file_.followAll(file_.fieldsOf(file_.follow(source[1]))[3]))
-                    readItem(shown, inner);
+                const Fields source = file_.fieldsOf(file_.follow(fields[at::MappedItem::MappingSource]));
+                const Transform origin = file_.axes(source[at::RepresentationMap::MappingOrigin]);
+                const Transform target = file_.transformation(fields[at::MappedItem::MappingTarget]);
+                const Transform inner = place.after(target).after(origin.inverse());
+                const RecordIndex shown = file_.follow(source[at::RepresentationMap::MappedRepresentation]);
+                for (const RecordIndex part : file_.items(shown)) readItem(part, inner);
                 return;
             }
             default:
@@ -69,8 +71,8 @@ private:
 std::vector<std::vector<Vec3d>> readLines(const IfcFile& file, RecordIndex definition,
                                           std::vector<std::string>& leftOut) {
     LineReader reader(file, leftOut);
-    for (const RecordIndex representation : file.followAll(file.fieldsOf(definition)[2]))
-        for (const RecordIndex item : file.followAll(file.fieldsOf(representation)[3])) reader.readItem(item, {});
+    for (const RecordIndex representation : file.representations(definition))
+        for (const RecordIndex item : file.items(representation)) reader.readItem(item, {});
     return std::move(reader.lines);
 }
 

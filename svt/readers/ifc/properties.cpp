@@ -11,8 +11,6 @@ using std::string_view;
 
 constexpr std::size_t kMaxText = 4096;
 
-bool endsWith(string_view text, string_view tail) noexcept { return text.ends_with(tail); }
-
 // A value with the unit that its type has in the project, taken to SI; nothing for what is not set.
 bool readValue(Value value, const Units& units, Attribute& attribute) {
     if (value.isNothing()) return false;
@@ -32,12 +30,12 @@ bool readValue(Value value, const Units& units, Attribute& attribute) {
     }
     const auto number = value.number();
     if (!number) return false;
-    if (const auto whole = value.integer(); whole && !endsWith(type, "MEASURE") && type != "IFCREAL") {
+    if (const auto whole = value.integer(); whole && !type.ends_with("MEASURE") && type != "IFCREAL") {
         attribute.value = *whole;
         return true;
     }
     double factor = 1;
-    if (endsWith(type, "LENGTHMEASURE")) {
+    if (type.ends_with("LENGTHMEASURE")) {
         factor = units.length;
         attribute.unit = "m";
     } else if (type == "IFCAREAMEASURE") {
@@ -74,6 +72,15 @@ std::string joined(Value list) {
     return text;
 }
 
+// Rows of a table, joined: "from: to, from: to".
+std::string joinedTable(Value defining, Value defined) {
+    const std::vector<Value> from = step::itemsOf(defining), to = step::itemsOf(defined);
+    std::string text;
+    for (std::size_t i = 0; i < std::min(from.size(), to.size()) && text.size() < kMaxText; ++i)
+        text += (i == 0 ? "" : ", ") + textOf(from[i]) + ": " + textOf(to[i]);
+    return text;
+}
+
 }  // namespace
 
 std::uint64_t elementsOf(const Attribute& attribute) noexcept {
@@ -83,21 +90,24 @@ std::uint64_t elementsOf(const Attribute& attribute) noexcept {
 }
 
 Properties::Properties(const IfcFile& file, const Units& units) : file_(file), units_(units) {
-    const auto relate = [&](const Fields& fields, std::unordered_map<RecordIndex, Records>& map) {
-        const RecordIndex relating = file.follow(fields[5]);
-        if (relating == kNoRecord) return;
-        for (const RecordIndex object : file.followAll(fields[4])) map[object].push_back(relating);
-    };
-    for (RecordIndex i = 0; i < file.step().records().size(); ++i) switch (file.entityOf(i)) {
-            case Entity::RelDefinesByProperties: relate(file.fieldsOf(i), sets_); break;
-            case Entity::RelDefinesByType: relate(file.fieldsOf(i), types_); break;
-            case Entity::RelAssociatesMaterial: relate(file.fieldsOf(i), materials_); break;
-            case Entity::RelAssociatesClassification: relate(file.fieldsOf(i), classifications_); break;
-            default: break;
+    const auto relate = [&](Entity entity, AttributePosition related, AttributePosition relating, Related& map) {
+        for (const RecordIndex relation : file.all(entity)) {
+            const Fields fields = file.fieldsOf(relation);
+            const RecordIndex definition = file.follow(fields[relating]);
+            if (definition == kNoRecord) continue;
+            for (const RecordIndex object : file.followAll(fields[related])) map[object].push_back(definition);
         }
+    };
+    relate(Entity::RelDefinesByProperties, at::RelDefinesByProperties::RelatedObjects,
+           at::RelDefinesByProperties::RelatingPropertyDefinition, sets_);
+    relate(Entity::RelDefinesByType, at::RelDefinesByType::RelatedObjects, at::RelDefinesByType::RelatingType, types_);
+    relate(Entity::RelAssociatesMaterial, at::RelAssociatesMaterial::RelatedObjects,
+           at::RelAssociatesMaterial::RelatingMaterial, materials_);
+    relate(Entity::RelAssociatesClassification, at::RelAssociatesClassification::RelatedObjects,
+           at::RelAssociatesClassification::RelatingClassification, classifications_);
 }
 
-const Properties::Records& Properties::of(const std::unordered_map<RecordIndex, Records>& map, RecordIndex key) {
+const Properties::Records& Properties::of(const Related& map, RecordIndex key) {
     static const Records kNone;
     const auto found = map.find(key);
     return found == map.end() ? kNone : found->second;
@@ -115,19 +125,20 @@ void Properties::replaceOrAdd(std::vector<Attribute>& attributes, Attribute attr
 }
 
 void Properties::append(RecordIndex object, std::vector<Attribute>& attributes) const {
-    const Records* materials = &of(materials_, object);
     for (const RecordIndex type : of(types_, object)) {
         const Fields fields = file_.fieldsOf(type);
-        if (const auto name = fields[2].string(); name && !name->empty()) replaceOrAdd(attributes, {"type", *name, ""});
-        for (const RecordIndex set : file_.followAll(fields[5])) appendSet(set, attributes);
-        if (materials->empty()) materials = &of(materials_, type);
+        if (const auto name = fields[at::TypeObject::Name].string(); name && !name->empty())
+            replaceOrAdd(attributes, {"type", *name, ""});
+        for (const RecordIndex set : file_.followAll(fields[at::TypeObject::HasPropertySets]))
+            appendSet(set, attributes);
     }
     for (const RecordIndex set : of(sets_, object)) appendSet(set, attributes);
-    for (const RecordIndex material : *materials) appendMaterial(material, attributes);
+    for (const RecordIndex material : materialsOf(object)) appendMaterial(material, attributes);
     for (const RecordIndex reference : of(classifications_, object)) {
         const Fields fields = file_.fieldsOf(reference);
         if (file_.entityOf(reference) != Entity::ClassificationReference) continue;
-        const std::string code = fields[1].string().value_or(""), name = fields[2].string().value_or("");
+        const std::string code = fields[at::ClassificationReference::Identification].string().value_or(""),
+                          name = fields[at::ClassificationReference::Name].string().value_or("");
         const std::string text = code.empty() || name.empty() ? code + name : code + " " + name;
         if (!text.empty()) attributes.push_back({"classification", text, ""});
     }
@@ -135,10 +146,11 @@ void Properties::append(RecordIndex object, std::vector<Attribute>& attributes) 
 
 void Properties::appendSet(RecordIndex set, std::vector<Attribute>& attributes) const {
     const Fields fields = file_.fieldsOf(set);
-    const std::string name = fields[2].string().value_or("");
+    const std::string name = fields[at::Root::Name].string().value_or("");
     const Entity entity = file_.entityOf(set);
     if (entity != Entity::PropertySet && entity != Entity::ElementQuantity) return;
-    const Value members = entity == Entity::PropertySet ? fields[4] : fields[5];
+    const Value members = entity == Entity::PropertySet ? fields[at::PropertySet::HasProperties]
+                                                        : fields[at::ElementQuantity::Quantities];
     for (const RecordIndex member : file_.followAll(members))
         appendProperty(name.empty() ? std::string() : name + ".", member, attributes);
 }
@@ -148,89 +160,93 @@ void Properties::appendProperty(const std::string& prefix, RecordIndex property,
     ReadGuard::Scope scope(file_.guard());
     if (!scope.enter(property)) return;
     const Fields fields = file_.fieldsOf(property);
-    Attribute attribute{prefix + fields[0].string().value_or(""), std::string(), ""};
-    if (attribute.name.size() == prefix.size()) return;
-    const auto quantity = [&](double factor, std::string unit) {
-        const auto number = fields[3].number();
-        if (!number) return;
-        attribute.value = *number * factor;
-        attribute.unit = std::move(unit);
-        replaceOrAdd(attributes, std::move(attribute));
+    const std::string name = fields[at::Property::Name].string().value_or("");
+    if (name.empty()) return;
+    const auto value = [&](Value given, std::string_view tail = "") {
+        Attribute attribute{prefix + name + std::string(tail), std::string(), ""};
+        if (readValue(given, units_, attribute)) replaceOrAdd(attributes, std::move(attribute));
+    };
+    const auto text = [&](std::string words) {
+        if (!words.empty()) replaceOrAdd(attributes, {prefix + name, std::move(words), ""});
+    };
+    const auto quantity = [&](AttributePosition given, double factor, const char* unit) {
+        if (const auto number = fields[given].number())
+            replaceOrAdd(attributes, {prefix + name, *number * factor, unit});
     };
     switch (file_.entityOf(property)) {
-        case Entity::PropertySingleValue:
-            if (readValue(fields[2], units_, attribute)) replaceOrAdd(attributes, std::move(attribute));
-            break;
+        case Entity::PropertySingleValue: return value(fields[at::PropertySingleValue::NominalValue]);
         case Entity::PropertyEnumeratedValue:
-        case Entity::PropertyListValue:
-            if (std::string text = joined(fields[2]); !text.empty()) {
-                attribute.value = std::move(text);
-                replaceOrAdd(attributes, std::move(attribute));
-            }
-            break;
+            return text(joined(fields[at::PropertyEnumeratedValue::EnumerationValues]));
+        case Entity::PropertyListValue: return text(joined(fields[at::PropertyListValue::ListValues]));
         case Entity::PropertyBoundedValue:
-            for (const auto& [number, word] : {std::pair{std::size_t{3}, ".min"}, std::pair{std::size_t{2}, ".max"}}) {
-                Attribute bound{attribute.name + word, std::string(), ""};
-                if (readValue(fields[number], units_, bound)) replaceOrAdd(attributes, std::move(bound));
-            }
-            break;
-        case Entity::PropertyTableValue: {
-            const std::vector<Value> from = step::itemsOf(fields[2]), to = step::itemsOf(fields[3]);
-            std::string text;
-            for (std::size_t i = 0; i < std::min(from.size(), to.size()) && text.size() < kMaxText; ++i)
-                text += (i == 0 ? "" : ", ") + textOf(from[i]) + ": " + textOf(to[i]);
-            if (!text.empty()) {
-                attribute.value = std::move(text);
-                replaceOrAdd(attributes, std::move(attribute));
-            }
-            break;
-        }
+            value(fields[at::PropertyBoundedValue::LowerBoundValue], ".min");
+            return value(fields[at::PropertyBoundedValue::UpperBoundValue], ".max");
+        case Entity::PropertyTableValue:
+            return text(joinedTable(fields[at::PropertyTableValue::DefiningValues],
+                                    fields[at::PropertyTableValue::DefinedValues]));
         case Entity::ComplexProperty:
-            for (const RecordIndex part : file_.followAll(fields[3]))
-                appendProperty(attribute.name + ".", part, attributes);
-            break;
-        case Entity::QuantityLength: quantity(units_.length, "m"); break;
-        case Entity::QuantityArea: quantity(units_.area, "m2"); break;
-        case Entity::QuantityVolume: quantity(units_.volume, "m3"); break;
-        case Entity::QuantityWeight: quantity(units_.mass, "kg"); break;
-        case Entity::QuantityTime: quantity(units_.time, "s"); break;
-        case Entity::QuantityCount: quantity(1, ""); break;
-        default: break;
+            for (const RecordIndex part : file_.followAll(fields[at::ComplexProperty::HasProperties]))
+                appendProperty(prefix + name + ".", part, attributes);
+            return;
+        case Entity::QuantityLength: return quantity(at::QuantityLength::LengthValue, units_.length, "m");
+        case Entity::QuantityArea: return quantity(at::QuantityArea::AreaValue, units_.area, "m2");
+        case Entity::QuantityVolume: return quantity(at::QuantityVolume::VolumeValue, units_.volume, "m3");
+        case Entity::QuantityWeight: return quantity(at::QuantityWeight::WeightValue, units_.mass, "kg");
+        case Entity::QuantityTime: return quantity(at::QuantityTime::TimeValue, units_.time, "s");
+        case Entity::QuantityCount: return quantity(at::QuantityCount::CountValue, 1, "");
+        default: return;
     }
 }
 
-// The materials, or layers with their materials, that a material definition is made of.
-Properties::Records Properties::layersOf(RecordIndex material) const {
+// The materials that a material definition is made of.
+std::vector<Properties::MaterialPart> Properties::parts(RecordIndex definition) const {
     ReadGuard::Scope scope(file_.guard());
-    if (!scope.enter(material)) return {};
-    const Fields fields = file_.fieldsOf(material);
-    switch (file_.entityOf(material)) {
-        case Entity::MaterialLayerSetUsage:
-        case Entity::MaterialProfileSetUsage: return layersOf(file_.follow(fields[0]));
-        case Entity::MaterialLayerSet:
-        case Entity::MaterialList: return file_.followAll(fields[0]);
+    if (!scope.enter(definition)) return {};
+    const Fields fields = file_.fieldsOf(definition);
+    std::vector<RecordIndex> records;
+    switch (file_.entityOf(definition)) {
+        case Entity::MaterialLayerSetUsage: return parts(file_.follow(fields[at::MaterialLayerSetUsage::ForLayerSet]));
+        case Entity::MaterialProfileSetUsage:
+            return parts(file_.follow(fields[at::MaterialProfileSetUsage::ForProfileSet]));
+        case Entity::MaterialLayerSet: records = file_.followAll(fields[at::MaterialLayerSet::MaterialLayers]); break;
+        case Entity::MaterialList: records = file_.followAll(fields[at::MaterialList::Materials]); break;
         case Entity::MaterialConstituentSet:
-        case Entity::MaterialProfileSet: return file_.followAll(fields[2]);
-        default: return {material};
+            records = file_.followAll(fields[at::MaterialConstituentSet::MaterialConstituents]);
+            break;
+        case Entity::MaterialProfileSet:
+            records = file_.followAll(fields[at::MaterialProfileSet::MaterialProfiles]);
+            break;
+        default: records = {definition};
+    }
+    std::vector<MaterialPart> result;
+    for (const RecordIndex record : records) result.push_back(part(record));
+    return result;
+}
+
+Properties::MaterialPart Properties::part(RecordIndex record) const {
+    const Fields fields = file_.fieldsOf(record);
+    switch (file_.entityOf(record)) {
+        case Entity::MaterialLayer:
+        case Entity::MaterialLayerWithOffsets:
+            return {file_.follow(fields[at::MaterialLayer::Material]),
+                    file_.metres(fields[at::MaterialLayer::LayerThickness])};
+        case Entity::MaterialConstituent: return {file_.follow(fields[at::MaterialConstituent::Material]), {}};
+        case Entity::MaterialProfile: return {file_.follow(fields[at::MaterialProfile::Material]), {}};
+        default: return {record, {}};
     }
 }
 
-void Properties::appendMaterial(RecordIndex material, std::vector<Attribute>& attributes) const {
+void Properties::appendMaterial(RecordIndex definition, std::vector<Attribute>& attributes) const {
     std::string names, layers;
-    for (const RecordIndex part : layersOf(material)) {
-        const Fields fields = file_.fieldsOf(part);
-        const Entity entity = file_.entityOf(part);
-        const bool isLayer = entity == Entity::MaterialLayer || entity == Entity::MaterialLayerWithOffsets;
-        const bool isPart = entity == Entity::MaterialConstituent || entity == Entity::MaterialProfile;
-        const RecordIndex of = isLayer ? file_.follow(fields[0]) : isPart ? file_.follow(fields[2]) : part;
-        if (file_.entityOf(of) != Entity::Material) continue;
-        const std::string name = file_.fieldsOf(of)[0].string().value_or("");
+    for (const MaterialPart& part : parts(definition)) {
+        if (file_.entityOf(part.material) != Entity::Material) continue;
+        const std::string name = file_.fieldsOf(part.material)[at::Material::Name].string().value_or("");
         if (name.empty()) continue;
-        // What is longer is cut off below.
+        // Longer text is cut off below.
         if (names.size() <= kMaxText && ("; " + names + "; ").find("; " + name + "; ") == std::string::npos)
             names += (names.empty() ? "" : "; ") + name;
-        if (isLayer && layers.size() <= kMaxText)
-            layers += fmt::format("{}{} {:.6g} m", layers.empty() ? "" : "; ", name, file_.metres(fields[1]));
+        if (part.thickness && layers.size() <= kMaxText)
+            layers += fmt::format("{}{} {:.6g} m", layers.empty() ? "" : "; ", name, *part.thickness);
     }
     if (!names.empty()) attributes.push_back({"material", names.substr(0, kMaxText), ""});
     if (!layers.empty()) attributes.push_back({"materialLayers", layers.substr(0, kMaxText), ""});
@@ -238,25 +254,20 @@ void Properties::appendMaterial(RecordIndex material, std::vector<Attribute>& at
 
 const std::vector<RecordIndex>& Properties::materialsOf(RecordIndex object) const {
     const Records* materials = &of(materials_, object);
-    if (materials->empty())
-        for (const RecordIndex type : of(types_, object)) materials = &of(materials_, type);
+    for (const RecordIndex type : of(types_, object))
+        if (materials->empty()) materials = &of(materials_, type);
     return *materials;
 }
 
-RecordIndex Properties::materialOf(RecordIndex object) const {
+RecordIndex Properties::mainMaterial(RecordIndex object) const {
     double thickest = -1;
     RecordIndex best = kNoRecord;
-    for (const RecordIndex material : materialsOf(object))
-        for (const RecordIndex part : layersOf(material)) {
-            const Fields fields = file_.fieldsOf(part);
-            const Entity entity = file_.entityOf(part);
-            const bool isLayer = entity == Entity::MaterialLayer || entity == Entity::MaterialLayerWithOffsets;
-            const bool isPart = entity == Entity::MaterialConstituent || entity == Entity::MaterialProfile;
-            const double thickness = isLayer ? file_.metres(fields[1]) : 0;
-            if (thickness <= thickest) continue;
-            thickest = thickness;
-            best = isLayer ? file_.follow(fields[0]) : isPart ? file_.follow(fields[2]) : part;
-        }
+    for (const RecordIndex definition : materialsOf(object))
+        for (const MaterialPart& part : parts(definition))
+            if (part.thickness.value_or(0) > thickest) {
+                thickest = part.thickness.value_or(0);
+                best = part.material;
+            }
     return best;
 }
 

@@ -6,6 +6,7 @@
 #include <svt/readers/ifc/units.hpp>
 #include <svt/readers/ifc_shape/ifc_file.hpp>
 
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -29,22 +30,28 @@ public:
     /// Materials, layer sets and usages of an object, else of its type.
     [[nodiscard]] const std::vector<RecordIndex>& materialsOf(RecordIndex object) const;
 
-    /// The material that is nearest to being that of the whole object, for its colour; kNoRecord: none.
-    [[nodiscard]] RecordIndex materialOf(RecordIndex object) const;
+    /// The material for the colour of an object, that of its thickest layer or its first one; kNoRecord: none.
+    [[nodiscard]] RecordIndex mainMaterial(RecordIndex object) const;
 
 private:
     using Records = std::vector<RecordIndex>;
+    using Related = std::unordered_map<RecordIndex, Records>;
+    struct MaterialPart {
+        RecordIndex material = kNoRecord;
+        std::optional<double> thickness;  // of a layer, metres
+    };
 
     void appendSet(RecordIndex set, std::vector<Attribute>& attributes) const;
     void appendProperty(const std::string& prefix, RecordIndex property, std::vector<Attribute>& attributes) const;
     void replaceOrAdd(std::vector<Attribute>& attributes, Attribute attribute) const;
-    void appendMaterial(RecordIndex material, std::vector<Attribute>& attributes) const;
-    [[nodiscard]] Records layersOf(RecordIndex material) const;
-    [[nodiscard]] static const Records& of(const std::unordered_map<RecordIndex, Records>& map, RecordIndex key);
+    void appendMaterial(RecordIndex definition, std::vector<Attribute>& attributes) const;
+    [[nodiscard]] std::vector<MaterialPart> parts(RecordIndex definition) const;
+    [[nodiscard]] MaterialPart part(RecordIndex record) const;
+    [[nodiscard]] static const Records& of(const Related& map, RecordIndex key);
 
     const IfcFile& file_;
     Units units_;
-    std::unordered_map<RecordIndex, Records> sets_, types_, materials_, classifications_;
+    Related sets_, types_, materials_, classifications_;
 };
 
 }  // namespace svt::readers::ifc

@@ -33,7 +33,9 @@ private:
             } else {
                 // A product has a placement and a shape, whatever it is called.
                 const Fields fields = file_.fieldsOf(i);
-                if (file_.entityOf(file_.follow(fields[6])) != Entity::ProductDefinitionShape || !fields[0].isString())
+                const RecordIndex shape = file_.follow(fields[at::Product::Representation]);
+                if (file_.entityOf(shape) != Entity::ProductDefinitionShape ||
+                    !fields[at::Product::GlobalId].isString())
                     continue;
                 product.ifcType = std::string(file_.typeName(i).substr(0, 100));
                 product.className = "GenericOccupiedSpace";
@@ -50,35 +52,44 @@ private:
         return found == numberOf_.end() ? Product::kNoProduct : found->second;
     }
 
-    void relate(RecordIndex i) {
-        const Fields fields = file_.fieldsOf(i);
-        switch (file_.entityOf(i)) {
+    void relate(RecordIndex relation) {
+        const Fields fields = file_.fieldsOf(relation);
+        switch (file_.entityOf(relation)) {
             case Entity::RelAggregates:
             case Entity::RelNests:
-                for (const RecordIndex part : file_.followAll(fields[5]))
-                    setParent(part, file_.follow(fields[4]), true);
+                for (const RecordIndex part : file_.followAll(fields[at::RelDecomposes::RelatedObjects]))
+                    setParent(part, file_.follow(fields[at::RelDecomposes::RelatingObject]), true);
                 break;
-            case Entity::RelContainedInSpatialStructure:
-                for (const RecordIndex element : file_.followAll(fields[4]))
-                    setParent(element, file_.follow(fields[5]), false);
+            case Entity::RelContainedInSpatialStructure: {
+                namespace contained = at::RelContainedInSpatialStructure;
+                for (const RecordIndex element : file_.followAll(fields[contained::RelatedElements]))
+                    setParent(element, file_.follow(fields[contained::RelatingStructure]), false);
                 break;
-            case Entity::RelVoidsElement:
-                if (isOfItself(fields)) break;
-                result_.openings[file_.follow(fields[4])].push_back(file_.follow(fields[5]));
-                if (const RecordIndex opening = file_.follow(fields[5]); opening != kNoRecord)
-                    hostOf_.emplace(opening, file_.follow(fields[4]));
+            }
+            case Entity::RelVoidsElement: {
+                const Ends ends = endsOf(fields, at::RelVoidsElement::RelatingBuildingElement,
+                                         at::RelVoidsElement::RelatedOpeningElement);
+                if (!ends.isApart) break;
+                result_.openings[ends.relating].push_back(ends.related);
+                if (ends.related != kNoRecord) hostOf_.emplace(ends.related, ends.relating);
                 break;
+            }
             case Entity::RelProjectsElement:
-                if (isOfItself(fields)) break;
-                result_.projections[file_.follow(fields[4])].push_back(file_.follow(fields[5]));
+                if (const Ends ends = endsOf(fields, at::RelProjectsElement::RelatingElement,
+                                             at::RelProjectsElement::RelatedFeatureElement);
+                    ends.isApart)
+                    result_.projections[ends.relating].push_back(ends.related);
                 break;
             case Entity::RelFillsElement:
-                if (!isOfItself(fields)) fills_.emplace_back(file_.follow(fields[4]), file_.follow(fields[5]));
+                if (const Ends ends = endsOf(fields, at::RelFillsElement::RelatingOpeningElement,
+                                             at::RelFillsElement::RelatedBuildingElement);
+                    ends.isApart)
+                    fills_.emplace_back(ends.relating, ends.related);
                 break;
             case Entity::RelAssignsToGroup: {
-                Structure::Group group{file_.follow(fields[6]), {}};
+                Structure::Group group{file_.follow(fields[at::RelAssignsToGroup::RelatingGroup]), {}};
                 if (group.record == kNoRecord) break;
-                for (const RecordIndex member : file_.followAll(fields[4]))
+                for (const RecordIndex member : file_.followAll(fields[at::RelAssignsToGroup::RelatedObjects]))
                     if (const std::size_t product = productOf(member); product != Product::kNoProduct)
                         group.members.push_back(product);
                 if (!group.members.empty()) result_.groups.push_back(std::move(group));
@@ -88,12 +99,16 @@ private:
         }
     }
 
-    // A relation of a product to itself, which is reported.
-    bool isOfItself(const Fields& fields) {
-        const RecordIndex product = file_.follow(fields[4]);
-        if (product == kNoRecord || product != file_.follow(fields[5])) return false;
-        result_.circles.push_back(file_.guard().nameCircle({product}));
-        return true;
+    // The two ends of a relation; a relation of a product to itself is reported.
+    struct Ends {
+        RecordIndex relating, related;
+        bool isApart;
+    };
+    Ends endsOf(const Fields& fields, AttributePosition relating, AttributePosition related) {
+        Ends ends{file_.follow(fields[relating]), file_.follow(fields[related]), true};
+        ends.isApart = ends.relating == kNoRecord || ends.relating != ends.related;
+        if (!ends.isApart) result_.circles.push_back(file_.guard().nameCircle({ends.relating}));
+        return ends;
     }
 
     // A part of something is found there, whatever contains it too.

@@ -2,7 +2,7 @@
 /// \file
 /// The products of a file and how they hang together: spatial structure, aggregates, openings, groups.
 
-#include <svt/readers/ifc/product_classes.hpp>
+#include <svt/readers/ifc_schema/product_classes.hpp>
 #include <svt/readers/ifc_shape/ifc_file.hpp>
 
 #include <string>

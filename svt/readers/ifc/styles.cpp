@@ -10,87 +10,88 @@ public:
     explicit StyleReader(const IfcFile& file) : file_(file) {}
 
     Styles run() {
-        for (RecordIndex i = 0; i < file_.step().records().size(); ++i) {
-            if (file_.entityOf(i) == Entity::StyledItem) {
-                const Fields fields = file_.fieldsOf(i);
-                const RecordIndex item = file_.follow(fields[0]);
-                if (item == kNoRecord) continue;
-                if (const std::int32_t material = materialOf(fields[1]); material >= 0) styles_.ofItem[item] = material;
-            } else if (file_.entityOf(i) == Entity::IndexedColourMap) {
-                readColorMap(file_.fieldsOf(i));
-            } else if (file_.entityOf(i) == Entity::MaterialDefinitionRepresentation) {
-                readMaterial(file_.fieldsOf(i));
+        for (RecordIndex i = 0; i < file_.step().records().size(); ++i) switch (file_.entityOf(i)) {
+                case Entity::StyledItem: readStyledItem(i); break;
+                case Entity::IndexedColourMap: readColorMap(file_.fieldsOf(i)); break;
+                case Entity::MaterialDefinitionRepresentation: readMaterial(i); break;
+                default: break;
             }
-        }
         return std::move(styles_);
     }
 
 private:
     static constexpr std::uint64_t kElementsPerMaterial = 4;  // as much memory as so many points
 
-    void readMaterial(const Fields& fields) {
-        const RecordIndex owner = file_.follow(fields[3]);
-        for (const RecordIndex representation : file_.followAll(fields[2]))
-            for (const RecordIndex item : file_.followAll(file_.fieldsOf(representation)[3]))
-                if (const std::int32_t material = materialOf(file_.fieldsOf(item)[1]); material >= 0)
+    void readStyledItem(RecordIndex styled) {
+        const RecordIndex item = file_.follow(styled, at::StyledItem::Item);
+        if (item == kNoRecord) return;
+        if (const std::int32_t material = surfaceMaterial(styled); material >= 0) styles_.ofItem[item] = material;
+    }
+
+    void readMaterial(RecordIndex definition) {
+        const RecordIndex owner = file_.follow(definition, at::MaterialDefinitionRepresentation::RepresentedMaterial);
+        for (const RecordIndex representation : file_.representations(definition))
+            for (const RecordIndex styled : file_.items(representation))
+                if (const std::int32_t material = surfaceMaterial(styled); material >= 0)
                     styles_.ofMaterial.emplace(owner, material);
     }
 
     // Colours of the faces of a face set, by their numbers in a list that begins with 1.
     void readColorMap(const Fields& fields) {
-        const RecordIndex item = file_.follow(fields[0]);
+        const RecordIndex item = file_.follow(fields[at::IndexedColourMap::MappedTo]);
         if (item == kNoRecord) return;
         const auto first = static_cast<std::int32_t>(styles_.materials.size());
-        const double opacity = fields[1].number().value_or(1);
-        step::ValueCursor colors(file_.fieldsOf(file_.follow(fields[2]))[0]);
+        const double opacity = fields[at::IndexedColourMap::Opacity].number().value_or(1);
+        step::ValueCursor colors(
+            file_.fieldsOf(file_.follow(fields[at::IndexedColourMap::Colours]))[at::ColourRgbList::ColourList]);
         for (Value color; colors.next(color) && file_.guard().takeElements(kElementsPerMaterial);) {
             const std::vector<Value> parts = step::itemsOf(color);
             model::Material material;
-            const auto part = [&](std::size_t i) {
-                const double value = i < parts.size() ? parts[i].number().value_or(0.8) : 0.8;
-                return static_cast<float>(std::clamp(value, 0.0, 1.0));
-            };
-            material.diffuse = {part(0), part(1), part(2)};
+            const auto channel = [&](std::size_t i) { return share(i < parts.size() ? parts[i] : Value(), 0.8); };
+            material.diffuse = {channel(0), channel(1), channel(2)};
             material.transparency = static_cast<float>(std::clamp(1 - opacity, 0.0, 1.0));
             styles_.materials.push_back(std::move(material));
         }
         const auto count = static_cast<std::int64_t>(styles_.materials.size()) - first;
         std::vector<std::int32_t>& faces = styles_.ofFaces[item];
-        step::ValueCursor numbers(fields[3]);
+        step::ValueCursor numbers(fields[at::IndexedColourMap::ColourIndex]);
         for (Value number; numbers.next(number);) {
             const std::int64_t index = number.integer().value_or(0);
             faces.push_back(index >= 1 && index <= count ? first + static_cast<std::int32_t>(index - 1) : -1);
         }
     }
 
-    // The first surface style among the styles of an item.
-    std::int32_t materialOf(Value list) {
-        for (const RecordIndex style : file_.followAll(list)) {
-            if (file_.entityOf(style) == Entity::SurfaceStyle) return numberOf(style);
+    // The number of a material for the first surface style of an IfcStyledItem; -1: none.
+    std::int32_t surfaceMaterial(RecordIndex styled) {
+        for (const RecordIndex style : file_.followAll(styled, at::StyledItem::Styles)) {
+            if (file_.entityOf(style) == Entity::SurfaceStyle) return materialNumber(style);
             if (file_.entityOf(style) != Entity::PresentationStyleAssignment) continue;
-            for (const RecordIndex inner : file_.followAll(file_.fieldsOf(style)[0]))
-                if (file_.entityOf(inner) == Entity::SurfaceStyle) return numberOf(inner);
+            for (const RecordIndex inner : file_.followAll(style, at::PresentationStyleAssignment::Styles))
+                if (file_.entityOf(inner) == Entity::SurfaceStyle) return materialNumber(inner);
         }
         return -1;
     }
 
-    std::int32_t numberOf(RecordIndex style) {
+    // A number between 0 and 1.
+    static float share(Value value, double otherwise) {
+        return static_cast<float>(std::clamp(value.number().value_or(otherwise), 0.0, 1.0));
+    }
+
+    std::int32_t materialNumber(RecordIndex style) {
         const auto known = numbers_.find(style);
         if (known != numbers_.end()) return known->second;
         std::int32_t number = -1;
         const Fields fields = file_.fieldsOf(style);
-        for (const RecordIndex shading : file_.followAll(fields[2])) {
+        for (const RecordIndex shading : file_.followAll(fields[at::SurfaceStyle::Styles])) {
             const Entity entity = file_.entityOf(shading);
             if (entity != Entity::SurfaceStyleRendering && entity != Entity::SurfaceStyleShading) continue;
             const Fields values = file_.fieldsOf(shading);
-            const Fields color = file_.fieldsOf(file_.follow(values[0]));
+            const Fields color = file_.fieldsOf(file_.follow(values[at::SurfaceStyleShading::SurfaceColour]));
             model::Material material;
-            material.name = fields[0].string().value_or("");
-            const auto part = [&](std::size_t i) {
-                return static_cast<float>(std::clamp(color[i].number().value_or(0.8), 0.0, 1.0));
-            };
-            material.diffuse = {part(1), part(2), part(3)};
-            material.transparency = static_cast<float>(std::clamp(values[1].number().value_or(0), 0.0, 1.0));
+            material.name = fields[at::SurfaceStyle::Name].string().value_or("");
+            material.diffuse = {share(color[at::ColourRgb::Red], 0.8), share(color[at::ColourRgb::Green], 0.8),
+                                share(color[at::ColourRgb::Blue], 0.8)};
+            material.transparency = share(values[at::SurfaceStyleShading::Transparency], 0);
             number = static_cast<std::int32_t>(styles_.materials.size());
             styles_.materials.push_back(std::move(material));
             break;
@@ -111,9 +112,10 @@ std::unordered_map<RecordIndex, std::string> readPresentationLayers(const IfcFil
         const Entity entity = file.entityOf(i);
         if (entity != Entity::PresentationLayerAssignment && entity != Entity::PresentationLayerWithStyle) continue;
         const Fields fields = file.fieldsOf(i);
-        const std::string name = fields[0].string().value_or("");
+        const std::string name = fields[at::PresentationLayerAssignment::Name].string().value_or("");
         if (name.empty()) continue;
-        for (const RecordIndex item : file.followAll(fields[2])) layers.emplace(item, name);
+        for (const RecordIndex item : file.followAll(fields[at::PresentationLayerAssignment::AssignedItems]))
+            layers.emplace(item, name);
     }
     return layers;
 }

@@ -29,30 +29,35 @@ std::optional<double> unitFactor(const IfcFile& file, RecordIndex unit) {
     const Fields fields = file.fieldsOf(unit);
     switch (file.entityOf(unit)) {
         case Entity::SIUnit: {
-            const string_view name = fields[3].enumeration();
-            const double factor = prefixFactor(fields[2].enumeration());
+            const string_view name = fields[at::SIUnit::Name].enumeration();
+            const double factor = prefixFactor(fields[at::SIUnit::Prefix].enumeration());
             if (name == "SQUARE_METRE") return factor * factor;
             if (name == "CUBIC_METRE") return factor * factor * factor;
             return name == "GRAM" ? factor / 1000 : factor;
         }
         case Entity::ConversionBasedUnit:
         case Entity::ConversionBasedUnitWithOffset: {
-            const Fields measure = file.fieldsOf(file.follow(fields[3]));
-            const auto value = measure[0].number();
+            const Fields measure = file.fieldsOf(file.follow(fields[at::ConversionBasedUnit::ConversionFactor]));
+            const auto value = measure[at::MeasureWithUnit::ValueComponent].number();
             if (!value || !(*value > 0)) return std::nullopt;
-            const auto base = unitFactor(file, file.follow(measure[1]));
+            const auto base = unitFactor(file, file.follow(measure[at::MeasureWithUnit::UnitComponent]));
             return base ? std::optional(*value * *base) : std::nullopt;
         }
         default: return std::nullopt;
     }
 }
 
-RecordIndex contextOf(const IfcFile& file, RecordIndex project) {
-    for (const RecordIndex context : file.followAll(file.fieldsOf(project)[7]))
+RecordIndex modelContext(const IfcFile& file, RecordIndex project) {
+    namespace geometric = at::GeometricRepresentationContext;
+    for (const RecordIndex context : file.followAll(project, at::Project::RepresentationContexts))
         if (file.entityOf(context) == Entity::GeometricRepresentationContext &&
-            file.fieldsOf(context)[2].integer().value_or(3) == 3)
+            file.fieldsOf(context)[geometric::CoordinateSpaceDimension].integer().value_or(3) == 3)
             return context;
     return kNoRecord;
+}
+
+bool isMapConversion(Entity entity) noexcept {
+    return entity == Entity::MapConversion || entity == Entity::MapConversionScaled || entity == Entity::RigidOperation;
 }
 
 }  // namespace
@@ -60,8 +65,9 @@ RecordIndex contextOf(const IfcFile& file, RecordIndex project) {
 Units readUnits(const IfcFile& file, RecordIndex project, const Place& place, Diagnostics& diagnostics) {
     Units units;
     bool hasLength = false;
-    for (const RecordIndex unit : file.followAll(file.fieldsOf(file.follow(file.fieldsOf(project)[8]))[0])) {
-        const string_view type = file.fieldsOf(unit)[1].enumeration();
+    const RecordIndex assignment = file.follow(project, at::Project::UnitsInContext);
+    for (const RecordIndex unit : file.followAll(assignment, at::UnitAssignment::Units)) {
+        const string_view type = file.fieldsOf(unit)[at::NamedUnit::UnitType].enumeration();
         const auto factor = unitFactor(file, unit);
         if (!factor || !(*factor > 0)) continue;
         if (type == "LENGTHUNIT") {
@@ -82,45 +88,39 @@ Units readUnits(const IfcFile& file, RecordIndex project, const Place& place, Di
 
 MapPlace readMapPlace(const IfcFile& file, RecordIndex project) {
     MapPlace place;
-    const RecordIndex context = contextOf(file, project);
-    if (const auto north = file.direction(file.fieldsOf(context)[5]))
+    const RecordIndex context = modelContext(file, project);
+    if (const auto north = file.direction(file.fieldsOf(context)[at::GeometricRepresentationContext::TrueNorth]))
         place.trueNorthDegrees = std::atan2(north->x, north->y) * 180 / std::numbers::pi;
-    RecordIndex conversion = kNoRecord;
-    for (RecordIndex i = 0; i < file.step().records().size() && conversion == kNoRecord; ++i)
-        if (file.entityOf(i) == Entity::MapConversion || file.entityOf(i) == Entity::MapConversionScaled ||
-            file.entityOf(i) == Entity::RigidOperation)
-            conversion = i;
-    if (conversion == kNoRecord) return place;
-    const Fields fields = file.fieldsOf(conversion);
-    const Fields crs = file.fieldsOf(file.follow(fields[1]));
-    place.isGiven = true;
-    place.crs = crs[0].string().value_or("");
+    RecordIndex record = 0;
+    while (record < file.step().records().size() && !isMapConversion(file.entityOf(record))) ++record;
+    if (record == file.step().records().size()) return place;
+    const Fields conversion = file.fieldsOf(record);
+    const Fields crs = file.fieldsOf(file.follow(conversion[at::CoordinateOperation::TargetCRS]));
     // Eastings and heights are in the unit of the map; Scale takes lengths of the project to it, and lengths are metres here.
-    double mapUnit = file.lengthUnit;
-    if (const auto unit = unitFactor(file, file.follow(crs[6]))) mapUnit = *unit;
-    if (file.entityOf(conversion) == Entity::RigidOperation) {
-        // A shift alone. Angles, which its coordinates may be, make no place in metres.
-        if (fields[2].typeName().ends_with("ANGLEMEASURE") || fields[3].typeName().ends_with("ANGLEMEASURE")) {
-            place.isGiven = false;
-            place.crs.clear();
-            return place;
-        }
-        place.mapFromProject.origin =
-            Vec3d{fields[2].number().value_or(0), fields[3].number().value_or(0), fields[4].number().value_or(0)} *
-            mapUnit;
+    const double mapUnit = unitFactor(file, file.follow(crs[at::ProjectedCRS::MapUnit])).value_or(file.lengthUnit);
+    const bool isShift = file.entityOf(record) == Entity::RigidOperation;
+    // Angles, which the coordinates of a shift may be, make no place in metres.
+    if (isShift && (conversion[at::RigidOperation::FirstCoordinate].typeName().ends_with("ANGLEMEASURE") ||
+                    conversion[at::RigidOperation::SecondCoordinate].typeName().ends_with("ANGLEMEASURE")))
         return place;
-    }
-    double scale = fields[7].number().value_or(1) * mapUnit / file.lengthUnit;
+    place.isGiven = true;
+    place.crs = crs[at::ProjectedCRS::Name].string().value_or("");
+    const auto number = [&](AttributePosition attribute, double otherwise) {
+        return conversion[attribute].number().value_or(otherwise);
+    };
+    // The coordinates of a shift stand in the same places.
+    place.mapFromProject.origin = Vec3d{number(at::MapConversion::Eastings, 0), number(at::MapConversion::Northings, 0),
+                                        number(at::MapConversion::OrthogonalHeight, 0)} *
+                                  mapUnit;
+    if (isShift) return place;
+    double scale = number(at::MapConversion::Scale, 1) * mapUnit / file.lengthUnit;
     // Many writers give 1 although the units of model and map differ.
-    if (fields[7].number().value_or(1) == 1) scale = 1;
-    if (!(scale > 0) || !std::isfinite(scale)) scale = 1;
-    Vec3d x{fields[5].number().value_or(1), fields[6].number().value_or(0), 0};
+    if (number(at::MapConversion::Scale, 1) == 1 || !(scale > 0) || !std::isfinite(scale)) scale = 1;
+    Vec3d x{number(at::MapConversion::XAxisAbscissa, 1), number(at::MapConversion::XAxisOrdinate, 0), 0};
     x = length(x) > 0 ? normalized(x) : Vec3d{1, 0, 0};
     place.mapFromProject.x = x * scale;
     place.mapFromProject.y = Vec3d{-x.y, x.x, 0} * scale;
     place.mapFromProject.z = {0, 0, scale};
-    place.mapFromProject.origin =
-        Vec3d{fields[2].number().value_or(0), fields[3].number().value_or(0), fields[4].number().value_or(0)} * mapUnit;
     return place;
 }
 

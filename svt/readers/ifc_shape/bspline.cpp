@@ -22,7 +22,7 @@ bool readWeights(Value list, std::size_t perList, std::vector<double>& weights) 
 bool readControlPoints(const IfcFile& file, Value list, std::vector<Vec3d>& points) {
     step::ValueCursor cursor(list);
     for (Value item; cursor.next(item);) {
-        const auto point = file.point(file.follow(item));
+        const auto point = file.point(item);
         if (!point || points.size() >= kMaxControlPoints) return false;
         points.push_back(*point);
     }
@@ -101,30 +101,33 @@ Vec3d BSplineSurface::at(double atU, double atV) const {
 }
 
 std::optional<BSplineCurve> readBSplineCurve(const IfcFile& file, RecordIndex curve) {
+    namespace spline = at::RationalBSplineCurveWithKnots;
     const Fields fields = file.fieldsOf(curve);
     BSplineCurve result;
-    if (!readControlPoints(file, fields[1], result.points)) return std::nullopt;
-    auto knots = readKnots(fields[0], fields[5], fields[6], result.points.size());
+    if (!readControlPoints(file, fields[spline::ControlPointsList], result.points)) return std::nullopt;
+    auto knots = readKnots(fields[spline::Degree], fields[spline::KnotMultiplicities], fields[spline::Knots],
+                           result.points.size());
     if (!knots) return std::nullopt;
     result.knots = std::move(*knots);
     if (file.entityOf(curve) != Entity::RationalBSplineCurveWithKnots)
         result.weights.assign(result.points.size(), 1);
-    else if (!readWeights(fields[8], result.points.size(), result.weights))
+    else if (!readWeights(fields[spline::WeightsData], result.points.size(), result.weights))
         return std::nullopt;
     return result;
 }
 
 std::optional<BSplineSurface> readBSplineSurface(const IfcFile& file, RecordIndex surface) {
+    namespace spline = at::RationalBSplineSurfaceWithKnots;
     const Fields fields = file.fieldsOf(surface);
     BSplineSurface result;
-    const std::vector<Value> rows = step::itemsOf(fields[2]);
+    const std::vector<Value> rows = step::itemsOf(fields[spline::ControlPointsList]);
     if (rows.empty()) return std::nullopt;
     for (const Value row : rows)
         if (!readControlPoints(file, row, result.points)) return std::nullopt;
     if (result.points.empty() || result.points.size() % rows.size() != 0) return std::nullopt;
     const std::size_t countV = result.points.size() / rows.size();
-    auto u = readKnots(fields[0], fields[7], fields[9], rows.size()),
-         v = readKnots(fields[1], fields[8], fields[10], countV);
+    auto u = readKnots(fields[spline::UDegree], fields[spline::UMultiplicities], fields[spline::UKnots], rows.size()),
+         v = readKnots(fields[spline::VDegree], fields[spline::VMultiplicities], fields[spline::VKnots], countV);
     if (!u || !v) return std::nullopt;
     result.u = std::move(*u);
     result.v = std::move(*v);
@@ -132,7 +135,7 @@ std::optional<BSplineSurface> readBSplineSurface(const IfcFile& file, RecordInde
         result.weights.assign(result.points.size(), 1);
         return result;
     }
-    const std::vector<Value> weights = step::itemsOf(fields[12]);
+    const std::vector<Value> weights = step::itemsOf(fields[spline::WeightsData]);
     if (weights.size() != rows.size()) return std::nullopt;
     for (const Value row : weights)
         if (!readWeights(row, countV, result.weights)) return std::nullopt;

@@ -154,18 +154,18 @@ std::optional<Surface> readSurface(const IfcFile& file, RecordIndex record) {
     const Fields fields = file.fieldsOf(record);
     Surface surface;
     surface.kind = file.entityOf(record);
-    surface.axes = file.axes(file.follow(fields[0]));
-    surface.radius = file.metres(fields[1]);
+    surface.axes = file.axes(fields[at::ElementarySurface::Position]);
+    surface.radius = file.metres(fields[at::CylindricalSurface::Radius]);
     switch (surface.kind) {
         case Entity::CylindricalSurface: break;
         case Entity::SphericalSurface: surface.stepV = stepOf(surface.radius); break;
         case Entity::ConicalSurface:
             surface.base = surface.radius;
-            surface.second = std::tan(file.radians(fields[2]));
+            surface.second = std::tan(file.radians(fields[at::ConicalSurface::SemiAngle]));
             if (!(surface.radius > 0)) surface.radius = 1;  // the apex; a scale of the angle is wanted
             break;
         case Entity::ToroidalSurface:
-            surface.second = file.metres(fields[2]);
+            surface.second = file.metres(fields[at::ToroidalSurface::MinorRadius]);
             if (!(surface.second > 0)) return std::nullopt;
             surface.stepV = stepOf(surface.second);
             surface.periodV = 2 * kPi * surface.second;
@@ -178,18 +178,24 @@ std::optional<Surface> readSurface(const IfcFile& file, RecordIndex record) {
     return surface;
 }
 
+// The curve of a swept surface, which is a profile of the type CURVE.
+bool readSweptCurve(const IfcFile& file, Value profile, std::vector<Vec3d>& points) {
+    std::string why;
+    return readCurve(file, file.follow(file.follow(profile), at::ArbitraryOpenProfileDef::Curve), points, why) &&
+           points.size() >= 2;
+}
+
 // Along its curve a surface of linear extrusion needs no lines but those at the corners of the curve.
 std::optional<Surface> readExtrusion(const IfcFile& file, RecordIndex record) {
+    namespace extrusion = at::SurfaceOfLinearExtrusion;
     const Fields fields = file.fieldsOf(record);
     Surface surface;
     surface.kind = Entity::SurfaceOfLinearExtrusion;
-    surface.axes = file.axes(file.follow(fields[1]));
-    const RecordIndex profile = file.follow(fields[0]);
-    std::string why;
-    if (!readCurve(file, file.follow(file.fieldsOf(profile)[2]), surface.curve, why) || surface.curve.size() < 2)
-        return std::nullopt;
+    surface.axes = file.axes(fields[extrusion::Position]);
+    if (!readSweptCurve(file, fields[extrusion::SweptCurve], surface.curve)) return std::nullopt;
     for (Vec3d& p : surface.curve) p = surface.axes.point(p);
-    surface.sweep = normalized(surface.axes.direction(file.direction(fields[2]).value_or(Vec3d{0, 0, 1})));
+    surface.sweep = normalized(
+        surface.axes.direction(file.direction(fields[extrusion::ExtrudedDirection]).value_or(Vec3d{0, 0, 1})));
     return surface;
 }
 
@@ -254,14 +260,12 @@ std::optional<Surface> readSpline(const IfcFile& file, RecordIndex record) {
 // The curve is taken to the plane of the axis and turned from there, so that it may lie anywhere around it.
 std::optional<Surface> readRevolution(const IfcFile& file, RecordIndex record) {
     const Fields fields = file.fieldsOf(record);
-    const Transform position = file.axes(file.follow(fields[1])), own = file.axes(file.follow(fields[2]));
+    const Transform position = file.axes(fields[at::SurfaceOfRevolution::Position]),
+                    own = file.axes(fields[at::SurfaceOfRevolution::AxisPosition]);
     Surface surface;
     surface.kind = Entity::SurfaceOfRevolution;
     surface.axes = axesFrom(position.point(own.origin), position.direction(own.z), position.x);
-    std::string why;
-    if (!readCurve(file, file.follow(file.fieldsOf(file.follow(fields[0]))[2]), surface.curve, why) ||
-        surface.curve.size() < 2)
-        return std::nullopt;
+    if (!readSweptCurve(file, fields[at::SurfaceOfRevolution::SweptCurve], surface.curve)) return std::nullopt;
     for (Vec3d& p : surface.curve) {
         const Vec3d local = position.point(p) - surface.axes.origin;
         const double height = dot(local, surface.axes.z);

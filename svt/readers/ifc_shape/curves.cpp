@@ -19,8 +19,8 @@ void appendPart(const std::vector<Vec3d>& part, std::vector<Vec3d>& points) {
         if (points.empty() || length(p - points.back()) > 1e-9) points.push_back(p);
 }
 
-bool readPointList(const IfcFile& file, RecordIndex list, std::vector<Vec3d>& points) {
-    step::ValueCursor cursor(file.fieldsOf(list)[0]);
+bool readPointList(const IfcFile& file, Value list, std::vector<Vec3d>& points) {
+    step::ValueCursor cursor(file.fieldsOf(file.follow(list))[at::CartesianPointList::CoordList]);
     for (Value item; cursor.next(item);) {
         const auto point = file.coordinates(item);
         if (!point) return false;
@@ -50,12 +50,13 @@ void appendArcThrough(Vec3d a, Vec3d b, Vec3d c, std::vector<Vec3d>& points) {
 
 bool readIndexedPolyCurve(const IfcFile& file, const Fields& fields, std::vector<Vec3d>& points) {
     std::vector<Vec3d> list;
-    if (!readPointList(file, file.follow(fields[0]), list) || list.empty()) return false;
-    if (!fields[1].isList()) {
+    if (!readPointList(file, fields[at::IndexedPolyCurve::Points], list) || list.empty()) return false;
+    const Value segmentList = fields[at::IndexedPolyCurve::Segments];
+    if (!segmentList.isList()) {
         appendPart(list, points);
         return true;
     }
-    step::ValueCursor segments(fields[1]);
+    step::ValueCursor segments(segmentList);
     for (Value segment; segments.next(segment);) {
         std::vector<Vec3d> at;
         step::ValueCursor indices(segment.inner());
@@ -85,9 +86,10 @@ struct Conic {
 
 bool readConic(const IfcFile& file, RecordIndex curve, Conic& conic) {
     const Fields fields = file.fieldsOf(curve);
-    conic.axes = file.axes(file.follow(fields[0]));
-    conic.radiusX = file.metres(fields[1]);
-    conic.radiusY = file.entityOf(curve) == Entity::Ellipse ? file.metres(fields[2]) : conic.radiusX;
+    const bool isCircle = file.entityOf(curve) == Entity::Circle;
+    conic.axes = file.axes(fields[at::Conic::Position]);
+    conic.radiusX = file.metres(isCircle ? fields[at::Circle::Radius] : fields[at::Ellipse::SemiAxis1]);
+    conic.radiusY = isCircle ? conic.radiusX : file.metres(fields[at::Ellipse::SemiAxis2]);
     return conic.radiusX > 0 && conic.radiusY > 0;
 }
 
@@ -102,7 +104,7 @@ Trim readTrim(const IfcFile& file, Value list) {
     step::ValueCursor cursor(list);
     for (Value item; cursor.next(item);) {
         if (item.reference())
-            trim.point = file.point(file.follow(item));
+            trim.point = file.point(item);
         else
             trim.parameter = item.number();
     }
@@ -184,8 +186,8 @@ bool readBetween(const IfcFile& file, RecordIndex curve, std::vector<Vec3d> whol
             why = scope.why();
             return false;
         }
-        return readBetween(file, file.follow(file.fieldsOf(curve)[0]), std::move(whole), from, to, isForward, points,
-                           why);
+        return readBetween(file, file.follow(curve, at::SurfaceCurve::Curve3D), std::move(whole), from, to, isForward,
+                           points, why);
     }
     if (entity == Entity::Circle || entity == Entity::Ellipse) {
         if (!readTrimmedConic(file, curve, {from, {}}, {to, {}}, isForward, true, part)) return false;
@@ -201,17 +203,19 @@ bool readBetween(const IfcFile& file, RecordIndex curve, std::vector<Vec3d> whol
 }
 
 bool readTrimmedCurve(const IfcFile& file, const Fields& fields, std::vector<Vec3d>& points, std::string& why) {
-    const RecordIndex basis = file.follow(fields[0]);
-    const Trim from = readTrim(file, fields[1]), to = readTrim(file, fields[2]);
-    const bool isForward = fields[3].enumeration() != "F", prefersPoints = fields[4].enumeration() != "PARAMETER";
+    const RecordIndex basis = file.follow(fields[at::TrimmedCurve::BasisCurve]);
+    const Trim from = readTrim(file, fields[at::TrimmedCurve::Trim1]),
+               to = readTrim(file, fields[at::TrimmedCurve::Trim2]);
+    const bool isForward = fields[at::TrimmedCurve::SenseAgreement].enumeration() != "F",
+               prefersPoints = fields[at::TrimmedCurve::MasterRepresentation].enumeration() != "PARAMETER";
     switch (file.entityOf(basis)) {
         case Entity::Circle:
         case Entity::Ellipse: return readTrimmedConic(file, basis, from, to, isForward, prefersPoints, points);
         case Entity::Line: {
-            const Fields line = file.fieldsOf(basis), vector = file.fieldsOf(file.follow(line[1]));
-            const Vec3d origin = file.point(file.follow(line[0])).value_or(Vec3d{});
-            const Vec3d step =
-                normalized(file.direction(vector[0]).value_or(Vec3d{1, 0, 0})) * file.metres(vector[1], 1);
+            const Fields line = file.fieldsOf(basis), vector = file.fieldsOf(file.follow(line[at::Line::Dir]));
+            const Vec3d origin = file.point(line[at::Line::Pnt]).value_or(Vec3d{});
+            const Vec3d step = normalized(file.direction(vector[at::Vector::Orientation]).value_or(Vec3d{1, 0, 0})) *
+                               file.metres(vector[at::Vector::Magnitude], 1);
             const auto pointOf = [&](const Trim& trim) {
                 return trim.point && (prefersPoints || !trim.parameter) ? *trim.point
                                                                         : origin + step * trim.parameter.value_or(0);
@@ -251,11 +255,11 @@ bool readBSpline(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& poi
 
 bool readComposite(const IfcFile& file, const Fields& fields, std::vector<Vec3d>& points, std::string& why) {
     std::vector<std::vector<Vec3d>> pieces;
-    for (const RecordIndex segment : file.followAll(fields[0])) {
+    for (const RecordIndex segment : file.followAll(fields[at::CompositeCurve::Segments])) {
         const Fields part = file.fieldsOf(segment);
         std::vector<Vec3d> piece;
-        if (!readCurve(file, file.follow(part[2]), piece, why)) return false;
-        if (part[1].enumeration() == "F") std::reverse(piece.begin(), piece.end());
+        if (!readCurve(file, file.follow(part[at::CompositeCurveSegment::ParentCurve]), piece, why)) return false;
+        if (part[at::CompositeCurveSegment::SameSense].enumeration() == "F") std::reverse(piece.begin(), piece.end());
         if (!piece.empty()) pieces.push_back(std::move(piece));
     }
     // Writers disagree about the sense of trimmed lines; what hangs together is meant.
@@ -314,7 +318,7 @@ bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& point
     switch (entity) {
         case Entity::Polyline:
             isRead = true;
-            for (const RecordIndex record : file.followAll(fields[0])) {
+            for (const RecordIndex record : file.followAll(fields[at::Polyline::Points])) {
                 const auto point = file.point(record);
                 isRead = isRead && point;
                 if (point) appendPart({*point}, points);
@@ -336,7 +340,8 @@ bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& point
         case Entity::RationalBSplineCurveWithKnots: isRead = readBSpline(file, curve, points); break;
         case Entity::SurfaceCurve:
         case Entity::SeamCurve:
-        case Entity::IntersectionCurve: return readCurve(file, file.follow(fields[0]), points, why);
+        case Entity::IntersectionCurve:
+            return readCurve(file, file.follow(fields[at::SurfaceCurve::Curve3D]), points, why);
         default:
             if (why.empty()) why = fmt::format("the curve {}", file.typeName(curve).substr(0, 60));
             return false;

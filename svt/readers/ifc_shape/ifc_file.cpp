@@ -8,22 +8,8 @@
 #include <algorithm>
 
 namespace svt::readers::ifc {
-namespace {
 
 using std::string_view;
-
-// The macro joins the prefix to each name.
-// NOLINTBEGIN(bugprone-suspicious-missing-comma)
-constexpr string_view kNames[] = {"Other",
-#define X(name) "Ifc" #name,
-                                  SVT_IFC_ENTITIES(X)
-#undef X
-};
-// NOLINTEND(bugprone-suspicious-missing-comma)
-
-}  // namespace
-
-string_view entityName(Entity entity) noexcept { return kNames[static_cast<std::size_t>(entity)]; }
 
 Fields::Fields(string_view values) noexcept {
     step::ValueCursor cursor(values);
@@ -31,17 +17,13 @@ Fields::Fields(string_view values) noexcept {
 }
 
 IfcFile::IfcFile(const step::StepFile& file) : step_(file), missing_(file), guard_(file) {
-    for (const string_view type : file.typeNames()) {
-        Entity entity = Entity::Other;
-        for (std::size_t i = 1; i < std::size(kNames) && entity == Entity::Other; ++i)
-            if (equalsIgnoringCase(kNames[i], type)) entity = static_cast<Entity>(i);
-        entityOfType_.push_back(entity);
-    }
+    for (const string_view type : file.typeNames()) entityOfType_.push_back(entityNamed(type));
     for (RecordIndex i = 0; i < file.records().size(); ++i) {
         if (!equalsIgnoringCase(typeName(i), "IfcGrid")) continue;
         const Fields fields = fieldsOf(i);
-        for (const std::size_t list : {7, 8, 9})
-            for (const RecordIndex axis : followAll(fields[list])) placementOfAxis_[axis] = follow(fields[5]);
+        for (const auto list : {at::Grid::UAxes, at::Grid::VAxes, at::Grid::WAxes})
+            for (const RecordIndex axis : followAll(fields[list]))
+                placementOfAxis_[axis] = follow(fields[at::Grid::ObjectPlacement]);
     }
 }
 
@@ -91,13 +73,17 @@ std::optional<Vec3d> IfcFile::coordinates(Value list) const noexcept {
 
 std::optional<Vec3d> IfcFile::point(RecordIndex record) const noexcept {
     if (entityOf(record) != Entity::CartesianPoint) return std::nullopt;
-    return coordinates(fieldsOf(record)[0]);
+    return coordinates(fieldsOf(record)[at::CartesianPoint::Coordinates]);
+}
+
+std::optional<Vec3d> IfcFile::vertexPoint(Value reference) const {
+    return point(follow(follow(reference), at::VertexPoint::VertexGeometry));
 }
 
 std::optional<Vec3d> IfcFile::direction(Value reference) const {
     const RecordIndex record = follow(reference);
     if (entityOf(record) != Entity::Direction) return std::nullopt;
-    step::ValueCursor cursor(fieldsOf(record)[0]);
+    step::ValueCursor cursor(fieldsOf(record)[at::Direction::DirectionRatios]);
     Vec3d ratios{};
     int count = 0;
     for (Value item; count < 3 && cursor.next(item); ++count) {
@@ -110,43 +96,49 @@ std::optional<Vec3d> IfcFile::direction(Value reference) const {
 
 Transform IfcFile::axes(RecordIndex record) const {
     const Fields fields = fieldsOf(record);
-    const Vec3d origin = point(follow(fields[0])).value_or(Vec3d{});
+    const Vec3d origin = point(fields[at::Placement::Location]).value_or(Vec3d{});
     switch (entityOf(record)) {
         case Entity::Axis2Placement2D:
-            return axesFrom(origin, {0, 0, 1}, direction(fields[1]).value_or(Vec3d{1, 0, 0}));
+            return axesFrom(origin, {0, 0, 1},
+                            direction(fields[at::Axis2Placement2D::RefDirection]).value_or(Vec3d{1, 0, 0}));
         case Entity::Axis2Placement3D:
-            return axesFrom(origin, direction(fields[1]).value_or(Vec3d{0, 0, 1}),
-                            direction(fields[2]).value_or(Vec3d{1, 0, 0}));
-        case Entity::Axis1Placement: return axesFrom(origin, direction(fields[1]).value_or(Vec3d{0, 0, 1}), {1, 0, 0});
+            return axesFrom(origin, direction(fields[at::Axis2Placement3D::Axis]).value_or(Vec3d{0, 0, 1}),
+                            direction(fields[at::Axis2Placement3D::RefDirection]).value_or(Vec3d{1, 0, 0}));
+        case Entity::Axis1Placement:
+            return axesFrom(origin, direction(fields[at::Axis1Placement::Axis]).value_or(Vec3d{0, 0, 1}), {1, 0, 0});
         default: return {};
     }
 }
 
 // ISO 10303-42, base_axis: the second axis is made orthogonal to the first, and the third to both, but each keeps the side
 // that the file gives it, so a mirrored operator stays mirrored.
-Transform IfcFile::transformation(RecordIndex record) const {
+Transform IfcFile::transformation(Value reference) const {
+    namespace op = at::CartesianTransformationOperator3DnonUniform;
+    const RecordIndex record = follow(reference);
     const Fields fields = fieldsOf(record);
     const Entity entity = entityOf(record);
     const bool isFlat = entity == Entity::CartesianTransformationOperator2D ||
                         entity == Entity::CartesianTransformationOperator2DnonUniform;
     Transform result;
-    result.origin = point(follow(fields[2])).value_or(Vec3d{});
-    const double scale = fields[3].number().value_or(1);
+    result.origin = point(fields[op::LocalOrigin]).value_or(Vec3d{});
+    const double scale = fields[op::Scale].number().value_or(1);
     double scaleY = scale, scaleZ = scale;
     if (isFlat) {
-        const Vec3d x = normalized(direction(fields[0]).value_or(Vec3d{1, 0, 0}));
+        const Vec3d x = normalized(direction(fields[op::Axis1]).value_or(Vec3d{1, 0, 0}));
         const Vec3d left = cross(Vec3d{0, 0, 1}, x);
-        const auto y = direction(fields[1]);
-        if (entity == Entity::CartesianTransformationOperator2DnonUniform) scaleY = fields[4].number().value_or(scale);
+        const auto y = direction(fields[op::Axis2]);
+        if (entity == Entity::CartesianTransformationOperator2DnonUniform)
+            scaleY = fields[at::CartesianTransformationOperator2DnonUniform::Scale2].number().value_or(scale);
         result.x = x * scale;
         result.y = (y && dot(*y, left) < 0 ? -left : left) * scaleY;
         return result;
     }
     if (entity == Entity::CartesianTransformationOperator3DnonUniform) {
-        scaleY = fields[5].number().value_or(scale);
-        scaleZ = fields[6].number().value_or(scale);
+        scaleY = fields[op::Scale2].number().value_or(scale);
+        scaleZ = fields[op::Scale3].number().value_or(scale);
     }
-    const auto axis1 = direction(fields[0]), axis2 = direction(fields[1]), axis3 = direction(fields[4]);
+    const auto axis1 = direction(fields[op::Axis1]), axis2 = direction(fields[op::Axis2]),
+               axis3 = direction(fields[op::Axis3]);
     Vec3d z = normalized(axis3.value_or(axis1 && axis2 ? cross(*axis1, *axis2) : Vec3d{0, 0, 1}));
     if (length(z) < 0.5) z = {0, 0, 1};
     const Transform base = axesFrom({}, z, axis1.value_or(Vec3d{1, 0, 0}));
@@ -165,11 +157,11 @@ Transform IfcFile::placement(RecordIndex record, std::string& lost) const {
             break;
         }
         const Fields fields = fieldsOf(record);
-        RecordIndex above = follow(fields[0]);
+        RecordIndex above = follow(fields[at::ObjectPlacement::PlacementRelTo]);
         switch (entityOf(record)) {
             case Entity::LocalPlacement:
-                if (fields[1].isNothing()) lost = "its place, which is not given";
-                result = axes(follow(fields[1])).after(result);
+                if (fields[at::LocalPlacement::RelativePlacement].isNothing()) lost = "its place, which is not given";
+                result = axes(fields[at::LocalPlacement::RelativePlacement]).after(result);
                 break;
             case Entity::GridPlacement:
                 if (const auto axes = gridAxes(record, above))
@@ -178,12 +170,13 @@ Transform IfcFile::placement(RecordIndex record, std::string& lost) const {
                     lost = "its place on a grid (of straight axes that meet)";
                 break;
             case Entity::LinearPlacement:
-                if (const auto axes = linearAxes(follow(fields[1]))) {
+                if (const auto axes = linearAxes(follow(fields[at::LinearPlacement::RelativePlacement]))) {
                     result = axes->after(result);
                     break;
                 }
-                if (follow(fields[2]) == kNoRecord) lost = "its place along a curve (without Cartesian position)";
-                result = axes(follow(fields[2])).after(result);
+                if (follow(fields[at::LinearPlacement::CartesianPosition]) == kNoRecord)
+                    lost = "its place along a curve (without Cartesian position)";
+                result = axes(fields[at::LinearPlacement::CartesianPosition]).after(result);
                 break;
             default: lost = fmt::format("a placement of the type {}", typeName(record)); above = kNoRecord;
         }
@@ -195,21 +188,21 @@ Transform IfcFile::placement(RecordIndex record, std::string& lost) const {
 // A straight axis of a grid, moved to its left.
 bool IfcFile::readGridAxis(RecordIndex axis, double offset, Vec3d& from, Vec3d& along) const {
     const Fields fields = fieldsOf(axis);
-    const RecordIndex curve = follow(fields[1]);
-    const Fields of = fieldsOf(curve);
+    const RecordIndex curve = follow(fields[at::GridAxis::AxisCurve]);
     if (entityOf(curve) == Entity::Polyline) {
-        const std::vector<RecordIndex> points = followAll(of[0]);
+        const std::vector<RecordIndex> points = followAll(curve, at::Polyline::Points);
         if (points.size() < 2) return false;
         from = point(points.front()).value_or(Vec3d{});
         along = point(points.back()).value_or(Vec3d{}) - from;
     } else if (entityOf(curve) == Entity::Line) {
-        from = point(follow(of[0])).value_or(Vec3d{});
-        along = direction(fieldsOf(follow(of[1]))[0]).value_or(Vec3d{});
+        const Fields line = fieldsOf(curve);
+        from = point(line[at::Line::Pnt]).value_or(Vec3d{});
+        along = direction(fieldsOf(follow(line[at::Line::Dir]))[at::Vector::Orientation]).value_or(Vec3d{});
     } else {
         return false;
     }
     if (!(length(along) > 0)) return false;
-    along = normalized(fields[2].enumeration() == "F" ? -along : along);
+    along = normalized(fields[at::GridAxis::SameSense].enumeration() == "F" ? -along : along);
     from = from + Vec3d{-along.y, along.x, 0} * offset;
     return true;
 }
@@ -218,13 +211,15 @@ bool IfcFile::readGridAxis(RecordIndex axis, double offset, Vec3d& from, Vec3d& 
 // to the left, upwards and ahead.
 std::optional<Transform> IfcFile::linearAxes(RecordIndex relative) const {
     if (entityOf(relative) != Entity::Axis2PlacementLinear) return std::nullopt;
-    const Fields fields = fieldsOf(relative), point = fieldsOf(follow(fields[0]));
-    const auto distance = point[0].number();
+    namespace expression = at::PointByDistanceExpression;
+    const Fields fields = fieldsOf(relative), point = fieldsOf(follow(fields[at::Axis2PlacementLinear::Location]));
+    const Value distance = point[expression::DistanceAlong];
     std::vector<Vec3d> line;
     std::string why;
-    if (!distance || point[0].typeName() == "IFCPARAMETERVALUE" || !readCurve(*this, follow(point[4]), line, why))
+    if (!distance.number() || distance.typeName() == "IFCPARAMETERVALUE" ||
+        !readCurve(*this, follow(point[expression::BasisCurve]), line, why))
         return std::nullopt;
-    double left = *distance * lengthUnit;
+    double left = metres(distance);
     std::size_t segment = 0;
     while (segment + 2 < line.size() && left > length(line[segment + 1] - line[segment])) {
         left -= length(line[segment + 1] - line[segment]);
@@ -236,30 +231,35 @@ std::optional<Transform> IfcFile::linearAxes(RecordIndex relative) const {
     const Vec3d flat = cross(Vec3d{0, 0, 1}, along);
     const Vec3d lateral = length(flat) > 1e-9 ? normalized(flat) : Vec3d{0, 1, 0};
     const Vec3d up = cross(along, lateral);
-    const Vec3d origin =
-        line[segment] + along * (left + metres(point[3])) + lateral * metres(point[1]) + up * metres(point[2]);
-    return axesFrom(origin, direction(fields[1]).value_or(up), direction(fields[2]).value_or(along));
+    const Vec3d origin = line[segment] + along * (left + metres(point[expression::OffsetLongitudinal])) +
+                         lateral * metres(point[expression::OffsetLateral]) +
+                         up * metres(point[expression::OffsetVertical]);
+    return axesFrom(origin, direction(fields[at::Axis2PlacementLinear::Axis]).value_or(up),
+                    direction(fields[at::Axis2PlacementLinear::RefDirection]).value_or(along));
 }
 
 // Where two axes of a grid meet, x along the first one or in the direction that the placement gives.
 std::optional<Transform> IfcFile::gridAxes(RecordIndex placement, RecordIndex& above) const {
     const Fields fields = fieldsOf(placement);
-    // IFC4.3 has the placement above it first.
-    const bool isOld = entityOf(follow(fields[0])) == Entity::VirtualGridIntersection;
-    const Fields intersection = fieldsOf(follow(fields[isOld ? 0 : 1]));
-    const std::vector<RecordIndex> axesOf = followAll(intersection[0]);
-    const std::vector<Value> offsets = step::itemsOf(intersection[1]);
+    const RecordIndex ofIfc4 = follow(fields[at::GridPlacementOfIfc4::PlacementLocation]);
+    const bool isOfIfc4 = entityOf(ofIfc4) == Entity::VirtualGridIntersection;
+    const Fields intersection = fieldsOf(isOfIfc4 ? ofIfc4 : follow(fields[at::GridPlacement::PlacementLocation]));
+    const std::vector<RecordIndex> crossing = followAll(intersection[at::VirtualGridIntersection::IntersectingAxes]);
+    const std::vector<Value> offsets = step::itemsOf(intersection[at::VirtualGridIntersection::OffsetDistances]);
     const auto offset = [&](std::size_t i) { return i < offsets.size() ? metres(offsets[i]) : 0.0; };
-    if (isOld) above = kNoRecord;
+    if (isOfIfc4) above = kNoRecord;
     Vec3d p, u, q, v;
-    if (axesOf.size() != 2 || !readGridAxis(axesOf[0], offset(0), p, u) || !readGridAxis(axesOf[1], offset(1), q, v))
+    if (crossing.size() != 2 || !readGridAxis(crossing[0], offset(0), p, u) ||
+        !readGridAxis(crossing[1], offset(1), q, v))
         return std::nullopt;
     if (above == kNoRecord)
-        if (const auto grid = placementOfAxis_.find(axesOf[0]); grid != placementOfAxis_.end()) above = grid->second;
+        if (const auto grid = placementOfAxis_.find(crossing[0]); grid != placementOfAxis_.end()) above = grid->second;
     const double turn = u.x * v.y - u.y * v.x;
     if (std::abs(turn) < 1e-9) return std::nullopt;
     const double along = ((q.x - p.x) * v.y - (q.y - p.y) * v.x) / turn;
-    const Vec3d x = direction(fields[isOld ? 1 : 2]).value_or(u);
+    const Vec3d x = direction(isOfIfc4 ? fields[at::GridPlacementOfIfc4::PlacementRefDirection]
+                                       : fields[at::GridPlacement::PlacementRefDirection])
+                        .value_or(u);
     return axesFrom(p + u * along + Vec3d{0, 0, offset(2)}, {0, 0, 1}, x);
 }
 

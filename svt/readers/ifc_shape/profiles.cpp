@@ -83,18 +83,21 @@ Ring iShape(double depth, double web, const Flange& bottom, const Flange& top) {
                    {-b, -h + bottom.thickness - rise(bottom), bottom.edge}});
 }
 
-// Attributes of a parameterized profile, from number 3 on.
+// Attributes of a parameterized profile.
 struct Parameters {
     const IfcFile& file;
     Fields fields;
-    [[nodiscard]] double length(std::size_t number) const { return std::max(0.0, file.metres(fields[number])); }
-    [[nodiscard]] double angle(std::size_t number) const { return file.radians(fields[number]); }
+    [[nodiscard]] double length(AttributePosition at) const { return std::max(0.0, file.metres(fields[at])); }
+    [[nodiscard]] double angle(AttributePosition at) const { return file.radians(fields[at]); }
 };
 
 Ring lShape(const Parameters& p) {
-    const double height = p.length(3), width = p.fields[4].isNothing() ? height : p.length(4), t = p.length(5);
-    const double x = width / 2, y = height / 2, fillet = p.length(6), edge = p.length(7);
-    const double riseX = std::tan(p.angle(8)) * (width - t) / 2, riseY = std::tan(p.angle(8)) * (height - t) / 2;
+    namespace shape = at::LShapeProfileDef;
+    const double height = p.length(shape::Depth), t = p.length(shape::Thickness);
+    const double width = p.fields[shape::Width].isNothing() ? height : p.length(shape::Width);
+    const double x = width / 2, y = height / 2, slope = std::tan(p.angle(shape::LegSlope));
+    const double fillet = p.length(shape::FilletRadius), edge = p.length(shape::EdgeRadius);
+    const double riseX = slope * (width - t) / 2, riseY = slope * (height - t) / 2;
     return ringOf({{-x, -y},
                    {x, -y},
                    {x, -y + t - riseX, edge},
@@ -104,10 +107,13 @@ Ring lShape(const Parameters& p) {
 }
 
 Ring tShape(const Parameters& p) {
-    const double depth = p.length(3), width = p.length(4), web = p.length(5), flange = p.length(6);
-    const double y = depth / 2, x = width / 2, w = web / 2;
-    const double riseF = std::tan(p.angle(11)) * (x - w) / 2, riseW = std::tan(p.angle(10)) * (depth - flange) / 2;
-    const double fillet = p.length(7), edge = p.length(8), webEdge = p.length(9);
+    namespace shape = at::TShapeProfileDef;
+    const double depth = p.length(shape::Depth), flange = p.length(shape::FlangeThickness);
+    const double y = depth / 2, x = p.length(shape::FlangeWidth) / 2, w = p.length(shape::WebThickness) / 2;
+    const double riseF = std::tan(p.angle(shape::FlangeSlope)) * (x - w) / 2;
+    const double riseW = std::tan(p.angle(shape::WebSlope)) * (depth - flange) / 2;
+    const double fillet = p.length(shape::FilletRadius), edge = p.length(shape::FlangeEdgeRadius),
+                 webEdge = p.length(shape::WebEdgeRadius);
     return ringOf({{-w + riseW, -y, webEdge},
                    {w - riseW, -y, webEdge},
                    {w + riseW, y - flange - riseF, fillet},
@@ -119,8 +125,11 @@ Ring tShape(const Parameters& p) {
 }
 
 Ring uShape(const Parameters& p) {
-    const double y = p.length(3) / 2, width = p.length(4), x = width / 2, web = p.length(5), t = p.length(6);
-    const double fillet = p.length(7), edge = p.length(8), rise = std::tan(p.angle(9)) * (width - web) / 2;
+    namespace shape = at::UShapeProfileDef;
+    const double y = p.length(shape::Depth) / 2, width = p.length(shape::FlangeWidth), x = width / 2;
+    const double web = p.length(shape::WebThickness), t = p.length(shape::FlangeThickness);
+    const double fillet = p.length(shape::FilletRadius), edge = p.length(shape::EdgeRadius);
+    const double rise = std::tan(p.angle(shape::FlangeSlope)) * (width - web) / 2;
     return ringOf({{-x, -y},
                    {x, -y},
                    {x, -y + t - rise, edge},
@@ -132,7 +141,9 @@ Ring uShape(const Parameters& p) {
 }
 
 Ring cShape(const Parameters& p) {
-    const double y = p.length(3) / 2, x = p.length(4) / 2, t = p.length(5), girth = p.length(6), inner = p.length(7);
+    namespace shape = at::CShapeProfileDef;
+    const double y = p.length(shape::Depth) / 2, x = p.length(shape::Width) / 2, t = p.length(shape::WallThickness);
+    const double girth = p.length(shape::Girth), inner = p.length(shape::InternalFilletRadius);
     const double outer = inner > 0 ? inner + t : 0;
     return ringOf({{-x, -y, outer},
                    {x, -y, outer},
@@ -149,8 +160,10 @@ Ring cShape(const Parameters& p) {
 }
 
 Ring zShape(const Parameters& p) {
-    const double y = p.length(3) / 2, flange = p.length(4), web = p.length(5), t = p.length(6);
-    const double w = web / 2, x = flange - w, fillet = p.length(7), edge = p.length(8);
+    namespace shape = at::ZShapeProfileDef;
+    const double y = p.length(shape::Depth) / 2, t = p.length(shape::FlangeThickness);
+    const double w = p.length(shape::WebThickness) / 2, x = p.length(shape::FlangeWidth) - w;
+    const double fillet = p.length(shape::FilletRadius), edge = p.length(shape::EdgeRadius);
     return ringOf({{-w, -y},
                    {x, -y},
                    {x, -y + t, edge},
@@ -161,61 +174,80 @@ Ring zShape(const Parameters& p) {
                    {-w, y - t, fillet}});
 }
 
-// The outline of a parameterized profile about its own origin; empty where its numbers make no sense.
-Region parameterized(const IfcFile& file, Entity entity, const Parameters& p) {
-    (void)file;
-    Region region;
-    switch (entity) {
-        case Entity::RectangleProfileDef: region.outer = rectangle(p.length(3), p.length(4)); break;
-        case Entity::RoundedRectangleProfileDef: region.outer = rectangle(p.length(3), p.length(4), p.length(5)); break;
-        case Entity::RectangleHollowProfileDef: {
-            const double x = p.length(3), y = p.length(4), t = p.length(5);
-            region.outer = rectangle(x, y, p.length(7));
-            if (t > 0 && 2 * t < std::min(x, y)) region.holes = {rectangle(x - 2 * t, y - 2 * t, p.length(6))};
-            break;
-        }
-        case Entity::CircleProfileDef: region.outer = ellipse(p.length(3), p.length(3)); break;
-        case Entity::CircleHollowProfileDef:
-            region.outer = ellipse(p.length(3), p.length(3));
-            if (const double inner = p.length(3) - p.length(4); inner > 0) region.holes = {ellipse(inner, inner)};
-            break;
-        case Entity::EllipseProfileDef: region.outer = ellipse(p.length(3), p.length(4)); break;
-        case Entity::IShapeProfileDef: {
-            const Flange flange{p.length(3), p.length(6), p.length(7), p.length(8), p.angle(9)};
-            region.outer = iShape(p.length(4), p.length(5), flange, flange);
-            break;
-        }
-        case Entity::AsymmetricIShapeProfileDef: {
-            const Flange bottom{p.length(3), p.length(6), p.length(7), 0, 0};
-            const Flange top{p.length(8), p.fields[9].isNothing() ? bottom.thickness : p.length(9), p.length(10), 0, 0};
-            region.outer = iShape(p.length(4), p.length(5), bottom, top);
-            break;
-        }
-        case Entity::LShapeProfileDef: region.outer = lShape(p); break;
-        case Entity::TShapeProfileDef: region.outer = tShape(p); break;
-        case Entity::UShapeProfileDef: region.outer = uShape(p); break;
-        case Entity::CShapeProfileDef: region.outer = cShape(p); break;
-        case Entity::ZShapeProfileDef: region.outer = zShape(p); break;
-        case Entity::TrapeziumProfileDef: {
-            const double bottom = p.length(3), top = p.length(4), y = p.length(5) / 2;
-            const double offset = p.file.metres(p.fields[6]);
-            region.outer = {{-bottom / 2, -y, 0},
-                            {bottom / 2, -y, 0},
-                            {-bottom / 2 + offset + top, y, 0},
-                            {-bottom / 2 + offset, y, 0}};
-            closeRing(region.outer);
-            break;
-        }
-        default: break;
-    }
+Ring trapezium(const Parameters& p) {
+    namespace shape = at::TrapeziumProfileDef;
+    const double left = -p.length(shape::BottomXDim) / 2, y = p.length(shape::YDim) / 2;
+    const double topLeft = left + p.file.metres(p.fields[shape::TopXOffset]);
+    Ring ring{{left, -y, 0}, {-left, -y, 0}, {topLeft + p.length(shape::TopXDim), y, 0}, {topLeft, y, 0}};
+    closeRing(ring);
+    return ring;
+}
+
+Region hollowRectangle(const Parameters& p) {
+    namespace shape = at::RectangleHollowProfileDef;
+    const double x = p.length(shape::XDim), y = p.length(shape::YDim), t = p.length(shape::WallThickness);
+    Region region{rectangle(x, y, p.length(shape::OuterFilletRadius)), {}};
+    if (t > 0 && 2 * t < std::min(x, y))
+        region.holes = {rectangle(x - 2 * t, y - 2 * t, p.length(shape::InnerFilletRadius))};
     return region;
+}
+
+Ring symmetricIShape(const Parameters& p) {
+    namespace shape = at::IShapeProfileDef;
+    const Flange flange{p.length(shape::OverallWidth), p.length(shape::FlangeThickness), p.length(shape::FilletRadius),
+                        p.length(shape::FlangeEdgeRadius), p.angle(shape::FlangeSlope)};
+    return iShape(p.length(shape::OverallDepth), p.length(shape::WebThickness), flange, flange);
+}
+
+Ring asymmetricIShape(const Parameters& p) {
+    namespace shape = at::AsymmetricIShapeProfileDef;
+    const Flange bottom{p.length(shape::BottomFlangeWidth), p.length(shape::BottomFlangeThickness),
+                        p.length(shape::BottomFlangeFilletRadius), 0, 0};
+    const bool isAlike = p.fields[shape::TopFlangeThickness].isNothing();
+    const Flange top{p.length(shape::TopFlangeWidth), isAlike ? bottom.thickness : p.length(shape::TopFlangeThickness),
+                     p.length(shape::TopFlangeFilletRadius), 0, 0};
+    return iShape(p.length(shape::OverallDepth), p.length(shape::WebThickness), bottom, top);
+}
+
+// The outline of a parameterized profile about its own origin; empty where its numbers make no sense.
+Region parameterized(Entity entity, const Parameters& p) {
+    switch (entity) {
+        case Entity::RectangleProfileDef:
+            return {rectangle(p.length(at::RectangleProfileDef::XDim), p.length(at::RectangleProfileDef::YDim)), {}};
+        case Entity::RoundedRectangleProfileDef:
+            return {rectangle(p.length(at::RectangleProfileDef::XDim), p.length(at::RectangleProfileDef::YDim),
+                              p.length(at::RoundedRectangleProfileDef::RoundingRadius)),
+                    {}};
+        case Entity::RectangleHollowProfileDef: return hollowRectangle(p);
+        case Entity::CircleProfileDef:
+        case Entity::CircleHollowProfileDef: {
+            const double radius = p.length(at::CircleProfileDef::Radius);
+            Region region{ellipse(radius, radius), {}};
+            if (entity == Entity::CircleProfileDef) return region;
+            const double inner = radius - p.length(at::CircleHollowProfileDef::WallThickness);
+            if (inner > 0) region.holes = {ellipse(inner, inner)};
+            return region;
+        }
+        case Entity::EllipseProfileDef:
+            return {ellipse(p.length(at::EllipseProfileDef::SemiAxis1), p.length(at::EllipseProfileDef::SemiAxis2)),
+                    {}};
+        case Entity::IShapeProfileDef: return {symmetricIShape(p), {}};
+        case Entity::AsymmetricIShapeProfileDef: return {asymmetricIShape(p), {}};
+        case Entity::LShapeProfileDef: return {lShape(p), {}};
+        case Entity::TShapeProfileDef: return {tShape(p), {}};
+        case Entity::UShapeProfileDef: return {uShape(p), {}};
+        case Entity::CShapeProfileDef: return {cShape(p), {}};
+        case Entity::ZShapeProfileDef: return {zShape(p), {}};
+        case Entity::TrapeziumProfileDef: return {trapezium(p), {}};
+        default: return {};
+    }
 }
 
 // A wall of constant thickness along an open line, with mitred corners.
 bool centerLine(const IfcFile& file, const Fields& fields, Region& region, std::string& why) {
     Ring line;
-    if (!readCurve(file, file.follow(fields[2]), line, why)) return false;
-    const double half = file.metres(fields[3]) / 2;
+    if (!readCurve(file, file.follow(fields[at::CenterLineProfileDef::Curve]), line, why)) return false;
+    const double half = file.metres(fields[at::CenterLineProfileDef::Thickness]) / 2;
     const bool isClosed = line.size() > 3 && length(line.front() - line.back()) < 1e-6;
     closeRing(line);
     const std::size_t n = line.size();
@@ -270,8 +302,8 @@ void transformRegion(Region& region, const Transform& transform) {
 bool readDerived(const IfcFile& file, RecordIndex profile, const Fields& fields, std::vector<Region>& regions,
                  std::string& why) {
     std::vector<Region> parent;
-    if (!readProfile(file, file.follow(fields[2]), parent, why)) return false;
-    Transform transform = file.transformation(file.follow(fields[3]));
+    if (!readProfile(file, file.follow(fields[at::DerivedProfileDef::ParentProfile]), parent, why)) return false;
+    Transform transform = file.transformation(fields[at::DerivedProfileDef::Operator]);
     if (file.entityOf(profile) == Entity::MirroredProfileDef) transform = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {}};
     for (Region& region : parent) {
         if (!file.guard().takeElements(region.pointCount())) break;
@@ -285,17 +317,18 @@ bool readRegion(const IfcFile& file, RecordIndex profile, const Fields& fields, 
     switch (file.entityOf(profile)) {
         case Entity::ArbitraryClosedProfileDef:
         case Entity::ArbitraryProfileDefWithVoids:
-            if (!readCurve(file, file.follow(fields[2]), region.outer, why)) return false;
+            if (!readCurve(file, file.follow(fields[at::ArbitraryClosedProfileDef::OuterCurve]), region.outer, why))
+                return false;
             if (file.entityOf(profile) == Entity::ArbitraryClosedProfileDef) return true;
-            for (const RecordIndex curve : file.followAll(fields[3])) {
+            for (const RecordIndex curve : file.followAll(fields[at::ArbitraryProfileDefWithVoids::InnerCurves])) {
                 region.holes.emplace_back();
                 if (!readCurve(file, curve, region.holes.back(), why)) return false;
             }
             return true;
         case Entity::CenterLineProfileDef: return centerLine(file, fields, region, why);
         default:
-            region = parameterized(file, file.entityOf(profile), {file, fields});
-            transformRegion(region, file.axes(file.follow(fields[2])));
+            region = parameterized(file.entityOf(profile), {file, fields});
+            transformRegion(region, file.axes(fields[at::ParameterizedProfileDef::Position]));
             return true;
     }
 }
@@ -313,7 +346,7 @@ bool readProfile(const IfcFile& file, RecordIndex profile, std::vector<Region>& 
     if (entity == Entity::DerivedProfileDef || entity == Entity::MirroredProfileDef)
         return readDerived(file, profile, fields, regions, why);
     if (entity == Entity::CompositeProfileDef) {
-        for (const RecordIndex part : file.followAll(fields[2]))
+        for (const RecordIndex part : file.followAll(fields[at::CompositeProfileDef::Profiles]))
             if (!readProfile(file, part, regions, why)) return false;
         return !regions.empty();
     }

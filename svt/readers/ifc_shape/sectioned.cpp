@@ -109,24 +109,28 @@ std::vector<Regions> readSections(const IfcFile& file, Value list, std::string& 
 // Where the sections stand on the directrix.
 bool readStations(const IfcFile& file, const Fields& fields, const Directrix& directrix, bool isVertical,
                   std::vector<Station>& stations, std::string& why) {
-    for (const RecordIndex position : file.followAll(fields[2])) {
+    namespace linear = at::Axis2PlacementLinear;
+    namespace expression = at::PointByDistanceExpression;
+    for (const RecordIndex position : file.followAll(fields[at::SectionedSolidHorizontal::CrossSectionPositions])) {
         if (!file.guard().takeSteps(directrix.points.size())) return false;
-        const Fields place = file.fieldsOf(position), point = file.fieldsOf(file.follow(place[0]));
-        const auto distance = point[0].number();
-        if (file.entityOf(position) != Entity::Axis2PlacementLinear || !distance ||
-            point[0].typeName() == "IFCPARAMETERVALUE") {
+        const Fields place = file.fieldsOf(position), point = file.fieldsOf(file.follow(place[linear::Location]));
+        const Value distance = point[expression::DistanceAlong];
+        if (file.entityOf(position) != Entity::Axis2PlacementLinear || !distance.number() ||
+            distance.typeName() == "IFCPARAMETERVALUE") {
             why = "a sectioned solid whose sections stand at no distances";
             return false;
         }
-        Station station = directrix.at(*distance * file.lengthUnit, isVertical);
-        const bool isTurned = file.follow(place[1]) != kNoRecord || file.follow(place[2]) != kNoRecord;
+        Station station = directrix.at(file.metres(distance), isVertical);
+        const bool isTurned =
+            file.follow(place[linear::Axis]) != kNoRecord || file.follow(place[linear::RefDirection]) != kNoRecord;
         if (const auto axes = isTurned ? file.linearAxes(position) : std::nullopt) {
             station.x = axes->y;
             station.y = axes->z;
         }
         const Vec3d along = normalized(cross(station.x, station.y));
-        station.origin = station.origin + station.x * file.metres(point[1]) + station.y * file.metres(point[2]) +
-                         along * file.metres(point[3]);
+        station.origin = station.origin + station.x * file.metres(point[expression::OffsetLateral]) +
+                         station.y * file.metres(point[expression::OffsetVertical]) +
+                         along * file.metres(point[expression::OffsetLongitudinal]);
         stations.push_back(station);
     }
     return true;
@@ -171,13 +175,13 @@ bool addAtBends(const IfcFile& file, const Directrix& directrix, bool isVertical
 bool addAlong(const IfcFile& file, const Fields& fields, std::vector<Station>& stations, std::vector<Regions>& sections,
               std::string& why) {
     std::vector<Vec3d> line;
-    if (!readCurve(file, file.follow(fields[0]), line, why)) return false;
+    if (!readCurve(file, file.follow(fields[at::SectionedSolidHorizontal::Directrix]), line, why)) return false;
     const Directrix directrix(line);
     if (directrix.points.size() < 2) {
         why = "a sectioned solid whose directrix has no length";
         return false;
     }
-    const bool isVertical = fields[3].enumeration() == "T";
+    const bool isVertical = fields[at::SectionedSolidHorizontal::FixedAxisVertical].enumeration() == "T";
     if (!readStations(file, fields, directrix, isVertical, stations, why)) return false;
     if (stations.size() != sections.size()) {
         why = "a sectioned solid with more sections than places, or fewer";
@@ -188,7 +192,7 @@ bool addAlong(const IfcFile& file, const Fields& fields, std::vector<Station>& s
 
 bool addSpine(const IfcFile& file, const Fields& fields, std::vector<Station>& stations, std::size_t sections,
               std::string& why) {
-    for (const RecordIndex position : file.followAll(fields[2])) {
+    for (const RecordIndex position : file.followAll(fields[at::SectionedSpine::CrossSectionPositions])) {
         const Transform axes = file.axes(position);
         stations.push_back({axes.origin, axes.x, axes.y, 0});
     }
@@ -201,7 +205,7 @@ bool addSpine(const IfcFile& file, const Fields& fields, std::vector<Station>& s
 
 std::vector<std::vector<model::Polygon>> readSectioned(const IfcFile& file, RecordIndex item, std::string& why) {
     const Fields fields = file.fieldsOf(item);
-    std::vector<Regions> sections = readSections(file, fields[1], why);
+    std::vector<Regions> sections = readSections(file, fields[at::SectionedSpine::CrossSections], why);
     std::vector<Station> stations;
     const bool isSpine = file.entityOf(item) == Entity::SectionedSpine;
     if (sections.size() < 2) {

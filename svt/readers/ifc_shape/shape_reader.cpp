@@ -79,9 +79,10 @@ Shape ShapeReader::readShape(RecordIndex definition) {
     Shape shape;
     leftOut_.clear();
     std::vector<std::pair<int, RecordIndex>> ranked;
-    for (const RecordIndex representation : file_.followAll(file_.fieldsOf(definition)[2])) {
+    for (const RecordIndex representation : file_.representations(definition)) {
         const Fields fields = file_.fieldsOf(representation);
-        const int rank = bodyRank(fields[1].string().value_or(""), fields[2].string().value_or(""));
+        const int rank = bodyRank(fields[at::Representation::RepresentationIdentifier].string().value_or(""),
+                                  fields[at::Representation::RepresentationType].string().value_or(""));
         if (rank > 0) ranked.emplace_back(-rank, representation);
     }
     std::stable_sort(ranked.begin(), ranked.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
@@ -103,7 +104,7 @@ Shape ShapeReader::readShape(RecordIndex definition) {
 }
 
 void ShapeReader::readRepresentation(RecordIndex representation, Bodies& bodies) {
-    for (const RecordIndex item : file_.followAll(file_.fieldsOf(representation)[3])) readItem(item, bodies);
+    for (const RecordIndex item : file_.items(representation)) readItem(item, bodies);
 }
 
 void ShapeReader::readItem(RecordIndex item, Bodies& bodies) {
@@ -139,21 +140,23 @@ void ShapeReader::readKnownItem(RecordIndex item, const Fields& fields, Bodies& 
         case Entity::AdvancedBrep:
         case Entity::AdvancedBrepWithVoids: return readBrep(item, fields, bodies);
         case Entity::FaceBasedSurfaceModel:
-        case Entity::ShellBasedSurfaceModel: return readSurfaceModel(fields, bodies);
+            for (const RecordIndex shell : file_.followAll(fields[at::FaceBasedSurfaceModel::FbsmFaces]))
+                addShell(shell, bodies);
+            return;
+        case Entity::ShellBasedSurfaceModel:
+            for (const RecordIndex shell : file_.followAll(fields[at::ShellBasedSurfaceModel::SbsmBoundary]))
+                addShell(shell, bodies);
+            return;
         case Entity::ConnectedFaceSet:
         case Entity::OpenShell:
-        case Entity::ClosedShell: {
-            Body body{readFaces(fields[0]), file_.entityOf(item) == Entity::ClosedShell, -1};
-            if (!body.faces.empty()) addBody(std::move(body), bodies);
-            return;
-        }
+        case Entity::ClosedShell: return addShell(item, bodies);
         case Entity::TriangulatedFaceSet:
         case Entity::TriangulatedIrregularNetwork:
         case Entity::PolygonalFaceSet: return readFaceSet(item, fields, bodies);
         case Entity::MappedItem: return readMappedItem(fields, bodies);
         case Entity::BooleanResult:
         case Entity::BooleanClippingResult: return readBoolean(fields, bodies);
-        case Entity::CsgSolid: return readItem(file_.follow(fields[0]), bodies);
+        case Entity::CsgSolid: return readItem(file_.follow(fields[at::CsgSolid::TreeRootExpression]), bodies);
         case Entity::Block:
         case Entity::RectangularPyramid:
         case Entity::RightCircularCone:
@@ -179,19 +182,23 @@ void ShapeReader::readSweep(RecordIndex item, const Fields& fields, Bodies& bodi
     const Entity entity = file_.entityOf(item);
     std::vector<Region> regions, ends;
     std::string why;
-    if (!readProfile(file_, file_.follow(fields[0]), regions, why)) return leaveOut(why);
-    const Transform position = file_.axes(file_.follow(fields[1]));
+    if (!readProfile(file_, file_.follow(fields[at::SweptAreaSolid::SweptArea]), regions, why)) return leaveOut(why);
+    const Transform position = file_.axes(fields[at::SweptAreaSolid::Position]);
     if (entity == Entity::RevolvedAreaSolid) {
-        const Transform axis = file_.axes(file_.follow(fields[2]));
+        const Transform axis = file_.axes(fields[at::RevolvedAreaSolid::Axis]);
+        const double angle = file_.radians(fields[at::RevolvedAreaSolid::Angle]);
         for (const Region& region : regions) {
             if (!affords(region.pointCount() * 4 * (kMaxSegments + 1))) return;
-            addSolid(transformed(revolve(region, axis, file_.radians(fields[3])), position), bodies, item);
+            addSolid(transformed(revolve(region, axis, angle), position), bodies, item);
         }
         return;
     }
-    const Vec3d sweep = normalized(file_.direction(fields[2]).value_or(Vec3d{0, 0, 1})) * file_.metres(fields[3]);
+    namespace extrusion = at::ExtrudedAreaSolidTapered;
+    const Vec3d sweep = normalized(file_.direction(fields[extrusion::ExtrudedDirection]).value_or(Vec3d{0, 0, 1})) *
+                        file_.metres(fields[extrusion::Depth]);
     const bool isTapered = entity == Entity::ExtrudedAreaSolidTapered;
-    if (isTapered && (!readProfile(file_, file_.follow(fields[4]), ends, why) || ends.size() != regions.size()))
+    if (isTapered && (!readProfile(file_, file_.follow(fields[extrusion::EndSweptArea]), ends, why) ||
+                      ends.size() != regions.size()))
         return leaveOut(why.empty() ? "a tapered solid between unlike profiles" : why);
     std::uint64_t points = 0;
     for (const Region& region : regions) points += 8 * region.pointCount();
@@ -204,28 +211,31 @@ void ShapeReader::readSweep(RecordIndex item, const Fields& fields, Bodies& bodi
 
 // A profile along a curve. Its x axis keeps to a direction, or to the normal of a plane that the curve lies on.
 void ShapeReader::readDirectedSweep(RecordIndex item, const Fields& fields, Bodies& bodies) {
+    namespace swept = at::DirectrixCurveSweptAreaSolid;
     std::vector<Region> regions;
     std::vector<Vec3d> line;
     std::string why;
-    if (!readProfile(file_, file_.follow(fields[0]), regions, why) ||
-        !readCurve(file_, file_.follow(fields[2]), line, why))
+    if (!readProfile(file_, file_.follow(fields[swept::SweptArea]), regions, why) ||
+        !readCurve(file_, file_.follow(fields[swept::Directrix]), line, why))
         return leaveOut(why);
-    Vec3d reference = file_.direction(fields[5]).value_or(Vec3d{0, 0, 1});
+    Vec3d reference =
+        file_.direction(fields[at::FixedReferenceSweptAreaSolid::FixedReference]).value_or(Vec3d{0, 0, 1});
     if (file_.entityOf(item) == Entity::SurfaceCurveSweptAreaSolid) {
-        const RecordIndex surface = file_.follow(fields[5]);
+        const RecordIndex surface = file_.follow(fields[at::SurfaceCurveSweptAreaSolid::ReferenceSurface]);
         if (file_.entityOf(surface) != Entity::Plane)
             return leaveOut(fmt::format("a profile swept along a curve on {}", file_.typeName(surface)));
-        reference = file_.axes(file_.follow(file_.fieldsOf(surface)[0])).z;
+        reference = file_.axes(file_.follow(surface, at::Plane::Position)).z;
     }
     // Writers give parameters in many ways; all but the whole curve would need the parameter of each kind of curve.
-    const double begin = fields[3].number().value_or(0), end = fields[4].number().value_or(1);
+    const double begin = fields[swept::StartParam].number().value_or(0),
+                 end = fields[swept::EndParam].number().value_or(1);
     double whole = 0;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) whole += length(line[i + 1] - line[i]);
     const auto isEnd = [&](double value) { return std::abs(end - value) <= 1e-3 * value; };
     const auto isWhole = begin == 0 && (isEnd(1) || isEnd(double(line.size() - 1)) || isEnd(whole / file_.lengthUnit));
     if (!isWhole)
         leaveOut("the ends of a swept profile, which stand at parameters of its curve: it has the whole curve");
-    const Transform position = file_.axes(file_.follow(fields[1]));
+    const Transform position = file_.axes(fields[swept::Position]);
     for (const Region& region : regions) {
         if (!affords(region.pointCount() * 6 * line.size())) return;
         addSolid(transformed(sweepAlong(region, line, reference), position), bodies, item);
@@ -235,42 +245,56 @@ void ShapeReader::readDirectedSweep(RecordIndex item, const Fields& fields, Bodi
 void ShapeReader::readDisk(const Fields& fields, Bodies& bodies) {
     std::vector<Vec3d> line;
     std::string why;
-    if (!readCurve(file_, file_.follow(fields[0]), line, why)) return leaveOut(why);
+    if (!readCurve(file_, file_.follow(fields[at::SweptDiskSolid::Directrix]), line, why)) return leaveOut(why);
     if (!affords(line.size() * 2 * 6 * kMaxDiskSegments)) return;
-    Polygons faces = sweepDisk(std::move(line), file_.metres(fields[1]), file_.metres(fields[2]));
+    Polygons faces = sweepDisk(std::move(line), file_.metres(fields[at::SweptDiskSolid::Radius]),
+                               file_.metres(fields[at::SweptDiskSolid::InnerRadius]));
     if (faces.empty()) return leaveOut("a swept disk without length or radius");
     addBody({std::move(faces), true, -1}, bodies);
 }
 
 void ShapeReader::readPrimitive(RecordIndex item, const Fields& fields, Bodies& bodies) {
-    const Transform position = file_.axes(file_.follow(fields[0]));
-    const double a = file_.metres(fields[1]), b = file_.metres(fields[2]), c = file_.metres(fields[3]);
+    const auto size = [&](AttributePosition attribute) { return file_.metres(fields[attribute]); };
+    const auto blockOf = [&](AttributePosition x, AttributePosition y, AttributePosition z) {
+        return block({size(x), size(y), size(z)});
+    };
+    Transform position = file_.axes(fields[at::CsgPrimitive3D::Position]);
+    Polygons faces;
     switch (file_.entityOf(item)) {
-        case Entity::Block: return addSolid(transformed(block({a, b, c}), position), bodies, item);
-        case Entity::RectangularPyramid: return addSolid(transformed(pyramid(a, b, c), position), bodies, item);
-        case Entity::RightCircularCone: return addSolid(transformed(cone(b, 0, a), position), bodies, item);
-        case Entity::RightCircularCylinder: return addSolid(transformed(cone(b, b, a), position), bodies, item);
-        case Entity::Sphere: return addSolid(transformed(sphere(a), position), bodies, item);
-        default: {
-            Transform corner;
-            corner.origin = file_.point(file_.follow(fields[0])).value_or(Vec3d{});
-            return addSolid(transformed(block({a, b, c}), corner), bodies, item);
+        case Entity::Block: faces = blockOf(at::Block::XLength, at::Block::YLength, at::Block::ZLength); break;
+        case Entity::RectangularPyramid:
+            faces = pyramid(size(at::RectangularPyramid::XLength), size(at::RectangularPyramid::YLength),
+                            size(at::RectangularPyramid::Height));
+            break;
+        case Entity::RightCircularCone:
+            faces = cone(size(at::RightCircularCone::BottomRadius), 0, size(at::RightCircularCone::Height));
+            break;
+        case Entity::RightCircularCylinder: {
+            const double radius = size(at::RightCircularCylinder::Radius);
+            faces = cone(radius, radius, size(at::RightCircularCylinder::Height));
+            break;
         }
+        case Entity::Sphere: faces = sphere(size(at::Sphere::Radius)); break;
+        default:
+            faces = blockOf(at::BoundingBox::XDim, at::BoundingBox::YDim, at::BoundingBox::ZDim);
+            position = {};
+            position.origin = file_.point(fields[at::BoundingBox::Corner]).value_or(Vec3d{});
     }
+    addSolid(transformed(faces, position), bodies, item);
 }
 
 // The items of a representation map, read once.
 void ShapeReader::readMap(RecordIndex map) {
     leaveOutMissing();
     const Fields source = file_.fieldsOf(map);
-    const RecordIndex shown = file_.follow(source[1]);
+    const RecordIndex shown = file_.follow(source[at::RepresentationMap::MappedRepresentation]);
     ReadGuard::Scope scope(file_.guard());
     if (!scope.enter(map) || !scope.enter(shown)) return leaveOut(scope.why());
     std::vector<std::string> outside;
     std::swap(outside, leftOut_);
     Bodies made;
-    for (const RecordIndex item : file_.followAll(file_.fieldsOf(shown)[3])) readItem(item, made);
-    const Transform origin = file_.axes(file_.follow(source[0]));
+    readRepresentation(shown, made);
+    const Transform origin = file_.axes(source[at::RepresentationMap::MappingOrigin]);
     if (origin != Transform{})
         for (Body& body : made) body = transformed(body, origin.inverse());
     leaveOutMissing();
@@ -282,12 +306,12 @@ void ShapeReader::readMap(RecordIndex map) {
 }
 
 void ShapeReader::readMappedItem(const Fields& fields, Bodies& bodies) {
-    const RecordIndex map = file_.follow(fields[0]);
+    const RecordIndex map = file_.follow(fields[at::MappedItem::MappingSource]);
     if (mapped_.find(map) == mapped_.end()) readMap(map);
     const auto found = mapped_.find(map);
     if (found == mapped_.end()) return;
     for (const std::string& what : leftOutOfMap_[map]) leaveOut(what);
-    const Transform target = file_.transformation(file_.follow(fields[1]));
+    const Transform target = file_.transformation(fields[at::MappedItem::MappingTarget]);
     if (!(std::abs(target.determinant()) > 1e-30)) return leaveOut("a mapped item with a scale of 0");
     const std::shared_ptr<const Bodies> source = found->second;
     std::uint64_t points = 0;
@@ -298,12 +322,12 @@ void ShapeReader::readMappedItem(const Fields& fields, Bodies& bodies) {
 
 void ShapeReader::readBrep(RecordIndex item, const Fields& fields, Bodies& bodies) {
     const Entity entity = file_.entityOf(item);
-    Polygons faces = readFaces(file_.fieldsOf(file_.follow(fields[0]))[0]);
+    Polygons faces = readShell(file_.follow(fields[at::ManifoldSolidBrep::Outer]));
     if (faces.empty()) return leaveOut(fmt::format("an {} without faces", entityName(entity)));
     if (entity == Entity::FacetedBrepWithVoids || entity == Entity::AdvancedBrepWithVoids) {
         if (enclosedVolume(faces) < 0) turnOver(faces);
-        for (const RecordIndex shell : file_.followAll(fields[1])) {
-            Polygons hollow = readFaces(file_.fieldsOf(shell)[0]);
+        for (const RecordIndex shell : file_.followAll(fields[at::FacetedBrepWithVoids::Voids])) {
+            Polygons hollow = readShell(shell);
             if (enclosedVolume(hollow) > 0) turnOver(hollow);
             faces.insert(faces.end(), hollow.begin(), hollow.end());
         }
@@ -311,16 +335,14 @@ void ShapeReader::readBrep(RecordIndex item, const Fields& fields, Bodies& bodie
     addBody({std::move(faces), true, -1}, bodies);
 }
 
-void ShapeReader::readSurfaceModel(const Fields& fields, Bodies& bodies) {
-    for (const RecordIndex shell : file_.followAll(fields[0])) {
-        Body body{readFaces(file_.fieldsOf(shell)[0]), file_.entityOf(shell) == Entity::ClosedShell, -1};
-        if (!body.faces.empty()) addBody(std::move(body), bodies);
-    }
+void ShapeReader::addShell(RecordIndex shell, Bodies& bodies) {
+    Body body{readShell(shell), file_.entityOf(shell) == Entity::ClosedShell, -1};
+    if (!body.faces.empty()) addBody(std::move(body), bodies);
 }
 
-Polygons ShapeReader::readFaces(Value list) {
+Polygons ShapeReader::readShell(RecordIndex shell) {
     Polygons faces;
-    step::ValueCursor cursor(list);
+    step::ValueCursor cursor(file_.fieldsOf(shell)[at::ConnectedFaceSet::CfsFaces]);
     for (Value item; cursor.next(item);) {
         const RecordIndex face = file_.follow(item);
         if (!readFace(face, faces))
@@ -331,37 +353,22 @@ Polygons ShapeReader::readFaces(Value list) {
 
 bool ShapeReader::readLoop(RecordIndex loop, std::vector<Vec3d>& ring, std::vector<std::size_t>& edgeEnds) {
     const Fields fields = file_.fieldsOf(loop);
-    step::ValueCursor cursor(fields[0]);
     if (file_.entityOf(loop) == Entity::PolyLoop) {
-        for (Value item; cursor.next(item);) {
-            const auto point = file_.point(file_.follow(item));
+        step::ValueCursor corners(fields[at::PolyLoop::Polygon]);
+        for (Value item; corners.next(item);) {
+            const auto point = file_.point(item);
             if (!point) return false;
             ring.push_back(*point);
         }
         return true;
     }
     if (file_.entityOf(loop) != Entity::EdgeLoop) return false;
+    step::ValueCursor cursor(fields[at::EdgeLoop::EdgeList]);
     for (Value item; cursor.next(item);) {
         const Fields oriented = file_.fieldsOf(file_.follow(item));
-        const RecordIndex edge = file_.follow(oriented[2]);
         std::vector<Vec3d> points;
-        if (const auto found = edges_.find(edge); found != edges_.end()) {
-            points = *found->second;
-        } else {
-            const Fields curve = file_.fieldsOf(edge);
-            const auto from = file_.point(file_.follow(file_.fieldsOf(file_.follow(curve[0]))[0]));
-            const auto to = file_.point(file_.follow(file_.fieldsOf(file_.follow(curve[1]))[0]));
-            std::string why;
-            if (!from || !to) return false;
-            if (file_.entityOf(edge) != Entity::EdgeCurve)
-                points = {*from, *to};
-            else if (!readCurveBetween(file_, file_.follow(curve[2]), *from, *to, curve[3].enumeration() != "F", points,
-                                       why))
-                return false;
-            // What a reference was missing for is read again, so that each product with it says so.
-            if (!file_.missing().isAny()) edges_.emplace(edge, std::make_shared<const std::vector<Vec3d>>(points));
-        }
-        if (oriented[3].enumeration() == "F") std::reverse(points.begin(), points.end());
+        if (!readEdge(file_.follow(oriented[at::OrientedEdge::EdgeElement]), points)) return false;
+        if (oriented[at::OrientedEdge::Orientation].enumeration() == "F") std::reverse(points.begin(), points.end());
         if (points.empty() || !affords(ring.size() + points.size())) return false;
         ring.insert(ring.end(), points.begin(), points.end() - 1);
         edgeEnds.push_back(ring.size());
@@ -369,23 +376,46 @@ bool ShapeReader::readLoop(RecordIndex loop, std::vector<Vec3d>& ring, std::vect
     return !ring.empty();
 }
 
+// Points of an edge from its start to its end, read once.
+bool ShapeReader::readEdge(RecordIndex edge, std::vector<Vec3d>& points) {
+    if (const auto found = edges_.find(edge); found != edges_.end()) {
+        points = *found->second;
+        return true;
+    }
+    const Fields fields = file_.fieldsOf(edge);
+    const auto from = file_.vertexPoint(fields[at::Edge::EdgeStart]), to = file_.vertexPoint(fields[at::Edge::EdgeEnd]);
+    std::string why;
+    if (!from || !to) return false;
+    const bool isForward = fields[at::EdgeCurve::SameSense].enumeration() != "F";
+    if (file_.entityOf(edge) != Entity::EdgeCurve)
+        points = {*from, *to};
+    else if (!readCurveBetween(file_, file_.follow(fields[at::EdgeCurve::EdgeGeometry]), *from, *to, isForward, points,
+                               why))
+        return false;
+    // An edge with a missing reference is read again, so that each product with it reports it.
+    if (!file_.missing().isAny()) edges_.emplace(edge, std::make_shared<const std::vector<Vec3d>>(points));
+    return true;
+}
+
 bool ShapeReader::readFace(RecordIndex face, Polygons& faces) {
     const Entity entity = file_.entityOf(face);
     if (entity != Entity::Face && entity != Entity::FaceSurface && entity != Entity::AdvancedFace) return false;
     const Fields fields = file_.fieldsOf(face);
-    const bool isCurved = entity != Entity::Face && file_.entityOf(file_.follow(fields[1])) != Entity::Plane &&
-                          file_.follow(fields[1]) != kNoRecord;
+    const RecordIndex surface = entity == Entity::Face ? kNoRecord : file_.follow(fields[at::FaceSurface::FaceSurface]);
+    const Entity kind = file_.entityOf(surface);
+    const bool isCurved = surface != kNoRecord && kind != Entity::Plane;
     std::vector<std::vector<Vec3d>> rings;
     std::vector<std::size_t> edgeEnds;
     bool hasOuter = false;
-    step::ValueCursor cursor(fields[0]);
+    step::ValueCursor cursor(fields[at::Face::Bounds]);
     for (Value item; cursor.next(item);) {
         const RecordIndex bound = file_.follow(item);
         const Fields of = file_.fieldsOf(bound);
         std::vector<Vec3d> ring;
         std::vector<std::size_t> ends;
-        if (!readLoop(file_.follow(of[0]), ring, ends) || !file_.guard().takeElements(ring.size())) return false;
-        if (of[1].enumeration() == "F") turnLoop(ring, ends);
+        if (!readLoop(file_.follow(of[at::FaceBound::Bound]), ring, ends) || !file_.guard().takeElements(ring.size()))
+            return false;
+        if (of[at::FaceBound::Orientation].enumeration() == "F") turnLoop(ring, ends);
         const bool isOuter = file_.entityOf(bound) == Entity::FaceOuterBound && !hasOuter;
         hasOuter = hasOuter || isOuter;
         if (rings.empty()) edgeEnds = ends;
@@ -393,12 +423,10 @@ bool ShapeReader::readFace(RecordIndex face, Polygons& faces) {
     }
     if (rings.empty()) return false;
     // Four straight edges say nothing of what a B-spline surface is between them.
-    const Entity surface = file_.entityOf(file_.follow(fields[1]));
-    const bool isSpline =
-        surface == Entity::BSplineSurfaceWithKnots || surface == Entity::RationalBSplineSurfaceWithKnots;
+    const bool isSpline = kind == Entity::BSplineSurfaceWithKnots || kind == Entity::RationalBSplineSurfaceWithKnots;
     if (isCurved && !isSpline && addRuledFace(rings, edgeEnds, faces)) return true;
-    if (isCurved && addCurvedFace(file_, file_.follow(fields[1]), rings, faces)) return true;
-    if (isCurved) leaveOut(fmt::format("the curvature of a face on {}", file_.typeName(file_.follow(fields[1]))));
+    if (isCurved && addCurvedFace(file_, surface, rings, faces)) return true;
+    if (isCurved) leaveOut(fmt::format("the curvature of a face on {}", file_.typeName(surface)));
     const auto areaOf = [](const std::vector<Vec3d>& ring) {
         Vec3d sum{};
         for (std::size_t i = 1; i + 1 < ring.size(); ++i) sum = sum + cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
@@ -449,7 +477,8 @@ bool ShapeReader::addRuledFace(const std::vector<std::vector<Vec3d>>& rings, con
 
 void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bodies) {
     std::vector<Vec3d> points;
-    step::ValueCursor list(file_.fieldsOf(file_.follow(fields[0]))[0]);
+    step::ValueCursor list(
+        file_.fieldsOf(file_.follow(fields[at::TessellatedFaceSet::Coordinates]))[at::CartesianPointList::CoordList]);
     for (Value point; list.next(point);) {
         const auto coordinates = file_.coordinates(point);
         if (!coordinates)
@@ -471,10 +500,11 @@ void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bo
     };
     Body body;
     const bool isTriangles = file_.entityOf(item) != Entity::PolygonalFaceSet;
-    // Closed stands second in IFC4.3, third in IFC4; polygonal ones have it second.
-    const Value closed = fields[1].enumeration().empty() ? fields[2] : fields[1];
-    body.isSolid = closed.enumeration() == "T";
-    step::ValueCursor cursor(isTriangles ? fields[3] : fields[2]);
+    const Value closed = fields[at::TessellatedFaceSet::Closed];
+    body.isSolid =
+        (closed.enumeration().empty() ? fields[at::TriangulatedFaceSetOfIfc4::Closed] : closed).enumeration() == "T";
+    step::ValueCursor cursor(isTriangles ? fields[at::TriangulatedFaceSet::CoordIndex]
+                                         : fields[at::PolygonalFaceSet::Faces]);
     const auto colors = materialOfFaces_.find(item);
     std::size_t number = 0;
     // A face that has no area is left out, and so is its colour.
@@ -492,9 +522,9 @@ void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bo
         }
         const RecordIndex record = file_.follow(face);
         const Fields of = file_.fieldsOf(record);
-        std::vector<std::vector<Vec3d>> rings{ringOf(of[0])};
+        std::vector<std::vector<Vec3d>> rings{ringOf(of[at::IndexedPolygonalFace::CoordIndex])};
         if (file_.entityOf(record) == Entity::IndexedPolygonalFaceWithVoids) {
-            step::ValueCursor inner(of[1]);
+            step::ValueCursor inner(of[at::IndexedPolygonalFaceWithVoids::InnerCoordIndices]);
             for (Value ring; inner.next(ring);) rings.push_back(ringOf(ring));
         }
         add(rings);
@@ -510,19 +540,20 @@ void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bo
 bool ShapeReader::readHalfSpace(RecordIndex item, const Box3d& around, Bodies& bodies) {
     const Entity entity = file_.entityOf(item);
     const Fields fields = file_.fieldsOf(item);
-    const RecordIndex surface = file_.follow(fields[0]);
+    const RecordIndex surface = file_.follow(fields[at::HalfSpaceSolid::BaseSurface]);
     if (file_.entityOf(surface) != Entity::Plane) {
         leaveOut(fmt::format("a half-space bounded by {}", file_.typeName(surface)));
         return false;
     }
-    const Transform plane = file_.axes(file_.follow(file_.fieldsOf(surface)[0]));
-    const Vec3d inside = fields[1].enumeration() == "F" ? plane.z : -plane.z;
+    const Transform plane = file_.axes(file_.follow(surface, at::Plane::Position));
+    const Vec3d inside = fields[at::HalfSpaceSolid::AgreementFlag].enumeration() == "F" ? plane.z : -plane.z;
     Polygons half = halfSpaceAround(around, plane.origin, inside);
     if (entity == Entity::PolygonalBoundedHalfSpace) {
-        const Transform position = file_.axes(file_.follow(fields[2]));
+        const Transform position = file_.axes(fields[at::PolygonalBoundedHalfSpace::Position]);
         Region region;
         std::string why;
-        if (!readCurve(file_, file_.follow(fields[3]), region.outer, why)) {
+        if (!readCurve(file_, file_.follow(fields[at::PolygonalBoundedHalfSpace::PolygonalBoundary]), region.outer,
+                       why)) {
             leaveOut(why);
             return false;
         }
@@ -566,19 +597,20 @@ bool ShapeReader::readOperand(RecordIndex operand, std::string_view op, const Bo
 
 // Follows results of one kind down to what the innermost applies to; all of them are in the scope then.
 bool ShapeReader::readChain(const Fields& fields, Chain& chain, ReadGuard::Scope& scope) {
-    const std::string_view op = fields[0].enumeration();
-    chain = {file_.follow(fields[1]), {file_.follow(fields[2])}};
+    const std::string_view op = fields[at::BooleanResult::Operator].enumeration();
+    chain = {file_.follow(fields[at::BooleanResult::FirstOperand]),
+             {file_.follow(fields[at::BooleanResult::SecondOperand])}};
     while (op != "INTERSECTION") {
         const Entity entity = file_.entityOf(chain.base);
         if (entity != Entity::BooleanResult && entity != Entity::BooleanClippingResult) break;
         const Fields inner = file_.fieldsOf(chain.base);
-        if (inner[0].enumeration() != op) break;
+        if (inner[at::BooleanResult::Operator].enumeration() != op) break;
         if (!scope.enter(chain.base)) {
             leaveOut(scope.why());
             return false;
         }
-        chain.operands.push_back(file_.follow(inner[2]));
-        chain.base = file_.follow(inner[1]);
+        chain.operands.push_back(file_.follow(inner[at::BooleanResult::SecondOperand]));
+        chain.base = file_.follow(inner[at::BooleanResult::FirstOperand]);
     }
     return true;
 }
@@ -586,7 +618,7 @@ bool ShapeReader::readChain(const Fields& fields, Chain& chain, ReadGuard::Scope
 // ((a - b) - c) - d is a - (b, c, d), and unions likewise: a chain of many results, as some programs write them for the
 // openings of a wall, is evaluated at once, however long it is.
 void ShapeReader::readBoolean(const Fields& fields, Bodies& bodies) {
-    const std::string_view op = fields[0].enumeration();
+    const std::string_view op = fields[at::BooleanResult::Operator].enumeration();
     ReadGuard::Scope scope(file_.guard());
     Chain chain;
     if (!readChain(fields, chain, scope)) return;

@@ -56,7 +56,7 @@ private:
     void readDirectedSweep(RecordIndex item, const Fields& fields, Bodies& bodies);
     void readDisk(const Fields& fields, Bodies& bodies);
     void readBrep(RecordIndex item, const Fields& fields, Bodies& bodies);
-    void readSurfaceModel(const Fields& fields, Bodies& bodies);
+    void addShell(RecordIndex shell, Bodies& bodies);
     void readFaceSet(RecordIndex item, const Fields& fields, Bodies& bodies);
     void readPrimitive(RecordIndex item, const Fields& fields, Bodies& bodies);
     void readBoolean(const Fields& fields, Bodies& bodies);
@@ -70,8 +70,9 @@ private:
     void leaveOutMissing();
     [[nodiscard]] bool affords(std::uint64_t points);
 
-    [[nodiscard]] std::vector<model::Polygon> readFaces(Value list);
+    [[nodiscard]] std::vector<model::Polygon> readShell(RecordIndex shell);
     bool readFace(RecordIndex face, std::vector<model::Polygon>& faces);
+    bool readEdge(RecordIndex edge, std::vector<Vec3d>& points);
     bool readLoop(RecordIndex loop, std::vector<Vec3d>& ring, std::vector<std::size_t>& edgeEnds);
     static bool addRuledFace(const std::vector<std::vector<Vec3d>>& rings, const std::vector<std::size_t>& edgeEnds,
                              std::vector<model::Polygon>& faces);

@@ -1,4 +1,4 @@
-#include <svt/readers/ifc/product_classes.hpp>
+#include <svt/readers/ifc_schema/product_classes.hpp>
 
 #include <svt/core/text.hpp>
 
