@@ -194,7 +194,7 @@ private:
         if (product.ifcType == "IfcBuildingStorey")
             addLength("elevation", fields[at::BuildingStorey::Elevation], feature);
         if (product.ifcType == "IfcSite") addSitePlace(fields, feature);
-        const string_view predefined = fields[at::Wall::PredefinedType].enumeration();
+        const string_view predefined = fields[predefinedTypeOf(product.ifcType)].enumeration();
         if (product.kind == ProductKind::Element && predefined.size() > 1)
             feature.attributes.push_back({"predefinedType", std::string(predefined), ""});
         if (product.ifcType == "IfcDoor" || product.ifcType == "IfcDoorStandardCase")

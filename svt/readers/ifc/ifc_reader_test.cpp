@@ -102,6 +102,31 @@ TEST(IfcReader, SpacesByTheirLongNamesLayersAndComplexProperties) {
     EXPECT_EQ(find(*model, "fire")->className, "GenericLogicalSpace");
 }
 
+TEST(IfcReader, PredefinedTypesStandWhereEachClassHasThem) {
+    constexpr std::pair<const char*, const char*> kTypes[] = {
+        {"DECK", "IFCSLAB('DECK',$,$,$,$,#15,#101,$,.DECK.)"},
+        {"GABLE_ROOF", "IFCROOF('GABLE_ROOF',$,$,$,$,#15,#101,$,.GABLE_ROOF.)"},
+        {"GATE", "IFCDOOR('GATE',$,$,$,$,#15,#101,$,2000.,900.,.GATE.,.SWING_LEFT.,$)"},
+        {"SKYLIGHT", "IFCWINDOW('SKYLIGHT',$,$,$,$,#15,#101,$,900.,900.,.SKYLIGHT.,$,$)"},
+        {"WINDER", "IFCSTAIRFLIGHT('WINDER',$,$,$,$,#15,#101,$,9,8,170.,290.,.WINDER.)"},
+        {"TRUSS", "IFCELEMENTASSEMBLY('TRUSS',$,$,$,$,#15,#101,$,.SITE.,.TRUSS.)"},
+        {"STUD", "IFCREINFORCINGBAR('STUD',$,$,$,$,#15,#101,$,'B500',12.,$,$,.STUD.,.PLAIN.)"},
+        {"USERDEFINED", "IFCREINFORCINGMESH('USERDEFINED',$,$,$,$,#15,#101,$,$,$,$,6.,6.,28.,28.,1.,1.,.USERDEFINED.)"},
+        {"STRAND", "IFCTENDON('STRAND',$,$,$,$,#15,#101,$,$,.STRAND.,$,$,$,$,$,$,$,$)"},
+        {"BOLT", "IFCMECHANICALFASTENER('BOLT',$,$,$,$,#15,#101,$,8.,80.,.BOLT.)"},
+        {"RADIAL", "IFCGRID('RADIAL',$,$,$,$,#15,#101,(#10),(#10),$,.RADIAL.)"},
+        {"SURVEY", "IFCANNOTATION('SURVEY',$,$,$,$,#15,#101,.SURVEY.)"}};
+    std::string records = kBox, contained;
+    for (int id = 500; const auto& [type, product] : kTypes) {
+        records += fmt::format("#{}={};\n", id, product);
+        contained += fmt::format("{}#{}", contained.empty() ? "" : ",", id++);
+    }
+    const auto model = readText(ifcFile(records, contained, "IFC4X3_ADD2"));
+    ASSERT_TRUE(model);
+    for (const auto& [type, product] : kTypes)
+        EXPECT_EQ(attribute(*find(*model, type), "predefinedType"), type) << product;
+}
+
 // 3 m along an L of 2 m in x and 4 m in y, a metre to the left, half a metre up.
 TEST(IfcReader, LinearPlacementsGoAlongACurve) {
     const auto model =

@@ -22,9 +22,19 @@ namespace svt::readers::ifc {
     E(Product, Object, ObjectPlacement, Representation) E(SpatialElement, Product, LongName) \
     E(SpatialZone, SpatialElement, PredefinedType) E(SpatialStructureElement, SpatialElement, CompositionType) \
     E(Site, SpatialStructureElement, RefLatitude, RefLongitude, RefElevation) \
-    E(BuildingStorey, SpatialStructureElement, Elevation) E(Grid, Product, UAxes, VAxes, WAxes) \
+    E(BuildingStorey, SpatialStructureElement, Elevation) E(Annotation, Product, PredefinedType) \
+    E(Grid, Product, UAxes, VAxes, WAxes, PredefinedType) \
     E(Element, Product, Tag) E(Wall, Element, PredefinedType) \
     E(Door, Element, OverallHeight, OverallWidth, PredefinedType, OperationType) \
+    E(Window, Element, OverallHeight, OverallWidth, PredefinedType) \
+    E(StairFlight, Element, NumberOfRisers, NumberOfTreads, RiserHeight, TreadLength, PredefinedType) \
+    E(ElementAssembly, Element, AssemblyPlace, PredefinedType) E(ReinforcingElement, Element, SteelGrade) \
+    E(ReinforcingBar, ReinforcingElement, NominalDiameter, CrossSectionArea, BarLength, PredefinedType) \
+    E(ReinforcingMesh, ReinforcingElement, MeshLength, MeshWidth, LongitudinalBarNominalDiameter, \
+      TransverseBarNominalDiameter, LongitudinalBarCrossSectionArea, TransverseBarCrossSectionArea, \
+      LongitudinalBarSpacing, TransverseBarSpacing, PredefinedType) \
+    E(Tendon, ReinforcingElement, PredefinedType) \
+    E(MechanicalFastener, Element, NominalDiameter, NominalLength, PredefinedType) \
     E(TypeObject, Root, ApplicableOccurrence, HasPropertySets) E(TypeProduct, TypeObject, RepresentationMaps, Tag) \
     E(DoorType, TypeProduct, ElementType, PredefinedType, OperationType) E(DoorStyle, TypeProduct, OperationType) \
     E(RelDefines, Root, RelatedObjects) E(RelAssociates, Root, RelatedObjects) \

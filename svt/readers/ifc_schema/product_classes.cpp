@@ -20,8 +20,7 @@ constexpr string_view kInstallation = "BuildingInstallation";
 
 constexpr Group kGroups[] = {
     {"GenericLogicalSpace", ProductKind::Spatial,
-     "Site Facility FacilityPart FacilityPartCommon ExternalSpatialElement "
-     "SpatialZone MarineFacility MarinePart"},
+     "Site Facility FacilityPart FacilityPartCommon ExternalSpatialElement SpatialZone MarineFacility MarinePart"},
     {"Building", ProductKind::Spatial, "Building"},
     {"Bridge", ProductKind::Spatial, "Bridge"},
     {"BridgePart", ProductKind::Spatial, "BridgePart"},
@@ -36,52 +35,63 @@ constexpr Group kGroups[] = {
     {kElement, ProductKind::Element,
      "Wall WallStandardCase WallElementedCase Slab SlabStandardCase SlabElementedCase Beam BeamStandardCase Column "
      "ColumnStandardCase Member MemberStandardCase Plate PlateStandardCase Roof Stair StairFlight Ramp RampFlight "
-     "CurtainWall "
-     "Footing Pile Covering Chimney BuildingElement BuiltElement BuildingElementProxy BuildingElementComponent "
-     "BuildingElementPart ElementAssembly DeepFoundation CaissonFoundation ReinforcingElement ReinforcingBar "
-     "ReinforcingMesh "
-     "Tendon TendonAnchor TendonConduit DiscreteAccessory Fastener MechanicalFastener VibrationIsolator "
-     "VibrationDamper "
-     "ImpactProtectionDevice Bearing EarthworksElement EarthworksFill ReinforcedSoil Kerb Pavement Course "
-     "MooringDevice "
-     "NavigationElement Rail TrackElement Sign"},
+     "CurtainWall Footing Pile Covering Chimney BuildingElement BuiltElement BuildingElementProxy "
+     "BuildingElementComponent BuildingElementPart ElementAssembly DeepFoundation CaissonFoundation "
+     "ReinforcingElement ReinforcingBar ReinforcingMesh Tendon TendonAnchor TendonConduit DiscreteAccessory Fastener "
+     "MechanicalFastener VibrationIsolator VibrationDamper ImpactProtectionDevice Bearing EarthworksElement "
+     "EarthworksFill ReinforcedSoil Kerb Pavement Course MooringDevice NavigationElement Rail TrackElement Sign"},
     {kInstallation, ProductKind::Element,
-     "Railing ShadingDevice TransportElement TransportationDevice Vehicle DistributionElement DistributionFlowElement "
-     "DistributionControlElement DistributionChamberElement EnergyConversionDevice FlowController FlowFitting "
-     "FlowMovingDevice FlowSegment FlowStorageDevice FlowTerminal FlowTreatmentDevice Actuator AirTerminal "
-     "AirTerminalBox "
-     "AirToAirHeatRecovery Alarm AudioVisualAppliance Boiler Burner CableCarrierFitting CableCarrierSegment "
-     "CableFitting "
-     "CableSegment Chiller Coil CommunicationsAppliance Compressor Condenser Controller ConveyorSegment CooledBeam "
-     "CoolingTower Damper DistributionBoard DuctFitting DuctSegment DuctSilencer ElectricAppliance "
-     "ElectricDistributionBoard ElectricDistributionPoint ElectricFlowStorageDevice ElectricFlowTreatmentDevice "
-     "ElectricGenerator ElectricMotor ElectricTimeControl Engine EvaporativeCooler Evaporator Fan Filter "
-     "FireSuppressionTerminal FlowInstrument FlowMeter HeatExchanger Humidifier Interceptor JunctionBox Lamp "
-     "LightFixture "
-     "LiquidTerminal MedicalDevice MobileTelecommunicationsAppliance MotorConnection Outlet PipeFitting PipeSegment "
-     "ProtectiveDevice ProtectiveDeviceTrippingUnit Pump SanitaryTerminal Sensor Signal SolarDevice SpaceHeater "
-     "StackTerminal SwitchingDevice Tank Transformer TubeBundle UnitaryControlElement UnitaryEquipment Valve "
-     "WasteTerminal "
+     "Railing ShadingDevice TransportElement TransportationDevice Vehicle DistributionElement "
+     "DistributionFlowElement DistributionControlElement DistributionChamberElement EnergyConversionDevice "
+     "FlowController FlowFitting FlowMovingDevice FlowSegment FlowStorageDevice FlowTerminal FlowTreatmentDevice "
+     "Actuator AirTerminal AirTerminalBox AirToAirHeatRecovery Alarm AudioVisualAppliance Boiler Burner "
+     "CableCarrierFitting CableCarrierSegment CableFitting CableSegment Chiller Coil CommunicationsAppliance "
+     "Compressor Condenser Controller ConveyorSegment CooledBeam CoolingTower Damper DistributionBoard DuctFitting "
+     "DuctSegment DuctSilencer ElectricAppliance ElectricDistributionBoard ElectricDistributionPoint "
+     "ElectricFlowStorageDevice ElectricFlowTreatmentDevice ElectricGenerator ElectricMotor ElectricTimeControl "
+     "Engine EvaporativeCooler Evaporator Fan Filter FireSuppressionTerminal FlowInstrument FlowMeter HeatExchanger "
+     "Humidifier Interceptor JunctionBox Lamp LightFixture LiquidTerminal MedicalDevice "
+     "MobileTelecommunicationsAppliance MotorConnection Outlet PipeFitting PipeSegment ProtectiveDevice "
+     "ProtectiveDeviceTrippingUnit Pump SanitaryTerminal Sensor Signal SolarDevice SpaceHeater StackTerminal "
+     "SwitchingDevice Tank Transformer TubeBundle UnitaryControlElement UnitaryEquipment Valve WasteTerminal "
      "EquipmentElement ElectricalElement"},
     {"GenericOccupiedSpace", ProductKind::Element,
-     "GeographicElement GeotechnicalElement GeotechnicalStratum SolidStratum "
-     "WaterStratum VoidStratum GeotechnicalAssembly Borehole Geomodel Geoslice"},
+     "GeographicElement GeotechnicalElement GeotechnicalStratum SolidStratum WaterStratum VoidStratum "
+     "GeotechnicalAssembly Borehole Geomodel Geoslice"},
     {"OtherConstruction", ProductKind::Element, "CivilElement"},
     {"Annotation", ProductKind::Element, "Annotation"},
     {"Grid", ProductKind::Element, "Grid"},
     {"", ProductKind::Opening,
      "OpeningElement OpeningStandardCase VoidingFeature EarthworksCut EdgeFeature ChamferEdgeFeature "
-     "RoundedEdgeFeature "
-     "ProjectionElement SurfaceFeature"},
+     "RoundedEdgeFeature ProjectionElement SurfaceFeature"},
     {"", ProductKind::Ignored,
-     "Port DistributionPort VirtualElement Proxy Referent Alignment AlignmentHorizontal "
-     "AlignmentVertical "
+     "Port DistributionPort VirtualElement Proxy Referent Alignment AlignmentHorizontal AlignmentVertical "
      "AlignmentCant AlignmentSegment LinearPositioningElement PositioningElement StructuralCurveMember "
      "StructuralCurveMemberVarying StructuralSurfaceMember StructuralSurfaceMemberVarying StructuralPointConnection "
      "StructuralCurveConnection StructuralSurfaceConnection StructuralPointAction StructuralPointReaction "
      "StructuralLinearAction StructuralCurveAction StructuralCurveReaction StructuralPlanarAction "
-     "StructuralSurfaceAction "
-     "StructuralSurfaceReaction"},
+     "StructuralSurfaceAction StructuralSurfaceReaction"},
+};
+
+// Classes with attributes of their own before PredefinedType, or not derived from IfcElement.
+constexpr struct {
+    string_view ifcType;
+    AttributePosition predefinedType;
+} kPredefinedTypes[] = {
+    {"IfcDoor", at::Door::PredefinedType},
+    {"IfcDoorStandardCase", at::Door::PredefinedType},
+    {"IfcWindow", at::Window::PredefinedType},
+    {"IfcWindowStandardCase", at::Window::PredefinedType},
+    {"IfcStairFlight", at::StairFlight::PredefinedType},
+    {"IfcElementAssembly", at::ElementAssembly::PredefinedType},
+    {"IfcReinforcingBar", at::ReinforcingBar::PredefinedType},
+    {"IfcReinforcingMesh", at::ReinforcingMesh::PredefinedType},
+    {"IfcTendon", at::Tendon::PredefinedType},
+    {"IfcTendonAnchor", at::Tendon::PredefinedType},
+    {"IfcTendonConduit", at::Tendon::PredefinedType},
+    {"IfcMechanicalFastener", at::MechanicalFastener::PredefinedType},
+    {"IfcGrid", at::Grid::PredefinedType},
+    {"IfcAnnotation", at::Annotation::PredefinedType},
 };
 
 }  // namespace
@@ -98,6 +108,12 @@ ProductClass productClassOf(string_view typeName) noexcept {
         }
     }
     return {};
+}
+
+AttributePosition predefinedTypeOf(string_view ifcType) noexcept {
+    for (const auto& [name, position] : kPredefinedTypes)
+        if (name == ifcType) return position;
+    return at::Wall::PredefinedType;
 }
 
 }  // namespace svt::readers::ifc

@@ -1,6 +1,8 @@
 #pragma once
 /// \file
-/// What the classes of IFC products are in the model: one table.
+/// Model classes of IFC products: one table.
+
+#include <svt/readers/ifc_schema/entities.hpp>
 
 #include <cstdint>
 #include <string>
@@ -23,5 +25,9 @@ struct ProductClass {
 
 /// The class of a type name of a STEP file, whatever its case. Unknown ones have an empty `ifcType`.
 [[nodiscard]] ProductClass productClassOf(std::string_view typeName) noexcept;
+
+/// Where a class has its PredefinedType. IFC2x3 has the same words there under the names ShapeType (roofs, ramps, stairs),
+/// OperationType (transport) and CompositionType (proxies). \param ifcType  "IfcDoor"
+[[nodiscard]] AttributePosition predefinedTypeOf(std::string_view ifcType) noexcept;
 
 }  // namespace svt::readers::ifc
