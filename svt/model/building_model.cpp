@@ -1,5 +1,7 @@
 #include <svt/model/building_model.hpp>
 
+#include <svt/model/surface_uses.hpp>
+
 #include <cmath>
 
 namespace svt::model {
@@ -36,15 +38,9 @@ std::vector<FeatureIndex> BuildingModel::treeOrder() const {
 
 Box3d BuildingModel::bounds(const Geometry& geometry) const {
     Box3d box;
-    const auto addUses = [&](const std::vector<SurfaceUse>& uses) {
-        for (const SurfaceUse& use : uses)
-            for (const Vec3d& point : polygons[use.polygon].points) box.add(point);
-    };
-    addUses(geometry.surfaces);
-    for (const Solid& solid : geometry.solids) {
-        addUses(solid.exterior);
-        for (const auto& interior : solid.interiors) addUses(interior);
-    }
+    forEachUse(geometry, [&](const SurfaceUse& use) {
+        for (const Vec3d& point : polygons[use.polygon].points) box.add(point);
+    });
     return box;
 }
 

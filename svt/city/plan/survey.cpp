@@ -2,6 +2,7 @@
 
 #include <svt/city/base/sha256.hpp>
 #include <svt/model/building_model.hpp>
+#include <svt/model/surface_uses.hpp>
 
 #include <fmt/format.h>
 
@@ -160,14 +161,8 @@ private:
 
     static std::uint64_t pointsOf(const model::BuildingModel& model, const model::Geometry& geometry) {
         std::uint64_t points = 0;
-        const auto add = [&](const std::vector<model::SurfaceUse>& uses) {
-            for (const model::SurfaceUse& use : uses) points += model.polygons[use.polygon].points.size();
-        };
-        add(geometry.surfaces);
-        for (const model::Solid& solid : geometry.solids) {
-            add(solid.exterior);
-            for (const auto& interior : solid.interiors) add(interior);
-        }
+        model::forEachUse(geometry,
+                          [&](const model::SurfaceUse& use) { points += model.polygons[use.polygon].points.size(); });
         return points;
     }
 

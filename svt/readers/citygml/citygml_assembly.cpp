@@ -1,6 +1,7 @@
 #include <svt/readers/citygml/citygml_assembly.hpp>
 
 #include <svt/model/classes.hpp>
+#include <svt/model/surface_uses.hpp>
 #include <svt/readers/citygml/citygml_materials.hpp>
 #include <svt/readers/citygml/citygml_references.hpp>
 #include <svt/readers/citygml/citygml_resolver.hpp>
@@ -218,14 +219,7 @@ private:
         std::vector<std::uint32_t> newIndex(part_.polygons.size(), kNone);
         const auto forEachUse = [this](auto&& visit) {
             for (Feature& feature : part_.features)
-                for (model::Geometry& geometry : feature.geometries) {
-                    for (model::SurfaceUse& use : geometry.surfaces) visit(use);
-                    for (model::Solid& solid : geometry.solids) {
-                        for (model::SurfaceUse& use : solid.exterior) visit(use);
-                        for (auto& interior : solid.interiors)
-                            for (model::SurfaceUse& use : interior) visit(use);
-                    }
-                }
+                for (model::Geometry& geometry : feature.geometries) model::forEachUse(geometry, visit);
         };
         forEachUse([&](const model::SurfaceUse& use) { newIndex[use.polygon] = 0; });
         std::uint32_t kept = 0;

@@ -1,5 +1,6 @@
 #include <svt/readers/citygml/citygml_resolver.hpp>
 
+#include <svt/model/surface_uses.hpp>
 #include <svt/readers/citygml/gml_geometry.hpp>
 
 #include <fmt/format.h>
@@ -196,14 +197,7 @@ void GeometryResolver::walkImplicit(NodeIndex index, bool isReversed, Resolved& 
     const Placement& placement = part_.placements[node.payload];
     const std::size_t firstPlaced = placed_.size();
     std::unordered_map<PolygonIndex, PolygonIndex> known;
-    const auto moveUses = [&](std::vector<SurfaceUse>& uses) {
-        for (SurfaceUse& use : uses) use.polygon = placed(use.polygon, placement, known);
-    };
-    moveUses(prototype.surfaces);
-    for (model::Solid& solid : prototype.solids) {
-        moveUses(solid.exterior);
-        for (auto& interior : solid.interiors) moveUses(interior);
-    }
+    model::forEachUse(prototype, [&](SurfaceUse& use) { use.polygon = placed(use.polygon, placement, known); });
     const bool isPlaceable = std::all_of(placed_.begin() + static_cast<std::ptrdiff_t>(firstPlaced), placed_.end(),
                                          [](const Polygon& polygon) { return isWithinEarth(polygon); });
     if (!isPlaceable) {

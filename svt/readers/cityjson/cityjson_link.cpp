@@ -1,4 +1,6 @@
 #include <svt/readers/cityjson/cityjson_link.hpp>
+
+#include <svt/model/surface_uses.hpp>
 #include <svt/readers/georeference/georeference.hpp>
 
 #include <fmt/format.h>
@@ -178,16 +180,8 @@ private:
     }
 
     static void shiftPolygons(model::Feature& feature, model::PolygonIndex offset) {
-        const auto shift = [offset](std::vector<model::SurfaceUse>& uses) {
-            for (model::SurfaceUse& use : uses) use.polygon += offset;
-        };
-        for (model::Geometry& geometry : feature.geometries) {
-            shift(geometry.surfaces);
-            for (model::Solid& solid : geometry.solids) {
-                shift(solid.exterior);
-                for (auto& interior : solid.interiors) shift(interior);
-            }
-        }
+        for (model::Geometry& geometry : feature.geometries)
+            model::forEachUse(geometry, [offset](model::SurfaceUse& use) { use.polygon += offset; });
     }
 
     /// Groups with their members in the order of `children`; then all parents other than the one in the tree.

@@ -1,5 +1,7 @@
 #include <svt/readers/model_joiner.hpp>
 
+#include <svt/model/surface_uses.hpp>
+
 #include <fmt/format.h>
 
 #include <utility>
@@ -47,20 +49,12 @@ void ModelJoiner::append(model::BuildingModel from) {
         if (polygon.material >= 0) polygon.material += firstMaterial;
         all_.polygons.push_back(std::move(polygon));
     }
-    const auto shift = [&](std::vector<model::SurfaceUse>& uses) {
-        for (model::SurfaceUse& use : uses) use.polygon += firstPolygon;
-    };
     for (model::Feature& feature : from.features) {
         keepIdUnique(feature, from.source);
         if (feature.parent != model::kNoFeature) feature.parent += firstFeature;
         for (model::FeatureIndex& child : feature.children) child += firstFeature;
-        for (model::Geometry& geometry : feature.geometries) {
-            shift(geometry.surfaces);
-            for (model::Solid& solid : geometry.solids) {
-                shift(solid.exterior);
-                for (auto& interior : solid.interiors) shift(interior);
-            }
-        }
+        for (model::Geometry& geometry : feature.geometries)
+            model::forEachUse(geometry, [&](model::SurfaceUse& use) { use.polygon += firstPolygon; });
         all_.features.push_back(std::move(feature));
     }
     for (model::Polyline& line : from.lines) {

@@ -2,6 +2,7 @@
 
 #include <svt/crs/crs_facts.hpp>
 #include <svt/crs/projection.hpp>
+#include <svt/model/surface_uses.hpp>
 #include <svt/readers/georeference/far_features.hpp>
 #include <svt/readers/georeference/handedness.hpp>
 #include <svt/readers/gml/gml_crs.hpp>
@@ -85,17 +86,9 @@ private:
     // Polygons that geometry uses, and the box around them; around lines where there are none.
     void findUsed(std::span<const Vec3d> anchors = {}) {
         isUsed_.assign(model_.polygons.size(), false);
-        const auto mark = [&](const std::vector<model::SurfaceUse>& uses) {
-            for (const model::SurfaceUse use : uses) isUsed_[use.polygon] = true;
-        };
         for (const model::Feature& feature : model_.features)
-            for (const model::Geometry& geometry : feature.geometries) {
-                mark(geometry.surfaces);
-                for (const model::Solid& solid : geometry.solids) {
-                    mark(solid.exterior);
-                    for (const auto& interior : solid.interiors) mark(interior);
-                }
-            }
+            for (const model::Geometry& geometry : feature.geometries)
+                model::forEachUse(geometry, [&](const model::SurfaceUse& use) { isUsed_[use.polygon] = true; });
         box_ = {};
         for (std::size_t i = 0; i < isUsed_.size(); ++i) {
             if (!isUsed_[i]) continue;
