@@ -292,7 +292,7 @@ private:
     }
 
     Result<BuildingModel> finish() {
-        if (Result<void> checked = checkHeights(); !checked) return checked.error();
+        SVT_DO(checkHeights());
         BuildingModel model;
         model.source = facts_.fileName;
         model.format = facts_.format;
@@ -303,7 +303,7 @@ private:
         model.materials = std::move(materials_);
         model.memberships = std::move(part_.memberships);
         model.memberships.insert(model.memberships.end(), memberships_.begin(), memberships_.end());
-        if (Result<void> settled = settleCrs(model); !settled) return settled.error();
+        SVT_DO(settleCrs(model));
         return model;
     }
 

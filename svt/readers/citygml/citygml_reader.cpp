@@ -111,15 +111,13 @@ public:
           lines_(document) {}
 
     Result<model::BuildingModel> run() {
-        const Result<xml::Range> rootTag = scanner_.begin();
-        if (!rootTag) return rootTag.error();
-        const Result<Root> root = checkRoot(document_, *rootTag, fileName_);
-        if (!root) return root.error();
+        SVT_TRY(rootTag, scanner_.begin());
+        SVT_TRY(root, checkRoot(document_, *rootTag, fileName_));
         line_ = 1 + xml::countLines(document_.substr(0, rootTag->end));
 
         const string_view rootText = document_.substr(rootTag->begin, rootTag->size());
         while (!isAtEnd_) {
-            if (Result<void> read = readBatch(rootText); !read) return read.error();
+            SVT_DO(readBatch(rootText));
             Progress::tell(options_.progress, "read",
                            static_cast<double>(scanner_.position()) / static_cast<double>(document_.size() + 1));
             if (Progress::isCancelled(options_.progress))
@@ -210,8 +208,7 @@ Result<model::BuildingModel> readCityGml(std::span<const std::byte> bytes, strin
         return Error(Code::InputTooBig,
                      fmt::format("the file has {} bytes, the limit is {}", bytes.size(), options.maxBytes),
                      {fileName, 0, 0, {}});
-    const Result<xml::Utf8Text> text = xml::toUtf8(bytes, name);
-    if (!text) return text.error();
+    SVT_TRY(text, xml::toUtf8(bytes, name));
     Diagnostics ignored;
     return Reading(text->view(), std::move(fileName), options, diagnostics != nullptr ? *diagnostics : ignored).run();
 }

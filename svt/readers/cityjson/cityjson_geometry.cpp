@@ -117,13 +117,11 @@ private:
     }
 
     static std::string_view textMember(json::object object, std::string_view key) {
-        const auto value = findMember(object, key);
-        return value ? asString(*value).value_or(std::string_view()) : std::string_view();
+        return asString(findMember(object, key)).value_or(std::string_view());
     }
 
     void readInstance(json::object instance) {
-        const auto number = findMember(instance, "template");
-        const auto index = number ? asInteger(*number) : std::nullopt;
+        const auto index = asInteger(findMember(instance, "template"));
         const TemplateSet& templates = *context_.templates;
         if (!index || *index < 0 || static_cast<std::uint64_t>(*index) >= templates.geometries.size())
             return report(Code::DanglingReference,
@@ -143,8 +141,7 @@ private:
     }
 
     bool readAnchor(json::object instance) {
-        const auto boundaries = findMember(instance, "boundaries");
-        const auto array = boundaries ? asArray(*boundaries) : std::nullopt;
+        const auto array = asArray(findMember(instance, "boundaries"));
         json::element first;
         const bool hasFirst = array && array->at(0).get(first) == simdjson::SUCCESS;
         const auto index = hasFirst ? asInteger(first) : std::nullopt;
@@ -186,8 +183,7 @@ private:
                 report(Code::UnknownElement, fmt::format("has the unknown type '{}'; left out", shortened(type)));
             return;
         }
-        const auto boundaries = findMember(geometry, "boundaries");
-        const auto parts = boundaries ? asArray(*boundaries) : std::nullopt;
+        const auto parts = asArray(findMember(geometry, "boundaries"));
         if (!parts) return report(Code::BadJson, "has no array 'boundaries'; left out");
 
         model::Geometry result;
@@ -352,8 +348,7 @@ private:
 
     std::optional<json::element> materialValues(json::object geometry) {
         uniformMaterial_ = -1;
-        const auto value = findMember(geometry, "material");
-        const auto themes = value ? asObject(*value) : std::nullopt;
+        const auto themes = asObject(findMember(geometry, "material"));
         if (!themes) return std::nullopt;
         std::optional<json::object> chosen;
         std::string_view chosenName;
@@ -402,8 +397,7 @@ private:
         const auto value = findMember(geometry, "semantics");
         if (!value || value->is_null()) return;
         const auto semantics = asObject(*value);
-        const auto list = semantics ? findMember(*semantics, "surfaces") : std::nullopt;
-        const auto surfaces = list ? asArray(*list) : std::nullopt;
+        const auto surfaces = asArray(findMember(semantics, "surfaces"));
         if (!surfaces) return report(Code::BadValue, "has 'semantics' without an array 'surfaces'; left out");
         for (const json::element item : *surfaces) {
             const auto members = asObject(item);
@@ -434,8 +428,7 @@ private:
         }
         for (std::size_t i = 0; i < drafts_.size(); ++i) {
             if (drafts_[i].parent == kNotAnObject) continue;
-            const auto value = findMember(drafts_[i].members, "children");
-            const auto children = value ? asArray(*value) : std::nullopt;
+            const auto children = asArray(findMember(drafts_[i].members, "children"));
             if (!children) continue;
             for (const json::element child : *children) {
                 const auto index = asInteger(child);
@@ -580,15 +573,11 @@ private:
 
 std::uint64_t instancedBytes(json::element cityObject, const TemplateSet& templates) {
     if (templates.geometries.empty()) return 0;
-    const auto object = asObject(cityObject);
-    const auto geometry = object ? findMember(*object, "geometry") : std::nullopt;
-    const auto geometries = geometry ? asArray(*geometry) : std::nullopt;
+    const auto geometries = asArray(findMember(asObject(cityObject), "geometry"));
     if (!geometries) return 0;
     std::uint64_t bytes = 0;
     for (const json::element item : *geometries) {
-        const auto members = asObject(item);
-        const auto number = members ? findMember(*members, "template") : std::nullopt;
-        const auto index = number ? asInteger(*number) : std::nullopt;
+        const auto index = asInteger(findMember(asObject(item), "template"));
         if (index && *index >= 0 && static_cast<std::uint64_t>(*index) < templates.textBytes.size())
             bytes += templates.textBytes[static_cast<std::size_t>(*index)];
     }

@@ -243,6 +243,13 @@ private:
     std::size_t scanned_ = 0, lineBegin_ = 0;
 };
 
+template <class T>
+std::optional<T> as(const OptionalElement& value) noexcept {
+    T result{};
+    if (!value || value->get(result) != simdjson::SUCCESS) return std::nullopt;
+    return result;
+}
+
 }  // namespace
 
 std::optional<JsonFault> findJsonFault(std::string_view text, std::uint32_t maxDepth,
@@ -319,41 +326,21 @@ std::string shortened(std::string_view text) {
     return std::string(text.substr(0, end)) + "...";
 }
 
-std::optional<json::object> asObject(json::element value) noexcept {
-    json::object object;
-    if (value.get_object().get(object) != simdjson::SUCCESS) return std::nullopt;
-    return object;
-}
+std::optional<json::object> asObject(const OptionalElement& value) noexcept { return as<json::object>(value); }
+std::optional<json::array> asArray(const OptionalElement& value) noexcept { return as<json::array>(value); }
+std::optional<std::string_view> asString(const OptionalElement& value) noexcept { return as<std::string_view>(value); }
+std::optional<double> asNumber(const OptionalElement& value) noexcept { return as<double>(value); }
 
-std::optional<json::array> asArray(json::element value) noexcept {
-    json::array array;
-    if (value.get_array().get(array) != simdjson::SUCCESS) return std::nullopt;
-    return array;
-}
-
-std::optional<std::string_view> asString(json::element value) noexcept {
-    std::string_view text;
-    if (value.get_string().get(text) != simdjson::SUCCESS) return std::nullopt;
-    return text;
-}
-
-std::optional<double> asNumber(json::element value) noexcept {
-    double number = 0;
-    if (value.get_double().get(number) != simdjson::SUCCESS) return std::nullopt;
-    return number;
-}
-
-std::optional<std::int64_t> asInteger(json::element value) noexcept {
-    std::int64_t integer = 0;
-    if (value.get_int64().get(integer) == simdjson::SUCCESS) return integer;
+std::optional<std::int64_t> asInteger(const OptionalElement& value) noexcept {
+    if (const auto integer = as<std::int64_t>(value)) return integer;
     const auto number = asNumber(value);
     if (!number || std::abs(*number) > 9e15 || *number != std::floor(*number)) return std::nullopt;
     return static_cast<std::int64_t>(*number);
 }
 
-std::optional<json::element> findMember(json::object object, std::string_view key) noexcept {
+OptionalElement findMember(std::optional<json::object> object, std::string_view key) noexcept {
     json::element value;
-    if (object.at_key(key).get(value) != simdjson::SUCCESS) return std::nullopt;
+    if (!object || object->at_key(key).get(value) != simdjson::SUCCESS) return std::nullopt;
     return value;
 }
 

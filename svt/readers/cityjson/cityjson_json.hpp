@@ -64,14 +64,15 @@ private:
 /// `text` truncated at a character boundary to a length suitable for messages and generated ids.
 [[nodiscard]] std::string shortened(std::string_view text);
 
-// Typed access; absent for a wrong type.
-[[nodiscard]] std::optional<json::object> asObject(json::element value) noexcept;
-[[nodiscard]] std::optional<json::array> asArray(json::element value) noexcept;
-[[nodiscard]] std::optional<std::string_view> asString(json::element value) noexcept;
-[[nodiscard]] std::optional<double> asNumber(json::element value) noexcept;
+// Typed access; absent for an absent value or a wrong type.
+using OptionalElement = std::optional<json::element>;
+[[nodiscard]] std::optional<json::object> asObject(const OptionalElement& value) noexcept;
+[[nodiscard]] std::optional<json::array> asArray(const OptionalElement& value) noexcept;
+[[nodiscard]] std::optional<std::string_view> asString(const OptionalElement& value) noexcept;
+[[nodiscard]] std::optional<double> asNumber(const OptionalElement& value) noexcept;
 /// An integer, also if written as 3.0.
-[[nodiscard]] std::optional<std::int64_t> asInteger(json::element value) noexcept;
+[[nodiscard]] std::optional<std::int64_t> asInteger(const OptionalElement& value) noexcept;
 /// The first member `key` of `object`.
-[[nodiscard]] std::optional<json::element> findMember(json::object object, std::string_view key) noexcept;
+[[nodiscard]] OptionalElement findMember(std::optional<json::object> object, std::string_view key) noexcept;
 
 }  // namespace svt::readers::cityjson

@@ -131,8 +131,7 @@ std::vector<std::string> readIds(json::object object, std::string_view key, Pars
 /// `children_roles` is parallel to `children`, so an entry that is not text is kept as an empty role.
 std::vector<std::string> readRoles(json::object object) {
     std::vector<std::string> roles;
-    const auto value = findMember(object, "children_roles");
-    const auto array = value ? asArray(*value) : std::nullopt;
+    const auto array = asArray(findMember(object, "children_roles"));
     if (!array) return roles;
     for (const json::element item : *array) roles.emplace_back(asString(item).value_or(std::string_view()));
     return roles;
@@ -153,8 +152,7 @@ void readAddresses(json::element value, std::vector<Attribute>& attributes) {
 }
 
 void readType(json::object object, ParsedObject& parsed, const Place& place) {
-    const auto value = findMember(object, "type");
-    const auto type = value ? asString(*value) : std::nullopt;
+    const auto type = asString(findMember(object, "type"));
     if (!type || type->empty()) {
         parsed.diagnostics.add(Severity::Warning, Code::BadValue,
                                "a city object without type; read as GenericOccupiedSpace", place);

@@ -82,7 +82,7 @@ struct Transform {
     }
 };
 
-std::optional<Vec3d> readVec3(json::element value) {
+std::optional<Vec3d> readVec3(const OptionalElement& value) {
     const auto array = asArray(value);
     if (!array) return std::nullopt;
     Vec3d result;
@@ -109,9 +109,7 @@ std::vector<Vec3d> readVertices(json::array array, const Transform& transform) {
 
 std::vector<model::Material> readMaterials(const std::optional<json::element>& appearance) {
     std::vector<model::Material> materials;
-    const auto members = appearance ? asObject(*appearance) : std::nullopt;
-    const auto list = members ? findMember(*members, "materials") : std::nullopt;
-    const auto array = list ? asArray(*list) : std::nullopt;
+    const auto array = asArray(findMember(asObject(appearance), "materials"));
     if (!array) return materials;
     const auto toUnit = [](double value) { return static_cast<float>(value >= 0 ? std::min(value, 1.0) : 0.0); };
     for (const json::element item : *array) {
@@ -119,8 +117,7 @@ std::vector<model::Material> readMaterials(const std::optional<json::element>& a
         const auto object = asObject(item);
         if (!object) continue;
         if (const auto name = findMember(*object, "name")) material.name = asString(*name).value_or(std::string_view());
-        const auto diffuse = findMember(*object, "diffuseColor");
-        if (const auto color = diffuse ? readVec3(*diffuse) : std::nullopt)
+        if (const auto color = readVec3(findMember(*object, "diffuseColor")))
             material.diffuse = {toUnit(color->x), toUnit(color->y), toUnit(color->z)};
         if (const auto value = findMember(*object, "transparency"))
             material.transparency = toUnit(asNumber(*value).value_or(0));
@@ -129,9 +126,7 @@ std::vector<model::Material> readMaterials(const std::optional<json::element>& a
 }
 
 std::string_view readTheme(const std::optional<json::element>& appearance) {
-    const auto members = appearance ? asObject(*appearance) : std::nullopt;
-    const auto theme = members ? findMember(*members, "default-theme-material") : std::nullopt;
-    return theme ? asString(*theme).value_or(std::string_view()) : std::string_view();
+    return asString(findMember(asObject(appearance), "default-theme-material")).value_or(std::string_view());
 }
 
 /// The objects of one line of a sequence.
@@ -191,7 +186,7 @@ private:
         const auto object = asObject(*root);
         if (!object) return Error(Code::BadJson, "the text is no JSON object; expected a CityJSON object", place(line));
         const RootMembers members(*object, place(0), diagnostics_);
-        const auto type = members.type ? asString(*members.type) : std::nullopt;
+        const auto type = asString(members.type);
         if (type == "CityJSONFeature")
             return Error(Code::BadJson,
                          "a CityJSONFeature without the CityJSON object that has its transform; "
@@ -211,10 +206,10 @@ private:
         theme_ = readTheme(members.appearance);
         readTemplates(members.templates);
 
-        const auto cityObjects = members.cityObjects ? asObject(*members.cityObjects) : std::nullopt;
+        const auto cityObjects = asObject(members.cityObjects);
         if (!cityObjects)
             return Error(Code::BadJson, "the member 'CityObjects' is absent or no JSON object", place(line));
-        const auto vertices = members.vertices ? asArray(*members.vertices) : std::nullopt;
+        const auto vertices = asArray(members.vertices);
         if (!vertices && !(hasLines && cityObjects->size() == 0))
             return Error(Code::BadJson, "the member 'vertices' is absent or no array", place(line));
         std::vector<Vec3d> points;
@@ -264,31 +259,26 @@ private:
             return {};
         }
         const auto object = asObject(*value);
-        const auto scale = object ? findMember(*object, "scale") : std::nullopt;
-        const auto translate = object ? findMember(*object, "translate") : std::nullopt;
-        const auto scaleValues = scale ? readVec3(*scale) : std::nullopt;
-        const auto translateValues = translate ? readVec3(*translate) : std::nullopt;
-        if (!scaleValues || !translateValues || scaleValues->x == 0 || scaleValues->y == 0 || scaleValues->z == 0)
+        const auto scale = readVec3(findMember(object, "scale")), translate = readVec3(findMember(object, "translate"));
+        if (!scale || !translate || scale->x == 0 || scale->y == 0 || scale->z == 0)
             return Error(
                 Code::BadValue,
                 "'transform' needs a 'scale' of three numbers that are not 0 and a 'translate' of three numbers",
                 place(0));
-        transform_ = {*scaleValues, *translateValues};
+        transform_ = {*scale, *translate};
         return {};
     }
 
     void readTemplates(const std::optional<json::element>& value) {
-        const auto object = value ? asObject(*value) : std::nullopt;
+        const auto object = asObject(value);
         if (!object) return;
-        const auto geometries = findMember(*object, "templates");
-        const auto vertices = findMember(*object, "vertices-templates");
-        if (const auto array = geometries ? asArray(*geometries) : std::nullopt)
+        if (const auto array = asArray(findMember(*object, "templates")))
             for (const json::element geometry : *array) {
                 templates_.geometries.push_back(geometry);
                 // At least the size of a feature, so that empty templates count as well.
                 templates_.textBytes.push_back(std::max<std::size_t>(64, simdjson::minify(geometry).size()));
             }
-        if (const auto array = vertices ? asArray(*vertices) : std::nullopt)
+        if (const auto array = asArray(findMember(*object, "vertices-templates")))
             templates_.vertices = readVertices(*array, {});
     }
 
@@ -368,12 +358,12 @@ private:
         const auto object = asObject(*root);
         if (!object) return leaveOut("no JSON object");
         const RootMembers members(*object, place(line.number), line.diagnostics);
-        const auto type = members.type ? asString(*members.type) : std::nullopt;
+        const auto type = asString(members.type);
         if (type != "CityJSONFeature")
             return leaveOut(fmt::format("the member 'type' is '{}', expected 'CityJSONFeature'",
                                         type ? shortened(*type) : "(absent)"));
-        const auto cityObjects = members.cityObjects ? asObject(*members.cityObjects) : std::nullopt;
-        const auto vertices = members.vertices ? asArray(*members.vertices) : std::nullopt;
+        const auto cityObjects = asObject(members.cityObjects);
+        const auto vertices = asArray(members.vertices);
         if (!cityObjects || !vertices) return leaveOut("the object 'CityObjects' or the array 'vertices' is absent");
         // The sum over a batch decides, so that failure does not depend on the order of threads.
         for (const auto [id, value] : *cityObjects) instancedBytes_ += instancedBytes(value, templates_);

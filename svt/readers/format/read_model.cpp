@@ -196,8 +196,7 @@ Result<std::vector<std::byte>> unpackedMember(const ZipMember& member, string_vi
 Result<model::BuildingModel> readZip(Bytes bytes, string_view name, const ReadOptions& options,
                                      Diagnostics* diagnostics) {
     constexpr string_view kExtensions[] = {".ifc"};
-    const Result<ZipMember> member = findZipMember(bytes, name, kExtensions);
-    if (!member) return member.error();
+    SVT_TRY(member, findZipMember(bytes, name, kExtensions));
     std::vector<std::byte> unpacked;
     if (member->isDeflated) {
         SVT_TRY(inflated, unpackedMember(*member, name, options.maxBytes));
@@ -219,8 +218,7 @@ Result<model::BuildingModel> readAny(Bytes bytes, string_view name, const ReadOp
                                      Diagnostics* diagnostics) {
     if (isZip(bytes)) return readZip(bytes, name, options, diagnostics);
     if (!isGzip(bytes)) return readPlain(bytes, name, options, diagnostics);
-    const Result<std::vector<std::byte>> plain = decompressed(bytes, name, options.maxBytes);
-    if (!plain) return plain.error();
+    SVT_TRY(plain, decompressed(bytes, name, options.maxBytes));
     return readPlain(*plain, name, options, diagnostics);
 }
 
@@ -266,8 +264,7 @@ Result<model::BuildingModel> readModel(Bytes bytes, string_view name, const Read
 
 Result<model::BuildingModel> readModel(const std::filesystem::path& path, const ReadOptions& options,
                                        Diagnostics* diagnostics) {
-    const Result<FileBytes> file = FileBytes::read(path, options.maxBytes);
-    if (!file) return file.error();
+    SVT_TRY(file, FileBytes::read(path, options.maxBytes));
     return readModel(file->bytes(), path.string(), options, diagnostics);
 }
 

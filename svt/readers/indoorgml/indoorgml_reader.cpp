@@ -285,8 +285,7 @@ Result<model::BuildingModel> readIndoorGml(std::span<const std::byte> bytes, str
         return Error(Code::InputTooBig,
                      fmt::format("the file has {} bytes, the limit is {}", bytes.size(), options.maxBytes),
                      {std::string(name), 0, 0, {}});
-    const Result<xml::Utf8Text> text = xml::toUtf8(bytes, name);
-    if (!text) return text.error();
+    SVT_TRY(text, xml::toUtf8(bytes, name));
     Diagnostics ignored;
     return IndoorReader(text->view(), name, options, diagnostics != nullptr ? *diagnostics : ignored).run();
 }
