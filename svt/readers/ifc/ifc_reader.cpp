@@ -27,7 +27,7 @@ using std::string_view;
 
 constexpr string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-// "IFC4X3_ADD2" -> "IFC4X3", and what people call it.
+// "IFC4X3_ADD2" -> "IFC 4.3".
 std::optional<std::string> versionName(string_view schema) {
     const std::string lower = lowerAscii(schema);
     if (lower.starts_with("ifc2x")) return "IFC " + lower.substr(3);
@@ -62,7 +62,7 @@ public:
             file_.missing().report(name_, diagnostics_);
             return Error(Code::EmptyModel, "the file has no product: no building, storey, space or element", place());
         }
-        tellOfStructure();
+        reportStructure();
         presentationLayers_ = readPresentationLayers(file_);
         const Properties properties(file_, units_);
         for (const std::size_t p : structure_.order) {
@@ -72,28 +72,36 @@ public:
         addGroups();
         SVT_DO(readShapes(styles, properties));
         file_.missing().report(name_, diagnostics_);
-        tellOfCircles();
-        tellOfProducts();
+        reportCircles();
+        reportCounts();
         return placeModel();
     }
 
 private:
-    [[nodiscard]] Place place() const { return {std::string(name_), 0, 0, {}}; }
+    [[nodiscard]] Place place(std::uint64_t line = 0, std::string id = {}) const {
+        return {std::string(name_), line, 0, std::move(id)};
+    }
+    void warn(Code code, std::string message, const Place& where) {
+        diagnostics_.add(Severity::Warning, code, std::move(message), where);
+    }
+    void note(Code code, std::string message, const Place& where) {
+        diagnostics_.add(Severity::Note, code, std::move(message), where);
+    }
     [[nodiscard]] std::uint64_t lineOf(RecordIndex record) const {
         return file_.step().lineOf(file_.step().records()[record]);
     }
 
-    // Records that are missing at the end would be missing in silence.
+    // Reports a file that was cut off, whose last records are missing.
     Result<void> checkEnd() {
         if (!file_.step().isTruncated()) return {};
         const step::Record& last = file_.step().records().back();
-        const Place where{std::string(name_), file_.step().lineOf(last), 0, {}};
+        const Place where = place(file_.step().lineOf(last));
         const std::string found =
             fmt::format("the file ends behind the record #{}, without END-ISO-10303-21: it was cut off", last.id);
         if (!options_.allowTruncated)
             return Error(Code::Truncated,
                          found + "; copy or export it again, or read it up to the cut (--allow-truncated)", where);
-        diagnostics_.add(Severity::Warning, Code::Truncated, found + "; it was read up to the cut", where);
+        warn(Code::Truncated, found + "; it was read up to the cut", where);
         return {};
     }
 
@@ -118,37 +126,34 @@ private:
         if (model_.name.empty()) model_.name = fields[at::Project::LongName].string().value_or("");
     }
 
-    void tellOfStructure() {
+    void reportStructure() {
         for (const std::string& circle : structure_.circles)
-            diagnostics_.add(
-                Severity::Warning, Code::ReferenceCycle,
-                fmt::format("products contain, cut or fill each other in a circle: {}; what closes it is left out",
-                            circle),
-                place());
+            warn(Code::ReferenceCycle,
+                 fmt::format("products contain, cut or fill each other in a circle: {}; what closes it is left out",
+                             circle),
+                 place());
         for (const auto& [type, count] : structure_.unknownClasses)
-            diagnostics_.add(
-                Severity::Note, Code::UnknownElement,
+            note(
+                Code::UnknownElement,
                 fmt::format("the class {} is not known; its {} products are read as GenericOccupiedSpace", type, count),
                 place());
     }
 
-    void tellOfCircles() {
+    void reportCircles() {
         for (const ReadGuard::Circle& circle : file_.guard().circles())
-            diagnostics_.add(
-                Severity::Warning, Code::ReferenceCycle,
-                fmt::format("records refer to each other in a circle: {}; what closes it is left out", circle.text),
-                {std::string(name_), lineOf(circle.first), 0, {}});
+            warn(Code::ReferenceCycle,
+                 fmt::format("records refer to each other in a circle: {}; what closes it is left out", circle.text),
+                 place(lineOf(circle.first)));
     }
 
-    // Attributes beyond the budget of a product are left out, and said.
+    // Omits attributes beyond the budget of a product, with a finding.
     void finishAttributes(const model::Feature& feature) {
         ReadGuard& guard = file_.guard();
         for (const Attribute& attribute : feature.attributes) guard.takeElements(elementsOf(attribute));
         if (guard.isSpent() && !guard.isFileSpent())
-            diagnostics_.add(
-                Severity::Warning, Code::ReadInPart,
-                fmt::format("the attributes of this product were read in part: they have {}", guard.whatIsSpent()),
-                {std::string(name_), feature.line, 0, feature.id});
+            warn(Code::ReadInPart,
+                 fmt::format("the attributes of this product were read in part: they have {}", guard.whatIsSpent()),
+                 place(feature.line, feature.id));
         guard.endProduct();
     }
 
@@ -156,34 +161,37 @@ private:
         std::string id = fields[at::Root::GlobalId].string().value_or("");
         if (id.empty()) {
             id = fmt::format("{}_{}", product.ifcType, file_.step().records()[product.record].id);
-            diagnostics_.add(Severity::Warning, Code::MissingId,
-                             fmt::format("a product without GlobalId; it is called '{}'", id),
-                             {std::string(name_), lineOf(product.record), 0, id});
+            warn(Code::MissingId, fmt::format("a product without GlobalId; it is called '{}'", id),
+                 place(lineOf(product.record), id));
         }
         if (ids_.insert(id).second) return id;
         const std::string wanted = id;
-        // Goes on where the last one with this id found a free number.
+        // Continues with the number after the last one that was free for this id.
         for (int& i = nextNumber_.emplace(wanted, 2).first->second; !ids_.insert(id).second; ++i)
             id = fmt::format("{}_{}", wanted, i);
-        diagnostics_.add(Severity::Warning, Code::DuplicateId,
-                         fmt::format("the GlobalId '{}' is used again; renamed to '{}'", wanted, id),
-                         {std::string(name_), lineOf(product.record), 0, id});
+        warn(Code::DuplicateId, fmt::format("the GlobalId '{}' is used again; renamed to '{}'", wanted, id),
+             place(lineOf(product.record), id));
         return id;
+    }
+
+    model::Feature newFeature(const Product& product, const Fields& fields) {
+        model::Feature feature;
+        feature.id = uniqueId(fields, product);
+        feature.className = product.className;
+        feature.name = fields[at::Root::Name].string().value_or("");
+        feature.line = lineOf(product.record);
+        feature.attributes.push_back({"ifcType", product.ifcType, ""});
+        return feature;
     }
 
     void addFeature(const Product& product, std::size_t number, const Properties& properties) {
         file_.guard().beginProduct();
         const Fields fields = file_.fieldsOf(product.record);
-        model::Feature feature;
-        feature.id = uniqueId(fields, product);
-        feature.className = product.className;
-        feature.name = fields[at::Product::Name].string().value_or("");
-        feature.line = lineOf(product.record);
+        model::Feature feature = newFeature(product, fields);
         const auto add = [&](string_view attribute, Value value) {
             if (auto text = value.string(); text && !text->empty())
                 feature.attributes.push_back({std::string(attribute), std::move(*text), ""});
         };
-        feature.attributes.push_back({"ifcType", product.ifcType, ""});
         add("description", fields[at::Product::Description]);
         add("objectType", fields[at::Product::ObjectType]);
         if (product.kind == ProductKind::Spatial)
@@ -210,7 +218,8 @@ private:
         featureOf_[number] = model_.addFeature(std::move(feature), parent);
     }
 
-    // How a door opens is told by itself (IFC4) or by its type or style (2x3); to which side, by the y axis of its placement.
+    // A door (IFC4), its type, or its style (IFC2x3) states the operation. The y axis of its placement points to the side that
+    // the door opens to.
     void addDoorOperation(RecordIndex door, const Properties& properties, model::Feature& feature) const {
         const auto known = [](string_view operation) { return operation.size() > 1 && operation != "NOTDEFINED"; };
         string_view operation = file_.fieldsOf(door)[at::Door::OperationType].enumeration();
@@ -230,8 +239,7 @@ private:
         feature.attributes.push_back({"opensTowards", rounded < 0 ? rounded + 360 : rounded + 0.0, "deg"});
     }
 
-    // The name of a space is its number in the plan, its long name what people call it. A zone that somebody occupies is a
-    // unit.
+    // Name is the number of a space in the plan, LongName the name that people use. A zone for occupancy is a unit.
     static void nameSpace(const Fields& fields, model::Feature& feature) {
         const std::string longName = fields[at::SpatialElement::LongName].string().value_or("");
         if (!longName.empty() && longName != feature.name) {
@@ -241,7 +249,7 @@ private:
         if (fields[at::SpatialZone::PredefinedType].enumeration() == "OCCUPANCY") feature.className = "BuildingUnit";
     }
 
-    // Of the representations of a product, of their items, and of what mapped items show; each once.
+    // Adds the layers of the representations of a product, their items, and the items of their maps; each once.
     void addPresentationLayers(const Product& product, model::Feature& feature) const {
         if (presentationLayers_.empty()) return;
         std::string names;
@@ -278,27 +286,20 @@ private:
         if (map_.trueNorthDegrees) feature.attributes.push_back({"trueNorth", *map_.trueNorthDegrees, "deg"});
     }
 
+    model::FeatureIndex addGroup(RecordIndex record) {
+        const Entity entity = file_.entityOf(record);
+        const string_view type = entity == Entity::Other ? file_.typeName(record) : entityName(entity);
+        const Product product{record, ProductKind::Spatial, std::string(type), "CityObjectGroup", Product::kNoProduct};
+        return model_.addFeature(newFeature(product, file_.fieldsOf(record)), model::kNoFeature);
+    }
+
     void addGroups() {
         for (const Structure::Group& group : structure_.groups) {
-            const Fields fields = file_.fieldsOf(group.record);
-            Product product{group.record, ProductKind::Spatial, "", "CityObjectGroup", Product::kNoProduct};
-            const Entity entity = file_.entityOf(group.record);
-            product.ifcType =
-                entity == Entity::Other ? std::string(file_.typeName(group.record)) : std::string(entityName(entity));
-            const auto known = groupFeature_.find(group.record);
-            model::FeatureIndex index = known != groupFeature_.end() ? known->second : model::kNoFeature;
-            if (index == model::kNoFeature) {
-                model::Feature feature;
-                feature.id = uniqueId(fields, product);
-                feature.className = product.className;
-                feature.name = fields[at::Root::Name].string().value_or("");
-                feature.line = lineOf(group.record);
-                feature.attributes.push_back({"ifcType", product.ifcType, ""});
-                index = groupFeature_[group.record] = model_.addFeature(std::move(feature), model::kNoFeature);
-            }
+            const auto [known, isNew] = groupFeature_.try_emplace(group.record);
+            if (isNew) known->second = addGroup(group.record);
             for (const std::size_t member : group.members)
                 if (featureOf_[member] != model::kNoFeature)
-                    model_.memberships.push_back({index, featureOf_[member], "member"});
+                    model_.memberships.push_back({known->second, featureOf_[member], "member"});
         }
     }
 
@@ -314,9 +315,9 @@ private:
         return placement;
     }
 
-    // Openings or projections of a product, in its axes; those of a whole belong to its parts, too.
-    std::vector<Body> bodiesOf(const std::vector<RecordIndex>& records, const Transform& intoProduct,
-                               ShapeReader& shapes, Shape& shape) {
+    // Bodies of openings or projections, in the axes of their product.
+    std::vector<Body> readOpenings(const std::vector<RecordIndex>& records, const Transform& intoProduct,
+                                   ShapeReader& shapes, Shape& shape) {
         std::vector<Body> bodies;
         for (const RecordIndex record : records) {
             if (record == kNoRecord) {
@@ -336,6 +337,7 @@ private:
         return bodies;
     }
 
+    // The openings of a product and of the elements that it is a part of.
     [[nodiscard]] std::vector<RecordIndex> openingsOf(const Product& product) const {
         std::vector<RecordIndex> records;
         const Product* at = &product;
@@ -366,7 +368,7 @@ private:
             const Transform placement = placementOf(product.record, shape.leftOut);
             if (!shape.bodies.empty()) cutOpenings(product, placement, shapes, shape);
             if (file_.guard().isFileSpent()) return tooMuch();
-            // What was read until the budget was spent is no shape of the product, nor may it stay in memory.
+            // Discards a shape that was read until the budget was spent: it is incomplete, and large.
             if (file_.guard().isSpent()) shape = {{}, {file_.guard().whatIsSpent()}, true};
             if (shape.hasRepresentation)
                 finishProduct(p, shape, placement, styles, properties);
@@ -378,7 +380,7 @@ private:
         return {};
     }
 
-    // Of a product without a body: its curves.
+    // Adds the curves of a product without a body.
     void addLines(std::size_t number, RecordIndex definition, const Transform& placement,
                   std::vector<std::string> leftOut) {
         std::vector<std::vector<Vec3d>> lines = readLines(file_, definition, leftOut);
@@ -394,10 +396,10 @@ private:
         for (std::string& what : file_.missing().take()) leftOut.push_back(std::move(what));
         if (leftOut.empty()) return;
         const model::Feature& feature = model_.features[featureOf_[number]];
-        diagnostics_.add(Severity::Note, Code::ReadInPart,
-                         fmt::format("the lines of this {} were read in part; left out: {}",
-                                     structure_.products[number].ifcType, leftOut.front()),
-                         {std::string(name_), feature.line, 0, feature.id});
+        note(Code::ReadInPart,
+             fmt::format("the lines of this {} were read in part; left out: {}", structure_.products[number].ifcType,
+                         leftOut.front()),
+             place(feature.line, feature.id));
     }
 
     void cutOpenings(const Product& product, const Transform& placement, ShapeReader& shapes, Shape& shape) {
@@ -410,15 +412,15 @@ private:
         }
         const Transform intoProduct = placement.inverse();
         if (added != structure_.projections.end())
-            for (Body& body : bodiesOf(added->second, intoProduct, shapes, shape))
+            for (Body& body : readOpenings(added->second, intoProduct, shapes, shape))
                 shape.bodies.push_back(std::move(body));
-        if (!openings.empty()) shapes.subtract(shape, bodiesOf(openings, intoProduct, shapes, shape));
+        if (!openings.empty()) shapes.subtract(shape, readOpenings(openings, intoProduct, shapes, shape));
     }
 
     void finishProduct(std::size_t number, Shape& shape, const Transform& placement, const Styles& styles,
                        const Properties& properties) {
         model::Feature& feature = model_.features[featureOf_[number]];
-        const Place where{std::string(name_), feature.line, 0, feature.id};
+        const Place where = place(feature.line, feature.id);
         const std::string& type = structure_.products[number].ifcType;
         ++withShape_;
         std::string what;
@@ -426,28 +428,21 @@ private:
         if (shape.leftOut.size() > 5) what += fmt::format("; and {} more", shape.leftOut.size() - 5);
         if (shape.bodies.empty()) {
             ++skipped_;
-            diagnostics_.add(
-                Severity::Warning, Code::ShapeNotRead,
-                fmt::format("no shape of this {} could be read: {}", type,
-                            what.empty() ? "its representation has no body, or openings take all of it" : what),
-                where);
-            return;
+            if (what.empty()) what = "its representation has no body, or openings take all of it";
+            return warn(Code::ShapeNotRead, fmt::format("no shape of this {} could be read: {}", type, what), where);
         }
         if (!what.empty()) {
             ++partial_;
-            diagnostics_.add(Severity::Warning, Code::ReadInPart,
-                             fmt::format("this {} was read in part; left out: {}", type, what), where);
+            warn(Code::ReadInPart, fmt::format("this {} was read in part; left out: {}", type, what), where);
         }
-        std::int32_t material = -1;
-        if (const auto found = styles.ofMaterial.find(properties.mainMaterial(structure_.products[number].record));
-            found != styles.ofMaterial.end())
-            material = found->second;
+        const auto style = styles.ofMaterial.find(properties.mainMaterial(structure_.products[number].record));
+        const std::int32_t material = style == styles.ofMaterial.end() ? -1 : style->second;
         if (options_.splitLayers && splitProduct(number, shape, placement, styles, properties, material)) return;
         addGeometry(model_.features[featureOf_[number]], shape.bodies, placement, material);
     }
 
-    // What is true of a wall is true of its layers, so that queries for walls find them; but not its measures and materials.
-    static std::vector<Attribute> attributesOfLayers(const std::vector<Attribute>& ofProduct) {
+    // Layers inherit the attributes of their wall, so that queries for walls find them, except for measures and materials.
+    static std::vector<Attribute> layerAttributes(const std::vector<Attribute>& ofProduct) {
         constexpr string_view kOwn[] = {"material", "materialLayers", "tag", "layer", "thickness", "function"};
         std::vector<Attribute> attributes;
         for (const Attribute& attribute : ofProduct)
@@ -457,7 +452,7 @@ private:
         return attributes;
     }
 
-    // Layers as features below the product; false where it has none, or they cannot be told apart.
+    // Adds layers as features below the product; false where it has none, or the body cannot be split.
     bool splitProduct(std::size_t number, const Shape& shape, const Transform& placement, const Styles& styles,
                       const Properties& properties, std::int32_t material) {
         const RecordIndex record = structure_.products[number].record;
@@ -467,26 +462,25 @@ private:
         const model::FeatureIndex product = featureOf_[number];
         const std::string id = model_.features[product].id;
         const std::uint64_t line = model_.features[product].line;
-        const auto tell = [&](const std::string& what) {
-            diagnostics_.add(Severity::Warning, Code::LayersNotSplit,
-                             fmt::format("this {} {}", structure_.products[number].ifcType, what),
-                             {std::string(name_), line, 0, id});
+        const auto report = [&](const std::string& what) {
+            warn(Code::LayersNotSplit, fmt::format("this {} {}", structure_.products[number].ifcType, what),
+                 place(line, id));
         };
         if (!layered->why.empty()) {
-            tell("was not split into its layers: " + layered->why);
+            report("was not split into its layers: " + layered->why);
             return false;
         }
         std::uint64_t copied = 0;
         for (const Attribute& attribute : model_.features[product].attributes) copied += elementsOf(attribute);
         if (!file_.guard().affords(copied * layered->layers.size())) {
-            tell("was not split into its layers: they have " + file_.guard().whatIsSpent());
+            report("was not split into its layers: they have " + file_.guard().whatIsSpent());
             return false;
         }
         file_.guard().takeElements(copied * layered->layers.size());
         ++split_;
         if (layered->moved > 0)
-            tell(fmt::format("has its layers beside its body; they were moved onto it, by {:.4g} m", layered->moved));
-        if (!layered->rest.empty()) tell("is thicker than its layers; what is beside them belongs to no layer");
+            report(fmt::format("has its layers beside its body; they were moved onto it, by {:.4g} m", layered->moved));
+        if (!layered->rest.empty()) report("is thicker than its layers; what is beside them belongs to no layer");
         addGeometry(model_.features[product], layered->rest, placement, material);
         for (std::size_t i = 0; i < layered->layers.size(); ++i) {
             LayerPart& layer = layered->layers[i];
@@ -497,7 +491,7 @@ private:
             feature.className = model_.features[product].className;
             feature.name = layer.name;
             feature.line = line;
-            feature.attributes = attributesOfLayers(model_.features[product].attributes);
+            feature.attributes = layerAttributes(model_.features[product].attributes);
             feature.attributes.push_back({"material", layer.name, ""});
             feature.attributes.push_back({"layer", static_cast<std::int64_t>(i + 1), ""});
             feature.attributes.push_back({"thickness", layer.thickness, "m"});
@@ -536,16 +530,15 @@ private:
         if (!geometry.solids.empty() || !geometry.surfaces.empty()) feature.geometries.push_back(std::move(geometry));
     }
 
-    void tellOfProducts() {
-        diagnostics_.add(Severity::Note, Code::ProductsRead,
-                         fmt::format("{} of {} products with a shape were read, {} of them in part",
-                                     withShape_ - skipped_, withShape_, partial_),
-                         place());
+    void reportCounts() {
+        note(Code::ProductsRead,
+             fmt::format("{} of {} products with a shape were read, {} of them in part", withShape_ - skipped_,
+                         withShape_, partial_),
+             place());
         if (options_.splitLayers)
-            diagnostics_.add(
-                Severity::Note, Code::LayersSplit,
-                fmt::format("{} of {} products with layers of materials were split into them", split_, withLayers_),
-                place());
+            note(Code::LayersSplit,
+                 fmt::format("{} of {} products with layers of materials were split into them", split_, withLayers_),
+                 place());
     }
 
     Result<model::BuildingModel> placeModel() {

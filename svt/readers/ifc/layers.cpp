@@ -28,7 +28,7 @@ struct Range {
     double low = kInfinity, high = -kInfinity;
 };
 
-Range rangeOf(const std::vector<Body>& bodies, Vec3d direction) {
+Range extent(const std::vector<Body>& bodies, Vec3d direction) {
     Range range;
     for (const Body& body : bodies)
         for (const model::Polygon& face : body.faces)
@@ -39,7 +39,7 @@ Range rangeOf(const std::vector<Body>& bodies, Vec3d direction) {
     return range;
 }
 
-// The line of the representation Axis in plan: nothing where there is none, a reason where it is not straight.
+// The line of the representation Axis in plan; the x axis without one; nothing, and a reason, if it is not straight.
 std::optional<Stack> wallStack(const IfcFile& file, RecordIndex definition, std::string& why) {
     Stack stack{{0, 1, 0}, 0};
     for (const RecordIndex representation : file.representations(definition)) {
@@ -87,7 +87,7 @@ std::optional<Stack> extrusionStack(const IfcFile& file, RecordIndex definition)
     return std::nullopt;
 }
 
-// All of `faces` between two planes; nothing where that is not closed.
+// The part of `faces` between two planes; nothing if it is not closed.
 std::optional<Polygons> between(const Polygons& faces, Vec3d direction, double low, double high, ReadGuard& guard) {
     const Transform axes = axesFrom({}, direction, {1, 0, 0});
     Box3d box = boundsOf(faces);
@@ -147,8 +147,8 @@ private:
         if (result_.layers.size() > kMaxLayers) result_.why = fmt::format("it has {} layers", result_.layers.size());
     }
 
-    // Where the layers begin and end along a stack.
-    [[nodiscard]] Range rangeOfLayers(const Fields& usage, const Stack& stack) const {
+    // Begin and end of the layers along a stack.
+    [[nodiscard]] Range layerRange(const Fields& usage, const Stack& stack) const {
         const double begin = stack.base + file_.metres(usage[at::MaterialLayerSetUsage::OffsetFromReferenceLine]);
         return isNegative_ ? Range{begin - total_, begin} : Range{begin, begin + total_};
     }
@@ -166,9 +166,9 @@ private:
             return true;
         }
         stack_ = {axis == "AXIS1" ? Vec3d{1, 0, 0} : Vec3d{0, 0, 1}, 0};
-        if (axis == "AXIS3" && !fits(rangeOfLayers(usage, stack_), rangeOf(shape_.bodies, stack_.direction)))
+        if (axis == "AXIS3" && !fits(layerRange(usage, stack_), extent(shape_.bodies, stack_.direction)))
             if (const auto other = extrusionStack(file_, definition_);
-                other && fits(rangeOfLayers(usage, *other), rangeOf(shape_.bodies, other->direction)))
+                other && fits(layerRange(usage, *other), extent(shape_.bodies, other->direction)))
                 stack_ = *other;
         return true;
     }
@@ -178,8 +178,8 @@ private:
             if (!isClosed(body.faces)) result_.why = "its body is not closed";
         isNegative_ = usage[at::MaterialLayerSetUsage::DirectionSense].enumeration() == "NEGATIVE";
         if (!result_.why.empty() || !findStack(usage)) return;
-        const Range body = rangeOf(shape_.bodies, stack_.direction);
-        Range layers = rangeOfLayers(usage, stack_);
+        const Range body = extent(shape_.bodies, stack_.direction);
+        Range layers = layerRange(usage, stack_);
         if (!fits(layers, body) && std::abs(body.high - body.low - total_) < kTolerance) {
             result_.moved = std::abs(body.low - layers.low);
             layers = body;
@@ -188,7 +188,7 @@ private:
             result_.why = "its layers lie beside its body";
             return;
         }
-        // A little more than the layers belongs to the outermost.
+        // The outermost layers take a body that is slightly thicker than all layers.
         const bool isOpenLow = body.low >= layers.low - kTolerance, isOpenHigh = body.high <= layers.high + kTolerance;
         double at = isNegative_ ? layers.high : layers.low;
         const auto cut = [&](double low, double high, std::vector<Body>& into) {

@@ -28,16 +28,16 @@ struct LayerPart {
 
 struct LayeredShape {
     std::vector<LayerPart> layers;  ///< in the order of the set
-    std::vector<Body> rest;         ///< what of the shape lies outside of all layers
-    std::string why;                ///< not empty: why the shape cannot be split; there are no layers then
+    std::vector<Body> rest;         ///< parts of the shape outside of all layers
+    std::string why;                ///< not empty: the reason why there are no layers
     double moved = 0;               ///< metres by which the layers were moved onto a body that is as thick as they are
 };
 
 /// Splits a shape by the IfcMaterialLayerSetUsage of its product.
 ///
-/// The layers lie parallel to the straight line of the representation Axis where there is one, and those of a slab along
-/// the direction of its extrusion where it is not as thick as the layers along z. A millimetre more than the layers
-/// belongs to the outermost. Where the usage puts the layers beside a body that is as thick as they are, they are moved.
+/// Layers of a wall are parallel to its representation Axis if that is a straight line. Layers of a slab follow the direction
+/// of its extrusion if the slab is not as thick as the layers along z. The outermost layers take up to a millimetre more than
+/// their thickness. Layers that the usage puts beside a body of their thickness are moved onto it.
 /// \param definition  IfcProductDefinitionShape of the product, for its axis
 /// \return nothing where the product is not made of two or more layers
 [[nodiscard]] std::optional<LayeredShape> splitIntoLayers(const IfcFile& file, const Properties& properties,

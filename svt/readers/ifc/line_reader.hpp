@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Curves that a product shows: annotations, grids, and whatever else has no body.
+/// Curves of products without a body: annotations, grids and others.
 
 #include <svt/readers/ifc_shape/ifc_file.hpp>
 
@@ -12,7 +12,7 @@ namespace svt::readers::ifc {
 /// The curves of all representations, of curve sets and geometric sets, borders of filled areas, edges, and those of mapped
 /// items.
 /// \param definition  IfcProductDefinitionShape
-/// \param leftOut     receives what is no line (texts, points) or could not be read; each once
+/// \param leftOut     receives items that are not lines (texts, points) or unreadable; each once
 /// \return lines of at least two points, in the axes of the product, metres
 [[nodiscard]] std::vector<std::vector<Vec3d>> readLines(const IfcFile& file, RecordIndex definition,
                                                         std::vector<std::string>& leftOut);

@@ -11,7 +11,7 @@ using std::string_view;
 
 constexpr std::size_t kMaxText = 4096;
 
-// A value with the unit that its type has in the project, taken to SI; nothing for what is not set.
+// Reads a value, converted to SI from the project unit of its type; false for a value that is not set.
 bool readValue(Value value, const Units& units, Attribute& attribute) {
     if (value.isNothing()) return false;
     const string_view type = value.typeName();
@@ -55,29 +55,29 @@ bool readValue(Value value, const Units& units, Attribute& attribute) {
     return true;
 }
 
-std::string textOf(Value value) {
+std::string plainText(Value value) {
     if (auto text = value.string()) return std::move(*text);
     return std::string(value.inner().text());
 }
 
-// Texts of the values of a list, joined.
+// The values of a list as one text.
 std::string joined(Value list) {
     std::string text;
     step::ValueCursor cursor(list);
     for (Value item; cursor.next(item);) {
         if (!text.empty()) text += ", ";
-        text += textOf(item);
+        text += plainText(item);
         if (text.size() > kMaxText) break;
     }
     return text;
 }
 
-// Rows of a table, joined: "from: to, from: to".
+// Rows of a table as one text: "from: to, from: to".
 std::string joinedTable(Value defining, Value defined) {
     const std::vector<Value> from = step::itemsOf(defining), to = step::itemsOf(defined);
     std::string text;
     for (std::size_t i = 0; i < std::min(from.size(), to.size()) && text.size() < kMaxText; ++i)
-        text += (i == 0 ? "" : ", ") + textOf(from[i]) + ": " + textOf(to[i]);
+        text += (i == 0 ? "" : ", ") + plainText(from[i]) + ": " + plainText(to[i]);
     return text;
 }
 

@@ -12,7 +12,7 @@
 
 namespace svt::readers::ifc {
 
-/// What an attribute counts in the budget of a file: it takes about as much memory as so many points.
+/// Elements of an attribute in the budget of a file: the number of points that take the same memory.
 [[nodiscard]] std::uint64_t elementsOf(const Attribute& attribute) noexcept;
 
 /// Which sets, types, materials and classifications each object has. Made once from the relations of a file.

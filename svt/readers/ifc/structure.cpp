@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <unordered_set>
 
 namespace svt::readers::ifc {
@@ -31,7 +32,7 @@ private:
             if (!known.ifcType.empty()) {
                 product.ifcType = "Ifc" + std::string(known.ifcType);
             } else {
-                // A product has a placement and a shape, whatever it is called.
+                // An unknown class with a GlobalId and a shape is a product.
                 const Fields fields = file_.fieldsOf(i);
                 const RecordIndex shape = file_.follow(fields[at::Product::Representation]);
                 if (file_.entityOf(shape) != Entity::ProductDefinitionShape ||
@@ -66,25 +67,22 @@ private:
                     setParent(element, file_.follow(fields[contained::RelatingStructure]), false);
                 break;
             }
-            case Entity::RelVoidsElement: {
-                const Ends ends = endsOf(fields, at::RelVoidsElement::RelatingBuildingElement,
-                                         at::RelVoidsElement::RelatedOpeningElement);
-                if (!ends.isApart) break;
-                result_.openings[ends.relating].push_back(ends.related);
-                if (ends.related != kNoRecord) hostOf_.emplace(ends.related, ends.relating);
+            case Entity::RelVoidsElement:
+                if (const auto ends = readEnds(fields, at::RelVoidsElement::RelatingBuildingElement,
+                                               at::RelVoidsElement::RelatedOpeningElement)) {
+                    result_.openings[ends->first].push_back(ends->second);
+                    if (ends->second != kNoRecord) hostOf_.emplace(ends->second, ends->first);
+                }
                 break;
-            }
             case Entity::RelProjectsElement:
-                if (const Ends ends = endsOf(fields, at::RelProjectsElement::RelatingElement,
-                                             at::RelProjectsElement::RelatedFeatureElement);
-                    ends.isApart)
-                    result_.projections[ends.relating].push_back(ends.related);
+                if (const auto ends = readEnds(fields, at::RelProjectsElement::RelatingElement,
+                                               at::RelProjectsElement::RelatedFeatureElement))
+                    result_.projections[ends->first].push_back(ends->second);
                 break;
             case Entity::RelFillsElement:
-                if (const Ends ends = endsOf(fields, at::RelFillsElement::RelatingOpeningElement,
-                                             at::RelFillsElement::RelatedBuildingElement);
-                    ends.isApart)
-                    fills_.emplace_back(ends.relating, ends.related);
+                if (const auto ends = readEnds(fields, at::RelFillsElement::RelatingOpeningElement,
+                                               at::RelFillsElement::RelatedBuildingElement))
+                    fills_.push_back(*ends);
                 break;
             case Entity::RelAssignsToGroup: {
                 Structure::Group group{file_.follow(fields[at::RelAssignsToGroup::RelatingGroup]), {}};
@@ -99,19 +97,16 @@ private:
         }
     }
 
-    // The two ends of a relation; a relation of a product to itself is reported.
-    struct Ends {
-        RecordIndex relating, related;
-        bool isApart;
-    };
-    Ends endsOf(const Fields& fields, AttributePosition relating, AttributePosition related) {
-        Ends ends{file_.follow(fields[relating]), file_.follow(fields[related]), true};
-        ends.isApart = ends.relating == kNoRecord || ends.relating != ends.related;
-        if (!ends.isApart) result_.circles.push_back(file_.guard().nameCircle({ends.relating}));
-        return ends;
+    // The relating and the related product. Nothing, and a report, for a relation of a product to itself.
+    std::optional<std::pair<RecordIndex, RecordIndex>> readEnds(const Fields& fields, AttributePosition relating,
+                                                                AttributePosition related) {
+        const std::pair ends(file_.follow(fields[relating]), file_.follow(fields[related]));
+        if (ends.first == kNoRecord || ends.first != ends.second) return ends;
+        result_.circles.push_back(file_.guard().nameCircle({ends.first}));
+        return std::nullopt;
     }
 
-    // A part of something is found there, whatever contains it too.
+    // Being a part of a product takes precedence over being contained in a space.
     void setParent(RecordIndex child, RecordIndex parent, bool isPart) {
         const std::size_t c = productOf(child), p = productOf(parent);
         if (c == Product::kNoProduct || p == Product::kNoProduct) return;
@@ -124,12 +119,12 @@ private:
         if (isPart) isPart_[c] = true;
     }
 
-    // The circle that the parents of a product lead into.
-    void tellCircle(std::size_t product) {
+    // Reports the circle that the parents of a product lead into.
+    void reportCircle(std::size_t product) {
         std::vector<RecordIndex> path;
         std::unordered_map<std::size_t, std::size_t> steps;
-        // What an earlier walk came through leads to a circle that is reported.
-        while (product != Product::kNoProduct && onWay_.insert(product).second) {
+        // A product of an earlier walk leads to a circle that is already reported.
+        while (product != Product::kNoProduct && visited_.insert(product).second) {
             steps.emplace(product, path.size());
             path.push_back(result_.products[product].record);
             product = result_.products[product].parent;
@@ -140,7 +135,7 @@ private:
         result_.circles.push_back(file_.guard().nameCircle(std::move(path)));
     }
 
-    // Depth first from the products without parent; those on a cycle become such.
+    // Orders products depth first. The first product of a circle loses its parent.
     void sortTree() {
         std::vector<Product>& products = result_.products;
         for (const auto& [opening, filling] : fills_)
@@ -153,7 +148,7 @@ private:
         std::vector<std::size_t> roots;
         for (std::size_t p = 0; p < products.size(); ++p) {
             if (!isFeature(p)) continue;
-            // A filling that nothing contains stands where what it fills stands.
+            // A filling without a container has the product that it fills as its parent.
             if (products[p].parent == Product::kNoProduct)
                 if (const auto host = result_.filled.find(products[p].record); host != result_.filled.end())
                     products[p].parent = productOf(host->second);
@@ -179,21 +174,18 @@ private:
         for (const std::size_t root : roots) place(root);
         for (std::size_t p = 0; p < products.size(); ++p) {
             if (!isFeature(p) || isPlaced[p]) continue;
-            tellCircle(p);
+            reportCircle(p);
             products[p].parent = Product::kNoProduct;
             place(p);
         }
-        for (const std::size_t p : result_.order)
-            if (products[p].parent != Product::kNoProduct)
-                result_.parts[products[products[p].parent].record].push_back(p);
     }
 
     const IfcFile& file_;
     Structure result_;
     std::unordered_map<RecordIndex, std::size_t> numberOf_;
     std::unordered_map<std::size_t, bool> isPart_;
-    std::unordered_set<std::size_t> onWay_;                // products that tellCircle() came through
-    std::unordered_map<RecordIndex, RecordIndex> hostOf_;  // opening -> what it voids, by the first relation
+    std::unordered_set<std::size_t> visited_;              // products that reportCircle() has passed
+    std::unordered_map<RecordIndex, RecordIndex> hostOf_;  // opening -> product that it voids, by the first relation
     std::vector<std::pair<RecordIndex, RecordIndex>> fills_;
 };
 

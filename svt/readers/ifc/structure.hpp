@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The products of a file and how they hang together: spatial structure, aggregates, openings, groups.
+/// The products of a file and their relations: spatial structure, aggregates, openings, groups.
 
 #include <svt/readers/ifc_schema/product_classes.hpp>
 #include <svt/readers/ifc_shape/ifc_file.hpp>
@@ -25,16 +25,15 @@ struct Product {
 struct Structure {
     std::vector<Product> products;
     std::vector<std::size_t> order;  ///< products that become features, parents before their children
-    std::unordered_map<RecordIndex, std::vector<RecordIndex>> openings;     ///< product -> what is cut out of it
-    std::unordered_map<RecordIndex, std::vector<RecordIndex>> projections;  ///< product -> what is added to it
-    std::unordered_map<RecordIndex, RecordIndex> filled;              ///< door, window -> product that it stands in
-    std::unordered_map<RecordIndex, std::vector<std::size_t>> parts;  ///< product -> products that it is made of
+    std::unordered_map<RecordIndex, std::vector<RecordIndex>> openings;     ///< product -> openings cut out of it
+    std::unordered_map<RecordIndex, std::vector<RecordIndex>> projections;  ///< product -> bodies added to it
+    std::unordered_map<RecordIndex, RecordIndex> filled;  ///< door, window -> product that it stands in
     struct Group {
         RecordIndex record = kNoRecord;
         std::vector<std::size_t> members;
     };
     std::vector<Group> groups;  ///< zones, systems and groups, in the order of the file
-    std::vector<std::pair<std::string, std::size_t>> unknownClasses;  ///< type names with a shape that no table names
+    std::vector<std::pair<std::string, std::size_t>> unknownClasses;  ///< unknown type names with a shape
     std::vector<std::string> circles;  ///< products that contain each other, or cut themselves; ignored
 };
 

@@ -20,7 +20,7 @@ public:
     }
 
 private:
-    static constexpr std::uint64_t kElementsPerMaterial = 4;  // as much memory as so many points
+    static constexpr std::uint64_t kElementsPerMaterial = 4;  // in points of the same memory
 
     void readStyledItem(RecordIndex styled) {
         const RecordIndex item = file_.follow(styled, at::StyledItem::Item);
@@ -36,7 +36,7 @@ private:
                     styles_.ofMaterial.emplace(owner, material);
     }
 
-    // Colours of the faces of a face set, by their numbers in a list that begins with 1.
+    // Colours of the faces of a face set: numbers of colours, beginning with 1.
     void readColorMap(const Fields& fields) {
         const RecordIndex item = file_.follow(fields[at::IndexedColourMap::MappedTo]);
         if (item == kNoRecord) return;

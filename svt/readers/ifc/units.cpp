@@ -22,7 +22,7 @@ double prefixFactor(string_view prefix) noexcept {
     return 1;
 }
 
-// Factor of a unit to that of SI; the prefix of a square metre counts twice.
+// Factor of a unit to the SI unit; the prefix of a square metre counts twice.
 std::optional<double> unitFactor(const IfcFile& file, RecordIndex unit) {
     ReadGuard::Scope scope(file.guard());
     if (!scope.enter(unit)) return std::nullopt;
@@ -96,10 +96,10 @@ MapPlace readMapPlace(const IfcFile& file, RecordIndex project) {
     if (record == file.step().records().size()) return place;
     const Fields conversion = file.fieldsOf(record);
     const Fields crs = file.fieldsOf(file.follow(conversion[at::CoordinateOperation::TargetCRS]));
-    // Eastings and heights are in the unit of the map; Scale takes lengths of the project to it, and lengths are metres here.
+    // Eastings and heights are in the unit of the map. Scale converts project lengths, which are metres here, to that unit.
     const double mapUnit = unitFactor(file, file.follow(crs[at::ProjectedCRS::MapUnit])).value_or(file.lengthUnit);
     const bool isShift = file.entityOf(record) == Entity::RigidOperation;
-    // Angles, which the coordinates of a shift may be, make no place in metres.
+    // The coordinates of a shift may be angles, which give no place in metres.
     if (isShift && (conversion[at::RigidOperation::FirstCoordinate].typeName().ends_with("ANGLEMEASURE") ||
                     conversion[at::RigidOperation::SecondCoordinate].typeName().ends_with("ANGLEMEASURE")))
         return place;
@@ -108,7 +108,7 @@ MapPlace readMapPlace(const IfcFile& file, RecordIndex project) {
     const auto number = [&](AttributePosition attribute, double otherwise) {
         return conversion[attribute].number().value_or(otherwise);
     };
-    // The coordinates of a shift stand in the same places.
+    // A shift has its coordinates at the same positions.
     place.mapFromProject.origin = Vec3d{number(at::MapConversion::Eastings, 0), number(at::MapConversion::Northings, 0),
                                         number(at::MapConversion::OrthogonalHeight, 0)} *
                                   mapUnit;

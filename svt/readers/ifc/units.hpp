@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Units of an IFC project, and where on earth it stands.
+/// Units of an IFC project, and its place on earth.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/readers/ifc_shape/ifc_file.hpp>
@@ -14,7 +14,7 @@ struct Units {
     double length = 1, area = 1, volume = 1, angle = 1, mass = 1, time = 1;
 };
 
-/// The units of the project: SI with prefixes, and those defined by conversion. What is missing or makes no sense is the SI
+/// The units of the project: SI with prefixes, and units defined by conversion. A missing or invalid unit becomes the SI
 /// unit, with a finding (BadValue) for lengths.
 [[nodiscard]] Units readUnits(const IfcFile& file, RecordIndex project, const Place& place, Diagnostics& diagnostics);
 

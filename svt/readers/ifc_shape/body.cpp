@@ -24,14 +24,14 @@ void forEachRing(const model::Polygon& face, Visit&& visit) {
     }
 }
 
-// Edges left over after pairs of opposite ones cancelled, with the count of those that go from the lower id to the higher.
+// Edges that remain after opposite ones cancelled, with the number of those from the lower id to the higher.
 using EdgeCounts = std::map<std::pair<std::uint32_t, std::uint32_t>, int>;
 
 void dropMatched(EdgeCounts& counts) {
     std::erase_if(counts, [](const auto& entry) { return entry.second == 0; });
 }
 
-// Cuts the unmatched edges at the ends of other unmatched ones that lie on them. Quadratic, but in the few that are left.
+// Cuts unmatched edges at the ends of other unmatched edges on them. Cost: quadratic in the number of unmatched edges.
 EdgeCounts cutAtPoints(const EdgeCounts& counts, const std::vector<Vec3d>& points) {
     EdgeCounts cut;
     std::vector<std::uint32_t> ends;
@@ -115,16 +115,6 @@ double enclosedVolume(const std::vector<model::Polygon>& faces) noexcept {
     return sum / 6;
 }
 
-double openArea(const std::vector<model::Polygon>& faces) noexcept {
-    Vec3d sum{};
-    for (const model::Polygon& face : faces)
-        forEachRing(face, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin + 1; i + 1 < end; ++i)
-                sum = sum + cross(face.points[i] - face.points[begin], face.points[i + 1] - face.points[begin]) / 2;
-        });
-    return length(sum);
-}
-
 bool isClosed(const std::vector<model::Polygon>& faces) {
     if (faces.size() < 4) return false;
     Welder welder(1e-6);
@@ -145,12 +135,14 @@ bool isClosed(const std::vector<model::Polygon>& faces) {
     return counts.empty();
 }
 
-Vec3d newellNormal(const model::Polygon& face) noexcept {
+Vec3d newellNormal(std::span<const Vec3d> ring) noexcept {
     Vec3d sum{};
-    const std::size_t end = face.ringEnds.empty() ? 0 : face.ringEnds.front();
-    for (std::size_t i = 1; i + 1 < end; ++i)
-        sum = sum + cross(face.points[i] - face.points[0], face.points[i + 1] - face.points[0]);
+    for (std::size_t i = 1; i + 1 < ring.size(); ++i) sum = sum + cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
     return sum;
+}
+
+Vec3d newellNormal(const model::Polygon& face) noexcept {
+    return newellNormal(std::span(face.points).first(face.ringEnds.empty() ? 0 : face.ringEnds.front()));
 }
 
 std::uint64_t pointCount(const std::vector<model::Polygon>& faces) noexcept {

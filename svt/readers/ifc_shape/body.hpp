@@ -1,11 +1,12 @@
 #pragma once
 /// \file
-/// Polygons of one representation item, in metres, and what is common to all that make them.
+/// Polygons of one representation item, in metres, and functions that all of their makers share.
 
 #include <svt/model/building_model.hpp>
 #include <svt/readers/ifc_shape/transform.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace svt::readers::ifc {
@@ -13,7 +14,7 @@ namespace svt::readers::ifc {
 /// One item of a shape.
 struct Body {
     std::vector<model::Polygon> faces;  ///< counter-clockwise from outside where it is a solid
-    bool isSolid = false;               ///< meant to be closed: a solid of the file, or a face set that says so
+    bool isSolid = false;               ///< meant to be closed: a solid, or a face set that is marked as closed
     std::int32_t material = -1;         ///< into BuildingModel::materials
 };
 
@@ -24,7 +25,7 @@ void addFace(std::vector<model::Polygon>& faces, const std::vector<std::vector<V
 /// Appends a quadrilateral; two triangles where it is not flat within 1 micrometre.
 void addQuad(std::vector<model::Polygon>& faces, Vec3d a, Vec3d b, Vec3d c, Vec3d d);
 
-/// The faces taken through a map; turned over where it mirrors.
+/// The faces after a map; turned over if it mirrors.
 [[nodiscard]] std::vector<model::Polygon> transformed(const std::vector<model::Polygon>& faces,
                                                       const Transform& transform);
 [[nodiscard]] Body transformed(const Body& body, const Transform& transform);
@@ -35,14 +36,12 @@ void turnOver(std::vector<model::Polygon>& faces);
 /// Signed volume enclosed by faces, m3, if they are closed: fans of all rings. Cost: O(points).
 [[nodiscard]] double enclosedVolume(const std::vector<model::Polygon>& faces) noexcept;
 
-/// Length of the sum of the area vectors, m2: 0 for closed faces.
-[[nodiscard]] double openArea(const std::vector<model::Polygon>& faces) noexcept;
-
-/// Whether each edge is used as often in both directions, points within 1 micrometre being one; edges that match only where
-/// they are cut at points of others count as matching.
+/// Whether each edge is used as often in one direction as in the other. Points within 1 micrometre are one point. Edges are
+/// cut at points of other edges that lie on them.
 [[nodiscard]] bool isClosed(const std::vector<model::Polygon>& faces);
 
-/// Newell's normal of the exterior ring; its length is twice the area.
+/// Newell's normal of a ring, or of the exterior ring of a face; its length is twice the area.
+[[nodiscard]] Vec3d newellNormal(std::span<const Vec3d> ring) noexcept;
 [[nodiscard]] Vec3d newellNormal(const model::Polygon& face) noexcept;
 
 [[nodiscard]] std::uint64_t pointCount(const std::vector<model::Polygon>& faces) noexcept;

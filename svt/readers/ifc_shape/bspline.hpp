@@ -11,18 +11,17 @@ namespace svt::readers::ifc {
 
 /// Degree and knots of one direction.
 struct KnotVector {
-    std::size_t degree = 0,
-                count = 0;  ///< count: of control points; there are count + degree + 1 knots, none below the last
-    std::vector<double> knots;
+    std::size_t degree = 0, count = 0;  ///< count: of control points
+    std::vector<double> knots;          ///< count + degree + 1, ascending
 
     [[nodiscard]] double begin() const noexcept { return knots[degree]; }
     [[nodiscard]] double end() const noexcept { return knots[count]; }
-    /// The basis functions that are not zero at t, which is taken into [begin, end]: of the points first .. first + degree.
+    /// The basis functions that are not zero at t, clamped to [begin, end]: those of the points first .. first + degree.
     /// \param values  receives degree + 1 numbers  \return first
     std::size_t basis(double t, std::vector<double>& values) const;
 };
 
-/// From lists of multiplicities and knots; nothing where they do not fit the number of points.
+/// From lists of multiplicities and knots; nothing if they do not match the number of points.
 [[nodiscard]] std::optional<KnotVector> readKnots(Value degree, Value multiplicities, Value knots, std::size_t count);
 
 struct BSplineCurve {
@@ -39,10 +38,10 @@ struct BSplineSurface {
     [[nodiscard]] Vec3d at(double u, double v) const;
 };
 
-/// IfcBSplineCurveWithKnots, IfcRationalBSplineCurveWithKnots; nothing where the values make no curve.
+/// IfcBSplineCurveWithKnots, IfcRationalBSplineCurveWithKnots; nothing if the values are invalid.
 [[nodiscard]] std::optional<BSplineCurve> readBSplineCurve(const IfcFile& file, RecordIndex curve);
 
-/// IfcBSplineSurfaceWithKnots, IfcRationalBSplineSurfaceWithKnots; nothing where the values make no surface.
+/// IfcBSplineSurfaceWithKnots, IfcRationalBSplineSurfaceWithKnots; nothing if the values are invalid.
 [[nodiscard]] std::optional<BSplineSurface> readBSplineSurface(const IfcFile& file, RecordIndex surface);
 
 }  // namespace svt::readers::ifc

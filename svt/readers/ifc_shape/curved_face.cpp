@@ -12,10 +12,10 @@
 namespace svt::readers::ifc {
 namespace {
 
-// A B-spline surface with parameters in metres or nearly so, and points of it to begin a search from.
+// A B-spline surface with parameters in approximate metres, and a grid of its points to begin searches from.
 struct Spline {
     BSplineSurface surface;
-    double scaleU = 1, scaleV = 1;  // metres to one of the parameter
+    double scaleU = 1, scaleV = 1;  // metres per unit of the parameter
     static constexpr int kGrid = 24;
     std::vector<Vec3d> grid;  // (kGrid + 1) x (kGrid + 1) points, v fastest
 
@@ -26,8 +26,8 @@ struct Spline {
     [[nodiscard]] double sizeV() const { return (surface.v.end() - surface.v.begin()) * scaleV; }
     [[nodiscard]] Vec3d gridParameter(int i, int j) const { return {sizeU() * i / kGrid, sizeV() * j / kGrid, 0}; }
 
-    // The foot of a point on the surface, by Gauss and Newton from the nearest point of the grid; nothing where it is
-    // farther than a centimetre.
+    // The foot of a point on the surface, by Gauss-Newton from the nearest point of the grid; nothing if it is farther than
+    // a centimetre.
     [[nodiscard]] std::optional<Vec3d> parameters(Vec3d p) const {
         std::size_t nearest = 0;
         for (std::size_t n = 1; n < grid.size(); ++n)
@@ -36,7 +36,7 @@ struct Spline {
         Vec3d foot = grid[nearest];
         const double h = 1e-6 * (sizeU() + sizeV());
         for (int step = 0; step < 40; ++step) {
-            // Differences to the inside, where the surface goes on.
+            // Differences towards the inside of the parameter range.
             const double hu = uv.x + h > sizeU() ? -h : h, hv = uv.y + h > sizeV() ? -h : h;
             const Vec3d du = (at(uv + Vec3d{hu, 0, 0}) - foot) / hu, dv = (at(uv + Vec3d{0, hv, 0}) - foot) / hv;
             const Vec3d rest = p - foot;
@@ -59,7 +59,7 @@ struct Spline {
     }
 };
 
-// A surface by its parameters, both in metres or nearly so. A period of 0: not periodic.
+// A surface by its parameters, both in approximate metres. A period of 0: not periodic.
 struct Surface {
     Entity kind = Entity::Other;
     Transform axes;
@@ -112,7 +112,7 @@ struct Surface {
         }
     }
 
-    // About what parameters() takes.
+    // Approximate cost of parameters().
     [[nodiscard]] std::uint64_t stepsPerPoint() const noexcept {
         return spline ? 40 * (spline->surface.u.degree + 1) * (spline->surface.v.degree + 1) : 1 + curve.size();
     }
@@ -148,7 +148,7 @@ private:
     }
 };
 
-double stepOf(double radius) { return 2 * kPi * radius / arcSegments(radius, 2 * kPi); }
+double chordStep(double radius) { return 2 * kPi * radius / arcSegments(radius, 2 * kPi); }
 
 std::optional<Surface> readSurface(const IfcFile& file, RecordIndex record) {
     const Fields fields = file.fieldsOf(record);
@@ -158,22 +158,22 @@ std::optional<Surface> readSurface(const IfcFile& file, RecordIndex record) {
     surface.radius = file.metres(fields[at::CylindricalSurface::Radius]);
     switch (surface.kind) {
         case Entity::CylindricalSurface: break;
-        case Entity::SphericalSurface: surface.stepV = stepOf(surface.radius); break;
+        case Entity::SphericalSurface: surface.stepV = chordStep(surface.radius); break;
         case Entity::ConicalSurface:
             surface.base = surface.radius;
             surface.second = std::tan(file.radians(fields[at::ConicalSurface::SemiAngle]));
-            if (!(surface.radius > 0)) surface.radius = 1;  // the apex; a scale of the angle is wanted
+            if (!(surface.radius > 0)) surface.radius = 1;  // the apex; the angle needs some scale
             break;
         case Entity::ToroidalSurface:
             surface.second = file.metres(fields[at::ToroidalSurface::MinorRadius]);
             if (!(surface.second > 0)) return std::nullopt;
-            surface.stepV = stepOf(surface.second);
+            surface.stepV = chordStep(surface.second);
             surface.periodV = 2 * kPi * surface.second;
             break;
         default: return std::nullopt;
     }
     if (!(surface.radius > 0)) return std::nullopt;
-    surface.stepU = stepOf(surface.radius);
+    surface.stepU = chordStep(surface.radius);
     surface.periodU = 2 * kPi * surface.radius;
     return surface;
 }
@@ -185,7 +185,7 @@ bool readSweptCurve(const IfcFile& file, Value profile, std::vector<Vec3d>& poin
            points.size() >= 2;
 }
 
-// Along its curve a surface of linear extrusion needs no lines but those at the corners of the curve.
+// A surface of linear extrusion is cut only at the corners of its curve.
 std::optional<Surface> readExtrusion(const IfcFile& file, RecordIndex record) {
     namespace extrusion = at::SurfaceOfLinearExtrusion;
     const Fields fields = file.fieldsOf(record);
@@ -201,7 +201,7 @@ std::optional<Surface> readExtrusion(const IfcFile& file, RecordIndex record) {
 
 constexpr int kMaxSplineStrips = 32;
 
-// How many equal strips along one parameter, so that chords across them stay within kChordError of the surface.
+// The number of equal strips along one parameter whose chords stay within kChordError of the surface.
 int splineStrips(const Spline& spline, bool isAlongU) {
     constexpr int kLines = 9;
     for (int count = 1; count < kMaxSplineStrips; count *= 2) {
@@ -217,7 +217,7 @@ int splineStrips(const Spline& spline, bool isAlongU) {
                 for (const double share : {0.25, 0.5, 0.75})
                     worst = std::max(worst, length(point((i + share) / count) - (a + (b - a) * share)));
             }
-        // A point a little beside its place along the chord is no error of the shape, so this is on the safe side.
+        // Comparing points at equal shares overestimates the error, since a shift along the chord is not an error of shape.
         if (worst <= kChordError) return count;
     }
     return kMaxSplineStrips;
@@ -257,7 +257,7 @@ std::optional<Surface> readSpline(const IfcFile& file, RecordIndex record) {
     return surface;
 }
 
-// The curve is taken to the plane of the axis and turned from there, so that it may lie anywhere around it.
+// Turns the curve into the plane of the axis first, so that it may lie anywhere around the axis.
 std::optional<Surface> readRevolution(const IfcFile& file, RecordIndex record) {
     const Fields fields = file.fieldsOf(record);
     const Transform position = file.axes(fields[at::SurfaceOfRevolution::Position]),
@@ -273,7 +273,7 @@ std::optional<Surface> readRevolution(const IfcFile& file, RecordIndex record) {
         surface.radius = std::max(surface.radius, p.x);
     }
     if (!(surface.radius > 1e-6)) return std::nullopt;
-    surface.stepU = stepOf(surface.radius);
+    surface.stepU = chordStep(surface.radius);
     surface.periodU = 2 * kPi * surface.radius;
     return surface;
 }
@@ -284,7 +284,7 @@ struct Layout {
     double lowU = kInfinity, highU = -kInfinity, lowV = kInfinity, highV = -kInfinity;
 };
 
-// Takes the rings to parameters, without jumps; false where one goes around the surface.
+// Converts rings to parameters without jumps; false if one of them goes around the surface.
 bool layOut(const Surface& surface, const std::vector<std::vector<Vec3d>>& rings, Layout& layout) {
     const auto near = [](double value, double other, double period) {
         return period > 0 ? value - period * std::round((value - other) / period) : value;
@@ -304,7 +304,7 @@ bool layOut(const Surface& surface, const std::vector<std::vector<Vec3d>>& rings
             layout.highV = std::max(layout.highV, uv->y);
         }
         if (flat.size() < 3) return false;
-        // A seam is run through twice, so a ring with one comes back; one without goes around.
+        // A ring with a seam runs through it twice and comes back; a ring without one goes around.
         if (surface.periodU > 0 && std::abs(flat.back().x - flat.front().x) > surface.periodU / 2) return false;
         if (surface.periodV > 0 && std::abs(flat.back().y - flat.front().y) > surface.periodV / 2) return false;
         layout.rings.push_back(std::move(flat));
@@ -325,7 +325,7 @@ void addRectangle(double lowU, double highU, double lowV, double highV, std::uin
 constexpr int kMaxStrips = 512;
 constexpr std::uint64_t kMaxFaceSteps = 500'000'000, kSplineSteps = 2'000'000;
 
-// Every second strip between lines of equal parameter as the inside of a channel.
+// Marks every second strip between lines of equal parameter as the inside of a channel.
 void addStrips(const Surface& surface, const Layout& layout, std::vector<FlatSegment>& segments) {
     const double lowU = layout.lowU - 1, highU = layout.highU + 1, lowV = layout.lowV - 1, highV = layout.highV + 1;
     if (surface.kind == Entity::SurfaceOfLinearExtrusion) {
@@ -385,7 +385,7 @@ bool addCurvedFace(const IfcFile& file, RecordIndex record, const std::vector<st
     ReadGuard& guard = file.guard();
     const Entity kind = file.entityOf(record);
     const bool isSpline = kind == Entity::BSplineSurfaceWithKnots || kind == Entity::RationalBSplineSurfaceWithKnots;
-    // To measure a spline takes about this, more for a high degree.
+    // Approximate cost of measuring a spline; a high degree costs more.
     if (isSpline && !guard.takeSteps(kSplineSteps)) return false;
     const auto surface = isSpline                                   ? readSpline(file, record)
                          : kind == Entity::SurfaceOfRevolution      ? readRevolution(file, record)

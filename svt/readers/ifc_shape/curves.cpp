@@ -19,16 +19,6 @@ void appendPart(const std::vector<Vec3d>& part, std::vector<Vec3d>& points) {
         if (points.empty() || length(p - points.back()) > 1e-9) points.push_back(p);
 }
 
-bool readPointList(const IfcFile& file, Value list, std::vector<Vec3d>& points) {
-    step::ValueCursor cursor(file.fieldsOf(file.follow(list))[at::CartesianPointList::CoordList]);
-    for (Value item; cursor.next(item);) {
-        const auto point = file.coordinates(item);
-        if (!point) return false;
-        points.push_back(*point);
-    }
-    return true;
-}
-
 // Arc through three points; a straight line where they lie on one.
 void appendArcThrough(Vec3d a, Vec3d b, Vec3d c, std::vector<Vec3d>& points) {
     const Vec3d ab = b - a, ac = c - a, normal = cross(ab, ac);
@@ -49,22 +39,17 @@ void appendArcThrough(Vec3d a, Vec3d b, Vec3d c, std::vector<Vec3d>& points) {
 }
 
 bool readIndexedPolyCurve(const IfcFile& file, const Fields& fields, std::vector<Vec3d>& points) {
-    std::vector<Vec3d> list;
-    if (!readPointList(file, fields[at::IndexedPolyCurve::Points], list) || list.empty()) return false;
+    const auto list = file.pointList(fields[at::IndexedPolyCurve::Points]);
+    if (!list || list->empty()) return false;
     const Value segmentList = fields[at::IndexedPolyCurve::Segments];
     if (!segmentList.isList()) {
-        appendPart(list, points);
+        appendPart(*list, points);
         return true;
     }
     step::ValueCursor segments(segmentList);
     for (Value segment; segments.next(segment);) {
         std::vector<Vec3d> at;
-        step::ValueCursor indices(segment.inner());
-        for (Value item; indices.next(item);) {
-            const auto index = item.integer();
-            if (!index || *index < 1 || *index > std::int64_t(list.size())) return false;
-            at.push_back(list[std::size_t(*index - 1)]);
-        }
+        if (!appendNumbered(segment.inner(), *list, at)) return false;
         if (segment.typeName() == "IFCARCINDEX" && at.size() == 3)
             appendArcThrough(at[0], at[1], at[2], points);
         else
@@ -137,7 +122,7 @@ double distanceToSegment(Vec3d p, Vec3d a, Vec3d b, double& share) noexcept {
     return length(p - (a + ab * share));
 }
 
-// Where a point lies on a polyline: number of its segment plus the share of it.
+// The position of a point on a polyline: number of the segment plus the share of it.
 double parameterOf(const std::vector<Vec3d>& line, Vec3d p) noexcept {
     double best = kInfinity, parameter = 0;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -170,8 +155,8 @@ bool isOnSurface(Entity entity) noexcept {
     return entity == Entity::SurfaceCurve || entity == Entity::SeamCurve || entity == Entity::IntersectionCurve;
 }
 
-// readCurveBetween() of a curve whose points are known; none: they are read. Each curve is read once only, for a chain of
-// curves that trim each other would else double the work with each.
+// readCurveBetween() with the points of the curve, or none to read them. Reading a curve only once keeps a chain of curves
+// that trim each other from doubling the work at each level.
 bool readBetween(const IfcFile& file, RecordIndex curve, std::vector<Vec3d> whole, Vec3d from, Vec3d to, bool isForward,
                  std::vector<Vec3d>& points, std::string& why) {
     ReadGuard::Scope scope(file.guard());
@@ -182,10 +167,7 @@ bool readBetween(const IfcFile& file, RecordIndex curve, std::vector<Vec3d> whol
     }
     std::vector<Vec3d> part;
     if (isOnSurface(entity)) {
-        if (!scope.enter(curve)) {
-            why = scope.why();
-            return false;
-        }
+        if (!scope.enter(curve, why)) return false;
         return readBetween(file, file.follow(curve, at::SurfaceCurve::Curve3D), std::move(whole), from, to, isForward,
                            points, why);
     }
@@ -224,7 +206,7 @@ bool readTrimmedCurve(const IfcFile& file, const Fields& fields, std::vector<Vec
             return true;
         }
         default: {
-            // The whole curve where the trims are its ends, as they are nearly always; the part between two points else.
+            // Trims are nearly always the ends of the curve.
             std::vector<Vec3d> whole;
             if (!readCurve(file, basis, whole, why) || whole.size() < 2) return false;
             if (from.point && to.point)
@@ -262,7 +244,7 @@ bool readComposite(const IfcFile& file, const Fields& fields, std::vector<Vec3d>
         if (part[at::CompositeCurveSegment::SameSense].enumeration() == "F") std::reverse(piece.begin(), piece.end());
         if (!piece.empty()) pieces.push_back(std::move(piece));
     }
-    // Writers disagree about the sense of trimmed lines; what hangs together is meant.
+    // Writers disagree about the sense of trimmed lines, so pieces are turned until they connect.
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const Vec3d from = pieces[i].front(), to = pieces[i].back();
         if (i > 0) {
@@ -307,10 +289,7 @@ void appendArc(const Transform& axes, double radiusX, double radiusY, double fro
 
 bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points, std::string& why) {
     ReadGuard::Scope scope(file.guard());
-    if (!scope.enter(curve)) {
-        why = scope.why();
-        return false;
-    }
+    if (!scope.enter(curve, why)) return false;
     const Entity entity = file.entityOf(curve);
     const std::size_t before = points.size();
     const Fields fields = file.fieldsOf(curve);
@@ -358,6 +337,19 @@ bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& point
 bool readCurveBetween(const IfcFile& file, RecordIndex curve, Vec3d from, Vec3d to, bool isForward,
                       std::vector<Vec3d>& points, std::string& why) {
     return readBetween(file, curve, {}, from, to, isForward, points, why);
+}
+
+bool appendNumbered(Value numbers, const std::vector<Vec3d>& points, std::vector<Vec3d>& result) {
+    bool areInRange = true;
+    step::ValueCursor cursor(numbers);
+    for (Value item; cursor.next(item);) {
+        const auto number = item.integer();
+        if (number && *number >= 1 && *number <= std::int64_t(points.size()))
+            result.push_back(points[std::size_t(*number - 1)]);
+        else
+            areInRange = false;
+    }
+    return areInRange;
 }
 
 void closeRing(std::vector<Vec3d>& points, double distance) {

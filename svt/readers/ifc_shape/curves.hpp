@@ -29,14 +29,16 @@ void appendArc(const Transform& axes, double radiusX, double radiusY, double fro
 /// Points of a curve in its order; of a closed one the last equals the first.
 /// Reads polylines, indexed poly curves, composite and trimmed curves, circles, ellipses, B-splines, and the 3D curve of a
 /// curve on a surface. Metres; curves in 2D have z = 0.
-/// \return false where the curve, or a part of it, is of another kind or makes no sense, or file.guard() ends it; `why`
-///         says which
+/// \return false for a curve with a part of unknown kind, invalid values, or a limit of file.guard(); `why` names the reason
 [[nodiscard]] bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points, std::string& why);
 
 /// Points of the part of a curve between two points on it, as an edge uses it. Lines are two points.
 /// \param isForward  whether the edge runs with the curve
 [[nodiscard]] bool readCurveBetween(const IfcFile& file, RecordIndex curve, Vec3d from, Vec3d to, bool isForward,
                                     std::vector<Vec3d>& points, std::string& why);
+
+/// Appends points by a list of their numbers, beginning with 1. \return whether all numbers are in range
+bool appendNumbered(Value numbers, const std::vector<Vec3d>& points, std::vector<Vec3d>& result);
 
 /// Drops points that are closer than `distance` to the one before, and a last one that equals the first.
 void closeRing(std::vector<Vec3d>& points, double distance = 1e-7);

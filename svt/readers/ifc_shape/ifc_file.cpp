@@ -8,8 +8,24 @@
 #include <algorithm>
 
 namespace svt::readers::ifc {
+namespace {
 
 using std::string_view;
+
+// The first three items of a list, and the number of them; (0, 0, 0) and 0 where one of them is not a number.
+std::pair<Vec3d, int> firstNumbers(Value list) noexcept {
+    step::ValueCursor cursor(list);
+    Vec3d numbers{};
+    int count = 0;
+    for (Value item; count < 3 && cursor.next(item); ++count) {
+        const auto number = item.number();
+        if (!number) return {};
+        numbers[count] = *number;
+    }
+    return {numbers, count};
+}
+
+}  // namespace
 
 Fields::Fields(string_view values) noexcept {
     step::ValueCursor cursor(values);
@@ -60,15 +76,19 @@ double IfcFile::radians(Value angle, double otherwise) const noexcept {
 }
 
 std::optional<Vec3d> IfcFile::coordinates(Value list) const noexcept {
-    step::ValueCursor cursor(list);
-    Vec3d point{};
-    int count = 0;
-    for (Value item; count < 3 && cursor.next(item); ++count) {
-        const auto number = item.number();
-        if (!number) return std::nullopt;
-        point[count] = *number * lengthUnit;
+    const auto [numbers, count] = firstNumbers(list);
+    return count >= 2 ? std::optional(numbers * lengthUnit) : std::nullopt;
+}
+
+std::optional<std::vector<Vec3d>> IfcFile::pointList(Value reference) const {
+    std::vector<Vec3d> points;
+    step::ValueCursor cursor(fieldsOf(follow(reference))[at::CartesianPointList::CoordList]);
+    for (Value item; cursor.next(item);) {
+        const auto point = coordinates(item);
+        if (!point) return std::nullopt;
+        points.push_back(*point);
     }
-    return count >= 2 ? std::optional(point) : std::nullopt;
+    return points;
 }
 
 std::optional<Vec3d> IfcFile::point(RecordIndex record) const noexcept {
@@ -83,14 +103,7 @@ std::optional<Vec3d> IfcFile::vertexPoint(Value reference) const {
 std::optional<Vec3d> IfcFile::direction(Value reference) const {
     const RecordIndex record = follow(reference);
     if (entityOf(record) != Entity::Direction) return std::nullopt;
-    step::ValueCursor cursor(fieldsOf(record)[at::Direction::DirectionRatios]);
-    Vec3d ratios{};
-    int count = 0;
-    for (Value item; count < 3 && cursor.next(item); ++count) {
-        const auto number = item.number();
-        if (!number) return std::nullopt;
-        ratios[count] = *number;
-    }
+    const Vec3d ratios = firstNumbers(fieldsOf(record)[at::Direction::DirectionRatios]).first;
     return length(ratios) > 0 ? std::optional(ratios) : std::nullopt;
 }
 
@@ -152,10 +165,7 @@ Transform IfcFile::placement(RecordIndex record, std::string& lost) const {
     Transform result;
     ReadGuard::Scope scope(guard_);
     while (record != kNoRecord) {
-        if (!scope.enter(record)) {
-            lost = scope.why();
-            break;
-        }
+        if (!scope.enter(record, lost)) break;
         const Fields fields = fieldsOf(record);
         RecordIndex above = follow(fields[at::ObjectPlacement::PlacementRelTo]);
         switch (entityOf(record)) {
@@ -207,8 +217,8 @@ bool IfcFile::readGridAxis(RecordIndex axis, double offset, Vec3d& from, Vec3d& 
     return true;
 }
 
-// Axes at a distance along a curve: x along it, z up as far as that allows, unless the placement says otherwise; offsets
-// to the left, upwards and ahead.
+// Axes at a distance along a curve: x along it, z as far up as possible, unless the placement has axes of its own. Offsets
+// go to the left, upwards and ahead.
 std::optional<Transform> IfcFile::linearAxes(RecordIndex relative) const {
     if (entityOf(relative) != Entity::Axis2PlacementLinear) return std::nullopt;
     namespace expression = at::PointByDistanceExpression;
@@ -238,7 +248,7 @@ std::optional<Transform> IfcFile::linearAxes(RecordIndex relative) const {
                     direction(fields[at::Axis2PlacementLinear::RefDirection]).value_or(along));
 }
 
-// Where two axes of a grid meet, x along the first one or in the direction that the placement gives.
+// The intersection of two axes of a grid, with x along the first one or in the direction of the placement.
 std::optional<Transform> IfcFile::gridAxes(RecordIndex placement, RecordIndex& above) const {
     const Fields fields = fieldsOf(placement);
     const RecordIndex ofIfc4 = follow(fields[at::GridPlacementOfIfc4::PlacementLocation]);

@@ -49,20 +49,20 @@ public:
     [[nodiscard]] Entity entityOf(RecordIndex record) const noexcept {
         return record == kNoRecord ? Entity::Other : entityOfType_[step_.records()[record].type];
     }
-    /// None once the budget of guard() is spent: this is where the steps of reading are counted.
+    /// The attributes of a record; none once the budget of guard() is spent. Counts the steps of reading.
     [[nodiscard]] Fields fieldsOf(RecordIndex record) const noexcept {
         if (record == kNoRecord || !guard_.takeSteps(kStepsPerRecord + step_.records()[record].size))
             return Fields(std::string_view());
         return Fields(step_.valuesOf(step_.records()[record]));
     }
-    /// Bounds what is read of the file: every function that follows references from record to record asks it.
+    /// Limits the reading of a file: every function that follows references from record to record asks it.
     [[nodiscard]] ReadGuard& guard() const noexcept { return guard_; }
     /// Type name as in the file, such as IFCPOLYLINE; empty for kNoRecord.
     [[nodiscard]] std::string_view typeName(RecordIndex record) const noexcept {
         return record == kNoRecord ? std::string_view() : step_.typeName(step_.records()[record]);
     }
-    /// The record that a value refers to; kNoRecord where there is none. A reference to a record that the file lacks is
-    /// noted in missing(), by this and all that follow references.
+    /// The record that a value refers to; kNoRecord if there is none. References to records that the file lacks go to
+    /// missing(), here and in all functions that follow references.
     [[nodiscard]] RecordIndex follow(Value reference) const;
     /// The existing records that a list refers to.
     [[nodiscard]] std::vector<RecordIndex> followAll(Value list) const;
@@ -86,10 +86,12 @@ public:
     /// Records of an entity in the order of the file.
     [[nodiscard]] std::vector<RecordIndex> all(Entity entity) const;
 
-    // Geometry in metres. Two-dimensional things have z = 0.
+    // Geometry in metres; z is 0 in two dimensions.
     [[nodiscard]] double metres(Value length, double otherwise = 0) const noexcept;
     [[nodiscard]] double radians(Value angle, double otherwise = 0) const noexcept;
-    [[nodiscard]] std::optional<Vec3d> coordinates(Value list) const noexcept;    ///< (1.,2.,3.), in metres
+    [[nodiscard]] std::optional<Vec3d> coordinates(Value list) const noexcept;  ///< (1.,2.,3.), in metres
+    /// IfcCartesianPointList2D or 3D; nothing where one of its items is not a point.
+    [[nodiscard]] std::optional<std::vector<Vec3d>> pointList(Value reference) const;
     [[nodiscard]] std::optional<Vec3d> point(RecordIndex record) const noexcept;  ///< IfcCartesianPoint
     [[nodiscard]] std::optional<Vec3d> point(Value reference) const { return point(follow(reference)); }
     [[nodiscard]] std::optional<Vec3d> vertexPoint(Value reference) const;  ///< IfcVertexPoint
@@ -101,8 +103,8 @@ public:
     [[nodiscard]] Transform transformation(Value reference) const;
     /// IfcLocalPlacement, IfcGridPlacement (on straight axes) or IfcLinearPlacement (by its distance along a curve that
     /// readCurve() knows, else by its Cartesian position) and those above it, in the world of the project.
-    /// \param lost  set to what of the way up could not be read, in words; unchanged if all was. There the placement is
-    ///              that of the levels that could: a circle ends it
+    /// \param lost  names an unreadable level; unchanged if there is none. The placement then is that of the readable
+    ///              levels: a circle ends it
     [[nodiscard]] Transform placement(RecordIndex record, std::string& lost) const;
 
     /// IfcAxis2PlacementLinear at a distance along a curve that readCurve() knows: x along it, y to its left.

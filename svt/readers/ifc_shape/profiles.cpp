@@ -18,7 +18,7 @@ struct Corner {
     double x, y, radius = 0;
 };
 
-Ring ringOf(const std::vector<Corner>& corners) {
+Ring outline(const std::vector<Corner>& corners) {
     Ring ring;
     const std::size_t n = corners.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -50,7 +50,7 @@ Ring ringOf(const std::vector<Corner>& corners) {
 
 Ring rectangle(double width, double height, double radius = 0) {
     const double x = width / 2, y = height / 2;
-    return ringOf({{-x, -y, radius}, {x, -y, radius}, {x, y, radius}, {-x, y, radius}});
+    return outline({{-x, -y, radius}, {x, -y, radius}, {x, y, radius}, {-x, y, radius}});
 }
 
 Ring ellipse(double radiusX, double radiusY) {
@@ -60,8 +60,8 @@ Ring ellipse(double radiusX, double radiusY) {
     return ring;
 }
 
-// I and asymmetric I: bottom and top flange of their own width, thickness and fillets. A slope makes the inner face of a flange
-// inclined; its thickness is that in the middle between web and edge.
+// I and asymmetric I: the flanges have their own width, thickness and fillets. A slope inclines the inner face of a flange,
+// whose thickness is measured in the middle between web and edge.
 struct Flange {
     double width, thickness, fillet, edge, slope;
 };
@@ -69,18 +69,18 @@ Ring iShape(double depth, double web, const Flange& bottom, const Flange& top) {
     const double h = depth / 2, w = web / 2;
     const auto rise = [&](const Flange& f) { return std::tan(f.slope) * (f.width / 2 - w) / 2; };
     const double b = bottom.width / 2, t = top.width / 2;
-    return ringOf({{-b, -h},
-                   {b, -h},
-                   {b, -h + bottom.thickness - rise(bottom), bottom.edge},
-                   {w, -h + bottom.thickness + rise(bottom), bottom.fillet},
-                   {w, h - top.thickness - rise(top), top.fillet},
-                   {t, h - top.thickness + rise(top), top.edge},
-                   {t, h},
-                   {-t, h},
-                   {-t, h - top.thickness + rise(top), top.edge},
-                   {-w, h - top.thickness - rise(top), top.fillet},
-                   {-w, -h + bottom.thickness + rise(bottom), bottom.fillet},
-                   {-b, -h + bottom.thickness - rise(bottom), bottom.edge}});
+    return outline({{-b, -h},
+                    {b, -h},
+                    {b, -h + bottom.thickness - rise(bottom), bottom.edge},
+                    {w, -h + bottom.thickness + rise(bottom), bottom.fillet},
+                    {w, h - top.thickness - rise(top), top.fillet},
+                    {t, h - top.thickness + rise(top), top.edge},
+                    {t, h},
+                    {-t, h},
+                    {-t, h - top.thickness + rise(top), top.edge},
+                    {-w, h - top.thickness - rise(top), top.fillet},
+                    {-w, -h + bottom.thickness + rise(bottom), bottom.fillet},
+                    {-b, -h + bottom.thickness - rise(bottom), bottom.edge}});
 }
 
 // Attributes of a parameterized profile.
@@ -98,12 +98,12 @@ Ring lShape(const Parameters& p) {
     const double x = width / 2, y = height / 2, slope = std::tan(p.angle(shape::LegSlope));
     const double fillet = p.length(shape::FilletRadius), edge = p.length(shape::EdgeRadius);
     const double riseX = slope * (width - t) / 2, riseY = slope * (height - t) / 2;
-    return ringOf({{-x, -y},
-                   {x, -y},
-                   {x, -y + t - riseX, edge},
-                   {-x + t + riseY, -y + t + riseX, fillet},
-                   {-x + t - riseY, y, edge},
-                   {-x, y}});
+    return outline({{-x, -y},
+                    {x, -y},
+                    {x, -y + t - riseX, edge},
+                    {-x + t + riseY, -y + t + riseX, fillet},
+                    {-x + t - riseY, y, edge},
+                    {-x, y}});
 }
 
 Ring tShape(const Parameters& p) {
@@ -114,14 +114,14 @@ Ring tShape(const Parameters& p) {
     const double riseW = std::tan(p.angle(shape::WebSlope)) * (depth - flange) / 2;
     const double fillet = p.length(shape::FilletRadius), edge = p.length(shape::FlangeEdgeRadius),
                  webEdge = p.length(shape::WebEdgeRadius);
-    return ringOf({{-w + riseW, -y, webEdge},
-                   {w - riseW, -y, webEdge},
-                   {w + riseW, y - flange - riseF, fillet},
-                   {x, y - flange + riseF, edge},
-                   {x, y},
-                   {-x, y},
-                   {-x, y - flange + riseF, edge},
-                   {-w - riseW, y - flange - riseF, fillet}});
+    return outline({{-w + riseW, -y, webEdge},
+                    {w - riseW, -y, webEdge},
+                    {w + riseW, y - flange - riseF, fillet},
+                    {x, y - flange + riseF, edge},
+                    {x, y},
+                    {-x, y},
+                    {-x, y - flange + riseF, edge},
+                    {-w - riseW, y - flange - riseF, fillet}});
 }
 
 Ring uShape(const Parameters& p) {
@@ -130,14 +130,14 @@ Ring uShape(const Parameters& p) {
     const double web = p.length(shape::WebThickness), t = p.length(shape::FlangeThickness);
     const double fillet = p.length(shape::FilletRadius), edge = p.length(shape::EdgeRadius);
     const double rise = std::tan(p.angle(shape::FlangeSlope)) * (width - web) / 2;
-    return ringOf({{-x, -y},
-                   {x, -y},
-                   {x, -y + t - rise, edge},
-                   {-x + web, -y + t + rise, fillet},
-                   {-x + web, y - t - rise, fillet},
-                   {x, y - t + rise, edge},
-                   {x, y},
-                   {-x, y}});
+    return outline({{-x, -y},
+                    {x, -y},
+                    {x, -y + t - rise, edge},
+                    {-x + web, -y + t + rise, fillet},
+                    {-x + web, y - t - rise, fillet},
+                    {x, y - t + rise, edge},
+                    {x, y},
+                    {-x, y}});
 }
 
 Ring cShape(const Parameters& p) {
@@ -145,18 +145,18 @@ Ring cShape(const Parameters& p) {
     const double y = p.length(shape::Depth) / 2, x = p.length(shape::Width) / 2, t = p.length(shape::WallThickness);
     const double girth = p.length(shape::Girth), inner = p.length(shape::InternalFilletRadius);
     const double outer = inner > 0 ? inner + t : 0;
-    return ringOf({{-x, -y, outer},
-                   {x, -y, outer},
-                   {x, -y + girth},
-                   {x - t, -y + girth},
-                   {x - t, -y + t, inner},
-                   {-x + t, -y + t, inner},
-                   {-x + t, y - t, inner},
-                   {x - t, y - t, inner},
-                   {x - t, y - girth},
-                   {x, y - girth},
-                   {x, y, outer},
-                   {-x, y, outer}});
+    return outline({{-x, -y, outer},
+                    {x, -y, outer},
+                    {x, -y + girth},
+                    {x - t, -y + girth},
+                    {x - t, -y + t, inner},
+                    {-x + t, -y + t, inner},
+                    {-x + t, y - t, inner},
+                    {x - t, y - t, inner},
+                    {x - t, y - girth},
+                    {x, y - girth},
+                    {x, y, outer},
+                    {-x, y, outer}});
 }
 
 Ring zShape(const Parameters& p) {
@@ -164,14 +164,14 @@ Ring zShape(const Parameters& p) {
     const double y = p.length(shape::Depth) / 2, t = p.length(shape::FlangeThickness);
     const double w = p.length(shape::WebThickness) / 2, x = p.length(shape::FlangeWidth) - w;
     const double fillet = p.length(shape::FilletRadius), edge = p.length(shape::EdgeRadius);
-    return ringOf({{-w, -y},
-                   {x, -y},
-                   {x, -y + t, edge},
-                   {w, -y + t, fillet},
-                   {w, y},
-                   {-x, y},
-                   {-x, y - t, edge},
-                   {-w, y - t, fillet}});
+    return outline({{-w, -y},
+                    {x, -y},
+                    {x, -y + t, edge},
+                    {w, -y + t, fillet},
+                    {w, y},
+                    {-x, y},
+                    {-x, y - t, edge},
+                    {-w, y - t, fillet}});
 }
 
 Ring trapezium(const Parameters& p) {
@@ -209,7 +209,7 @@ Ring asymmetricIShape(const Parameters& p) {
     return iShape(p.length(shape::OverallDepth), p.length(shape::WebThickness), bottom, top);
 }
 
-// The outline of a parameterized profile about its own origin; empty where its numbers make no sense.
+// The outline of a parameterized profile about its own origin; empty if its numbers are invalid.
 Region parameterized(Entity entity, const Parameters& p) {
     switch (entity) {
         case Entity::RectangleProfileDef:
@@ -273,7 +273,7 @@ bool centerLine(const IfcFile& file, const Fields& fields, Region& region, std::
     return true;
 }
 
-// Rings in the directions that a region has; drops what bounds nothing.
+// Gives rings the orientation of a region, and drops holes without area.
 bool orient(Region& region) {
     closeRing(region.outer);
     if (region.outer.size() < 3) return false;
@@ -289,14 +289,13 @@ bool orient(Region& region) {
 }
 
 void transformRegion(Region& region, const Transform& transform) {
-    const auto apply = [&](Ring& ring) {
+    region = region.mapped([&](Ring ring) {
         for (Vec3d& p : ring) {
             p = transform.point(p);
             p.z = 0;
         }
-    };
-    apply(region.outer);
-    for (Ring& hole : region.holes) apply(hole);
+        return ring;
+    });
 }
 
 bool readDerived(const IfcFile& file, RecordIndex profile, const Fields& fields, std::vector<Region>& regions,
@@ -337,10 +336,7 @@ bool readRegion(const IfcFile& file, RecordIndex profile, const Fields& fields, 
 
 bool readProfile(const IfcFile& file, RecordIndex profile, std::vector<Region>& regions, std::string& why) {
     ReadGuard::Scope scope(file.guard());
-    if (!scope.enter(profile)) {
-        why = scope.why();
-        return false;
-    }
+    if (!scope.enter(profile, why)) return false;
     const Fields fields = file.fieldsOf(profile);
     const Entity entity = file.entityOf(profile);
     if (entity == Entity::DerivedProfileDef || entity == Entity::MirroredProfileDef)

@@ -4,6 +4,7 @@
 
 #include <svt/readers/ifc_shape/ifc_file.hpp>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,23 @@ struct Region {
         for (const std::vector<Vec3d>& hole : holes) count += hole.size();
         return count;
     }
+    /// Whether the rings of another region have as many points each.
+    [[nodiscard]] bool hasCornersOf(const Region& other) const noexcept {
+        return outer.size() == other.outer.size() &&
+               std::equal(holes.begin(), holes.end(), other.holes.begin(), other.holes.end(),
+                          [](const auto& p, const auto& q) { return p.size() == q.size(); });
+    }
+    /// The region with `map` applied to each ring.
+    template <class Map>
+    [[nodiscard]] Region mapped(Map&& map) const {
+        Region result{map(outer), {}};
+        for (const std::vector<Vec3d>& hole : holes) result.holes.push_back(map(hole));
+        return result;
+    }
 };
 
 /// The areas of a profile: one, but for composite profiles. Reads all profiles of IFC2x3 to IFC4.3 that bound an area.
-/// \return false where it is of another kind or makes no sense, or file.guard() ends it; `why` says which
+/// \return false for an unknown kind, invalid values, or a limit of file.guard(); `why` names the reason
 [[nodiscard]] bool readProfile(const IfcFile& file, RecordIndex profile, std::vector<Region>& regions,
                                std::string& why);
 

@@ -20,7 +20,7 @@ std::size_t cornerCount(const Regions& regions) noexcept {
     return count;
 }
 
-// Where a section stands: x and y of the profile, and what they are measured from.
+// The place of a section: x and y of the profile, and their origin.
 struct Station {
     Vec3d origin{}, x{1, 0, 0}, y{0, 1, 0};
     double distance = 0;  // along the directrix, metres
@@ -61,20 +61,11 @@ struct Directrix {
 };
 
 Region placed(const Region& region, const Station& station) {
-    const auto place = [&](const std::vector<Vec3d>& ring) {
+    return region.mapped([&](const std::vector<Vec3d>& ring) {
         std::vector<Vec3d> result;
         for (const Vec3d p : ring) result.push_back(station.origin + station.x * p.x + station.y * p.y);
         return result;
-    };
-    Region result{place(region.outer), {}};
-    for (const auto& hole : region.holes) result.holes.push_back(place(hole));
-    return result;
-}
-
-bool areAlike(const Region& a, const Region& b) {
-    return a.outer.size() == b.outer.size() && a.holes.size() == b.holes.size() &&
-           std::equal(a.holes.begin(), a.holes.end(), b.holes.begin(),
-                      [](const auto& p, const auto& q) { return p.size() == q.size(); });
+    });
 }
 
 Region mixed(const Region& a, const Region& b, double share) {
@@ -88,7 +79,7 @@ Region mixed(const Region& a, const Region& b, double share) {
     return result;
 }
 
-// The profiles of all sections; empty, and said, where one cannot be read or is unlike those before.
+// The profiles of all sections; empty, with a reason, if one is unreadable or differs from the others in its corners.
 std::vector<Regions> readSections(const IfcFile& file, Value list, std::string& why) {
     std::vector<Regions> sections;
     for (const RecordIndex profile : file.followAll(list)) {
@@ -96,7 +87,8 @@ std::vector<Regions> readSections(const IfcFile& file, Value list, std::string& 
         if (!readProfile(file, profile, regions, why)) return {};
         const bool isAlike =
             sections.empty() || (regions.size() == sections.front().size() &&
-                                 std::equal(regions.begin(), regions.end(), sections.front().begin(), areAlike));
+                                 std::equal(regions.begin(), regions.end(), sections.front().begin(),
+                                            [](const Region& a, const Region& b) { return a.hasCornersOf(b); }));
         if (!isAlike) {
             why = "a sectioned solid between sections of unlike corners";
             return {};
@@ -106,7 +98,7 @@ std::vector<Regions> readSections(const IfcFile& file, Value list, std::string& 
     return sections;
 }
 
-// Where the sections stand on the directrix.
+// The places of the sections on the directrix.
 bool readStations(const IfcFile& file, const Fields& fields, const Directrix& directrix, bool isVertical,
                   std::vector<Station>& stations, std::string& why) {
     namespace linear = at::Axis2PlacementLinear;

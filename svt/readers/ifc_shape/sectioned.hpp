@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Solids between cross sections that stand along a curve: roads, bridge decks, ducts that widen.
+/// Solids between cross sections along a curve: roads, bridge decks, ducts that widen.
 
 #include <svt/readers/ifc_shape/body.hpp>
 #include <svt/readers/ifc_shape/ifc_file.hpp>
@@ -10,9 +10,9 @@
 
 namespace svt::readers::ifc {
 
-/// IfcSectionedSolidHorizontal and IfcSectionedSpine. Between two sections their corners move evenly along the curve, so
-/// sections must have equally many; where the directrix of a solid bends, there is a section between.
-/// \return closed faces, one body for each area of the profiles; none where it cannot be read: then `why` says it
+/// IfcSectionedSolidHorizontal and IfcSectionedSpine. Corners move evenly along the curve between two sections, which must
+/// have the same number of corners. Each bend of the directrix of a solid gets a section of its own.
+/// \return closed faces, one body per area of the profiles; none, and a reason in `why`, if it is unreadable
 [[nodiscard]] std::vector<std::vector<model::Polygon>> readSectioned(const IfcFile& file, RecordIndex item,
                                                                      std::string& why);
 

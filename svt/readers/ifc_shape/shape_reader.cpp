@@ -20,7 +20,7 @@ bool isIn(std::string_view word, std::initializer_list<std::string_view> words) 
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// How near a representation comes to being the body; 0: not at all.
+// Preference of a representation as the body of a product; 0: it is not a body.
 int bodyRank(std::string_view identifier, std::string_view type) noexcept {
     if (isIn(identifier,
              {"Axis", "FootPrint", "Annotation", "Plan", "Profile", "CoG", "Clearance", "Lighting", "Survey"}))
@@ -36,7 +36,7 @@ int bodyRank(std::string_view identifier, std::string_view type) noexcept {
     return 3;
 }
 
-// Reverses a ring; it still begins where an edge begins, and `ends` are those of its edges.
+// Reverses a ring, which still begins where an edge begins, and the ends of its edges.
 void turnLoop(std::vector<Vec3d>& ring, std::vector<std::size_t>& ends) {
     if (ring.empty()) return;
     std::reverse(ring.begin() + 1, ring.end());
@@ -58,17 +58,17 @@ void ShapeReader::leaveOut(std::string what) {
     if (std::find(leftOut_.begin(), leftOut_.end(), what) == leftOut_.end()) leftOut_.push_back(std::move(what));
 }
 
-// References that led nowhere since the last call belong to what is read now.
+// Reports references to missing records since the last call as parts of the current item.
 void ShapeReader::leaveOutMissing() {
     for (std::string& what : file_.missing().take()) leaveOut(std::move(what));
 }
 
-// What is past the budget is left out with all of its product, which is said there.
+// Drops a body beyond the budget, which discards the whole product later.
 void ShapeReader::addBody(Body body, Bodies& bodies) {
     if (file_.guard().takeElements(pointCount(body.faces))) bodies.push_back(std::move(body));
 }
 
-// Whether what takes so many points can be made; else that is left out.
+// Whether the budget has room for a number of points; if not, reports the item as left out.
 bool ShapeReader::affords(std::uint64_t points) {
     if (file_.guard().affords(points)) return true;
     leaveOut(file_.guard().whatIsSpent());
@@ -209,7 +209,7 @@ void ShapeReader::readSweep(RecordIndex item, const Fields& fields, Bodies& bodi
             bodies, item);
 }
 
-// A profile along a curve. Its x axis keeps to a direction, or to the normal of a plane that the curve lies on.
+// A profile along a curve. Its x axis follows a direction, or the normal of the plane of the curve.
 void ShapeReader::readDirectedSweep(RecordIndex item, const Fields& fields, Bodies& bodies) {
     namespace swept = at::DirectrixCurveSweptAreaSolid;
     std::vector<Region> regions;
@@ -226,7 +226,7 @@ void ShapeReader::readDirectedSweep(RecordIndex item, const Fields& fields, Bodi
             return leaveOut(fmt::format("a profile swept along a curve on {}", file_.typeName(surface)));
         reference = file_.axes(file_.follow(surface, at::Plane::Position)).z;
     }
-    // Writers give parameters in many ways; all but the whole curve would need the parameter of each kind of curve.
+    // Writers disagree about parameters. A part of a curve would need the parameter of each kind of curve.
     const double begin = fields[swept::StartParam].number().value_or(0),
                  end = fields[swept::EndParam].number().value_or(1);
     double whole = 0;
@@ -299,7 +299,7 @@ void ShapeReader::readMap(RecordIndex map) {
         for (Body& body : made) body = transformed(body, origin.inverse());
     leaveOutMissing();
     std::swap(outside, leftOut_);
-    // What one product could not afford is no part of what others have of the map.
+    // Keeps a map only if the budget of this product sufficed, for other products use it too.
     if (file_.guard().isSpent()) return leaveOut(file_.guard().whatIsSpent());
     leftOutOfMap_[map] = std::move(outside);
     mapped_.emplace(map, std::make_shared<const Bodies>(std::move(made)));
@@ -422,25 +422,20 @@ bool ShapeReader::readFace(RecordIndex face, Polygons& faces) {
         rings.insert(isOuter ? rings.begin() : rings.end(), std::move(ring));
     }
     if (rings.empty()) return false;
-    // Four straight edges say nothing of what a B-spline surface is between them.
+    // Four straight edges do not determine a B-spline surface between them.
     const bool isSpline = kind == Entity::BSplineSurfaceWithKnots || kind == Entity::RationalBSplineSurfaceWithKnots;
     if (isCurved && !isSpline && addRuledFace(rings, edgeEnds, faces)) return true;
     if (isCurved && addCurvedFace(file_, surface, rings, faces)) return true;
     if (isCurved) leaveOut(fmt::format("the curvature of a face on {}", file_.typeName(surface)));
-    const auto areaOf = [](const std::vector<Vec3d>& ring) {
-        Vec3d sum{};
-        for (std::size_t i = 1; i + 1 < ring.size(); ++i) sum = sum + cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
-        return sum;
-    };
     if (!hasOuter && rings.size() > 1) {
         const auto largest = std::max_element(rings.begin(), rings.end(), [&](const auto& p, const auto& q) {
-            return length(areaOf(p)) < length(areaOf(q));
+            return length(newellNormal(p)) < length(newellNormal(q));
         });
         std::iter_swap(rings.begin(), largest);
     }
-    const Vec3d normal = areaOf(rings[0]);
+    const Vec3d normal = newellNormal(rings[0]);
     for (std::size_t r = 1; r < rings.size(); ++r)
-        if (dot(areaOf(rings[r]), normal) > 0) std::reverse(rings[r].begin(), rings[r].end());
+        if (dot(newellNormal(rings[r]), normal) > 0) std::reverse(rings[r].begin(), rings[r].end());
     addFace(faces, rings);
     return true;
 }
@@ -476,26 +471,12 @@ bool ShapeReader::addRuledFace(const std::vector<std::vector<Vec3d>>& rings, con
 }
 
 void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bodies) {
-    std::vector<Vec3d> points;
-    step::ValueCursor list(
-        file_.fieldsOf(file_.follow(fields[at::TessellatedFaceSet::Coordinates]))[at::CartesianPointList::CoordList]);
-    for (Value point; list.next(point);) {
-        const auto coordinates = file_.coordinates(point);
-        if (!coordinates)
-            return leaveOut(fmt::format("an {} with a point that is no three numbers", file_.typeName(item)));
-        points.push_back(*coordinates);
-    }
+    const auto points = file_.pointList(fields[at::TessellatedFaceSet::Coordinates]);
+    if (!points) return leaveOut(fmt::format("an {} with a point that is no three numbers", file_.typeName(item)));
     bool isWrong = false;
-    const auto ringOf = [&](Value indices) {
+    const auto ringOf = [&](Value numbers) {
         std::vector<Vec3d> ring;
-        step::ValueCursor cursor(indices);
-        for (Value index; cursor.next(index);) {
-            const auto number = index.integer();
-            if (!number || *number < 1 || *number > std::int64_t(points.size()))
-                isWrong = true;
-            else
-                ring.push_back(points[std::size_t(*number - 1)]);
-        }
+        if (!appendNumbered(numbers, *points, ring)) isWrong = true;
         return ring;
     };
     Body body;
@@ -507,7 +488,7 @@ void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bo
                                          : fields[at::PolygonalFaceSet::Faces]);
     const auto colors = materialOfFaces_.find(item);
     std::size_t number = 0;
-    // A face that has no area is left out, and so is its colour.
+    // A face without area is left out, together with its colour.
     const auto add = [&](const std::vector<std::vector<Vec3d>>& rings) {
         const std::size_t before = body.faces.size();
         addFace(body.faces, rings);
@@ -528,7 +509,7 @@ void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bo
             for (Value ring; inner.next(ring);) rings.push_back(ringOf(ring));
         }
         add(rings);
-        // Faces may be listed any number of times.
+        // A face may be listed any number of times, so that the file size does not limit the number of faces.
         if (!body.faces.empty()) file_.guard().takeElements(body.faces.back().points.size());
     }
     if (isWrong) leaveOut(fmt::format("corners of an {} with an index that is out of range", file_.typeName(item)));
@@ -573,7 +554,7 @@ bool ShapeReader::readHalfSpace(RecordIndex item, const Box3d& around, Bodies& b
     return true;
 }
 
-// The second operand of a boolean as closed bodies; false, and said, where it is none.
+// The second operand of a boolean as closed bodies; false, and reported, if it is not closed.
 bool ShapeReader::readOperand(RecordIndex operand, std::string_view op, const Box3d& around, Bodies& bodies) {
     const auto refuse = [&](std::string_view why) {
         leaveOut(fmt::format("the {} with an {}: {}", op, file_.typeName(operand), why));
@@ -595,7 +576,7 @@ bool ShapeReader::readOperand(RecordIndex operand, std::string_view op, const Bo
     return true;
 }
 
-// Follows results of one kind down to what the innermost applies to; all of them are in the scope then.
+// Follows results of one kind down to the first operand of the innermost; enters all of them into the scope.
 bool ShapeReader::readChain(const Fields& fields, Chain& chain, ReadGuard::Scope& scope) {
     const std::string_view op = fields[at::BooleanResult::Operator].enumeration();
     chain = {file_.follow(fields[at::BooleanResult::FirstOperand]),
@@ -615,8 +596,8 @@ bool ShapeReader::readChain(const Fields& fields, Chain& chain, ReadGuard::Scope
     return true;
 }
 
-// ((a - b) - c) - d is a - (b, c, d), and unions likewise: a chain of many results, as some programs write them for the
-// openings of a wall, is evaluated at once, however long it is.
+// ((a - b) - c) - d is a - (b, c, d), and unions likewise. So a chain of any length, such as some programs write for the
+// openings of a wall, is evaluated at once.
 void ShapeReader::readBoolean(const Fields& fields, Bodies& bodies) {
     const std::string_view op = fields[at::BooleanResult::Operator].enumeration();
     ReadGuard::Scope scope(file_.guard());
@@ -641,10 +622,10 @@ void ShapeReader::readBoolean(const Fields& fields, Bodies& bodies) {
             second.insert(second.end(), part.begin(), part.end());
         else
             isRead = false;
-        // The operand of an outer result does not stand in the inner ones.
+        // The operand of an outer result is not part of the inner ones.
         scope.leave();
     }
-    // An intersection with a half-space that takes nothing in is nothing; a difference with one is all.
+    // An intersection with an empty half-space is empty; a difference with one changes nothing.
     if (second.empty() && (op != "INTERSECTION" || !isRead)) {
         bodies.insert(bodies.end(), first.begin(), first.end());
         return;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Representation items to polygons: what a product's body is made of, and openings cut out of it.
+/// Representation items to polygons: the body of a product, and the openings cut out of it.
 
 #include <svt/readers/ifc_shape/body.hpp>
 #include <svt/readers/ifc_shape/ifc_file.hpp>
@@ -14,12 +14,12 @@
 
 namespace svt::readers::ifc {
 
-/// What was read of a product's shape, in its own axes.
+/// The shape of a product as far as it was read, in its own axes.
 struct Shape {
     std::vector<Body> bodies;
-    std::vector<std::string> leftOut;  ///< what was not read, or not applied, and why; each once
-    bool hasRepresentation =
-        false;  ///< there is something that could be a body, or a reference to it that leads nowhere
+    std::vector<std::string> leftOut;  ///< parts not read or not applied, and the reasons; each once
+    /// The product has a representation that could be a body, or a reference to a missing one.
+    bool hasRepresentation = false;
 };
 
 class ShapeReader {
@@ -29,8 +29,8 @@ public:
     ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem,
                 std::unordered_map<RecordIndex, std::vector<std::int32_t>> materialOfFaces = {});
 
-    /// The body of a product: the representation Body, or what comes nearest to it; a bounding box where there is nothing
-    /// else, which is said in `leftOut`.
+    /// The body of a product: the representation Body, else the next best one; at worst a bounding box, with an entry in
+    /// `leftOut`.
     /// \param definition  IfcProductDefinitionShape
     [[nodiscard]] Shape readShape(RecordIndex definition);
 
@@ -81,7 +81,7 @@ private:
     std::unordered_map<RecordIndex, std::int32_t> materialOfItem_;
     std::unordered_map<RecordIndex, std::vector<std::int32_t>> materialOfFaces_;
     std::unordered_map<RecordIndex, std::shared_ptr<const Bodies>> mapped_;             // by representation map
-    std::unordered_map<RecordIndex, std::vector<std::string>> leftOutOfMap_;            // what was left out of it
+    std::unordered_map<RecordIndex, std::vector<std::string>> leftOutOfMap_;            // parts left out of it
     std::unordered_map<RecordIndex, std::shared_ptr<const std::vector<Vec3d>>> edges_;  // points of edge curves
     std::vector<std::string> leftOut_;                                                  // of the shape that is read
 };

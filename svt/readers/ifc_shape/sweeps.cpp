@@ -12,20 +12,14 @@ namespace {
 using Polygons = std::vector<model::Polygon>;
 using Ring = std::vector<Vec3d>;
 
-constexpr int kDiskSegments = 24;  // at least, of the section of a bar
-
-Ring moved(const Ring& ring, Vec3d by) {
-    Ring result = ring;
-    for (Vec3d& p : result) p = p + by;
-    return result;
-}
+constexpr int kDiskSegments = 24;  // minimum for the section of a bar
 
 Ring reversed(Ring ring) {
     std::reverse(ring.begin(), ring.end());
     return ring;
 }
 
-// Rings of a region and those at the other end of a sweep: caps, and quadrilaterals between.
+// Caps at both ends of a sweep.
 void addCaps(const Region& bottom, const Region& top, Polygons& faces) {
     std::vector<Ring> low{reversed(bottom.outer)}, high{top.outer};
     for (const Ring& hole : bottom.holes) low.push_back(reversed(hole));
@@ -41,19 +35,18 @@ void addSides(const Ring& bottom, const Ring& top, Polygons& faces) {
     }
 }
 
-Polygons between(const Region& bottom, const Region& top, bool isUpwards) {
-    Polygons faces;
-    addCaps(bottom, top, faces);
+void addSides(const Region& bottom, const Region& top, Polygons& faces) {
     addSides(bottom.outer, top.outer, faces);
     for (std::size_t h = 0; h < bottom.holes.size(); ++h) addSides(bottom.holes[h], top.holes[h], faces);
-    if (!isUpwards) turnOver(faces);
-    return faces;
 }
 
-Region movedRegion(const Region& region, Vec3d by) {
-    Region result{moved(region.outer, by), {}};
-    for (const Ring& hole : region.holes) result.holes.push_back(moved(hole, by));
-    return result;
+// The body through sections of the same corners; a closed one, which ends with its first section, has no caps.
+Polygons skin(const std::vector<Region>& sections, bool isClosed) {
+    Polygons faces;
+    for (std::size_t s = 1; s < sections.size(); ++s) addSides(sections[s - 1], sections[s], faces);
+    if (!isClosed) addCaps(sections.front(), sections.back(), faces);
+    if (enclosedVolume(faces) < 0) turnOver(faces);
+    return faces;
 }
 
 // Points of a ring turned about an axis; those on the axis stay exactly.
@@ -72,7 +65,7 @@ Ring turned(const Ring& ring, const Transform& axis, double angle) {
     return result;
 }
 
-// The ring of a bar where it turns from one direction to the next: on the plane that halves the angle.
+// The ring of a bar at a bend, on the plane that halves the angle.
 Ring mitre(const Ring& before, Vec3d at, Vec3d direction, Vec3d next) {
     const Vec3d sum = direction + next;
     const Vec3d normal = length(sum) > 1e-6 ? normalized(sum) : direction;
@@ -82,7 +75,7 @@ Ring mitre(const Ring& before, Vec3d at, Vec3d direction, Vec3d next) {
     return ring;
 }
 
-// Rings of a tube along a line; the last is the first again for a closed one.
+// Rings of a tube along a line; the last equals the first if the line is closed.
 std::vector<Ring> tube(const Ring& line, bool isClosed, double radius) {
     const std::size_t n = line.size();
     const auto directionOf = [&](std::size_t segment) {
@@ -91,7 +84,7 @@ std::vector<Ring> tube(const Ring& line, bool isClosed, double radius) {
     const Vec3d first = directionOf(0);
     const Transform axes = axesFrom(line[0], first, {0.3, 0.5, 0.8});
     const int count = std::min(arcSegments(radius, 2 * kPi, kDiskSegments), kMaxDiskSegments);
-    // A polygon of n corners on a circle has less area than it; its corners are put out so that the volume is right.
+    // Corners lie outside of the circle, so that the polygon has the area of the circle.
     const double step = 2 * kPi / count, outwards = radius * std::sqrt(step / std::sin(step));
     Ring ring;
     for (int i = 0; i < count; ++i) {
@@ -107,7 +100,7 @@ std::vector<Ring> tube(const Ring& line, bool isClosed, double radius) {
         rings.push_back(
             mitre(rings.back(), line[(s + 1) % n], directionOf(s), isEnd ? directionOf(s) : directionOf(s + 1)));
     }
-    if (isClosed) rings.back() = rings.front();  // the frame may have turned by a part of a turn: see sweepDisk()
+    if (isClosed) rings.back() = rings.front();  // else the frame might be turned by a part of a turn
     return rings;
 }
 
@@ -117,18 +110,19 @@ void addTube(const std::vector<Ring>& rings, Polygons& faces) {
 
 }  // namespace
 
-Polygons extrude(const Region& region, Vec3d sweep) {
-    if (!(std::abs(sweep.z) > 1e-9)) return {};
-    return between(region, movedRegion(region, sweep), sweep.z > 0);
-}
+Polygons extrude(const Region& region, Vec3d sweep) { return extrudeTapered(region, region, sweep); }
 
 Polygons extrudeTapered(const Region& region, const Region& end, Vec3d sweep) {
-    if (!(std::abs(sweep.z) > 1e-9) || region.outer.size() != end.outer.size() ||
-        region.holes.size() != end.holes.size())
-        return {};
-    for (std::size_t h = 0; h < end.holes.size(); ++h)
-        if (region.holes[h].size() != end.holes[h].size()) return {};
-    return between(region, movedRegion(end, sweep), sweep.z > 0);
+    if (!(std::abs(sweep.z) > 1e-9) || !region.hasCornersOf(end)) return {};
+    const Region top = end.mapped([&](Ring ring) {
+        for (Vec3d& p : ring) p = p + sweep;
+        return ring;
+    });
+    Polygons faces;
+    addCaps(region, top, faces);
+    addSides(region, top, faces);
+    if (!(sweep.z > 0)) turnOver(faces);
+    return faces;
 }
 
 Polygons revolve(const Region& region, const Transform& axis, double angle) {
@@ -138,25 +132,12 @@ Polygons revolve(const Region& region, const Transform& axis, double angle) {
     if (isWhole) angle = angle > 0 ? 2 * kPi : -2 * kPi;
     const int count = arcSegments(reach, angle);
     if (std::abs(angle) < 1e-9) return {};
-    const auto at = [&](int step) {
-        Region result;
+    std::vector<Region> sections;
+    for (int step = 0; step <= count; ++step) {
         const double turn = isWhole && step == count ? 0 : angle * step / count;
-        result.outer = turned(region.outer, axis, turn);
-        for (const Ring& hole : region.holes) result.holes.push_back(turned(hole, axis, turn));
-        return result;
-    };
-    Polygons faces;
-    Region low = at(0);
-    const Region first = low;
-    for (int step = 1; step <= count; ++step) {
-        const Region high = at(step);
-        addSides(low.outer, high.outer, faces);
-        for (std::size_t h = 0; h < low.holes.size(); ++h) addSides(low.holes[h], high.holes[h], faces);
-        low = high;
+        sections.push_back(region.mapped([&](const Ring& ring) { return turned(ring, axis, turn); }));
     }
-    if (!isWhole) addCaps(first, low, faces);
-    if (enclosedVolume(faces) < 0) turnOver(faces);
-    return faces;
+    return skin(sections, isWhole);
 }
 
 Polygons sweepDisk(Ring line, double radius, double inner) {
@@ -192,8 +173,8 @@ Polygons sweepAlong(const Region& region, Ring line, Vec3d reference) {
     const auto axesOf = [&](std::size_t segment) {
         return axesFrom({}, line[(segment + 1) % n] - line[segment % n], reference);
     };
-    // A point of the profile at a corner of the line, on the plane that halves the angle between two segments: half-way
-    // between where both bring it, which are one place but where the line winds.
+    // A ring of the profile at a corner of the line, on the plane that halves the angle between two segments. Where the
+    // line winds, both segments put a point at different places; the middle between these is taken.
     const auto ringAt = [&](const Ring& profile, std::size_t corner) {
         const bool isFirst = !isClosed && corner == 0, isLast = !isClosed && corner == segments;
         const Transform before = axesOf(isFirst ? 0 : (corner + n - 1) % n),
@@ -209,42 +190,18 @@ Polygons sweepAlong(const Region& region, Ring line, Vec3d reference) {
         }
         return ring;
     };
-    const auto at = [&](std::size_t corner) {
-        Region result{ringAt(region.outer, corner), {}};
-        for (const Ring& hole : region.holes) result.holes.push_back(ringAt(hole, corner));
-        return result;
-    };
-    Polygons faces;
-    Region low = at(0);
-    const Region first = low;
-    for (std::size_t corner = 1; corner <= segments; ++corner) {
-        const Region high = isClosed && corner == segments ? first : at(corner);
-        addSides(low.outer, high.outer, faces);
-        for (std::size_t h = 0; h < low.holes.size(); ++h) addSides(low.holes[h], high.holes[h], faces);
-        low = high;
-    }
-    if (!isClosed) addCaps(first, low, faces);
-    if (enclosedVolume(faces) < 0) turnOver(faces);
-    return faces;
+    std::vector<Region> sections;
+    for (std::size_t corner = 0; corner < n; ++corner)
+        sections.push_back(region.mapped([&](const Ring& ring) { return ringAt(ring, corner); }));
+    if (isClosed) sections.push_back(sections.front());
+    return skin(sections, isClosed);
 }
 
 Polygons loft(const std::vector<Region>& sections) {
     if (sections.size() < 2) return {};
-    for (const Region& section : sections) {
-        if (section.outer.size() != sections[0].outer.size() || section.holes.size() != sections[0].holes.size())
-            return {};
-        for (std::size_t h = 0; h < section.holes.size(); ++h)
-            if (section.holes[h].size() != sections[0].holes[h].size()) return {};
-    }
-    Polygons faces;
-    for (std::size_t s = 1; s < sections.size(); ++s) {
-        addSides(sections[s - 1].outer, sections[s].outer, faces);
-        for (std::size_t h = 0; h < sections[s].holes.size(); ++h)
-            addSides(sections[s - 1].holes[h], sections[s].holes[h], faces);
-    }
-    addCaps(sections.front(), sections.back(), faces);
-    if (enclosedVolume(faces) < 0) turnOver(faces);
-    return faces;
+    for (const Region& section : sections)
+        if (!section.hasCornersOf(sections[0])) return {};
+    return skin(sections, false);
 }
 
 Polygons block(Vec3d size) {

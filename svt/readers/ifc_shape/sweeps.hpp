@@ -11,12 +11,12 @@ namespace svt::readers::ifc {
 
 inline constexpr int kMaxDiskSegments = 64;  ///< of the section of a bar
 
-/// The prism between a region and the same region moved by `sweep`, which may point to either side of z = 0.
+/// The prism between a region and its copy moved by `sweep`, which may point to either side of z = 0.
 /// \return the closed faces; none where `sweep` lies in the plane of the region
 [[nodiscard]] std::vector<model::Polygon> extrude(const Region& region, Vec3d sweep);
 
-/// The body between a region and another one of as many points, which lies `sweep` away; side faces are cut in triangles
-/// where they are not flat. \return none where rings or their points differ in number
+/// The body between a region and another one at the distance `sweep`. Side faces that are not flat become triangles.
+/// \return none if rings or their points differ in number
 [[nodiscard]] std::vector<model::Polygon> extrudeTapered(const Region& region, const Region& end, Vec3d sweep);
 
 /// A region turned about an axis in its plane.
@@ -24,7 +24,7 @@ inline constexpr int kMaxDiskSegments = 64;  ///< of the section of a bar
 /// \param angle  radians; a full turn or more has no ends
 [[nodiscard]] std::vector<model::Polygon> revolve(const Region& region, const Transform& axis, double angle);
 
-/// A pipe or bar of round section along a line, with mitred corners; of equal area with a round one.
+/// A pipe or bar of round section along a line, with mitred corners. Its polygonal section has the area of the circle.
 /// \param line    at least two points; a closed one ends at its first
 /// \param inner   radius of the hollow, 0: none
 [[nodiscard]] std::vector<model::Polygon> sweepDisk(std::vector<Vec3d> line, double radius, double inner);
@@ -35,8 +35,8 @@ inline constexpr int kMaxDiskSegments = 64;  ///< of the section of a bar
 /// \return the closed faces; none where the line has no length
 [[nodiscard]] std::vector<model::Polygon> sweepAlong(const Region& region, std::vector<Vec3d> line, Vec3d reference);
 
-/// The body through regions that stand in space, from the first to the last; side faces are cut in triangles where they are
-/// not flat. \return none for fewer than two, or where rings or their points differ in number
+/// The body through regions in space, from the first to the last. Side faces that are not flat become triangles.
+/// \return none for fewer than two regions, or if rings or their points differ in number
 [[nodiscard]] std::vector<model::Polygon> loft(const std::vector<Region>& sections);
 
 /// Box with one corner at the origin.

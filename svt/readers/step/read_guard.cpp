@@ -34,6 +34,12 @@ ReadGuard::Scope::~Scope() {
 
 bool ReadGuard::Scope::enter(RecordIndex record) { return guard_.push(record); }
 
+bool ReadGuard::Scope::enter(RecordIndex record, std::string& why) {
+    const bool isEntered = enter(record);
+    if (!isEntered) why = guard_.why_;
+    return isEntered;
+}
+
 void ReadGuard::Scope::leave() noexcept {
     if (guard_.path_.size() > first_) guard_.pop();
 }

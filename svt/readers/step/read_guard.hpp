@@ -35,6 +35,8 @@ public:
         /// \return false where it must not be: it is being read already, nests too deep, or the budget is spent; then why()
         ///         says which, and a circle is kept for circles()
         [[nodiscard]] bool enter(RecordIndex record);
+        /// The same, with the reason in `why`.
+        [[nodiscard]] bool enter(RecordIndex record, std::string& why);
         /// The record entered last is read no more.
         void leave() noexcept;
         [[nodiscard]] const std::string& why() const noexcept { return guard_.why_; }
