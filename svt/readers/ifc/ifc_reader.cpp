@@ -218,8 +218,8 @@ private:
         featureOf_[number] = model_.addFeature(std::move(feature), parent);
     }
 
-    // A door (IFC4), its type, or its style (IFC2x3) states the operation. The y axis of its placement points to the side that
-    // the door opens to.
+    // A door (IFC4), its type, or its style (IFC2x3) states the operation. The door opens to the side of the y axis of its
+    // placement.
     void addDoorOperation(RecordIndex door, const Properties& properties, model::Feature& feature) const {
         const auto known = [](string_view operation) { return operation.size() > 1 && operation != "NOTDEFINED"; };
         string_view operation = file_.fieldsOf(door)[at::Door::OperationType].enumeration();
@@ -441,7 +441,7 @@ private:
         addGeometry(model_.features[featureOf_[number]], shape.bodies, placement, material);
     }
 
-    // Layers inherit the attributes of their wall, so that queries for walls find them, except for measures and materials.
+    // Layers inherit the attributes of their wall, except for measures and materials, so that queries for walls find them.
     static std::vector<Attribute> layerAttributes(const std::vector<Attribute>& ofProduct) {
         constexpr string_view kOwn[] = {"material", "materialLayers", "tag", "layer", "thickness", "function"};
         std::vector<Attribute> attributes;

@@ -5,7 +5,7 @@
 ///     E(SweptAreaSolid, None, SweptArea, Position)                     #7=IFCEXTRUDEDAREASOLID(#1,#2,#3,2.5);
 ///     E(ExtrudedAreaSolid, SweptAreaSolid, ExtrudedDirection, Depth)   at::ExtrudedAreaSolid::Depth is 3: 2.5
 ///
-/// As in the schema, an entity goes on where its supertype ends. Attributes behind the last one that is read are absent.
+/// As in the schema, an entity continues its supertype. Attributes behind the last one that is read are absent.
 /// IFC2x3, IFC4 and IFC4.3 agree on these positions; rows named ...OfIfc4 give those that IFC4.3 moved.
 
 #include <cstddef>
@@ -51,7 +51,8 @@ namespace svt::readers::ifc {
     E(BSplineCurve, None, Degree, ControlPointsList, CurveForm, ClosedCurve, SelfIntersect) \
     E(TessellatedFaceSet, None, Coordinates, Closed) \
     E(TriangulatedFaceSetOfIfc4, None, Coordinates, Normals, Closed, CoordIndex) \
-    E(CartesianPointList, None, CoordList) E(CsgPrimitive3D, None, Position) E(ProfileDef, None, ProfileType, ProfileName) \
+    E(CartesianPointList, None, CoordList) E(CsgPrimitive3D, None, Position) \
+    E(ProfileDef, None, ProfileType, ProfileName) \
     E(ParameterizedProfileDef, ProfileDef, Position) E(Conic, None, Position) \
     E(Property, None, Name, Description) E(PhysicalSimpleQuantity, None, Name, Description, Unit)
 
@@ -93,7 +94,8 @@ namespace svt::readers::ifc {
     E(SurfaceCurveSweptAreaSolid, DirectrixCurveSweptAreaSolid, ReferenceSurface) \
     E(SectionedSolidHorizontal, None, Directrix, CrossSections, CrossSectionPositions, FixedAxisVertical) \
     E(SectionedSpine, None, SpineCurve, CrossSections, CrossSectionPositions) \
-    E(AnnotationFillArea, None, OuterBoundary, InnerBoundaries) E(SweptDiskSolid, None, Directrix, Radius, InnerRadius) \
+    E(AnnotationFillArea, None, OuterBoundary, InnerBoundaries) \
+    E(SweptDiskSolid, None, Directrix, Radius, InnerRadius) \
     E(SweptDiskSolidPolygonal, SweptDiskSolid) E(FacetedBrep, ManifoldSolidBrep) \
     E(FacetedBrepWithVoids, FacetedBrep, Voids) E(AdvancedBrep, ManifoldSolidBrep) \
     E(AdvancedBrepWithVoids, AdvancedBrep, Voids) E(ConnectedFaceSet, None, CfsFaces) \
@@ -110,14 +112,16 @@ namespace svt::readers::ifc {
     E(SurfaceOfLinearExtrusion, SweptSurface, ExtrudedDirection) E(SurfaceOfRevolution, SweptSurface, AxisPosition) \
     E(TriangulatedFaceSet, TessellatedFaceSet, Normals, CoordIndex) \
     E(TriangulatedIrregularNetwork, TriangulatedFaceSet) E(PolygonalFaceSet, TessellatedFaceSet, Faces) \
-    E(IndexedPolygonalFace, None, CoordIndex) E(IndexedPolygonalFaceWithVoids, IndexedPolygonalFace, InnerCoordIndices) \
+    E(IndexedPolygonalFace, None, CoordIndex) \
+    E(IndexedPolygonalFaceWithVoids, IndexedPolygonalFace, InnerCoordIndices) \
     E(CartesianPointList2D, CartesianPointList) E(CartesianPointList3D, CartesianPointList) \
     E(BooleanResult, None, Operator, FirstOperand, SecondOperand) E(BooleanClippingResult, BooleanResult) \
     E(HalfSpaceSolid, None, BaseSurface, AgreementFlag) E(BoxedHalfSpace, HalfSpaceSolid) \
     E(PolygonalBoundedHalfSpace, HalfSpaceSolid, Position, PolygonalBoundary) E(CsgSolid, None, TreeRootExpression) \
     E(Block, CsgPrimitive3D, XLength, YLength, ZLength) \
     E(RectangularPyramid, CsgPrimitive3D, XLength, YLength, Height) \
-    E(RightCircularCone, CsgPrimitive3D, Height, BottomRadius) E(RightCircularCylinder, CsgPrimitive3D, Height, Radius) \
+    E(RightCircularCone, CsgPrimitive3D, Height, BottomRadius) \
+    E(RightCircularCylinder, CsgPrimitive3D, Height, Radius) \
     E(Sphere, CsgPrimitive3D, Radius) E(BoundingBox, None, Corner, XDim, YDim, ZDim) E(GeometricSet, None, Elements) \
     E(GeometricCurveSet, GeometricSet) E(CurveBoundedPlane, None) \
     E(RectangleProfileDef, ParameterizedProfileDef, XDim, YDim) \
@@ -154,7 +158,8 @@ namespace svt::readers::ifc {
     E(PropertySet, Root, HasProperties) E(PropertySingleValue, Property, NominalValue) \
     E(PropertyEnumeratedValue, Property, EnumerationValues) E(PropertyListValue, Property, ListValues) \
     E(PropertyBoundedValue, Property, UpperBoundValue, LowerBoundValue) \
-    E(ComplexProperty, Property, UsageName, HasProperties) E(PropertyTableValue, Property, DefiningValues, DefinedValues) \
+    E(ComplexProperty, Property, UsageName, HasProperties) \
+    E(PropertyTableValue, Property, DefiningValues, DefinedValues) \
     E(ElementQuantity, Root, MethodOfMeasurement, Quantities) E(QuantityLength, PhysicalSimpleQuantity, LengthValue) \
     E(QuantityArea, PhysicalSimpleQuantity, AreaValue) E(QuantityVolume, PhysicalSimpleQuantity, VolumeValue) \
     E(QuantityCount, PhysicalSimpleQuantity, CountValue) E(QuantityWeight, PhysicalSimpleQuantity, WeightValue) \
