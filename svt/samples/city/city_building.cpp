@@ -11,10 +11,7 @@ namespace {
 constexpr std::int64_t kBlockWidth = 92'000, kBlockDepth = 50'000, kStreet = 13'000;
 constexpr std::int64_t kLotsOfRow = Layout::kLots / 2;
 
-std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
-    Draw draw(a * 0x9E3779B97F4A7C15ull + b);
-    return draw.next();
-}
+std::uint64_t mixed(std::uint64_t a, std::uint64_t b) { return Random(a * kHashFactor + b).next(); }
 
 // A rectangle of the plan.
 struct Lot {
@@ -59,7 +56,7 @@ Lot lotOf(const CitySampleOptions& options, std::int64_t column, std::int64_t ro
     return result;
 }
 
-Face face(FaceKind kind, Ring ring) { return {kind, std::move(ring), {}}; }
+Face face(FaceKind kind, Ring ring) { return {kind, {std::move(ring)}}; }
 
 // A prism over a counter-clockwise footprint.
 Body prism(const std::vector<std::array<std::int64_t, 2>>& plan, std::int64_t bottom, std::int64_t top) {
@@ -78,11 +75,6 @@ Body prism(const std::vector<std::array<std::int64_t, 2>>& plan, std::int64_t bo
             face(FaceKind::Wall, {{a[0], a[1], bottom}, {b[0], b[1], bottom}, {b[0], b[1], top}, {a[0], a[1], top}}));
     }
     return body;
-}
-
-Body box(std::int64_t west, std::int64_t south, std::int64_t east, std::int64_t north, std::int64_t bottom,
-         std::int64_t top) {
-    return prism({{west, south}, {east, south}, {east, north}, {west, north}}, bottom, top);
 }
 
 // A house whose ridge runs along the street.
@@ -148,8 +140,8 @@ std::vector<std::array<std::int64_t, 2>> ovalPlan(const Lot& lot, std::int64_t c
 void addWindows(Body& body, std::int64_t storeyHeight) {
     const std::size_t walls = body.faces.size();
     for (std::size_t f = 0; f < walls; ++f) {
-        if (body.faces[f].kind != FaceKind::Wall || body.faces[f].exterior.size() != 4) continue;
-        const Ring wall = body.faces[f].exterior;
+        const Ring wall = body.faces[f].rings.front();
+        if (body.faces[f].kind != FaceKind::Wall || wall.size() != 4) continue;
         const Point a = wall[0], b = wall[1];
         const std::int64_t length = std::max(std::llabs(b.x - a.x), std::llabs(b.y - a.y)), height = wall[2].z - a.z;
         if (length < 3'000 || (b.x - a.x) * (b.y - a.y) != 0) continue;
@@ -162,7 +154,7 @@ void addWindows(Body& body, std::int64_t storeyHeight) {
                     return Point{a.x + (b.x - a.x) * along / length, a.y + (b.y - a.y) * along / length, up};
                 };
                 Ring window{at(begin, z), at(end, z), at(end, z + 1'300), at(begin, z + 1'300)};
-                body.faces[f].holes.push_back({window[3], window[2], window[1], window[0]});
+                body.faces[f].rings.push_back({window[3], window[2], window[1], window[0]});
                 body.faces.push_back(face(FaceKind::Window, std::move(window)));
             }
     }
@@ -174,9 +166,9 @@ void addRooms(Building& building, const Lot& lot, std::int64_t eaves, std::int64
     const std::int64_t middle = (lot.west + lot.east) / 2;
     for (std::int64_t bottom = lot.ground + kWall; bottom + storeyHeight <= eaves; bottom += storeyHeight)
         for (const bool isEast : {false, true}) {
-            Body room = box(isEast ? middle + kWall / 2 : lot.west + kWall, lot.south + kWall,
-                            isEast ? lot.east - kWall : middle - kWall / 2, lot.north - kWall, bottom,
-                            bottom + storeyHeight - kWall);
+            Body room =
+                box({isEast ? middle + kWall / 2 : lot.west + kWall, lot.south + kWall, bottom},
+                    {isEast ? lot.east - kWall : middle - kWall / 2, lot.north - kWall, bottom + storeyHeight - kWall});
             room.isRoom = true;
             for (Face& f : room.faces)
                 f.kind = f.kind == FaceKind::Ground ? FaceKind::Floor
@@ -203,15 +195,16 @@ void shape(Building& building, const Lot& lot, std::int64_t vertices, std::int64
     const std::int64_t top = lot.ground + height;
     building.roof = "1000";
     if (building.lod == 1 || vertices < 10) {
-        building.bodies.push_back(box(lot.west, lot.south, lot.east, lot.north, lot.ground, top));
+        building.bodies.push_back(box({lot.west, lot.south, lot.ground}, {lot.east, lot.north, top}));
     } else if (vertices < 36) {
         const std::int64_t rise = std::min<std::int64_t>(height / 2, (lot.north - lot.south) * 3 / 8);
         building.roof = "1030";
         building.bodies.push_back(gabled(lot, top - rise, top));
         std::int64_t west = lot.west + 500;
         for (std::int64_t n = 0; n < (vertices - 6) / 8 && west + 2'000 < lot.east; ++n, west += 2'600)
-            building.bodies.push_back(box(west, lot.north, west + 2'000, lot.north + 1'800 + 300 * n, lot.ground,
-                                          lot.ground + std::min<std::int64_t>(2'600, (height - rise) * 3 / 4)));
+            building.bodies.push_back(box({west, lot.north, lot.ground},
+                                          {west + 2'000, lot.north + 1'800 + 300 * n,
+                                           lot.ground + std::min<std::int64_t>(2'600, (height - rise) * 3 / 4)}));
     } else if (vertices < 160) {
         building.bodies.push_back(prism(bayedPlan(lot, (vertices - 8) / 8), lot.ground, top));
     } else {
@@ -221,11 +214,8 @@ void shape(Building& building, const Lot& lot, std::int64_t vertices, std::int64
 
 }  // namespace
 
-std::uint64_t Draw::next() {
-    std::uint64_t z = state_ += 0x9E3779B97F4A7C15ull;
-    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ z >> 27) * 0x94D049BB133111EBull;
-    return z ^ z >> 31;
+Body box(Point low, Point high) {
+    return prism({{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}}, low.z, high.z);
 }
 
 double Draw::normal() {
@@ -267,7 +257,7 @@ Building makeBuilding(const CitySampleOptions& options, const Layout& layout, st
     building.storeys = static_cast<int>(std::max<std::int64_t>(1, height / 3'000));
     if (building.lod >= 3) addWindows(building.bodies.front(), 2'900);
     if (building.lod == 4) addRooms(building, lot, lot.ground + height / 2, 2'700);
-    if (draw.oneIn(1000)) {
+    if (draw.below(1000) == 0) {
         building.isBroken = true;
         auto& faces = building.bodies.front().faces;
         faces.erase(faces.begin() + 2 + draw.below(static_cast<std::int64_t>(faces.size()) - 2));
@@ -281,7 +271,7 @@ std::uint64_t vertexCount(const Building& building) {
     std::set<Point> points;
     for (const Body& body : building.bodies)
         for (const Face& f : body.faces)
-            if (!body.isRoom) points.insert(f.exterior.begin(), f.exterior.end());
+            if (!body.isRoom) points.insert(f.rings.front().begin(), f.rings.front().end());
     return points.size();
 }
 

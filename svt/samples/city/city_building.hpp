@@ -4,6 +4,7 @@
 
 #include <svt/core/vec.hpp>
 #include <svt/samples/city_sample.hpp>
+#include <svt/samples/parts/random.hpp>
 
 #include <cstdint>
 #include <string_view>
@@ -11,23 +12,13 @@
 
 namespace svt::samples::city {
 
-/// Random numbers that depend on nothing but their key (splitmix64).
-class Draw {
+class Draw : public Random {
 public:
-    explicit Draw(std::uint64_t key) : state_(key) {}
-    std::uint64_t next();
-    /// 0 <= value < count
-    std::int64_t below(std::int64_t count) {
-        return static_cast<std::int64_t>(next() % static_cast<std::uint64_t>(count));
-    }
+    using Random::Random;
     /// least <= value <= most
     std::int64_t between(std::int64_t least, std::int64_t most) { return least + below(most - least + 1); }
-    bool oneIn(std::int64_t count) { return below(count) == 0; }
     /// Normal with mean 0 and deviation 1: the sum of twelve uniform numbers less six, exact on every machine.
     double normal();
-
-private:
-    std::uint64_t state_;
 };
 
 using Point = Vec3<std::int64_t>;  ///< millimetres, plan of the town: x along the streets, z above datum
@@ -38,8 +29,7 @@ enum class FaceKind : std::uint8_t { Ground, Wall, Roof, Window, Ceiling, Floor,
 /// A face, counter-clockwise from outside (of a room: from within the room's air outwards).
 struct Face {
     FaceKind kind = FaceKind::Wall;
-    Ring exterior;
-    std::vector<Ring> holes;
+    std::vector<Ring> rings;  ///< the first is the exterior
 };
 
 /// A body with its faces; a room has `isRoom`.
@@ -74,6 +64,9 @@ struct Layout {
 /// The building on lot `lot` of block (column, row).
 [[nodiscard]] Building makeBuilding(const CitySampleOptions& options, const Layout& layout, std::int64_t column,
                                     std::int64_t row, std::int64_t lot);
+
+/// An upright box.
+[[nodiscard]] Body box(Point low, Point high);
 
 /// Different points of all bodies that are no rooms.
 [[nodiscard]] std::uint64_t vertexCount(const Building& building);

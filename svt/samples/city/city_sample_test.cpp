@@ -36,10 +36,8 @@ std::size_t openEdges(const city::Body& body) {
             a < b ? ++uses[{a, b}] : --uses[{b, a}];
         }
     };
-    for (const city::Face& face : body.faces) {
-        add(face.exterior);
-        for (const city::Ring& hole : face.holes) add(hole);
-    }
+    for (const city::Face& face : body.faces)
+        for (const city::Ring& ring : face.rings) add(ring);
     return static_cast<std::size_t>(
         std::count_if(uses.begin(), uses.end(), [](const auto& use) { return use.second != 0; }));
 }
@@ -47,13 +45,15 @@ std::size_t openEdges(const city::Body& body) {
 // Six times the volume, by the divergence theorem; whole numbers as double, exact enough for the sign.
 double volumeOf(const city::Body& body) {
     double volume = 0;
-    const city::Point origin = body.faces.front().exterior.front();
-    for (const city::Face& face : body.faces)
-        for (std::size_t i = 1; i + 1 < face.exterior.size(); ++i) {
-            const Vec3d a = toDouble(face.exterior[0] - origin), b = toDouble(face.exterior[i] - origin),
-                        c = toDouble(face.exterior[i + 1] - origin);
+    const city::Point origin = body.faces.front().rings.front().front();
+    for (const city::Face& face : body.faces) {
+        const city::Ring& exterior = face.rings.front();
+        for (std::size_t i = 1; i + 1 < exterior.size(); ++i) {
+            const Vec3d a = toDouble(exterior[0] - origin), b = toDouble(exterior[i] - origin),
+                        c = toDouble(exterior[i + 1] - origin);
             volume += dot(a, cross(b, c));
         }
+    }
     return volume;
 }
 

@@ -3,7 +3,7 @@
 /// The text of a generated city's file: CityGML or CityJSONSeq, building by building.
 
 #include <svt/samples/city/city_building.hpp>
-#include <svt/samples/formats/sample_text.hpp>
+#include <svt/samples/formats/gml_text.hpp>
 
 #include <string>
 #include <string_view>
@@ -24,15 +24,15 @@ private:
     void gmlBody(const Body& body, const std::string& id, const Building& building);
     void gmlSurface(const Face& face, const std::string& id, int lod);
     void gmlRoom(const Body& room, const std::string& id);
-    void gmlPolygon(const Face& face, const std::string& id);
-    void gmlRing(const Ring& ring);
+    void gmlMember(const Face& face, const std::string& id);
+    void gmlLinkedSolid(const std::string& property, const Body& body, const std::string& id);
     void jsonHead();
     void jsonBuilding(const Building& building);
-    void coordinates(Point point);
+    void coordinates(const Point& point);
 
     const CitySampleOptions& options_;
     TextSink sink_;
-    bool isVersion1_ = false;
+    GmlText gml_;
 };
 
 /// The point of the map, in the units that the profile's numbers have: millimetres; thousandths of a US survey foot;

@@ -95,9 +95,13 @@ private:
                           std::move(piece), part, isLoadBearing);
     }
 
-    int wall(int storey, std::string id, std::string name, Material material, Piece piece, bool isLoadBearing = true) {
-        return element(storey, std::move(id), std::move(name), "wall", material, std::move(piece), HullPart::Wall,
-                       isLoadBearing);
+    int brick(int storey, std::string id, std::string name, Piece piece) {
+        return element(storey, std::move(id), std::move(name), "wall", Material::Brick, std::move(piece),
+                       HullPart::Wall, true);
+    }
+    int gypsum(int storey, std::string id, std::string name, Piece piece) {
+        return element(storey, std::move(id), std::move(name), "wall", Material::Gypsum, std::move(piece),
+                       HullPart::Wall, false);
     }
 
     int room(int storey, std::string id, std::string name, std::string function, Piece piece) {
@@ -107,24 +111,22 @@ private:
     void structure() {
         element(ground_, "ground_slab", "Ground slab", "slab", Material::Concrete, box(0, kWidth, 0, kDepth, -250, 0),
                 HullPart::Ground, true);
-        southWall_ = wall(ground_, "wall_south_0", "Exterior wall south, ground floor", Material::Brick,
-                          box(0, kWidth, 0, kWall, 0, kCeiling));
-        northWall_ = wall(ground_, "wall_north_0", "Exterior wall north, ground floor", Material::Brick,
-                          box(0, kWidth, kNorth, kDepth, 0, kCeiling));
-        westWall_ = wall(ground_, "wall_west_0", "Exterior wall west, ground floor", Material::Brick,
-                         box(0, kWall, kWall, kNorth, 0, kCeiling));
-        eastWall_ = wall(ground_, "wall_east_0", "Exterior wall east, ground floor", Material::Brick,
-                         box(kEast, kWidth, kWall, kNorth, 0, kCeiling));
-        spine0_ = wall(ground_, "wall_spine_0", "Spine wall, ground floor", Material::Brick,
-                       box(kWall, kEast, kSpine0, kSpine1, 0, kCeiling));
-        kitchenWall_ = wall(ground_, "wall_kitchen", "Wall between living room and kitchen", Material::Gypsum,
-                            box(7200, 7315, kWall, kSpine0, 0, kCeiling), false);
-        studyWall_ = wall(ground_, "wall_study", "Wall of the study", Material::Gypsum,
-                          box(2600, 2715, kSpine1, kNorth, 0, kCeiling), false);
-        serviceWall_ = wall(ground_, "wall_service", "Wall of WC and utility room", Material::Gypsum,
-                            box(8900, 9015, kSpine1, kNorth, 0, kCeiling), false);
-        wall(ground_, "wall_wc", "Wall between WC and utility room", Material::Gypsum,
-             box(9015, kEast, 6385, 6500, 0, kCeiling), false);
+        southWall_ =
+            brick(ground_, "wall_south_0", "Exterior wall south, ground floor", box(0, kWidth, 0, kWall, 0, kCeiling));
+        northWall_ = brick(ground_, "wall_north_0", "Exterior wall north, ground floor",
+                           box(0, kWidth, kNorth, kDepth, 0, kCeiling));
+        westWall_ = brick(ground_, "wall_west_0", "Exterior wall west, ground floor",
+                          box(0, kWall, kWall, kNorth, 0, kCeiling));
+        eastWall_ = brick(ground_, "wall_east_0", "Exterior wall east, ground floor",
+                          box(kEast, kWidth, kWall, kNorth, 0, kCeiling));
+        spine0_ = brick(ground_, "wall_spine_0", "Spine wall, ground floor",
+                        box(kWall, kEast, kSpine0, kSpine1, 0, kCeiling));
+        kitchenWall_ = gypsum(ground_, "wall_kitchen", "Wall between living room and kitchen",
+                              box(7200, 7315, kWall, kSpine0, 0, kCeiling));
+        studyWall_ = gypsum(ground_, "wall_study", "Wall of the study", box(2600, 2715, kSpine1, kNorth, 0, kCeiling));
+        serviceWall_ = gypsum(ground_, "wall_service", "Wall of WC and utility room",
+                              box(8900, 9015, kSpine1, kNorth, 0, kCeiling));
+        gypsum(ground_, "wall_wc", "Wall between WC and utility room", box(9015, kEast, 6385, 6500, 0, kCeiling));
         beam_ = element(ground_, "hidden_beam", "Hidden beam", "beam", Material::Steel,
                         box(3580, 3820, 250, 4735, 2510, kCeiling), HullPart::Slab, true);
         element(ground_, "suspended_ceiling", "Suspended ceiling", "covering", Material::Gypsum,
@@ -135,27 +137,25 @@ private:
         for (const int bearing : {southWall_, spine0_}) solid(bearing).cut(solid(beam_).pieces.front());
 
         const Length high = 8000;  // upper bound; the roof cuts these off earlier
-        southKnee_ = wall(upper_, "wall_south_1", "Exterior wall south, upper floor", Material::Brick,
-                          roofedBox(kWall, kEast, 0, kWall, kUpper, high));
-        northKnee_ = wall(upper_, "wall_north_1", "Exterior wall north, upper floor", Material::Brick,
-                          roofedBox(kWall, kEast, kNorth, kDepth, kUpper, high));
-        westGable_ = wall(upper_, "wall_west_1", "Gable wall west", Material::Brick,
-                          roofedBox(0, kWall, 0, kDepth, kUpper, high));
-        eastGable_ = wall(upper_, "wall_east_1", "Gable wall east", Material::Brick,
-                          roofedBox(kEast, kWidth, 0, kDepth, kUpper, high));
-        spine1_ = wall(upper_, "wall_spine_1", "Spine wall, upper floor", Material::Brick,
-                       box(kWall, kEast, kSpine0, kSpine1, kUpper, kUpperCeiling));
-        wall(upper_, "wall_bedrooms_12", "Wall between bedrooms 1 and 2", Material::Gypsum,
-             roofedBox(3640, 3755, kWall, kSpine0, kUpper, kUpperCeiling), false);
-        wall(upper_, "wall_bedrooms_23", "Wall between bedrooms 2 and 3", Material::Gypsum,
-             roofedBox(7200, 7315, kWall, kSpine0, kUpper, kUpperCeiling), false);
-        bathWall_ = wall(upper_, "wall_bath", "Wall of the bath", Material::Gypsum,
-                         roofedBox(2600, 2715, kSpine1, kNorth, kUpper, kUpperCeiling), false);
-        dressingWall_ = wall(upper_, "wall_dressing", "Wall of the dressing room", Material::Gypsum,
-                             roofedBox(8900, 9015, kSpine1, kNorth, kUpper, kUpperCeiling), false);
+        southKnee_ = brick(upper_, "wall_south_1", "Exterior wall south, upper floor",
+                           roofedBox(kWall, kEast, 0, kWall, kUpper, high));
+        northKnee_ = brick(upper_, "wall_north_1", "Exterior wall north, upper floor",
+                           roofedBox(kWall, kEast, kNorth, kDepth, kUpper, high));
+        westGable_ = brick(upper_, "wall_west_1", "Gable wall west", roofedBox(0, kWall, 0, kDepth, kUpper, high));
+        eastGable_ = brick(upper_, "wall_east_1", "Gable wall east", roofedBox(kEast, kWidth, 0, kDepth, kUpper, high));
+        spine1_ = brick(upper_, "wall_spine_1", "Spine wall, upper floor",
+                        box(kWall, kEast, kSpine0, kSpine1, kUpper, kUpperCeiling));
+        gypsum(upper_, "wall_bedrooms_12", "Wall between bedrooms 1 and 2",
+               roofedBox(3640, 3755, kWall, kSpine0, kUpper, kUpperCeiling));
+        gypsum(upper_, "wall_bedrooms_23", "Wall between bedrooms 2 and 3",
+               roofedBox(7200, 7315, kWall, kSpine0, kUpper, kUpperCeiling));
+        bathWall_ = gypsum(upper_, "wall_bath", "Wall of the bath",
+                           roofedBox(2600, 2715, kSpine1, kNorth, kUpper, kUpperCeiling));
+        dressingWall_ = gypsum(upper_, "wall_dressing", "Wall of the dressing room",
+                               roofedBox(8900, 9015, kSpine1, kNorth, kUpper, kUpperCeiling));
         atticFloor_ = element(attic_, "attic_floor", "Attic floor", "slab", Material::Timber,
                               roofedBox(kWall, kEast, kWall, kNorth, kUpperCeiling, kAttic), HullPart::Slab, true);
-        chimney_ = wall(attic_, "chimney", "Chimney", Material::Brick, box(7315, 7815, 3300, 3800, 0, 8700));
+        chimney_ = brick(attic_, "chimney", "Chimney", box(7315, 7815, 3300, 3800, 0, 8700));
         at(chimney_).function = "chimney";
     }
 
@@ -231,59 +231,54 @@ private:
         return {Opening::Normal::MinusX, kWidth, kWall, y0, y1, z0, z1};
     }
 
+    void window(int wall, int room, const Opening& opening, std::string id, std::string name, int columns = 2) {
+        addWindow(plan_, wall, room, opening, columns, 2, std::move(id), std::move(name));
+    }
+    void door(int wall, int room, const Opening& opening, std::string id, std::string name) {
+        addDoor(plan_, wall, room, opening, std::move(id), std::move(name));
+    }
+
     void groundOpenings() {
-        addWindow(plan_, southWall_, living_, south(1200, 3400, 0, 2300), 2, 2, "window_terrace", "Terrace window");
-        addWindow(plan_, southWall_, living_, south(4400, 6200, 850, 2250), 2, 2, "window_dining",
-                  "Window dining area");
-        addWindow(plan_, westWall_, living_, west(1500, 3300, 850, 2250), 2, 2, "window_living_west",
-                  "Window living room west");
-        addWindow(plan_, southWall_, kitchen_, south(8200, 9800, 1000, 2250), 2, 2, "window_kitchen_south",
-                  "Window kitchen south");
-        addWindow(plan_, eastWall_, kitchen_, east(1800, 3000, 1000, 2250), 2, 2, "window_kitchen_east",
-                  "Window kitchen east");
-        addWindow(plan_, westWall_, study_, west(6000, 7400, 850, 2250), 2, 2, "window_study_west",
-                  "Window study west");
-        addWindow(plan_, northWall_, study_, north(900, 2100, 850, 2250), 2, 2, "window_study_north",
-                  "Window study north");
-        addWindow(plan_, northWall_, hall_, north(6300, 7700, 850, 2250), 2, 2, "window_hall", "Window hall");
-        addWindow(plan_, eastWall_, utility_, east(5300, 6000, 1300, 2250), 1, 2, "window_utility",
-                  "Window utility room");
-        addWindow(plan_, eastWall_, wc_, east(7200, 7900, 1300, 2250), 1, 2, "window_wc", "Window WC");
-        addDoor(plan_, northWall_, hall_, north(4600, 5710, 0, 2250), "door_entrance", "Entrance door");
+        window(southWall_, living_, south(1200, 3400, 0, 2300), "window_terrace", "Terrace window");
+        window(southWall_, living_, south(4400, 6200, 850, 2250), "window_dining", "Window dining area");
+        window(westWall_, living_, west(1500, 3300, 850, 2250), "window_living_west", "Window living room west");
+        window(southWall_, kitchen_, south(8200, 9800, 1000, 2250), "window_kitchen_south", "Window kitchen south");
+        window(eastWall_, kitchen_, east(1800, 3000, 1000, 2250), "window_kitchen_east", "Window kitchen east");
+        window(westWall_, study_, west(6000, 7400, 850, 2250), "window_study_west", "Window study west");
+        window(northWall_, study_, north(900, 2100, 850, 2250), "window_study_north", "Window study north");
+        window(northWall_, hall_, north(6300, 7700, 850, 2250), "window_hall", "Window hall");
+        window(eastWall_, utility_, east(5300, 6000, 1300, 2250), "window_utility", "Window utility room", 1);
+        window(eastWall_, wc_, east(7200, 7900, 1300, 2250), "window_wc", "Window WC", 1);
+        door(northWall_, hall_, north(4600, 5710, 0, 2250), "door_entrance", "Entrance door");
         const auto spine = [](Length x0, Length x1) {
             return Opening{Opening::Normal::PlusY, kSpine0, kSpine1 - kSpine0, x0, x1, 0, 2100};
         };
-        addDoor(plan_, spine0_, hall_, spine(2775, 3660), "door_living", "Door living room");
-        addDoor(plan_, spine0_, hall_, spine(7930, 8815), "door_kitchen", "Door kitchen");
-        addDoor(plan_, studyWall_, study_, {Opening::Normal::MinusX, 2715, 115, 6400, 7285, 0, 2100}, "door_study",
-                "Door study");
-        addDoor(plan_, serviceWall_, utility_, {Opening::Normal::PlusX, 8900, 115, 5000, 5885, 0, 2100}, "door_utility",
-                "Door utility room");
-        addDoor(plan_, serviceWall_, wc_, {Opening::Normal::PlusX, 8900, 115, 6900, 7685, 0, 2100}, "door_wc",
-                "Door WC");
+        door(spine0_, hall_, spine(2775, 3660), "door_living", "Door living room");
+        door(spine0_, hall_, spine(7930, 8815), "door_kitchen", "Door kitchen");
+        door(studyWall_, study_, {Opening::Normal::MinusX, 2715, 115, 6400, 7285, 0, 2100}, "door_study", "Door study");
+        door(serviceWall_, utility_, {Opening::Normal::PlusX, 8900, 115, 5000, 5885, 0, 2100}, "door_utility",
+             "Door utility room");
+        door(serviceWall_, wc_, {Opening::Normal::PlusX, 8900, 115, 6900, 7685, 0, 2100}, "door_wc", "Door WC");
         addPassage(plan_, kitchenWall_, living_, {Opening::Normal::PlusX, 7200, 115, 900, 2500, 0, 2250});
     }
 
     void upperOpenings() {
-        addWindow(plan_, westGable_, bedroom1_, west(1900, 3500, 3810, 5210), 2, 2, "window_bedroom1",
-                  "Window bedroom 1");
-        addWindow(plan_, westGable_, bath_, west(5800, 6800, 4160, 5210), 2, 2, "window_bath", "Window bath");
-        addWindow(plan_, eastGable_, bedroom3_, east(1900, 3500, 3810, 5210), 2, 2, "window_bedroom3",
-                  "Window bedroom 3");
-        addWindow(plan_, eastGable_, dressing_, east(6750, 7350, 4160, 5060), 1, 2, "window_dressing",
-                  "Window dressing room");
-        addWindow(plan_, westGable_, loft_, west(4100, 4900, 5960, 6760), 2, 2, "window_loft_west", "Window loft west");
-        addWindow(plan_, eastGable_, loft_, east(4100, 4900, 5960, 6760), 2, 2, "window_loft_east", "Window loft east");
+        window(westGable_, bedroom1_, west(1900, 3500, 3810, 5210), "window_bedroom1", "Window bedroom 1");
+        window(westGable_, bath_, west(5800, 6800, 4160, 5210), "window_bath", "Window bath");
+        window(eastGable_, bedroom3_, east(1900, 3500, 3810, 5210), "window_bedroom3", "Window bedroom 3");
+        window(eastGable_, dressing_, east(6750, 7350, 4160, 5060), "window_dressing", "Window dressing room", 1);
+        window(westGable_, loft_, west(4100, 4900, 5960, 6760), "window_loft_west", "Window loft west");
+        window(eastGable_, loft_, east(4100, 4900, 5960, 6760), "window_loft_east", "Window loft east");
         const auto spine = [](Length x0, Length x1) {
             return Opening{Opening::Normal::MinusY, kSpine1, kSpine1 - kSpine0, x0, x1, kUpper, kUpper + 2100};
         };
-        addDoor(plan_, spine1_, bedroom1_, spine(2740, 3625), "door_bedroom1", "Door bedroom 1");
-        addDoor(plan_, spine1_, bedroom2_, spine(3770, 4600), "door_bedroom2", "Door bedroom 2");
-        addDoor(plan_, spine1_, bedroom3_, spine(7930, 8815), "door_bedroom3", "Door bedroom 3");
-        addDoor(plan_, bathWall_, bath_, {Opening::Normal::MinusX, 2715, 115, 5200, 6035, kUpper, kUpper + 2100},
-                "door_bath", "Door bath");
-        addDoor(plan_, dressingWall_, dressing_, {Opening::Normal::PlusX, 8900, 115, 6000, 6885, kUpper, kUpper + 2100},
-                "door_dressing", "Door dressing room");
+        door(spine1_, bedroom1_, spine(2740, 3625), "door_bedroom1", "Door bedroom 1");
+        door(spine1_, bedroom2_, spine(3770, 4600), "door_bedroom2", "Door bedroom 2");
+        door(spine1_, bedroom3_, spine(7930, 8815), "door_bedroom3", "Door bedroom 3");
+        door(bathWall_, bath_, {Opening::Normal::MinusX, 2715, 115, 5200, 6035, kUpper, kUpper + 2100}, "door_bath",
+             "Door bath");
+        door(dressingWall_, dressing_, {Opening::Normal::PlusX, 8900, 115, 6000, 6885, kUpper, kUpper + 2100},
+             "door_dressing", "Door dressing room");
     }
 
     // A window between two rafters; its frame rises 40 mm above the tiles.

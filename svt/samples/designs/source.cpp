@@ -1,10 +1,11 @@
 #include <svt/samples/designs/source.hpp>
 
+#include <svt/samples/parts/random.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace svt::samples {
@@ -12,24 +13,6 @@ namespace {
 
 constexpr Length kLotWidth = 22000, kLotDepth = 20000;
 constexpr Length kGroundLevel = -200, kHighestPoint = 16000;
-
-// splitmix64 (Steele, Lea, Flood 2014): every house uses its own state.
-class Random {
-public:
-    explicit Random(std::uint64_t state) : state_(state) {}
-    std::uint64_t next() {
-        state_ += 0x9E3779B97F4A7C15u;
-        std::uint64_t z = state_;
-        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-        z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-        return z ^ (z >> 31);
-    }
-    // 0 .. count - 1; the bias of the remainder is below 1e-16.
-    int below(int count) { return int(next() % std::uint64_t(count)); }
-
-private:
-    std::uint64_t state_;
-};
 
 Result<void> checkRange(std::string_view name, int value, int lowest, int highest) {
     if (value >= lowest && value <= highest) return {};
@@ -68,11 +51,16 @@ constexpr std::array<Ratio, 6> kSmallTurns{{{40.0 / 41, 9.0 / 41},
                                             {63.0 / 65, 16.0 / 65},
                                             {63.0 / 65, -16.0 / 65}}};
 
+template <class List>
+const auto& oneOf(const List& list, Random& random) {
+    return list[std::size_t(random.below(std::int64_t(list.size())))];
+}
+
 // Every flat has a number and an owner.
 std::vector<Attribute> unitAttributes(const Component& unit, int storey, int number, Random& random) {
     if (unit.function == "common") return {{"owner", std::string("all owners"), ""}};
     return {{"unitNumber", fmt::format("{}.{}", storey, number), ""},
-            {"owner", std::string(kOwners[std::size_t(random.below(int(kOwners.size())))]), ""}};
+            {"owner", std::string(oneOf(kOwners, random)), ""}};
 }
 
 // Floor area of a flat in dm2; 0 for common areas.
@@ -86,8 +74,7 @@ std::int64_t areaOf(const Component& unit) {
 // The share of each flat is its area over the area of all flats.
 void addShares(Document& tower) {
     std::int64_t total = 0;
-    for (const PlacedPlan& placed : tower.plans)
-        for (const Component& component : placed.plan->components) total += areaOf(component);
+    tower.forEach([&](const PlacedPlan&, int, const Component& component) { total += areaOf(component); });
     for (PlacedPlan& placed : tower.plans) {
         std::size_t unit = 0;
         for (const Component& component : placed.plan->components) {
@@ -108,15 +95,15 @@ Material Document::shown(Material designed) const {
 }
 
 std::string Document::idOf(const PlacedPlan& placed, int component) const {
-    return placed.prefix + placed.plan->components[std::size_t(component)].id;
+    return placed.prefix + placed.component(component).id;
 }
 
 std::string Document::nameOf(const PlacedPlan& placed, int component) const {
-    return placed.namePrefix + placed.plan->components[std::size_t(component)].name;
+    return placed.namePrefix + placed.component(component).name;
 }
 
 std::string Document::parentIdOf(const PlacedPlan& placed, int component) const {
-    const Component& c = placed.plan->components[std::size_t(component)];
+    const Component& c = placed.component(component);
     if (c.parent >= 0) return idOf(placed, c.parent);
     if (c.kind == Kind::Unit && c.storey >= 0) return idOf(placed, c.storey);
     return id;
@@ -222,12 +209,13 @@ Document SampleSource::villageHouse(std::int64_t index) {
     const std::int64_t column = index % options_.columns, row = index / options_.columns;
     Random random(options_.seed * 0xD1342543DE82EF95u + std::uint64_t(row) * 1000003u + std::uint64_t(column));
     random.next();
-    VillageHouse variant{random.below(4), random.below(2), random.below(3), 1 + random.below(2)};
+    const auto below = [&](int count) { return int(random.below(count)); };
+    VillageHouse variant{below(4), below(2), below(3), 1 + below(2)};
     const Length width = 9000 + 1000 * variant.widthStep, depth = 8000 + 1000 * variant.depthStep;
     // A multiple of a quarter turn for every house; two of five are rotated further.
-    Rotation rotation = Rotation::byDegrees(90.0 * random.below(4), double(width) / 2, double(depth) / 2);
-    if (random.below(5) < 2) {
-        const Ratio ratio = kSmallTurns[std::size_t(random.below(int(kSmallTurns.size())))];
+    Rotation rotation = Rotation::byDegrees(90.0 * below(4), double(width) / 2, double(depth) / 2);
+    if (below(5) < 2) {
+        const Ratio ratio = oneOf(kSmallTurns, random);
         const double cosine = rotation.cosine * ratio.cosine - rotation.sine * ratio.sine;
         rotation.sine = rotation.sine * ratio.cosine + rotation.cosine * ratio.sine;
         rotation.cosine = cosine;
@@ -243,27 +231,20 @@ Document SampleSource::villageHouse(std::int64_t index) {
     document.function = "residential";
     document.roofType = "gable";
     document.storeys = variant.storeys;
-    document.wallMaterial = kWalls[std::size_t(random.below(int(kWalls.size())))];
-    document.roofMaterial = kRoofs[std::size_t(random.below(int(kRoofs.size())))];
+    document.wallMaterial = oneOf(kWalls, random);
+    document.roofMaterial = oneOf(kRoofs, random);
     document.plans.push_back(
         {&villagePlan(variant), document.id + "_", "", Placement(rotation, shift, modelRotation_, origin_), {}});
     return document;
 }
 
 WorldPoint SampleSource::rescaled(const Placement& placement, Point p) const {
-    const WorldPoint q = placement.at(p);
-    const std::int64_t factor = placement.decimals() < decimals() ? 1000 : 1;
-    return {q.x * factor, q.y * factor, q.z * factor};
+    return placement.at(p) * (placement.decimals() < decimals() ? 1000 : 1);
 }
 
 std::array<WorldPoint, 2> SampleSource::envelope() {
-    constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
-    WorldPoint low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
-    const auto add = [&](const Placement& placement, Point p) {
-        const WorldPoint q = rescaled(placement, p);
-        low = {std::min(low.x, q.x), std::min(low.y, q.y), std::min(low.z, q.z)};
-        high = {std::max(high.x, q.x), std::max(high.y, q.y), std::max(high.z, q.z)};
-    };
+    Box3d box;  // its numbers are whole
+    const auto add = [&](const Placement& placement, Point p) { box.add(toDouble(rescaled(placement, p))); };
     if (kind_ == SampleKind::District) {
         const Placement placement({}, {}, modelRotation_, origin_);
         for (const Length x : {Length{0}, options_.columns * kLotWidth})
@@ -274,7 +255,8 @@ std::array<WorldPoint, 2> SampleSource::envelope() {
         for (const PlacedPlan& placed : document.plans)
             for (const Point& p : placed.plan->vertices) add(placed.placement, p);
     }
-    return {low, high};
+    const auto whole = [](Vec3d p) { return WorldPoint{std::int64_t(p.x), std::int64_t(p.y), std::int64_t(p.z)}; };
+    return {whole(box.min), whole(box.max)};
 }
 
 std::vector<WorldPoint> SampleSource::ground() const {

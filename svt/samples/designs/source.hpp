@@ -20,6 +20,8 @@ struct PlacedPlan {
     std::string namePrefix;  ///< prefix of component names
     Placement placement;
     std::vector<std::vector<Attribute>> unitAttributes;  ///< in the order of Kind::Unit components in the plan
+
+    [[nodiscard]] const Component& component(int index) const { return plan->components[std::size_t(index)]; }
 };
 
 /// One top-level feature.
@@ -33,6 +35,12 @@ struct Document {
     Material roofMaterial = Material::RoofTiles;     ///< replaces RoofTiles
     std::vector<PlacedPlan> plans;
 
+    /// Calls visit(placed, index, component) for all components of all plans.
+    template <class Visit>
+    void forEach(const Visit& visit) const {
+        for (const PlacedPlan& placed : plans)
+            for (int c = 0; c < int(placed.plan->components.size()); ++c) visit(placed, c, placed.component(c));
+    }
     [[nodiscard]] Material shown(Material designed) const;
     [[nodiscard]] std::string idOf(const PlacedPlan& placed, int component) const;
     [[nodiscard]] std::string nameOf(const PlacedPlan& placed, int component) const;

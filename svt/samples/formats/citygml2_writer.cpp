@@ -5,168 +5,89 @@
 //   both      storeys are CityObjectGroups, units BuildingParts that contain their rooms
 //             and inner walls
 // A face shared by a room and an adjacent part is written once; the room uses it reversed (gml:OrientableSurface).
+#include <svt/samples/formats/gml_text.hpp>
 #include <svt/samples/formats/writers.hpp>
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <string>
 #include <utility>
-#include <variant>
 
 namespace svt::samples {
 namespace {
 
-class CityGml2Writer {
+class CityGml2Writer : CityGmlWriter {
 public:
     CityGml2Writer(SampleSource& source, bool isThematic, TextSink& out)
-        : source_(source), isThematic_(isThematic), out_(out), gml_(out) {}
+        : CityGmlWriter(source, out, "2.0"), isThematic_(isThematic) {}
 
     void write() {
-        out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                "<core:CityModel xmlns:core=\"http://www.opengis.net/citygml/2.0\""
-                " xmlns:app=\"http://www.opengis.net/citygml/appearance/2.0\""
-                " xmlns:bldg=\"http://www.opengis.net/citygml/building/2.0\""
-                " xmlns:gen=\"http://www.opengis.net/citygml/generics/2.0\""
-                " xmlns:grp=\"http://www.opengis.net/citygml/cityobjectgroup/2.0\""
-                " xmlns:luse=\"http://www.opengis.net/citygml/landuse/2.0\""
-                " xmlns:gml=\"http://www.opengis.net/gml\" xmlns:xlink=\"http://www.w3.org/1999/xlink\">\n<gml:name>"
-             << source_.title() << "</gml:name>\n";
-        gml_.envelope(source_);
-        gml_.ground(source_, "luse");
-        for (std::int64_t i = 0; i < source_.buildingCount() && !out_.hasFailed(); ++i) {
-            document_ = source_.building(i);
-            templateId_.clear();
-            building();
-            for (const PlacedPlan& placed : document_.plans)
-                for (std::size_t c = 0; c < placed.plan->components.size(); ++c)
-                    if (placed.plan->components[c].kind == Kind::Storey) storeyGroup(placed, int(c));
-        }
-        out_ << "</core:CityModel>\n";
+        writeModel(
+            {"app", "bldg", "gen", "grp", "luse"}, isThematic_, [&] { building(); }, [&] { storeyGroups(); });
     }
 
 private:
     void building() {
-        out_ << "<core:cityObjectMember>\n<bldg:Building gml:id=\"" << document_.id << "\"><gml:name>" << document_.name
-             << "</gml:name>\n";
-        gml_.appearance(document_, isThematic_, "app:appearance", "app:surfaceDataMember");
-        out_ << "<bldg:function>" << document_.function << "</bldg:function><bldg:roofType>" << document_.roofType
-             << "</bldg:roofType><bldg:storeysAboveGround>" << document_.storeys << "</bldg:storeysAboveGround>\n";
+        templateId_.clear();
         for (const bool isOutside : {true, false})
-            for (const PlacedPlan& placed : document_.plans)
-                for (std::size_t c = 0; c < placed.plan->components.size(); ++c)
-                    installationOfBuilding(placed, int(c), -1, isOutside);
+            document_.forEach([&](const PlacedPlan& placed, int c, const Component&) {
+                installationOfBuilding(placed, c, -1, isOutside);
+            });
         if (isThematic_) hull();
         for (const PlacedPlan& placed : document_.plans) rooms(placed, -1);
-        for (const PlacedPlan& placed : document_.plans)
-            for (std::size_t c = 0; c < placed.plan->components.size(); ++c)
-                if (placed.plan->components[c].kind == Kind::Unit) unit(placed, int(c));
-        out_ << "</bldg:Building>\n</core:cityObjectMember>\n";
+        document_.forEach([&](const PlacedPlan& placed, int c, const Component& component) {
+            if (component.kind == Kind::Unit) unit(placed, c);
+        });
     }
 
-    void open(const PlacedPlan& placed, int component, std::string_view tag) {
-        out_ << "<" << tag << " gml:id=\"" << document_.idOf(placed, component) << "\"><gml:name>"
-             << document_.nameOf(placed, component) << "</gml:name>";
-        for (const Attribute& attribute : document_.attributesOf(placed, component)) genericAttribute(attribute);
-        const Kind kind = placed.plan->components[std::size_t(component)].kind;
-        if (kind == Kind::Element || kind == Kind::Unit)
-            genericAttribute({"svtClass", std::string(className(kind)), ""});
-        out_ << "\n";
-    }
-
-    void genericAttribute(const Attribute& attribute) {
-        std::string_view type = "stringAttribute";
-        if (std::holds_alternative<std::int64_t>(attribute.value)) type = "intAttribute";
-        if (std::holds_alternative<double>(attribute.value))
-            type = attribute.unit.empty() ? "doubleAttribute" : "measureAttribute";
-        out_ << "<gen:" << type << " name=\"" << attribute.name << "\"><gen:value";
-        if (!attribute.unit.empty()) out_ << " uom=\"" << attribute.unit << "\"";
-        out_ << ">";
-        if (const double* number = std::get_if<double>(&attribute.value))
-            out_ << decimalText(*number);
-        else
-            out_ << toText(attribute.value);
-        out_ << "</gen:value></gen:" << type << ">";
-    }
-
-    void function(const Component& component) {
-        if (!component.function.empty()) out_ << "<bldg:function>" << component.function << "</bldg:function>";
-    }
-
-    // gml:Solid, or gml:CompositeSolid for touching solids; every polygon has an id.
-    void solid(const PlacedPlan& placed, int component) {
-        const Component& c = placed.plan->components[std::size_t(component)];
-        const std::string id = document_.idOf(placed, component);
-        const bool isComposite = c.shells.size() > 1;
-        if (isComposite) out_ << "<gml:CompositeSolid gml:id=\"" << id << "_solid\">";
-        std::size_t number = 0;
-        for (std::size_t s = 0; s < c.shells.size(); ++s) {
-            if (isComposite) out_ << "<gml:solidMember>";
-            out_ << "<gml:Solid gml:id=\"" << id << "_solid";
-            if (isComposite) out_ << std::int64_t(s);
-            out_ << "\"><gml:exterior><gml:CompositeSurface>\n";
-            for (const Face& face : c.shells[s].faces) inlineMember(placed, face, polygonId(id, number++));
-            out_ << "</gml:CompositeSurface></gml:exterior></gml:Solid>";
-            if (isComposite) out_ << "</gml:solidMember>";
-        }
-        if (isComposite) out_ << "</gml:CompositeSolid>";
-    }
-
-    void inlineMember(const PlacedPlan& placed, const Face& face, std::string_view id) {
-        out_ << "<gml:surfaceMember>";
-        gml_.polygon(placed, face, id);
-        out_ << "</gml:surfaceMember>\n";
-    }
-
-    void reversedMember(std::string_view id, std::string_view base) {
+    // gml:surfaceMember with a face that is written elsewhere, turned.
+    void reversedMember(const PlacedPlan& placed, const Face& face, std::string_view id) {
         out_ << "<gml:surfaceMember><gml:OrientableSurface gml:id=\"" << id
-             << "\" orientation=\"-\"><gml:baseSurface xlink:href=\"#" << base
+             << "\" orientation=\"-\"><gml:baseSurface xlink:href=\"#"
+             << polygonId(document_.idOf(placed, face.neighbor), std::size_t(face.neighborFace))
              << "\"/></gml:OrientableSurface></gml:surfaceMember>\n";
     }
 
     static bool isAtHull(const Component& component) {
-        for (const Shell& shell : component.shells)
-            for (const Face& face : shell.faces)
-                if (face.neighbor < 0) return true;
-        return false;
+        return std::ranges::any_of(component.shells, [](const Shell& shell) {
+            return std::ranges::any_of(shell.faces, [](const Face& face) { return face.neighbor < 0; });
+        });
     }
 
     // Of the building itself (unit -1) or of one unit.
     void installationOfBuilding(const PlacedPlan& placed, int component, int unit, bool isOutside) {
-        const Component& c = placed.plan->components[std::size_t(component)];
+        const Component& c = placed.component(component);
         const bool isElement = c.kind == Kind::Element && !isThematic_;
         if ((c.kind != Kind::Installation && !isElement) || c.parent >= 0 || c.isStandIn || c.unit != unit) return;
         if ((isElement ? isAtHull(c) : c.isOutside) != isOutside) return;
-        const std::string_view property =
-            isOutside ? "bldg:outerBuildingInstallation" : "bldg:interiorBuildingInstallation";
-        out_ << "<" << property << ">";
+        const GmlElement property(
+            out_, isOutside ? "bldg:outerBuildingInstallation" : "bldg:interiorBuildingInstallation", {}, "\n");
         installation(placed, component, isOutside ? "bldg:BuildingInstallation" : "bldg:IntBuildingInstallation");
-        out_ << "</" << property << ">\n";
     }
 
-    void installation(const PlacedPlan& placed, int component, std::string_view tag) {
-        open(placed, component, tag);
-        function(placed.plan->components[std::size_t(component)]);
-        out_ << "<bldg:lod4Geometry>";
+    void lod4Geometry(const PlacedPlan& placed, int component) {
+        const GmlElement property(out_, "bldg:lod4Geometry");
         solid(placed, component);
-        out_ << "</bldg:lod4Geometry></" << tag << ">";
+    }
+
+    void installation(const PlacedPlan& placed, int component, std::string_view name) {
+        const GmlElement element = feature(placed, component, name);
+        function(placed.component(component));
+        lod4Geometry(placed, component);
     }
 
     // The outer faces of all elements and fillings enclose the building: together they form its solid.
     void hull() {
         std::vector<std::string> members;
-        for (const PlacedPlan& placed : document_.plans)
-            for (std::size_t c = 0; c < placed.plan->components.size(); ++c) {
-                const Component& component = placed.plan->components[c];
-                if (component.kind != Kind::Element || component.isStandIn) continue;
-                if (component.hullPart == HullPart::Ground) hullSurface(placed, int(c), "GroundSurface", members);
-                hullSurface(placed, int(c), component.hullPart == HullPart::Roof ? "RoofSurface" : "WallSurface",
-                            members);
-            }
-        out_ << "<bldg:lod4Solid><gml:Solid gml:id=\"" << document_.id
-             << "_solid\"><gml:exterior><gml:CompositeSurface>\n";
-        for (const std::string& id : members) out_ << "<gml:surfaceMember xlink:href=\"#" << id << "\"/>\n";
-        out_ << "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod4Solid>\n";
+        document_.forEach([&](const PlacedPlan& placed, int c, const Component& component) {
+            if (component.kind != Kind::Element || component.isStandIn) return;
+            if (component.hullPart == HullPart::Ground) hullSurface(placed, c, "GroundSurface", members);
+            hullSurface(placed, c, component.hullPart == HullPart::Roof ? "RoofSurface" : "WallSurface", members);
+        });
+        const GmlElement property(out_, "bldg:lod4Solid", {}, "\n");
+        gml_.solid(document_.id + "_solid", [&] {
+            for (const std::string& id : members) gml_.memberLink(id);
+        });
     }
 
     // Outer faces of the component with that type, as (polygon number, face).
@@ -186,125 +107,119 @@ private:
 
     void outerMultiSurface(const PlacedPlan& placed, int component, std::string_view type,
                            std::vector<std::string>& members) {
-        const std::string id = document_.idOf(placed, component);
-        const Component& c = placed.plan->components[std::size_t(component)];
-        out_ << "<bldg:lod4MultiSurface><gml:MultiSurface>\n";
-        for (const auto& [number, face] : outerFaces(*placed.plan, c, type)) {
-            members.push_back(polygonId(id, number));
-            inlineMember(placed, *face, members.back());
-        }
-        out_ << "</gml:MultiSurface></bldg:lod4MultiSurface>";
+        gml_.multiSurface("bldg:lod4MultiSurface", "", [&] {
+            for (const auto& [number, face] : outerFaces(*placed.plan, placed.component(component), type)) {
+                members.push_back(polygonId(document_.idOf(placed, component), number));
+                member(placed, *face, members.back());
+            }
+        });
     }
 
     void hullSurface(const PlacedPlan& placed, int component, std::string_view type,
                      std::vector<std::string>& members) {
-        const Component& c = placed.plan->components[std::size_t(component)];
-        if (outerFaces(*placed.plan, c, type).empty()) return;
-        out_ << "<bldg:boundedBy><bldg:" << type << " gml:id=\"" << document_.idOf(placed, component)
-             << (type == "GroundSurface" ? "_ground" : "_outer") << "\"><gml:name>"
-             << document_.nameOf(placed, component) << "</gml:name>\n";
+        if (outerFaces(*placed.plan, placed.component(component), type).empty()) return;
+        const GmlElement property(out_, "bldg:boundedBy", {}, "\n");
+        const GmlElement surface(out_, "bldg:" + std::string(type),
+                                 document_.idOf(placed, component) + (type == "GroundSurface" ? "_ground" : "_outer"));
+        gml_.text("gml:name", document_.nameOf(placed, component));
+        out_ << "\n";
         outerMultiSurface(placed, component, type, members);
         for (const int child : placed.plan->children[std::size_t(component)]) {
-            const Component& filling = placed.plan->components[std::size_t(child)];
+            const Component& filling = placed.component(child);
             if (outerFaces(*placed.plan, filling, "").empty()) continue;
-            const std::string_view tag = filling.kind == Kind::Door ? "bldg:Door" : "bldg:Window";
-            out_ << "<bldg:opening>";
-            open(placed, child, tag);
+            const GmlElement opening(out_, "bldg:opening", {}, "\n");
+            const GmlElement element = feature(placed, child, filling.kind == Kind::Door ? "bldg:Door" : "bldg:Window");
             outerMultiSurface(placed, child, "", members);
-            out_ << "</" << tag << "></bldg:opening>\n";
         }
-        out_ << "</bldg:" << type << "></bldg:boundedBy>\n";
     }
 
     void rooms(const PlacedPlan& placed, int unit) {
         for (std::size_t c = 0; c < placed.plan->components.size() && !out_.hasFailed(); ++c) {
             const Component& component = placed.plan->components[c];
             if (component.kind != Kind::Room || component.isStandIn || component.unit != unit) continue;
-            out_ << "<bldg:interiorRoom>";
+            const GmlElement property(out_, "bldg:interiorRoom", {}, "\n");
             room(placed, int(c));
-            out_ << "</bldg:interiorRoom>\n";
         }
     }
 
     void room(const PlacedPlan& placed, int component) {
-        const Component& c = placed.plan->components[std::size_t(component)];
         const std::string id = document_.idOf(placed, component);
         const std::vector<BoundaryGroup> groups = boundaryGroups(*placed.plan, component);
+        const GmlElement element = feature(placed, component, "bldg:Room");
+        function(placed.component(component));
+        roomSolid(placed, component, groups);
+        int number = 0;
+        for (const BoundaryGroup& group : groups) {
+            const GmlElement property(out_, "bldg:boundedBy", {}, "\n");
+            const GmlElement surface(out_, "bldg:" + std::string(group.type), id + "_b" + std::to_string(number++));
+            if (!group.faces.empty()) roomSurfaces(placed, component, group);
+            for (const BoundaryGroup& opening : group.openings) openingOfRoom(placed, component, opening, number++);
+        }
+        furnish(placed, component);
+    }
+
+    void roomSolid(const PlacedPlan& placed, int room, const std::vector<BoundaryGroup>& groups) {
+        const std::string id = document_.idOf(placed, room);
         std::set<int> openingFaces;
         for (const BoundaryGroup& group : groups)
             for (const BoundaryGroup& opening : group.openings)
                 openingFaces.insert(opening.faces.begin(), opening.faces.end());
-        open(placed, component, "bldg:Room");
-        function(c);
-        out_ << "<bldg:lod4Solid><gml:Solid gml:id=\"" << id << "_solid\"><gml:exterior><gml:CompositeSurface>\n";
-        for (std::size_t f = 0; f < c.shells.front().faces.size(); ++f) {
-            const Face& face = c.shells.front().faces[f];
-            if (!isThematic_ && openingFaces.count(int(f)) != 0)
-                reversedMember(polygonId(id, f),
-                               polygonId(document_.idOf(placed, face.neighbor), std::size_t(face.neighborFace)));
-            else
-                out_ << "<gml:surfaceMember xlink:href=\"#" << polygonId(id, f) << "\"/>\n";
-        }
-        out_ << "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod4Solid>\n";
-        int number = 0;
-        for (const BoundaryGroup& group : groups) {
-            out_ << "<bldg:boundedBy><bldg:" << group.type << " gml:id=\"" << id << "_b" << std::int64_t(number++)
-                 << "\">";
-            if (!group.faces.empty()) roomSurfaces(placed, component, group);
-            for (const BoundaryGroup& opening : group.openings) openingOfRoom(placed, component, opening, number++);
-            out_ << "</bldg:" << group.type << "></bldg:boundedBy>\n";
-        }
-        furnish(placed, component);
-        out_ << "</bldg:Room>";
+        const GmlElement property(out_, "bldg:lod4Solid", {}, "\n");
+        gml_.solid(id + "_solid", [&] {
+            const std::vector<Face>& faces = placed.component(room).shells.front().faces;
+            for (std::size_t f = 0; f < faces.size(); ++f)
+                if (!isThematic_ && openingFaces.count(int(f)) != 0)
+                    reversedMember(placed, faces[f], polygonId(id, f));
+                else
+                    gml_.memberLink(polygonId(id, f));
+        });
     }
 
     // A face already written by an element or an earlier room is referenced and reversed.
     [[nodiscard]] bool isWrittenElsewhere(const PlacedPlan& placed, int room, const Face& face) const {
         if (face.neighbor < 0 || face.neighborFace < 0) return false;
-        const Component& neighbor = placed.plan->components[std::size_t(face.neighbor)];
+        const Component& neighbor = placed.component(face.neighbor);
         if (neighbor.isStandIn) return false;
         return neighbor.kind == Kind::Room ? face.neighbor < room : neighbor.kind == Kind::Element && !isThematic_;
     }
 
     void roomSurfaces(const PlacedPlan& placed, int room, const BoundaryGroup& group) {
-        const std::string id = document_.idOf(placed, room);
-        const Shell& shell = placed.plan->components[std::size_t(room)].shells.front();
-        out_ << "<bldg:lod4MultiSurface><gml:MultiSurface>\n";
-        for (const int f : group.faces) {
-            const Face& face = shell.faces[std::size_t(f)];
-            const std::string polygon = polygonId(id, std::size_t(f));
-            if (isWrittenElsewhere(placed, room, face))
-                reversedMember(polygon,
-                               polygonId(document_.idOf(placed, face.neighbor), std::size_t(face.neighborFace)));
-            else
-                inlineMember(placed, face, polygon);
-        }
-        out_ << "</gml:MultiSurface></bldg:lod4MultiSurface>";
+        gml_.multiSurface("bldg:lod4MultiSurface", "", [&] {
+            for (const int f : group.faces) {
+                const Face& face = placed.component(room).shells.front().faces[std::size_t(f)];
+                const std::string polygon = polygonId(document_.idOf(placed, room), std::size_t(f));
+                if (isWrittenElsewhere(placed, room, face))
+                    reversedMember(placed, face, polygon);
+                else
+                    member(placed, face, polygon);
+            }
+        });
     }
 
     // Full: the closed solid of the filling, in the first room that touches it. Thematic: only the side facing this
     // room.
     void openingOfRoom(const PlacedPlan& placed, int room, const BoundaryGroup& opening, int number) {
         const int filling = opening.neighbor;
-        const std::string_view tag = opening.type == "DoorSurface" ? "bldg:Door" : "bldg:Window";
+        const std::string_view name = opening.type == "DoorSurface" ? "bldg:Door" : "bldg:Window";
         const std::string id = document_.idOf(placed, filling);
-        if (isThematic_) {
-            out_ << "<bldg:opening><" << tag << " gml:id=\"" << document_.idOf(placed, room) << "_b"
-                 << std::int64_t(number) << "\"><gml:name>" << document_.nameOf(placed, filling) << "</gml:name>\n";
-            roomSurfaces(placed, room, opening);
-        } else if (firstRoom(*placed.plan, filling) != room) {
+        if (!isThematic_ && firstRoom(*placed.plan, filling) != room) {
             out_ << "<bldg:opening xlink:href=\"#" << id << "\"/>\n";
             return;
-        } else {
-            out_ << "<bldg:opening>";
-            open(placed, filling, tag);
-            out_ << "<bldg:lod4MultiSurface><gml:MultiSurface>\n";
-            std::size_t polygon = 0;
-            for (const Shell& shell : placed.plan->components[std::size_t(filling)].shells)
-                for (const Face& face : shell.faces) inlineMember(placed, face, polygonId(id, polygon++));
-            out_ << "</gml:MultiSurface></bldg:lod4MultiSurface>";
         }
-        out_ << "</" << tag << "></bldg:opening>\n";
+        const GmlElement property(out_, "bldg:opening", {}, "\n");
+        if (isThematic_) {
+            const GmlElement element(out_, name, document_.idOf(placed, room) + "_b" + std::to_string(number));
+            gml_.text("gml:name", document_.nameOf(placed, filling));
+            out_ << "\n";
+            roomSurfaces(placed, room, opening);
+            return;
+        }
+        const GmlElement element = feature(placed, filling, name);
+        gml_.multiSurface("bldg:lod4MultiSurface", "", [&] {
+            std::size_t polygon = 0;
+            for (const Shell& shell : placed.component(filling).shells)
+                for (const Face& face : shell.faces) member(placed, face, polygonId(id, polygon++));
+        });
     }
 
     static int firstRoom(const Plan& plan, int filling) {
@@ -320,73 +235,72 @@ private:
     void furnish(const PlacedPlan& placed, int room) {
         for (const Kind kind : {Kind::Furniture, Kind::Installation})
             for (const int child : placed.plan->children[std::size_t(room)]) {
-                if (placed.plan->components[std::size_t(child)].kind != kind) continue;
+                if (placed.component(child).kind != kind) continue;
                 const bool isFurniture = kind == Kind::Furniture;
-                out_ << (isFurniture ? "<bldg:interiorFurniture>" : "<bldg:roomInstallation>");
+                const GmlElement property(out_, isFurniture ? "bldg:interiorFurniture" : "bldg:roomInstallation", {},
+                                          "\n");
                 if (isFurniture)
                     furniture(placed, child);
                 else
                     installation(placed, child, "bldg:IntBuildingInstallation");
-                out_ << (isFurniture ? "</bldg:interiorFurniture>\n" : "</bldg:roomInstallation>\n");
             }
     }
 
     void furniture(const PlacedPlan& placed, int component) {
-        const Component& c = placed.plan->components[std::size_t(component)];
-        open(placed, component, "bldg:BuildingFurniture");
+        const Component& c = placed.component(component);
+        const GmlElement element = feature(placed, component, "bldg:BuildingFurniture");
         function(c);
-        if (c.instance) {
+        if (c.instance)
             implicitGeometry(placed, component, *c.instance);
-        } else {
-            out_ << "<bldg:lod4Geometry>";
-            solid(placed, component);
-            out_ << "</bldg:lod4Geometry>";
-        }
-        out_ << "</bldg:BuildingFurniture>";
+        else
+            lod4Geometry(placed, component);
     }
 
     // The first instance contains the shape, the others reference it.
     void implicitGeometry(const PlacedPlan& placed, int component, const Instance& instance) {
-        out_ << "<bldg:lod4ImplicitRepresentation><core:ImplicitGeometry><core:transformationMatrix>";
-        gml_.matrix(placed, instance);
-        out_ << "</core:transformationMatrix>";
+        const GmlElement property(out_, "bldg:lod4ImplicitRepresentation"), element(out_, "core:ImplicitGeometry");
+        gml_.text("core:transformationMatrix", matrixText(placed, instance, " "));
         if (!templateId_.empty()) {
             out_ << "<core:relativeGMLGeometry xlink:href=\"#" << templateId_ << "\"/>";
         } else {
             templateId_ = document_.idOf(placed, component) + "_template";
-            out_ << "<core:relativeGMLGeometry><gml:Solid gml:id=\"" << templateId_
-                 << "\"><gml:exterior><gml:CompositeSurface>\n";
-            for (const Face& face : instance.shell.faces) {
-                out_ << "<gml:surfaceMember>";
-                gml_.localPolygon(instance, face);
-                out_ << "</gml:surfaceMember>\n";
-            }
-            out_ << "</gml:CompositeSurface></gml:exterior></gml:Solid></core:relativeGMLGeometry>";
+            const GmlElement geometry(out_, "core:relativeGMLGeometry");
+            gml_.solid(templateId_, [&] {
+                for (const Face& face : instance.shell.faces)
+                    gml_.member("", face.rings, [&](std::uint32_t i) { position(instance.vertices[i], 3); });
+            });
         }
-        out_ << "<core:referencePoint><gml:Point><gml:pos>";
-        gml_.position(placed.placement.at(instance.shift), placed.placement.decimals());
-        out_
-            << "</gml:pos></gml:Point></core:referencePoint></core:ImplicitGeometry></bldg:lod4ImplicitRepresentation>";
+        const GmlElement reference(out_, "core:referencePoint"), point(out_, "gml:Point"), pos(out_, "gml:pos");
+        position(placed.placement.at(instance.shift), placed.placement.decimals());
     }
 
     void unit(const PlacedPlan& placed, int component) {
-        out_ << "<bldg:consistsOfBuildingPart>";
-        open(placed, component, "bldg:BuildingPart");
-        function(placed.plan->components[std::size_t(component)]);
+        const GmlElement property(out_, "bldg:consistsOfBuildingPart", {}, "\n");
+        const GmlElement element = feature(placed, component, "bldg:BuildingPart");
+        function(placed.component(component));
         for (const bool isOutside : {true, false})
             for (std::size_t c = 0; c < placed.plan->components.size(); ++c)
                 installationOfBuilding(placed, int(c), component, isOutside);
-        out_ << "<bldg:lod4Solid>";
-        solid(placed, component);
-        out_ << "</bldg:lod4Solid>\n";
+        {
+            const GmlElement geometry(out_, "bldg:lod4Solid", {}, "\n");
+            solid(placed, component);
+        }
         rooms(placed, component);
-        out_ << "</bldg:BuildingPart></bldg:consistsOfBuildingPart>\n";
+    }
+
+    void storeyGroups() {
+        document_.forEach([&](const PlacedPlan& placed, int c, const Component& component) {
+            if (component.kind != Kind::Storey) return;
+            out_ << "<core:cityObjectMember>\n";
+            storeyGroup(placed, c);
+            out_ << "\n</core:cityObjectMember>\n";
+        });
     }
 
     void storeyGroup(const PlacedPlan& placed, int storey) {
-        out_ << "<core:cityObjectMember>\n";
-        open(placed, storey, "grp:CityObjectGroup");
-        out_ << "<grp:class>buildingSeparation</grp:class><grp:function>storey</grp:function>\n";
+        const GmlElement element = feature(placed, storey, "grp:CityObjectGroup");
+        gml_.text("grp:class", "buildingSeparation").text("grp:function", "storey");
+        out_ << "\n";
         for (std::size_t c = 0; c < placed.plan->components.size(); ++c) {
             const Component& component = placed.plan->components[c];
             if (component.storey != storey || !isGrouped(component)) continue;
@@ -394,15 +308,10 @@ private:
             out_ << "<grp:groupMember role=\"" << className(component.kind) << "\" xlink:href=\"#"
                  << document_.idOf(placed, int(c)) << "\"/>\n";
         }
-        out_ << "<grp:parent xlink:href=\"#" << document_.id
-             << "\"/></grp:CityObjectGroup>\n</core:cityObjectMember>\n";
+        out_ << "<grp:parent xlink:href=\"#" << document_.id << "\"/>";
     }
 
-    SampleSource& source_;
     bool isThematic_;
-    TextSink& out_;
-    GmlText gml_;
-    Document document_;
     std::string templateId_;  ///< of the building's first implicit geometry
 };
 

@@ -2,11 +2,9 @@
 // objects, once for the vertices; nothing is kept in between. Doors and windows are objects of the extension "SVT".
 #include <svt/samples/formats/writers.hpp>
 
-#include <array>
-#include <cmath>
 #include <string>
-#include <utility>
 #include <variant>
+#include <vector>
 
 namespace svt::samples {
 namespace {
@@ -25,12 +23,6 @@ std::string_view surfaceTypeOf(std::string_view type) {
     if (type == "DoorSurface") return "Door";
     if (type == "WindowSurface") return "Window";
     return type;
-}
-
-std::size_t instanceCount(const Plan& plan) {
-    std::size_t count = 0;
-    for (const Component& component : plan.components) count += component.instance ? 1 : 0;
-    return count;
 }
 
 class CityJsonWriter {
@@ -88,42 +80,45 @@ private:
         isFirst_ = false;
     }
 
-    void fixedList(const std::array<WorldPoint, 2>& corners) {
-        out_ << "[";
-        for (std::size_t i = 0; i < 2; ++i) {
-            if (i != 0) out_ << ",";
-            out_.fixed(corners[i].x, source_.decimals()) << ",";
-            out_.fixed(corners[i].y, source_.decimals()) << ",";
-            out_.fixed(corners[i].z, source_.decimals());
+    // "[a,b]": writes the items by writeItem().
+    template <class Items, class WriteItem>
+    void list(const Items& items, const WriteItem& writeItem) {
+        std::string_view before = "[";
+        for (const auto& item : items) {
+            out_ << before;
+            writeItem(item);
+            before = ",";
         }
-        out_ << "]";
+        out_ << (before == "[" ? "[]" : "]");
+    }
+
+    void fixedPoint(const WorldPoint& p, int decimals) {
+        out_.fixed(p.x, decimals) << ",";
+        out_.fixed(p.y, decimals) << ",";
+        out_.fixed(p.z, decimals);
     }
 
     void head() {
         const std::string_view scale = source_.decimals() == 3 ? "0.001" : "0.000001";
-        const Point origin = source_.origin();
         out_ << "{\"type\":\"CityJSON\",\"version\":\"2.0\",\"extensions\":{\"SVT\":{\"url\":"
                 "\"https://svt.example.org/cityjson/svt.ext.json\",\"version\":\"0.1\"}},\"metadata\":{\"title\":\""
              << source_.title()
              << "\",\"referenceSystem\":\"https://www.opengis.net/def/crs/EPSG/0/25832\",\"geographicalExtent\":";
-        fixedList(source_.envelope());
+        list(source_.envelope(), [&](const WorldPoint& corner) { fixedPoint(corner, source_.decimals()); });
         out_ << "},\"transform\":{\"scale\":[" << scale << "," << scale << "," << scale << "],\"translate\":[";
-        out_.fixed(origin.x, 3) << ",";
-        out_.fixed(origin.y, 3) << ",";
-        out_.fixed(origin.z, 3) << "]}";
+        fixedPoint(source_.origin(), 3);
+        out_ << "]}";
         templates();
     }
 
     void appearance() {
-        out_ << "\"appearance\":{\"default-theme-material\":\"sample\",\"materials\":[";
-        for (std::size_t i = 0; i < kMaterialCount; ++i) {
-            const MaterialInfo& material = info(Material(i));
-            if (i != 0) out_ << ",";
-            out_ << "{\"name\":\"" << material.name << "\",\"diffuseColor\":[" << decimalText(material.color[0]) << ","
-                 << decimalText(material.color[1]) << "," << decimalText(material.color[2])
-                 << "],\"transparency\":" << decimalText(material.transparency) << "}";
-        }
-        out_ << "]}";
+        out_ << "\"appearance\":{\"default-theme-material\":\"sample\",\"materials\":";
+        list(materials(), [&](const MaterialInfo& material) {
+            out_ << "{\"name\":\"" << material.name << "\",\"diffuseColor\":";
+            list(material.color, [&](double channel) { out_ << decimalText(channel); });
+            out_ << ",\"transparency\":" << decimalText(material.transparency) << "}";
+        });
+        out_ << "}";
     }
 
     // The shape used by GeometryInstances: all instances of a sample share one.
@@ -135,35 +130,23 @@ private:
                 const Instance& instance = *component.instance;
                 out_ << ",\"geometry-templates\":{\"templates\":[{\"type\":\"Solid\",\"lod\":\"3\",\"boundaries\":[";
                 shell(instance.shell, 0);
-                out_ << "]}],\"vertices-templates\":[";
-                for (std::size_t i = 0; i < instance.vertices.size(); ++i) {
-                    const Point& p = instance.vertices[i];
-                    out_ << (i == 0 ? "[" : ",[");
-                    out_.fixed(p.x, 3) << ",";
-                    out_.fixed(p.y, 3) << ",";
-                    out_.fixed(p.z, 3) << "]";
-                }
-                out_ << "]}";
+                out_ << "]}],\"vertices-templates\":";
+                list(instance.vertices, [&](const Point& p) {
+                    out_ << "[";
+                    fixedPoint(p, 3);
+                    out_ << "]";
+                });
+                out_ << "}";
                 return;
             }
     }
 
-    void shell(const Shell& faces, std::int64_t base) {
-        out_ << "[";
-        for (std::size_t f = 0; f < faces.faces.size(); ++f) {
-            out_ << (f == 0 ? "[" : ",[");
-            for (std::size_t r = 0; r < faces.faces[f].rings.size(); ++r) {
-                const auto& ring = faces.faces[f].rings[r];
-                out_ << (r == 0 ? "[" : ",[");
-                for (std::size_t i = 0; i < ring.size(); ++i) {
-                    if (i != 0) out_ << ",";
-                    out_ << base + std::int64_t(ring[i]);
-                }
-                out_ << "]";
-            }
-            out_ << "]";
-        }
-        out_ << "]";
+    void shell(const Shell& shell, std::int64_t base) {
+        list(shell.faces, [&](const Face& face) {
+            list(face.rings, [&](const auto& ring) {
+                list(ring, [&](std::uint32_t vertex) { out_ << base + std::int64_t(vertex); });
+            });
+        });
     }
 
     std::int64_t groundObject(std::int64_t base) {
@@ -182,10 +165,9 @@ private:
     void vertex(const WorldPoint& p, int decimals) {
         const std::int64_t factor = decimals < source_.decimals() ? 1000 : 1;
         const std::int64_t perMillimetre = source_.decimals() == 3 ? 1 : 1000;
-        const Point origin = source_.origin();
+        const Point local = p * factor - source_.origin() * perMillimetre;
         separate();
-        out_ << "[" << p.x * factor - origin.x * perMillimetre << "," << p.y * factor - origin.y * perMillimetre << ","
-             << p.z * factor - origin.z * perMillimetre << "]";
+        out_ << "[" << local.x << "," << local.y << "," << local.z << "]";
     }
 
     void vertices(std::int64_t index) {
@@ -198,36 +180,38 @@ private:
         }
     }
 
+    void ids(const std::vector<std::string>& ids) {
+        list(ids, [&](const std::string& id) { out_ << "\"" << id << "\""; });
+    }
+
     // Writes the objects of a building; returns the index of the vertex after its last.
     std::int64_t building(std::int64_t index, std::int64_t base) {
         document_ = source_.building(index);
         separate();
         out_ << "\"" << document_.id << "\":{\"type\":\"Building\",\"attributes\":{\"name\":\"" << document_.name
              << "\",\"function\":\"" << document_.function << "\",\"roofType\":\"" << document_.roofType
-             << "\",\"storeysAboveGround\":" << document_.storeys << "},\"children\":[";
-        bool isFirstChild = true;
-        for (const PlacedPlan& placed : document_.plans)
-            for (std::size_t c = 0; c < placed.plan->components.size(); ++c) {
-                const Component& component = placed.plan->components[c];
-                if (component.isStandIn || document_.parentIdOf(placed, int(c)) != document_.id) continue;
-                out_ << (isFirstChild ? "\"" : ",\"") << document_.idOf(placed, int(c)) << "\"";
-                isFirstChild = false;
-            }
-        out_ << "]}";
+             << "\",\"storeysAboveGround\":" << document_.storeys << "},\"children\":";
+        std::vector<std::string> children;
+        document_.forEach([&](const PlacedPlan& placed, int c, const Component& component) {
+            if (!component.isStandIn && document_.parentIdOf(placed, c) == document_.id)
+                children.push_back(document_.idOf(placed, c));
+        });
+        ids(children);
+        out_ << "}";
         for (const PlacedPlan& placed : document_.plans) {
             std::int64_t anchor = base + std::int64_t(placed.plan->vertices.size());
-            for (std::size_t c = 0; c < placed.plan->components.size(); ++c) {
-                if (placed.plan->components[c].isStandIn) continue;
-                object(placed, int(c), base, anchor);
-                if (placed.plan->components[c].instance) ++anchor;
+            for (int c = 0; c < int(placed.plan->components.size()); ++c) {
+                const Component& component = placed.component(c);
+                if (!component.isStandIn) object(placed, c, base, anchor);
+                if (component.instance) ++anchor;
             }
-            base += std::int64_t(placed.plan->vertices.size() + instanceCount(*placed.plan));
+            base = anchor;
         }
         return base;
     }
 
     void object(const PlacedPlan& placed, int component, std::int64_t base, std::int64_t anchor) {
-        const Component& c = placed.plan->components[std::size_t(component)];
+        const Component& c = placed.component(component);
         separate();
         out_ << "\"" << document_.idOf(placed, component) << "\":{\"type\":\"" << typeOf(c.kind)
              << "\",\"attributes\":{\"name\":\"" << document_.nameOf(placed, component) << "\"";
@@ -250,37 +234,38 @@ private:
 
     // The parent comes first; storey and unit are additional groups.
     void parents(const PlacedPlan& placed, int component) {
-        const Component& c = placed.plan->components[std::size_t(component)];
-        out_ << "\"parents\":[\"" << document_.parentIdOf(placed, component) << "\"";
-        if (isGrouped(c) && c.kind != Kind::Unit) {
-            if (c.storey >= 0) out_ << ",\"" << document_.idOf(placed, c.storey) << "\"";
-            if (c.unit >= 0) out_ << ",\"" << document_.idOf(placed, c.unit) << "\"";
-        }
-        out_ << "]";
+        const Component& c = placed.component(component);
+        std::vector<std::string> parents{document_.parentIdOf(placed, component)};
+        if (isGrouped(c) && c.kind != Kind::Unit)
+            for (const int group : {c.storey, c.unit})
+                if (group >= 0) parents.push_back(document_.idOf(placed, group));
+        out_ << "\"parents\":";
+        ids(parents);
     }
 
     void children(const PlacedPlan& placed, int component) {
         const std::vector<Component>& all = placed.plan->components;
         const Kind kind = all[std::size_t(component)].kind;
-        bool isFirstChild = true;
+        std::vector<std::string> children;
         for (std::size_t c = 0; c < all.size(); ++c) {
             if (all[c].isStandIn) continue;
             const bool isOwned = all[c].parent == component;
             const bool isMember = isGrouped(all[c]) && ((kind == Kind::Storey && all[c].storey == component) ||
                                                         (kind == Kind::Unit && all[c].unit == component));
-            if (!isOwned && !isMember) continue;
-            out_ << (isFirstChild ? ",\"children\":[\"" : ",\"") << document_.idOf(placed, int(c)) << "\"";
-            isFirstChild = false;
+            if (isOwned || isMember) children.push_back(document_.idOf(placed, int(c)));
         }
-        if (!isFirstChild) out_ << "]";
+        if (children.empty()) return;
+        out_ << ",\"children\":";
+        ids(children);
     }
 
     void geometry(const PlacedPlan& placed, int component, std::int64_t base, std::int64_t anchor) {
-        const Component& c = placed.plan->components[std::size_t(component)];
+        const Component& c = placed.component(component);
         if (c.shells.empty()) return;
         out_ << ",\"geometry\":[{";
         if (c.instance) {
-            instance(placed, *c.instance, anchor);
+            out_ << "\"type\":\"GeometryInstance\",\"template\":0,\"boundaries\":[" << anchor
+                 << "],\"transformationMatrix\":[" << matrixText(placed, *c.instance, ",") << "]";
         } else if (c.shells.size() == 1) {
             out_ << "\"type\":\"Solid\",\"lod\":\"3\",\"boundaries\":[";
             shell(c.shells.front(), base);
@@ -294,25 +279,23 @@ private:
     }
 
     void composite(const Component& component, std::int64_t base) {
-        out_ << "\"type\":\"CompositeSolid\",\"lod\":\"3\",\"boundaries\":[";
-        for (std::size_t s = 0; s < component.shells.size(); ++s) {
-            out_ << (s == 0 ? "[" : ",[");
-            shell(component.shells[s], base);
+        out_ << "\"type\":\"CompositeSolid\",\"lod\":\"3\",\"boundaries\":";
+        list(component.shells, [&](const Shell& own) {
+            out_ << "[";
+            shell(own, base);
             out_ << "]";
-        }
-        out_ << "],\"material\":{\"sample\":{\"values\":[";
-        for (std::size_t s = 0; s < component.shells.size(); ++s) {
-            out_ << (s == 0 ? "[[" : ",[[");
-            for (std::size_t f = 0; f < component.shells[s].faces.size(); ++f)
-                out_ << (f == 0 ? "" : ",") << int(document_.shown(component.shells[s].material));
-            out_ << "]]";
-        }
-        out_ << "]}}";
+        });
+        out_ << ",\"material\":{\"sample\":{\"values\":";
+        list(component.shells, [&](const Shell& own) {
+            out_ << "[";
+            list(own.faces, [&](const Face&) { out_ << int(document_.shown(own.material)); });
+            out_ << "]";
+        });
+        out_ << "}}";
     }
 
     void semantics(const PlacedPlan& placed, int room) {
-        const std::size_t faceCount = placed.plan->components[std::size_t(room)].shells.front().faces.size();
-        std::vector<int> values(faceCount, 0);
+        std::vector<int> values(placed.component(room).shells.front().faces.size(), 0);
         int surface = 0;
         out_ << ",\"semantics\":{\"surfaces\":[";
         for (const BoundaryGroup& group : boundaryGroups(*placed.plan, room)) {
@@ -328,18 +311,9 @@ private:
                 ++surface;
             }
         }
-        out_ << "],\"values\":[[";
-        for (std::size_t f = 0; f < values.size(); ++f) out_ << (f == 0 ? "" : ",") << values[f];
-        out_ << "]]}";
-    }
-
-    void instance(const PlacedPlan& placed, const Instance& shape, std::int64_t anchor) {
-        const std::array<Vec3d, 4> quarters{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}};
-        const Vec3d east = placed.placement.worldDirection(quarters[std::size_t(shape.quarterTurns)]);
-        const auto text = [](double value) { return fixedText(std::llround(value * 1e12), 12); };
-        out_ << "\"type\":\"GeometryInstance\",\"template\":0,\"boundaries\":[" << anchor
-             << "],\"transformationMatrix\":[" << text(east.x) << "," << text(-east.y) << ",0,0," << text(east.y) << ","
-             << text(east.x) << ",0,0,0,0,1,0,0,0,0,1]";
+        out_ << "],\"values\":[";
+        list(values, [&](int value) { out_ << value; });
+        out_ << "]}";
     }
 
     SampleSource& source_;

@@ -1,135 +1,178 @@
-#include <svt/samples/formats/writers.hpp>
+#include <svt/samples/formats/gml_text.hpp>
 
-#include <algorithm>
+#include <svt/core/text.hpp>
+
 #include <array>
-#include <cmath>
 #include <map>
+#include <utility>
+#include <variant>
 
 namespace svt::samples {
+namespace {
 
-template <class Coordinates>
-void GmlText::rings(const Face& face, const Coordinates& write) {
-    for (std::size_t r = 0; r < face.rings.size(); ++r) {
-        const std::string_view tag = r == 0 ? "exterior" : "interior";
-        out_ << "<gml:" << tag << "><gml:LinearRing><gml:posList>";
-        for (const std::uint32_t i : face.rings[r]) {
-            write(i);
-            out_ << " ";
+/// Coloured materials of a building with the ids of the polygons that have them.
+std::map<Material, std::vector<std::string>> coloredPolygons(const Document& document, bool isThematic) {
+    std::map<Material, std::vector<std::string>> polygons;
+    document.forEach([&](const PlacedPlan& placed, int c, const Component& component) {
+        if (!fillsSpace(component) || component.kind == Kind::Room || component.isStandIn) return;
+        std::size_t number = 0;
+        for (const Shell& shell : component.shells) {
+            const Material material = document.shown(shell.material);
+            for (const Face& face : shell.faces) {
+                const bool isWritten = !isThematic || face.neighbor < 0;
+                if (info(material).isColoredInGml && isWritten)
+                    polygons[material].push_back(polygonId(document.idOf(placed, c), number));
+                ++number;
+            }
         }
-        write(face.rings[r].front());
-        out_ << "</gml:posList></gml:LinearRing></gml:" << tag << ">";
-    }
-    out_ << "</gml:Polygon>";
+    });
+    return polygons;
 }
 
-void GmlText::position(const WorldPoint& point, int decimals) {
+}  // namespace
+
+GmlElement::GmlElement(TextSink& out, std::string_view name, std::string_view id, std::string_view after)
+    : out_(&out), name_(name), after_(after) {
+    out << "<" << name;
+    if (!id.empty()) out << " gml:id=\"" << id << "\"";
+    out << ">";
+}
+
+void GmlText::head(std::initializer_list<std::string_view> prefixes) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kModules{{{"app", "appearance"},
+                                                                                     {"bldg", "building"},
+                                                                                     {"con", "construction"},
+                                                                                     {"gen", "generics"},
+                                                                                     {"grp", "cityobjectgroup"},
+                                                                                     {"luse", "landuse"}}};
+    constexpr std::string_view kNamespace = "http://www.opengis.net/citygml/";
+    out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<core:CityModel xmlns:core=\"" << kNamespace << version_;
+    for (const auto& [prefix, module] : kModules)
+        for (const std::string_view wanted : prefixes)
+            if (wanted == prefix) out_ << "\" xmlns:" << prefix << "=\"" << kNamespace << module << "/" << version_;
+    out_ << "\" xmlns:gml=\"http://www.opengis.net/gml" << (isThird() ? "/3.2" : "")
+         << "\" xmlns:xlink=\"http://www.w3.org/1999/xlink\">\n";
+}
+
+GmlText& GmlText::text(std::string_view name, std::string_view value) {
+    out_ << "<" << name << ">" << value << "</" << name << ">";
+    return *this;
+}
+
+void GmlText::genericAttribute(const Attribute& attribute) {
+    const double* number = std::get_if<double>(&attribute.value);
+    const bool isWhole = std::holds_alternative<std::int64_t>(attribute.value);
+    std::string type = number != nullptr ? attribute.unit.empty() ? "Double" : "Measure" : isWhole ? "Int" : "String";
+    if (isThird()) {
+        out_ << "<core:genericAttribute><gen:" << type << "Attribute>";
+        text("gen:name", attribute.name);
+    } else {
+        type[0] = lowerAscii(type[0]);
+        out_ << "<gen:" << type << "Attribute name=\"" << attribute.name << "\">";
+    }
+    out_ << "<gen:value";
+    if (!attribute.unit.empty()) out_ << " uom=\"" << attribute.unit << "\"";
+    out_ << ">" << (number != nullptr ? decimalText(*number) : toText(attribute.value)) << "</gen:value></gen:" << type
+         << (isThird() ? "Attribute></core:genericAttribute>" : "Attribute>");
+}
+
+void CityGmlWriter::beginModel(std::initializer_list<std::string_view> prefixes) {
+    gml_.head(prefixes);
+    gml_.text("gml:name", source_.title());
+    out_ << "\n";
+    gml_.envelope("urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::7837", [&, corners = source_.envelope()](bool isUpper) {
+        position(corners[isUpper ? 1 : 0], source_.decimals());
+    });
+    const std::vector<WorldPoint> ground = source_.ground();
+    if (ground.empty()) return;
+    out_ << "<core:cityObjectMember>\n<luse:LandUse gml:id=\"ground\">";
+    gml_.text("gml:name", "Ground");
+    const std::string_view property = gml_.isThird() ? "core:lod1MultiSurface" : "luse:lod1MultiSurface";
+    out_ << "<" << property << "><gml:MultiSurface gml:id=\"ground_surface\"><gml:surfaceMember>";
+    gml_.polygon("", std::array{ground}, [&](const WorldPoint& corner) { position(corner, source_.decimals()); });
+    out_ << "</gml:surfaceMember></gml:MultiSurface></" << property << "></luse:LandUse>\n</core:cityObjectMember>\n";
+}
+
+void CityGmlWriter::beginBuilding(bool isThematic) {
+    out_ << "<core:cityObjectMember>\n<bldg:Building gml:id=\"" << document_.id << "\">";
+    gml_.text("gml:name", document_.name);
+    out_ << "\n";
+    appearance(isThematic);
+    gml_.text("bldg:function", document_.function).text("bldg:roofType", document_.roofType);
+    gml_.text("bldg:storeysAboveGround", std::to_string(document_.storeys));
+    out_ << "\n";
+}
+
+void CityGmlWriter::appearance(bool isThematic) {
+    const auto colored = coloredPolygons(document_, isThematic);
+    if (colored.empty()) return;
+    const GmlElement property(out_, gml_.isThird() ? "core:appearance" : "app:appearance", {}, "\n");
+    const GmlElement appearance(out_, "app:Appearance", document_.id + "_appearance");
+    gml_.text("app:theme", "sample");
+    out_ << "\n";
+    for (const auto& [material, polygons] : colored) {
+        const MaterialInfo& shown = info(material);
+        const GmlElement member(out_, gml_.isThird() ? "app:surfaceData" : "app:surfaceDataMember", {}, "\n");
+        const GmlElement element(out_, "app:X3DMaterial", document_.id + "_material" + std::to_string(int(material)));
+        gml_.text("gml:name", shown.name);
+        gml_.text("app:diffuseColor",
+                  decimalText(shown.color[0]) + " " + decimalText(shown.color[1]) + " " + decimalText(shown.color[2]));
+        gml_.text("app:transparency", decimalText(shown.transparency));
+        for (const std::string& polygon : polygons) gml_.text("app:target", "#" + polygon);
+    }
+}
+
+void CityGmlWriter::position(const WorldPoint& point, int decimals) {
     out_.fixed(point.x, decimals) << " ";
     out_.fixed(point.y, decimals) << " ";
     out_.fixed(point.z, decimals);
 }
 
-void GmlText::polygon(const PlacedPlan& placed, const Face& face, std::string_view id) {
-    out_ << "<gml:Polygon";
-    if (!id.empty()) out_ << " gml:id=\"" << id << "\"";
-    out_ << ">";
-    const int decimals = placed.placement.decimals();
-    rings(face, [&](std::uint32_t i) { position(placed.placement.at(placed.plan->vertices[i]), decimals); });
-}
-
-void GmlText::localPolygon(const Instance& instance, const Face& face) {
-    out_ << "<gml:Polygon>";
-    rings(face, [&](std::uint32_t i) {
-        const Point& p = instance.vertices[i];
-        position({p.x, p.y, p.z}, 3);
+void CityGmlWriter::member(const PlacedPlan& placed, const Face& face, std::string_view id) {
+    gml_.member(id, face.rings, [&](std::uint32_t i) {
+        position(placed.placement.at(placed.plan->vertices[i]), placed.placement.decimals());
     });
 }
 
-void GmlText::envelope(SampleSource& source) {
-    const std::array<WorldPoint, 2> corners = source.envelope();
-    out_ << "<gml:boundedBy><gml:Envelope srsName=\"urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::7837\" "
-            "srsDimension=\"3\"><gml:lowerCorner>";
-    position(corners[0], source.decimals());
-    out_ << "</gml:lowerCorner><gml:upperCorner>";
-    position(corners[1], source.decimals());
-    out_ << "</gml:upperCorner></gml:Envelope></gml:boundedBy>\n";
+GmlElement CityGmlWriter::feature(const PlacedPlan& placed, int component, std::string_view name) {
+    GmlElement element(out_, name, document_.idOf(placed, component));
+    gml_.text("gml:name", document_.nameOf(placed, component));
+    for (const Attribute& attribute : document_.attributesOf(placed, component)) gml_.genericAttribute(attribute);
+    // CityGML 2.0 has no class for these.
+    const Kind kind = placed.component(component).kind;
+    if (!gml_.isThird() && (kind == Kind::Element || kind == Kind::Unit))
+        gml_.genericAttribute({"svtClass", std::string(className(kind)), ""});
+    out_ << "\n";
+    return element;
 }
 
-void GmlText::matrix(const PlacedPlan& placed, const Instance& instance) {
-    const std::array<Vec3d, 4> quarters{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}};
-    const Vec3d east = placed.placement.worldDirection(quarters[std::size_t(instance.quarterTurns)]);
-    const auto text = [](double value) { return fixedText(std::llround(value * 1e12), 12); };
-    out_ << text(east.x) << " " << text(-east.y) << " 0 0 " << text(east.y) << " " << text(east.x)
-         << " 0 0 0 0 1 0 0 0 0 1";
+void CityGmlWriter::function(const Component& component) {
+    if (!component.function.empty()) gml_.text("bldg:function", component.function);
 }
 
-void GmlText::material(Material material, std::string_view id) {
-    const MaterialInfo& shown = info(material);
-    out_ << "<app:X3DMaterial gml:id=\"" << id << "\"><gml:name>" << shown.name << "</gml:name><app:diffuseColor>"
-         << decimalText(shown.color[0]) << " " << decimalText(shown.color[1]) << " " << decimalText(shown.color[2])
-         << "</app:diffuseColor><app:transparency>" << decimalText(shown.transparency) << "</app:transparency>";
-}
-
-void GmlText::ground(SampleSource& source, std::string_view module) {
-    const std::vector<WorldPoint> corners = source.ground();
-    if (corners.empty()) return;
-    out_ << "<core:cityObjectMember>\n<luse:LandUse gml:id=\"ground\"><gml:name>Ground</gml:name><" << module
-         << ":lod1MultiSurface><gml:MultiSurface gml:id=\"ground_surface\"><gml:surfaceMember>"
-            "<gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>";
-    for (const WorldPoint& corner : corners) {
-        position(corner, source.decimals());
-        out_ << " ";
+void CityGmlWriter::solid(const PlacedPlan& placed, int component) {
+    const std::vector<Shell>& shells = placed.component(component).shells;
+    const std::string id = document_.idOf(placed, component);
+    std::size_t number = 0;
+    const auto shell = [&](const std::string& solidId, const Shell& own) {
+        const bool hasIds = !gml_.isThird() || info(document_.shown(own.material)).isColoredInGml;
+        gml_.solid(solidId, [&] {
+            for (const Face& face : own.faces) {
+                member(placed, face, hasIds ? polygonId(id, number) : "");
+                ++number;
+            }
+        });
+    };
+    if (shells.size() == 1) return shell(id + "_solid", shells.front());
+    const GmlElement composite(out_, "gml:CompositeSolid", id + "_solid");
+    for (std::size_t s = 0; s < shells.size(); ++s) {
+        const GmlElement solidMember(out_, "gml:solidMember");
+        shell(id + "_solid" + std::to_string(s), shells[s]);
     }
-    position(corners.front(), source.decimals());
-    out_ << "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember></gml:MultiSurface></"
-         << module << ":lod1MultiSurface></luse:LandUse>\n</core:cityObjectMember>\n";
-}
-
-void GmlText::appearance(const Document& document, bool isThematic, std::string_view property,
-                         std::string_view member) {
-    const std::vector<MaterialTargets> materials = materialTargets(document, isThematic);
-    if (materials.empty()) return;
-    out_ << "<" << property << "><app:Appearance gml:id=\"" << document.id
-         << "_appearance\"><app:theme>sample</app:theme>\n";
-    for (const MaterialTargets& of : materials) {
-        out_ << "<" << member << ">";
-        material(of.material, document.id + "_material" + std::to_string(int(of.material)));
-        for (const std::string& polygon : of.polygons) out_ << "<app:target>#" << polygon << "</app:target>";
-        out_ << "</app:X3DMaterial></" << member << ">\n";
-    }
-    out_ << "</app:Appearance></" << property << ">\n";
 }
 
 std::string polygonId(const std::string& componentId, std::size_t number) {
     return componentId + "_p" + std::to_string(number);
-}
-
-std::vector<MaterialTargets> materialTargets(const Document& document, bool isThematic) {
-    std::map<Material, std::vector<std::string>> targets;
-    for (const PlacedPlan& placed : document.plans)
-        for (std::size_t c = 0; c < placed.plan->components.size(); ++c) {
-            const Component& component = placed.plan->components[c];
-            if (!fillsSpace(component) || component.kind == Kind::Room || component.isStandIn) continue;
-            const std::string id = document.idOf(placed, int(c));
-            std::size_t number = 0;
-            for (const Shell& shell : component.shells) {
-                const Material material = document.shown(shell.material);
-                for (const Face& face : shell.faces) {
-                    const bool isWritten = !isThematic || face.neighbor < 0;
-                    if (info(material).isColoredInGml && isWritten) targets[material].push_back(polygonId(id, number));
-                    ++number;
-                }
-            }
-        }
-    std::vector<MaterialTargets> result;
-    for (auto& [material, polygons] : targets) result.push_back({material, std::move(polygons)});
-    return result;
-}
-
-std::string decimalText(double value) {
-    std::string text = fixedText(std::llround(value * 1e6), 6);
-    while (text.back() == '0') text.pop_back();
-    if (text.back() == '.') text.pop_back();
-    return text;
 }
 
 }  // namespace svt::samples

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace svt::samples {
@@ -36,7 +37,7 @@ SamplePiece worldPiece(const Placement& placement, Axis axis, const Piece& piece
 }
 
 SampleComponent describe(const Document& document, const PlacedPlan& placed, int index) {
-    const Component& component = placed.plan->components[std::size_t(index)];
+    const Component& component = placed.component(index);
     SampleComponent result;
     result.id = document.idOf(placed, index);
     result.className = className(component.kind);
@@ -53,6 +54,14 @@ SampleComponent describe(const Document& document, const PlacedPlan& placed, int
 }
 
 }  // namespace
+
+std::string matrixText(const PlacedPlan& placed, const Instance& instance, std::string_view separator) {
+    const Vec3d east = placed.placement.worldDirection(instance.xAxis());
+    const auto number = [](double value) { return fixedText(std::llround(value * 1e12), 12); };
+    const std::string cosine = number(east.x);
+    return fmt::format("{1}{0}{2}{0}0{0}0{0}{3}{0}{1}{0}0{0}0{0}0{0}0{0}1{0}0{0}0{0}0{0}0{0}1", separator, cosine,
+                       number(-east.y), number(east.y));
+}
 
 bool SampleComponent::contains(Vec3d point) const {
     const auto isInPiece = [&](const SamplePiece& piece) {
@@ -102,9 +111,9 @@ Result<std::vector<SampleComponent>> describeSample(SampleKind kind, const Sampl
     for (std::int64_t i = 0; i < source->buildingCount(); ++i) {
         const Document document = source->building(i);
         result.push_back({document.id, "Building", document.name, "", "", "", 0, {}});
-        for (const PlacedPlan& placed : document.plans)
-            for (std::size_t c = 0; c < placed.plan->components.size(); ++c)
-                if (!placed.plan->components[c].isStandIn) result.push_back(describe(document, placed, int(c)));
+        document.forEach([&](const PlacedPlan& placed, int c, const Component& component) {
+            if (!component.isStandIn) result.push_back(describe(document, placed, c));
+        });
     }
     return result;
 }

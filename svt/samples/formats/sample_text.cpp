@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace svt::samples {
 namespace {
@@ -42,6 +43,13 @@ void TextSink::flush() {
 std::string fixedText(std::int64_t value, int decimals) {
     std::string text;
     appendFixed(text, value, decimals);
+    return text;
+}
+
+std::string decimalText(double value) {
+    std::string text = fixedText(std::llround(value * 1e6), 6);
+    while (text.back() == '0') text.pop_back();
+    if (text.back() == '.') text.pop_back();
     return text;
 }
 

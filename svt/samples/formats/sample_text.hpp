@@ -38,5 +38,7 @@ private:
 
 /// `value` * 10^-decimals with exactly that many decimals.
 [[nodiscard]] std::string fixedText(std::int64_t value, int decimals);
+/// A number with up to six decimals and no trailing zeros.
+[[nodiscard]] std::string decimalText(double value);
 
 }  // namespace svt::samples

@@ -5,19 +5,10 @@
 #include <svt/samples/ifc/ifc_records.hpp>
 #include <svt/samples/parts/plan.hpp>
 
-#include <span>
 #include <string>
 #include <vector>
 
 namespace svt::samples {
-
-/// A corner of a piece's section in the plane (v, z) of its half-planes: v / scale, z / scale millimetres.
-struct SectionCorner {
-    std::int64_t v = 0, z = 0, scale = 1;
-};
-
-/// The section of a convex prism, counter-clockwise in (v, z), exact.
-[[nodiscard]] std::vector<SectionCorner> sectionOf(const Piece& piece);
 
 /// Writes representation items; each has the style of its material.
 class IfcBodies {
@@ -48,8 +39,5 @@ private:
     IfcRecords& records_;
     int context_;
 };
-
-/// "(#1,#2)"
-[[nodiscard]] std::string stepList(std::span<const int> records);
 
 }  // namespace svt::samples

@@ -53,16 +53,14 @@ LayeredBody wall(const Plan& plan, const Component& component) {
     LayeredBody body;
     const Solid& solid = component.solids.front();
     Solid first{solid.axis, solid.material, {solid.pieces.front()}};
-    const Bounds bounds = boundsOf(first);
-    const double dx = double(bounds.max.x - bounds.min.x), dy = double(bounds.max.y - bounds.min.y);
-    const bool isAlongX = dx > dy;
-    const double thickness = std::min(dx, dy);
+    const Vec3d low = boundsOf(first).min, size = boundsOf(first).size();
+    const bool isAlongX = size.x > size.y;
+    const double thickness = std::min(size.x, size.y);
     if (thickness < 50 || thickness > 500 || solid.axis != Axis::X) return body;
     body.isWall = true;
-    body.length = std::max(dx, dy);
+    body.length = std::max(size.x, size.y);
     body.frame.x = isAlongX ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
     body.frame.y = isAlongX ? Vec3d{0, 1, 0} : Vec3d{-1, 0, 0};
-    const Vec3d low{double(bounds.min.x), double(bounds.min.y), double(bounds.min.z)};
     // The face of the smaller y of the wall's own axes.
     const Vec3d right = isAlongX ? low : low + Vec3d{thickness, 0, 0};
     const bool isLeftOutside = isOutside(plan, component, body.frame.y);
@@ -113,10 +111,10 @@ LayeredBody layersOf(const Plan& plan, const Component& component) {
     if (component.function == "roof") return slope(component);
     if (component.function != "slab") return body;
     const Solid& solid = component.solids.front();
-    const Bounds bounds = boundsOf(Solid{solid.axis, solid.material, {solid.pieces.front()}});
-    const double thickness = double(bounds.max.z - bounds.min.z);
+    const Box3d bounds = boundsOf(Solid{solid.axis, solid.material, {solid.pieces.front()}});
+    const double thickness = bounds.size().z;
     if (thickness < 150) return body;
-    body.frame.origin = {double(bounds.min.x), double(bounds.min.y), double(bounds.max.z)};
+    body.frame.origin = {bounds.min.x, bounds.min.y, bounds.max.z};
     body.isPositive = false;
     body.layers = slab(thickness, component);
     return body;

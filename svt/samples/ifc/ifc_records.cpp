@@ -1,19 +1,12 @@
 #include <svt/samples/ifc/ifc_records.hpp>
 
+#include <svt/samples/parts/random.hpp>
+
 #include <array>
 #include <cmath>
 
 namespace svt::samples {
 namespace {
-
-// FNV-1a, then splitmix64 as a finish.
-std::uint64_t hashOf(std::string_view text, std::uint64_t seed) {
-    std::uint64_t hash = 14695981039346656037u ^ seed;
-    for (const char c : text) hash = (hash ^ std::uint8_t(c)) * 1099511628211u;
-    hash = (hash ^ hash >> 30) * 0xBF58476D1CE4E5B9u;
-    hash = (hash ^ hash >> 27) * 0x94D049BB133111EBu;
-    return hash ^ hash >> 31;
-}
 
 std::string trimmed(std::string text) {
     while (text.back() == '0') text.pop_back();
@@ -40,11 +33,15 @@ std::string stepRatio(std::int64_t numerator, std::int64_t denominator) {
 
 std::string stepText(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-std::string stepReference(int record) { return record == 0 ? "$" : "#" + std::to_string(record); }
+std::string stepValue(std::span<const int> records) {
+    std::string text;
+    for (const int record : records) text += (text.empty() ? "" : ",") + stepValue(record);
+    return "(" + text + ")";
+}
 
 std::string globalId(std::string_view key) {
     constexpr std::string_view kDigits = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_$";
-    const std::array<std::uint64_t, 2> bits{hashOf(key, 0), hashOf(key, 0x9E3779B97F4A7C15u)};
+    const std::array<std::uint64_t, 2> bits{mixBits(fnvHash(key)), mixBits(fnvHash(key, kFnvBasis ^ kHashFactor))};
     std::string id;
     // 128 bits: two in the first digit, six in each of the others.
     for (int digit = 0; digit < 22; ++digit) {
@@ -59,42 +56,36 @@ std::string globalId(std::string_view key) {
     return id;
 }
 
-int IfcRecords::add(std::string_view type, std::string_view values) {
+int IfcRecords::addText(std::string_view type, const std::string& values) {
     out_ << "#" << ++last_ << "=" << type << "(" << values << ");\n";
     return last_;
 }
 
-int IfcRecords::shared(std::string_view type, const std::string& values) {
+int IfcRecords::sharedText(std::string_view type, const std::string& values) {
     const auto [it, isNew] = shared_.try_emplace(std::string(type) + "(" + values, 0);
-    if (isNew) it->second = add(type, values);
+    if (isNew) it->second = addText(type, values);
     return it->second;
 }
 
-int IfcRecords::rooted(std::string_view type, std::string_view key, std::string_view values) {
-    return add(type, stepText(globalId(key)) + ",$," + std::string(values));
-}
-
-int IfcRecords::point(Vec3d p) {
-    return add("IFCCARTESIANPOINT", "(" + stepNumber(p.x) + "," + stepNumber(p.y) + "," + stepNumber(p.z) + ")");
-}
+int IfcRecords::point(Vec3d p) { return add("IFCCARTESIANPOINT", "(" + stepValues(p.x, p.y, p.z) + ")"); }
 
 int IfcRecords::point2(const std::string& x, const std::string& y) {
-    return add("IFCCARTESIANPOINT", "(" + x + "," + y + ")");
+    return add("IFCCARTESIANPOINT", "(" + stepValues(x, y) + ")");
 }
 
 int IfcRecords::direction(Vec3d d) {
     return shared("IFCDIRECTION",
-                  "(" + stepNumber(d.x, 12) + "," + stepNumber(d.y, 12) + "," + stepNumber(d.z, 12) + ")");
+                  "(" + stepValues(stepNumber(d.x, 12), stepNumber(d.y, 12), stepNumber(d.z, 12)) + ")");
 }
 
 int IfcRecords::axes(const Frame& frame) {
     const int origin = point(frame.origin), z = direction(frame.z), x = direction(frame.x);
-    return add("IFCAXIS2PLACEMENT3D", stepReference(origin) + "," + stepReference(z) + "," + stepReference(x));
+    return add("IFCAXIS2PLACEMENT3D", origin, z, x);
 }
 
 int IfcRecords::placement(int above, const Frame& frame) {
     const int place = axes(frame);
-    return add("IFCLOCALPLACEMENT", stepReference(above) + "," + stepReference(place));
+    return add("IFCLOCALPLACEMENT", above, place);
 }
 
 }  // namespace svt::samples

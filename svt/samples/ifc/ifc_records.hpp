@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -29,8 +30,20 @@ struct Frame {
 [[nodiscard]] std::string stepRatio(std::int64_t numerator, std::int64_t denominator);
 /// 'text'. Texts of samples are ASCII without quotes.
 [[nodiscard]] std::string stepText(std::string_view text);
-/// "#12", or "$" for 0.
-[[nodiscard]] std::string stepReference(int record);
+
+/// A value of a record: text as it is, a double by stepNumber(), another record as "#12" or "$" for 0, records as a list
+/// "(#1,#2)".
+[[nodiscard]] inline std::string stepValue(std::string_view text) { return std::string(text); }
+[[nodiscard]] inline std::string stepValue(double number) { return stepNumber(number); }
+[[nodiscard]] inline std::string stepValue(int record) { return record == 0 ? "$" : "#" + std::to_string(record); }
+[[nodiscard]] std::string stepValue(std::span<const int> records);
+/// Values with commas between them. The first is not empty.
+template <class... Values>
+[[nodiscard]] std::string stepValues(const Values&... values) {
+    std::string text;
+    ((text += (text.empty() ? "" : ",") + stepValue(values)), ...);
+    return text;
+}
 /// A GlobalId (22 characters) that depends on `key` alone.
 [[nodiscard]] std::string globalId(std::string_view key);
 
@@ -39,11 +52,20 @@ public:
     explicit IfcRecords(TextSink& out) : out_(out) {}
 
     /// Writes `#n=TYPE(values);`. \return n, beginning with 1
-    int add(std::string_view type, std::string_view values);
-    /// The same record for the same text, written once.
-    int shared(std::string_view type, const std::string& values);
+    template <class... Values>
+    int add(std::string_view type, const Values&... values) {
+        return addText(type, stepValues(values...));
+    }
+    /// The same record for the same values, written once.
+    template <class... Values>
+    int shared(std::string_view type, const Values&... values) {
+        return sharedText(type, stepValues(values...));
+    }
     /// A rooted entity: GlobalId by `key`, no owner history, then `values`.
-    int rooted(std::string_view type, std::string_view key, std::string_view values);
+    template <class... Values>
+    int rooted(std::string_view type, std::string_view key, const Values&... values) {
+        return add(type, stepText(globalId(key)), "$", values...);
+    }
 
     int point(Vec3d p);
     int point2(const std::string& x, const std::string& y);
@@ -53,6 +75,9 @@ public:
     int placement(int above, const Frame& frame);
 
 private:
+    int addText(std::string_view type, const std::string& values);
+    int sharedText(std::string_view type, const std::string& values);
+
     TextSink& out_;
     int last_ = 0;
     std::map<std::string, int> shared_;

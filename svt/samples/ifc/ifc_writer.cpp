@@ -45,7 +45,8 @@ IfcType typeOf(const Component& component) {
     }
 }
 
-bool overlaps(const Bounds& a, const Bounds& b) {
+// Whether they share more than a face.
+bool overlaps(const Box3d& a, const Box3d& b) {
     return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y && a.min.z < b.max.z &&
            b.min.z < a.max.z;
 }
@@ -57,22 +58,22 @@ bool isSwingDoor(const Component& component) {
 // Axes of a door: x along it, y to the side with which its leaf is flush, where it opens to. The hinges are on the left as
 // one looks that way, at the origin.
 Frame doorFrame(const Component& component) {
-    const Bounds all = samples::boundsOf(component.solids[0]), leaf = samples::boundsOf(component.solids[1]);
-    const bool isAlongX = all.max.x - all.min.x > all.max.y - all.min.y;
+    const Box3d all = samples::boundsOf(component.solids[0]), leaf = samples::boundsOf(component.solids[1]);
+    const bool isAlongX = all.size().x > all.size().y;
     const auto low = isAlongX ? leaf.min.y - all.min.y : leaf.min.x - all.min.x;
     const auto high = isAlongX ? all.max.y - leaf.max.y : all.max.x - leaf.max.x;
     const double way = high < low ? 1 : -1;
     Frame frame;
     frame.y = isAlongX ? Vec3d{0, way, 0} : Vec3d{way, 0, 0};
     frame.x = cross(frame.y, frame.z);
-    frame.origin = {double(frame.x.x + frame.y.x > 0 ? all.min.x : all.max.x),
-                    double(frame.x.y + frame.y.y > 0 ? all.min.y : all.max.y), double(all.min.z)};
+    frame.origin = {frame.x.x + frame.y.x > 0 ? all.min.x : all.max.x,
+                    frame.x.y + frame.y.y > 0 ? all.min.y : all.max.y, all.min.z};
     return frame;
 }
 
 bool isSameShape(const Piece& a, const Piece& b) { return a.from == b.from && a.to == b.to && a.sides == b.sides; }
 
-Bounds boundsOf(const Solid& solid, const Piece& piece) {
+Box3d boundsOf(const Solid& solid, const Piece& piece) {
     Piece added = piece;
     added.adds = true;
     return boundsOf(Solid{solid.axis, solid.material, {added}});
@@ -101,47 +102,39 @@ private:
         const int area = records_.add("IFCSIUNIT", "*,.AREAUNIT.,$,.SQUARE_METRE.");
         const int volume = records_.add("IFCSIUNIT", "*,.VOLUMEUNIT.,$,.CUBIC_METRE.");
         const int angle = records_.add("IFCSIUNIT", "*,.PLANEANGLEUNIT.,$,.RADIAN.");
-        const int units = records_.add("IFCUNITASSIGNMENT", stepList(std::array{length, area, volume, angle}));
+        const int units = records_.add("IFCUNITASSIGNMENT", std::array{length, area, volume, angle});
         const int world = records_.axes({});
-        const int model =
-            records_.add("IFCGEOMETRICREPRESENTATIONCONTEXT", "$,'Model',3,1.E-05," + stepReference(world) + ",$");
-        body_ = records_.add("IFCGEOMETRICREPRESENTATIONSUBCONTEXT",
-                             "'Body','Model',*,*,*,*," + stepReference(model) + ",$,.MODEL_VIEW.,$");
-        axis_ = records_.add("IFCGEOMETRICREPRESENTATIONSUBCONTEXT",
-                             "'Axis','Model',*,*,*,*," + stepReference(model) + ",$,.GRAPH_VIEW.,$");
+        const int model = records_.add("IFCGEOMETRICREPRESENTATIONCONTEXT", "$,'Model',3,1.E-05", world, "$");
+        constexpr std::string_view kSubcontext = "IFCGEOMETRICREPRESENTATIONSUBCONTEXT";
+        body_ = records_.add(kSubcontext, "'Body','Model',*,*,*,*", model, "$,.MODEL_VIEW.,$");
+        axis_ = records_.add(kSubcontext, "'Axis','Model',*,*,*,*", model, "$,.GRAPH_VIEW.,$");
         bodies_.emplace(records_, body_);
         const int metre = records_.add("IFCSIUNIT", "*,.LENGTHUNIT.,$,.METRE.");
-        const int crs = records_.add("IFCPROJECTEDCRS", "'EPSG:25832',$,$,$,$,$," + stepReference(metre));
+        const int crs = records_.add("IFCPROJECTEDCRS", "'EPSG:25832',$,$,$,$,$", metre);
         const Point origin = source_.origin();
-        records_.add("IFCMAPCONVERSION", stepReference(model) + "," + stepReference(crs) + "," +
-                                             stepRatio(origin.x, 1000) + "," + stepRatio(origin.y, 1000) + "," +
-                                             stepRatio(origin.z, 1000) + ",1.,0.,0.001");
-        const int project = records_.rooted(
-            "IFCPROJECT", "project",
-            stepText(source_.title()) + ",$,$,$,$,(" + stepReference(model) + ")," + stepReference(units));
+        records_.add("IFCMAPCONVERSION", model, crs, stepRatio(origin.x, 1000), stepRatio(origin.y, 1000),
+                     stepRatio(origin.z, 1000), "1.,0.,0.001");
+        const int project =
+            records_.rooted("IFCPROJECT", "project", stepText(source_.title()), "$,$,$,$", std::array{model}, units);
         sitePlace_ = records_.placement(0, {});
-        site_ =
-            records_.rooted("IFCSITE", "site", "'Site',$,$," + stepReference(sitePlace_) + ",$,$,.ELEMENT.,$,$,$,$,$");
+        site_ = records_.rooted("IFCSITE", "site", "'Site',$,$", sitePlace_, "$,$,.ELEMENT.,$,$,$,$,$");
         aggregate("project", project, {site_});
     }
 
     void aggregate(const std::string& key, int whole, const std::vector<int>& parts) {
-        if (parts.empty()) return;
-        records_.rooted("IFCRELAGGREGATES", "parts of " + key, "$,$," + stepReference(whole) + "," + stepList(parts));
+        if (!parts.empty()) records_.rooted("IFCRELAGGREGATES", "parts of " + key, "$,$", whole, parts);
     }
 
     void contain(const std::string& key, int space, const std::vector<int>& elements) {
-        if (elements.empty()) return;
-        records_.rooted("IFCRELCONTAINEDINSPATIALSTRUCTURE", "elements of " + key,
-                        "$,$," + stepList(elements) + "," + stepReference(space));
+        if (!elements.empty())
+            records_.rooted("IFCRELCONTAINEDINSPATIALSTRUCTURE", "elements of " + key, "$,$", elements, space);
     }
 
     int building(std::int64_t index) {
         document_ = source_.building(index);
         const int place = records_.placement(sitePlace_, {});
-        const int building = records_.rooted("IFCBUILDING", document_.id,
-                                             stepText(document_.name) + ",$," + stepText(document_.function) + "," +
-                                                 stepReference(place) + ",$,$,.ELEMENT.,$,$,$");
+        const int building = records_.rooted("IFCBUILDING", document_.id, stepText(document_.name), "$",
+                                             stepText(document_.function), place, "$,$,.ELEMENT.,$,$,$");
         std::vector<int> storeys, outside;
         for (const PlacedPlan& placed : document_.plans) {
             placed_ = &placed;
@@ -156,10 +149,8 @@ private:
     // Axes of a placed plan in the project.
     [[nodiscard]] Frame planFrame(double lift) const {
         const Placement& placement = placed_->placement;
-        const Point origin = source_.origin();
         Frame frame{placement.worldDirection({1, 0, 0}), placement.worldDirection({0, 1, 0}), {0, 0, 1}, {}};
-        frame.origin =
-            placement.worldPosition({0, 0, lift}) * 1000 - Vec3d{double(origin.x), double(origin.y), double(origin.z)};
+        frame.origin = placement.worldPosition({0, 0, lift}) * 1000 - toDouble(source_.origin());
         return frame;
     }
 
@@ -177,9 +168,8 @@ private:
                 if (a.name == "elevation") storeyLift_[c] = std::get<double>(a.value) * 1000;
             const Frame frame = planFrame(storeyLift_[c]);
             storeyPlace_[c] = records_.placement(buildingPlace, frame);
-            ifc_[c] = records_.rooted("IFCBUILDINGSTOREY", idOf(c),
-                                      stepText(nameOf(c)) + ",$,$," + stepReference(storeyPlace_[c]) +
-                                          ",$,$,.ELEMENT.," + stepNumber(frame.origin.z));
+            ifc_[c] = records_.rooted("IFCBUILDINGSTOREY", idOf(c), stepText(nameOf(c)), "$,$", storeyPlace_[c],
+                                      "$,$,.ELEMENT.", frame.origin.z);
             storeys.push_back(ifc_[c]);
         }
         planPlace_ = records_.placement(buildingPlace, planFrame(0));
@@ -248,9 +238,9 @@ private:
         std::vector<int> representations;
         if (layers.isWall) {
             const int from = records_.point2("0.", "0."), to = records_.point2(stepNumber(layers.length), "0.");
-            const int line = records_.add("IFCPOLYLINE", stepList(std::array{from, to}));
-            representations.push_back(records_.add(
-                "IFCSHAPEREPRESENTATION", stepReference(axis_) + ",'Axis','Curve2D'," + stepList(std::array{line})));
+            const int line = records_.add("IFCPOLYLINE", std::array{from, to});
+            representations.push_back(
+                records_.add("IFCSHAPEREPRESENTATION", axis_, "'Axis','Curve2D'", std::array{line}));
         }
         if (component.instance) {
             representations.push_back(mapped(*component.instance));
@@ -278,43 +268,37 @@ private:
             const int item = bodies_->solid({}, shownSolid(instance.solid), {}, isBoolean);
             const int representation = bodies_->representation({item}, isBoolean ? "CSG" : "SweptSolid");
             const int origin = records_.axes({});
-            instanceMap_ =
-                records_.add("IFCREPRESENTATIONMAP", stepReference(origin) + "," + stepReference(representation));
+            instanceMap_ = records_.add("IFCREPRESENTATIONMAP", origin, representation);
         }
-        const std::array<Vec3d, 4> quarters{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}};
-        const Vec3d x = quarters[std::size_t(instance.quarterTurns)];
+        const Vec3d x = instance.xAxis();
         const int axis1 = records_.direction(x), axis2 = records_.direction(cross({0, 0, 1}, x));
         const int axis3 = records_.direction({0, 0, 1});
-        const int origin =
-            records_.point({double(instance.shift.x), double(instance.shift.y), double(instance.shift.z)});
-        const int target = records_.add("IFCCARTESIANTRANSFORMATIONOPERATOR3D",
-                                        stepReference(axis1) + "," + stepReference(axis2) + "," +
-                                            stepReference(origin) + ",$," + stepReference(axis3));
-        const int item = records_.add("IFCMAPPEDITEM", stepReference(instanceMap_) + "," + stepReference(target));
+        const int origin = records_.point(toDouble(instance.shift));
+        const int target = records_.add("IFCCARTESIANTRANSFORMATIONOPERATOR3D", axis1, axis2, origin, "$", axis3);
+        const int item = records_.add("IFCMAPPEDITEM", instanceMap_, target);
         return bodies_->representation({item}, "MappedRepresentation");
     }
 
     int product(std::size_t c, int place, int shape) {
         const Component& component = placed_->plan->components[c];
         const std::string id = idOf(c), name = nameOf(c);
-        const std::string head = ",$," + (component.function.empty() ? "$" : stepText(component.function)) + "," +
-                                 stepReference(place) + "," + stepReference(shape);
+        const std::string head =
+            stepValues("$", component.function.empty() ? "$" : stepText(component.function), place, shape);
         if (component.kind == Kind::Room)
-            return records_.rooted("IFCSPACE", id,
-                                   stepText(id) + head + "," + stepText(name) + ",.ELEMENT.,.INTERNAL.,$");
+            return records_.rooted("IFCSPACE", id, stepText(id), head, stepText(name), ".ELEMENT.,.INTERNAL.,$");
         if (component.kind == Kind::Unit)
-            return records_.rooted("IFCSPATIALZONE", id, stepText(id) + head + "," + stepText(name) + ",.OCCUPANCY.");
+            return records_.rooted("IFCSPATIALZONE", id, stepText(id), head, stepText(name), ".OCCUPANCY.");
         const IfcType type = typeOf(component);
-        std::string tail = "," + std::string(type.predefined);
+        std::string tail(type.predefined);
         if (component.kind == Kind::Window || component.kind == Kind::Door) {
-            const Bounds bounds = samples::boundsOf(component.solids.front());
-            const double wide = double(std::max(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y));
-            tail = "," + stepNumber(double(bounds.max.z - bounds.min.z)) + "," + stepNumber(wide) +
-                   (isSwingDoor(component)
-                        ? (wide > 1300 ? ",.DOOR.,.DOUBLE_DOOR_SINGLE_SWING.,$" : ",.DOOR.,.SINGLE_SWING_LEFT.,$")
-                        : ",.NOTDEFINED.,$,$");
+            const Vec3d size = samples::boundsOf(component.solids.front()).size();
+            const double wide = std::max(size.x, size.y);
+            tail = stepValues(size.z, wide,
+                              !isSwingDoor(component) ? ".NOTDEFINED.,$,$"
+                              : wide > 1300           ? ".DOOR.,.DOUBLE_DOOR_SINGLE_SWING.,$"
+                                                      : ".DOOR.,.SINGLE_SWING_LEFT.,$");
         }
-        return records_.rooted(type.type, id, stepText(name) + head + "," + stepText(id) + tail);
+        return records_.rooted(type.type, id, stepText(name), head, stepText(id), tail);
     }
 
     // The opening that a door or window fills: the cut of its wall that it stands in. The wall comes before it.
@@ -322,11 +306,10 @@ private:
         const Component& component = placed_->plan->components[c];
         const auto host = openingRecords_.find(component.parent);
         if (host == openingRecords_.end()) return;
-        const Bounds own = samples::boundsOf(component.solids.front());
+        const Box3d own = samples::boundsOf(component.solids.front());
         for (const auto& [bounds, opening] : host->second) {
             if (!overlaps(bounds, own)) continue;
-            records_.rooted("IFCRELFILLSELEMENT", "filling " + idOf(c),
-                            "$,$," + stepReference(opening) + "," + stepReference(ifc_[c]));
+            records_.rooted("IFCRELFILLSELEMENT", "filling " + idOf(c), "$,$", opening, ifc_[c]);
             return;
         }
     }
@@ -336,16 +319,14 @@ private:
         for (std::size_t p = 0; p < isOpening.size(); ++p) {
             if (!isOpening[p]) continue;
             const Solid& solid = placed_->plan->components[c].solids.front();
-            Piece piece = solid.pieces[p];
+            const Piece& piece = solid.pieces[p];
             const int item = bodies_->extrusion(frame, solid.axis, piece);
             const int shape = bodies_->shape({bodies_->representation({item}, "SweptSolid")});
             const int where = records_.placement(place, {});
             const std::string key = idOf(c) + " opening " + std::to_string(p);
-            const int opening = records_.rooted(
-                "IFCOPENINGELEMENT", key,
-                stepText(key) + ",$,$," + stepReference(where) + "," + stepReference(shape) + ",$,.OPENING.");
-            records_.rooted("IFCRELVOIDSELEMENT", "void " + key,
-                            "$,$," + stepReference(ifc_[c]) + "," + stepReference(opening));
+            const int opening =
+                records_.rooted("IFCOPENINGELEMENT", key, stepText(key), "$,$", where, shape, "$,.OPENING.");
+            records_.rooted("IFCRELVOIDSELEMENT", "void " + key, "$,$", ifc_[c], opening);
             openingRecords_[int(c)].emplace_back(boundsOf(solid, piece), opening);
         }
     }
@@ -360,12 +341,17 @@ private:
             text = "IFCREAL(" + stepNumber(*number) + ")";
         else
             text = "IFCLABEL(" + stepText(toText(value)) + ")";
-        return records_.shared("IFCPROPERTYSINGLEVALUE", stepText(name) + ",$," + text + ",$");
+        return records_.shared("IFCPROPERTYSINGLEVALUE", stepText(name), "$", text, "$");
     }
 
     void defineBy(const std::string& key, int set, std::size_t c) {
-        records_.rooted("IFCRELDEFINESBYPROPERTIES", key + " of " + idOf(c),
-                        "$,$,(" + stepReference(ifc_[c]) + ")," + stepReference(set));
+        records_.rooted("IFCRELDEFINESBYPROPERTIES", key + " of " + idOf(c), "$,$", std::array{ifc_[c]}, set);
+    }
+
+    void propertySet(std::size_t c, const std::string& key, const std::string& name,
+                     const std::vector<int>& properties) {
+        if (properties.empty()) return;
+        defineBy(key, records_.rooted("IFCPROPERTYSET", name + " of " + idOf(c), stepText(name), "$", properties), c);
     }
 
     void describe(std::size_t c) {
@@ -381,65 +367,47 @@ private:
             common.push_back(property(
                 "IsExternal", std::any_of(component.shells.front().faces.begin(), component.shells.front().faces.end(),
                                           [](const Face& face) { return face.neighbor < 0; })));
-        const std::string set(typeOf(component).propertySet);
-        if (!common.empty())
-            defineBy(
-                "common",
-                records_.rooted("IFCPROPERTYSET", set + " of " + idOf(c), stepText(set) + ",$," + stepList(common)), c);
-        if (!others.empty())
-            defineBy("sample",
-                     records_.rooted("IFCPROPERTYSET", "Sample of " + idOf(c), "'Sample',$," + stepList(others)), c);
+        propertySet(c, "common", std::string(typeOf(component).propertySet), common);
+        propertySet(c, "sample", "Sample", others);
         if (component.solids.empty()) return;
-        const int volume =
-            records_.add("IFCQUANTITYVOLUME", "'NetVolume',$,$," + stepNumber(component.volume, 9) + ",$");
-        defineBy("quantities",
-                 records_.rooted("IFCELEMENTQUANTITY", "BaseQuantities of " + idOf(c),
-                                 "'BaseQuantities',$,$,(" + stepReference(volume) + ")"),
-                 c);
+        const int volume = records_.add("IFCQUANTITYVOLUME", "'NetVolume',$,$", stepNumber(component.volume, 9), "$");
+        const int quantities = records_.rooted("IFCELEMENTQUANTITY", "BaseQuantities of " + idOf(c),
+                                               "'BaseQuantities',$,$", std::array{volume});
+        defineBy("quantities", quantities, c);
     }
 
     // What is built of layers has them as its material instead.
     void material(std::size_t c, const std::string& name) {
         if (!layersOf(*placed_->plan, placed_->plan->components[c]).layers.empty()) return;
-        const int material = records_.shared("IFCMATERIAL", stepText(name) + ",$,$");
-        associate(c, material);
+        associate(c, records_.shared("IFCMATERIAL", stepText(name), "$,$"));
     }
 
     void associate(std::size_t c, int material) {
-        records_.rooted("IFCRELASSOCIATESMATERIAL", "material of " + idOf(c),
-                        "$,$,(" + stepReference(ifc_[c]) + ")," + stepReference(material));
+        records_.rooted("IFCRELASSOCIATESMATERIAL", "material of " + idOf(c), "$,$", std::array{ifc_[c]}, material);
     }
 
     void layerUsage(std::size_t c, const LayeredBody& body) {
         std::vector<int> layers;
         std::string setName;
         for (const LayerSpec& layer : body.layers) {
-            const int material = layerMaterial(layer);
-            layers.push_back(records_.shared("IFCMATERIALLAYER",
-                                             stepReference(material) + "," + stepNumber(layer.thickness) + ",$," +
-                                                 stepText(layer.material) + ",$," + stepText(layer.function) + ",$"));
+            layers.push_back(records_.shared("IFCMATERIALLAYER", layerMaterial(layer), layer.thickness, "$",
+                                             stepText(layer.material), "$", stepText(layer.function), "$"));
             setName += (setName.empty() ? "" : ", ") + std::string(layer.material);
         }
-        const int set = records_.shared("IFCMATERIALLAYERSET", stepList(layers) + "," + stepText(setName) + ",$");
-        const int usage =
-            records_.shared("IFCMATERIALLAYERSETUSAGE", stepReference(set) + (body.isWall ? ",.AXIS2.," : ",.AXIS3.,") +
-                                                            (body.isPositive ? ".POSITIVE.," : ".NEGATIVE.,") +
-                                                            stepNumber(body.offset) + ",$");
-        associate(c, usage);
+        const int set = records_.shared("IFCMATERIALLAYERSET", layers, stepText(setName), "$");
+        associate(c, records_.shared("IFCMATERIALLAYERSETUSAGE", set, body.isWall ? ".AXIS2." : ".AXIS3.",
+                                     body.isPositive ? ".POSITIVE." : ".NEGATIVE.", body.offset, "$"));
     }
 
     // A material with its colour.
     int layerMaterial(const LayerSpec& layer) {
         const auto known = layerMaterials_.find(layer.material);
         if (known != layerMaterials_.end()) return known->second;
-        const int material =
-            records_.shared("IFCMATERIAL", stepText(layer.material) + ",$," + stepText(layer.function));
+        const int material = records_.shared("IFCMATERIAL", stepText(layer.material), "$", stepText(layer.function));
         const int style = bodies_->surfaceStyle(layer.material, layer.color, 0);
-        const int item = records_.add("IFCSTYLEDITEM", "$,(" + stepReference(style) + "),$");
-        const int styled = records_.add("IFCSTYLEDREPRESENTATION",
-                                        stepReference(body_) + ",'Style','Material',(" + stepReference(item) + ")");
-        records_.add("IFCMATERIALDEFINITIONREPRESENTATION",
-                     "$,$,(" + stepReference(styled) + ")," + stepReference(material));
+        const int item = records_.add("IFCSTYLEDITEM", "$", std::array{style}, "$");
+        const int styled = records_.add("IFCSTYLEDREPRESENTATION", body_, "'Style','Material'", std::array{item});
+        records_.add("IFCMATERIALDEFINITIONREPRESENTATION", "$,$", std::array{styled}, material);
         return layerMaterials_[layer.material] = material;
     }
 
@@ -456,7 +424,7 @@ private:
     std::vector<int> ifc_, storeyPlace_;  // by component
     std::vector<double> storeyLift_;      // by component, millimetres
     int planPlace_ = 0, instanceMap_ = 0;
-    std::map<int, std::vector<std::pair<Bounds, int>>> openingRecords_;  // by component
+    std::map<int, std::vector<std::pair<Box3d, int>>> openingRecords_;  // by component
 };
 
 }  // namespace

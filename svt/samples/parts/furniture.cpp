@@ -114,8 +114,8 @@ int addFurniture(Plan& plan, int room, Item item, Length x, Length y, Length z, 
     component.unit = plan.components[std::size_t(room)].unit;
     component.function = "furniture";
     const Solid local = furnitureSolid(item);
-    const Bounds turned = boundsOf(placed(local, quarterTurns, {}));
-    const Point shift{x - turned.min.x, y - turned.min.y, z};
+    const Vec3d corner = boundsOf(placed(local, quarterTurns, {})).min;
+    const Point shift{x - Length(corner.x), y - Length(corner.y), z};
     component.solids.push_back(placed(local, quarterTurns, shift));
     if (isInstance) component.instance = Instance{local, quarterTurns, shift, {}, {}};
     return furniture;

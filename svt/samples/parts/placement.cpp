@@ -43,13 +43,11 @@ bool Rotation::isExact() const {
 }
 
 Vec3d Placement::rotated(Vec3d p) const {
-    const Vec3d local = rotatedBy(buildingRotation_, p);
-    return rotatedBy(modelRotation_,
-                     {local.x + double(shift_.x), local.y + double(shift_.y), local.z + double(shift_.z)});
+    return rotatedBy(modelRotation_, rotatedBy(buildingRotation_, p) + toDouble(shift_));
 }
 
 WorldPoint Placement::at(Point p) const {
-    const Vec3d q = rotated({double(p.x), double(p.y), double(p.z)});
+    const Vec3d q = rotated(toDouble(p));
     const std::int64_t scale = decimals() == 3 ? 1 : 1000;
     const auto whole = [&](double value, Length origin) {
         return std::int64_t(std::llround(value * double(scale))) + origin * scale;
@@ -57,10 +55,7 @@ WorldPoint Placement::at(Point p) const {
     return {whole(q.x, origin_.x), whole(q.y, origin_.y), whole(q.z, origin_.z)};
 }
 
-Vec3d Placement::worldPosition(Vec3d millimetres) const {
-    const Vec3d q = rotated(millimetres);
-    return {(q.x + double(origin_.x)) / 1000, (q.y + double(origin_.y)) / 1000, (q.z + double(origin_.z)) / 1000};
-}
+Vec3d Placement::worldPosition(Vec3d millimetres) const { return (rotated(millimetres) + toDouble(origin_)) / 1000; }
 
 Vec3d Placement::worldDirection(Vec3d direction) const {
     return rotatedDirection(modelRotation_, rotatedDirection(buildingRotation_, direction));

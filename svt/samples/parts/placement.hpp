@@ -21,10 +21,7 @@ struct Rotation {
     [[nodiscard]] bool isExact() const;
 };
 
-/// World coordinates as whole numbers of 10^-decimals metres.
-struct WorldPoint {
-    std::int64_t x = 0, y = 0, z = 0;
-};
+using WorldPoint = Vec3<std::int64_t>;  ///< world coordinates as whole numbers of 10^-decimals metres
 
 class Placement {
 public:

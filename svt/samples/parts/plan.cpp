@@ -10,25 +10,17 @@ namespace svt::samples {
 namespace {
 
 // Name, color, transparency, colored in GML.
-constexpr std::array<MaterialInfo, kMaterialCount> kMaterials{{
-    {"brick", {0.76, 0.46, 0.36}, 0.0, true},
-    {"concrete", {0.66, 0.66, 0.64}, 0.0, false},
-    {"timber", {0.72, 0.53, 0.33}, 0.0, false},
-    {"roof tiles", {0.70, 0.22, 0.16}, 0.0, true},
-    {"glass", {0.55, 0.76, 0.92}, 0.6, true},
-    {"gypsum", {0.92, 0.91, 0.88}, 0.0, false},
-    {"fabric", {0.33, 0.45, 0.60}, 0.0, false},
-    {"ceramic", {0.95, 0.96, 0.97}, 0.0, false},
-    {"steel", {0.45, 0.48, 0.52}, 0.0, false},
-    {"painted timber", {0.88, 0.86, 0.80}, 0.0, true},
-    {"air", {0.93, 0.95, 0.98}, 0.9, false},
-    {"white plaster", {0.93, 0.92, 0.89}, 0.0, true},
-    {"sand plaster", {0.87, 0.79, 0.65}, 0.0, true},
-    {"ochre plaster", {0.84, 0.66, 0.38}, 0.0, true},
-    {"sage plaster", {0.68, 0.74, 0.62}, 0.0, true},
-    {"brown roof tiles", {0.45, 0.28, 0.20}, 0.0, true},
+constexpr MaterialInfo kMaterials[] = {
+    {"brick", {0.76, 0.46, 0.36}, 0.0, true},        {"concrete", {0.66, 0.66, 0.64}, 0.0, false},
+    {"timber", {0.72, 0.53, 0.33}, 0.0, false},      {"roof tiles", {0.70, 0.22, 0.16}, 0.0, true},
+    {"glass", {0.55, 0.76, 0.92}, 0.6, true},        {"gypsum", {0.92, 0.91, 0.88}, 0.0, false},
+    {"fabric", {0.33, 0.45, 0.60}, 0.0, false},      {"ceramic", {0.95, 0.96, 0.97}, 0.0, false},
+    {"steel", {0.45, 0.48, 0.52}, 0.0, false},       {"painted timber", {0.88, 0.86, 0.80}, 0.0, true},
+    {"air", {0.93, 0.95, 0.98}, 0.9, false},         {"white plaster", {0.93, 0.92, 0.89}, 0.0, true},
+    {"sand plaster", {0.87, 0.79, 0.65}, 0.0, true}, {"ochre plaster", {0.84, 0.66, 0.38}, 0.0, true},
+    {"sage plaster", {0.68, 0.74, 0.62}, 0.0, true}, {"brown roof tiles", {0.45, 0.28, 0.20}, 0.0, true},
     {"slate", {0.30, 0.33, 0.37}, 0.0, true},
-}};
+};
 
 using Key = std::vector<Point>;
 
@@ -51,7 +43,7 @@ Key canonicalKey(const std::vector<Point>& vertices, const Face& face, bool isRe
 Point toMillimetres(Point p) {
     // Every vertex of a design is on whole millimetres.
     SVT_CHECK(p.x % kUnitsPerMillimetre == 0 && p.y % kUnitsPerMillimetre == 0 && p.z % kUnitsPerMillimetre == 0);
-    return {p.x / kUnitsPerMillimetre, p.y / kUnitsPerMillimetre, p.z / kUnitsPerMillimetre};
+    return p / kUnitsPerMillimetre;
 }
 
 class VertexTable {
@@ -134,7 +126,7 @@ std::string_view surfaceType(const Plan& plan, const Face& face) {
 
 }  // namespace
 
-const MaterialInfo& info(Material material) { return kMaterials[std::size_t(material)]; }
+std::span<const MaterialInfo> materials() { return kMaterials; }
 
 std::string_view className(Kind kind) {
     switch (kind) {
@@ -247,23 +239,10 @@ void resolve(Plan& plan) {
     pairFaces(plan);
 }
 
-Bounds boundsOf(const Plan& plan) {
-    Bounds bounds{plan.vertices.front(), plan.vertices.front()};
-    for (const Point& p : plan.vertices) {
-        bounds.min = {std::min(bounds.min.x, p.x), std::min(bounds.min.y, p.y), std::min(bounds.min.z, p.z)};
-        bounds.max = {std::max(bounds.max.x, p.x), std::max(bounds.max.y, p.y), std::max(bounds.max.z, p.z)};
-    }
-    return bounds;
-}
-
 Vec3d normalOf(const Plan& plan, const Face& face) {
     Vec3d sum;
     for (const auto& ring : face.rings) {
-        const Point o = plan.vertices[ring[0]];
-        const auto from = [&](std::uint32_t i) {
-            const Point& p = plan.vertices[i];
-            return Vec3d{double(p.x - o.x), double(p.y - o.y), double(p.z - o.z)};
-        };
+        const auto from = [&](std::uint32_t i) { return toDouble(plan.vertices[i] - plan.vertices[ring[0]]); };
         for (std::size_t i = 1; i + 1 < ring.size(); ++i) sum = sum + cross(from(ring[i]), from(ring[i + 1]));
     }
     return sum;

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,8 +22,9 @@ struct MaterialInfo {
     double transparency;          ///< 0 opaque .. 1 invisible
     bool isColoredInGml;          ///< the polygons get an X3DMaterial
 };
-inline constexpr std::size_t kMaterialCount = 17;
-[[nodiscard]] const MaterialInfo& info(Material material);
+/// By material.
+[[nodiscard]] std::span<const MaterialInfo> materials();
+[[nodiscard]] inline const MaterialInfo& info(Material material) { return materials()[std::size_t(material)]; }
 
 enum class Kind : std::uint8_t { Element, Room, Furniture, Installation, Window, Door, Storey, Unit };
 
@@ -53,6 +55,11 @@ struct Instance {
     Point shift;
     Shell shell;                  ///< of `solid`, indices into `vertices`
     std::vector<Point> vertices;  ///< millimetres, local
+
+    /// The direction of the shape's x axis.
+    [[nodiscard]] Vec3d xAxis() const {
+        return std::array<Vec3d, 4>{{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}}[std::size_t(quarterTurns)];
+    }
 };
 
 struct Component {
@@ -102,9 +109,6 @@ int addInstallation(Plan& plan, int storey, int parent, std::string id, std::str
 
 /// Computes shells, volumes, vertices and children from the solids. Once per plan.
 void resolve(Plan& plan);
-
-/// Box around all vertices.
-[[nodiscard]] Bounds boundsOf(const Plan& plan);
 
 /// Sum of cross products of the coordinates: twice the area along the outward normal, mm2.
 [[nodiscard]] Vec3d normalOf(const Plan& plan, const Face& face);

@@ -29,48 +29,26 @@ bool inProfile(const Piece& piece, double v, double z) {
     return true;
 }
 
-// The profile of the piece, clipped from a square much larger than any model.
-std::vector<std::array<double, 2>> profileOf(const Piece& piece) {
-    constexpr double kFar = 1e8;
-    std::vector<std::array<double, 2>> polygon{{-kFar, -kFar}, {kFar, -kFar}, {kFar, kFar}, {-kFar, kFar}};
-    for (const HalfPlane& side : piece.sides) {
-        std::vector<std::array<double, 2>> clipped;
-        const auto distance = [&](const std::array<double, 2>& p) {
-            return double(side.across) * p[0] + double(side.up) * p[1] - double(side.limit);
-        };
-        for (std::size_t i = 0; i < polygon.size(); ++i) {
-            const auto& p = polygon[i];
-            const auto& q = polygon[(i + 1) % polygon.size()];
-            const double dp = distance(p), dq = distance(q);
-            if (dp <= 0) clipped.push_back(p);
-            if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) {
-                const double t = dp / (dp - dq);
-                clipped.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
-            }
-        }
-        polygon = std::move(clipped);
-    }
-    return polygon;
+// a / scale is the same point; scales are positive.
+bool isSame(const SectionCorner& a, const SectionCorner& b) {
+    return a.v * b.scale == b.v * a.scale && a.z * b.scale == b.z * a.scale;
 }
 
 Box3d boxAround(Axis axis, const Piece& piece) {
     Box3d result;
-    for (const auto& p : profileOf(piece))
+    for (const SectionCorner& c : sectionOf(piece))
         for (const Length u : {piece.from, piece.to})
-            result.add(axis == Axis::X ? Vec3d{double(u), p[0], p[1]} : Vec3d{p[0], double(u), p[1]});
+            result.add(axis == Axis::X ? Vec3d{double(u), c.across(), c.up()} : Vec3d{c.across(), double(u), c.up()});
     return result;
 }
 
 // Rounds outwards to whole millimetres.
-Bounds rounded(const Box3d& box) {
-    const auto down = [](double value) { return Length(std::floor(value + 1e-6)); };
-    const auto up = [](double value) { return Length(std::ceil(value - 1e-6)); };
-    return {{down(box.min.x), down(box.min.y), down(box.min.z)}, {up(box.max.x), up(box.max.y), up(box.max.z)}};
-}
-
-bool touch(const Bounds& a, const Bounds& b) {
-    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y && a.min.z <= b.max.z &&
-           b.min.z <= a.max.z;
+Box3d rounded(Box3d box) {
+    for (const int axis : {0, 1, 2}) {
+        box.min[axis] = std::floor(box.min[axis] + 1e-6);
+        box.max[axis] = std::ceil(box.max[axis] - 1e-6);
+    }
+    return box;
 }
 
 // A rectangle divided by whole lines into convex faces that meet edge to edge.
@@ -205,14 +183,10 @@ struct FacePart {
     Quad ring;
 };
 
-Vec3d toVec(Point p) { return {double(p.x), double(p.y), double(p.z)}; }
-
-Point minus(Point a, Point b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-
 Vec3d normalOf(const std::vector<Point>& ring) {
     Vec3d sum;
     for (std::size_t i = 1; i + 1 < ring.size(); ++i)
-        sum = sum + cross(toVec(minus(ring[i], ring[0])), toVec(minus(ring[i + 1], ring[0])));
+        sum = sum + cross(toDouble(ring[i] - ring[0]), toDouble(ring[i + 1] - ring[0]));
     return sum;
 }
 
@@ -235,12 +209,12 @@ std::vector<std::vector<Point>> traceLoops(const std::set<Edge>& edges, Vec3d no
             loop.push_back(from);
             next.erase(step);
             if (to == start) break;
-            const Vec3d incoming = toVec(minus(to, from));
+            const Vec3d incoming = toDouble(to - from);
             const auto [first, last] = next.equal_range(to);
             double best = 10;
             step = next.end();
             for (auto it = first; it != last; ++it) {
-                const Vec3d outgoing = toVec(minus(it->second, to));
+                const Vec3d outgoing = toDouble(it->second - to);
                 const double turn =
                     std::atan2(dot(normal, cross(incoming, outgoing)) / length(normal), dot(incoming, outgoing));
                 if (turn < best) {
@@ -292,7 +266,7 @@ class CellComplex {
 public:
     CellComplex(const Solid& solid, std::span<const Neighbor> neighbors) : solid_(solid), bounds_(boundsOf(solid)) {
         for (const Neighbor& neighbor : neighbors)
-            if (neighbor.solid != &solid && touch(bounds_, neighbor.bounds)) neighbors_.push_back(&neighbor);
+            if (neighbor.solid != &solid && bounds_.overlaps(neighbor.bounds)) neighbors_.push_back(&neighbor);
         margin_ = neighbors_.empty() ? 0 : kMargin;
         collectPlanes();
         markCells();
@@ -318,11 +292,11 @@ private:
     [[nodiscard]] std::size_t faceCount() const { return arrangement_.faces().size(); }
 
     void collectPlanes() {
-        const bool alongX = solid_.axis == Axis::X;
-        const Length u0 = (alongX ? bounds_.min.x : bounds_.min.y) - margin_;
-        const Length u1 = (alongX ? bounds_.max.x : bounds_.max.y) + margin_;
-        const Length v0 = (alongX ? bounds_.min.y : bounds_.min.x) - margin_;
-        const Length v1 = (alongX ? bounds_.max.y : bounds_.max.x) + margin_;
+        const int along = solid_.axis == Axis::X ? 0 : 1, across = 1 - along;
+        // Pieces of a neighbour that do not reach this solid divide nothing.
+        const Vec3d margin{double(margin_), double(margin_), double(margin_)};
+        const Box3d reach{bounds_.min - margin, bounds_.max + margin};
+        const Length u0 = Length(reach.min[along]), u1 = Length(reach.max[along]);
         std::set<Length> stops{u0, u1};
         std::set<HalfPlane> lines;
         const auto take = [&](const Piece& piece) {
@@ -331,15 +305,12 @@ private:
             for (const HalfPlane& side : piece.sides) lines.insert(normalizedLine(side));
         };
         for (const Piece& piece : solid_.pieces) take(piece);
-        // Pieces of a neighbour that do not reach this solid divide nothing.
-        Bounds reach = bounds_;
-        reach.min = {reach.min.x - margin_, reach.min.y - margin_, reach.min.z - margin_};
-        reach.max = {reach.max.x + margin_, reach.max.y + margin_, reach.max.z + margin_};
         for (const Neighbor* neighbor : neighbors_)
             for (std::size_t i = 0; i < neighbor->pieces.size(); ++i)
-                if (touch(reach, neighbor->pieces[i])) take(neighbor->solid->pieces[i]);
+                if (reach.overlaps(neighbor->pieces[i])) take(neighbor->solid->pieces[i]);
         stops_.assign(stops.begin(), stops.end());
-        arrangement_ = Arrangement(v0, v1, bounds_.min.z - margin_, bounds_.max.z + margin_);
+        arrangement_ =
+            Arrangement(Length(reach.min[across]), Length(reach.max[across]), Length(reach.min.z), Length(reach.max.z));
         for (const HalfPlane& line : lines) arrangement_.split(line);
         arrangement_.connect();
         for (std::size_t f = 0; f < faceCount(); ++f) centers_.push_back(arrangement_.center(int(f)));
@@ -367,13 +338,8 @@ private:
         const auto [v, z] = centers_[std::size_t(face)];
         const double u = 0.5 * double(stops_[std::size_t(slice)] + stops_[std::size_t(slice) + 1]);
         const Vec3d p = solid_.axis == Axis::X ? Vec3d{u, v, z} : Vec3d{v, u, z};
-        for (const Neighbor* neighbor : neighbors_) {
-            const Bounds& b = neighbor->bounds;
-            if (p.x < double(b.min.x) || p.x > double(b.max.x) || p.y < double(b.min.y) || p.y > double(b.max.y) ||
-                p.z < double(b.min.z) || p.z > double(b.max.z))
-                continue;
-            if (contains(*neighbor->solid, p)) return neighbor->tag;
-        }
+        for (const Neighbor* neighbor : neighbors_)
+            if (neighbor->bounds.contains(p) && contains(*neighbor->solid, p)) return neighbor->tag;
         return -1;
     }
 
@@ -415,7 +381,7 @@ private:
     }
 
     const Solid& solid_;
-    Bounds bounds_;
+    Box3d bounds_;
     std::vector<const Neighbor*> neighbors_;
     Length margin_ = 0;
     std::vector<Length> stops_;
@@ -424,10 +390,7 @@ private:
     std::vector<std::uint8_t> inside_;
 };
 
-bool isCorner(Point before, Point at, Point after) {
-    const Point d = minus(at, before), e = minus(after, at);
-    return d.y * e.z != d.z * e.y || d.z * e.x != d.x * e.z || d.x * e.y != d.y * e.x;
-}
+bool isCorner(Point before, Point at, Point after) { return cross(at - before, after - at) != Point{}; }
 
 }  // namespace
 
@@ -447,6 +410,34 @@ Piece box(Length x0, Length x1, Length y0, Length y1, Length z0, Length z1) {
     return {x0, x1, {{1, 0, y1}, {-1, 0, -y0}, {0, 1, z1}, {0, -1, -z0}}, true};
 }
 
+// All crossings of two sides that lie in all others. Sides have small whole coefficients, so that nothing overflows.
+std::vector<SectionCorner> sectionOf(const Piece& piece) {
+    std::vector<SectionCorner> corners;
+    for (std::size_t i = 0; i < piece.sides.size(); ++i)
+        for (std::size_t j = i + 1; j < piece.sides.size(); ++j) {
+            const HalfPlane &a = piece.sides[i], &b = piece.sides[j];
+            SectionCorner corner{a.limit * b.up - b.limit * a.up, a.across * b.limit - b.across * a.limit,
+                                 a.across * b.up - b.across * a.up};
+            if (corner.scale == 0) continue;
+            if (corner.scale < 0) corner = {-corner.v, -corner.z, -corner.scale};
+            const bool isInside = std::all_of(piece.sides.begin(), piece.sides.end(), [&](const HalfPlane& side) {
+                return side.across * corner.v + side.up * corner.z <= side.limit * corner.scale;
+            });
+            const bool isNew = std::none_of(corners.begin(), corners.end(),
+                                            [&](const SectionCorner& known) { return isSame(known, corner); });
+            if (isInside && isNew) corners.push_back(corner);
+        }
+    double middleV = 0, middleZ = 0;
+    for (const SectionCorner& c : corners) {
+        middleV += c.across() / double(corners.size());
+        middleZ += c.up() / double(corners.size());
+    }
+    const auto angleOf = [&](const SectionCorner& c) { return std::atan2(c.up() - middleZ, c.across() - middleV); };
+    std::sort(corners.begin(), corners.end(),
+              [&](const SectionCorner& a, const SectionCorner& b) { return angleOf(a) < angleOf(b); });
+    return corners;
+}
+
 bool contains(const Solid& solid, Vec3d point) {
     const double u = solid.axis == Axis::X ? point.x : point.y;
     const double v = solid.axis == Axis::X ? point.y : point.x;
@@ -459,7 +450,7 @@ Neighbor::Neighbor(const Solid& of, int number) : solid(&of), tag(number), bound
     for (const Piece& piece : of.pieces) pieces.push_back(rounded(boxAround(of.axis, piece)));
 }
 
-Bounds boundsOf(const Solid& solid) {
+Box3d boundsOf(const Solid& solid) {
     Box3d all;
     for (const Piece& piece : solid.pieces)
         if (piece.adds) all.add(boxAround(solid.axis, piece));

@@ -15,12 +15,7 @@ namespace svt::samples {
 
 using Length = std::int64_t;  ///< millimetres
 
-/// A point of a model, millimetres, in the model's own axes (x east, y north, z up).
-struct Point {
-    Length x = 0, y = 0, z = 0;
-    friend bool operator==(const Point&, const Point&) = default;
-    friend auto operator<=>(const Point&, const Point&) = default;
-};
+using Point = Vec3<Length>;  ///< of a model, in the model's own axes (x east, y north, z up)
 
 /// All (v, z) with across * v + up * z <= limit; v is y for Axis::X and x for Axis::Y.
 struct HalfPlane {
@@ -72,15 +67,21 @@ struct Solid {
 /// An axis-aligned box as a piece of a solid with Axis::X.
 [[nodiscard]] Piece box(Length x0, Length x1, Length y0, Length y1, Length z0, Length z1);
 
+/// A corner of a piece's section in the plane (v, z) of its half-planes: v / scale, z / scale millimetres.
+struct SectionCorner {
+    std::int64_t v = 0, z = 0, scale = 1;
+    [[nodiscard]] double across() const { return double(v) / double(scale); }
+    [[nodiscard]] double up() const { return double(z) / double(scale); }
+};
+
+/// The section of a convex prism, counter-clockwise in (v, z), exact.
+[[nodiscard]] std::vector<SectionCorner> sectionOf(const Piece& piece);
+
 /// True if `point` (millimetres) lies in the solid; undefined on its boundary.
 [[nodiscard]] bool contains(const Solid& solid, Vec3d point);
 
-struct Bounds {
-    Point min, max;
-};
-
 /// Box around all added pieces; rounded outwards to whole millimetres.
-[[nodiscard]] Bounds boundsOf(const Solid& solid);
+[[nodiscard]] Box3d boundsOf(const Solid& solid);
 
 /// A solid that may touch another solid.
 struct Neighbor {
@@ -89,8 +90,8 @@ struct Neighbor {
 
     const Solid* solid;
     int tag;
-    Bounds bounds;
-    std::vector<Bounds> pieces;  ///< boxes around the solid's pieces
+    Box3d bounds;
+    std::vector<Box3d> pieces;  ///< boxes around the solid's pieces
 };
 
 /// Points in boundary() are in 1/120 mm: with roof pitches of 3/5, 4/5 or 1, roof lines intersect each other
