@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 
 namespace svt::serve {
@@ -16,8 +15,7 @@ namespace {
 constexpr std::string_view kLineEnd = "\r\n";
 
 bool isTokenCharacter(char c) noexcept {
-    return isDigit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-           std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
+    return isDigit(c) || isLetter(c) || std::string_view("!#$%&'*+-.^_`|~").find(c) != std::string_view::npos;
 }
 
 bool isToken(std::string_view text) noexcept {
@@ -36,21 +34,6 @@ std::string_view trimmed(std::string_view text) noexcept {
     while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
     while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
     return text;
-}
-
-// Digits only: no sign, no blanks, no overflow.
-std::optional<std::uint64_t> wholeNumber(std::string_view text) noexcept {
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || text.empty()) return std::nullopt;
-    return value;
-}
-
-int hexDigit(char c) noexcept {
-    if (isDigit(c)) return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
 }
 
 std::string_view valueOf(const Fields& fields, std::string_view name) noexcept {
@@ -123,7 +106,7 @@ std::optional<HeadError> readMeaning(Head& head) {
         return HeadError{411, "a body needs a Content-Length; it cannot come in chunks"};
     if (countOf(headers, "content-length") > 1) return HeadError{400, "several Content-Lengths"};
     if (countOf(headers, "content-length") == 1) {
-        const auto length = wholeNumber(valueOf(headers, "content-length"));
+        const auto length = parseInteger<std::uint64_t>(valueOf(headers, "content-length"));
         if (!length) return HeadError{400, "Content-Length is not a whole number"};
         head.bodyBytes = *length;
     }
@@ -203,10 +186,9 @@ bool decodePercent(std::string_view text, std::string& decoded) {
             decoded += text[i];
             continue;
         }
-        const int high = i + 2 < text.size() ? hexDigit(text[i + 1]) : -1;
-        const int low = i + 2 < text.size() ? hexDigit(text[i + 2]) : -1;
-        if (high < 0 || low < 0) return false;
-        decoded += static_cast<char>(high * 16 + low);
+        const auto code = i + 2 < text.size() ? parseInteger<std::uint8_t>(text.substr(i + 1, 2), 16) : std::nullopt;
+        if (!code) return false;
+        decoded += static_cast<char>(*code);
         i += 2;
     }
     return true;
@@ -243,7 +225,7 @@ RangeKind parseRange(std::string_view header, std::uint64_t size, ByteRange& ran
     const std::size_t dash = header.find('-');
     if (dash == std::string_view::npos || header.find(',') != std::string_view::npos) return RangeKind::Whole;
     const std::string_view from = header.substr(0, dash), to = header.substr(dash + 1);
-    const auto first = wholeNumber(from), last = wholeNumber(to);
+    const auto first = parseInteger<std::uint64_t>(from), last = parseInteger<std::uint64_t>(to);
     if ((!from.empty() && !first) || (!to.empty() && !last) || (!first && !last)) return RangeKind::Whole;
     if (!first) {  // a suffix range: the last bytes
         if (*last == 0 || size == 0) return RangeKind::Unsatisfiable;

@@ -5,6 +5,7 @@
 #include <svt/illustrate/section_plane.hpp>
 #include <svt/illustrate/sheet_views.hpp>
 #include <svt/illustrate/storey_floors.hpp>
+#include <svt/image/color_text.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -27,11 +28,6 @@ std::string textOf(const Json& json) { return json.dump(-1, ' ', false, Json::er
 
 Json pointOf(Vec3d p) { return Json::array({p.x, p.y, p.z}); }
 Json pointOf(Vec3i p) { return Json::array({p.x, p.y, p.z}); }
-
-std::string hexOf(Vec3f color) {
-    const auto byte = [](float c) { return static_cast<int>(std::lround(std::clamp(c, 0.0f, 1.0f) * 255)); };
-    return fmt::format("#{:02x}{:02x}{:02x}", byte(color.x), byte(color.y), byte(color.z));
-}
 
 // Id, class and name: the page's reference to a feature.
 Json namesOf(const volume::Label& label) {
@@ -88,7 +84,7 @@ Json featuresJson(const volume::LabelTable& table) {
         feature["depth"] = depth[l];
         feature["first"] = label.first;
         feature["count"] = label.count;
-        feature["color"] = hexOf(label.color);
+        feature["color"] = image::colorText(label.color);
         feature["opacity"] = label.opacity;
         if (std::string type = typeOf(label); !type.empty()) feature["type"] = std::move(type);
         list.push_back(std::move(feature));

@@ -1,6 +1,7 @@
 #include <svt/core/machine/control_group.hpp>
 
-#include <charconv>
+#include <svt/core/text.hpp>
+
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -18,12 +19,7 @@ std::string firstLine(const fs::path& file) {
 }
 
 // "max" and "-1", which stand for no limit, are no such numbers.
-std::optional<std::uint64_t> wholeNumber(std::string_view text) {
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return {};
-    return value;
-}
+std::optional<std::uint64_t> wholeNumber(std::string_view text) { return parseInteger<std::uint64_t>(text); }
 
 template <class T>
 void lower(std::optional<T>& limit, std::optional<T> other) {

@@ -1,5 +1,6 @@
 #include <svt/readers/citygml/citygml_attributes.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/readers/citygml/gml_geometry.hpp>
 #include <svt/readers/gml/gml_numbers.hpp>
 #include <svt/readers/gml/missing_values.hpp>
@@ -107,7 +108,7 @@ bool addTextAttribute(std::vector<Attribute>& attributes, string_view name, stri
 bool addGenericAttribute(std::vector<Attribute>& attributes, xml::NameScope& scope, const xml::Element& element,
                          string_view set) {
     std::string scratch;
-    std::string name(xml::trimmed(element.node.attribute("name").value()));
+    std::string name(withoutBlanks(element.node.attribute("name").value()));
     if (name.empty())
         scope.forEachChild(element.node, [&](const xml::Element& child) {
             if (child.localName == "name") name = xml::textOf(child.node, scratch);

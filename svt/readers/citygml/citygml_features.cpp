@@ -1,5 +1,6 @@
 #include <svt/readers/citygml/citygml_features.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/readers/citygml/citygml_attributes.hpp>
 #include <svt/readers/gml/gml_numbers.hpp>
@@ -90,7 +91,7 @@ bool hasGeometry(xml::NameScope& scope, const Element& element) {
 string_view roleAttribute(pugi::xml_node property) noexcept {
     for (pugi::xml_attribute attribute : property.attributes()) {
         const xml::QualifiedName name = xml::splitName(attribute.name());
-        if (name.localName == "role" && name.prefix != "xlink") return xml::trimmed(attribute.value());
+        if (name.localName == "role" && name.prefix != "xlink") return withoutBlanks(attribute.value());
     }
     return {};
 }

@@ -1,6 +1,7 @@
 #include <svt/readers/citygml/citygml_reader.hpp>
 
 #include <svt/core/parallel.hpp>
+#include <svt/core/text.hpp>
 #include <svt/readers/citygml/citygml_assembly.hpp>
 #include <svt/readers/citygml/citygml_chunk.hpp>
 #include <svt/readers/xml/xml_encoding.hpp>
@@ -85,7 +86,7 @@ Result<Root> checkRoot(string_view document, xml::Range tag, const std::string& 
     const pugi::xml_node root = tree.document_element();
     const xml::QualifiedName name = xml::splitName(root.name());
     const std::string key = name.prefix.empty() ? "xmlns" : fmt::format("xmlns:{}", name.prefix);
-    const string_view uri = xml::trimmed(root.attribute(key.c_str()).value());
+    const string_view uri = withoutBlanks(root.attribute(key.c_str()).value());
     if (name.localName != "CityModel")
         return Error(Code::UnknownFormat, fmt::format("the root element is <{}>; expected a CityModel", root.name()),
                      place);

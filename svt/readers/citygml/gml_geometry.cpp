@@ -1,5 +1,6 @@
 #include <svt/readers/citygml/gml_geometry.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/readers/gml/gml_numbers.hpp>
 
 #include <fmt/format.h>
@@ -105,20 +106,20 @@ ElementAttributes attributesOf(const xml::NameScope& scope, pugi::xml_node node)
         if (name.localName == "id" || name.localName == "gml_id") {
             const bool isRight = name.localName == "id" && scope.ofAttribute(name.prefix, node) == Vocabulary::Gml;
             if (!isRight && (!name.prefix.empty() || !result.id.empty())) continue;
-            result.id = xml::trimmed(value);
+            result.id = withoutBlanks(value);
             result.isIdMisspelled = !isRight;
         } else if (name.localName == "href") {
             if (scope.ofAttribute(name.prefix, node) != Vocabulary::XLink && name.prefix != "xlink") continue;
-            result.href = xml::trimmed(value);
+            result.href = withoutBlanks(value);
             result.hasHref = true;
         } else if (name.localName == "srsName") {
-            result.srsName = xml::trimmed(value);
+            result.srsName = withoutBlanks(value);
         } else if (name.localName == "uomLabels") {
-            result.units = xml::trimmed(value);
+            result.units = withoutBlanks(value);
         } else if (name.localName == "srsDimension") {
             result.dimension = value == "2" ? 2 : value == "3" ? 3 : 0;
         } else if (name.localName == "orientation") {
-            result.orientation = xml::trimmed(value);
+            result.orientation = withoutBlanks(value);
         }
     }
     return result;

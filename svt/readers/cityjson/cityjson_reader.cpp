@@ -1,6 +1,7 @@
 #include <svt/readers/cityjson/cityjson_reader.hpp>
 
 #include <svt/core/parallel.hpp>
+#include <svt/core/text.hpp>
 #include <svt/readers/cityjson/cityjson_crs.hpp>
 #include <svt/readers/cityjson/cityjson_geometry.hpp>
 #include <svt/readers/cityjson/cityjson_link.hpp>
@@ -25,19 +26,13 @@ constexpr std::size_t kBatchBytes = std::size_t{8} << 20;
 /// A few bytes of instance stand for a whole template, so the total expanded size is limited.
 constexpr std::uint64_t kMaxInstancedBytes = std::uint64_t{1} << 28;
 
-std::string_view trimmed(std::string_view text) noexcept {
-    const std::size_t first = text.find_first_not_of(kBlanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
 /// A JSON text never contains '}' and then '{' with only blanks between, so the end of the first line reveals a
 /// sequence.
 bool isSequence(std::string_view text) noexcept {
     const std::size_t begin = text.find_first_not_of(kBlanks);
     const std::size_t lineEnd = begin == std::string_view::npos ? begin : text.find('\n', begin);
     if (lineEnd == std::string_view::npos) return false;
-    const std::string_view line = trimmed(text.substr(begin, lineEnd - begin));
+    const std::string_view line = withoutBlanks(text.substr(begin, lineEnd - begin));
     const std::size_t next = text.find_first_not_of(kBlanks, lineEnd);
     return line.ends_with('}') && next != std::string_view::npos && text[next] == '{';
 }
@@ -322,7 +317,7 @@ private:
             std::vector<ParsedLine> batch;
             for (std::size_t bytes = 0; position < rest_.size() && bytes < kBatchBytes;) {
                 const std::size_t end = std::min(rest_.find('\n', position), rest_.size());
-                const std::string_view line = trimmed(rest_.substr(position, end - position));
+                const std::string_view line = withoutBlanks(rest_.substr(position, end - position));
                 if (!line.empty()) batch.push_back({line, number, {}, {}, {}});
                 bytes += line.size();
                 position = end + 1;
@@ -425,12 +420,12 @@ private:
 bool looksLikeCityJson(std::span<const std::byte> head) noexcept {
     std::string_view text(reinterpret_cast<const char*>(head.data()), std::min<std::size_t>(head.size(), 4096));
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-    text = trimmed(text);
+    text = withoutBlanks(text);
     if (!text.starts_with('{')) return false;
     for (const std::string_view word :
          {"\"CityJSON\"", "\"CityJSONFeature\"", "\"CityObjects\"", "\"geometry-templates\""})
         if (text.find(word) != std::string_view::npos) return true;
-    return trimmed(text.substr(1)).starts_with("\"vertices\"");
+    return withoutBlanks(text.substr(1)).starts_with("\"vertices\"");
 }
 
 Result<model::BuildingModel> readCityJson(std::span<const std::byte> bytes, std::string_view name,

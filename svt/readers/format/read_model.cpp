@@ -120,7 +120,7 @@ constexpr KnownOther kOtherRoots[] = {
 std::string describeUnknown(string_view text) {
     if (text.empty()) return "the file is empty";
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    const string_view trimmed = xml::trimmed(text.substr(0, 4096));
+    const string_view trimmed = withoutBlanks(text.substr(0, 4096));
     if (trimmed.empty()) return "the file holds nothing but blanks";
     for (const KnownOther& other : kOthers)
         if (trimmed.starts_with(other.beginsWith)) return fmt::format("this is {}", other.isWhat);

@@ -99,7 +99,7 @@ private:
         feature.line = document_.placeOf(node, {}).line;
         for (const xml_node child : node.children()) {
             const string_view name = localName(child);
-            const std::string text(xml::trimmed(child.text().get()));
+            const std::string text(withoutBlanks(child.text().get()));
             if (text.empty()) continue;
             if (name == "name" && feature.name.empty())
                 feature.name = text;
@@ -156,7 +156,7 @@ private:
                 const string_view name = localName(node);
                 if (name != "pos" && name != "posList") continue;
                 const std::size_t before = numbers.size();
-                isGood = isGood && xml::trimmed(gml::parseNumbers(node.text().get(), numbers)).empty() &&
+                isGood = isGood && withoutBlanks(gml::parseNumbers(node.text().get(), numbers)).empty() &&
                          (name == "posList" || numbers.size() == before + 3);
             }
         }

@@ -1,5 +1,7 @@
 #include <svt/readers/indoorgml/indoor_xml.hpp>
 
+#include <svt/core/text.hpp>
+
 #include <algorithm>
 #include <iterator>
 
@@ -23,7 +25,7 @@ xml_node nextNode(xml_node node, xml_node top, bool goesDown) {
 
 string_view attributeOf(xml_node node, string_view name) {
     for (const pugi::xml_attribute attribute : node.attributes())
-        if (xml::splitName(attribute.name()).localName == name) return xml::trimmed(attribute.value());
+        if (xml::splitName(attribute.name()).localName == name) return withoutBlanks(attribute.value());
     return {};
 }
 

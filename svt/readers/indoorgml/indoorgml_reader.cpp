@@ -1,5 +1,6 @@
 #include <svt/readers/indoorgml/indoorgml_reader.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/readers/georeference/far_features.hpp>
 #include <svt/readers/georeference/georeference.hpp>
 #include <svt/readers/gml/gml_numbers.hpp>
@@ -125,7 +126,7 @@ private:
         feature.attributes.push_back({"cellSpaceClass", std::string(localName(node)), ""});
         for (const xml_node child : node.children()) {
             const string_view name = localName(child);
-            const std::string text(xml::trimmed(child.text().get()));
+            const std::string text(withoutBlanks(child.text().get()));
             if (text.empty()) continue;
             if (name == "name" && feature.name.empty())
                 feature.name = text;
@@ -220,9 +221,9 @@ private:
             const string_view name = localName(node);
             if (name != "posList" && name != "pos") continue;
             rest = gml::parseNumbers(node.text().get(), numbers);
-            if (!xml::trimmed(rest).empty()) break;
+            if (!withoutBlanks(rest).empty()) break;
         }
-        if (!xml::trimmed(rest).empty() || numbers.size() % 3 != 0) {
+        if (!withoutBlanks(rest).empty() || numbers.size() % 3 != 0) {
             diagnostics_.add(Severity::Warning, Code::BadCoordinate,
                              "a ring whose coordinates are not three numbers each; left out", placeOf(boundary, id));
             return false;

@@ -19,9 +19,7 @@ using std::string_view;
 
 constexpr std::uint64_t kLineStep = 8;
 
-bool isTypeLetter(char c) noexcept {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || isDigit(c) || c == '_';
-}
+bool isTypeLetter(char c) noexcept { return isLetter(c) || isDigit(c) || c == '_'; }
 
 }  // namespace
 

@@ -28,23 +28,11 @@ string_view bare(string_view text) noexcept {
     return text;
 }
 
-int hexDigit(char c) noexcept {
-    if (isDigit(c)) return c - '0';
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    return -1;
-}
-
 // `count` hexadecimal digits at `at`, or -1.
 std::int64_t hexNumber(string_view text, std::size_t at, std::size_t count) noexcept {
     if (at + count > text.size()) return -1;
-    std::int64_t value = 0;
-    for (std::size_t i = at; i < at + count; ++i) {
-        const int digit = hexDigit(text[i]);
-        if (digit < 0) return -1;
-        value = value * 16 + digit;
-    }
-    return value;
+    const auto value = parseInteger<std::uint32_t>(text.substr(at, count), 16);
+    return value ? std::int64_t{*value} : -1;
 }
 
 constexpr char32_t kReplacement = 0xFFFD;

@@ -57,7 +57,7 @@ std::size_t NameScope::enter(pugi::xml_node element) {
         if (!name.starts_with("xmlns")) continue;
         if (name.size() > 5 && name[5] != ':') continue;
         const string_view prefix = name.size() > 5 ? name.substr(6) : string_view{};
-        const string_view uri = trimmed(attribute.value());
+        const string_view uri = withoutBlanks(attribute.value());
         bindings_.push_back({std::string(prefix), uri.empty() ? Vocabulary::None : vocabularyOf(uri)});
     }
     if (bindings_.size() != mark) remembered_.fill({});
@@ -112,12 +112,6 @@ pugi::xml_node firstChildElement(pugi::xml_node parent) noexcept {
     return {};
 }
 
-string_view trimmed(string_view text) noexcept {
-    while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
-    while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
-    return text;
-}
-
 string_view textOf(pugi::xml_node element, std::string& scratch) {
     string_view text = element.value();
     bool isJoined = false;
@@ -133,7 +127,7 @@ string_view textOf(pugi::xml_node element, std::string& scratch) {
         scratch += piece;
         text = scratch;
     }
-    return trimmed(text);
+    return withoutBlanks(text);
 }
 
 }  // namespace svt::readers::xml

@@ -107,6 +107,4 @@ private:
 /// Text of an element without surrounding blanks. Text split by comments or CDATA is joined in `scratch`.
 [[nodiscard]] std::string_view textOf(pugi::xml_node element, std::string& scratch);
 
-[[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
-
 }  // namespace svt::readers::xml

@@ -18,8 +18,7 @@ constexpr std::uint64_t kInnerChunkBytes = 512 << 10;  // chunk size above which
 constexpr std::size_t kNone = string_view::npos;
 
 constexpr bool startsName(char c) noexcept {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':' ||
-           static_cast<unsigned char>(c) >= 0x80;
+    return isLetter(c) || c == '_' || c == ':' || static_cast<unsigned char>(c) >= 0x80;
 }
 
 constexpr bool endsName(char c) noexcept { return isBlank(c) || c == '>' || c == '/' || c == '='; }

@@ -1,3 +1,4 @@
+#include <svt/core/text.hpp>
 #include <svt/volume_readers/formats/label_formats.hpp>
 
 #include <fmt/format.h>
@@ -11,13 +12,6 @@ namespace svt::volume_readers {
 namespace {
 
 Error badNrrd(std::string message) { return Error(Code::BadNrrd, std::move(message)); }
-
-std::string_view trimmed(std::string_view text) noexcept {
-    constexpr std::string_view kBlank = " \t\r";
-    const std::size_t begin = text.find_first_not_of(kBlank);
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
 
 std::string unescaped(std::string_view value) {
     std::string text;
@@ -83,9 +77,12 @@ Result<NrrdHeader> readNrrdHeader(std::string_view text) {
         if (line.substr(colon).starts_with(":="))
             header.keys[unescaped(line.substr(0, colon))] = unescaped(line.substr(colon + 2));
         else
-            isTwice = !header.fields.emplace(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1))).second;
+            isTwice =
+                !header.fields.emplace(withoutBlanks(line.substr(0, colon)), withoutBlanks(line.substr(colon + 1)))
+                     .second;
         if (isTwice)
-            return badNrrd(fmt::format("the field '{}' stands twice in the header", trimmed(line.substr(0, colon))));
+            return badNrrd(
+                fmt::format("the field '{}' stands twice in the header", withoutBlanks(line.substr(0, colon))));
     }
 }
 

@@ -13,8 +13,7 @@ constexpr std::size_t kHeadBytes = 65536;
 
 bool isNameCharacter(char c) {
     // Letters of other alphabets are bytes from 0x80 on; nearly all of them are allowed.
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
-           c == '.' || static_cast<unsigned char>(c) >= 0x80;
+    return isLetter(c) || isDigit(c) || c == '_' || c == '-' || c == '.' || static_cast<unsigned char>(c) >= 0x80;
 }
 
 Error documentError(const std::filesystem::path& path, Code code, std::string message) {

@@ -20,7 +20,7 @@ std::string plainName(std::string_view name, std::string_view fallback) {
     if (name.empty()) return std::string(fallback);
     std::string plain(name);
     for (char& c : plain) {
-        const bool isPlain = (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || isDigit(c) || c == '_' || c == '-';
+        const bool isPlain = isLetter(c) || isDigit(c) || c == '_' || c == '-';
         if (!isPlain) c = '_';
     }
     return plain;

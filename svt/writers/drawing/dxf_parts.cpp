@@ -1,5 +1,6 @@
 #include <svt/writers/drawing/dxf_parts.hpp>
 
+#include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 
@@ -70,10 +71,9 @@ const DxfHatch* dxfHatchOf(Hatch hatch) noexcept {
 std::string dxfLayerOf(const volume::Label& label) {
     if (const std::string type = attributeOf(label, "ifcType"); !type.empty()) return plainName(type);
     const std::string name = plainName(label.className), function = attributeOf(label, "function");
-    const bool isWord =
-        !function.empty() && function.size() <= 40 && std::all_of(function.begin(), function.end(), [](char c) {
-            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == ' ' || c == '_' || c == '-';
-        });
+    const bool isWord = !function.empty() && function.size() <= 40 &&
+                        std::all_of(function.begin(), function.end(),
+                                    [](char c) { return isLetter(c) || c == ' ' || c == '_' || c == '-'; });
     return isWord ? name + "_" + plainName(function) : name;
 }
 

@@ -38,9 +38,9 @@ std::string_view knownKind(const Label& label) {
 std::string xmlName(std::string_view text) {
     std::string name;
     for (const char c : text) {
-        const bool isLetter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c & 0x80) != 0;
-        const bool isName = isLetter || isDigit(c) || c == '-' || c == '.';
-        if (name.empty() && !isLetter) name = "_";
+        const bool isFirst = isLetter(c) || c == '_' || (c & 0x80) != 0;
+        const bool isName = isFirst || isDigit(c) || c == '-' || c == '.';
+        if (name.empty() && !isFirst) name = "_";
         name += isName ? c : '_';
     }
     return name.empty() ? "_" : name;

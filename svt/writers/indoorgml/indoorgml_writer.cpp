@@ -3,6 +3,7 @@
 #include <svt/writers/volume_formats.hpp>
 
 #include <svt/core/text.hpp>
+#include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/indoorgml/cell_plan.hpp>
 
 #include <fmt/format.h>
@@ -25,22 +26,13 @@ using volume::Label;
 std::string uriText(std::string_view text) {
     std::string uri;
     for (const char c : text) {
-        const bool isPlain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || isDigit(c) || c == '-' || c == '.' ||
-                             c == '_' || c == '~';
+        const bool isPlain = isLetter(c) || isDigit(c) || c == '-' || c == '.' || c == '_' || c == '~';
         if (isPlain)
             uri += c;
         else
             fmt::format_to(std::back_inserter(uri), "%{:02X}", static_cast<unsigned char>(c));
     }
     return uri;
-}
-
-// Seven places after the point, without zeros at the end.
-void appendNumber(std::string& out, double value) {
-    std::string text = fmt::format("{:.7f}", value);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-    out += text == "-0" ? "0" : text;
 }
 
 class DocumentWriter {
@@ -86,10 +78,7 @@ private:
 
     void place(Vec3d local) {
         const Vec3d p = volume_.grid.origin() + local;
-        for (int axis = 0; axis < 3; ++axis) {
-            appendNumber(out_, p[axis]);
-            if (axis < 2) out_ += ' ';
-        }
+        out_ += shortNumber(p.x, 7) + ' ' + shortNumber(p.y, 7) + ' ' + shortNumber(p.z, 7);
     }
 
     void head() {

@@ -107,8 +107,6 @@ private:
         text_ += '\n';
     }
 
-    [[nodiscard]] static bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
     // XB: x0, x1, y0, y1, z0, z1, to a tenth of a millimetre.
     [[nodiscard]] std::string bounds(Vec3i begin, Vec3i end) const {
         const Vec3d low = cornerOf(begin, grid_), high = cornerOf(end, grid_);

@@ -1,3 +1,4 @@
+#include <svt/core/text.hpp>
 #include <svt/writers/usd/usd_writer.hpp>
 #include <svt/writers/volume_formats.hpp>
 
@@ -38,7 +39,7 @@ public:
     std::string nameFor(std::string_view id) {
         std::string name;
         for (const char c : id) {
-            const bool isPlain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || isDigit(c);
+            const bool isPlain = isLetter(c) || isDigit(c);
             name += isPlain ? c : '_';
         }
         if (name.empty() || isDigit(name.front())) name.insert(name.begin(), '_');
