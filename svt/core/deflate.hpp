@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Deflate (RFC 1951) and gzip (RFC 1952) in memory. Unpacked sizes are bounded by the caller.
+/// Deflate (RFC 1951), zlib (RFC 1950) and gzip (RFC 1952) in memory. Unpacked sizes are bounded by the caller. No other
+/// source of the library calls zlib.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,8 +13,10 @@
 namespace svt {
 
 enum class DeflateFormat : std::uint8_t {
-    Raw,  ///< one stream without header
-    Gzip  ///< one or more gzip members, concatenated
+    Raw,        ///< one stream without header
+    Zlib,       ///< one stream with its checksum
+    Gzip,       ///< one or more gzip members, concatenated
+    ZlibOrGzip  ///< one stream of either, told by its first bytes
 };
 
 enum class InflateStatus : std::uint8_t {
@@ -31,6 +34,8 @@ struct Inflated {
 
 /// CRC-32 as ZIP and gzip have it. \param before  that of the bytes before these
 [[nodiscard]] std::uint32_t zipChecksum(std::span<const std::byte> bytes, std::uint32_t before = 0) noexcept;
+/// That of bytes whose checksum is `first` and of `size` bytes behind them whose checksum is `second`.
+[[nodiscard]] std::uint32_t joinedChecksum(std::uint32_t first, std::uint32_t second, std::uint64_t size) noexcept;
 
 /// Unpacks `packed`. Each gzip member is checked against the checksum and the size at its end.
 /// \param expectedBytes  guess of the size, to reserve memory; the buffer doubles beyond it
@@ -39,23 +44,47 @@ struct Inflated {
 [[nodiscard]] Inflated inflateBytes(std::span<const std::byte> packed, DeflateFormat format,
                                     std::uint64_t expectedBytes, std::uint64_t maxBytes);
 
-/// Unpacks gzip data piece by piece, of one or more members, in memory of its own that does not grow.
-class GzipStream {
-public:
-    GzipStream();
-    GzipStream(GzipStream&&) noexcept;
-    GzipStream& operator=(GzipStream&&) noexcept;
-    ~GzipStream();
+/// Unpacks one stream that has as many bytes as there is room for.
+/// \return whether it is one, and undamaged. Bytes behind it are left alone
+[[nodiscard]] bool inflateInto(std::span<const std::byte> packed, DeflateFormat format, std::span<std::byte> out);
 
-    /// Appends to `out` what `packed` unpacks to.
-    /// \return Done: the piece is used up; Damaged: nothing more can be unpacked
-    InflateStatus append(std::span<const std::byte> packed, std::string& out);
-    /// Whether the last member is complete: where the data end, so that CutShort is the word for anything else.
-    [[nodiscard]] bool isComplete() const noexcept;
+enum class InflateStep : std::uint8_t {
+    End,    ///< the stream, or member of gzip, ends here
+    More,   ///< there is more to unpack
+    Stuck,  ///< nothing more without more input or room
+    Damaged
+};
+
+/// Unpacks streams step by step.
+class InflateStream {
+public:
+    explicit InflateStream(DeflateFormat format);
+    InflateStream(InflateStream&&) noexcept;
+    InflateStream& operator=(InflateStream&&) noexcept;
+    ~InflateStream();
+
+    /// Unpacks from the front of `packed` to the front of `out`; both shrink by what was used up.
+    InflateStep step(std::span<const std::byte>& packed, std::span<std::byte>& out);
+    /// Begins the next stream or member.
+    void restart() noexcept;
 
 private:
     struct State;
     std::unique_ptr<State> state_;
+};
+
+/// Unpacks gzip data piece by piece, of one or more members, in memory of its own that does not grow.
+class GzipStream {
+public:
+    /// Appends to `out` what `packed` unpacks to.
+    /// \return Done: the piece is used up; Damaged: nothing more can be unpacked
+    InflateStatus append(std::span<const std::byte> packed, std::string& out);
+    /// Whether the last member is complete: where the data end, so that CutShort is the word for anything else.
+    [[nodiscard]] bool isComplete() const noexcept { return isComplete_ && !isDamaged_; }
+
+private:
+    InflateStream stream_{DeflateFormat::Gzip};
+    bool isComplete_ = true, isDamaged_ = false;
 };
 
 /// Raw deflate data of `bytes` that end at a byte boundary, so that pieces that were made independently can be joined.
@@ -67,5 +96,23 @@ private:
 /// One gzip member, without name and time, so equal input gives equal bytes.
 /// \param bytes  less than 2 GiB
 [[nodiscard]] std::vector<std::byte> gzipBytes(std::span<const std::byte> bytes);
+
+/// Packs pieces into zlib streams, one each, with one state: setting that up takes longer than to pack a small piece.
+class ZlibPacker {
+public:
+    /// \param windowBits, memoryLevel  of deflateInit2() of zlib
+    explicit ZlibPacker(int level, int windowBits = 15, int memoryLevel = 8);
+    ZlibPacker(ZlibPacker&&) noexcept;
+    ZlibPacker& operator=(ZlibPacker&&) noexcept;
+    ~ZlibPacker();
+
+    /// The packed bytes, until the next call.
+    /// \param bytes  less than 2 GiB
+    [[nodiscard]] std::span<const std::byte> pack(std::span<const std::byte> bytes);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 }  // namespace svt

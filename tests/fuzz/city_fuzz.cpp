@@ -1,10 +1,10 @@
 // For any bytes the readers of a city's folder answer or name an error. Checksums are made right, so that what stands behind
 // them is reached. The first byte chooses: 0 references of the index, 1 a leaf, 2 a pack, 3 ids, 4 a whole index, 5 a member.
-#include <svt/city/base/bytes.hpp>
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/city_folder.hpp>
 #include <svt/city/city_levels.hpp>
 #include <svt/city/merge/index_file.hpp>
+#include <svt/core/bytes.hpp>
 
 #include <unistd.h>
 
@@ -35,18 +35,18 @@ void write(const char* name, const std::string& text) { std::ofstream(folder() /
 
 void openPack(std::string_view data) {
     std::string bytes("svtpack\0", 8);
-    put(bytes, std::uint32_t{1});
+    appendBytes(bytes, std::uint32_t{1});
     bytes.resize(48);
-    Taker size(data);
+    ByteReader size(data);
     const std::size_t directory = size.take<std::uint16_t>();
     data = data.substr(std::min<std::size_t>(2, data.size()));
     const std::size_t body = data.size() - std::min(directory, data.size());
     bytes += data.substr(0, body);
     const std::uint64_t offset = bytes.size();
     bytes += data.substr(body);
-    put(bytes, offset);
-    put(bytes, static_cast<std::uint64_t>(data.size() - body));
-    put(bytes, idHash(data.substr(body)));
+    appendBytes(bytes, offset);
+    appendBytes(bytes, static_cast<std::uint64_t>(data.size() - body));
+    appendBytes(bytes, idHash(data.substr(body)));
     bytes += std::string_view("svtpend\0", 8);
     write("packs/00000.svtp", bytes);
     const auto pack = Pack::open(folder() / "packs/00000.svtp", {});
@@ -86,28 +86,28 @@ std::string indexOf(std::string_view data) {
         std::memcpy(root.data() + PageRef::kBytes - 8, &sum, sizeof sum);
     }
     std::string bytes("svtindx\0", 8);
-    put(bytes, std::uint32_t{1});
-    put(bytes, static_cast<std::uint32_t>(root.size() / PageRef::kBytes));
-    put(bytes, static_cast<std::uint64_t>(root.size()));
-    put(bytes, idHash(root));
+    appendBytes(bytes, std::uint32_t{1});
+    appendBytes(bytes, static_cast<std::uint32_t>(root.size() / PageRef::kBytes));
+    appendBytes(bytes, static_cast<std::uint64_t>(root.size()));
+    appendBytes(bytes, idHash(root));
     return bytes + root + pages;
 }
 
 std::string idsOf(std::string_view data) {
-    Taker from(data);
+    ByteReader from(data);
     const std::uint64_t count = from.take<std::uint16_t>(), pages = (count + kIdsOfPage - 1) / kIdsOfPage;
     const std::string fence(from.text(pages * 8));
     std::string bytes("svtids\0\0", 8);
-    put(bytes, std::uint32_t{1});
-    put(bytes, static_cast<std::uint32_t>(kIdsOfPage));
-    put(bytes, count);
-    put(bytes, static_cast<std::uint64_t>(fence.size()));
-    put(bytes, idHash(fence));
+    appendBytes(bytes, std::uint32_t{1});
+    appendBytes(bytes, static_cast<std::uint32_t>(kIdsOfPage));
+    appendBytes(bytes, count);
+    appendBytes(bytes, static_cast<std::uint64_t>(fence.size()));
+    appendBytes(bytes, idHash(fence));
     bytes += fence;
     while (from.left() > 0) {
         std::string page(from.text(std::min(from.left(), kIdPage - 8)));
         page.resize(kIdPage - 8);
-        put(page, idHash(page));
+        appendBytes(page, idHash(page));
         bytes += page;
     }
     return bytes;

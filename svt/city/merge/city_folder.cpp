@@ -1,12 +1,12 @@
 #include <svt/city/city_folder.hpp>
 
-#include <svt/city/base/bytes.hpp>
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/city_levels.hpp>
 #include <svt/city/join/join_volumes.hpp>
 #include <svt/city/merge/city_proof.hpp>
 #include <svt/city/merge/index_file.hpp>
 #include <svt/city/store/store.hpp>
+#include <svt/core/bytes.hpp>
 #include <svt/core/file.hpp>
 #include <svt/volume/svt_file.hpp>
 #include <svt/volume/volume_part.hpp>
@@ -146,11 +146,11 @@ Result<void> City::proveFolder() const {
 Result<void> City::readRoot() {
     SVT_TRY(read, store_->read("index.bin", 0, kIndexHead + kIndexPage));
     const std::string& head = *read;
-    Taker from(head);
+    ByteReader from(head);
     const std::string_view magic = from.text(8);
-    const auto version = from.take<std::uint32_t>();
-    const auto refs = from.take<std::uint32_t>();
-    const auto size = from.take<std::uint64_t>(), sum = from.take<std::uint64_t>();
+    std::uint32_t version = 0, refs = 0;
+    std::uint64_t size = 0, sum = 0;
+    from.take(version, refs, size, sum);
     if (magic != std::string_view("svtindx\0", 8) || version != 1 || !from.isGood() || size > kIndexPage ||
         size != std::uint64_t{refs} * PageRef::kBytes || from.left() < size ||
         idHash(head.substr(kIndexHead, size)) != sum)
@@ -166,7 +166,7 @@ Result<void> City::readPackSizes() {
     // Nobody gives a page the digests of whole packs.
     if (proof_ && !sizes->empty() && hexOf(digestOf(*sizes)) != proof_->packs.sha256)
         return damaged("packs.bin", "the file is damaged or of another merge: its digest is not the one of city.json");
-    for (Taker packs(*sizes); packs.left() >= kPackEntry; packs.text(kPackEntry - 8))
+    for (ByteReader packs(*sizes); packs.left() >= kPackEntry; packs.skip(kPackEntry - 8))
         packSizes_.push_back(packs.take<std::uint64_t>());
     return {};
 }
@@ -218,12 +218,11 @@ Result<std::vector<City::Place>> City::find(const std::string& id) const {
     const auto head = store_->read(path, 0, kIdHead);
     const auto fileSize = store_->size(path);
     if (!head || !fileSize) return head ? fileSize.error() : head.error();
-    Taker from(*head);
+    ByteReader from(*head);
     const std::string_view magic = from.text(8);
-    const auto version = from.take<std::uint32_t>();
-    const auto ofPage = from.take<std::uint32_t>();
-    const auto count = from.take<std::uint64_t>(), fenceSize = from.take<std::uint64_t>(),
-               sum = from.take<std::uint64_t>();
+    std::uint32_t version = 0, ofPage = 0;
+    std::uint64_t count = 0, fenceSize = 0, sum = 0;
+    from.take(version, ofPage, count, fenceSize, sum);
     const std::uint64_t pages = (count + kIdsOfPage - 1) / kIdsOfPage;
     if (magic != std::string_view("svtids\0\0", 8) || version != 1 || ofPage != kIdsOfPage || !from.isGood() ||
         fenceSize != pages * 8 || count > buildings_ + 1 || fenceSize > *fileSize)
@@ -234,7 +233,7 @@ Result<std::vector<City::Place>> City::find(const std::string& id) const {
     const std::string& fence = *read;
     if (fence.size() != fenceSize || idHash(fence) != sum) return damaged("ids.bin", "the fence of the ids is damaged");
     std::vector<std::uint64_t> first;
-    for (Taker fences(fence); fences.left() > 0;) first.push_back(fences.take<std::uint64_t>());
+    for (ByteReader fences(fence); fences.left() > 0;) first.push_back(fences.take<std::uint64_t>());
     const std::uint64_t hash = idHash(id);
     // The page before the first that begins with the hash may end with it.
     auto page = static_cast<std::uint64_t>(std::lower_bound(first.begin(), first.end(), hash) - first.begin());
@@ -243,17 +242,14 @@ Result<std::vector<City::Place>> City::find(const std::string& id) const {
     for (; page < pages && first[page] <= hash; ++page) {
         SVT_TRY(own, store_->read(path, kIdHead + fenceSize + page * kIdPage, kIdPage));
         const std::string& bytes = *own;
-        Taker tail(std::string_view(bytes).substr(std::min(bytes.size(), kIdPage - 8)));
+        ByteReader tail(std::string_view(bytes).substr(std::min(bytes.size(), kIdPage - 8)));
         if (bytes.size() != kIdPage || tail.take<std::uint64_t>() != idHash(bytes.substr(0, kIdPage - 8)))
             return damaged("ids.bin", fmt::format("page {} of the ids is damaged", page));
-        Taker entries(bytes);
+        ByteReader entries(bytes);
         for (std::uint64_t n = 0; n < std::min<std::uint64_t>(kIdsOfPage, count - page * kIdsOfPage); ++n) {
-            const auto ownHash = entries.take<std::uint64_t>();
+            std::uint64_t ownHash = 0;
             Place place;
-            place.tile.x = entries.take<std::int32_t>();
-            place.tile.y = entries.take<std::int32_t>();
-            place.label = entries.take<std::uint32_t>();
-            place.tile.level = static_cast<int>(entries.take<std::uint32_t>());
+            entries.take(ownHash, place.tile.x, place.tile.y, place.label, place.tile.level);
             if (ownHash == hash) found.push_back(place);
         }
     }

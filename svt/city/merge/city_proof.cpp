@@ -1,8 +1,8 @@
 #include <svt/city/merge/city_proof.hpp>
 
-#include <svt/city/base/bytes.hpp>
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/store/store.hpp>
+#include <svt/core/bytes.hpp>
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ constexpr std::size_t kRootSum = 24, kFenceSum = 32, kIdCount = 16;  // in the h
 using Json = nlohmann::ordered_json;
 
 std::uint64_t numberAt(std::string_view bytes, std::size_t at) {
-    Taker from(bytes.substr(std::min(at, bytes.size())));
+    ByteReader from(bytes.substr(std::min(at, bytes.size())));
     return from.take<std::uint64_t>();
 }
 

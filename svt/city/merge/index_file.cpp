@@ -1,8 +1,8 @@
 #include <svt/city/merge/index_file.hpp>
 
-#include <svt/city/base/bytes.hpp>
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/city_levels.hpp>
+#include <svt/core/bytes.hpp>
 
 #include <algorithm>
 #include <tuple>
@@ -13,26 +13,8 @@ namespace {
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kRefsOfPage = 290;
 
-void putVarint(std::string& to, std::uint64_t value) {
-    for (; value >= 0x80; value >>= 7) to += static_cast<char>(value | 0x80);
-    to += static_cast<char>(value);
-}
-void putSigned(std::string& to, std::int64_t value) {
-    putVarint(to, static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63));
-}
-std::uint64_t takeVarint(Taker& from) {
-    std::uint64_t value = 0;
-    for (int shift = 0; shift < 64; shift += 7) {
-        const auto byte = from.take<std::uint8_t>();
-        value |= static_cast<std::uint64_t>(byte & 0x7F) << shift;
-        if (byte < 0x80) break;
-    }
-    return value;
-}
-std::int64_t takeSigned(Taker& from) {
-    const std::uint64_t value = takeVarint(from);
-    return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
-}
+void appendSigned(std::string& to, std::int64_t value) { appendVarint(to, zigzag(value)); }
+std::int64_t takeSigned(ByteReader& from) { return fromZigzag(from.takeVarint()); }
 
 // The tile of a level whose south-western corner has this Morton number.
 TileKey tileOf(std::uint64_t morton, int level) {
@@ -50,30 +32,31 @@ TileKey tileOf(std::uint64_t morton, int level) {
     return {level, cell(gather(morton)), cell(gather(morton >> 1))};
 }
 
-void putEntry(std::string& to, const IndexEntry& entry, const IndexEntry& before, bool isFirst) {
-    putVarint(to, mortonOf(entry.tile) - (isFirst ? 0 : mortonOf(before.tile)));
-    putVarint(to, static_cast<std::uint64_t>(entry.tile.level));
-    putSigned(to, std::int64_t{entry.pack} - (isFirst ? 0 : std::int64_t{before.pack}));
-    putVarint(to, entry.offset / 8);
-    putVarint(to, entry.size);
-    putSigned(to, entry.lowest);
-    putVarint(to, static_cast<std::uint64_t>(entry.highest - entry.lowest));
-    putVarint(to, entry.buildings);
+void appendEntry(std::string& to, const IndexEntry& entry, const IndexEntry& before, bool isFirst) {
+    appendVarint(to, mortonOf(entry.tile) - (isFirst ? 0 : mortonOf(before.tile)));
+    appendVarint(to, static_cast<std::uint64_t>(entry.tile.level));
+    appendSigned(to, std::int64_t{entry.pack} - (isFirst ? 0 : std::int64_t{before.pack}));
+    appendVarint(to, entry.offset / 8);
+    appendVarint(to, entry.size);
+    appendSigned(to, entry.lowest);
+    appendVarint(to, static_cast<std::uint64_t>(entry.highest - entry.lowest));
+    appendVarint(to, entry.buildings);
 }
 
 // Where samples lie: the corner from that of the entry before, and the size.
-void putRectangle(std::string& to, const std::array<std::int32_t, 4>& own, const std::array<std::int32_t, 4>& before) {
-    putSigned(to, std::int64_t{own[0]} - before[0]);
-    putSigned(to, std::int64_t{own[1]} - before[1]);
-    putVarint(to, static_cast<std::uint64_t>(std::int64_t{own[2]} - own[0]));
-    putVarint(to, static_cast<std::uint64_t>(std::int64_t{own[3]} - own[1]));
+void appendRectangle(std::string& to, const std::array<std::int32_t, 4>& own,
+                     const std::array<std::int32_t, 4>& before) {
+    appendSigned(to, std::int64_t{own[0]} - before[0]);
+    appendSigned(to, std::int64_t{own[1]} - before[1]);
+    appendVarint(to, static_cast<std::uint64_t>(std::int64_t{own[2]} - own[0]));
+    appendVarint(to, static_cast<std::uint64_t>(std::int64_t{own[3]} - own[1]));
 }
 
 // \return whether it can be one
-bool takeRectangle(Taker& from, const std::array<std::int32_t, 4>& before, std::array<std::int32_t, 4>& own) {
+bool takeRectangle(ByteReader& from, const std::array<std::int32_t, 4>& before, std::array<std::int32_t, 4>& own) {
     const std::array<std::int64_t, 2> low{before[0] + takeSigned(from), before[1] + takeSigned(from)};
     for (const std::size_t axis : {0u, 1u}) {
-        const std::uint64_t size = takeVarint(from);
+        const std::uint64_t size = from.takeVarint();
         constexpr std::int64_t kMost = 2'147'483'647;
         if (low[axis] < -kMost || low[axis] > kMost || size > kMost || low[axis] + std::int64_t(size) > kMost)
             return false;
@@ -83,17 +66,9 @@ bool takeRectangle(Taker& from, const std::array<std::int32_t, 4>& before, std::
     return true;
 }
 
-void putRef(std::string& to, const PageRef& ref) {
-    put(to, static_cast<std::uint8_t>(ref.detail));
-    put(to, static_cast<std::uint8_t>(ref.isLeaf ? 0 : 1));
-    put(to, std::uint16_t{0});
-    put(to, ref.size);
-    put(to, ref.offset);
-    for (const std::int32_t value : ref.rectangle) put(to, value);
-    put(to, ref.lowest);
-    put(to, ref.highest);
-    put(to, ref.members);
-    put(to, ref.checksum);
+void appendRef(std::string& to, const PageRef& ref) {
+    appendAs<std::uint8_t>(to, ref.detail, ref.isLeaf ? 0 : 1, 0, 0);
+    appendBytes(to, ref.size, ref.offset, ref.rectangle, ref.lowest, ref.highest, ref.members, ref.checksum);
 }
 
 // \param below  what a page of one reference or entry would have
@@ -134,8 +109,8 @@ void addLeaves(const std::vector<PlacedEntry>& entries, Pages& pages) {
         for (; end < entries.size() && entries[end].entry.detail == ref.detail &&
                rows.size() + rectangles.size() < kIndexPage - 120;
              ++end) {
-            putEntry(rows, entries[end].entry, entries[end == begin ? begin : end - 1].entry, end == begin);
-            putRectangle(rectangles, entries[end].rectangle, before);
+            appendEntry(rows, entries[end].entry, entries[end == begin ? begin : end - 1].entry, end == begin);
+            appendRectangle(rectangles, entries[end].rectangle, before);
             before = entries[end].rectangle;
             PageRef own;
             own.rectangle = entries[end].rectangle;
@@ -145,9 +120,8 @@ void addLeaves(const std::vector<PlacedEntry>& entries, Pages& pages) {
             widen(ref, own, end == begin);
         }
         std::string page;
-        put(page, static_cast<std::uint8_t>(ref.detail));
-        put(page, std::uint8_t{0});
-        put(page, static_cast<std::uint16_t>(end - begin));
+        appendAs<std::uint8_t>(page, ref.detail, 0);
+        appendAs<std::uint16_t>(page, end - begin);
         pages.add(ref, page + rows + rectangles);
         begin = end;
     }
@@ -165,7 +139,7 @@ void addInner(Pages& pages) {
             std::string page;
             std::size_t end = begin;
             for (; end < below.size() && end - begin < kRefsOfPage && below[end].detail == ref.detail; ++end) {
-                putRef(page, below[end]);
+                appendRef(page, below[end]);
                 widen(ref, below[end], end == begin);
             }
             pages.add(ref, page);
@@ -186,31 +160,23 @@ std::string indexBytes(std::vector<PlacedEntry> entries) {
     addLeaves(entries, pages);
     addInner(pages);
     std::string root;
-    for (const PageRef& ref : pages.refs) putRef(root, ref);
+    for (const PageRef& ref : pages.refs) appendRef(root, ref);
     std::string bytes("svtindx\0", 8);
-    put(bytes, kVersion);
-    put(bytes, static_cast<std::uint32_t>(pages.refs.size()));
-    put(bytes, static_cast<std::uint64_t>(root.size()));
-    put(bytes, idHash(root));
+    appendAs<std::uint32_t>(bytes, kVersion, pages.refs.size());
+    appendAs<std::uint64_t>(bytes, root.size(), idHash(root));
     return bytes + root + pages.bytes;
 }
 
 std::optional<std::vector<PageRef>> takeRefs(std::string_view page) {
     if (page.size() % PageRef::kBytes != 0) return std::nullopt;
     std::vector<PageRef> refs;
-    Taker from(page);
+    ByteReader from(page);
     while (from.left() > 0) {
         PageRef ref;
         ref.detail = from.take<std::uint8_t>();
         ref.isLeaf = from.take<std::uint8_t>() == 0;
-        from.take<std::uint16_t>();
-        ref.size = from.take<std::uint32_t>();
-        ref.offset = from.take<std::uint64_t>();
-        for (std::int32_t& value : ref.rectangle) value = from.take<std::int32_t>();
-        ref.lowest = from.take<std::int32_t>();
-        ref.highest = from.take<std::int32_t>();
-        ref.members = from.take<std::uint64_t>();
-        ref.checksum = from.take<std::uint64_t>();
+        from.skip(2);
+        from.take(ref.size, ref.offset, ref.rectangle, ref.lowest, ref.highest, ref.members, ref.checksum);
         if (ref.size > 2 * kIndexPage) return std::nullopt;
         refs.push_back(ref);
     }
@@ -218,9 +184,9 @@ std::optional<std::vector<PageRef>> takeRefs(std::string_view page) {
 }
 
 std::optional<std::vector<IndexEntry>> takeEntries(std::string_view page) {
-    Taker from(page);
+    ByteReader from(page);
     const int detail = from.take<std::uint8_t>();
-    from.take<std::uint8_t>();
+    from.skip(1);
     const auto count = from.take<std::uint16_t>();
     std::vector<IndexEntry> entries;
     std::uint64_t morton = 0;
@@ -228,19 +194,19 @@ std::optional<std::vector<IndexEntry>> takeEntries(std::string_view page) {
     for (std::uint16_t n = 0; n < count && from.isGood(); ++n) {
         IndexEntry entry;
         entry.detail = detail;
-        morton += takeVarint(from);
-        const std::uint64_t level = takeVarint(from);
+        morton += from.takeVarint();
+        const std::uint64_t level = from.takeVarint();
         if (level > static_cast<std::uint64_t>(detail < kFirstClassDetail ? Plan::kTopLevel : kMaxLevel))
             return std::nullopt;
         entry.tile = tileOf(morton, static_cast<int>(level));
         pack += takeSigned(from);
         if (pack < 0 || pack > 0xFFFFFFFF) return std::nullopt;
         entry.pack = static_cast<std::uint32_t>(pack);
-        entry.offset = takeVarint(from) * 8;
-        entry.size = takeVarint(from);
+        entry.offset = from.takeVarint() * 8;
+        entry.size = from.takeVarint();
         entry.lowest = static_cast<std::int32_t>(takeSigned(from));
-        entry.highest = static_cast<std::int32_t>(entry.lowest + static_cast<std::int64_t>(takeVarint(from)));
-        entry.buildings = static_cast<std::uint32_t>(takeVarint(from));
+        entry.highest = static_cast<std::int32_t>(entry.lowest + static_cast<std::int64_t>(from.takeVarint()));
+        entry.buildings = static_cast<std::uint32_t>(from.takeVarint());
         entries.push_back(entry);
     }
     // Cities of version 1 end here.
@@ -259,25 +225,19 @@ std::string idsBytes(std::vector<IdEntry> entries) {
     std::sort(entries.begin(), entries.end(), [&](const IdEntry& a, const IdEntry& b) { return key(a) < key(b); });
     std::string fence, pages;
     for (std::size_t begin = 0; begin < entries.size(); begin += kIdsOfPage) {
-        put(fence, entries[begin].hash);
+        appendBytes(fence, entries[begin].hash);
         std::string page;
         for (std::size_t n = begin; n < std::min(entries.size(), begin + kIdsOfPage); ++n) {
-            put(page, entries[n].hash);
-            put(page, entries[n].tile.x);
-            put(page, entries[n].tile.y);
-            put(page, entries[n].label);
-            put(page, static_cast<std::uint32_t>(entries[n].tile.level));
+            const auto& [hash, tile, label] = entries[n];
+            appendBytes(page, hash, tile.x, tile.y, label, std::int32_t{tile.level});
         }
         page.resize(kIdPage - 8, '\0');
-        put(page, idHash(page));
+        appendBytes(page, idHash(page));
         pages += page;
     }
     std::string bytes("svtids\0\0", 8);
-    put(bytes, kVersion);
-    put(bytes, static_cast<std::uint32_t>(kIdsOfPage));
-    put(bytes, static_cast<std::uint64_t>(entries.size()));
-    put(bytes, static_cast<std::uint64_t>(fence.size()));
-    put(bytes, idHash(fence));
+    appendAs<std::uint32_t>(bytes, kVersion, kIdsOfPage);
+    appendAs<std::uint64_t>(bytes, entries.size(), fence.size(), idHash(fence));
     return bytes + fence + pages;
 }
 

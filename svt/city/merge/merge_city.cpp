@@ -1,10 +1,10 @@
-#include <svt/city/base/bytes.hpp>
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/city_folder.hpp>
 #include <svt/city/levels/level_builder.hpp>
 #include <svt/city/merge/city_proof.hpp>
 #include <svt/city/merge/index_file.hpp>
 #include <svt/city/pack/pack_format.hpp>
+#include <svt/core/bytes.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/parallel.hpp>
 
@@ -162,8 +162,7 @@ private:
         merged_.packCount = done_.empty() ? plan_.packs : done_.rbegin()->first + 1;
         for (std::uint32_t number = plan_.packs; number < merged_.packCount; ++number) {
             const Done& done = done_[number];
-            put(merged_.packs, done.bytes);
-            merged_.packs.append(reinterpret_cast<const char*>(done.digest.data()), done.digest.size());
+            appendBytes(merged_.packs, done.bytes, done.digest);
             merged_.levelBytes += done.bytes;
         }
     }
@@ -293,14 +292,11 @@ Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& pl
         if (Progress::isCancelled(progress)) return Error(Code::Cancelled, "stopped while merging");
         if (missing < status.missing.size() && status.missing[missing] == number) {
             ++missing;
-            put(merged.packs, std::uint64_t{0});
-            merged.packs.append(32, '\0');
+            appendBytes(merged.packs, std::uint64_t{0}, Digest{});
             continue;
         }
         SVT_TRY(report, provenReport(folder, plan, number, false));
-        put(merged.packs, report->bytes);
-        const Digest digest = digestFromHex(report->sha256);
-        merged.packs.append(reinterpret_cast<const char*>(digest.data()), digest.size());
+        appendBytes(merged.packs, report->bytes, digestFromHex(report->sha256));
         SVT_TRY(pack, Pack::open(packPath(folder, number), plan.packDigests[number]));
         addPack(*pack, number, plan.options.spacing, merged);
     }

@@ -1,7 +1,7 @@
 #include <svt/city/pack/pack_format.hpp>
 
-#include <svt/city/base/bytes.hpp>
 #include <svt/city/city_levels.hpp>
+#include <svt/core/bytes.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <fmt/format.h>
@@ -25,40 +25,23 @@ Error badPack(const std::filesystem::path& path, std::string_view what) {
 
 std::uint64_t sumOf(std::string_view text) { return idHash(text); }
 
-void putMember(std::string& to, const PackMember& member) {
-    put(to, static_cast<std::uint8_t>(member.detail));
-    put(to, static_cast<std::uint8_t>(member.tile.level));
-    put(to, std::uint16_t{0});
-    put(to, member.tile.x);
-    put(to, member.tile.y);
-    put(to, static_cast<std::uint32_t>(member.buildings.size()));
-    put(to, member.offset);
-    put(to, member.size);
-    for (const double value :
-         {member.box.min.x, member.box.min.y, member.box.min.z, member.box.max.x, member.box.max.y, member.box.max.z})
-        put(to, value);
-    for (const PackBuilding& building : member.buildings) {
-        put(to, building.idHash);
-        put(to, building.label);
-    }
+void appendMember(std::string& to, const PackMember& member) {
+    appendAs<std::uint8_t>(to, member.detail, member.tile.level, 0, 0);
+    appendBytes(to, member.tile.x, member.tile.y, static_cast<std::uint32_t>(member.buildings.size()), member.offset,
+                member.size, member.box.min, member.box.max);
+    for (const PackBuilding& building : member.buildings) appendBytes(to, building.idHash, building.label);
 }
 
-bool takeMember(Taker& from, std::uint64_t bodyEnd, PackMember& member) {
+bool takeMember(ByteReader& from, std::uint64_t bodyEnd, PackMember& member) {
     member.detail = from.take<std::uint8_t>();
     member.tile.level = from.take<std::uint8_t>();
-    from.take<std::uint16_t>();
-    member.tile.x = from.take<std::int32_t>();
-    member.tile.y = from.take<std::int32_t>();
-    const auto buildings = from.take<std::uint32_t>();
-    member.offset = from.take<std::uint64_t>();
-    member.size = from.take<std::uint64_t>();
-    for (double* value : {&member.box.min.x, &member.box.min.y, &member.box.min.z, &member.box.max.x, &member.box.max.y,
-                          &member.box.max.z})
-        *value = from.take<double>();
+    from.skip(2);
+    std::uint32_t buildings = 0;
+    from.take(member.tile.x, member.tile.y, buildings, member.offset, member.size, member.box.min, member.box.max);
     if (!from.isGood() || buildings > from.left() / 12) return false;
     for (std::uint32_t b = 0; b < buildings; ++b) {
-        const auto hash = from.take<std::uint64_t>();
-        member.buildings.push_back({hash, from.take<std::uint32_t>()});
+        PackBuilding& building = member.buildings.emplace_back();
+        from.take(building.idHash, building.label);
     }
     return from.isGood() && isFinite(member.box.min) && isFinite(member.box.max) && !member.box.isEmpty() &&
            member.tile.level <= (member.detail < kFirstClassDetail ? Plan::kTopLevel : kMaxLevel) &&
@@ -74,10 +57,7 @@ Result<PackWriter> PackWriter::create(const std::filesystem::path& path, const s
     SVT_TRY(file, AtomicFile::create(path));
     PackWriter writer(std::move(*file));
     std::string head(kHead);
-    put(head, kPackVersion);
-    put(head, std::uint32_t{0});
-    const Digest digest = digestFromHex(content);
-    head.append(reinterpret_cast<const char*>(digest.data()), digest.size());
+    appendBytes(head, kPackVersion, std::uint32_t{0}, digestFromHex(content));
     SVT_DO(writer.write(head));
     return writer;
 }
@@ -92,20 +72,17 @@ Result<PackMember> PackWriter::add(PackMember member, std::span<const std::byte>
     SVT_DO(write(zeros));
     member.offset = file_.size();
     member.size = bytes.size();
-    putMember(directory_, member);
+    appendMember(directory_, member);
     ++count_;
     SVT_DO(write(bytes));
     return member;
 }
 
 Result<std::string> PackWriter::commit() {
-    std::string directory;
-    put(directory, count_);
+    std::string directory, tail;
+    appendBytes(directory, count_);
     directory += directory_;
-    std::string tail;
-    put(tail, static_cast<std::uint64_t>(file_.size()));
-    put(tail, static_cast<std::uint64_t>(directory.size()));
-    put(tail, sumOf(directory));
+    appendAs<std::uint64_t>(tail, file_.size(), directory.size(), sumOf(directory));
     tail += kTail;
     SVT_DO(write(directory + tail));
     SVT_DO(file_.commit());
@@ -120,16 +97,14 @@ Result<Pack> Pack::open(const std::filesystem::path& path, const std::string& co
     SVT_TRY(headText, file->read(0, kHeadBytes), tailText = file->read(tailBegin, kTailBytes));
     if (!tailText) return tailText.error();
     if (!headText->starts_with(kHead)) return badPack(path, "this is not a pack");
-    Taker head(std::string_view(*headText).substr(kHead.size()));
+    ByteReader head(std::string_view(*headText).substr(kHead.size()));
     if (head.take<std::uint32_t>() != kPackVersion)
         return Error(Code::PlanVersion, "the pack has a version that this program does not know",
                      {path.string(), 0, 0, {}});
-    head.take<std::uint32_t>();
-    const Digest digest = digestFromHex(content);
-    const std::string_view own = head.text(digest.size());
-    if (!content.empty() && own != std::string_view(reinterpret_cast<const char*>(digest.data()), digest.size()))
+    head.skip(4);
+    if (const auto own = head.take<Digest>(); !content.empty() && own != digestFromHex(content))
         return badPack(path, "the pack is one of another plan, or of other files");
-    Taker tail(*tailText);
+    ByteReader tail(*tailText);
     const auto offset = tail.take<std::uint64_t>(), size = tail.take<std::uint64_t>(), sum = tail.take<std::uint64_t>();
     if (tail.text(kTail.size()) != kTail || offset < kHeadBytes || offset > tailBegin || size != tailBegin - offset)
         return badPack(path, "the directory of the pack is damaged, or its end is missing");
@@ -137,7 +112,7 @@ Result<Pack> Pack::open(const std::filesystem::path& path, const std::string& co
     if (directory->size() != size || sumOf(*directory) != sum)
         return badPack(path, "the directory of the pack is damaged, or its end is missing");
     Pack pack(path, std::move(*file));
-    Taker from(*directory);
+    ByteReader from(*directory);
     for (auto count = from.take<std::uint32_t>(); count > 0; --count) {
         PackMember member;
         if (!takeMember(from, offset, member)) return badPack(path, "the directory of the pack is damaged");

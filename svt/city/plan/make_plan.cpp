@@ -1,8 +1,8 @@
-#include <svt/city/base/bytes.hpp>
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/city_plan.hpp>
 #include <svt/city/plan/plan_files.hpp>
 #include <svt/city/plan/survey.hpp>
+#include <svt/core/bytes.hpp>
 #include <svt/core/file.hpp>
 #include <svt/readers/read_model.hpp>
 
@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <tuple>
 
 namespace svt::city {
@@ -148,33 +147,22 @@ public:
     void add(const PlanTile& tile) {
         if (tile.pack != pack_ || !isBegun_) begin(tile.pack);
         std::string text;
-        put(text, static_cast<std::int32_t>(tile.key.level));
-        put(text, tile.key.x);
-        put(text, tile.key.y);
-        put(text, tile.featureCount);
+        appendBytes(text, tile.key.level, tile.key.x, tile.key.y, tile.featureCount);
         sum_.add(text);
     }
     void add(const PlanFeature& feature) {
         const PlanFile& file = plan_.files[feature.file];
         std::string text;
-        put(text, feature.span.size);
-        put(text, feature.contentHash);
-        put(text, file.headHash);
-        put(text, static_cast<std::int32_t>(file.crs));
-        put(text, static_cast<std::int32_t>(file.axisOrder));
         // Features of one file follow each other as one model.
-        put(text, std::uint32_t{feature.file == file_ ? 0u : 1u});
+        appendBytes(text, feature.span.size, feature.contentHash, file.headHash, file.crs, file.axisOrder,
+                    std::uint32_t{feature.file == file_ ? 0u : 1u});
         file_ = feature.file;
         sum_.add(text);
     }
     // \return all digests, 32 bytes each
     std::string finish(Plan& plan) {
         end();
-        for (std::size_t at = 0; at < bytes_.size(); at += sizeof(Digest)) {
-            Digest digest;
-            std::memcpy(digest.data(), bytes_.data() + at, sizeof(Digest));
-            plan.packDigests.push_back(hexOf(digest));
-        }
+        for (ByteReader from(bytes_); from.left() > 0;) plan.packDigests.push_back(hexOf(from.take<Digest>()));
         return std::move(bytes_);
     }
 

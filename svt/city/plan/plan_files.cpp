@@ -1,7 +1,7 @@
 #include <svt/city/plan/plan_files.hpp>
 
-#include <svt/city/base/bytes.hpp>
 #include <svt/city/base/sha256.hpp>
+#include <svt/core/bytes.hpp>
 #include <svt/core/file.hpp>
 
 #include <fmt/format.h>
@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstring>
 #include <fstream>
 
 namespace svt::city {
@@ -49,20 +48,15 @@ void readJson(const Json& json, Plan& plan) {
 // Tiles follow each other without gaps, in features and in packs.
 bool takeTiles(std::string_view bytes, Plan& plan) {
     if (bytes.size() % kTileBytes != 0) return false;
-    Taker from(bytes);
+    ByteReader from(bytes);
     std::uint64_t features = 0;
     std::uint32_t pack = 0;
     plan.tiles.reserve(bytes.size() / kTileBytes);
     while (from.left() > 0) {
         PlanTile tile;
-        tile.key.level = from.take<std::int32_t>();
-        tile.key.x = from.take<std::int32_t>();
-        tile.key.y = from.take<std::int32_t>();
-        tile.pack = from.take<std::uint32_t>();
-        tile.firstFeature = from.take<std::uint64_t>();
-        tile.featureCount = from.take<std::uint32_t>();
-        from.take<std::uint32_t>();
-        tile.cost = from.take<std::uint64_t>();
+        from.take(tile.key.level, tile.key.x, tile.key.y, tile.pack, tile.firstFeature, tile.featureCount);
+        from.skip(4);
+        from.take(tile.cost);
         const bool isNext = plan.tiles.empty() ? tile.pack == 0 : tile.pack == pack || tile.pack == pack + 1;
         if (!isNext || tile.firstFeature != features || tile.key.level < 0 || tile.key.level > Plan::kTopLevel)
             return false;
@@ -111,24 +105,14 @@ std::uint64_t mortonOf(const TileKey& key) noexcept {
 
 std::string tileBytes(const PlanTile& tile) {
     std::string bytes;
-    put(bytes, static_cast<std::int32_t>(tile.key.level));
-    put(bytes, tile.key.x);
-    put(bytes, tile.key.y);
-    put(bytes, tile.pack);
-    put(bytes, tile.firstFeature);
-    put(bytes, tile.featureCount);
-    put(bytes, std::uint32_t{0});
-    put(bytes, tile.cost);
+    appendBytes(bytes, tile.key.level, tile.key.x, tile.key.y, tile.pack, tile.firstFeature, tile.featureCount,
+                std::uint32_t{0}, tile.cost);
     return bytes;
 }
 
 std::string featureBytes(const PlanFeature& feature) {
     std::string bytes;
-    put(bytes, feature.span.begin);
-    put(bytes, feature.span.size);
-    put(bytes, feature.contentHash);
-    put(bytes, feature.file);
-    put(bytes, std::uint32_t{0});
+    appendBytes(bytes, feature.span.begin, feature.span.size, feature.contentHash, feature.file, std::uint32_t{0});
     return bytes;
 }
 
@@ -195,11 +179,7 @@ Result<Plan> readPlan(const std::filesystem::path& folder, const std::string& pr
     if (!packs) return badPlan(folder, "the plan lacks packs.bin");
     if (packs->text().size() != plan.packs * sizeof(Digest))
         return badPlan(planFile(folder, "packs.bin"), "the digests of packs are damaged");
-    for (std::size_t at = 0; at < packs->text().size(); at += sizeof(Digest)) {
-        Digest digest;
-        std::memcpy(digest.data(), packs->text().data() + at, sizeof(Digest));
-        plan.packDigests.push_back(hexOf(digest));
-    }
+    for (ByteReader from(packs->text()); from.left() > 0;) plan.packDigests.push_back(hexOf(from.take<Digest>()));
     if (!takeTiles(tiles->text(), plan)) return badPlan(planFile(folder, "tiles.bin"), "the tiles are damaged");
     // The features are not read here: each has the hash of its text.
     Sha256 sum;
@@ -232,14 +212,11 @@ Result<std::vector<PlanFeature>> readPlanFeatures(const std::filesystem::path& f
     file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (!file || static_cast<std::size_t>(file.gcount()) != bytes.size())
         return badPlan(path, "the features end too early");
-    Taker from(bytes);
+    ByteReader from(bytes);
     while (from.left() > 0) {
         PlanFeature feature;
-        feature.span.begin = from.take<std::uint64_t>();
-        feature.span.size = from.take<std::uint64_t>();
-        feature.contentHash = from.take<std::uint64_t>();
-        feature.file = from.take<std::uint32_t>();
-        from.take<std::uint32_t>();
+        from.take(feature.span.begin, feature.span.size, feature.contentHash, feature.file);
+        from.skip(4);
         if (feature.file >= plan.files.size() || feature.span.size > readers::FeatureFile::kMaxFeatureBytes * 64)
             return badPlan(path, "a feature is damaged");
         features.push_back(feature);

@@ -23,20 +23,46 @@ bool beginsGzip(std::span<const std::byte> bytes) noexcept {
     return bytes.size() >= 3 && bytes[0] == std::byte{0x1F} && bytes[1] == std::byte{0x8B} && bytes[2] == std::byte{8};
 }
 
-std::vector<std::byte> deflated(std::span<const std::byte> bytes, int level, int window, int flush) {
+int windowOf(DeflateFormat format) noexcept {
+    switch (format) {
+        case DeflateFormat::Raw: return -MAX_WBITS;
+        case DeflateFormat::Zlib: return MAX_WBITS;
+        case DeflateFormat::ZlibOrGzip: return MAX_WBITS + 32;
+        case DeflateFormat::Gzip: break;
+    }
+    return kGzipWindow;
+}
+
+struct Packer {
     z_stream stream{};
-    if (deflateInit2(&stream, level, Z_DEFLATED, window, 9, Z_DEFAULT_STRATEGY) != Z_OK) throw std::bad_alloc();
-    const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, deflateEnd);
-    std::vector<std::byte> out(deflateBound(&stream, static_cast<uLong>(bytes.size())) + kFlushBytes);
-    stream.next_in = zlibBytes(bytes);
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = zlibBytes(out);
-    stream.avail_out = static_cast<uInt>(out.size());
-    const int state = deflate(&stream, flush);
-    SVT_CHECK(state == (flush == Z_FINISH ? Z_STREAM_END : Z_OK));
-    SVT_CHECK(stream.avail_in == 0u);
-    out.resize(out.size() - stream.avail_out);
-    return out;
+    std::vector<std::byte> packed;
+
+    Packer(int level, int windowBits, int memoryLevel) {
+        if (deflateInit2(&stream, level, Z_DEFLATED, windowBits, memoryLevel, Z_DEFAULT_STRATEGY) != Z_OK)
+            throw std::bad_alloc();
+    }
+    Packer(const Packer&) = delete;
+    Packer& operator=(const Packer&) = delete;
+    ~Packer() { deflateEnd(&stream); }
+
+    void pack(std::span<const std::byte> bytes, int flush) {
+        deflateReset(&stream);
+        packed.resize(deflateBound(&stream, static_cast<uLong>(bytes.size())) + kFlushBytes);
+        stream.next_in = zlibBytes(bytes);
+        stream.avail_in = static_cast<uInt>(bytes.size());
+        stream.next_out = zlibBytes(packed);
+        stream.avail_out = static_cast<uInt>(packed.size());
+        const int state = deflate(&stream, flush);
+        SVT_CHECK(state == (flush == Z_FINISH ? Z_STREAM_END : Z_OK));
+        SVT_CHECK(stream.avail_in == 0u);
+        packed.resize(packed.size() - stream.avail_out);
+    }
+};
+
+std::vector<std::byte> deflated(std::span<const std::byte> bytes, int level, int window, int flush) {
+    Packer packer(level, window, 9);
+    packer.pack(bytes, flush);
+    return std::move(packer.packed);
 }
 
 }  // namespace
@@ -46,11 +72,58 @@ std::uint32_t zipChecksum(std::span<const std::byte> bytes, std::uint32_t before
     return static_cast<std::uint32_t>(crc32_z(before, zlibBytes(bytes), bytes.size()));
 }
 
+std::uint32_t joinedChecksum(std::uint32_t first, std::uint32_t second, std::uint64_t size) noexcept {
+    return static_cast<std::uint32_t>(crc32_combine(first, second, static_cast<z_off_t>(size)));
+}
+
+struct InflateStream::State {
+    z_stream stream{};
+
+    explicit State(DeflateFormat format) {
+        if (inflateInit2(&stream, windowOf(format)) != Z_OK) throw std::bad_alloc();
+    }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() { inflateEnd(&stream); }
+};
+
+InflateStream::InflateStream(DeflateFormat format) : state_(std::make_unique<State>(format)) {}
+InflateStream::InflateStream(InflateStream&&) noexcept = default;
+InflateStream& InflateStream::operator=(InflateStream&&) noexcept = default;
+InflateStream::~InflateStream() = default;
+
+InflateStep InflateStream::step(std::span<const std::byte>& packed, std::span<std::byte>& out) {
+    z_stream& stream = state_->stream;
+    const std::size_t input = std::min(packed.size(), kStep), room = std::min(out.size(), kStep);
+    stream.next_in = zlibBytes(packed);
+    stream.avail_in = static_cast<uInt>(input);
+    std::byte none{};  // zlib wants an address, though there is no room
+    stream.next_out = zlibBytes(out.empty() ? std::span(&none, 1) : out);
+    stream.avail_out = static_cast<uInt>(room);
+    const int state = inflate(&stream, Z_NO_FLUSH);
+    packed = packed.subspan(input - stream.avail_in);
+    out = out.subspan(room - stream.avail_out);
+    switch (state) {
+        case Z_STREAM_END: return InflateStep::End;
+        case Z_OK: return InflateStep::More;
+        case Z_BUF_ERROR: return InflateStep::Stuck;
+        case Z_MEM_ERROR: throw std::bad_alloc();
+        default: return InflateStep::Damaged;
+    }
+}
+
+void InflateStream::restart() noexcept { inflateReset(&state_->stream); }
+
+bool inflateInto(std::span<const std::byte> packed, DeflateFormat format, std::span<std::byte> out) {
+    InflateStream stream(format);
+    InflateStep step = InflateStep::More;
+    while (step == InflateStep::More) step = stream.step(packed, out);
+    return step == InflateStep::End && out.empty();
+}
+
 Inflated inflateBytes(std::span<const std::byte> packed, DeflateFormat format, std::uint64_t expectedBytes,
                       std::uint64_t maxBytes) {
-    z_stream stream{};
-    if (inflateInit2(&stream, format == DeflateFormat::Raw ? -MAX_WBITS : kGzipWindow) != Z_OK) throw std::bad_alloc();
-    const std::unique_ptr<z_stream, int (*)(z_stream*)> guard(&stream, inflateEnd);
+    InflateStream stream(format);
     Inflated result;
     std::vector<std::byte>& out = result.bytes;
     out.resize(static_cast<std::size_t>(std::min(expectedBytes, maxBytes)));
@@ -66,72 +139,54 @@ Inflated inflateBytes(std::span<const std::byte> packed, DeflateFormat format, s
                 static_cast<std::size_t>(std::min<std::uint64_t>(std::max(2 * out.size(), kLeastBuffer), maxBytes)));
         // At the limit, one byte more tells a stream that ends there from one that goes on.
         std::byte beyond{};
-        const std::span<std::byte> room = written == out.size()
-                                              ? std::span(&beyond, 1)
-                                              : std::span(out).subspan(written, std::min(out.size() - written, kStep));
-        const auto input = packed.subspan(result.taken, std::min(packed.size() - result.taken, kStep));
-        stream.next_in = zlibBytes(input);
-        stream.avail_in = static_cast<uInt>(input.size());
-        stream.next_out = zlibBytes(room);
-        stream.avail_out = static_cast<uInt>(room.size());
-        const int state = inflate(&stream, Z_NO_FLUSH);
-        result.taken += input.size() - stream.avail_in;
-        const std::size_t made = room.size() - stream.avail_out;
-        if (made != 0 && room.data() == &beyond) return finish(InflateStatus::TooLong);
-        written += made;
-        if (state == Z_STREAM_END) {
-            if (format == DeflateFormat::Raw || !beginsGzip(packed.subspan(result.taken)))
-                return finish(InflateStatus::Done);
-            inflateReset(&stream);
-        } else if (state != Z_OK && state != Z_BUF_ERROR) {
-            return finish(InflateStatus::Damaged);
-        } else if (result.taken == packed.size() && stream.avail_out != 0) {
-            return finish(InflateStatus::CutShort);
+        const bool isAtLimit = written == out.size();
+        std::span<std::byte> room = isAtLimit ? std::span(&beyond, 1) : std::span(out).subspan(written);
+        std::span<const std::byte> input = packed.subspan(result.taken);
+        const std::size_t before = room.size();
+        const InflateStep step = stream.step(input, room);
+        result.taken = packed.size() - input.size();
+        if (isAtLimit && room.empty()) return finish(InflateStatus::TooLong);
+        written += before - room.size();
+        if (step == InflateStep::End) {
+            if (format != DeflateFormat::Gzip || !beginsGzip(input)) return finish(InflateStatus::Done);
+            stream.restart();
+        } else if (step != InflateStep::More) {
+            return finish(step == InflateStep::Stuck ? InflateStatus::CutShort : InflateStatus::Damaged);
         }
     }
 }
 
-struct GzipStream::State {
-    z_stream stream{};
-    bool isComplete = true, isDamaged = false;
-
-    State() {
-        if (inflateInit2(&stream, kGzipWindow) != Z_OK) throw std::bad_alloc();
-    }
-    State(const State&) = delete;
-    State& operator=(const State&) = delete;
-    ~State() { inflateEnd(&stream); }
-};
-
-GzipStream::GzipStream() : state_(std::make_unique<State>()) {}
-GzipStream::GzipStream(GzipStream&&) noexcept = default;
-GzipStream& GzipStream::operator=(GzipStream&&) noexcept = default;
-GzipStream::~GzipStream() = default;
-
 InflateStatus GzipStream::append(std::span<const std::byte> packed, std::string& out) {
     constexpr std::size_t kPiece = std::size_t{1} << 18;
-    if (state_->isDamaged) return InflateStatus::Damaged;
-    z_stream& stream = state_->stream;
-    stream.next_in = zlibBytes(packed);
-    stream.avail_in = static_cast<uInt>(packed.size());
-    while (stream.avail_in > 0) {
-        if (state_->isComplete) inflateReset(&stream);  // the first member, or the next one
-        state_->isComplete = false;
+    if (isDamaged_) return InflateStatus::Damaged;
+    while (!packed.empty()) {
+        if (isComplete_) stream_.restart();  // the first member, or the next one
         const std::size_t before = out.size();
         out.resize(before + kPiece);
-        stream.next_out = reinterpret_cast<Bytef*>(out.data() + before);
-        stream.avail_out = static_cast<uInt>(kPiece);
-        const int state = inflate(&stream, Z_NO_FLUSH);
-        out.resize(before + kPiece - stream.avail_out);
-        if (state == Z_STREAM_END) state_->isComplete = true;
-        if (state == Z_STREAM_END || state == Z_OK || (state == Z_BUF_ERROR && stream.avail_in == 0)) continue;
-        state_->isDamaged = true;
-        return InflateStatus::Damaged;
+        std::span<std::byte> room = std::as_writable_bytes(std::span(out).subspan(before));
+        const InflateStep step = stream_.step(packed, room);
+        out.resize(out.size() - room.size());
+        isComplete_ = step == InflateStep::End;
+        isDamaged_ = step == InflateStep::Damaged || (step == InflateStep::Stuck && !packed.empty());
+        if (isDamaged_) return InflateStatus::Damaged;
     }
     return InflateStatus::Done;
 }
 
-bool GzipStream::isComplete() const noexcept { return state_->isComplete && !state_->isDamaged; }
+struct ZlibPacker::State : Packer {
+    using Packer::Packer;
+};
+
+ZlibPacker::ZlibPacker(int level, int windowBits, int memoryLevel)
+    : state_(std::make_unique<State>(level, windowBits, memoryLevel)) {}
+ZlibPacker::ZlibPacker(ZlibPacker&&) noexcept = default;
+ZlibPacker& ZlibPacker::operator=(ZlibPacker&&) noexcept = default;
+ZlibPacker::~ZlibPacker() = default;
+
+std::span<const std::byte> ZlibPacker::pack(std::span<const std::byte> bytes) {
+    state_->pack(bytes, Z_FINISH);
+    return state_->packed;
+}
 
 std::vector<std::byte> deflatePiece(std::span<const std::byte> bytes, int level, bool isLast) {
     return deflated(bytes, level, -MAX_WBITS, isLast ? Z_FINISH : Z_SYNC_FLUSH);

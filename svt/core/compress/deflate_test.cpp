@@ -96,5 +96,51 @@ TEST(Deflate, AStreamGivesTheSamePieceByPiece) {
     EXPECT_FALSE(stream.isComplete());
 }
 
+TEST(Deflate, PackerMakesAStreamOfEachPiece) {
+    ZlibPacker packer(5, 12, 4);
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{70000}}) {
+        const auto bytes = someBytes(count, 6, 9);
+        const auto packed = packer.pack(bytes);
+        for (const DeflateFormat format : {DeflateFormat::Zlib, DeflateFormat::ZlibOrGzip}) {
+            std::vector<std::byte> back(count);
+            EXPECT_TRUE(inflateInto(packed, format, back));
+            EXPECT_EQ(back, bytes);
+        }
+        std::vector<std::byte> larger(count + 1);
+        EXPECT_FALSE(inflateInto(packed, DeflateFormat::Zlib, larger));
+        EXPECT_FALSE(inflateInto(packed, DeflateFormat::Gzip, larger));
+        if (count > 0) {
+            EXPECT_FALSE(inflateInto(packed, DeflateFormat::Zlib, std::span(larger).first(count - 1)));
+        }
+        EXPECT_FALSE(inflateInto(packed.first(packed.size() - 1), DeflateFormat::Zlib, std::span(larger).first(count)));
+    }
+}
+
+TEST(Deflate, StepsUseUpInputAndRoom) {
+    const auto a = someBytes(1000, 7, 9), b = someBytes(10, 8, 9);
+    const auto packed = joined(gzipBytes(a), gzipBytes(b));
+    InflateStream stream(DeflateFormat::Gzip);
+    std::span<const std::byte> rest = packed;
+    std::vector<std::byte> out(1010);
+    std::span<std::byte> room(out);
+    std::span<std::byte> half = room.first(500);
+    EXPECT_EQ(stream.step(rest, half), InflateStep::More);
+    EXPECT_TRUE(half.empty());
+    room = room.subspan(500);
+    EXPECT_EQ(stream.step(rest, room), InflateStep::End);
+    EXPECT_EQ(room.size(), 10u);
+    stream.restart();
+    EXPECT_EQ(stream.step(rest, room), InflateStep::End);
+    EXPECT_TRUE(rest.empty() && room.empty());
+    EXPECT_EQ(out, joined(a, b));
+    stream.restart();
+    EXPECT_EQ(stream.step(rest, room), InflateStep::Stuck);
+}
+
+TEST(Deflate, ChecksumsAreJoined) {
+    const auto a = someBytes(1000, 9, 256), b = someBytes(10, 10, 256);
+    EXPECT_EQ(joinedChecksum(zipChecksum(a), zipChecksum(b), b.size()), zipChecksum(joined(a, b)));
+}
+
 }  // namespace
 }  // namespace svt

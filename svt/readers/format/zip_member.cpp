@@ -1,5 +1,6 @@
 #include <svt/readers/format/zip_member.hpp>
 
+#include <svt/core/bytes.hpp>
 #include <svt/core/deflate.hpp>
 #include <svt/core/text.hpp>
 
@@ -17,14 +18,8 @@ using ZipBytes = std::span<const std::byte>;
 constexpr std::size_t kEndSize = 22, kCentralSize = 46, kLocalSize = 30;
 constexpr std::size_t kMaxComment = 65535;
 
-std::uint32_t number(ZipBytes bytes, std::size_t at, int size) noexcept {
-    std::uint32_t value = 0;
-    for (int i = size - 1; i >= 0; --i) value = value << 8 | std::to_integer<std::uint32_t>(bytes[at + std::size_t(i)]);
-    return value;
-}
-
 bool hasSignature(ZipBytes bytes, std::size_t at, std::uint32_t signature) noexcept {
-    return at + 4 <= bytes.size() && number(bytes, at, 4) == signature;
+    return at + 4 <= bytes.size() && loadBytes<std::uint32_t>(bytes, at) == signature;
 }
 
 // The end of the central directory, and how many bytes stand behind it and its comment.
@@ -39,7 +34,7 @@ std::optional<ZipEnd> findEnd(ZipBytes bytes) noexcept {
     const std::size_t last = bytes.size() - kEndSize, first = last > kMaxComment ? last - kMaxComment : 0;
     for (std::size_t at = last + 1; at-- > first;) {
         if (!hasSignature(bytes, at, 0x06054B50)) continue;
-        const std::size_t comment = number(bytes, at + 20, 2), room = last - at;
+        const std::size_t comment = loadBytes<std::uint16_t>(bytes, at + 20), room = last - at;
         if (comment == room) return ZipEnd{at, 0};
         if (!found) found = ZipEnd{at, comment < room ? room - comment : 0};
     }
@@ -55,16 +50,19 @@ struct DirectoryEntry {
 // The files of the directory; nothing if it is damaged.
 std::optional<std::vector<DirectoryEntry>> readDirectory(ZipBytes bytes, std::size_t end) {
     std::vector<DirectoryEntry> entries;
-    const std::size_t begin = number(bytes, end + 16, 4), size = number(bytes, end + 12, 4);
+    const std::size_t begin = loadBytes<std::uint32_t>(bytes, end + 16),
+                      size = loadBytes<std::uint32_t>(bytes, end + 12);
     std::size_t at = begin;
-    for (std::uint32_t left = number(bytes, end + 10, 2); left > 0; --left) {
+    for (std::uint32_t left = loadBytes<std::uint16_t>(bytes, end + 10); left > 0; --left) {
         if (at > end || end - at < kCentralSize || !hasSignature(bytes, at, 0x02014B50)) return std::nullopt;
-        const std::size_t nameSize = number(bytes, at + 28, 2);
-        const std::size_t next = at + kCentralSize + nameSize + number(bytes, at + 30, 2) + number(bytes, at + 32, 2);
+        const std::size_t nameSize = loadBytes<std::uint16_t>(bytes, at + 28);
+        const std::size_t next = at + kCentralSize + nameSize + loadBytes<std::uint16_t>(bytes, at + 30) +
+                                 loadBytes<std::uint16_t>(bytes, at + 32);
         if (next > end) return std::nullopt;
         entries.push_back({std::string(reinterpret_cast<const char*>(bytes.data()) + at + kCentralSize, nameSize),
-                           number(bytes, at + 8, 2), number(bytes, at + 10, 2), number(bytes, at + 16, 4),
-                           number(bytes, at + 20, 4), number(bytes, at + 24, 4), number(bytes, at + 42, 4)});
+                           loadBytes<std::uint16_t>(bytes, at + 8), loadBytes<std::uint16_t>(bytes, at + 10),
+                           loadBytes<std::uint32_t>(bytes, at + 16), loadBytes<std::uint32_t>(bytes, at + 20),
+                           loadBytes<std::uint32_t>(bytes, at + 24), loadBytes<std::uint32_t>(bytes, at + 42)});
         at = next;
     }
     if (at - begin != size) return std::nullopt;
@@ -83,8 +81,8 @@ bool isWanted(const DirectoryEntry& entry, std::span<const std::string_view> ext
 std::optional<ZipBytes> packedBytes(ZipBytes bytes, std::size_t end, const DirectoryEntry& entry) noexcept {
     const std::size_t local = entry.local;
     if (local > end || end - local < kLocalSize || !hasSignature(bytes, local, 0x04034B50)) return std::nullopt;
-    const std::size_t nameSize = number(bytes, local + 26, 2), nameAt = local + kLocalSize;
-    const std::size_t begin = nameAt + nameSize + number(bytes, local + 28, 2);
+    const std::size_t nameSize = loadBytes<std::uint16_t>(bytes, local + 26), nameAt = local + kLocalSize;
+    const std::size_t begin = nameAt + nameSize + loadBytes<std::uint16_t>(bytes, local + 28);
     if (begin > end || entry.packed > end - begin) return std::nullopt;
     const std::string_view name(reinterpret_cast<const char*>(bytes.data()) + nameAt, nameSize);
     if (name != entry.name) return std::nullopt;

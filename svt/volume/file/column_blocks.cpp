@@ -1,3 +1,4 @@
+#include <svt/core/bytes.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/volume/column_blocks.hpp>
 #include <svt/volume/columns/column_codec.hpp>
@@ -58,11 +59,7 @@ private:
 /// The lengths of the streams in LEB128, as stored before the streams.
 std::vector<std::uint8_t> lengthsOf(const BlockStreams& streams) {
     std::vector<std::uint8_t> bytes;
-    for (const auto& stream : streams) {
-        std::size_t rest = stream.size();
-        for (; rest >= 0x80; rest >>= 7) bytes.push_back(static_cast<std::uint8_t>(rest | 0x80));
-        bytes.push_back(static_cast<std::uint8_t>(rest));
-    }
+    for (const auto& stream : streams) appendVarint(bytes, stream.size());
     return bytes;
 }
 

@@ -1,3 +1,4 @@
+#include <svt/core/bytes.hpp>
 #include <svt/core/deflate.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/parallel.hpp>
@@ -5,20 +6,14 @@
 #include <svt/volume/file/zip_container.hpp>
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <numeric>
 #include <optional>
 #include <unordered_set>
 
 namespace svt::volume {
 namespace {
-
-// Little-endian records are copied directly to and from memory.
-static_assert(std::endian::native == std::endian::little, "the .svt codec needs a little-endian machine");
 
 constexpr std::uint32_t kLocalSignature = 0x04034B50;
 constexpr std::uint32_t kCentralSignature = 0x02014B50;
@@ -51,34 +46,6 @@ constexpr std::size_t kCrcPiece = std::size_t{4} << 20;
 constexpr std::size_t kDeflatePiece = std::size_t{1} << 20;
 constexpr std::uint16_t kStored = 0;
 constexpr std::uint16_t kDeflated = 8;
-
-/// Builds a record of little-endian fields.
-class Record {
-public:
-    void u16(std::uint64_t value) { append(static_cast<std::uint16_t>(value)); }
-    void u32(std::uint64_t value) { append(static_cast<std::uint32_t>(value)); }
-    void u64(std::uint64_t value) { append(value); }
-    void text(std::string_view value) { bytes_.append(value); }
-    void zeros(std::size_t count) { bytes_.append(count, '\0'); }
-    [[nodiscard]] const std::string& bytes() const noexcept { return bytes_; }
-
-private:
-    template <class T>
-    void append(T value) {
-        char raw[sizeof(T)];
-        std::memcpy(raw, &value, sizeof(T));
-        bytes_.append(raw, sizeof(T));
-    }
-    std::string bytes_;
-};
-
-/// Unsigned little-endian number of type T at `offset`, which the caller has checked to be in range.
-template <class T>
-T load(std::span<const std::byte> bytes, std::size_t offset) noexcept {
-    T value;
-    std::memcpy(&value, bytes.data() + offset, sizeof(T));
-    return value;
-}
 
 // ---------------------------------------------------------------------------------------------- writing
 
@@ -118,94 +85,59 @@ std::string localHeader(const ZipSource& entry, const Placed& placed, std::uint6
         padding = static_cast<std::size_t>((kZipAlignment - unpadded % kZipAlignment) % kZipAlignment);
         extra += 4 + padding;
     }
-    Record r;
-    r.u32(kLocalSignature);
-    r.u16(is64 ? kVersion45 : kVersion20);
-    r.u16(0);  // flags
-    r.u16(placed.method);
-    r.u16(0);  // time
-    r.u16(kDate1980);
-    r.u32(placed.crc);
-    r.u32(is64 ? kIn64 : placed.packedSize);
-    r.u32(is64 ? kIn64 : placed.size);
-    r.u16(entry.name.size());
-    r.u16(extra);
-    r.text(entry.name);
+    std::string r;
+    appendBytes(r, kLocalSignature);
+    // Version, flags, method, time, date.
+    appendAs<std::uint16_t>(r, is64 ? kVersion45 : kVersion20, 0, placed.method, 0, kDate1980);
+    appendAs<std::uint32_t>(r, placed.crc, is64 ? kIn64 : placed.packedSize, is64 ? kIn64 : placed.size);
+    appendAs<std::uint16_t>(r, entry.name.size(), extra);
+    r += entry.name;
     if (is64) {
-        r.u16(kZip64Extra);
-        r.u16(16);
-        r.u64(placed.size);
-        r.u64(placed.packedSize);
+        appendAs<std::uint16_t>(r, kZip64Extra, 16);
+        appendBytes(r, placed.size, placed.packedSize);
     }
     if (entry.isAligned) {
-        r.u16(kPaddingExtra);
-        r.u16(padding);
-        r.zeros(padding);
+        appendAs<std::uint16_t>(r, kPaddingExtra, padding);
+        r.append(padding, '\0');
     }
-    return r.bytes();
+    return r;
 }
 
-void appendCentralHeader(Record& r, const ZipSource& entry, const Placed& placed, std::uint64_t zip64From) {
+void appendCentralHeader(std::string& r, const ZipSource& entry, const Placed& placed, std::uint64_t zip64From) {
     const bool isSize64 = std::max(placed.size, placed.packedSize) >= zip64From;
     const bool isOffset64 = placed.offset >= zip64From;
     const std::size_t extraData = (isSize64 ? 16u : 0u) + (isOffset64 ? 8u : 0u);
     const std::uint16_t version = extraData > 0 ? kVersion45 : kVersion20;
-    r.u32(kCentralSignature);
-    r.u16(kMadeByUnix | version);
-    r.u16(version);
-    r.u16(0);  // flags
-    r.u16(placed.method);
-    r.u16(0);  // time
-    r.u16(kDate1980);
-    r.u32(placed.crc);
-    r.u32(isSize64 ? kIn64 : placed.packedSize);
-    r.u32(isSize64 ? kIn64 : placed.size);
-    r.u16(entry.name.size());
-    r.u16(extraData > 0 ? 4 + extraData : 0);
-    r.u16(0);  // comment
-    r.u16(0);  // disk
-    r.u16(0);  // internal attributes
-    r.u32(kFileMode);
-    r.u32(isOffset64 ? kIn64 : placed.offset);
-    r.text(entry.name);
+    appendBytes(r, kCentralSignature);
+    // Two versions, flags, method, time, date.
+    appendAs<std::uint16_t>(r, kMadeByUnix | version, version, 0, placed.method, 0, kDate1980);
+    appendAs<std::uint32_t>(r, placed.crc, isSize64 ? kIn64 : placed.packedSize, isSize64 ? kIn64 : placed.size);
+    // Sizes of name, extra field and comment; disk; internal attributes.
+    appendAs<std::uint16_t>(r, entry.name.size(), extraData > 0 ? 4 + extraData : 0, 0, 0, 0);
+    appendAs<std::uint32_t>(r, kFileMode, isOffset64 ? kIn64 : placed.offset);
+    r += entry.name;
     if (extraData > 0) {
-        r.u16(kZip64Extra);
-        r.u16(extraData);
-        if (isSize64) {
-            r.u64(placed.size);
-            r.u64(placed.packedSize);
-        }
-        if (isOffset64) r.u64(placed.offset);
+        appendAs<std::uint16_t>(r, kZip64Extra, extraData);
+        if (isSize64) appendBytes(r, placed.size, placed.packedSize);
+        if (isOffset64) appendBytes(r, placed.offset);
     }
 }
 
-void appendEnd(Record& r, std::uint64_t count, std::uint64_t offset, std::uint64_t zip64From) {
-    const std::uint64_t size = r.bytes().size();
+void appendEnd(std::string& r, std::uint64_t count, std::uint64_t offset, std::uint64_t zip64From) {
+    const std::uint64_t size = r.size();
     const bool is64 = offset >= zip64From || size >= zip64From || count >= kIn64Count;
     if (is64) {
-        r.u32(kEnd64Signature);
-        r.u64(kEnd64Size - 12);
-        r.u16(kMadeByUnix | kVersion45);
-        r.u16(kVersion45);
-        r.u32(0);  // this disk
-        r.u32(0);  // disk of the directory
-        r.u64(count);
-        r.u64(count);
-        r.u64(size);
-        r.u64(offset);
-        r.u32(kLocator64Signature);
-        r.u32(0);
-        r.u64(offset + size);
-        r.u32(1);  // disks
+        appendBytes(r, kEnd64Signature);
+        appendAs<std::uint64_t>(r, kEnd64Size - 12);
+        appendAs<std::uint16_t>(r, kMadeByUnix | kVersion45, kVersion45);
+        appendAs<std::uint32_t>(r, 0, 0);  // this disk, disk of the directory
+        appendBytes(r, count, count, size, offset);
+        appendBytes(r, kLocator64Signature, std::uint32_t{0}, offset + size, std::uint32_t{1});  // disks
     }
-    r.u32(kEndSignature);
-    r.u16(0);
-    r.u16(0);
-    r.u16(is64 ? kIn64Count : count);
-    r.u16(is64 ? kIn64Count : count);
-    r.u32(is64 ? kIn64 : size);
-    r.u32(is64 ? kIn64 : offset);
-    r.u16(0);  // comment
+    appendBytes(r, kEndSignature);
+    appendAs<std::uint16_t>(r, 0, 0, is64 ? kIn64Count : count, is64 ? kIn64Count : count);
+    appendAs<std::uint32_t>(r, is64 ? kIn64 : size, is64 ? kIn64 : offset);
+    appendAs<std::uint16_t>(r, 0);  // comment
 }
 
 // ---------------------------------------------------------------------------------------------- reading
@@ -218,32 +150,33 @@ struct Directory {
 };
 
 Result<Directory> readEnd(std::span<const std::byte> bytes) {
-    if (bytes.size() < kEndSize || load<std::uint32_t>(bytes, bytes.size() - kEndSize) != kEndSignature)
+    if (bytes.size() < kEndSize || loadBytes<std::uint32_t>(bytes, bytes.size() - kEndSize) != kEndSignature)
         return badVolume("the file does not end with the end record of a ZIP: it is cut short, or bytes were added");
     const std::size_t end = bytes.size() - kEndSize;
-    if (load<std::uint16_t>(bytes, end + 20) != 0)
+    if (loadBytes<std::uint16_t>(bytes, end + 20) != 0)
         return badVolume("the end record states a comment that is not there");
-    if (load<std::uint32_t>(bytes, end + 4) != 0 ||
-        load<std::uint16_t>(bytes, end + 8) != load<std::uint16_t>(bytes, end + 10))
+    if (loadBytes<std::uint32_t>(bytes, end + 4) != 0 ||
+        loadBytes<std::uint16_t>(bytes, end + 8) != loadBytes<std::uint16_t>(bytes, end + 10))
         return badVolume("the archive is split into several files; join them first");
-    Directory directory{load<std::uint16_t>(bytes, end + 10), load<std::uint32_t>(bytes, end + 16),
-                        load<std::uint32_t>(bytes, end + 12)};
+    Directory directory{loadBytes<std::uint16_t>(bytes, end + 10), loadBytes<std::uint32_t>(bytes, end + 16),
+                        loadBytes<std::uint32_t>(bytes, end + 12)};
     std::size_t directoryEnd = end;
     const bool is64 = directory.count == kIn64Count || directory.offset == kIn64 || directory.size == kIn64;
     if (is64) {
         if (end < kLocator64Size + kEnd64Size ||
-            load<std::uint32_t>(bytes, end - kLocator64Size) != kLocator64Signature)
+            loadBytes<std::uint32_t>(bytes, end - kLocator64Size) != kLocator64Signature)
             return badVolume("the ZIP64 locator is missing before the end record");
         const std::size_t end64 = end - kLocator64Size - kEnd64Size;
-        if (load<std::uint64_t>(bytes, end - kLocator64Size + 8) != end64 ||
-            load<std::uint32_t>(bytes, end - kLocator64Size + 4) != 0 ||
-            load<std::uint32_t>(bytes, end - kLocator64Size + 16) != 1 ||
-            load<std::uint32_t>(bytes, end64) != kEnd64Signature ||
-            load<std::uint64_t>(bytes, end64 + 4) != kEnd64Size - 12 || load<std::uint64_t>(bytes, end64 + 16) != 0 ||
-            load<std::uint64_t>(bytes, end64 + 24) != load<std::uint64_t>(bytes, end64 + 32))
+        if (loadBytes<std::uint64_t>(bytes, end - kLocator64Size + 8) != end64 ||
+            loadBytes<std::uint32_t>(bytes, end - kLocator64Size + 4) != 0 ||
+            loadBytes<std::uint32_t>(bytes, end - kLocator64Size + 16) != 1 ||
+            loadBytes<std::uint32_t>(bytes, end64) != kEnd64Signature ||
+            loadBytes<std::uint64_t>(bytes, end64 + 4) != kEnd64Size - 12 ||
+            loadBytes<std::uint64_t>(bytes, end64 + 16) != 0 ||
+            loadBytes<std::uint64_t>(bytes, end64 + 24) != loadBytes<std::uint64_t>(bytes, end64 + 32))
             return badVolume("the ZIP64 end record is damaged");
-        const Directory large{load<std::uint64_t>(bytes, end64 + 32), load<std::uint64_t>(bytes, end64 + 48),
-                              load<std::uint64_t>(bytes, end64 + 40)};
+        const Directory large{loadBytes<std::uint64_t>(bytes, end64 + 32), loadBytes<std::uint64_t>(bytes, end64 + 48),
+                              loadBytes<std::uint64_t>(bytes, end64 + 40)};
         const auto differs = [](std::uint64_t small, std::uint64_t sentinel, std::uint64_t value) {
             return small != sentinel && small != value;
         };
@@ -305,8 +238,8 @@ std::optional<std::span<const std::byte>> zip64Field(std::span<const std::byte> 
     bool isFound = false;
     while (!extra.empty()) {
         if (extra.size() < 4) return std::nullopt;
-        const auto id = load<std::uint16_t>(extra, 0);
-        const auto size = load<std::uint16_t>(extra, 2);
+        const auto id = loadBytes<std::uint16_t>(extra, 0);
+        const auto size = loadBytes<std::uint16_t>(extra, 2);
         if (size > extra.size() - 4) return std::nullopt;
         if (id == kZip64Extra) {
             if (isFound) return std::nullopt;
@@ -326,7 +259,7 @@ Result<void> resolve64(std::span<const std::byte> extra, std::initializer_list<s
     for (std::uint64_t* field : fields) {
         if (*field != kIn64) continue;
         if (data->size() < at + 8) return badVolume("lacks a size or offset in its ZIP64 field");
-        *field = load<std::uint64_t>(*data, at);
+        *field = loadBytes<std::uint64_t>(*data, at);
         at += 8;
     }
     if (at != data->size()) return badVolume("has a ZIP64 field with more than is needed");
@@ -358,21 +291,21 @@ Result<Located> readLocal(std::span<const std::byte> bytes, ZipEntry entry, std:
     if (offset > directoryOffset || directoryOffset - offset < kLocalSize)
         return badVolume("is said to lie outside the file");
     const auto at = static_cast<std::size_t>(offset);
-    if (load<std::uint32_t>(bytes, at) != kLocalSignature)
+    if (loadBytes<std::uint32_t>(bytes, at) != kLocalSignature)
         return badVolume("has no local header where it is said to lie");
-    const auto method = load<std::uint16_t>(bytes, at + 8);
-    SVT_DO(checkKind(load<std::uint16_t>(bytes, at + 6), method));
-    const std::size_t nameSize = load<std::uint16_t>(bytes, at + 26);
-    const std::size_t extraSize = load<std::uint16_t>(bytes, at + 28);
+    const auto method = loadBytes<std::uint16_t>(bytes, at + 8);
+    SVT_DO(checkKind(loadBytes<std::uint16_t>(bytes, at + 6), method));
+    const std::size_t nameSize = loadBytes<std::uint16_t>(bytes, at + 26);
+    const std::size_t extraSize = loadBytes<std::uint16_t>(bytes, at + 28);
     const std::uint64_t dataOffset = offset + kLocalSize + nameSize + extraSize;
     if (dataOffset > directoryOffset || packedSize > directoryOffset - dataOffset)
         return badVolume(fmt::format("has {} bytes at {}, which reach outside the file", packedSize, dataOffset));
-    std::uint64_t localSize = load<std::uint32_t>(bytes, at + 22);
-    std::uint64_t localPacked = load<std::uint32_t>(bytes, at + 18);
+    std::uint64_t localSize = loadBytes<std::uint32_t>(bytes, at + 22);
+    std::uint64_t localPacked = loadBytes<std::uint32_t>(bytes, at + 18);
     const auto extra = bytes.subspan(at + kLocalSize + nameSize, extraSize);
     SVT_DO(resolve64(extra, {&localSize, &localPacked}));
     if (textAt(bytes, at + kLocalSize, nameSize) != entry.name || localSize != entry.size ||
-        localPacked != packedSize || load<std::uint32_t>(bytes, at + 14) != entry.crc ||
+        localPacked != packedSize || loadBytes<std::uint32_t>(bytes, at + 14) != entry.crc ||
         (method == kDeflated) != entry.isDeflated)
         return badVolume("differs between its local header and the central directory");
     entry.data = bytes.subspan(static_cast<std::size_t>(dataOffset), static_cast<std::size_t>(packedSize));
@@ -390,20 +323,15 @@ bool inflateInto(const ZipEntry& entry, std::vector<std::byte>& buffer) {
 }  // namespace
 
 std::uint32_t crc32Of(std::span<const std::byte> bytes, std::uint32_t before) {
-    const auto crcOf = [](std::span<const std::byte> piece, uLong from) {
-        return crc32_z(from, reinterpret_cast<const Bytef*>(piece.data()), piece.size());
-    };
-    if (bytes.empty()) return before;
-    if (bytes.size() <= kCrcPiece) return static_cast<std::uint32_t>(crcOf(bytes, before));
+    if (bytes.size() <= kCrcPiece) return zipChecksum(bytes, before);
     const std::size_t pieces = (bytes.size() + kCrcPiece - 1) / kCrcPiece;
-    std::vector<uLong> crcs(pieces);
+    std::vector<std::uint32_t> crcs(pieces);
     const auto sizeOf = [&](std::size_t p) { return std::min(kCrcPiece, bytes.size() - p * kCrcPiece); };
     parallelFor(pieces, 1, 0, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p) crcs[p] = crcOf(bytes.subspan(p * kCrcPiece, sizeOf(p)), 0);
+        for (std::size_t p = begin; p < end; ++p) crcs[p] = zipChecksum(bytes.subspan(p * kCrcPiece, sizeOf(p)));
     });
-    uLong crc = before;
-    for (std::size_t p = 0; p < pieces; ++p) crc = crc32_combine(crc, crcs[p], static_cast<z_off_t>(sizeOf(p)));
-    return static_cast<std::uint32_t>(crc);
+    for (std::size_t p = 0; p < pieces; ++p) before = joinedChecksum(before, crcs[p], sizeOf(p));
+    return before;
 }
 
 namespace {
@@ -422,7 +350,7 @@ struct MemoryFile {
 
 template <class File>
 Result<void> putZip(File& file, std::span<const ZipSource> entries, std::uint64_t zip64From) {
-    Record directory;
+    std::string directory;
     for (const ZipSource& entry : entries) {
         Placed placed;
         placed.offset = file.size();
@@ -449,7 +377,7 @@ Result<void> putZip(File& file, std::span<const ZipSource> entries, std::uint64_
         appendCentralHeader(directory, entry, placed, zip64From);
     }
     appendEnd(directory, entries.size(), file.size(), zip64From);
-    return file.write(directory.bytes());
+    return file.write(directory);
 }
 
 }  // namespace
@@ -475,29 +403,30 @@ Result<std::vector<ZipEntry>> readZip(std::span<const std::byte> bytes) {
     auto at = static_cast<std::size_t>(directory->offset);
     const std::size_t end = at + static_cast<std::size_t>(directory->size);
     for (std::uint64_t e = 0; e < directory->count; ++e) {
-        if (end - at < kCentralSize || load<std::uint32_t>(bytes, at) != kCentralSignature)
+        if (end - at < kCentralSize || loadBytes<std::uint32_t>(bytes, at) != kCentralSignature)
             return badVolume(fmt::format("entry {} of the central directory is damaged", e));
-        const std::size_t nameSize = load<std::uint16_t>(bytes, at + 28);
-        const std::size_t extraSize = load<std::uint16_t>(bytes, at + 30);
-        const std::size_t commentSize = load<std::uint16_t>(bytes, at + 32);
+        const std::size_t nameSize = loadBytes<std::uint16_t>(bytes, at + 28);
+        const std::size_t extraSize = loadBytes<std::uint16_t>(bytes, at + 30);
+        const std::size_t commentSize = loadBytes<std::uint16_t>(bytes, at + 32);
         if (nameSize + extraSize + commentSize > end - at - kCentralSize)
             return badVolume(fmt::format("entry {} of the central directory reaches beyond its end", e));
         ZipEntry entry;
         entry.name = textAt(bytes, at + kCentralSize, nameSize);
-        entry.crc = load<std::uint32_t>(bytes, at + 16);
+        entry.crc = loadBytes<std::uint32_t>(bytes, at + 16);
         const auto wrong = [&](std::string_view what) {
             return badVolume(fmt::format("entry {} {}", shown(entry.name), what));
         };
         if (const auto reason = wrongName(entry.name); !reason.empty())
             return wrong(fmt::format("has a name that {}", reason));
         if (!names.insert(entry.name).second) return wrong("occurs twice in the file");
-        if (auto kind = checkKind(load<std::uint16_t>(bytes, at + 8), load<std::uint16_t>(bytes, at + 10)); !kind)
+        if (auto kind = checkKind(loadBytes<std::uint16_t>(bytes, at + 8), loadBytes<std::uint16_t>(bytes, at + 10));
+            !kind)
             return wrong(kind.error().message());
-        if (load<std::uint16_t>(bytes, at + 34) != 0) return wrong("is in another part of a split archive");
-        entry.size = load<std::uint32_t>(bytes, at + 24);
-        entry.isDeflated = load<std::uint16_t>(bytes, at + 10) == kDeflated;
-        std::uint64_t packedSize = load<std::uint32_t>(bytes, at + 20);
-        std::uint64_t offset = load<std::uint32_t>(bytes, at + 42);
+        if (loadBytes<std::uint16_t>(bytes, at + 34) != 0) return wrong("is in another part of a split archive");
+        entry.size = loadBytes<std::uint32_t>(bytes, at + 24);
+        entry.isDeflated = loadBytes<std::uint16_t>(bytes, at + 10) == kDeflated;
+        std::uint64_t packedSize = loadBytes<std::uint32_t>(bytes, at + 20);
+        std::uint64_t offset = loadBytes<std::uint32_t>(bytes, at + 42);
         const auto extra = bytes.subspan(at + kCentralSize + nameSize, extraSize);
         if (auto resolved = resolve64(extra, {&entry.size, &packedSize, &offset}); !resolved)
             return wrong(resolved.error().message());

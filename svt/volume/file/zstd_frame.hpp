@@ -2,6 +2,7 @@
 /// \file
 /// Numbers in one zstd frame with known content size: the format of the small entries of a `.svt`.
 
+#include <svt/core/bytes.hpp>
 #include <svt/core/result.hpp>
 
 #include <cstddef>
@@ -23,10 +24,7 @@ inline constexpr std::uint64_t kMaxNumberBytes = 0xFFFFFFFFu;
 /// Writes 32-bit numbers in LEB128, and single bytes.
 class NumberWriter {
 public:
-    void number(std::uint32_t value) {
-        for (; value >= 0x80; value >>= 7) bytes_.push_back(static_cast<std::uint8_t>(value | 0x80));
-        bytes_.push_back(static_cast<std::uint8_t>(value));
-    }
+    void number(std::uint32_t value) { appendVarint(bytes_, value); }
     /// Zigzag code of value - before modulo 2^32, so that every difference fits into 32 bits.
     void difference(std::uint32_t value, std::uint32_t before) {
         const std::uint32_t step = value - before;

@@ -1,5 +1,6 @@
 #include <svt/volume_readers/formats/label_formats.hpp>
 
+#include <svt/core/bytes.hpp>
 #include <svt/volume/grid.hpp>
 
 #include <fmt/format.h>
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <map>
 
 namespace svt::volume_readers {
@@ -21,26 +21,21 @@ Error badTiff(std::string message) { return Error(Code::BadImage, std::move(mess
 /// Numbers of a file of either byte order. What lies outside the file reads as 0 and sets `isCut`.
 class TiffBytes {
 public:
-    TiffBytes(std::span<const std::byte> bytes, bool isBig) : bytes_(bytes), isBigEndian_(isBig) {}
+    TiffBytes(std::span<const std::byte> bytes, std::endian order) : bytes_(bytes), order_(order) {}
 
     std::uint64_t number(std::uint64_t offset, std::size_t size) {
         if (offset > bytes_.size() || size > bytes_.size() - offset) {
             isCut = true;
             return 0;
         }
-        std::uint64_t value = 0;
-        for (std::size_t b = 0; b < size; ++b) {
-            const std::size_t at = static_cast<std::size_t>(offset) + (isBigEndian_ ? b : size - 1 - b);
-            value = value << 8 | static_cast<std::uint64_t>(bytes_[at]);
-        }
-        return value;
+        return loadNumber(bytes_, static_cast<std::size_t>(offset), size, order_);
     }
     [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
     bool isCut = false;
 
 private:
     std::span<const std::byte> bytes_;
-    bool isBigEndian_;
+    std::endian order_;
 };
 
 struct TiffField {
@@ -73,10 +68,7 @@ struct TiffPage {
         return text.substr(0, text.find('\0'));
     }
     [[nodiscard]] double real(TiffBytes& bytes, std::uint16_t tag, std::uint64_t index) const {
-        const std::uint64_t bits = value(bytes, tag, 0, index);
-        double real = 0;
-        std::memcpy(&real, &bits, sizeof real);
-        return real;
+        return std::bit_cast<double>(value(bytes, tag, 0, index));
     }
 };
 
@@ -183,7 +175,8 @@ Result<void> readStrips(TiffBytes& bytes, const TiffPage& page, TiffStack& stack
 
 Result<LabelImage> openTiff(const SharedFile& file) {
     const std::string_view text = file->text();
-    TiffBytes bytes(file->bytes(), text.starts_with("MM"));
+    const bool isBigEndian = text.starts_with("MM");
+    TiffBytes bytes(file->bytes(), isBigEndian ? std::endian::big : std::endian::little);
     const bool isWide = bytes.number(2, 2) == 43;
     std::uint64_t offset = isWide ? bytes.number(8, 8) : bytes.number(4, 4);
     TiffStack stack;
@@ -199,7 +192,7 @@ Result<LabelImage> openTiff(const SharedFile& file) {
         if (auto done = readStrips(bytes, page, stack); !done) return done.error();
         offset = page.next;
     }
-    stack.image.isSwapped = text.starts_with("MM");
+    stack.image.isSwapped = isBigEndian;
     SVT_DO(checkImage(stack.image, stack.storedBytes, stack.isCompressed, Code::BadImage));
     stack.image.read = zlibSamples(file, std::move(stack.strips), stack.isCompressed, Code::BadImage);
     return std::move(stack.image);

@@ -1,3 +1,4 @@
+#include <svt/core/bytes.hpp>
 #include <svt/core/machine.hpp>
 #include <svt/volume_readers/samples/label_image.hpp>
 
@@ -20,6 +21,8 @@ using volume::ColumnVolume;
 using volume::Run;
 using volume::Scalar;
 
+std::endian orderOf(const LabelImage& image) { return image.isSwapped ? std::endian::big : std::endian::little; }
+
 /// The runs of all columns while slices come, bottom up. A row that reads as the one below it costs a comparison.
 class Collector {
 public:
@@ -27,6 +30,7 @@ public:
         : image_(image),
           maxBytes_(maxBytes),
           code_(code),
+          order_(image.other == OtherKind::None ? orderOf(image) : std::endian::little),
           rowBytes_(std::size_t(image.dimension.x) * std::size_t(image.bits / 8)),
           runs_(std::size_t(image.dimension.x) * std::size_t(image.dimension.y)) {}
 
@@ -83,16 +87,11 @@ private:
             return value;
         }
         if (image_.bits == 16) {
-            std::uint16_t value = 0;
-            std::memcpy(&value, row + 2 * index, 2);
-            if (image_.isSwapped) value = static_cast<std::uint16_t>(value << 8 | value >> 8);
+            const auto value = loadBytes<std::uint16_t>(row + 2 * index, order_);
             isNegative_ = isNegative_ || (image_.isSigned && value > 0x7FFF);
             return value;
         }
-        std::uint32_t value = 0;
-        std::memcpy(&value, row + 4 * index, 4);
-        if (image_.isSwapped && image_.other == OtherKind::None)
-            value = value << 24 | (value << 8 & 0xFF0000) | (value >> 8 & 0xFF00) | value >> 24;
+        const auto value = loadBytes<std::uint32_t>(row + 4 * index, order_);
         isNegative_ = isNegative_ || (image_.isSigned && value > 0x7FFFFFFF);
         return value;
     }
@@ -109,6 +108,7 @@ private:
     const LabelImage& image_;
     std::uint64_t maxBytes_;
     Code code_;
+    std::endian order_;
     std::size_t rowBytes_;
     std::vector<std::vector<Run>> runs_;
     std::vector<Run> done_;
@@ -117,26 +117,16 @@ private:
     bool isNegative_ = false;
 };
 
-/// A number as it is stored, of the machine's byte order afterwards.
-template <class T>
-T storedNumber(const std::byte* at, bool isSwapped) {
-    std::array<std::byte, sizeof(T)> bytes{};
-    std::memcpy(bytes.data(), at, sizeof(T));
-    if (isSwapped) std::reverse(bytes.begin(), bytes.end());
-    return std::bit_cast<T>(bytes);
-}
-
 /// The sample as a label, where it is one.
-std::optional<std::uint32_t> labelOf(const std::byte* at, OtherKind kind, bool isSwapped, double& found) {
+std::optional<std::uint32_t> labelOf(const std::byte* at, OtherKind kind, std::endian order, double& found) {
     constexpr double kMost = 4294967295.0;
     if (kind == OtherKind::Int64 || kind == OtherKind::UInt64) {
-        const auto value = storedNumber<std::uint64_t>(at, isSwapped);
+        const auto value = loadBytes<std::uint64_t>(at, order);
         found = kind == OtherKind::Int64 ? double(static_cast<std::int64_t>(value)) : double(value);
         if (value > 0xFFFFFFFFu) return std::nullopt;
         return static_cast<std::uint32_t>(value);
     }
-    found =
-        kind == OtherKind::Float32 ? double(storedNumber<float>(at, isSwapped)) : storedNumber<double>(at, isSwapped);
+    found = kind == OtherKind::Float32 ? double(loadBytes<float>(at, order)) : loadBytes<double>(at, order);
     if (!(found >= 0 && found <= kMost) || found != std::floor(found)) return std::nullopt;
     return static_cast<std::uint32_t>(found);
 }
@@ -151,7 +141,7 @@ public:
         const std::size_t size = image_.other == OtherKind::Float32 ? 4 : 8;
         for (std::size_t n = 0; n < slice.size() / 4; ++n) {
             double found = 0;
-            const auto label = labelOf(stored_.data() + n * size, image_.other, image_.isSwapped, found);
+            const auto label = labelOf(stored_.data() + n * size, image_.other, orderOf(image_), found);
             if (!label)
                 return Error(
                     code,
@@ -169,7 +159,6 @@ private:
 }  // namespace
 
 Result<ColumnVolume> readColumns(const LabelImage& image, std::uint64_t maxBytes, Code code, const Progress* progress) {
-    static_assert(std::endian::native == std::endian::little);
     const std::uint64_t columns = std::uint64_t(image.dimension.x) * std::uint64_t(image.dimension.y);
     const bool isOther = image.other != OtherKind::None;
     const std::uint64_t needed = 2 * image.sliceBytes() + (isOther ? image.storedSliceBytes() : 0) +

@@ -1,13 +1,11 @@
 #include <svt/volume_readers/samples/label_image.hpp>
 
+#include <svt/core/deflate.hpp>
 #include <svt/volume/grid.hpp>
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
-#include <cstring>
-#include <new>
 #include <string>
 #include <utility>
 
@@ -16,9 +14,6 @@ namespace {
 
 /// Maximum compression ratio of deflate; a header that claims more is invalid.
 constexpr std::uint64_t kMaxRatio = 1032;
-constexpr std::size_t kStep = std::size_t{1} << 30;  // zlib counts with 32 bits
-
-Bytef* zlibBytes(const std::byte* bytes) noexcept { return reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes)); }
 
 Error trailing(Code code, std::uint64_t count) {
     return {code, fmt::format("{} bytes stand behind the samples: the file is damaged, or its sizes are wrong", count)};
@@ -28,47 +23,37 @@ Error trailing(Code code, std::uint64_t count) {
 class GzipSource {
 public:
     GzipSource(SharedFile file, std::span<const std::byte> bytes, Code code)
-        : file_(std::move(file)), rest_(bytes), code_(code) {
-        if (inflateInit2(&stream_, MAX_WBITS + 16) != Z_OK) throw std::bad_alloc();
-    }
-    GzipSource(const GzipSource&) = delete;
-    GzipSource& operator=(const GzipSource&) = delete;
-    ~GzipSource() { inflateEnd(&stream_); }
+        : file_(std::move(file)), rest_(bytes), code_(code) {}
 
     Result<void> read(std::span<std::byte> out) {
         if (out.empty()) return finish();
         while (!out.empty()) {
             SVT_DO(fill());
-            const std::size_t room = std::min(out.size(), kStep);
-            stream_.next_out = zlibBytes(out.data());
-            stream_.avail_out = static_cast<uInt>(room);
-            const int status = inflate(&stream_, Z_NO_FLUSH);
-            const std::size_t made = room - stream_.avail_out;
-            out = out.subspan(made);
-            isBetween_ = status == Z_STREAM_END;
-            if (status == Z_STREAM_END && !isSpent()) {
-                inflateReset(&stream_);
+            const std::size_t before = out.size();
+            const InflateStep step = stream_.step(piece_, out);
+            isBetween_ = step == InflateStep::End;
+            if (isBetween_ && !isSpent()) {
+                stream_.restart();
                 continue;
             }
-            if (status != Z_OK && status != Z_STREAM_END)
+            if (!isBetween_ && step != InflateStep::More)
                 return Error(code_, "the compressed samples are damaged or cut short");
-            if (made == 0 && !out.empty() && isSpent())
+            if (out.size() == before && isSpent())
                 return Error(code_, "the compressed samples are fewer than the sizes say");
         }
         return {};
     }
 
 private:
-    [[nodiscard]] bool isSpent() const noexcept { return rest_.empty() && stream_.avail_in == 0; }
+    [[nodiscard]] bool isSpent() const noexcept { return rest_.empty() && piece_.empty(); }
 
-    /// Gives zlib the next piece of the file where it has none.
+    /// Reads the next piece of the file where there is none.
     Result<void> fill() {
-        if (stream_.avail_in != 0) return {};
+        if (!piece_.empty()) return {};
         const auto stored = rest_.first(std::min(rest_.size(), kPiece));
         SVT_TRY(piece, file_->part(stored, buffer_));
         rest_ = rest_.subspan(stored.size());
-        stream_.next_in = zlibBytes(piece->data());
-        stream_.avail_in = static_cast<uInt>(piece->size());
+        piece_ = *piece;
         return {};
     }
 
@@ -76,15 +61,14 @@ private:
     Result<void> finish() {
         while (!(isBetween_ && isSpent())) {
             SVT_DO(fill());
-            if (isBetween_ && *stream_.next_in != 0x1F) return trailing(code_, rest_.size() + stream_.avail_in);
+            if (isBetween_ && piece_.front() != std::byte{0x1F}) return trailing(code_, rest_.size() + piece_.size());
             std::byte beyond{};
-            stream_.next_out = zlibBytes(&beyond);
-            stream_.avail_out = 1;
-            const int status = inflate(&stream_, Z_NO_FLUSH);
-            if (stream_.avail_out == 0) return Error(code_, "the compressed samples are more than the sizes say");
-            isBetween_ = status == Z_STREAM_END;
-            if (isBetween_) inflateReset(&stream_);
-            if (status != Z_STREAM_END && (status != Z_OK || isSpent()))
+            std::span<std::byte> room(&beyond, 1);
+            const InflateStep step = stream_.step(piece_, room);
+            if (room.empty()) return Error(code_, "the compressed samples are more than the sizes say");
+            isBetween_ = step == InflateStep::End;
+            if (isBetween_) stream_.restart();
+            if (!isBetween_ && (step != InflateStep::More || isSpent()))
                 return Error(code_, "the end of the compressed samples is damaged or cut short");
         }
         return {};
@@ -93,10 +77,11 @@ private:
     static constexpr std::size_t kPiece = std::size_t{1} << 20;
 
     SharedFile file_;
-    std::span<const std::byte> rest_;  // what zlib has not been given
+    std::span<const std::byte> rest_;   // of the file, behind the piece
+    std::span<const std::byte> piece_;  // what is not unpacked
     std::string buffer_;
     Code code_;
-    z_stream stream_{};
+    InflateStream stream_{DeflateFormat::Gzip};
     bool isBetween_ = false;  // members, or behind the last one
 };
 
@@ -131,11 +116,7 @@ private:
             return {};
         }
         bytes_.resize(static_cast<std::size_t>(block.size));
-        uLongf size = static_cast<uLongf>(block.size);
-        const int status =
-            uncompress(zlibBytes(bytes_.data()), &size, zlibBytes(stored->data()), static_cast<uLong>(stored->size()));
-        if (status == Z_MEM_ERROR) throw std::bad_alloc();
-        if (status != Z_OK || size != block.size)
+        if (!inflateInto(*stored, DeflateFormat::Zlib, bytes_))
             return Error(code_, fmt::format("block {} of the compressed samples is damaged or cut short", block_ - 1));
         return {};
     }

@@ -1,12 +1,12 @@
 #include <svt/volume_readers/zarr/chunk_codecs.hpp>
 
+#include <svt/core/bytes.hpp>
+#include <svt/core/deflate.hpp>
+
 #include <fmt/format.h>
-#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
-#include <cstring>
-#include <new>
 
 namespace svt::volume_readers {
 namespace {
@@ -15,26 +15,6 @@ using ChunkBytes = std::vector<std::byte>;
 
 Error badChunk(std::string_view codec) {
     return {Code::BadImage, fmt::format("a chunk is damaged: its {} does not unpack to the size of a chunk", codec)};
-}
-
-std::uint32_t wordAt(std::span<const std::byte> bytes, std::size_t at) noexcept {
-    std::uint32_t word = 0;
-    std::memcpy(&word, bytes.data() + at, sizeof word);
-    return word;
-}
-
-/// zlib or gzip, told by the first bytes.
-bool inflateInto(std::span<const std::byte> stored, std::span<std::byte> out) {
-    z_stream stream{};
-    if (inflateInit2(&stream, MAX_WBITS + 32) != Z_OK) throw std::bad_alloc();
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(stored.data()));
-    stream.avail_in = static_cast<uInt>(stored.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    const int status = inflate(&stream, Z_FINISH);
-    const bool isWhole = status == Z_STREAM_END && stream.avail_out == 0;
-    inflateEnd(&stream);
-    return isWhole;
 }
 
 bool unzstdInto(std::span<const std::byte> stored, std::span<std::byte> out) {
@@ -80,7 +60,9 @@ bool unpackInner(int format, std::span<const std::byte> stored, std::span<std::b
         std::copy(stored.begin(), stored.end(), out.begin());
         return true;
     }
-    return format == 1 ? unlz4Into(stored, out) : format == 3 ? inflateInto(stored, out) : unzstdInto(stored, out);
+    return format == 1   ? unlz4Into(stored, out)
+           : format == 3 ? inflateInto(stored, DeflateFormat::ZlibOrGzip, out)
+                         : unzstdInto(stored, out);
 }
 
 /// Byte b of each item stands behind all bytes b - 1.
@@ -108,7 +90,7 @@ bool unpackBlock(std::span<const std::byte> in, std::size_t at, int format, std:
                  std::span<std::byte> out) {
     for (std::size_t s = 0; s < splits; ++s) {
         if (at > in.size() || in.size() - at < 4) return false;
-        const std::size_t size = wordAt(in, at);
+        const std::size_t size = loadBytes<std::uint32_t>(in, at);
         at += 4;
         if (size > in.size() - at) return false;
         const std::size_t part = out.size() / splits;
@@ -123,7 +105,8 @@ Result<ChunkBytes> unblosc(std::span<const std::byte> in, std::uint64_t size) {
     if (in.size() < 16) return badChunk("Blosc");
     const auto flags = static_cast<unsigned>(in[2]);
     const std::size_t itemSize = std::max<std::size_t>(1, static_cast<std::size_t>(in[3]));
-    const std::size_t plain = wordAt(in, 4), blockSize = wordAt(in, 8), stored = wordAt(in, 12);
+    const std::size_t plain = loadBytes<std::uint32_t>(in, 4), blockSize = loadBytes<std::uint32_t>(in, 8),
+                      stored = loadBytes<std::uint32_t>(in, 12);
     const auto format = static_cast<int>(flags >> 5);
     if (plain != size || stored > in.size() || blockSize == 0 || blockSize > kMostChunkBytes) return badChunk("Blosc");
     ChunkBytes out(plain);
@@ -145,7 +128,8 @@ Result<ChunkBytes> unblosc(std::span<const std::byte> in, std::uint64_t size) {
         const std::size_t begin = b * blockSize, length = std::min(blockSize, plain - begin);
         const bool isSplit = (flags & 16) == 0 && length == blockSize && itemSize <= 16 && length / itemSize >= 128;
         block.assign(length, std::byte{0});
-        if (!unpackBlock(in, wordAt(in, 16 + 4 * b), format, isSplit ? itemSize : 1, block)) return badChunk("Blosc");
+        if (!unpackBlock(in, loadBytes<std::uint32_t>(in, 16 + 4 * b), format, isSplit ? itemSize : 1, block))
+            return badChunk("Blosc");
         const std::span<std::byte> to = std::span(out).subspan(begin, length);
         if ((flags & 1) != 0 && itemSize > 1)
             unshuffle(block, to, itemSize);
@@ -170,7 +154,8 @@ std::uint32_t crc32cOf(std::span<const std::byte> bytes) noexcept {
 
 Result<std::vector<std::byte>> unpackChunk(CodecKind codec, std::span<const std::byte> stored, std::uint64_t size) {
     if (codec == CodecKind::Crc32c) {
-        if (stored.size() < 4 || crc32cOf(stored.first(stored.size() - 4)) != wordAt(stored, stored.size() - 4))
+        if (stored.size() < 4 ||
+            crc32cOf(stored.first(stored.size() - 4)) != loadBytes<std::uint32_t>(stored, stored.size() - 4))
             return Error(Code::BadImage, "a chunk is damaged: its checksum (CRC-32C) is another one");
         return ChunkBytes(stored.begin(), stored.end() - 4);
     }
@@ -179,13 +164,14 @@ Result<std::vector<std::byte>> unpackChunk(CodecKind codec, std::span<const std:
     if (codec == CodecKind::Blosc) return unblosc(stored, size);
     // The best that deflate can do is 1032 times; zstd and LZ4 tell what they are to become.
     if ((codec == CodecKind::Zlib || codec == CodecKind::Gzip) && size / 1032 > stored.size()) return badChunk("zlib");
-    if (codec == CodecKind::Lz4 && (stored.size() < 4 || wordAt(stored, 0) != size || size / 255 > stored.size()))
+    if (codec == CodecKind::Lz4 &&
+        (stored.size() < 4 || loadBytes<std::uint32_t>(stored, 0) != size || size / 255 > stored.size()))
         return badChunk("LZ4");
     ChunkBytes out(static_cast<std::size_t>(size));
     switch (codec) {
         case CodecKind::Zlib:
         case CodecKind::Gzip:
-            if (!inflateInto(stored, out)) return badChunk("zlib");
+            if (!inflateInto(stored, DeflateFormat::ZlibOrGzip, out)) return badChunk("zlib");
             break;
         case CodecKind::Zstd:
             if (!unzstdInto(stored, out)) return badChunk("zstd");

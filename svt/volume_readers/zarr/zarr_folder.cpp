@@ -161,10 +161,7 @@ private:
     }
 
     [[nodiscard]] std::uint64_t indexNumber(std::span<const std::byte> index, std::size_t at) const noexcept {
-        std::uint64_t number = 0;
-        for (std::size_t b = 0; b < 8; ++b)
-            number |= static_cast<std::uint64_t>(index[at + (array_.isIndexBigEndian ? 7 - b : b)]) << 8 * b;
-        return number;
+        return loadNumber(index, at, 8, array_.isIndexBigEndian ? std::endian::big : std::endian::little);
     }
 
     Result<void> readChunk(std::span<const std::byte> stored, const Index& first) {

@@ -1,13 +1,11 @@
-#include <svt/core/check.hpp>
+#include <svt/core/bytes.hpp>
 #include <svt/core/deflate.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/writers/dense/gzip_writer.hpp>
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
-#include <new>
+#include <string>
 
 namespace svt::writers {
 namespace {
@@ -25,13 +23,8 @@ struct Piece {
 Piece compressPiece(std::span<const std::byte> bytes) {
     Piece piece;
     piece.compressed = deflatePiece(bytes, kLevel, false);
-    piece.crc = static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+    piece.crc = zipChecksum(bytes);
     return piece;
-}
-
-std::array<std::byte, 4> littleEndian(std::uint32_t value) noexcept {
-    return {std::byte(value & 0xFF), std::byte(value >> 8 & 0xFF), std::byte(value >> 16 & 0xFF),
-            std::byte(value >> 24)};
 }
 
 }  // namespace
@@ -54,7 +47,7 @@ Result<void> GzipWriter::compress(std::span<const std::byte> bytes) {
         });
         for (std::size_t p = 0; p < pieces.size(); ++p) {
             const std::size_t size = pieceAt(first + p).size();
-            crc_ = static_cast<std::uint32_t>(crc32_combine(crc_, pieces[p].crc, static_cast<z_off_t>(size)));
+            crc_ = joinedChecksum(crc_, pieces[p].crc, size);
             size_ += size;
             SVT_DO(file_.write(pieces[p].compressed));
         }
@@ -82,10 +75,9 @@ Result<void> GzipWriter::write(std::span<const std::byte> bytes) {
 Result<void> GzipWriter::finish() {
     SVT_DO(compress(pending_));
     // An empty last block with fixed Huffman codes: the bits 1, 01, 0000000.
-    constexpr std::array<unsigned char, 2> kLastBlock{0x03, 0x00};
-    SVT_DO(file_.write(std::as_bytes(std::span(kLastBlock))));
-    SVT_DO(file_.write(littleEndian(crc_)));
-    return file_.write(littleEndian(static_cast<std::uint32_t>(size_)));
+    std::string end("\3\0", 2);
+    appendAs<std::uint32_t>(end, crc_, size_);
+    return file_.write(end);
 }
 
 }  // namespace svt::writers

@@ -2,11 +2,11 @@
 /// \file
 /// Text or bytes that are collected and go to a file in pieces of a megabyte; UTF-8 that is valid.
 
+#include <svt/core/bytes.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 
 #include <cstddef>
-#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -27,14 +27,6 @@ public:
 private:
     AtomicFile& file_;
 };
-
-/// Appends a number as it stands in memory: little-endian.
-template <class T>
-void appendBytes(std::string& out, T value) {
-    char bytes[sizeof value];
-    std::memcpy(bytes, &value, sizeof value);
-    out.append(bytes, sizeof bytes);
-}
 
 /// `text` with '?' for each byte that belongs to no character.
 [[nodiscard]] inline std::string validText(std::string_view text) {

@@ -1,12 +1,11 @@
+#include <svt/core/deflate.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <bit>
-#include <new>
 #include <utility>
 
 namespace svt::writers {
@@ -46,17 +45,6 @@ Result<void> streamAs(const volume::ColumnVolume& columns, const StreamOptions& 
         Progress::tell(options.progress, options.stage, options.begin + (options.end - options.begin) * share);
     }
     return {};
-}
-
-std::vector<std::byte> zlibBytes(std::span<const std::byte> bytes) {
-    uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-    std::vector<std::byte> compressed(size);
-    const int status =
-        compress2(reinterpret_cast<Bytef*>(compressed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                  static_cast<uLong>(bytes.size()), kBlockLevel);
-    if (status != Z_OK) throw std::bad_alloc();  // the buffer is large enough, so only memory can be missing
-    compressed.resize(size);
-    return compressed;
 }
 
 }  // namespace
@@ -104,7 +92,11 @@ Result<void> ZlibBlocks::forEach(const StreamOptions& options, const BlockSink& 
         }
         std::vector<std::vector<std::byte>> compressed(whole.size());
         parallelFor(whole.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t b = begin; b < end; ++b) compressed[b] = zlibBytes(whole[b]);
+            ZlibPacker packer(kBlockLevel);
+            for (std::size_t b = begin; b < end; ++b) {
+                const auto packed = packer.pack(whole[b]);
+                compressed[b].assign(packed.begin(), packed.end());
+            }
         });
         for (std::vector<std::byte>& block : compressed)
             if (auto done = sink(std::move(block)); !done) return done;

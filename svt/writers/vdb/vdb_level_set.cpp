@@ -124,12 +124,11 @@ LowerNode lowerNode(const std::vector<float>& block, float background) {
                     continue;
                 }
                 children.set(number);
-                put(masks, active);
-                put(node.buffers, active);
+                appendBytes(masks, active);
+                appendBytes(node.buffers, active);
                 putAllValues(node.buffers, values);
             }
-    put(node.topology, children);
-    put(node.topology, tiles);
+    appendBytes(node.topology, children, tiles);
     putAllValues(node.topology, tileValues);
     node.topology.insert(node.topology.end(), masks.begin(), masks.end());
     return node;
@@ -235,9 +234,7 @@ Result<void> VdbLevelSet::writeUpper(Vec3i upper, const VdbSink& topology, const
                 bands.push_back(block);
             }
     VdbBytes bytes;
-    for (int axis = 0; axis < 3; ++axis) put(bytes, first[axis] * VdbBlocks::kSide);
-    put(bytes, children);
-    put(bytes, tiles);
+    appendBytes(bytes, first * VdbBlocks::kSide, children, tiles);
     putAllValues(bytes, tileValues);
     if (topology)
         if (auto done = topology(bytes); !done) return done;
@@ -268,10 +265,8 @@ Result<void> VdbLevelSet::write(const VdbSink& topology, const VdbSink& buffers)
                 if (!uppers.contains(upper) && stateOf({x, y, z}) != State::Outside) uppers.insert(upper);
             }
     VdbBytes bytes;
-    put(bytes, std::int32_t{1});  // buffers of a leaf
-    put(bytes, background_);
-    put(bytes, std::uint32_t{0});  // tiles of the root
-    put(bytes, static_cast<std::uint32_t>(uppers.size()));
+    // Buffers of a leaf, background, tiles and children of the root.
+    appendBytes(bytes, std::int32_t{1}, background_, std::uint32_t{0}, static_cast<std::uint32_t>(uppers.size()));
     if (topology)
         if (auto done = topology(bytes); !done) return done;
     for (const Vec3i upper : uppers)

@@ -2,6 +2,8 @@
 /// \file
 /// What the nodes of an OpenVDB tree are written with: masks, numbers, values.
 
+#include <svt/core/bytes.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -21,12 +23,6 @@ struct NodeMask {
     std::array<std::uint64_t, N / 64> words{};
     void set(std::size_t bit) noexcept { words[bit / 64] |= std::uint64_t{1} << (bit % 64); }
 };
-
-template <class T>
-void put(VdbBytes& to, const T& value) {
-    const auto bytes = std::as_bytes(std::span(&value, 1));
-    to.insert(to.end(), bytes.begin(), bytes.end());
-}
 
 /// The active values of a node: a byte that says that all others are background, then the values, compressed by zlib where
 /// that makes them smaller.

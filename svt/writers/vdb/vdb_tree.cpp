@@ -62,11 +62,10 @@ VdbBytes lowerTopology(const std::vector<std::uint32_t>& block) {
             return;
         }
         children.set(n);
-        put(leaves, maskOf(values));
+        appendBytes(leaves, maskOf(values));
     });
     VdbBytes bytes;
-    put(bytes, children);
-    put(bytes, tiles);
+    appendBytes(bytes, children, tiles);
     putValues(bytes, tileValues);
     bytes.insert(bytes.end(), leaves.begin(), leaves.end());
     return bytes;
@@ -78,7 +77,7 @@ VdbBytes leafBuffers(const std::vector<std::uint32_t>& block) {
     std::vector<std::uint32_t> active;
     forEachLeaf(block, [&](std::size_t, const std::array<std::uint32_t, 512>& values, bool isUniform) {
         if (isUniform) return;
-        put(bytes, maskOf(values));
+        appendBytes(bytes, maskOf(values));
         active.clear();
         std::copy_if(values.begin(), values.end(), std::back_inserter(active), [](std::uint32_t v) { return v != 0; });
         putValues(bytes, active);
@@ -205,9 +204,7 @@ Result<void> VdbTree::writeUpper(const Upper& upper, const VdbSink& topology, co
     });
     if (!done) return done;
     VdbBytes bytes;
-    for (int axis = 0; axis < 3; ++axis) put(bytes, upper.first[axis] * VdbBlocks::kSide);
-    put(bytes, children);
-    put(bytes, tiles);
+    appendBytes(bytes, upper.first * VdbBlocks::kSide, children, tiles);
     putValues(bytes, tileValues);
     if (topology)
         if (done = topology(bytes); !done) return done;
@@ -223,10 +220,8 @@ Result<void> VdbTree::writeUpper(const Upper& upper, const VdbSink& topology, co
 
 Result<void> VdbTree::write(const VdbSink& topology, const VdbSink& buffers) const {
     VdbBytes bytes;
-    put(bytes, std::int32_t{1});   // buffers of a leaf
-    put(bytes, std::uint32_t{0});  // background
-    put(bytes, std::uint32_t{0});  // tiles of the root
-    put(bytes, static_cast<std::uint32_t>(roots_.size()));
+    // Buffers of a leaf, background, tiles and children of the root.
+    appendAs<std::uint32_t>(bytes, 1, 0, 0, roots_.size());
     if (topology)
         if (auto done = topology(bytes); !done) return done;
     for (const Upper& upper : roots_)

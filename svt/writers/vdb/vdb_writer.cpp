@@ -53,8 +53,7 @@ std::string vdbTransform(const volume::Grid& grid) {
             unit[row] = 1;
             step = grid.worldFromIndexDirection(unit);
         }
-        for (int axis = 0; axis < 3; ++axis) appendBytes(bytes, step[axis]);
-        appendBytes(bytes, row < 3 ? 0.0 : 1.0);
+        appendBytes(bytes, step, row < 3 ? 0.0 : 1.0);
     }
     return bytes;
 }
@@ -101,8 +100,7 @@ Result<void> writeGrid(const VdbGrid& grid, const volume::Grid& samples, AtomicF
     std::string descriptor = vdbString(grid.name) + vdbString("Tree_float_5_4_3") + vdbString("");
     const std::uint64_t begin = file.size() + descriptor.size() + 3 * sizeof(std::int64_t),
                         leaves = begin + head.size() + topology.size;
-    for (const std::uint64_t place : {begin, leaves, leaves + buffers.size})
-        appendBytes(descriptor, static_cast<std::int64_t>(place));
+    appendAs<std::int64_t>(descriptor, begin, leaves, leaves + buffers.size);
     SVT_DO(file.write(descriptor + head));
     const auto sink = [&](std::span<const std::byte> bytes) { return file.write(bytes); };
     auto done = topology.kept.size() == topology.size ? file.write(topology.kept) : grid.write(sink, {});

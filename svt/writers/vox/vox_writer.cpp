@@ -90,8 +90,7 @@ std::string voxDictionary(const VoxDictionary& entries) {
 
 std::string voxChunk(std::string_view name, std::string_view content) {
     std::string bytes(name);
-    appendBytes(bytes, static_cast<std::int32_t>(content.size()));
-    appendBytes(bytes, std::int32_t{0});
+    appendAs<std::int32_t>(bytes, content.size(), 0);
     return bytes += content;
 }
 
@@ -100,7 +99,7 @@ std::string transformChunk(std::int32_t node, const VoxDictionary& attributes, s
     std::string content;
     appendBytes(content, node);
     content += voxDictionary(attributes);
-    for (const std::int32_t number : {child, -1, -1, 1}) appendBytes(content, number);
+    appendAs<std::int32_t>(content, child, -1, -1, 1);
     return voxChunk("nTRN", content + voxDictionary(frame));
 }
 
@@ -117,7 +116,7 @@ std::string shapeChunk(std::int32_t node, std::int32_t model) {
     std::string content;
     appendBytes(content, node);
     content += voxDictionary({});
-    for (const std::int32_t number : {1, model}) appendBytes(content, number);
+    appendAs<std::int32_t>(content, 1, model);
     return voxChunk("nSHP", content + voxDictionary({}));
 }
 
@@ -154,8 +153,7 @@ public:
         out.text = "VOX ";
         appendBytes(out.text, std::int32_t{150});
         out.text += "MAIN";
-        appendBytes(out.text, std::int32_t{0});
-        appendBytes(out.text, static_cast<std::int32_t>(children));
+        appendAs<std::int32_t>(out.text, 0, children);
         for (std::size_t m = 0; m < models_.size(); ++m) {
             if (Progress::isCancelled(options_.progress)) return cancelled();
             Progress::tell(options_.progress, "write", double(m) / double(models_.size()));
@@ -209,7 +207,7 @@ private:
     std::string modelChunks(const VoxModel& model) {
         const Vec3i size = model.box.max - model.box.min + Vec3i{1, 1, 1};
         std::string sizes, voxels;
-        for (int axis = 0; axis < 3; ++axis) appendBytes(sizes, size[axis]);
+        appendBytes(sizes, size);
         appendBytes(voxels, std::int32_t{0});
         forEachVoxel(model, [&](std::int32_t i, std::int32_t j, std::int32_t k, std::uint32_t scalar) {
             for (const std::int32_t at : {i, j, k}) voxels += static_cast<char>(at);

@@ -1,0 +1,128 @@
+#pragma once
+/// \file
+/// Numbers as bytes of files: appended to a buffer, loaded at an offset, taken off the front with every bound checked.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+namespace svt {
+
+static_assert(std::endian::native == std::endian::little, "numbers stand in files as they do in memory");
+
+/// Appends plain values as they stand in memory: numbers little-endian.
+/// \param to  a string or a vector of bytes
+template <class Buffer, class... Values>
+void appendBytes(Buffer& to, const Values&... values) {
+    static_assert((std::is_trivially_copyable_v<Values> && ...));
+    using Byte = typename Buffer::value_type;
+    const auto append = [&](const auto& value) {
+        const auto* bytes = reinterpret_cast<const Byte*>(&value);
+        to.insert(to.end(), bytes, bytes + sizeof(value));
+    };
+    (append(values), ...);
+}
+
+/// The same of numbers of type T, which take the lower bits of the values.
+template <class T, class Buffer, class... Values>
+void appendAs(Buffer& to, const Values&... values) {
+    appendBytes(to, static_cast<T>(values)...);
+}
+
+/// Appends a number in LEB128: seven bits a byte, the lowest first.
+template <class Buffer>
+void appendVarint(Buffer& to, std::uint64_t value) {
+    using Byte = typename Buffer::value_type;
+    for (; value >= 0x80; value >>= 7) to.push_back(static_cast<Byte>(value | 0x80));
+    to.push_back(static_cast<Byte>(value));
+}
+
+/// Zigzag code, which gives small numbers of either sign a short varint.
+[[nodiscard]] constexpr std::uint64_t zigzag(std::int64_t value) noexcept {
+    return static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63);
+}
+[[nodiscard]] constexpr std::int64_t fromZigzag(std::uint64_t value) noexcept {
+    return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
+}
+
+/// The number of type T at `at`, where the caller knows sizeof(T) bytes to be.
+template <class T>
+[[nodiscard]] T loadBytes(const std::byte* at, std::endian order = std::endian::little) noexcept {
+    std::array<std::byte, sizeof(T)> bytes{};
+    std::memcpy(bytes.data(), at, sizeof(T));
+    if (order == std::endian::big) std::reverse(bytes.begin(), bytes.end());
+    return std::bit_cast<T>(bytes);
+}
+template <class T>
+[[nodiscard]] T loadBytes(std::span<const std::byte> bytes, std::size_t at) noexcept {
+    return loadBytes<T>(bytes.data() + at);
+}
+
+/// The unsigned number of 1 to 8 bytes at `at`, where the caller knows them to be.
+[[nodiscard]] inline std::uint64_t loadNumber(std::span<const std::byte> bytes, std::size_t at, std::size_t size,
+                                              std::endian order = std::endian::little) noexcept {
+    std::uint64_t value = 0;
+    for (std::size_t b = 0; b < size; ++b)
+        value = value << 8 | std::to_integer<std::uint64_t>(
+                                 bytes[at + (order == std::endian::big ? b : size - 1 - b)]);
+    return value;
+}
+
+/// Takes values off the front of bytes. After one that is not there all are 0, and isGood() is false.
+class ByteReader {
+public:
+    explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
+
+    template <class T>
+    [[nodiscard]] T take() {
+        T value{};
+        take(value);
+        return value;
+    }
+    /// Takes the values in their order.
+    template <class First, class... Rest>
+    void take(First& first, Rest&... rest) {
+        static_assert(std::is_trivially_copyable_v<First>);
+        if (rest_.size() < sizeof(First)) {
+            isGood_ = false;
+            rest_ = {};
+            first = First{};
+        } else {
+            std::memcpy(&first, rest_.data(), sizeof(First));
+            rest_.remove_prefix(sizeof(First));
+        }
+        if constexpr (sizeof...(Rest) > 0) take(rest...);
+    }
+    /// A number that appendVarint() wrote.
+    [[nodiscard]] std::uint64_t takeVarint() {
+        std::uint64_t value = 0;
+        for (int shift = 0; shift < 64; shift += 7) {
+            const auto byte = take<std::uint8_t>();
+            value |= std::uint64_t{byte & 0x7Fu} << shift;
+            if (byte < 0x80) break;
+        }
+        return value;
+    }
+    /// The next `size` bytes; fewer, with isGood() false, where the bytes end.
+    [[nodiscard]] std::string_view text(std::size_t size) {
+        isGood_ = isGood_ && size <= rest_.size();
+        const std::string_view taken = rest_.substr(0, size);
+        rest_.remove_prefix(taken.size());
+        return taken;
+    }
+    void skip(std::size_t size) { (void)text(size); }
+    [[nodiscard]] std::size_t left() const noexcept { return rest_.size(); }
+    [[nodiscard]] bool isGood() const noexcept { return isGood_; }
+
+private:
+    std::string_view rest_;
+    bool isGood_ = true;
+};
+
+}  // namespace svt
