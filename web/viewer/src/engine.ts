@@ -206,17 +206,78 @@ export interface ColorScale {
   missing: number;
 }
 
+/** The type of a call: its arguments and its result. */
+const call = <Signature extends (...args: never[]) => unknown>() => undefined as unknown as Signature;
+
+/**
+ * The calls of the library (`web/wasm/module.cpp`) that are passed on as they are, by name. One more needs a row here and there, and
+ * nothing in between. A buffer among the arguments is handed over.
+ */
+export const kCalls = {
+  /** The scene with effects, as `svt render --lens/--highlight/--cutaway` make it. */
+  compose: call<(scene: Scene, effects: Effects) => Scene>(),
+  /**
+   * x and y in 0..1 of the last picture.
+   * @param reach  metres within which to snap to corners and edges of the model; 0: no snapping
+   */
+  pick: call<(x: number, y: number, reach?: number) => Pick | null>(),
+  /** Everything along the ray through a pixel, nearest first, hidden or not. */
+  along: call<(x: number, y: number) => Stretch[]>(),
+  /** Ids of the features that a query selects. */
+  select: call<(query: string) => string[]>(),
+  /** Ids of the features one of whose attributes contains all the words, in its name or value. */
+  findInAttributes: call<(words: string) => string[]>(),
+  properties: call<(id: string) => FeatureProperties>(),
+  /**
+   * Eye and target that show the features selected by a query (empty: all), from a named view or else from the
+   * current view direction.
+   */
+  view: call<(query: string, preset: string | null, camera: SceneCamera) => SceneCamera>(),
+  /** A picture as PNG, drawn by the CPU caster, bit-identical to `svt render`. */
+  picture: call<(scene: Scene) => ArrayBuffer>(),
+  /** The section through the volume as drawn by `svt section`. */
+  drawing: call<(plane: string, format: DrawingFormat, parts?: DrawingParts) => ArrayBuffer>(),
+  /** Gives features owners, as attributes `owner`, from a table (CSV); the table before is forgotten. */
+  owners: call<(table: ArrayBuffer, fileName: string) => null>(),
+  /** The eye of who stands near a point, inside if possible; null: nowhere. */
+  stand: call<(near: Point) => Point | null>(),
+  /** The eye after a step that glides along what is in the way. */
+  step: call<(eye: Point, by: Point) => Point>(),
+  /** What the colours of a scene with colorBy mean. */
+  legend: call<(scene: Scene) => ColorScale>(),
+  /** The planes of the scene that lie in faces of the model. */
+  movedPlanes: call<(scene: Scene) => MovedPlane[]>(),
+  /** Plans, sections, elevations and tables on sheets, as SVG documents; as by `svt sheets`. */
+  sheets: call<(language: "en" | "de") => string[]>(),
+  /** What followCity() has opened, with its features; null where nothing is open. */
+  cityInfo: call<() => VolumeInfo | null>(),
+};
+
+type CallsOfLibrary = typeof kCalls;
+/** The same, answered by a worker. */
+export type LibraryCalls = {
+  [Name in keyof CallsOfLibrary]: (...args: Parameters<CallsOfLibrary[Name]>) => Promise<ReturnType<CallsOfLibrary[Name]>>;
+};
+
+/** Makes all the calls by one function. */
+export function callsBy(make: (name: keyof LibraryCalls, args: unknown[]) => Promise<unknown>): LibraryCalls {
+  const names = Object.keys(kCalls) as (keyof LibraryCalls)[];
+  return Object.fromEntries(names.map((name) => [name, (...args: unknown[]) => make(name, args)])) as unknown as LibraryCalls;
+}
+
 /** The code of an opening that was cancelled. */
 export const kCancelled = "cancelled";
 
 /** Rejected promises carry an EngineError. One volume is open at a time. */
-export interface Engine {
+export interface Engine extends LibraryCalls {
   readonly kind: EngineKind;
   /** Threads that draw together; 1 where the site does not isolate the page (COOP, COEP). */
   readonly threads: number;
 
   /** Opens files from their bytes, whose ownership is transferred: several models become one; other volumes are drawn with the first file. */
   open(files: FileBytes[], onProgress: (step: string, done: number) => void, options?: OpenOptions): Promise<VolumeInfo>;
+  /** Ends an opening; its promise is rejected with kCancelled. No volume is open then. */
+  cancel(): void;
 
   /** Opens files beside what is open, which can be drawn and asked meanwhile, and is replaced at the end. */
   refine(files: FileBytes[], onProgress: (step: string, done: number) => void, options?: OpenOptions): Promise<VolumeInfo>;
@@ -227,8 +288,6 @@ export interface Engine {
   openCity(files: CityBytes, options: CityOptions): Promise<CityLook>;
   /** Fetches the tiles that a scene's camera sees, beside what is open, which can be drawn and asked meanwhile and is replaced at the end. */
   followCity(files: CityBytes, scene: Scene, size: [number, number], options: CityOptions): Promise<CityLook>;
-  /** What followCity() has opened, with its features; null where nothing is open. */
-  cityInfo(): Promise<VolumeInfo | null>;
   /** A camera that shows a building of the open city. Reads two ranges of ids.bin, and the building's tile. */
   findInCity(files: CityBytes, id: string, camera: SceneCamera, aspect: number): Promise<SceneCamera>;
 
@@ -237,46 +296,4 @@ export interface Engine {
    * Only the newest request is queued: a superseded one resolves to null.
    */
   draw(scene: Scene, width: number, height: number): Promise<FrameReport | null>;
-
-  /** The scene with effects, as `svt render --lens/--highlight/--cutaway` make it. */
-  compose(scene: Scene, effects: Effects): Promise<Scene>;
-
-  /** Ends an opening; its promise is rejected with kCancelled. No volume is open then. */
-  cancel(): void;
-
-  /**
-   * x and y in 0..1 of the last picture.
-   * @param reach  metres within which to snap to corners and edges of the model; 0: no snapping
-   */
-  pick(x: number, y: number, reach?: number): Promise<Pick | null>;
-  /** Everything along the ray through a pixel, nearest first, hidden or not. */
-  along(x: number, y: number): Promise<Stretch[]>;
-
-  /** Ids of the features that a query selects. */
-  select(query: string): Promise<string[]>;
-  /** Ids of the features one of whose attributes contains all the words, in its name or value. */
-  findInAttributes(words: string): Promise<string[]>;
-  properties(id: string): Promise<FeatureProperties>;
-  /**
-   * Eye and target that show the features selected by a query (empty: all), from a named view or else from the
-   * current view direction.
-   */
-  view(query: string, preset: string | null, camera: SceneCamera): Promise<SceneCamera>;
-
-  /** A picture as PNG, drawn by the CPU caster, bit-identical to `svt render`. */
-  picture(scene: Scene): Promise<ArrayBuffer>;
-  /** The section through the volume as drawn by `svt section`. */
-  drawing(plane: string, format: DrawingFormat, parts?: DrawingParts): Promise<ArrayBuffer>;
-  /** Gives features owners, as attributes `owner`, from a table (CSV); the table before is forgotten. */
-  setOwners(table: ArrayBuffer, fileName: string): Promise<void>;
-  /** The eye of who stands near a point, inside if possible; null: nowhere. */
-  stand(near: Point): Promise<Point | null>;
-  /** The eye after a step that glides along what is in the way. */
-  step(eye: Point, by: Point): Promise<Point>;
-  /** What the colours of a scene with colorBy mean. */
-  legend(scene: Scene): Promise<ColorScale>;
-  /** The planes of the scene that lie in faces of the model. */
-  movedPlanes(scene: Scene): Promise<MovedPlane[]>;
-  /** Plans, sections, elevations and tables on sheets, as SVG documents; as by `svt sheets`. */
-  sheets(language: "en" | "de"): Promise<string[]>;
 }

@@ -3,7 +3,7 @@
  * only. Functions that need the volume in the page are rejected with a clear error.
  */
 
-import type { Engine, EngineError, Scene } from "./engine";
+import { callsBy, type Engine, type EngineError, type Scene } from "./engine";
 
 const kNotHere: EngineError = { code: "E904", message: "only pictures come from the server" };
 
@@ -30,6 +30,7 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
 
   const refuse = () => Promise.reject(kNotHere);
   return {
+    ...callsBy(refuse),
     kind: "cpu",
     threads: 1,
     async open([file]) {
@@ -59,27 +60,18 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
       screen.transferFromImageBitmap(bitmap);
       return { width, height, milliseconds: performance.now() - start, engine: "cpu" };
     },
-    compose: (scene) => Promise.resolve(scene),
     cancel: () => undefined,
-    pick: () => Promise.resolve(null),
-    along: () => Promise.resolve([]),
-    select: refuse,
-    findInAttributes: () => Promise.resolve([]),
-    properties: refuse,
-    view: refuse,
-    picture: async (scene) => (await drawn(scene)).arrayBuffer(),
-    drawing: refuse,
-    sheets: refuse,
+    cancelRefining: () => undefined,
     refine: refuse,
     openCity: refuse,
     followCity: refuse,
-    cityInfo: refuse,
     findInCity: refuse,
-    cancelRefining: () => undefined,
-    setOwners: refuse,
-    stand: refuse,
+    compose: (scene) => Promise.resolve(scene),
+    pick: () => Promise.resolve(null),
+    along: () => Promise.resolve([]),
+    findInAttributes: () => Promise.resolve([]),
+    picture: async (scene) => (await drawn(scene)).arrayBuffer(),
     step: (eye) => Promise.resolve(eye),
-    legend: refuse,
     movedPlanes: () => Promise.resolve([]),
   };
 }

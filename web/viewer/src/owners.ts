@@ -14,7 +14,7 @@ export class Owners {
   async give(table: ArrayBuffer, file: string): Promise<void> {
     const { session } = this;
     if (!session.engine || !session.info) return session.tell(t("ownersNeedModel", { name: file }));
-    await session.engine.setOwners(table.slice(0), file);
+    await session.engine.owners(table.slice(0), file);
     this.table = table;
     this.file = file;
     if (session.state.colorBy === "owner") session.redraw();
@@ -25,7 +25,7 @@ export class Owners {
   /** To a volume that took the place of another one of the same model. */
   async giveAgain(): Promise<void> {
     if (!this.table) return;
-    await this.session.engine?.setOwners(this.table.slice(0), this.file).catch(() => this.forget());
+    await this.session.engine?.owners(this.table.slice(0), this.file).catch(() => this.forget());
     this.session.redraw();
   }
 

@@ -3,19 +3,21 @@
 import type { CityBytes } from "../engine";
 import type { Calls, CityNeeds, GivenRow } from "./protocol";
 
-type Ask = <N extends keyof Calls>(name: N, args: Calls[N]["args"], transfer?: Transferable[]) => Promise<Calls[N]["result"]>;
+interface Asked {
+  ask<N extends keyof Calls>(name: N, args: Calls[N]["args"], transfer?: Transferable[]): Promise<Calls[N]["result"]>;
+}
 
 /** A call goes from page to page of an index, which has few levels; then it asks for tiles. */
 const kMostRounds = 60;
 
 export async function withBytes<N extends "cityLook" | "cityFind">(
-  ask: Ask,
+  worker: Asked,
   files: CityBytes,
   name: N,
   argsOf: (round: number) => Calls[N]["args"],
 ): Promise<Exclude<Calls[N]["result"], CityNeeds>> {
   for (let round = 0; round < kMostRounds; ++round) {
-    const reply = await ask(name, argsOf(round));
+    const reply = await worker.ask(name, argsOf(round));
     if (!("needs" in reply)) return reply as Exclude<Calls[N]["result"], CityNeeds>;
     const given = await files.get(reply.needs);
     const all = new Uint8Array(given.reduce((sum, { bytes }) => sum + bytes.length, 0));
@@ -25,7 +27,7 @@ export async function withBytes<N extends "cityLook" | "cityFind">(
       at += bytes.length;
     }
     const rows = given.map(({ range, bytes, total, error }): GivenRow => [...range, bytes.length, total, error]);
-    await ask("cityGive", [rows, all.buffer], [all.buffer]);
+    await worker.ask("cityGive", [rows, all.buffer], [all.buffer]);
   }
   throw { code: "E999", message: "the index of the city comes to no end" };
 }

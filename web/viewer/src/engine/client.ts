@@ -1,26 +1,18 @@
 /** The engine on the page's side: passes requests to the worker and shows its pictures on the canvas. */
-import { kCancelled } from "../engine";
+import { callsBy, kCancelled } from "../engine";
 import type {
   CityBytes,
   CityLook,
   CityOptions,
-  ColorScale,
-  DrawingFormat,
-  DrawingParts,
-  Effects,
   Engine,
   EngineError,
   EngineKind,
-  FeatureProperties,
   FileBytes,
   FrameReport,
-  MovedPlane,
+  LibraryCalls,
   OpenOptions,
-  Pick,
-  Point,
   Scene,
   SceneCamera,
-  Stretch,
   VolumeInfo,
 } from "../engine";
 import { withBytes } from "./city_calls";
@@ -28,12 +20,13 @@ import { kWithoutThreads } from "./protocol";
 import type { Answer, Calls, Request } from "./protocol";
 
 type Name = keyof Calls;
+type OnProgress = (step: string, done: number) => void;
 
 /** A request waiting for its answer. */
 interface Waiting {
   resolve: (result: never) => void;
   reject: (error: EngineError) => void;
-  onProgress?: (step: string, done: number) => void;
+  onProgress?: OnProgress;
 }
 
 /** A picture requested while another is being drawn. */
@@ -65,13 +58,18 @@ class Connection {
     name: N,
     args: Calls[N]["args"],
     transfer: Transferable[] = [],
-    onProgress?: Waiting["onProgress"],
+    onProgress?: OnProgress,
   ): Promise<Calls[N]["result"]> {
     return new Promise((resolve, reject) => {
       const id = ++this.lastId;
       this.waiting.set(id, { resolve, reject, ...(onProgress ? { onProgress } : {}) });
       this.worker.postMessage({ id, name, args } as Request, transfer);
     });
+  }
+
+  open(files: FileBytes[], onProgress: OnProgress, options: OpenOptions): Promise<VolumeInfo> {
+    const buffers = files.map(({ bytes }) => bytes);
+    return this.ask("open", [files, options], buffers, onProgress);
   }
 
   /** Ends it with all its requests. */
@@ -104,7 +102,8 @@ const kUnseen = [48, 27] as const;
 
 const kGivenUp: EngineError = { code: kCancelled, message: kCancelled };
 
-class WorkerEngine implements Engine {
+/** All but the calls that are passed on as they are. */
+class WorkerEngine {
   kind: EngineKind = "cpu";
   threads = 1;
   private main: Connection;
@@ -128,7 +127,7 @@ class WorkerEngine implements Engine {
 
   /** Resolves when the library is loaded. */
   async start(): Promise<void> {
-    ({ kind: this.kind, threads: this.threads } = await this.ask("start", [this.wanted]));
+    ({ kind: this.kind, threads: this.threads } = await this.main.ask("start", [this.wanted]));
   }
 
   private connect(): Connection {
@@ -140,37 +139,24 @@ class WorkerEngine implements Engine {
     return made;
   }
 
-  private ask<N extends Name>(
-    name: N,
-    args: Calls[N]["args"],
-    transfer: Transferable[] = [],
-    onProgress?: Waiting["onProgress"],
-  ): Promise<Calls[N]["result"]> {
-    return this.main.ask(name, args, transfer, onProgress);
+  /** Passes a call on as it is. */
+  call(name: keyof LibraryCalls, args: unknown[]): Promise<unknown> {
+    const buffers = args.filter((arg): arg is ArrayBuffer => arg instanceof ArrayBuffer);
+    return this.main.ask(name, args as Calls[typeof name]["args"], buffers);
   }
 
-  open(files: FileBytes[], onProgress: (step: string, done: number) => void, options: OpenOptions = {}): Promise<VolumeInfo> {
+  open(files: FileBytes[], onProgress: OnProgress, options: OpenOptions = {}): Promise<VolumeInfo> {
     this.cancelRefining();
     this.endSpare();
-    return this.ask(
-      "open",
-      [files, options],
-      files.map(({ bytes }) => bytes),
-      onProgress,
-    );
+    return this.main.open(files, onProgress, options);
   }
 
-  async refine(files: FileBytes[], onProgress: (step: string, done: number) => void, options: OpenOptions = {}): Promise<VolumeInfo> {
+  async refine(files: FileBytes[], onProgress: OnProgress, options: OpenOptions = {}): Promise<VolumeInfo> {
     this.cancelRefining();
     const second = (this.second = this.connect());
     try {
       await second.ask("start", [this.wanted]);
-      const info = await second.ask(
-        "open",
-        [files, options],
-        files.map(({ bytes }) => bytes),
-        onProgress,
-      );
+      const info = await second.open(files, onProgress, options);
       const before = this.main;
       this.main = second;
       this.second = null;
@@ -185,25 +171,14 @@ class WorkerEngine implements Engine {
   openCity(files: CityBytes, options: CityOptions): Promise<CityLook> {
     this.cancelRefining();
     this.endSpare();
-    const { main } = this;
-    return withBytes(
-      (name, args, transfer) => main.ask(name, args, transfer),
-      files,
-      "cityLook",
-      (round) => [round === 0, null, 0, 0, options],
-    );
+    return withBytes(this.main, files, "cityLook", (round) => [round === 0, null, 0, 0, options]);
   }
 
   async followCity(files: CityBytes, scene: Scene, [width, height]: [number, number], options: CityOptions): Promise<CityLook> {
     const spare = this.spare ?? (await this.startSpare());
     let look: CityLook;
     try {
-      look = await withBytes(
-        (name, args, transfer) => spare.ask(name, args, transfer),
-        files,
-        "cityLook",
-        () => [false, scene, width, height, options],
-      );
+      look = await withBytes(spare, files, "cityLook", () => [false, scene, width, height, options]);
       if (!look.info || this.spare !== spare) return { ...look, info: null };
       // Drawn once unseen, so that the first picture that is seen of it waits for no bricks.
       const { bitmap } = await spare.ask("draw", [scene, ...kUnseen]);
@@ -220,18 +195,8 @@ class WorkerEngine implements Engine {
     return look;
   }
 
-  cityInfo(): Promise<VolumeInfo | null> {
-    return this.ask("cityInfo", []);
-  }
-
   findInCity(files: CityBytes, id: string, camera: SceneCamera, aspect: number): Promise<SceneCamera> {
-    const { main } = this;
-    return withBytes(
-      (name, args, transfer) => main.ask(name, args, transfer),
-      files,
-      "cityFind",
-      () => [id, camera, aspect],
-    );
+    return withBytes(this.main, files, "cityFind", () => [id, camera, aspect]);
   }
 
   private async startSpare(): Promise<Connection> {
@@ -264,56 +229,11 @@ class WorkerEngine implements Engine {
     });
   }
 
-  compose(scene: Scene, effects: Effects): Promise<Scene> {
-    return this.ask("compose", [scene, effects]);
-  }
   /** The worker cannot be interrupted: it is replaced. */
   cancel(): void {
     this.cancelRefining();
     this.endSpare();
     this.restart(kGivenUp);
-  }
-  pick(x: number, y: number, reach = 0): Promise<Pick | null> {
-    return this.ask("pick", [x, y, reach]);
-  }
-  along(x: number, y: number): Promise<Stretch[]> {
-    return this.ask("along", [x, y]);
-  }
-  select(query: string): Promise<string[]> {
-    return this.ask("select", [query]);
-  }
-  findInAttributes(words: string): Promise<string[]> {
-    return this.ask("findInAttributes", [words]);
-  }
-  properties(id: string): Promise<FeatureProperties> {
-    return this.ask("properties", [id]);
-  }
-  view(query: string, preset: string | null, camera: SceneCamera): Promise<SceneCamera> {
-    return this.ask("view", [query, preset, camera]);
-  }
-  picture(scene: Scene): Promise<ArrayBuffer> {
-    return this.ask("picture", [scene]);
-  }
-  drawing(plane: string, format: DrawingFormat, parts?: DrawingParts): Promise<ArrayBuffer> {
-    return this.ask("drawing", [plane, format, parts ?? null]);
-  }
-  sheets(language: "en" | "de"): Promise<string[]> {
-    return this.ask("sheets", [language]);
-  }
-  async setOwners(table: ArrayBuffer, fileName: string): Promise<void> {
-    await this.ask("owners", [table, fileName], [table]);
-  }
-  stand(near: Point): Promise<Point | null> {
-    return this.ask("stand", [near]);
-  }
-  step(eye: Point, by: Point): Promise<Point> {
-    return this.ask("step", [eye, by]);
-  }
-  legend(scene: Scene): Promise<ColorScale> {
-    return this.ask("legend", [scene]);
-  }
-  movedPlanes(scene: Scene): Promise<MovedPlane[]> {
-    return this.ask("movedPlanes", [scene]);
   }
 
   private drawNext(): void {
@@ -321,7 +241,8 @@ class WorkerEngine implements Engine {
     if (this.isDrawing || !next) return;
     this.nextDraw = null;
     this.isDrawing = true;
-    this.ask("draw", next.args)
+    this.main
+      .ask("draw", next.args)
       .then(({ bitmap, report }) => {
         this.kind = report.engine;
         this.screen.transferFromImageBitmap(bitmap);
@@ -351,5 +272,8 @@ class WorkerEngine implements Engine {
 export async function createEngine(canvas: HTMLCanvasElement, wanted: EngineKind | null = null): Promise<Engine> {
   const engine = new WorkerEngine(canvas, wanted);
   await engine.start();
-  return engine;
+  return Object.assign(
+    engine,
+    callsBy((name, args) => engine.call(name, args)),
+  );
 }

@@ -77,10 +77,6 @@ async function answer(request: Request): Promise<void> {
       const bytes = copied(svt.call(name, args));
       return post({ id, result: bytes }, [bytes]);
     }
-    case "owners":
-      return post({ id, result: json(svt.call(name, [args[1]], new Uint8Array(args[0]))) });
-    case "cityGive":
-      return post({ id, result: json(svt.call(name, [args[0]], new Uint8Array(args[1]))) });
     case "cityDrop":
       drawerOf(svt).forgetPicture();
       cityInfo = null;
@@ -97,8 +93,11 @@ async function answer(request: Request): Promise<void> {
     case "sheets":
       await drawerOf(svt).fetchFont();
     // falls through
-    default:
-      return post({ id, result: json(svt.call(name, args)) });
+    default: {
+      const bytes = args.find((arg) => arg instanceof ArrayBuffer);
+      const others = args.filter((arg) => arg !== bytes);
+      return post({ id, result: json(svt.call(name, others, bytes && new Uint8Array(bytes))) });
+    }
   }
 }
 
