@@ -37,7 +37,7 @@ describe("access", () => {
     await visit.page.keyboard.press("/");
     await visit.page.keyboard.type("hidden beam");
     await visit.page.keyboard.press("Enter");
-    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.state.selection[0] === "house_hidden_beam");
+    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.view.state.selection[0] === "house_hidden_beam");
     await visit.page.keyboard.press(" ");
     assert.deepEqual((await state()).hide, ['id="house_hidden_beam"']);
     await visit.page.keyboard.press(" ");
@@ -65,7 +65,7 @@ describe("access", () => {
     await visit.page.keyboard.press("ArrowLeft");
     assert.notDeepEqual((await state()).camera.eye, before);
     await visit.page.keyboard.press("Enter");
-    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.state.selection[0] !== "house_hidden_beam");
+    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.view.state.selection[0] !== "house_hidden_beam");
   });
 
   it("moves along the tools by arrow keys, ends what Escape closes, and leaves walking by 0", async () => {
@@ -85,9 +85,9 @@ describe("access", () => {
     await visit.page.keyboard.press("Escape");
     assert.equal((await state()).effect, "none");
     await visit.page.keyboard.press("g");
-    assert.equal(await inPage("s.isWalking"), true);
+    assert.equal(await inPage("s.view.isWalking"), true);
     await visit.page.keyboard.press("0");
-    assert.equal(await inPage("s.isWalking"), false);
+    assert.equal(await inPage("s.view.isWalking"), false);
   });
 
   for (const { colorScheme, width, height } of [
@@ -98,7 +98,7 @@ describe("access", () => {
   ])
     it(`has no serious findings in ${colorScheme} at ${width} px`, async () => {
       await open("?model=house", { colorScheme, viewport: { width, height }, locale: "de-DE" });
-      await inPage("s.select(['house_hidden_beam'])");
+      await inPage("s.selection.select(['house_hidden_beam'])");
       await visit.page.waitForTimeout(300);
       const found = await findings();
       const tools = width < 700 ? ["section", "share"] : ["section", "lens", "focus", "look", "measure", "views", "share"];
@@ -128,7 +128,7 @@ describe("access", () => {
     await open();
     await tool("section");
     await visit.page.click("#add-plane");
-    await inPage("s.select(['house_hidden_beam'])");
+    await inPage("s.selection.select(['house_hidden_beam'])");
     await visit.page.keyboard.press("?");
     await settled();
     assert.deepEqual(visit.problems, []);

@@ -32,7 +32,10 @@ const firstImage = async (page) => {
 
 /** The finest picture of the whole building stands, by the page's clock. */
 const finest = async (page) => {
-  await page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine", null, { timeout: 60_000, polling: 20 });
+  await page.waitForFunction(() => document.querySelector("svt-app").session.picture.quality === "fine", null, {
+    timeout: 60_000,
+    polling: 20,
+  });
   return page.evaluate(() => performance.now());
 };
 
@@ -59,20 +62,20 @@ async function frames(url, kind) {
   const page = await context.newPage();
   await page.goto(url);
   await firstImage(page);
-  await page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine", null, { timeout: 120_000 });
+  await page.waitForFunction(() => document.querySelector("svt-app").session.picture.quality === "fine", null, { timeout: 120_000 });
   const found = await page.evaluate(async () => {
     const s = document.querySelector("svt-app").session;
-    const { engine, milliseconds: still } = s.report,
-      threads = s.engine.threads ?? 1;
+    const { engine, milliseconds: still } = s.picture.report,
+      threads = s.volume.engine.threads ?? 1;
     const times = [];
     const start = performance.now();
-    let last = s.report,
+    let last = s.picture.report,
       angle = 0;
     while (performance.now() - start < 6_000) {
-      const { camera } = s.state,
+      const { camera } = s.view.state,
         [x, y] = [camera.eye[0] - camera.target[0], camera.eye[1] - camera.target[1]];
       angle = 0.02;
-      s.turn({
+      s.view.turn({
         ...camera,
         eye: [
           camera.target[0] + x * Math.cos(angle) - y * Math.sin(angle),
@@ -81,8 +84,8 @@ async function frames(url, kind) {
         ],
       });
       await new Promise(requestAnimationFrame);
-      if (s.report !== last) times.push(performance.now());
-      last = s.report;
+      if (s.picture.report !== last) times.push(performance.now());
+      last = s.picture.report;
     }
     const fps = times.length < 2 ? 0 : ((times.length - 1) * 1000) / (times.at(-1) - times[0]);
     const context = new OffscreenCanvas(1, 1).getContext("webgl2");
@@ -94,7 +97,7 @@ async function frames(url, kind) {
       fps,
       byCpu: last.engine === "cpu",
       moving: [last.width, last.height],
-      size: s.pictureSize,
+      size: s.view.size,
       driver: info ? context.getParameter(info.UNMASKED_RENDERER_WEBGL) : "none",
     };
   });

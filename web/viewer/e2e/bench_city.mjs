@@ -11,11 +11,11 @@ const kFlight = 12_000;
 const fly = (page) =>
   page.evaluate(async (duration) => {
     const s = document.querySelector("svt-app").session;
-    const [w, d] = s.info.size;
+    const [w, d] = s.volume.info.size;
     // From above one corner down to 60 m over the roofs, then across the city.
-    const before = { ...s.city.files.traffic };
+    const before = { ...s.model.city.files.traffic };
     const drawn = [];
-    let last = s.report,
+    let last = s.picture.report,
       heap = 0,
       stepped = performance.now(),
       slowest = 0;
@@ -27,17 +27,17 @@ const fly = (page) =>
       const height = 60 + 600 * Math.max(0, 1 - 3 * share);
       /** @type {import("../src/engine").Point} */
       const eye = [w * (0.2 + 0.6 * share), d * (0.3 + 0.4 * share), height];
-      s.turn({ ...s.state.camera, eye, target: [eye[0] + 300, eye[1] + 220, Math.max(5, height - 150)] });
+      s.view.turn({ ...s.view.state.camera, eye, target: [eye[0] + 300, eye[1] + 220, Math.max(5, height - 150)] });
       await new Promise(requestAnimationFrame);
-      if (s.report !== last) drawn.push(performance.now());
-      last = s.report;
-      heap = Math.max(heap, s.city.look.heap);
+      if (s.picture.report !== last) drawn.push(performance.now());
+      last = s.picture.report;
+      heap = Math.max(heap, s.model.city.look.heap);
     }
     const gaps = drawn
       .slice(1)
       .map((at, n) => at - drawn[n])
       .sort((a, b) => a - b);
-    const { requests, bytes } = s.city.files.traffic;
+    const { requests, bytes } = s.model.city.files.traffic;
     return {
       frames: drawn.length,
       median: gaps[gaps.length >> 1],
@@ -74,19 +74,19 @@ async function measure(city) {
     const before = all.filter(({ name, responseEnd }) => /city\.json|\.bin$|\.svtp$/.test(name) && responseEnd > 0 && responseEnd <= ms);
     return { ms, requests: before.length, bytes: before.reduce((sum, { encodedBodySize }) => sum + encodedBodySize, 0) };
   });
-  const isComplete = () => document.querySelector("svt-app").session.city.isComplete;
+  const isComplete = () => document.querySelector("svt-app").session.model.city.isComplete;
   await page.waitForFunction(isComplete, null, { timeout: 300_000, polling: 20 });
   const atEnd = await page.evaluate(() => {
-    const { files, look } = document.querySelector("svt-app").session.city;
+    const { files, look } = document.querySelector("svt-app").session.model.city;
     return { ms: performance.now(), ...files.traffic, look: { ...look, info: null } };
   });
   await page.waitForTimeout(4_000);
   const flight = await fly(page);
   await page.waitForFunction(isComplete, null, { timeout: 300_000, polling: 50 });
-  const after = await page.evaluate(() => ({ ...document.querySelector("svt-app").session.city.look, info: null }));
-  const buildings = await page.evaluate(() => document.querySelector("svt-app").session.info.buildings);
+  const after = await page.evaluate(() => ({ ...document.querySelector("svt-app").session.model.city.look, info: null }));
+  const buildings = await page.evaluate(() => document.querySelector("svt-app").session.volume.info.buildings);
   // The same flight over what is here: what drawing alone costs.
-  await page.evaluate(() => document.querySelector("svt-app").session.city.end());
+  await page.evaluate(() => document.querySelector("svt-app").session.model.city.end());
   const fixed = await fly(page);
   await close();
   await server.close();

@@ -56,7 +56,7 @@ function serveCity(answer = (_path, _first, _last, _part, _all) => null) {
 }
 
 const { inPage } = visit;
-const complete = () => visit.until("s.city?.isComplete && s.quality === 'fine'");
+const complete = () => visit.until("s.model.city?.isComplete && s.picture.quality === 'fine'");
 
 async function open(url) {
   await visit.begin();
@@ -98,48 +98,50 @@ describe("A city on the page", () => {
       ["index.bin", "packs/N.svtp"],
     );
     await complete();
-    const { requests, bytes } = await inPage("s.city.files.traffic");
+    const { requests, bytes } = await inPage("s.model.city.files.traffic");
     assert.equal(requests, asked.length);
     assert.ok(requests <= 12, `${requests} requests`);
     assert.ok(bytes < 400_000, `${bytes} bytes`);
-    const seen = await inPage("({ look: { ...s.city.look, info: null }, buildings: s.info.buildings, drawn: s.report.width })");
+    const seen = await inPage(
+      "({ look: { ...s.model.city.look, info: null }, buildings: s.volume.info.buildings, drawn: s.picture.report.width })",
+    );
     assert.equal(seen.buildings, 1500);
     assert.equal(seen.look.pixels, 1);
     // Near the ground there are buildings with their attributes, and the address leads there again.
-    const size = await inPage("s.info.size");
-    await inPage("s.set({ camera: { ...s.state.camera, eye: v.eye, target: v.target } })", {
+    const size = await inPage("s.volume.info.size");
+    await inPage("s.view.set({ camera: { ...s.view.state.camera, eye: v.eye, target: v.target } })", {
       eye: [size[0] / 2, size[1] / 2, 60],
       target: [size[0] / 2 + 60, size[1] / 2 + 80, 5],
     });
-    await page.waitForFunction(() => !document.querySelector("svt-app").session.city.isComplete);
+    await page.waitForFunction(() => !document.querySelector("svt-app").session.model.city.isComplete);
     await complete();
     assert.equal(
-      await inPage("s.city.look.finest"),
+      await inPage("s.model.city.look.finest"),
       0,
       JSON.stringify(
         await inPage(
-          "[{ ...s.city.look, info: null }, s.state.camera, s.message, s.city.files.traffic, s.city.pixels, s.city.camera === s.state.camera]",
+          "[{ ...s.model.city.look, info: null }, s.view.state.camera, s.messages.message, s.model.city.files.traffic, s.model.city.phase, s.model.city.place]",
         ),
       ),
     );
-    assert.ok((await inPage("s.index.features.filter(({ class: c }) => c === 'Building').length")) > 10);
-    const picked = await inPage("s.engine.pick(0.5, 0.6)");
+    assert.ok((await inPage("s.volume.index.features.filter(({ class: c }) => c === 'Building').length")) > 10);
+    const picked = await inPage("s.volume.engine.pick(0.5, 0.6)");
     assert.ok(picked?.id, "nothing in the middle of the picture");
     await page.waitForFunction(() => location.hash.includes("view="));
-    const camera = await inPage("s.state.camera");
+    const camera = await inPage("s.view.state.camera");
     await page.reload();
     await complete();
-    assert.deepEqual(await inPage("s.state.camera"), camera);
+    assert.deepEqual(await inPage("s.view.state.camera"), camera);
   });
 
   it("finds a building by its id with two requests of ids.bin, and tells its properties", async () => {
     const server = started(await serveCity());
     const asked = await open(server.url);
     await complete();
-    await inPage("s.city.find(v)", kId);
-    await page.waitForFunction((id) => document.querySelector("svt-app").session.properties?.id === id, kId);
+    await inPage("s.model.city.find(v)", kId);
+    await page.waitForFunction((id) => document.querySelector("svt-app").session.selection.properties?.id === id, kId);
     assert.ok(asked.filter(({ file }) => file === "ids.bin").length <= 2);
-    const properties = await inPage("s.properties");
+    const properties = await inPage("s.selection.properties");
     assert.ok(properties.surface > 50 && properties.box.high[2] > properties.box.low[2], JSON.stringify(properties));
     await page.fill("#search", "nobody");
     await page.getByText("looks for this id in all of the city").waitFor();
@@ -167,7 +169,7 @@ describe("A city on the page", () => {
       await open(server.url);
       await page.getByText("tiles of the city cannot be shown").first().waitFor();
       await complete();
-      assert.equal(await inPage("s.status"), "ready");
+      assert.equal(await inPage("s.model.status"), "ready");
     }
   });
 

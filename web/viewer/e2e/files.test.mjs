@@ -22,19 +22,19 @@ describe("files", () => {
       await drop(name, bytes);
       await visit.page.locator("#message").waitFor();
       assert.match(await visit.page.locator("#message").innerText(), expected);
-      assert.equal(await inPage("s.info.name"), "Sample house");
+      assert.equal(await inPage("s.volume.info.name"), "Sample house");
       await visit.page.getByRole("button", { name: "Dismiss" }).click();
     }
-    assert.ok((await inPage("(await s.engine.select('class=BuildingRoom')).length")) > 0);
+    assert.ok((await inPage("(await s.volume.engine.select('class=BuildingRoom')).length")) > 0);
   });
 
   it("of models are built in the page", async () => {
     await drop("house.gml", readFileSync(at("house.gml")));
-    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.modelFile === "house.gml");
+    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.volume.file === "house.gml");
     await settled();
     assert.equal(
-      await inPage("s.info.features.length"),
-      svtJson("info", at("house.gml"), "--json", "--tree").features.length + (await inPage("s.index.firstScalars.length")),
+      await inPage("s.volume.info.features.length"),
+      svtJson("info", at("house.gml"), "--json", "--tree").features.length + (await inPage("s.volume.index.firstScalars.length")),
     );
   });
 
@@ -50,11 +50,12 @@ describe("files", () => {
       const start = Date.now();
       await drop(name, bytes);
       await visit.page.waitForFunction(
-        (wanted) => document.querySelector("svt-app").session.modelFile === wanted && document.querySelector("svt-app").session.report,
+        (wanted) =>
+          document.querySelector("svt-app").session.volume.file === wanted && document.querySelector("svt-app").session.picture.report,
         name,
       );
       t.diagnostic(`${name}: from dropped to picture in ${Date.now() - start} ms`);
-      const rooms = await inPage("(await s.engine.select('ifcType=IfcSpace')).length");
+      const rooms = await inPage("(await s.volume.engine.select('ifcType=IfcSpace')).length");
       assert.ok(rooms > 3, `${name}: ${rooms} rooms`);
     }
   });
@@ -62,8 +63,8 @@ describe("files", () => {
   it("that take long are cancelled, and what was open stays", async () => {
     svt("sample", "district", "--columns", "12", "--rows", "12", "-o", at("district.gml"));
     await open();
-    await inPage("s.set({ hide: ['class=BuildingRoom'] })");
-    const before = await inPage("[s.info.name, s.state.hide]");
+    await inPage("s.view.set({ hide: ['class=BuildingRoom'] })");
+    const before = await inPage("[s.volume.info.name, s.view.state.hide]");
     for (const cancel of [() => visit.page.locator("#cancel").dispatchEvent("click"), () => visit.page.keyboard.press("Escape")]) {
       await drop("district.gml", readFileSync(at("district.gml")));
       await visit.page.locator("#cancel").waitFor();
@@ -71,10 +72,10 @@ describe("files", () => {
       await cancel();
       await visit.page.locator("#message").getByText("district.gml was not opened: cancelled.").waitFor();
       assert.equal(await visit.page.locator("#cancel").count(), 0);
-      assert.deepEqual(await inPage("[s.info.name, s.state.hide]"), before);
+      assert.deepEqual(await inPage("[s.volume.info.name, s.view.state.hide]"), before);
       await settled();
       // The worker that was building is replaced, and the one after it opens again what was open.
-      await eventually(async () => assert.ok((await inPage("(await s.engine.select('class=BuildingRoom')).length")) > 0));
+      await eventually(async () => assert.ok((await inPage("(await s.volume.engine.select('class=BuildingRoom')).length")) > 0));
     }
     // Another file gives up the first, and is bad: what was open before is there all the same.
     await drop("district.gml", readFileSync(at("district.gml")));
@@ -85,16 +86,16 @@ describe("files", () => {
       .locator("#message")
       .getByText(/E1\d\d/)
       .waitFor();
-    await eventually(async () => assert.ok((await inPage("(await s.engine.select('class=BuildingRoom')).length")) > 0));
-    assert.deepEqual(await inPage("[s.info.name, s.state.hide]"), before);
+    await eventually(async () => assert.ok((await inPage("(await s.volume.engine.select('class=BuildingRoom')).length")) > 0));
+    assert.deepEqual(await inPage("[s.volume.info.name, s.view.state.hide]"), before);
     assert.deepEqual(visit.problems, []);
   });
 
   it("are kept on request, and found by a reload and by links, which say what they need", async () => {
     await open();
     await drop("own.svt", readFileSync(at("house.svt")));
-    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.modelFile === "own.svt");
-    await inPage("s.set({ hide: ['class=BuildingRoom'] })");
+    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.volume.file === "own.svt");
+    await inPage("s.view.set({ hide: ['class=BuildingRoom'] })");
     await tool("share");
     await visit.page.click("#copy-link");
     await visit.page.locator("#message").getByText("the file itself is not part of it").waitFor();
@@ -105,9 +106,9 @@ describe("files", () => {
     await visit.page.goto(link);
     await visit.page.locator("#message").getByText("own.svt, a file that is not part of it").waitFor();
     await firstImage();
-    assert.equal(await inPage("s.modelName"), "house");
+    assert.equal(await inPage("s.volume.name"), "house");
     await drop("own.svt", readFileSync(at("house.svt")));
-    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.modelFile === "own.svt");
+    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.volume.file === "own.svt");
     assert.deepEqual((await state()).hide, ["class=BuildingRoom"]);
     // Kept: a reload finds it.
     await tool("share");
@@ -116,7 +117,7 @@ describe("files", () => {
     await eventually(async () => assert.match(visit.page.url(), /file=own\.svt.*view=/));
     await visit.page.reload();
     await firstImage();
-    assert.deepEqual(await inPage("[s.modelFile, s.isLocal, s.state.hide]"), ["own.svt", true, ["class=BuildingRoom"]]);
+    assert.deepEqual(await inPage("[s.volume.file, s.volume.isLocal, s.view.state.hide]"), ["own.svt", true, ["class=BuildingRoom"]]);
     await tool("share");
     await eventually(async () => assert.ok(await visit.page.isChecked("#keep-file")));
     await visit.page.uncheck("#keep-file");

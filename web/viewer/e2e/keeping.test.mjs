@@ -13,7 +13,7 @@ describe("keeping", () => {
   before(async () => {
     await open();
     await inPage(
-      `s.set({ hide: ["class=BuildingRoom"], look: "paper", sections: [{ axis: "y", at: 5, flip: true, turn: 0, tilt: 0 }], selection: ["house_hidden_beam"], effect: "highlight" })`,
+      `s.view.set({ hide: ["class=BuildingRoom"], look: "paper", sections: [{ axis: "y", at: 5, flip: true, turn: 0, tilt: 0 }], selection: ["house_hidden_beam"], effect: "highlight" })`,
     );
     await settled();
   });
@@ -24,7 +24,7 @@ describe("keeping", () => {
     await visit.page.getByLabel("Height").fill("270");
     await visit.page.keyboard.press("Tab");
     const { bytes } = await saved(() => visit.page.click("#save-picture"));
-    writeFileSync(at("view.scene.json"), JSON.stringify(await inPage("s.composed([480, 270])")));
+    writeFileSync(at("view.scene.json"), JSON.stringify(await inPage("s.view.composed([480, 270])")));
     svt("render", at("house.svt"), "--scene", at("view.scene.json"), "-o", at("view.png"));
     assert.ok(bytes.equals(readFileSync(at("view.png"))));
   });
@@ -53,8 +53,8 @@ describe("keeping", () => {
     const shown = source.replaceAll("&amp;", "&");
     const second = await visit.page.context().newPage();
     await second.goto(shown);
-    await second.waitForFunction(() => document.querySelector("svt-app")?.session?.report);
-    assert.equal(await second.evaluate(() => document.querySelector("svt-app").session.state.look), "paper");
+    await second.waitForFunction(() => document.querySelector("svt-app")?.session?.picture.report);
+    assert.equal(await second.evaluate(() => document.querySelector("svt-app").session.view.state.look), "paper");
     await second.close();
     await visit.page.bringToFront();
     await visit.page.getByRole("button", { name: "Dismiss" }).click();
@@ -74,12 +74,12 @@ describe("keeping", () => {
     svt("render", at("house.svt"), "--scene", at("link.scene.json"), "-o", at("link.png"));
     const second = await visit.page.context().newPage();
     await second.goto(link);
-    await second.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine");
-    const opened = await second.evaluate(() => document.querySelector("svt-app").session.state);
+    await second.waitForFunction(() => document.querySelector("svt-app").session.picture.quality === "fine");
+    const opened = await second.evaluate(() => document.querySelector("svt-app").session.view.state);
     assert.deepEqual(opened, wanted);
     const base64 = await second.evaluate(async (text) => {
       const s = document.querySelector("svt-app").session;
-      const bytes = new Uint8Array(await s.engine.picture(await s.composed(JSON.parse(text).size)));
+      const bytes = new Uint8Array(await s.volume.engine.picture(await s.view.composed(JSON.parse(text).size)));
       return btoa(Array.from(bytes, (b) => String.fromCharCode(b)).join(""));
     }, scene.toString());
     assert.ok(Buffer.from(base64, "base64").equals(readFileSync(at("link.png"))));
@@ -89,7 +89,7 @@ describe("keeping", () => {
   it("keeps views, and gives them back as scenes", async () => {
     await visit.page.click("#keep-view");
     const kept = await state();
-    await inPage(`s.set({ look: "dark", sections: [], effect: "none" })`);
+    await inPage(`s.view.set({ look: "dark", sections: [], effect: "none" })`);
     await visit.page.getByRole("button", { name: "View 1", exact: true }).click();
     await eventually(async () => assert.deepEqual(await state(), kept));
     const { bytes } = await saved(() => visit.page.getByRole("button", { name: "View 1 as scene JSON" }).click());
@@ -102,7 +102,7 @@ describe("keeping", () => {
     const list = visit.page.locator("svt-bookmark-list li");
     await visit.page.click("#keep-view");
     await eventually(async () => assert.equal(await list.count(), 1));
-    await inPage(`s.set({ look: "paper" })`);
+    await inPage(`s.view.set({ look: "paper" })`);
     await settled();
     await visit.page.click("#keep-view");
     await eventually(async () => assert.equal(await list.count(), 2));
@@ -130,13 +130,13 @@ describe("keeping", () => {
     assert.deepEqual(await names(), ["On paper", "View 1"]);
     await visit.page.getByRole("button", { name: "On paper", exact: true }).click();
     await eventually(async () => assert.equal((await state()).look, "paper"));
-    await inPage(`s.set({ look: "plain" })`);
+    await inPage(`s.view.set({ look: "plain" })`);
   });
 
   it("takes back and repeats what changed the picture", async () => {
     await open();
     assert.ok(await visit.page.locator("#undo").isDisabled());
-    await inPage("s.select(['house_hidden_beam'])");
+    await inPage("s.selection.select(['house_hidden_beam'])");
     assert.ok(await visit.page.locator("#undo").isDisabled(), "a selection is no step");
     await visit.page.keyboard.press("h");
     await visit.page.keyboard.press("x");
@@ -180,7 +180,7 @@ describe("keeping", () => {
     await visit.page.fill("#scene-json", JSON.stringify({ ...scene, passes: [{ cut: "ball(6,3,3,3)" }] }));
     await visit.page.click("#apply-scene");
     await visit.page.getByRole("button", { name: "Back to the tools" }).waitFor();
-    assert.deepEqual((await inPage("s.describe([640, 360])")).scene.passes, [{ cut: "ball(6,3,3,3)" }]);
+    assert.deepEqual((await inPage("s.view.describe([640, 360])")).scene.passes, [{ cut: "ball(6,3,3,3)" }]);
     await visit.page.getByRole("button", { name: "Back to the tools" }).click();
     assert.equal((await state()).custom, null);
   });

@@ -16,11 +16,11 @@ describe("storeys", () => {
     const text = readFileSync(at("house.gml"), "utf8").replaceAll("bldg:Storey", "bldg:BuildingUnit");
     writeFileSync(at("nameless.gml"), text);
     await open();
-    const named = await inPage("s.info.storeys.map(({ floor }) => floor + s.info.origin[2])");
+    const named = await inPage("s.volume.info.storeys.map(({ floor }) => floor + s.volume.info.origin[2])");
     await visit.choose(file("nameless.gml"));
-    await visit.until("s.modelFile === 'nameless.gml' && s.report");
-    assert.equal(await inPage("s.index.classes.has('Storey')"), false);
-    const found = await inPage("s.info.storeys.map(({ floor }) => floor + s.info.origin[2])");
+    await visit.until("s.volume.file === 'nameless.gml' && s.picture.report");
+    assert.equal(await inPage("s.volume.index.classes.has('Storey')"), false);
+    const found = await inPage("s.volume.info.storeys.map(({ floor }) => floor + s.volume.info.origin[2])");
     assert.equal(found.length, named.length);
     found.forEach((floor, i) => assert.ok(Math.abs(floor - named[i]) < 0.15, `level ${i} at ${floor}, storey at ${named[i]}`));
     await visit.tool("section");
@@ -39,18 +39,18 @@ describe("planes in faces", () => {
     // The plane of some face: the model's heights are round.
     const plane = await inPage(`(async () => {
       for (let n = 1; n < 120; ++n) {
-        const at = Number((Math.ceil(s.info.origin[2] / 0.05 + n) * 0.05 - s.info.origin[2]).toFixed(4)), text = "z>" + at;
-        const moved = await s.engine.movedPlanes({ passes: [{ cut: text }] }).catch(() => []);
+        const at = Number((Math.ceil(s.volume.info.origin[2] / 0.05 + n) * 0.05 - s.volume.info.origin[2]).toFixed(4)), text = "z>" + at;
+        const moved = await s.volume.engine.movedPlanes({ passes: [{ cut: text }] }).catch(() => []);
         if (moved.length) return { at, text, by: moved[0].by };
       }
       return null;
     })()`);
     assert.ok(plane, "some face lies across z");
     assert.ok(plane.by > 0.0002 && plane.by < 0.002, `${plane.by} m`);
-    await inPage("s.set({ sections: [{ axis: 'z', at: v, flip: false, turn: 0, tilt: 90 }] })", plane.at);
+    await inPage("s.view.set({ sections: [{ axis: 'z', at: v, flip: false, turn: 0, tilt: 90 }] })", plane.at);
     await visit.page.locator("#moved-plane").getByText(`${plane.text} lies in faces of the model`).waitFor();
     const picture = (cut) =>
-      inPage("(async () => [...new Uint8Array(await s.engine.picture({ size: [320, 180], passes: [{ cut: v }] }))].join())()", cut);
+      inPage("(async () => [...new Uint8Array(await s.volume.engine.picture({ size: [320, 180], passes: [{ cut: v }] }))].join())()", cut);
     const moved = await picture(plane.text);
     assert.equal(moved, await picture(`z>${(plane.at - plane.by).toFixed(6)}`), "as a plane a hair below");
     const told = spawnSync(command, ["render", at("house.svt"), "-o", at("p.png"), "--size", "320x180", "--section", plane.text], {
@@ -64,7 +64,7 @@ describe("planes in faces", () => {
     );
     assert.doesNotMatch(beside.stderr, /lies in faces/);
     // Beside the face nothing is said.
-    await inPage("s.set({ sections: [{ axis: 'z', at: v + 0.021, flip: false, turn: 0, tilt: 90 }] })", plane.at);
+    await inPage("s.view.set({ sections: [{ axis: 'z', at: v + 0.021, flip: false, turn: 0, tilt: 90 }] })", plane.at);
     await visit.eventually(async () => assert.equal(await visit.page.locator("#moved-plane").count(), 0));
   });
 });
@@ -75,11 +75,11 @@ describe("search and colours", () => {
     svt("build", at("house.ifc"), "-o", at("ifc.svt"), "--spacing", "0.12");
     await open();
     await visit.choose(file("ifc.svt"));
-    await visit.until("s.modelFile === 'ifc.svt' && s.report");
+    await visit.until("s.volume.file === 'ifc.svt' && s.picture.report");
   });
 
   it("finds types by words of the language", async () => {
-    const expected = async (type) => await inPage(`(await s.engine.select('class=${type}')).length`);
+    const expected = async (type) => await inPage(`(await s.volume.engine.select('class=${type}')).length`);
     for (const [word, type] of [
       ["window", "IfcWindow"],
       ["Fenster", "IfcWindow"],
@@ -94,9 +94,9 @@ describe("search and colours", () => {
         const said = await visit.page.locator("svt-tree [role=status]").first().innerText();
         assert.ok(Number(/^\d+/.exec(said)?.[0]) >= wanted, `${word}: ${said}, expected ${wanted}`);
       });
-      const ids = await inPage(`s.engine.select('class=${type}')`);
+      const ids = await inPage(`s.volume.engine.select('class=${type}')`);
       const found = await inPage(
-        "[...document.querySelector('svt-app').shadowRoot.querySelector('svt-tree').rows.shown].map((i) => s.index.features[i].id)",
+        "[...document.querySelector('svt-app').shadowRoot.querySelector('svt-tree').rows.shown].map((i) => s.volume.index.features[i].id)",
       );
       for (const id of ids) assert.ok(found.includes(id), `${word} does not find ${id}`);
     }
@@ -107,12 +107,13 @@ describe("search and colours", () => {
     await visit.tool("look");
     const offered = await visit.page.locator("#color-by-keys option").evaluateAll((options) => options.map((option) => option.value));
     assert.ok(offered.includes("ifcType"), offered.join());
-    const picture = () => inPage("(async () => [...new Uint8Array(await s.engine.picture(await s.composed([480, 270])))].join())()");
+    const picture = () =>
+      inPage("(async () => [...new Uint8Array(await s.volume.engine.picture(await s.view.composed([480, 270])))].join())()");
     const plain = await picture();
     await visit.page.fill("#color-by", "ifcType");
     await visit.page.locator("#color-by").press("Enter");
     await visit.settled();
-    assert.equal(await inPage("s.message"), null);
+    assert.equal(await inPage("s.messages.message"), null);
     assert.notEqual(await picture(), plain);
     const legend = visit.page.getByRole("list", { name: "Legend: ifcType" });
     await legend.waitFor();
@@ -121,12 +122,12 @@ describe("search and colours", () => {
       rows.some((row) => /^IfcWall\w*: \d+$/.test(row)),
       `the legend as text: ${rows.join("; ")}`,
     );
-    await inPage("s.set({ colorBy: 'volume' })");
+    await inPage("s.view.set({ colorBy: 'volume' })");
     await visit.page
       .getByRole("list", { name: /^Legend: volume/ })
       .getByText(/^from [\d.,]+ to [\d.,]+$/)
       .waitFor({ state: "attached" });
-    await inPage("s.set({ colorBy: '' })");
+    await inPage("s.view.set({ colorBy: '' })");
     await legend.waitFor({ state: "detached" });
   });
 });
@@ -135,12 +136,15 @@ describe("tables and several models", () => {
   before(() => open());
 
   it("a table that is dropped gives owners, colours and queries, and is named by the command", async () => {
-    const rooms = await inPage("s.engine.select('class=BuildingRoom')");
+    const rooms = await inPage("s.volume.engine.select('class=BuildingRoom')");
     const table = `feature,owner\n${rooms.map((id, n) => `${id},${n % 2 ? "Ada" : "Bob"}`).join("\n")}\n`;
     await visit.choose({ name: "parcels.csv", bytes: Buffer.from(table) });
     await visit.message("Owners are those of parcels.csv");
     assert.equal((await visit.state()).colorBy, "owner");
-    assert.deepEqual((await inPage("s.engine.select('owner=Ada and class=BuildingRoom')")).sort(), rooms.filter((_, n) => n % 2).sort());
+    assert.deepEqual(
+      (await inPage("s.volume.engine.select('owner=Ada and class=BuildingRoom')")).sort(),
+      rooms.filter((_, n) => n % 2).sort(),
+    );
     await visit.settled();
     await visit.page.getByRole("button", { name: "Dismiss" }).click();
     await visit.tool("share");
@@ -151,7 +155,7 @@ describe("tables and several models", () => {
     // Another table takes its place; a bad one says where.
     await visit.choose({ name: "other.csv", bytes: Buffer.from(`feature,owner\n${rooms[0]},Cleo\n`) });
     await visit.message("Owners are those of other.csv");
-    assert.deepEqual(await inPage("s.engine.select('owner=Ada').catch(() => [])"), []);
+    assert.deepEqual(await inPage("s.volume.engine.select('owner=Ada').catch(() => [])"), []);
     await visit.settled();
     await visit.choose({ name: "bad.csv", bytes: Buffer.from("feature,owner\nno such thing,Ada\n") });
     await visit.page
@@ -166,17 +170,17 @@ describe("tables and several models", () => {
     // Another building beside it, of another spacing.
     svt("build", at("tower.gml"), "-o", at("part.svt"), "--spacing", "0.2", "--vectors", "none");
     await visit.choose(file("a.svt"), file("part.svt"));
-    await visit.until("s.modelFile === 'a.svt' && s.report");
-    assert.equal(await inPage("s.info.details"), 1);
+    await visit.until("s.volume.file === 'a.svt' && s.picture.report");
+    assert.equal(await inPage("s.volume.info.details"), 1);
     const [bytes, scene] = await inPage(
-      "(async () => { const scene = await s.composed([320, 180]); return [btoa(Array.from(new Uint8Array(await s.engine.picture(scene)), (b) => String.fromCharCode(b)).join('')), scene]; })()",
+      "(async () => { const scene = await s.view.composed([320, 180]); return [btoa(Array.from(new Uint8Array(await s.volume.engine.picture(scene)), (b) => String.fromCharCode(b)).join('')), scene]; })()",
     );
     writeFileSync(at("two.scene.json"), JSON.stringify(scene));
     svt("render", at("a.svt"), "--with", at("part.svt"), "--scene", at("two.scene.json"), "-o", at("two.png"));
     assert.ok(Buffer.from(bytes, "base64").equals(readFileSync(at("two.png"))), "as svt render --with");
     const seen = await inPage(`(async () => {
       const ids = new Set();
-      for (let y = 0.05; y < 1; y += 0.05) for (let x = 0.05; x < 1; x += 0.05) ids.add((await s.engine.pick(x, y))?.id ?? "");
+      for (let y = 0.05; y < 1; y += 0.05) for (let x = 0.05; x < 1; x += 0.05) ids.add((await s.volume.engine.pick(x, y))?.id ?? "");
       return [...ids];
     })()`);
     assert.ok(
@@ -192,8 +196,8 @@ describe("tables and several models", () => {
 
   it("models become one", async () => {
     await visit.choose(file("house.gml"), { name: "again.gml", bytes: readFileSync(at("house.gml")) });
-    await visit.until("s.otherFiles.join() === 'again.gml' && s.report");
-    const rooms = (await inPage("s.engine.select('class=BuildingRoom')")).length;
+    await visit.until("s.volume.otherFiles.join() === 'again.gml' && s.picture.report");
+    const rooms = (await inPage("s.volume.engine.select('class=BuildingRoom')")).length;
     assert.equal(rooms, 2 * svtJson("query", at("house.svt"), "class=BuildingRoom", "--json").length);
     await visit.page.click("#copy-command");
     await visit.eventually(async () =>
@@ -213,25 +217,25 @@ describe("walking", () => {
     await visit.page.locator("svt-picture .stage").focus();
     await visit.page.keyboard.press("g");
     await visit.until(
-      "s.isWalking && Math.abs(s.state.camera.eye[2] - s.state.camera.target[2]) < 1e-6 && s.state.camera.fieldOfView === 65",
+      "s.view.isWalking && Math.abs(s.view.state.camera.eye[2] - s.view.state.camera.target[2]) < 1e-6 && s.view.state.camera.fieldOfView === 65",
     );
     const eye = (await visit.state()).camera.eye;
     const boxes = await inPage(
-      "(async () => { const all = []; for (const id of await s.engine.select('class=BuildingRoom')) all.push((await s.engine.properties(id)).box); return all; })()",
+      "(async () => { const all = []; for (const id of await s.volume.engine.select('class=BuildingRoom')) all.push((await s.volume.engine.properties(id)).box); return all; })()",
     );
     const isIn = (p, slack) => boxes.some(({ low, high }) => p.every((v, i) => v > low[i] - slack && v < high[i] + slack));
     assert.ok(isIn(eye, 0), `stands at ${eye}, in no room`);
     // In all directions a wall, or a door and then the open, ends the way: never inside of a wall.
-    const size = await inPage("s.box.high");
+    const size = await inPage("s.volume.box.high");
     let stopped = 0;
     for (let n = 0; n < 8; ++n) {
       const [dx, dy] = [Math.cos((n * Math.PI) / 4), Math.sin((n * Math.PI) / 4)];
-      const end = await inPage("s.engine.step(v[0], v[1])", [eye, [5 * dx, 5 * dy, 0]]);
+      const end = await inPage("s.volume.engine.step(v[0], v[1])", [eye, [5 * dx, 5 * dy, 0]]);
       const went = Math.hypot(end[0] - eye[0], end[1] - eye[1]);
       assert.ok(went <= 5 + 1e-6);
       if (went < 4.9) ++stopped;
       // A step from where one stands is free somewhere: one is in no wall.
-      const back = await inPage("s.engine.step(v[0], v[1])", [end, [-0.3 * dx, -0.3 * dy, 0]]);
+      const back = await inPage("s.volume.engine.step(v[0], v[1])", [end, [-0.3 * dx, -0.3 * dy, 0]]);
       assert.ok(Math.hypot(back[0] - end[0], back[1] - end[1]) > 0.05, `stuck at ${end}`);
     }
     assert.ok(stopped >= 4, `${stopped} of 8 ways end at something within 5 m; the house is ${size}`);
@@ -240,6 +244,6 @@ describe("walking", () => {
     await visit.eventually(async () => assert.notDeepEqual((await visit.state()).camera.eye, eye));
     await visit.page.keyboard.up("w");
     await visit.page.keyboard.press("0");
-    await visit.until("!s.isWalking");
+    await visit.until("!s.view.isWalking");
   });
 });

@@ -49,13 +49,13 @@ describe("BCF 3.0", () => {
 
   it("takes views out as topics that keep to the schemas, and back in as they were", async (t) => {
     const [wall, door] = await inPage(
-      "Promise.all(['IfcWall', 'IfcDoor'].map(async (type) => (await s.engine.select('class=' + type))[0]))",
+      "Promise.all(['IfcWall', 'IfcDoor'].map(async (type) => (await s.volume.engine.select('class=' + type))[0]))",
     );
-    await inPage("s.set(v)", { ...kView, selection: [wall], styles: [{ select: `id="${door}"`, color: "#ff0080" }] });
+    await inPage("s.view.set(v)", { ...kView, selection: [wall], styles: [{ select: `id="${door}"`, color: "#ff0080" }] });
     await visit.tool("share");
     await visit.page.click("#keep-view");
     await inPage(
-      "(async () => { await s.goTo('', 'top'); const c = s.state.camera; s.turn({ ...c, parallel: true, height: 17.5 }); s.set({ hide: [], show: [v], sections: [], styles: [] }); })()",
+      "(async () => { await s.view.goTo('', 'top'); const c = s.view.state.camera; s.view.turn({ ...c, parallel: true, height: 17.5 }); s.view.set({ hide: [], show: [v], sections: [], styles: [] }); })()",
       `id="${wall}"`,
     );
     const list = visit.page.locator("svt-bookmark-list li");
@@ -94,7 +94,7 @@ describe("BCF 3.0", () => {
         }
     else t.diagnostic("not held against the schemas: SVT_BCF_SCHEMAS names no folder with markup.xsd");
     // Where things are: in coordinates of the model.
-    const info = await inPage("s.info");
+    const info = await inPage("s.volume.info");
     const views = names.filter((n) => n.endsWith(".bcfv")).map((n) => readFileSync(join(folder, n), "utf8"));
     const numbers = (xml, tag) => [...new RegExp(`<${tag}><X>([^<]*)</X><Y>([^<]*)</Y><Z>([^<]*)</Z>`).exec(xml).slice(1)].map(Number);
     const first = views.find((xml) => xml.includes("ClippingPlane")),
@@ -129,7 +129,7 @@ describe("BCF 3.0", () => {
       assert.deepEqual(state.selection, was.selection);
       const seen = (queries) =>
         inPage(
-          "(async () => { const all = new Set(); for (const q of v) for (const id of await s.engine.select(q)) all.add(id); return [...all].sort(); })()",
+          "(async () => { const all = new Set(); for (const q of v) for (const id of await s.volume.engine.select(q)) all.add(id); return [...all].sort(); })()",
           queries,
         );
       if (n === 0) {
@@ -220,7 +220,7 @@ describe("languages", () => {
     assert.equal(await visit.page.evaluate(() => document.documentElement.lang), "tlh");
     assert.equal(await visit.page.locator("#tool-section span").innerText(), "pe'");
     assert.equal(await visit.page.locator("#tool-lens span").innerText(), "Lens", "what is missing is English");
-    const windows = (await inPage("s.engine.select('class=IfcWindow')")).length;
+    const windows = (await inPage("s.volume.engine.select('class=IfcWindow')")).length;
     await visit.page.fill("#search", "qorwagh");
     await visit.eventually(async () =>
       assert.equal(await visit.page.locator("svt-tree [role=status]").first().innerText(), `${windows} tu'`),
@@ -228,11 +228,11 @@ describe("languages", () => {
     await visit.page.fill("#search", "");
     await choice.selectOption("eo");
     await visit.message("languages/eo.json");
-    assert.equal(await inPage("s.language"), "tlh");
+    assert.equal(await inPage("s.languages.current"), "tlh");
     await choice.selectOption("de");
-    const [id] = await inPage("s.engine.select('class=IfcDoor')");
-    await inPage("s.select([v])", id);
-    const properties = await inPage("(async () => { await new Promise((r) => setTimeout(r, 500)); return s.properties; })()");
+    const [id] = await inPage("s.volume.engine.select('class=IfcDoor')");
+    await inPage("s.selection.select([v])", id);
+    const properties = await inPage("(async () => { await new Promise((r) => setTimeout(r, 500)); return s.selection.properties; })()");
     const text = (await visit.page.locator("svt-properties dl").allInnerTexts()).join("\n");
     assert.ok(text.includes(`${properties.surface.toFixed(2).replace(".", ",")} m²`), text);
     for (const [key, { value }] of Object.entries(properties.numbers)) {
@@ -249,7 +249,7 @@ describe("languages", () => {
 
   it("are those that the address and the browser ask for", async () => {
     await visit.open(`${server.url}?model=house&language=tlh`);
-    await visit.until("s.language === 'tlh'");
+    await visit.until("s.languages.current === 'tlh'");
     await visit.open(`${server.url}?model=house`, { locale: "de-DE" });
     await visit.page.getByRole("tab", { name: "Aufbau" }).waitFor();
   });
@@ -314,7 +314,7 @@ describe("fingers", () => {
       });
       const last = visit.page.locator("[role=treeitem]").last();
       await last.click();
-      await visit.until("s.state.selection.length === 1");
+      await visit.until("s.view.state.selection.length === 1");
       const sheet = await visit.page.locator(".sheet").boundingBox();
       assert.ok(sheet.x >= 0 && sheet.x + sheet.width <= width + 0.5);
       await visit.page.getByRole("button", { name: "Show or hide: Selection" }).click();
@@ -429,8 +429,8 @@ describe("screen reader", () => {
       await visit.page.waitForFunction(() => customElements.get("wa-slider"));
       await visit.tool("section");
       await visit.page.click("#add-plane");
-      const [id] = await inPage("s.engine.select('class=IfcDoor')");
-      await inPage("s.select([v])", id);
+      const [id] = await inPage("s.volume.engine.select('class=IfcDoor')");
+      await inPage("s.selection.select([v])", id);
       const nodes = await visit.eventually(async () => {
         const all = await tree();
         assert.equal(all.filter((node) => node.role === "treeitem" && node.selected).length, 1);

@@ -16,7 +16,7 @@ describe("picture", () => {
     // Panels that arrive late may change the picture's size meanwhile: then the scene of the command is another one.
     await eventually(async () => {
       await settled();
-      const [scene, [width, height]] = await inPage("[await s.composed(s.pictureSize), s.pictureSize]");
+      const [scene, [width, height]] = await inPage("[await s.view.composed(s.view.size), s.view.size]");
       writeFileSync(at("pick.scene.json"), JSON.stringify(scene));
       svt("render", at("house.svt"), "-o", at("pick.png"), "--scene", at("pick.scene.json"), "--labels", at("labels.png"));
       const labels = readPng(readFileSync(at("labels.png")));
@@ -27,7 +27,7 @@ describe("picture", () => {
           y = Math.floor(((n * 0.382 + 0.1) % 1) * (height - 4)) + 2;
         const around = [-1, 0, 1].flatMap((dy) => [-1, 0, 1].map((dx) => labels.data[(y + dy) * width + x + dx]));
         if (around.some((label) => label !== around[0])) continue;
-        const pick = await inPage("s.engine.pick(v[0], v[1])", [(x + 0.5) / width, (y + 0.5) / height]);
+        const pick = await inPage("s.volume.engine.pick(v[0], v[1])", [(x + 0.5) / width, (y + 0.5) / height]);
         assert.equal(pick?.scalar ?? 0, around[0], `at ${x}, ${y} of ${width} x ${height}`);
         ++checked;
       }
@@ -37,15 +37,15 @@ describe("picture", () => {
 
   it("picks what the eye takes: behind air and glass that is hardly seen, and the glass where nothing is behind it", async () => {
     const shown = await state();
-    const scene = async (change) => (await inPage("s.set(v)", change), settled());
+    const scene = async (change) => (await inPage("s.view.set(v)", change), settled());
     // Cut open, the air of the rooms stands before furniture and walls.
     await scene({ hide: [], sections: [{ axis: "y", at: 5, flip: true, turn: 0, tilt: 0 }] });
     const seen = await inPage(`(async () => {
-      const rooms = new Set(await s.engine.select("class=BuildingRoom"));
+      const rooms = new Set(await s.volume.engine.select("class=BuildingRoom"));
       let first = 0, picked = 0;
       for (let y = 0.35; y < 0.75; y += 0.02)
         for (let x = 0.3; x < 0.7; x += 0.02) {
-          const pick = await s.engine.pick(x, y);
+          const pick = await s.volume.engine.pick(x, y);
           if (!pick) continue;
           ++picked;
           if (rooms.has(pick.id)) ++first;
@@ -56,9 +56,9 @@ describe("picture", () => {
     assert.equal(seen.first, 0, JSON.stringify(seen));
     // Alone, the same air is what there is.
     await scene({ show: ["class=BuildingRoom"], sections: [] });
-    await inPage("s.goTo('', 'front')");
+    await inPage("s.view.goTo('', 'front')");
     await settled();
-    const alone = await inPage("s.engine.pick(0.5, 0.55)");
+    const alone = await inPage("s.volume.engine.pick(0.5, 0.55)");
     assert.equal(alone.class, "BuildingRoom");
     await scene({ ...shown, selection: [] });
   });
@@ -67,15 +67,15 @@ describe("picture", () => {
     const box = await stage();
     const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
     await visit.page.mouse.click(x, y);
-    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.state.selection.length === 1);
-    const pick = await inPage("s.engine.pick(0.5, 0.5)");
+    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.view.state.selection.length === 1);
+    const pick = await inPage("s.volume.engine.pick(0.5, 0.5)");
     assert.deepEqual((await state()).selection, [pick.id]);
     assert.match(await visit.page.locator("#said").innerText(), /^Selected: /);
     await visit.page.keyboard.down("Alt");
     await visit.page.mouse.click(x, y);
     await visit.page.keyboard.up("Alt");
     await visit.page.getByRole("heading", { name: "Along this ray" }).waitFor();
-    const stretches = await inPage("s.along.stretches");
+    const stretches = await inPage("s.selection.along.stretches");
     assert.ok(stretches.length > 1);
     assert.equal(stretches.find((s) => s.class !== "BuildingRoom").id, pick.id);
     assert.ok(stretches.every((s, i) => s.from <= s.to && (i === 0 || s.from >= stretches[i - 1].from - 1e-6)));
@@ -119,17 +119,17 @@ describe("picture", () => {
     const box = await stage();
     await visit.page.mouse.dblclick(box.x + box.width / 2, box.y + box.height / 2);
     await visit.page.waitForFunction(
-      (before) => document.querySelector("svt-app").session.state.camera.target.some((v, i) => Math.abs(v - before[i]) > 0.01),
+      (before) => document.querySelector("svt-app").session.view.state.camera.target.some((v, i) => Math.abs(v - before[i]) > 0.01),
       target,
     );
   });
 
   it("flies to a view, unless the visitor prefers less motion", async () => {
-    await inPage("s.goTo('', 'top')");
+    await inPage("s.view.goTo('', 'top')");
     const there = (await state()).camera.eye;
-    await inPage("s.goTo('', 'front')");
+    await inPage("s.view.goTo('', 'front')");
     await visit.page.emulateMedia({ reducedMotion: "no-preference" });
-    const first = await inPage("(await s.goTo('', 'top'), s.state.camera.eye)");
+    const first = await inPage("(await s.view.goTo('', 'top'), s.view.state.camera.eye)");
     await visit.page.emulateMedia({ reducedMotion: "reduce" });
     const distance = (eye) => Math.hypot(...eye.map((e, i) => e - there[i]));
     assert.ok(distance(first) > 1e-3, "it is not there at once");
@@ -164,7 +164,7 @@ describe("touch", () => {
     await visit.page.touchscreen.tap(box.x + box.width / 2, box.y + box.height / 2);
     await eventually(async () => assert.equal((await state()).selection.length, 1));
     await fingers("touchStart", [box.width / 2, box.height / 2]);
-    await eventually(async () => assert.ok((await inPage("s.along"))?.stretches.length > 1));
+    await eventually(async () => assert.ok((await inPage("s.selection.along"))?.stretches.length > 1));
     await fingers("touchEnd");
   });
 });
@@ -175,22 +175,22 @@ describe("moving", () => {
   it("has fewer pixels while it is slow, and all of them at rest", async (t) => {
     await settled();
     const { milliseconds, share } = await inPage(`(async () => {
-      let last = s.report, share = 1, milliseconds = 0;
+      let last = s.picture.report, share = 1, milliseconds = 0;
       for (let frames = 0; frames < 12; ) {
-        const { camera } = s.state;
-        s.turn({ ...camera, eye: [camera.eye[0] + 0.01, camera.eye[1], camera.eye[2]] });
+        const { camera } = s.view.state;
+        s.view.turn({ ...camera, eye: [camera.eye[0] + 0.01, camera.eye[1], camera.eye[2]] });
         await new Promise(requestAnimationFrame);
-        if (s.report === last) continue;
-        last = s.report;
+        if (s.picture.report === last) continue;
+        last = s.picture.report;
         ++frames;
         milliseconds = last.milliseconds;
-        share = last.width / s.pictureSize[0];
+        share = last.width / s.view.size[0];
       }
       return { milliseconds, share };
     })()`);
     t.diagnostic(`while moving: ${Math.round(milliseconds)} ms a frame at ${Math.round(share * 100)} % of width and height`);
     assert.ok(share > 0.19 && share <= 1, `${share} of the width`);
     await settled();
-    assert.deepEqual(await inPage("[s.report.width, s.report.height]"), await inPage("s.pictureSize"));
+    assert.deepEqual(await inPage("[s.picture.report.width, s.picture.report.height]"), await inPage("s.view.size"));
   });
 });

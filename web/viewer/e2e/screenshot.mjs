@@ -13,12 +13,13 @@ const server = await serve(withModels([{ name: "house", path: volume, title: "Sa
 const { context, close } = await browse({ viewport: { width: 1440, height: 860 }, locale: "en-US", colorScheme: "light" });
 const page = await context.newPage();
 await page.goto(server.url);
-const finished = () => page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine", null, { timeout: 120_000 });
+const finished = () =>
+  page.waitForFunction(() => document.querySelector("svt-app").session.picture.quality === "fine", null, { timeout: 120_000 });
 await finished();
 await page.evaluate(() => {
   const { session } = document.querySelector("svt-app");
-  session.set({ hide: ["class=BuildingRoom"], sections: [{ axis: "y", at: 5, flip: true, turn: 0, tilt: 0 }], hatches: true });
-  session.select(["house_hidden_beam"]);
+  session.view.set({ hide: ["class=BuildingRoom"], sections: [{ axis: "y", at: 5, flip: true, turn: 0, tilt: 0 }], hatches: true });
+  session.selection.select(["house_hidden_beam"]);
 });
 await page.click("#tool-section");
 await finished();

@@ -34,7 +34,7 @@ describe("start", () => {
     const { bomFormat, components } = JSON.parse(readFileSync(join(pageFolder, "sbom.cdx.json"), "utf8"));
     assert.equal(bomFormat, "CycloneDX");
     const listed = Object.fromEntries(components.map(({ name, version }) => [name, version]));
-    for (const name of ["lit", "lit-html", "@awesome.me/webawesome"]) {
+    for (const name of ["lit", "lit-html", "@awesome.me/webawesome", "@preact/signals-core"]) {
       const manifest = join(repository, "web/viewer/node_modules", name, "package.json");
       assert.equal(listed[name], JSON.parse(readFileSync(manifest, "utf8")).version, name);
     }
@@ -86,7 +86,7 @@ describe("start", () => {
     await visit.page.getByRole("heading", { name: "Drop a building here" }).waitFor();
     await drop("house.svt", readFileSync(at("house.svt")));
     await firstImage();
-    assert.equal(await inPage("s.info.name"), "Sample house");
+    assert.equal(await inPage("s.volume.info.name"), "Sample house");
     await empty.close();
   });
 });
@@ -102,7 +102,7 @@ describe("served by svt serve", () => {
     await visit.page.goto(site.url);
     await firstImage();
     await settled();
-    assert.equal(await inPage("s.info.name"), "Sample house");
+    assert.equal(await inPage("s.volume.info.name"), "Sample house");
     assert.deepEqual(visit.problems, []);
   });
 

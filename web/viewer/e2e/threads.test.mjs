@@ -42,7 +42,7 @@ async function pictures() {
   const made = {};
   for (const [name, scene] of Object.entries(kScenes)) {
     made[name] = await visit.inPage(
-      `s.engine.picture(v).then((b) => btoa(Array.from(new Uint8Array(b), (c) => String.fromCharCode(c)).join("")))`,
+      `s.volume.engine.picture(v).then((b) => btoa(Array.from(new Uint8Array(b), (c) => String.fromCharCode(c)).join("")))`,
       { size: [480, 300], ...scene },
     );
   }
@@ -54,12 +54,12 @@ describe("threads", () => {
     if (cpus().length < 2) return t.skip("this machine has one core");
     await visit.open(isolated.url);
     assert.equal(await visit.page.evaluate(() => crossOriginIsolated), true);
-    assert.equal(await visit.inPage("s.engine.threads"), Math.min(8, cpus().length));
+    assert.equal(await visit.inPage("s.volume.engine.threads"), Math.min(8, cpus().length));
     const many = await pictures();
     await visit.settled();
     assert.deepEqual(visit.problems, []);
     await visit.open(`${isolated.url}?threads=no`);
-    assert.equal(await visit.inPage("s.engine.threads"), 1);
+    assert.equal(await visit.inPage("s.volume.engine.threads"), 1);
     assert.deepEqual(await pictures(), many);
     for (const [name, scene] of Object.entries(kScenes)) {
       writeFileSync(files.at("s.scene.json"), JSON.stringify({ format: "svt-scene", version: 1, size: [480, 300], ...scene }));
@@ -71,9 +71,9 @@ describe("threads", () => {
   it("build the same volume of a model, and survive that an opening is cancelled", async (t) => {
     if (cpus().length < 2) return t.skip("this machine has one core");
     await visit.open(isolated.url);
-    await visit.inPage("s.engine.cancel()");
+    await visit.inPage("s.volume.engine.cancel()");
     await visit.choose({ name: "house.gml", bytes: readFileSync(files.at("house.gml")) });
-    await visit.until("s.modelFile === 'house.gml' && s.report");
+    await visit.until("s.volume.file === 'house.gml' && s.picture.report");
     const { plain: shown } = await pictures();
     svt("render", files.at("house.gml"), "-o", files.at("model.png"), "--size", "480x300");
     assert.equal(readFileSync(files.at("model.png")).toString("base64"), shown);
@@ -82,7 +82,7 @@ describe("threads", () => {
   it("are left out where the site does not isolate the page", async () => {
     await visit.open(plain.url);
     assert.equal(await visit.page.evaluate(() => crossOriginIsolated), false);
-    assert.equal(await visit.inPage("s.engine.threads"), 1);
+    assert.equal(await visit.inPage("s.volume.engine.threads"), 1);
     assert.deepEqual(visit.problems, []);
   });
 
@@ -91,7 +91,7 @@ describe("threads", () => {
     const broken = await serve({ ...models(), [`assets/${script}`]: files.at("missing.js") }, true);
     await visit.open(broken.url);
     assert.equal(await visit.page.evaluate(() => crossOriginIsolated), true);
-    assert.equal(await visit.inPage("s.engine.threads"), 1);
+    assert.equal(await visit.inPage("s.volume.engine.threads"), 1);
     await visit.close();
     await broken.close();
   });

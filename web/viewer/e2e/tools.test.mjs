@@ -36,22 +36,22 @@ describe("tools", () => {
       (await state()).sections.map((s) => s.axis),
       ["y", "z"],
     );
-    assert.match((await inPage("s.composed([640, 360])")).passes[0].cut, /^y<[\d.]+ or z>[\d.]+$/);
+    assert.match((await inPage("s.view.composed([640, 360])")).passes[0].cut, /^y<[\d.]+ or z>[\d.]+$/);
     await visit.page.getByRole("button", { name: "Remove plane 1" }).click();
   });
 
   it("are typed in metres or in the model's coordinates, and new ones lie beside old ones", async () => {
     const { sections } = await state();
-    await inPage("s.set({ sections: [] })");
+    await inPage("s.view.set({ sections: [] })");
     await tool("section");
     for (let n = 0; n < 5; ++n) await visit.page.click("#add-plane");
     const free = (await state()).sections.filter((section) => section.axis === "free").map((section) => section.at);
     assert.equal(new Set(free).size, free.length, `planes lie on each other: ${free}`);
-    await inPage("s.set({ sections: [{ axis: 'z', at: 1, flip: false, turn: 0, tilt: 90 }] })");
+    await inPage("s.view.set({ sections: [{ axis: 'z', at: 1, flip: false, turn: 0, tilt: 90 }] })");
     await visit.page.locator(".plane input.at").fill("2.5");
     await visit.page.locator(".plane input.at").press("Enter");
     assert.equal((await state()).sections[0].at, 2.5);
-    const lower = await inPage("s.info.origin[2]");
+    const lower = await inPage("s.volume.info.origin[2]");
     const world = visit.page.locator(".plane input.world");
     assert.equal(Number(await world.inputValue()), Number((2.5 + lower).toFixed(2)));
     await world.fill((lower + 1.25).toFixed(2));
@@ -60,7 +60,7 @@ describe("tools", () => {
     await visit.page.locator(".plane input.at").fill("999");
     await visit.page.locator(".plane input.at").press("Enter");
     assert.ok((await state()).sections[0].at < 20, "no further than the building");
-    await inPage("s.set({ sections: v })", sections);
+    await inPage("s.view.set({ sections: v })", sections);
   });
 
   it("export drawings as the command makes them", async () => {
@@ -127,7 +127,7 @@ describe("tools", () => {
     await visit.page.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.6);
     ({ lens } = await eventually(async () => (assert.ok((await state()).lens.pinned), await state())));
     assert.ok(lens.pinned && Math.abs(lens.x - 0.7) < 0.01);
-    const scene = await inPage("s.composed([640, 360])");
+    const scene = await inPage("s.view.composed([640, 360])");
     assert.equal(scene.passes.length, 2);
     assert.match(scene.passes[1].keep, /^view\(/);
     await settled();
@@ -135,14 +135,14 @@ describe("tools", () => {
   });
 
   it("highlight, cut away to the selection, and leave hulls", async () => {
-    await inPage("s.select(['house_hidden_beam'])");
+    await inPage("s.selection.select(['house_hidden_beam'])");
     await tool("focus");
     await visit.page.getByRole("radio", { name: "Highlight" }).click();
-    let scene = await inPage("s.composed([640, 360])");
+    let scene = await inPage("s.view.composed([640, 360])");
     assert.deepEqual(scene.passes[1].show, ['id="house_hidden_beam"']);
     await settled();
     await visit.page.getByRole("radio", { name: "Cut away" }).click();
-    scene = await inPage("s.composed([640, 360])");
+    scene = await inPage("s.view.composed([640, 360])");
     assert.match(scene.passes[0].cut, /cutaway\(/);
     await settled();
     await visit.page.fill("#focus-query", "class=Nonsense");
@@ -150,9 +150,9 @@ describe("tools", () => {
     await visit.page.locator("svt-focus-tool .error").waitFor();
     await visit.page.getByRole("radio", { name: "Off" }).click();
     await visit.page.selectOption("#shell", "storey");
-    assert.equal((await inPage("s.describe([640, 360])")).scene.passes[0].shell, "storey");
+    assert.equal((await inPage("s.view.describe([640, 360])")).scene.passes[0].shell, "storey");
     await settled();
-    assert.equal(await inPage("s.message"), null);
+    assert.equal(await inPage("s.messages.message"), null);
     await visit.page.selectOption("#shell", "");
   });
 
@@ -163,12 +163,12 @@ describe("tools", () => {
     await visit.page.locator("#names").check();
     await visit.page.locator("#legend").check();
     await visit.page.locator("svt-legend li").first().waitFor();
-    const scene = await inPage("s.composed([640, 360])");
+    const scene = await inPage("s.view.composed([640, 360])");
     assert.equal(scene.look, "blueprint");
     assert.deepEqual(scene.passes[0].lines, [{ hidden: "dashed" }]);
     assert.deepEqual(scene.names, ['id="house_hidden_beam"']);
     await settled();
-    assert.equal(await inPage("s.message"), null);
+    assert.equal(await inPage("s.messages.message"), null);
     await visit.page.getByRole("radio", { name: "Plain" }).click();
     await visit.page.selectOption("#wireframe", "off");
     await visit.page.locator("#names").uncheck();
@@ -180,15 +180,15 @@ describe("tools", () => {
     await visit.page.locator("#color-by").press("Enter");
     await visit.page.locator("#north-arrow").check();
     await settled();
-    const scene = await inPage("s.composed([640, 360])");
+    const scene = await inPage("s.view.composed([640, 360])");
     assert.equal(scene.colorBy, "storey");
     assert.equal(scene.northArrow, true);
-    assert.equal(await inPage("s.message"), null);
+    assert.equal(await inPage("s.messages.message"), null);
     await visit.page.fill("#color-by", "");
     await visit.page.locator("#color-by").press("Enter");
     await visit.page.locator("#north-arrow").uncheck();
     await settled();
-    assert.equal((await inPage("s.composed([640, 360])")).colorBy, undefined);
+    assert.equal((await inPage("s.view.composed([640, 360])")).colorBy, undefined);
   });
 
   it("measure between picked points", async () => {
@@ -202,9 +202,9 @@ describe("tools", () => {
     ];
     for (const [n, [x, y]] of places.entries()) {
       await visit.page.mouse.click(box.x + box.width * x, box.y + box.height * y);
-      await visit.page.waitForFunction((count) => document.querySelector("svt-app").session.state.measured.length === count, n + 1);
+      await visit.page.waitForFunction((count) => document.querySelector("svt-app").session.view.state.measured.length === count, n + 1);
     }
-    const [a, b, c] = await inPage("s.state.measured");
+    const [a, b, c] = await inPage("s.view.state.measured");
     const apart = (p, q) => Math.hypot(...p.map((v, i) => v - q[i]));
     assert.equal(await visit.page.locator("#measured-length").innerText(), `${(apart(a, b) + apart(b, c)).toFixed(3)} m`);
     assert.match(await visit.page.locator("#measured-area").innerText(), /^\d+\.\d{3} m²$/);
@@ -220,7 +220,7 @@ describe("tools", () => {
     );
     // They stay until they are removed.
     await visit.page.reload();
-    await visit.page.waitForFunction(() => document.querySelector("svt-app")?.session?.report);
+    await visit.page.waitForFunction(() => document.querySelector("svt-app")?.session?.picture.report);
     await settled();
     assert.deepEqual((await state()).measured, [a, b, c]);
     await tool("measure");
@@ -229,15 +229,15 @@ describe("tools", () => {
   });
 
   it("measure from corner to corner of the model", async () => {
-    await inPage("s.set({ measured: [] })");
-    await inPage("s.goTo('', 'front')");
+    await inPage("s.view.set({ measured: [] })");
+    await inPage("s.view.goTo('', 'front')");
     await settled();
     // Near the place where a corner of the outer wall is seen, a few pixels beside it.
     const box = await stage();
     const corner = await inPage(`(async () => {
       for (let y = 0.3; y < 0.9; y += 0.01)
         for (let x = 0.1; x < 0.9; x += 0.01) {
-          const pick = await s.engine.pick(x, y, 0.25);
+          const pick = await s.volume.engine.pick(x, y, 0.25);
           if (pick?.snapped?.to === "corner") return { x, y, point: pick.snapped.point, on: pick.point };
         }
       return null;
@@ -249,15 +249,15 @@ describe("tools", () => {
     await visit.page.keyboard.down("Control");
     await click();
     await visit.page.keyboard.up("Control");
-    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.state.measured.length === 1);
+    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.view.state.measured.length === 1);
     const plain = (await state()).measured[0];
     assert.ok(Math.hypot(...plain.map((v, i) => v - corner.on[i])) < 0.05, "with Ctrl the point is where the ray hits");
     await click();
-    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.state.measured.length === 2);
+    await visit.page.waitForFunction(() => document.querySelector("svt-app").session.view.state.measured.length === 2);
     const snapped = (await state()).measured[1];
     assert.ok(Math.hypot(...snapped.map((v, i) => v - corner.point[i])) < 0.001, "without Ctrl it is the corner");
-    assert.equal(await inPage("s.engine.pick(0.5, 0.5).then((p) => p?.snapped ?? null)"), null);
-    await inPage("s.set({ measured: [] })");
+    assert.equal(await inPage("s.volume.engine.pick(0.5, 0.5).then((p) => p?.snapped ?? null)"), null);
+    await inPage("s.view.set({ measured: [] })");
   });
 
   it("colour a class and make it glass", async () => {

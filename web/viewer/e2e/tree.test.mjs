@@ -23,7 +23,7 @@ describe("tree and query", () => {
   it("finds by what attributes say, and in German", async () => {
     const names = async () => (await visit.page.getByRole("treeitem").allInnerTexts()).join("|");
     await visit.page.fill("#search", "concrete");
-    const found = await inPage("s.engine.findInAttributes('concrete')");
+    const found = await inPage("s.volume.engine.findInAttributes('concrete')");
     assert.ok(found.length > 0);
     await eventually(async () =>
       assert.match(await visit.page.locator("svt-tree [role=status]").first().innerText(), new RegExp(`^${found.length} found`)),
@@ -65,13 +65,12 @@ describe("tree and query", () => {
         id: "f" + i, class: "Class" + (i % 40), name: "Part " + i, parent: i === 0 ? "" : i % 100 === 1 ? "f0" : "f" + (i - ((i - 1) % 100)),
         depth: 0, first: i + 1, count: 1, color: "#808080", opacity: 1,
       }));
-      s.take({ ...s.info, features }, s.state);
-      s.changed();
+      s.model.take({ ...s.volume.info, features }, s.view.state);
       const tree = document.querySelector("svt-app").shadowRoot.querySelector("svt-tree");
       await tree.updateComplete;
-      s.select(["f99999"]);
+      s.selection.select(["f99999"]);
       await tree.updateComplete;
-      s.hide([99999], true);
+      s.view.hide([99999], true);
       await tree.updateComplete;
     })()`);
     await visit.page.getByRole("treeitem", { name: "Part 99999" }).waitFor();

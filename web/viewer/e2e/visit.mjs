@@ -80,10 +80,10 @@ export class Visit {
       ([text, v]) => new Function("s", "v", `return (async () => (${text}))()`)(document.querySelector("svt-app").session, v),
       [body, value],
     );
-  state = () => this.inPage("s.state");
+  state = () => this.inPage("s.view.state");
   firstImage = () => this.page.waitForFunction(() => performance.getEntriesByName("svt-first-image").length > 0);
   /** The finest picture of what is shown now stands there. */
-  settled = () => this.page.waitForFunction(() => document.querySelector("svt-app").session.quality === "fine");
+  settled = () => this.page.waitForFunction(() => document.querySelector("svt-app").session.picture.quality === "fine");
   /** Where the picture is. */
   stage = () => this.page.locator("svt-picture").boundingBox();
   /** Waits until an expression of the session `s` holds. */

@@ -11,7 +11,7 @@ import "./panels/properties_panel";
 import "./panels/start_panel";
 import "./panels/tree_panel";
 import type { TreePanel } from "./panels/tree_panel";
-import { stepText, type Tool } from "./session";
+import { stepText, type Tool } from "./session/view";
 import { kFileKinds } from "./opening";
 import type { Changed } from "./state/history";
 import "./tools/focus_tool";
@@ -55,7 +55,6 @@ export class App extends Part {
     isTreeShown: { state: true },
     isSelectionShown: { state: true },
     isDropping: { state: true },
-    spoken: { state: true },
     dockAt: { state: true },
   };
   declare canvas: HTMLCanvasElement;
@@ -64,7 +63,6 @@ export class App extends Part {
   declare isTreeShown: boolean;
   declare isSelectionShown: boolean;
   declare isDropping: boolean;
-  declare spoken: string;
   /** The tool that the Tab key reaches. */
   declare dockAt: number;
   /** Handlers for files, and for a model of the list. */
@@ -81,7 +79,6 @@ export class App extends Part {
     this.isTreeShown = !this.isNarrow;
     this.isSelectionShown = true;
     this.isDropping = false;
-    this.spoken = "";
     this.dockAt = 0;
   }
 
@@ -93,7 +90,6 @@ export class App extends Part {
     addEventListener("dragleave", (event) => !event.relatedTarget && (this.isDropping = false));
     addEventListener("drop", (event) => this.dropped(event));
     this.addEventListener("svt-choose", () => this.choose());
-    this.session.addEventListener("said", (event) => (this.spoken = (event as CustomEvent<string>).detail));
   }
 
   private get isHuge(): boolean {
@@ -107,81 +103,40 @@ export class App extends Part {
     if (wasNarrow !== this.isNarrow) this.isTreeShown = !this.isNarrow;
   }
 
-  protected override uses() {
-    const { session: s } = this;
-    const { state } = s;
-    return [
-      s.status,
-      s.progress,
-      s.message,
-      s.models,
-      s.modelName,
-      s.info,
-      s.tool,
-      s.along,
-      state.selection,
-      s.report,
-      s.isServerOnly,
-      s.isLegendShown,
-      state.custom,
-      state.sections.length,
-      state.effect,
-      state.shell,
-      state.wireframe,
-      state.look,
-      state.colorBy,
-      s.scale,
-      state.measured.length,
-      s.isWalking,
-      s.engine,
-      s.history.last,
-      s.history.next,
-      s.opening,
-      s.refining.progress,
-      s.refining.isCoarse,
-      s.moved,
-      s.languages,
-    ];
-  }
-
   override willUpdate(_: PropertyValues): void {
     const { session } = this;
-    const what = session.along ?? session.state.selection;
+    const { along, isEmpty } = session.selection;
+    const what = along ?? session.view.now.selection;
     if (this.seenSelection === what) return;
     this.seenSelection = what;
-    const isEmpty = !session.along && !session.state.selection.length;
-    if (!isEmpty && !this.isNarrow) this.isSelectionShown = true;
-    if (!isEmpty && this.isNarrow && session.along) this.isSelectionShown = true;
-    if (this.isNarrow && !session.along) this.isSelectionShown = false;
-  }
-
-  private get hasSelection(): boolean {
-    return this.session.along !== null || this.session.state.selection.length > 0;
+    if (this.isNarrow) this.isSelectionShown = along !== null;
+    else if (!isEmpty) this.isSelectionShown = true;
   }
 
   override render() {
     const { session } = this;
-    const hasModel = session.info !== null;
-    const isEmpty = session.status === "empty" && !hasModel;
+    const hasModel = session.volume.info !== null;
+    const isEmpty = session.model.status === "empty" && !hasModel;
     return html`
       <button class="skip" @click=${() => this.picture?.focus()}>${t("skipToPicture")}</button>
       ${this.bar()}
       <main>
         ${isEmpty ? html`<svt-start .session=${session}></svt-start>` : hasModel && !this.isNarrow ? this.wide() : this.middle()}
         ${this.isNarrow && hasModel ? this.sheets() : nothing}
-        ${session.progress ? this.progress() : nothing}
-        ${session.message ? this.message() : nothing}
+        ${session.messages.progress ? this.progress() : nothing}
+        ${session.messages.message ? this.message() : nothing}
         ${this.isDropping ? html`<div class="dropping">${t("dropNow")}</div>` : nothing}
       </main>
-      <div class="visually-hidden" role="status" aria-live="polite" id="said">${this.spoken}</div>
+      <div class="visually-hidden" role="status" aria-live="polite" id="said">${session.messages.said}</div>
       <input type="file" id="file" hidden multiple accept=${[...kFileKinds, ".gz", ".csv"].join(",")} aria-label=${t("openHint", { kinds: kFileKinds.join(", ") })} @change=${this.chosen} />
       <svt-help .session=${session}></svt-help>
     `;
   }
 
   private bar() {
-    const { session } = this;
-    const { info, models } = session;
+    const { volume, view, languages } = this.session;
+    const { info, models, name, file } = volume;
+    const other = languages.current === "en" ? "de" : "en";
     const hasModel = info !== null;
     return html`<header>
       <div class="brand">${icon("section", 24)}<span>SVT</span></div>
@@ -189,27 +144,28 @@ export class App extends Part {
         ${
           models.length > 1
             ? html`<select aria-label=${t("models")} @change=${(e: Event) => this.onModel((e.target as HTMLSelectElement).value)}>
-              ${models.map((m) => html`<option value=${m.name} ?selected=${m.name === session.modelName}>${m.title || m.name}</option>`)}
-              ${hasModel && !session.modelName ? html`<option selected value="">${info.name || session.modelFile}</option>` : nothing}</select>`
-            : html`<h1>${hasModel ? info.name || info.source || session.modelFile : t("appName")}</h1>`
+              ${models.map((m) => html`<option value=${m.name} ?selected=${m.name === name}>${m.title || m.name}</option>`)}
+              ${hasModel && !name ? html`<option selected value="">${info.name || file}</option>` : nothing}</select>`
+            : html`<h1>${hasModel ? info.name || info.source || file : t("appName")}</h1>`
         }
-        <span class="quiet small">${!hasModel ? t("tagline") : session.isServerOnly ? "" : t("parts", { n: session.index.firstScalars.length })}</span>
+        <span class="quiet small">${!hasModel ? t("tagline") : volume.isServerOnly ? "" : t("parts", { n: volume.index.firstScalars.length })}</span>
       </div>
       ${
         hasModel
           ? html`${this.toggle("tree", t("panelTree"), this.isTreeShown, () => this.showSheet("tree"))}
-            ${this.toggle("info", t("panelProperties"), this.isSelectionShown && (this.hasSelection || !this.isSmall), () => this.showSheet("selection"))}`
+            ${this.toggle("info", t("panelProperties"), this.isSelectionShown && (!this.session.selection.isEmpty || !this.isSmall), () => this.showSheet("selection"))}`
           : nothing
       }
-      ${hasModel && !session.isServerOnly ? html`${this.stepButton("undo", session.history.last, () => session.undo())}${this.stepButton("redo", session.history.next, () => session.redo())}` : nothing}
+      ${hasModel && !volume.isServerOnly ? html`${this.stepButton("undo", view.history.last, () => view.undo())}${this.stepButton("redo", view.history.next, () => view.redo())}` : nothing}
       <button class="bare" id="open" aria-label=${t("openHint", { kinds: kFileKinds.join(", ") })} title=${t("openHint", { kinds: kFileKinds.join(", ") })} @click=${() => this.choose()}>${icon("open")}</button>
       <button class="bare" id="theme" aria-label=${t("theme")} title=${t("theme")} @click=${() => this.switchTheme()}>${icon(theme() === "dark" ? "sun" : "moon")}</button>
       ${
-        session.languages.length > 2
-          ? html`<select class="languages" id="languages" aria-label=${t("languages")} @change=${(e: Event) => void session.chooseLanguage((e.target as HTMLSelectElement).value)}>${session.languages.map(
-              ({ code, name }) => html`<option value=${code} lang=${code} ?selected=${code === session.language}>${name}</option>`,
+        languages.all.length > 2
+          ? html`<select class="languages" id="languages" aria-label=${t("languages")} @change=${(e: Event) => void languages.choose((e.target as HTMLSelectElement).value)}>${languages.all.map(
+              (listed) =>
+                html`<option value=${listed.code} lang=${listed.code} ?selected=${listed.code === languages.current}>${listed.name}</option>`,
             )}</select>`
-          : html`<button class="bare" id="language" lang=${session.language === "en" ? "de" : "en"} aria-label=${t("language")} title=${t("language")} @click=${() => session.setLanguage(session.language === "en" ? "de" : "en")}>${session.language === "en" ? "DE" : "EN"}</button>`
+          : html`<button class="bare" id="language" lang=${other} aria-label=${t("language")} title=${t("language")} @click=${() => languages.speak(other)}>${other.toUpperCase()}</button>`
       }
       <button class="bare" id="help" aria-label=${t("help")} title="${t("help")} (?)" @click=${() => this.help()}>${icon("help")}</button>
     </header>`;
@@ -229,7 +185,7 @@ export class App extends Part {
     const isOn = isTree ? !this.isTreeShown : !this.isSelectionShown;
     if (this.isNarrow && isOn) {
       this.isTreeShown = this.isSelectionShown = false;
-      this.session.tool = null;
+      this.session.view.tool = null;
     }
     if (isTree) this.isTreeShown = isOn;
     else this.isSelectionShown = isOn;
@@ -239,11 +195,11 @@ export class App extends Part {
     const properties = html`<svt-properties .session=${this.session}></svt-properties>`;
     const hasColumn = !this.isSmall && this.isSelectionShown;
     // Without room for a third column, the selection is shown below the parts.
-    const isBelow = this.isSmall && this.isTreeShown && this.isSelectionShown && this.hasSelection;
+    const isBelow = this.isSmall && this.isTreeShown && this.isSelectionShown && !this.session.selection.isEmpty;
     const middle = hasColumn
       ? html`<wa-split-panel position-in-pixels=${this.isHuge ? 420 : 300} primary="end"><div slot="start" class="middle">${this.middle()}</div><aside slot="end" class="side" aria-label=${t("panelProperties")}>${properties}</aside></wa-split-panel>`
-      : html`<div class="middle">${this.middle()}${this.isSelectionShown && this.hasSelection && !isBelow ? html`<aside class="floating" aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>`;
-    if (!this.isTreeShown || this.session.isServerOnly) return middle;
+      : html`<div class="middle">${this.middle()}${this.isSelectionShown && !this.session.selection.isEmpty && !isBelow ? html`<aside class="floating" aria-label=${t("panelProperties")}>${properties}</aside>` : nothing}</div>`;
+    if (!this.isTreeShown || this.session.volume.isServerOnly) return middle;
     const tree = html`<svt-tree .session=${this.session}></svt-tree>`;
     return html`<wa-split-panel position-in-pixels=${this.isSmall ? 260 : this.isHuge ? 420 : 310} primary="start">
       <div slot="start" class="side ${isBelow ? "shared" : ""}"><nav aria-label=${t("panelTree")}>${tree}</nav>
@@ -267,21 +223,21 @@ export class App extends Part {
 
   private middle() {
     const { session } = this;
-    const { state } = session;
+    const { view, picture } = session;
     return html`<div class="middle">
       <svt-picture .session=${session} .canvas=${this.canvas}></svt-picture>
       ${
-        session.info
+        session.volume.info
           ? html`
         <div class="corner">
-          ${session.state.custom ? html`<div class="note">${t("customScene")}<button @click=${() => session.set(leaveCustom(session.state))}>${t("leaveCustom")}</button></div>` : nothing}
-          ${session.isServerOnly ? html`<div class="note">${t("serverPictures")}</div>` : nothing}
-          ${session.refining.isCoarse ? this.coarse() : nothing}
-          ${session.moved.length && state.sections.length ? html`<div class="note" id="moved-plane">${movedText(session.moved)}</div>` : nothing}
-          ${session.isLegendShown ? html`<svt-legend .session=${session}></svt-legend>` : nothing}
+          ${view.now.custom ? html`<div class="note">${t("customScene")}<button @click=${() => view.set(leaveCustom(view.state))}>${t("leaveCustom")}</button></div>` : nothing}
+          ${session.volume.isServerOnly ? html`<div class="note">${t("serverPictures")}</div>` : nothing}
+          ${session.model.refining.isCoarse ? this.coarse() : nothing}
+          ${picture.moved.length && view.now.sections.length ? html`<div class="note" id="moved-plane">${movedText(picture.moved)}</div>` : nothing}
+          ${view.isLegendShown ? html`<svt-legend .session=${session}></svt-legend>` : nothing}
         </div>
         ${this.status()}
-        ${session.tool ? this.card(session.tool) : nothing}
+        ${view.tool ? this.card(view.tool) : nothing}
         ${this.dock()}`
           : nothing
       }
@@ -290,7 +246,7 @@ export class App extends Part {
 
   /** The first picture of a large model, and what becomes of it. */
   private coarse() {
-    const { refining } = this.session;
+    const { refining } = this.session.model;
     const { progress } = refining;
     return html`<div class="note" id="refining">${t("coarseNow", { spacing: number(refining.spacing, 2) })}
       ${
@@ -301,17 +257,17 @@ export class App extends Part {
   }
 
   private status() {
-    const { report } = this.session;
+    const { report } = this.session.picture;
     // The legend of colours stands in the same corner.
     if (!report) return nothing;
-    if (this.session.state.colorBy) return this.scale();
+    if (this.session.view.now.colorBy) return this.scale();
     const { width, height, milliseconds, engine } = report;
     return html`<div class="status">${t(engine === "cpu" ? "cpuKind" : "glKind")}<br />${t("frame", { width, height, ms: number(milliseconds, 0) })}</div>`;
   }
 
   /** The legend is drawn in the picture: the same as text. */
   private scale() {
-    const { scale } = this.session;
+    const { scale } = this.session.picture;
     if (!scale) return nothing;
     const rows = scale.isRamp
       ? [t("legendRange", { low: number(scale.low, 2), high: number(scale.high, 2) })]
@@ -321,23 +277,23 @@ export class App extends Part {
   }
 
   private dock() {
-    const { session } = this;
-    const { state } = session;
+    const { view } = this.session;
+    const { now } = view;
     const used: Record<Tool, boolean> = {
-      section: state.sections.length > 0,
-      lens: state.effect === "lens",
-      focus: state.effect === "highlight" || state.effect === "cutaway" || state.shell !== null,
-      look: state.wireframe !== null,
-      measure: state.measured.length > 0,
-      views: session.isWalking,
+      section: now.sections.length > 0,
+      lens: now.effect === "lens",
+      focus: now.effect === "highlight" || now.effect === "cutaway" || now.shell !== null,
+      look: now.wireframe !== null,
+      measure: now.measured.length > 0,
+      views: view.isWalking,
       share: false,
     };
     return html`<div class="dock" role="toolbar" aria-label=${t("tools")} @keydown=${this.dockKey} @focusin=${(e: Event) => (this.dockAt = kTools.findIndex(({ tool }) => (e.target as HTMLElement).id === `tool-${tool}`))}>${kTools.map(
       (
         { tool, icon: name, key },
         n,
-      ) => html`<button id="tool-${tool}" tabindex=${n === this.dockAt ? 0 : -1} class=${used[tool] ? "used" : ""} aria-expanded=${session.tool === tool} aria-keyshortcuts=${key}
-        title="${session.toolText(tool)} (${key.toUpperCase()})" @click=${() => this.useTool(tool)}>${icon(name, 22)}<span>${session.toolText(tool)}</span></button>`,
+      ) => html`<button id="tool-${tool}" tabindex=${n === this.dockAt ? 0 : -1} class=${used[tool] ? "used" : ""} aria-expanded=${view.tool === tool} aria-keyshortcuts=${key}
+        title="${t(tool)} (${key.toUpperCase()})" @click=${() => this.useTool(tool)}>${icon(name, 22)}<span>${t(tool)}</span></button>`,
     )}</div>`;
   }
 
@@ -363,45 +319,43 @@ export class App extends Part {
       views: html`<svt-views-tool .session=${session}></svt-views-tool>`,
       share: html`<svt-share-tool .session=${session}></svt-share-tool>`,
     }[tool];
-    return html`<section class="card" id="card" aria-label=${session.toolText(tool)}>
-      <div class="bar"><h2>${session.toolText(tool)}</h2><button class="bare" aria-label=${t("close")} @click=${() => this.useTool(tool)}>${icon("close", 18)}</button></div>${content}</section>`;
+    return html`<section class="card" id="card" aria-label=${t(tool)}>
+      <div class="bar"><h2>${t(tool)}</h2><button class="bare" aria-label=${t("close")} @click=${() => this.useTool(tool)}>${icon("close", 18)}</button></div>${content}</section>`;
   }
 
   private useTool(tool: Tool): void {
     const { session } = this;
-    session.tool = session.tool === tool ? null : tool;
-    if (session.tool && this.isNarrow) this.isTreeShown = this.isSelectionShown = false;
-    if (session.tool === "lens" && session.state.effect !== "lens")
-      session.set({ effect: "lens", lens: { ...session.state.lens, pinned: false } });
-    if (session.tool === "section" && !session.state.sections.length && !session.info?.storeys.length) {
+    session.view.tool = session.view.tool === tool ? null : tool;
+    if (session.view.tool && this.isNarrow) this.isTreeShown = this.isSelectionShown = false;
+    if (session.view.tool === "lens" && session.view.now.effect !== "lens")
+      session.view.set({ effect: "lens", lens: { ...session.view.now.lens, pinned: false } });
+    if (session.view.tool === "section" && !session.view.now.sections.length && !session.volume.info?.storeys.length) {
       void this.updateComplete.then(() => this.renderRoot.querySelector<HTMLElement>("#card button, #card input")?.focus());
     }
-    session.changed();
   }
 
   /** Closes a tool, and ends what it does by itself: a lens that follows the mouse. */
   private endTool(tool: Tool): void {
-    const { state } = this.session;
+    const { state } = this.session.view;
     this.useTool(tool);
-    if (tool === "lens" && state.effect === "lens" && !state.lens.pinned) this.session.set({ effect: "none" });
+    if (tool === "lens" && state.effect === "lens" && !state.lens.pinned) this.session.view.set({ effect: "none" });
   }
 
   private progress() {
-    const { text, share } = this.session.progress!;
+    const { text, share } = this.session.messages.progress!;
     return html`<div class="progress"><div><div role="status">${text}<progress aria-label=${text} max="1" value=${share >= 0 ? share : nothing}></progress></div>
-      ${this.session.opening ? html`<button id="cancel" @click=${() => this.session.cancelOpening()}>${t("cancel")}</button>` : nothing}</div></div>`;
+      ${this.session.model.opening ? html`<button id="cancel" @click=${() => this.session.model.cancelOpening()}>${t("cancel")}</button>` : nothing}</div></div>`;
   }
 
   private message() {
-    const { title, text, isError } = this.session.message!;
+    const { title, text, isError } = this.session.messages.message!;
     return html`<div class="message ${isError ? "bad" : ""}" id="message" role=${isError ? "alert" : "status"}>
       <div>${title ? html`<strong>${title}</strong><br />` : nothing}${text}</div>
       <button class="bare" aria-label=${t("dismiss")} @click=${() => this.dismiss()}>${icon("close", 18)}</button></div>`;
   }
 
   private dismiss(): void {
-    this.session.message = null;
-    this.session.changed();
+    this.session.messages.message = null;
   }
 
   private get picture(): PictureView | null {
@@ -415,9 +369,9 @@ export class App extends Part {
   private switchTheme(): void {
     const { session } = this;
     const now = toggleTheme();
-    const { look } = session.state;
+    const { look } = session.view.now;
     // Light and dark looks follow the theme of the page; paper and blueprint are explicit choices.
-    if (look === "plain" || look === "dark") session.set({ look: now === "dark" ? "dark" : "plain" });
+    if (look === "plain" || look === "dark") session.view.set({ look: now === "dark" ? "dark" : "plain" });
     this.requestUpdate();
   }
 
@@ -454,16 +408,16 @@ export class App extends Part {
     if (!isTyping && (event.ctrlKey || event.metaKey) && !event.altKey && this.stepKey(event)) return event.preventDefault();
     if (isTyping || event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     if (event.key === "?") this.help();
-    else if (!this.session.info || !this.shortcut(event)) return;
+    else if (!this.session.volume.info || !this.shortcut(event)) return;
     event.preventDefault();
   }
 
   private stepKey(event: KeyboardEvent): boolean {
     const key = event.key.toLowerCase();
     const { session } = this;
-    if (!session.info || (key !== "z" && key !== "y")) return false;
-    if (key === "y" || event.shiftKey) session.redo();
-    else session.undo();
+    if (!session.volume.info || (key !== "z" && key !== "y")) return false;
+    if (key === "y" || event.shiftKey) session.view.redo();
+    else session.view.undo();
     return true;
   }
 
@@ -473,12 +427,12 @@ export class App extends Part {
     const tool = kTools.find((entry) => entry.key === key)?.tool;
     const view = kViews[Number(key) - 1];
     if (tool) this.useTool(tool);
-    else if (view) void session.goTo("", view);
+    else if (view) void session.view.goTo("", view);
     else if (key === "0") {
-      session.isWalking = false;
-      void session.goTo("", null);
-    } else if (key === "f") void session.goTo(session.state.selection.map(ofSubtree).join(" or "), null);
-    else if (key === "g") setWalking(session, !session.isWalking);
+      session.view.isWalking = false;
+      void session.view.goTo("", null);
+    } else if (key === "f") void session.view.goTo(session.view.now.selection.map(ofSubtree).join(" or "), null);
+    else if (key === "g") setWalking(session, !session.view.isWalking);
     else if (key === "h") this.hideSelection(event.shiftKey);
     else if (key === "/") this.search();
     else return false;
@@ -486,15 +440,16 @@ export class App extends Part {
   }
 
   private hideSelection(showAll: boolean): void {
-    const { session } = this;
-    if (showAll) return session.set({ hide: [], show: [] });
-    const { index, hidden } = session;
-    const members = session.state.selection.flatMap((id) => {
+    const { view, volume } = this.session;
+    if (showAll) return view.set({ hide: [], show: [] });
+    const { index } = volume;
+    const { hidden } = view;
+    const members = view.state.selection.flatMap((id) => {
       const i = index.byId.get(id);
       return i === undefined ? [] : [...subtree(index, i)];
     });
     if (members.length)
-      session.hide(
+      view.hide(
         members,
         members.some((i) => !hidden[i]),
       );
@@ -508,14 +463,14 @@ export class App extends Part {
   private leave(typing: HTMLElement | null): void {
     const { session } = this;
     if (typing) typing.blur();
-    else if (session.opening) session.cancelOpening();
-    else if (session.message) this.dismiss();
-    else if (session.tool) this.endTool(session.tool);
-    else if (session.isWalking) setWalking(session, false);
-    else if (session.refining.progress) session.refining.stop();
-    else if (this.hasSelection) {
-      session.along = null;
-      session.select([]);
+    else if (session.model.opening) session.model.cancelOpening();
+    else if (session.messages.message) this.dismiss();
+    else if (session.view.tool) this.endTool(session.view.tool);
+    else if (session.view.isWalking) setWalking(session, false);
+    else if (session.model.refining.progress) session.model.refining.stop();
+    else if (!this.session.selection.isEmpty) {
+      session.selection.along = null;
+      session.selection.select([]);
     }
   }
 }

@@ -4,14 +4,16 @@
  * (`{"texts": {"addPlane": "..."}, "classes": {"Window": "fenêtre"}}`). A file that is bad changes nothing.
  */
 
-import type { LanguageTexts } from "./texts";
+import { Observable } from "./observable";
+import type { Messages } from "./session/messages";
+import { browserLanguage, language, setLanguage, t, type Language, type LanguageTexts } from "./texts";
 
 export interface ListedLanguage {
   code: string;
   name: string;
 }
 
-export const kBuiltIn: ListedLanguage[] = [
+const kBuiltIn: ListedLanguage[] = [
   { code: "en", name: "English" },
   { code: "de", name: "Deutsch" },
 ];
@@ -34,7 +36,7 @@ async function fetched(file: string): Promise<unknown> {
   }
 }
 
-export async function moreLanguages(): Promise<ListedLanguage[]> {
+async function moreLanguages(): Promise<ListedLanguage[]> {
   const { languages } = ((await fetched("index")) ?? {}) as { languages?: unknown };
   if (!Array.isArray(languages)) return [];
   return languages.filter(
@@ -43,7 +45,7 @@ export async function moreLanguages(): Promise<ListedLanguage[]> {
 }
 
 /** The texts of one of them; null if the file is none. */
-export async function textsOf(code: string): Promise<LanguageTexts | null> {
+async function textsOf(code: string): Promise<LanguageTexts | null> {
   const { texts, classes } = ((await fetched(code)) ?? {}) as { texts?: unknown; classes?: unknown };
   if (typeof texts !== "object" || texts === null) return null;
   return { texts: strings(texts), ...(typeof classes === "object" && classes !== null ? { classes: strings(classes) } : {}) };
@@ -54,7 +56,7 @@ function strings(of: object): Record<string, string> {
 }
 
 /** The first that the browser asks for and that there is; null: neither of these. */
-export function wantedOf(all: ListedLanguage[]): string | null {
+function wantedOf(all: ListedLanguage[]): string | null {
   for (const tag of navigator.languages ?? [navigator.language]) {
     const found =
       all.find(({ code }) => tag.toLowerCase() === code.toLowerCase()) ??
@@ -62,4 +64,37 @@ export function wantedOf(all: ListedLanguage[]): string | null {
     if (found) return found.code;
   }
   return null;
+}
+
+export class Languages extends Observable {
+  /** English and German, and what lies beside the page. */
+  all: ListedLanguage[] = kBuiltIn;
+
+  constructor(private readonly messages: Messages) {
+    super();
+  }
+
+  get current(): Language {
+    return language();
+  }
+
+  speak(wanted: Language = browserLanguage(), texts: LanguageTexts | null = null): void {
+    setLanguage(wanted, texts);
+    document.documentElement.lang = wanted;
+  }
+
+  /** One of `all`; its file is fetched if it has one. */
+  async choose(code: Language): Promise<void> {
+    const isBuiltIn = kBuiltIn.some((listed) => listed.code === code);
+    const texts = isBuiltIn ? null : await textsOf(code);
+    if (isBuiltIn || texts) this.speak(code, texts);
+    else this.messages.tell(t("noLanguage", { name: `languages/${code}.json` }));
+  }
+
+  /** Looks for more languages beside the page, and speaks the one that the address or the browser asks for. */
+  async find(): Promise<void> {
+    this.all = [...kBuiltIn, ...(await moreLanguages())];
+    const asked = new URLSearchParams(location.search).get("language") ?? wantedOf(this.all);
+    if (asked && asked !== this.current && this.all.some(({ code }) => code === asked)) await this.choose(asked);
+  }
 }

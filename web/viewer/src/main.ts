@@ -5,6 +5,7 @@ import "./ui/theme.css";
 import "./app";
 import type { App } from "./app";
 import { openFiles, openKept, openModel } from "./opening";
+import { until } from "./observable";
 import { Session } from "./session";
 import { stateOfHash } from "./state/link";
 import { initialState, type ViewState } from "./state/view_state";
@@ -13,12 +14,15 @@ import { startTheme, theme } from "./ui/theme";
 import { createServerEngine } from "./engine_server";
 import type { Engine, EngineError } from "./engine";
 
+/** Milliseconds after which nothing waits for a first picture. */
+const kComponentsAfter = 1500;
+
 const session = new Session();
 const starting = startEngine();
 
-startTheme(() => session.set({ look: theme() === "dark" ? "dark" : "plain" }));
-session.setLanguage();
-session.state = initialState(theme() === "dark" ? "dark" : "plain");
+startTheme(() => session.view.set({ look: theme() === "dark" ? "dark" : "plain" }));
+session.languages.speak();
+session.view.state = initialState(theme() === "dark" ? "dark" : "plain");
 
 const app = document.createElement("svt-app") as App;
 app.session = session;
@@ -32,15 +36,12 @@ loadComponents();
 
 /** Splitters, sliders etc. are loaded after the first picture, which they would delay. */
 function loadComponents(): void {
-  const load = () => {
-    clearTimeout(timer);
-    session.removeEventListener("change", look);
+  const isPast = new Promise((done) => setTimeout(done, kComponentsAfter));
+  const isSeen = until(() => session.picture.report !== null || session.model.status === "empty");
+  void Promise.race([isPast, isSeen]).then(() => {
     void import("./ui/components");
-    void session.findLanguages();
-  };
-  const look = () => (session.report || session.status === "empty") && load();
-  const timer = setTimeout(load, 1500);
-  session.addEventListener("change", look);
+    void session.languages.find();
+  });
 }
 
 /** The library in the browser; else pictures from the server. */
@@ -50,7 +51,7 @@ async function startEngine(): Promise<Engine> {
   } catch (error) {
     const server = await createServerEngine(canvas);
     if (!server) throw error;
-    session.isServerOnly = true;
+    session.volume.isServerOnly = true;
     return server;
   }
 }
@@ -61,37 +62,36 @@ let isDamaged = false;
 async function start(): Promise<void> {
   const linked = linkedState();
   const list = await listing;
-  session.models = list.models;
+  session.volume.models = list.models;
   if (list.chosen) {
-    session.status = "loading";
-    session.progress = { text: t("starting"), share: -1 };
-    session.changed();
+    session.model.status = "loading";
+    session.messages.progress = { text: t("starting"), share: -1 };
   }
   let engine: Engine;
   try {
     engine = await starting;
   } catch (error) {
-    session.progress = null;
-    session.status = "empty";
-    return session.fail({ message: `${t("cannotRun")} ${(error as EngineError).message ?? ""}` });
+    session.messages.progress = null;
+    session.model.status = "empty";
+    return session.messages.fail({ message: `${t("cannotRun")} ${(error as EngineError).message ?? ""}` });
   }
   session.start(engine);
   const file = new URLSearchParams(location.search).get("file");
   if (file !== null) {
     const state = await linked;
     if (await openKept(session, file, state)) return;
-    session.awaited = { file, state };
+    session.model.awaited = { file, state };
   }
   if (list.chosen) await openModel(session, list.chosen.name, file === null ? await linked : null, list.bytes, list.files);
-  if (list.note) session.tell(list.note);
+  if (list.note) session.messages.tell(list.note);
   // Opening a model clears messages.
-  if (isDamaged) session.fail({ message: t("badLink") });
-  if (file !== null) session.tell(t("awaitsFile", { name: file }));
+  if (isDamaged) session.messages.fail({ message: t("badLink") });
+  if (file !== null) session.messages.tell(t("awaitsFile", { name: file }));
 }
 
 async function linkedState(): Promise<ViewState | null> {
   try {
-    return await stateOfHash(location.hash, session.state);
+    return await stateOfHash(location.hash, session.view.state);
   } catch {
     isDamaged = true;
     return null;
@@ -102,6 +102,6 @@ async function linkedState(): Promise<ViewState | null> {
 async function follow(): Promise<void> {
   isDamaged = false;
   const state = await linkedState();
-  if (isDamaged) session.fail({ message: t("badLink") });
-  if (state && session.info) session.set(state);
+  if (isDamaged) session.messages.fail({ message: t("badLink") });
+  if (state && session.volume.info) session.view.set(state);
 }

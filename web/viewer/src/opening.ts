@@ -2,7 +2,8 @@
 
 import { CityFiles } from "./city/city_files";
 import { kModelEndings } from "./generated/model_endings";
-import type { ListedModel, Session } from "./session";
+import type { Session } from "./session";
+import type { ListedModel } from "./session/open_volume";
 import { keptFile } from "./state/kept_files";
 import type { ViewState } from "./state/view_state";
 import { bytes as bytesText, t } from "./texts";
@@ -45,6 +46,7 @@ function filesOf(model: ListedModel): CityFiles {
   return new CityFiles(new URL(model.file.replace(/\/*$/, "/"), location.href).href);
 }
 
+/** Opens a model or a city of the list. */
 export async function openModel(
   session: Session,
   name: string,
@@ -52,47 +54,28 @@ export async function openModel(
   coming: Promise<Response> | null = null,
   files: CityFiles | null = null,
 ): Promise<void> {
-  const model = session.models.find((m) => m.name === name);
-  if (!model) return;
-  if (model.city && !session.isServerOnly) return openCity(session, model, state, files ?? filesOf(model));
-  const title = model.title || model.name;
-  const opening = session.startOpening(title);
-  const { signal } = opening.abort;
-  let data: ArrayBuffer;
-  try {
-    const response = await (coming ?? fetch(model.file, { signal }));
-    if (!response.ok) throw { message: t("notLoaded", { name: model.file, status: response.status }) };
-    data = await received(response, model.bytes, signal, (done) => {
-      const text = `${t("loadingFile", { name: title })}: ${t("loadedBytes", { done: bytesText(done), all: bytesText(model.bytes || done) })}`;
-      session.progress = { text, share: model.bytes ? done / model.bytes : -1 };
-      session.changed();
+  const { model, volume, messages } = session;
+  const listed = volume.models.find((m) => m.name === name);
+  if (!listed) return;
+  const title = listed.title || listed.name;
+  const fetched = async (signal: AbortSignal) => {
+    const response = await (coming ?? fetch(listed.file, { signal }));
+    if (!response.ok) throw { message: t("notLoaded", { name: listed.file, status: response.status }) };
+    const bytes = await received(response, listed.bytes, signal, (done) => {
+      const text = `${t("loadingFile", { name: title })}: ${t("loadedBytes", { done: bytesText(done), all: bytesText(listed.bytes || done) })}`;
+      messages.progress = { text, share: listed.bytes ? done / listed.bytes : -1 };
     });
-  } catch (error) {
-    if (session.opening !== opening) return;
-    session.opening = session.progress = null;
-    if (session.status === "loading") session.status = session.info ? "ready" : "empty";
-    session.fail(error, t("failedTitle"));
-    return session.recover();
-  }
-  const fileName = model.file.split("/").pop()!.split("?")[0]!;
-  const again = async () => [{ name: fileName, bytes: await (await fetch(model.file)).arrayBuffer() }];
-  if (await session.open(opening, [{ name: fileName, bytes: data }], again, state)) {
-    session.modelName = model.name;
-    session.isLocal = false;
-  }
-  session.changed();
-}
-
-async function openCity(session: Session, model: ListedModel, state: ViewState | null, files: CityFiles): Promise<void> {
-  const title = model.title || model.name;
-  const opening = session.startOpening(title);
-  session.progress = { text: t("loadingFile", { name: title }), share: -1 };
-  session.changed();
-  if (await session.openCity(opening, files, state)) {
-    session.modelName = model.name;
-    session.isLocal = false;
-  }
-  session.changed();
+    return [{ name: fileName, bytes }];
+  };
+  const fileName = listed.file.split("/").pop()!.split("?")[0]!;
+  const again = async () => [{ name: fileName, bytes: await (await fetch(listed.file)).arrayBuffer() }];
+  const isOpen =
+    listed.city && !volume.isServerOnly
+      ? await model.openCity(title, files ?? filesOf(listed), state)
+      : await model.open(title, fetched, again, state);
+  if (!isOpen) return;
+  volume.name = listed.name;
+  volume.isLocal = false;
 }
 
 /** The bytes of a response, with progress for slow downloads. */
@@ -125,14 +108,14 @@ export async function openFiles(session: Session, files: File[]): Promise<void> 
   for (const { name } of models) {
     const plain = name.toLowerCase().replace(/\.gz$/, "");
     if (!kFileKinds.some((kind) => plain.endsWith(kind)))
-      return session.fail({ message: t("wrongKind", { name, kinds: kFileKinds.join(", ") }) }, t("failedTitle"));
+      return session.messages.fail({ message: t("wrongKind", { name, kinds: kFileKinds.join(", ") }) }, t("failedTitle"));
   }
   if (models.length) await openLocal(session, models);
   for (const table of tables) {
     try {
-      await session.owners.give(await table.arrayBuffer(), table.name);
+      await session.model.owners.give(await table.arrayBuffer(), table.name);
     } catch (error) {
-      session.fail(error, t("failedTitle"));
+      session.messages.fail(error, t("failedTitle"));
     }
   }
 }
@@ -141,27 +124,22 @@ export async function openFiles(session: Session, files: File[]): Promise<void> 
 export async function openKept(session: Session, name: string, state: ViewState | null): Promise<boolean> {
   const data = await keptFile(name);
   if (!data) return false;
-  session.awaited = { file: name, state };
+  session.model.awaited = { file: name, state };
   await openLocal(session, [new File([data], name)]);
   return true;
 }
 
 async function openLocal(session: Session, files: File[]): Promise<void> {
+  const { model, volume, messages } = session;
   const name = files.map((file) => file.name).join(", ");
-  const opening = session.startOpening(name);
-  const state = session.awaited?.file === name ? session.awaited.state : null;
-  session.progress = { text: t("loadingFile", { name }), share: -1 };
-  session.changed();
-  try {
-    const read = () => Promise.all(files.map(async (file) => ({ name: file.name, bytes: await file.arrayBuffer() })));
-    if (await session.open(opening, await read(), read, state)) {
-      session.modelName = "";
-      session.isLocal = true;
-      session.awaited = null;
-    }
-  } catch (error) {
-    session.fail(error, t("failedTitle"));
-  }
-  if (session.opening === opening) session.opening = session.progress = null;
-  session.changed();
+  const state = model.awaited?.file === name ? model.awaited.state : null;
+  const read = () => Promise.all(files.map(async (file) => ({ name: file.name, bytes: await file.arrayBuffer() })));
+  const fetched = () => {
+    messages.progress = { text: t("loadingFile", { name }), share: -1 };
+    return read();
+  };
+  if (!(await model.open(name, fetched, read, state))) return;
+  volume.name = "";
+  volume.isLocal = true;
+  model.awaited = null;
 }

@@ -3,6 +3,7 @@
  * same keys, see languages.ts.
  */
 
+import { signal } from "@preact/signals-core";
 import { kSceneMembers, type SceneMember, type Unit } from "./generated/scene_members";
 
 const kTexts = {
@@ -449,19 +450,18 @@ export interface LanguageTexts {
   classes?: Record<string, string>;
 }
 
-let current: Language = "en";
-let other: LanguageTexts | null = null;
+/** Observable: what renders a text is rendered again in another language. */
+const spoken = signal<{ language: Language; other: LanguageTexts | null }>({ language: "en", other: null });
 
 export function language(): Language {
-  return current;
+  return spoken.value.language;
 }
 export function otherTexts(): LanguageTexts | null {
-  return other;
+  return spoken.value.other;
 }
 /** @param texts  of a language that is not built in */
 export function setLanguage(wanted: Language, texts: LanguageTexts | null = null): void {
-  current = wanted;
-  other = texts;
+  spoken.value = { language: wanted, other: texts };
 }
 export function browserLanguage(): Language {
   return (navigator.languages ?? [navigator.language])
@@ -473,7 +473,8 @@ export function browserLanguage(): Language {
 }
 
 export function t(key: TextKey, values: Record<string, string | number> = {}): string {
-  const text: string = other?.texts[key] ?? kTexts[key][current === "de" ? 1 : 0];
+  const { language, other } = spoken.value;
+  const text: string = other?.texts[key] ?? kTexts[key][language === "de" ? 1 : 0];
   return text.replace(/\{(\w+)\}/g, (whole, name: string) => (name in values ? String(values[name]) : whole));
 }
 
@@ -506,20 +507,20 @@ export function memberLabel(member: SceneMember): string {
 export function help(member: SceneMember): string {
   const declared: { help: string; unit?: Unit } = kSceneMembers[member];
   const german: Partial<Record<string, string>> = kGermanHelp;
-  const text = other?.texts[declared.help] ?? (current === "de" ? german[declared.help] : undefined) ?? declared.help;
+  const text = otherTexts()?.texts[declared.help] ?? (language() === "de" ? german[declared.help] : undefined) ?? declared.help;
   const unit = declared.unit ? ` (${kUnitSigns[declared.unit].trim()})` : "";
   return text.charAt(0).toUpperCase() + text.slice(1) + unit;
 }
 
 /** Formats numbers in the chosen language. */
 export function number(value: number, digits: number): string {
-  return value.toLocaleString(current, { minimumFractionDigits: digits, maximumFractionDigits: digits });
+  return value.toLocaleString(language(), { minimumFractionDigits: digits, maximumFractionDigits: digits });
 }
 /** A day, from ISO 8601, in the chosen language; other text as it is. */
 export function dateText(text: string): string {
   const found = /^(\d{4})-(\d\d)-(\d\d)(T[\d:.]+(Z|[+-][\d:]+)?)?$/.exec(text);
   const date = found && new Date(Date.UTC(Number(found[1]), Number(found[2]) - 1, Number(found[3])));
-  return date && !Number.isNaN(date.getTime()) ? date.toLocaleDateString(current, { dateStyle: "medium", timeZone: "UTC" }) : text;
+  return date && !Number.isNaN(date.getTime()) ? date.toLocaleDateString(language(), { dateStyle: "medium", timeZone: "UTC" }) : text;
 }
 export function withUnit(value: number, digits: number, unit: Unit): string {
   return number(value, digits) + kUnitSigns[unit];

@@ -60,7 +60,7 @@ export class Controls {
     return this.host.session;
   }
   private get camera(): Camera | null {
-    return this.session.state.camera;
+    return this.session.view.now.camera;
   }
 
   private shareOf(event: { clientX: number; clientY: number }): [number, number] {
@@ -112,15 +112,15 @@ export class Controls {
     const height = this.host.element.clientHeight;
     if (!this.camera) return;
     const isPan = event.shiftKey || (event.buttons & 6) !== 0;
-    if (isPan) return this.session.turn(pan(this.camera, dx / height, dy / height, this.depth()));
+    if (isPan) return this.session.view.turn(pan(this.camera, dx / height, dy / height, this.depth()));
     this.rotate((-dx / height) * kTurnPerHeight, (dy / height) * kTurnPerHeight);
   }
 
   private rotate(turn: number, rise: number): void {
     const camera = this.camera;
     if (!camera) return;
-    if (this.session.isWalking) this.session.turn(lookAround(camera, -turn * 0.6, -rise * 0.6));
-    else this.session.turn(orbit(camera, camera.target, turn, rise));
+    if (this.session.view.isWalking) this.session.view.turn(lookAround(camera, -turn * 0.6, -rise * 0.6));
+    else this.session.view.turn(orbit(camera, camera.target, turn, rise));
   }
 
   private pinched(event: PointerEvent, finger: Finger): void {
@@ -130,9 +130,9 @@ export class Controls {
     const before = Math.hypot(finger.x - other.x, finger.y - other.y);
     const after = Math.hypot(event.clientX - other.x, event.clientY - other.y);
     const middle = this.shareOf({ clientX: (event.clientX + other.x) / 2, clientY: (event.clientY + other.y) / 2 });
-    const towards = pointAt(this.camera, this.session.aspect, ...middle, this.depth());
+    const towards = pointAt(this.camera, this.session.view.aspect, ...middle, this.depth());
     const zoomed = zoom(this.camera, towards, Math.min(2, Math.max(0.5, before / Math.max(1, after))));
-    this.session.turn(pan(zoomed, (event.clientX - finger.x) / 2 / height, (event.clientY - finger.y) / 2 / height, this.depth()));
+    this.session.view.turn(pan(zoomed, (event.clientX - finger.x) / 2 / height, (event.clientY - finger.y) / 2 / height, this.depth()));
   }
 
   private released(event: PointerEvent): void {
@@ -164,19 +164,19 @@ export class Controls {
   private zoomTo(x: number, y: number, factor: number): void {
     const camera = this.camera;
     if (!camera) return;
-    if (this.session.isWalking) return void this.stepTo(walk(camera, (1 - factor) * 3, 0, 0));
+    if (this.session.view.isWalking) return void this.stepTo(walk(camera, (1 - factor) * 3, 0, 0));
     const now = performance.now();
     const target = this.zoomTarget;
     if (!target || Math.hypot(target.x - x, target.y - y) > 0.01 || now - target.time > 800) this.findZoomTarget(x, y);
     if (this.zoomTarget) this.zoomTarget.time = now;
-    const point = this.zoomTarget?.point ?? pointAt(camera, this.session.aspect, x, y, this.depth());
-    this.session.turn(zoom(camera, point, factor));
+    const point = this.zoomTarget?.point ?? pointAt(camera, this.session.view.aspect, x, y, this.depth());
+    this.session.view.turn(zoom(camera, point, factor));
   }
 
   private findZoomTarget(x: number, y: number): void {
     const found = { x, y, point: null as Point | null, time: performance.now() };
     this.zoomTarget = found;
-    void this.session.engine?.pick(x, y).then(
+    void this.session.volume.engine?.pick(x, y).then(
       (pick: Pick | null) => (found.point = pick?.point ?? null),
       () => undefined,
     );
@@ -191,7 +191,7 @@ export class Controls {
   private keyDown(event: KeyboardEvent): void {
     if (event.ctrlKey || event.metaKey || event.altKey || !this.camera) return;
     const key = event.key.toLowerCase();
-    if (this.session.isWalking && "wasdqe".includes(key) && key.length === 1) {
+    if (this.session.view.isWalking && "wasdqe".includes(key) && key.length === 1) {
       this.keys.add(key);
       if (!this.walking) this.stepWalk(performance.now());
       event.preventDefault();
@@ -208,7 +208,7 @@ export class Controls {
     const arrow = arrows[event.key];
     if (arrow) {
       const [dx, dy] = arrow;
-      if (event.shiftKey) this.session.turn(pan(this.camera!, -dx * 0.04, -dy * 0.04, this.depth()));
+      if (event.shiftKey) this.session.view.turn(pan(this.camera!, -dx * 0.04, -dy * 0.04, this.depth()));
       else this.rotate((dx * Math.PI) / 36, (-dy * Math.PI) / 36);
     } else if (event.key === "+" || event.key === "=") this.zoomTo(0.5, 0.5, 0.88);
     else if (event.key === "-") this.zoomTo(0.5, 0.5, 1 / 0.88);
@@ -227,19 +227,19 @@ export class Controls {
           walk(this.camera, (held("w") - held("s")) * metres, (held("d") - held("a")) * metres, (held("e") - held("q")) * metres),
         );
       this.walking = 0;
-      if (this.keys.size && this.session.isWalking) this.stepWalk(now);
+      if (this.keys.size && this.session.view.isWalking) this.stepWalk(now);
     });
   }
 
   /** As far as there is air, along what is in the way. */
   private async stepTo(wanted: Camera): Promise<void> {
     const from = this.camera!;
-    const eye = await this.session.engine?.step(from.eye, sub(wanted.eye, from.eye)).catch(() => null);
+    const eye = await this.session.volume.engine?.step(from.eye, sub(wanted.eye, from.eye)).catch(() => null);
     // Meanwhile the view may have been turned, or walking ended.
     const now = this.camera;
-    if (!eye || !now || !this.session.isWalking) return;
+    if (!eye || !now || !this.session.view.isWalking) return;
     const by = sub(eye, from.eye);
-    this.session.turn({ ...now, eye: add(now.eye, by), target: add(now.target, by) });
+    this.session.view.turn({ ...now, eye: add(now.eye, by), target: add(now.target, by) });
   }
 }
 

@@ -18,8 +18,8 @@ export interface View {
 type Seen = { x: number; y: number };
 
 export function place({ session, width, height }: View, p: Point): Seen | null {
-  const camera = session.shownCamera;
-  const seen = camera && project(camera, width / height, p, session.box.axes);
+  const camera = session.picture.camera;
+  const seen = camera && project(camera, width / height, p, session.volume.box.axes);
   return seen && { x: seen.x * width, y: seen.y * height };
 }
 
@@ -31,8 +31,8 @@ function pathOf(view: View, points: Point[], isClosed: boolean): string | null {
 }
 
 export function planes(view: View): SVGTemplateResult[] {
-  const { state, box } = view.session;
-  return state.sections.map((section) => {
+  const { box } = view.session.volume;
+  return view.session.view.now.sections.map((section) => {
     const path = pathOf(view, planeOutline(keptInside(section, box), box), true);
     return path ? svg`<path class="plane" d=${path}></path>` : svg``;
   });
@@ -40,21 +40,21 @@ export function planes(view: View): SVGTemplateResult[] {
 
 /** Position of the handle of a plane: at the centre of its outline, or right of it if a tool card covers the left. */
 export function handleOf(session: Session, n: number): { at: Point; normal: Point } | null {
-  const section = session.state.sections[n];
+  const section = session.view.now.sections[n];
   if (!section) return null;
-  const outline = planeOutline(keptInside(section, session.box), session.box);
+  const outline = planeOutline(keptInside(section, session.volume.box), session.volume.box);
   if (!outline.length) return null;
-  const normal = normalOf(section, session.box),
+  const normal = normalOf(section, session.volume.box),
     middle = middleOf(outline);
-  const camera = session.shownCamera;
-  if (!session.tool || !camera) return { at: middle, normal };
-  const across = (p: Point) => project(camera, 1, p, session.box.axes)?.x ?? -1;
+  const camera = session.picture.camera;
+  if (!session.view.tool || !camera) return { at: middle, normal };
+  const across = (p: Point) => project(camera, 1, p, session.volume.box.axes)?.x ?? -1;
   const right = outline.reduce((a, b) => (across(a) > across(b) ? a : b));
   return { at: add(scale(middle, 0.4), scale(right, 0.6)), normal };
 }
 
 export function selectionBox(view: View): SVGTemplateResult | typeof nothing {
-  const box = view.session.properties?.box;
+  const box = view.session.selection.properties?.box;
   if (!box) return nothing;
   const lines = boxEdges(box).map(([a, b]) => pathOf(view, [a, b], false));
   if (lines.some((line) => line === null)) return nothing;
@@ -63,7 +63,7 @@ export function selectionBox(view: View): SVGTemplateResult | typeof nothing {
 }
 
 export function measure(view: View): SVGTemplateResult | typeof nothing {
-  const points = view.session.state.measured;
+  const points = view.session.view.now.measured;
   if (!points.length) return nothing;
   const path = pathOf(view, points, points.length > 2);
   const dots = points.map((p) => place(view, p)).filter((p) => p !== null);
@@ -93,9 +93,9 @@ function labels(view: View, texts: { of: Point[]; text: string }[]): SVGTemplate
 
 /** The grid's axes as arrows in the corner. */
 export function compass(view: View): SVGTemplateResult | typeof nothing {
-  const camera = view.session.shownCamera;
+  const camera = view.session.picture.camera;
   if (!camera) return nothing;
-  const { axes } = view.session.box;
+  const { axes } = view.session.volume.box;
   const at: Point = camera.target;
   const from = project(camera, 1, at, axes);
   const reach = camera.parallel ? camera.height * 0.1 : distance(camera.eye, camera.target) * 0.05;

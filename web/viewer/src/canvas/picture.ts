@@ -17,10 +17,17 @@ const kHoverEvery = 80;
 const kSnapPixels = 9;
 
 export class PictureView extends Part {
-  static override properties = { ...Part.properties, canvas: { attribute: false }, hover: { state: true } };
+  static override properties = { ...Part.properties, canvas: { attribute: false }, hover: { state: true }, size: { state: true } };
   declare canvas: HTMLCanvasElement;
   declare hover: { pick: Pick; x: number; y: number } | null;
-  private readonly watched = new ResizeObserver(() => this.measureSize());
+  /** CSS pixels. */
+  declare size: [width: number, height: number];
+  /** In the next frame: when the splitters come, they change the size for a moment and back within one. */
+  private readonly watched = new ResizeObserver(() => {
+    cancelAnimationFrame(this.sizing);
+    this.sizing = requestAnimationFrame(() => this.measureSize());
+  });
+  private sizing = 0;
   private hoverTimer = 0;
   private hoverAt: { x: number; y: number } | null = null;
   private drag: { n: number; x: number; y: number; at: number } | null = null;
@@ -62,6 +69,7 @@ export class PictureView extends Part {
   constructor() {
     super();
     this.hover = null;
+    this.size = [1, 1];
   }
 
   override connectedCallback(): void {
@@ -78,7 +86,7 @@ export class PictureView extends Part {
       session: this.session,
       element: this.stage,
       clicked: (x, y, event) => void this.clicked(x, y, event),
-      listed: (x, y) => void this.session.listAlong(x, y),
+      listed: (x, y) => void this.session.selection.listAlong(x, y),
       framed: (x, y) => void this.framed(x, y),
       hovered: (at) => this.hovered(at),
       wheeled: (event) => this.wheeled(event),
@@ -97,56 +105,58 @@ export class PictureView extends Part {
   private measureSize(): void {
     const { clientWidth: w, clientHeight: h } = this;
     if (!w || !h) return;
+    this.size = [w, h];
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
-    this.session.resize([Math.max(16, Math.round(w * ratio)), Math.max(16, Math.round(h * ratio))]);
+    this.session.view.resize([Math.max(16, Math.round(w * ratio)), Math.max(16, Math.round(h * ratio))]);
   }
 
   private async clicked(x: number, y: number, event: PointerEvent): Promise<void> {
     const { session } = this;
-    if (!session.engine || session.isServerOnly || session.status !== "ready") return;
-    const { state } = session;
-    if (state.effect === "lens" && !state.lens.pinned && session.tool === "lens")
-      return session.set({ lens: { ...state.lens, x, y, pinned: true } });
+    if (!session.volume.engine || session.volume.isServerOnly || session.model.status !== "ready") return;
+    const { state } = session.view;
+    if (state.effect === "lens" && !state.lens.pinned && session.view.tool === "lens")
+      return session.view.set({ lens: { ...state.lens, x, y, pinned: true } });
     try {
-      const isMeasuring = session.tool === "measure";
-      const pick = await session.engine.pick(x, y, isMeasuring && !event.ctrlKey && !event.metaKey ? this.snapReach() : 0);
-      if (session.tool === "measure") {
-        if (!pick) return session.say(t("pickedNothing"));
-        session.history.seal();
-        session.say(t(pick.snapped ? (pick.snapped.to === "corner" ? "atCorner" : "atEdge") : "onFace"));
-        return session.set({ measured: [...session.state.measured, pick.snapped?.point ?? pick.point] });
+      const isMeasuring = session.view.tool === "measure";
+      const pick = await session.volume.engine.pick(x, y, isMeasuring && !event.ctrlKey && !event.metaKey ? this.snapReach() : 0);
+      if (session.view.tool === "measure") {
+        if (!pick) return session.messages.say(t("pickedNothing"));
+        session.view.history.seal();
+        session.messages.say(t(pick.snapped ? (pick.snapped.to === "corner" ? "atCorner" : "atEdge") : "onFace"));
+        return session.view.set({ measured: [...session.view.now.measured, pick.snapped?.point ?? pick.point] });
       }
-      session.picked(pick, event.ctrlKey || event.metaKey || event.shiftKey);
+      session.selection.picked(pick, event.ctrlKey || event.metaKey || event.shiftKey);
     } catch (error) {
-      session.fail(error);
+      session.messages.fail(error);
     }
   }
 
   /** Metres that a few pixels are where the camera looks. */
   private snapReach(): number {
-    const camera = this.session.state.camera;
+    const camera = this.session.view.now.camera;
     if (!camera) return 0;
     const depth = camera.parallel ? 1 : distance(camera.eye, camera.target);
     return (kSnapPixels * 2 * halfHeight(camera) * depth) / Math.max(1, this.clientHeight);
   }
 
   private async framed(x: number, y: number): Promise<void> {
-    const pick = await this.session.engine?.pick(x, y).catch(() => null);
-    void this.session.goTo(pick ? ofId(pick.id) : "", null);
+    const pick = await this.session.volume.engine?.pick(x, y).catch(() => null);
+    void this.session.view.goTo(pick ? ofId(pick.id) : "", null);
   }
 
   private wheeled(event: WheelEvent): boolean {
-    const { state } = this.session;
+    const { state } = this.session.view;
     if (state.effect !== "lens" || !event.shiftKey) return false;
     const delta = event.deltaY || event.deltaX;
     const radius = Math.min(0.9, Math.max(0.04, state.lens.radius * Math.exp(-delta * 0.001)));
-    this.session.set({ lens: { ...state.lens, radius } });
+    this.session.view.set({ lens: { ...state.lens, radius } });
     return true;
   }
 
   private hovered(at: { x: number; y: number; isDown: boolean } | null): void {
-    const { state } = this.session;
-    if (at && state.effect === "lens" && !state.lens.pinned && !at.isDown) this.session.set({ lens: { ...state.lens, x: at.x, y: at.y } });
+    const { state } = this.session.view;
+    if (at && state.effect === "lens" && !state.lens.pinned && !at.isDown)
+      this.session.view.set({ lens: { ...state.lens, x: at.x, y: at.y } });
     this.hover = null;
     this.hoverAt = at && !at.isDown ? at : null;
     if (!this.hoverTimer && this.hoverAt) this.hoverTimer = window.setTimeout(() => void this.readHover(), kHoverEvery);
@@ -156,8 +166,8 @@ export class PictureView extends Part {
   private async readHover(): Promise<void> {
     const at = this.hoverAt;
     const { session } = this;
-    if (at && session.status === "ready" && !session.isServerOnly && session.quality !== "moving") {
-      const pick = await session.engine?.pick(at.x, at.y).catch(() => null);
+    if (at && session.model.status === "ready" && !session.volume.isServerOnly && session.picture.quality !== "moving") {
+      const pick = await session.volume.engine?.pick(at.x, at.y).catch(() => null);
       if (this.hoverAt === at) this.hover = pick ? { pick, ...at } : null;
     }
     this.hoverTimer = 0;
@@ -166,17 +176,18 @@ export class PictureView extends Part {
 
   override render() {
     const { session } = this;
-    const view: View = { session, width: this.clientWidth || 1, height: this.clientHeight || 1 };
-    const isReady = session.status === "ready" && session.info !== null;
+    const [width, height] = this.size;
+    const view: View = { session, width, height };
+    const isReady = session.model.status === "ready" && session.volume.info !== null;
     return html`
       ${this.canvas}
-      <div class="stage ${session.tool === "measure" ? "measuring" : ""}" data-picture tabindex="0" role="application"
-        aria-roledescription=${t("picture")} aria-label=${t("pictureLabel", { name: session.info?.name || t("model") })}></div>
+      <div class="stage ${session.view.tool === "measure" ? "measuring" : ""}" data-picture tabindex="0" role="application"
+        aria-roledescription=${t("picture")} aria-label=${t("pictureLabel", { name: session.volume.info?.name || t("model") })}></div>
       <svg class="cross" viewBox="0 0 15 15" aria-hidden="true"><path d="M7.5 0v15M0 7.5h15"></path></svg>
       <svg class="over" aria-hidden="true">
         ${isReady ? svg`${planes(view)}${selectionBox(view)}${measure(view)}${compass(view)}` : nothing}
       </svg>
-      ${isReady ? session.state.sections.map((_, n) => this.handle(view, n)) : nothing}
+      ${isReady ? session.view.now.sections.map((_, n) => this.handle(view, n)) : nothing}
       ${this.hover ? this.tip(view) : nothing}
     `;
   }
@@ -199,8 +210,8 @@ export class PictureView extends Part {
     const found = handleOf(view.session, n);
     const at = found && place(view, found.at);
     if (!found || !at) return nothing;
-    const section = view.session.state.sections[n]!;
-    const [low, high] = rangeOf(section, view.session.box);
+    const section = view.session.view.now.sections[n]!;
+    const [low, high] = rangeOf(section, view.session.volume.box);
     const x = Math.min(view.width - 20, Math.max(20, at.x)),
       y = Math.min(view.height - 20, Math.max(20, at.y));
     return html`<button class="handle" role="slider" data-x=${x.toFixed(1)} data-y=${y.toFixed(1)}
@@ -219,13 +230,13 @@ export class PictureView extends Part {
     } catch {
       // A pointer that is already gone cannot be captured.
     }
-    this.drag = { n, x: event.clientX, y: event.clientY, at: this.session.state.sections[n]!.at };
+    this.drag = { n, x: event.clientX, y: event.clientY, at: this.session.view.now.sections[n]!.at };
   }
 
   private pull(event: PointerEvent, view: View): void {
     const drag = this.drag;
     const found = drag && handleOf(this.session, drag.n);
-    const camera = this.session.state.camera;
+    const camera = this.session.view.now.camera;
     if (!drag || !found || !camera) return;
     const metres = dragged(camera, [view.width, view.height], found.at, found.normal, event.clientX - drag.x, event.clientY - drag.y);
     this.drag = { ...drag, x: event.clientX, y: event.clientY };
@@ -241,12 +252,12 @@ export class PictureView extends Part {
   }
 
   private moveSection(n: number, metres: number): void {
-    const sections = this.session.state.sections.map((section, i) => {
+    const sections = this.session.view.now.sections.map((section, i) => {
       if (i !== n) return section;
-      const [low, high] = rangeOf(section, this.session.box);
+      const [low, high] = rangeOf(section, this.session.volume.box);
       return { ...section, at: Math.min(high, Math.max(low, section.at + metres)) };
     });
-    this.session.set({ sections });
+    this.session.view.set({ sections });
   }
 }
 customElements.define("svt-picture", PictureView);

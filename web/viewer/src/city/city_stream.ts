@@ -3,9 +3,14 @@
  * made ready in a second worker, which takes the place of the first. So pictures never wait for tiles.
  */
 
-import type { CityLook, EngineError } from "../engine";
-import { kCancelled } from "../engine";
-import type { Session } from "../session";
+import type { CityLook, Engine, VolumeInfo } from "../engine";
+import { batch, effect, Observable, untracked } from "../observable";
+import type { Messages } from "../session/messages";
+import type { OpenVolume } from "../session/open_volume";
+import type { Selection } from "../session/selection";
+import type { ShownPicture } from "../session/shown_picture";
+import type { View } from "../session/view";
+import type { Camera } from "../state/view_state";
 import { t } from "../texts";
 import type { CityFiles } from "./city_files";
 
@@ -22,127 +27,165 @@ const kPhone = 128e6,
 /** Share of them that the tiles of one worker may have when they are decoded; the rest is that of the other one, and of pictures. */
 const kTileShare = 0.35;
 
-export class CityStream {
+/**
+ * waiting    for the first picture
+ * following  tiles are being fetched, coarser ones while the camera moves
+ * resting    nothing finer is to come while the camera stays: all is there, or cannot be had
+ * ended      another model is open
+ */
+type Phase = "waiting" | "following" | "resting" | "ended";
+
+/** From where the city is seen, and since when. */
+interface Place {
+  camera: Camera | null;
+  size: [number, number];
+  since: number;
+}
+
+export interface CityHost {
+  volume: OpenVolume;
+  view: View;
+  selection: Selection;
+  picture: ShownPicture;
+  messages: Messages;
+}
+
+export class CityStream extends Observable {
   /** What is seen now. */
   look: CityLook | null = null;
-  /** Whether nothing finer is to come while the camera stays. */
-  isComplete = false;
-  private key = "";
-  private isRunning = false;
-  private isEnded = false;
-  private camera: unknown = null;
-  private size: unknown = null;
-  private changedAt = 0;
-  private pixels = kFirstPixels;
-  private readonly watch = () => this.follow();
-  private wake: (() => void) | null = null;
+  private phase: Phase = "waiting";
+  private place: Place | null = null;
+  /** Nothing but the coarsest tile has been seen yet. */
+  private isFirst = true;
+  /** What is seen was opened while the camera moved, without its features. */
+  private lacksFeatures = false;
+  private unwatch: () => void = () => {};
+  private wake: () => void = () => {};
 
   constructor(
-    private readonly session: Session,
     readonly files: CityFiles,
-  ) {}
+    private readonly host: CityHost,
+  ) {
+    super();
+  }
+
+  /** Whether nothing finer is to come while the camera stays. */
+  get isComplete(): boolean {
+    return this.phase === "resting";
+  }
+  private get isEnded(): boolean {
+    return this.phase === "ended";
+  }
+  private get engine(): Engine {
+    return this.host.volume.engine!;
+  }
 
   /** Opens it with its coarsest tile. */
-  async open(): Promise<CityLook> {
-    const look = await this.session.engine!.openCity(this.files, { pixels: 1, memory: this.memory, shown: "" });
+  async open(): Promise<VolumeInfo> {
+    const look = await this.engine.openCity(this.files, { pixels: 1, memory: memoryOfTiles(), shown: "" });
     this.take(look);
-    return look;
+    return look.info!;
   }
 
   /** Begins to follow the camera, once the first picture stands. */
   begin(): void {
-    this.session.addEventListener("change", this.watch);
-    this.follow();
+    const { view, picture } = this.host;
+    this.unwatch = effect(() => {
+      const { camera } = view.now;
+      const { size } = view;
+      if (picture.report) untracked(() => this.moved(camera, size));
+    });
   }
 
   end(): void {
-    this.isEnded = true;
-    this.session.removeEventListener("change", this.watch);
-    this.wake?.();
+    this.phase = "ended";
+    this.unwatch();
+    this.wake();
   }
 
-  private get memory(): number {
-    const device = (navigator as { deviceMemory?: number }).deviceMemory ?? 8;
-    const isPhone = device < 4 || matchMedia("(max-width: 759px) and (pointer: coarse)").matches;
-    return (isPhone ? kPhone : kDesk) * kTileShare;
+  /** Shows what has been opened in the place of other tiles; the view stays. */
+  show(info: VolumeInfo): void {
+    const { volume, view } = this.host;
+    batch(() => {
+      volume.info = { ...info, name: volume.info?.name ?? info.name };
+      view.redraw();
+    });
+  }
+
+  /** Looks for a building in all of the city, and goes there. */
+  async find(id: string): Promise<void> {
+    const { view, selection, messages } = this.host;
+    const { scene } = view.describe(view.size, 1);
+    try {
+      view.moveToFound(await this.engine.findInCity(this.files, id, scene.camera ?? {}, view.aspect));
+      selection.select([id]);
+    } catch (error) {
+      messages.fail(error);
+    }
+  }
+
+  private moved(camera: Camera | null, size: [number, number]): void {
+    if (this.place?.camera === camera && this.place.size === size) return;
+    this.place = { camera, size, since: performance.now() };
+    if (this.phase === "following") return;
+    this.phase = "following";
+    void this.follow();
+  }
+
+  private async follow(): Promise<void> {
+    for (;;) {
+      const place = this.place!;
+      const isDone = await this.step(place);
+      if (this.isEnded) return;
+      if (isDone && this.place === place) break;
+    }
+    this.phase = "resting";
+  }
+
+  /** One look from a place; resolves to whether nothing finer is to come from there. */
+  private async step(place: Place): Promise<boolean> {
+    const isStill = performance.now() - place.since >= kStillAfter;
+    const pixels = this.isFirst ? kFirstPixels : isStill ? kStillPixels : kMovingPixels;
+    try {
+      await this.fetch(pixels);
+    } catch (error) {
+      // What stands stays; the next movement tries again.
+      if (!this.isEnded) this.host.messages.fail(error, t("cityStopped"));
+      return true;
+    }
+    this.isFirst = false;
+    const isLast = pixels === kStillPixels && this.place === place;
+    if (isLast) await this.fetchFeatures();
+    else if (pixels < kFirstPixels) await this.pause();
+    return isLast;
+  }
+
+  private async fetch(pixels: number): Promise<void> {
+    const { view } = this.host;
+    const { scene } = view.describe(view.size, 1);
+    const isMoving = pixels > kStillPixels;
+    const options = { pixels, memory: memoryOfTiles(), shown: this.look?.key ?? "", isMoving };
+    const look = await this.engine.followCity(this.files, scene, view.size, options);
+    if (this.isEnded) return;
+    if (look.info) {
+      this.take(look);
+      this.lacksFeatures = isMoving;
+      if (isMoving) view.redraw();
+      else this.show(look.info);
+    } else if (this.look) this.look = { ...this.look, pixels: look.pixels };
+  }
+
+  private async fetchFeatures(): Promise<void> {
+    if (!this.lacksFeatures) return;
+    const info = await this.engine.cityInfo().catch(() => null);
+    if (this.isEnded || !info) return;
+    this.lacksFeatures = false;
+    this.show(info);
   }
 
   private take(look: CityLook): void {
     this.look = look;
-    this.key = look.key;
-    if (look.lacks.length) this.session.tell(t("cityLacks", { n: look.lacks.length, first: look.lacks[0]! }));
-  }
-
-  private follow(): void {
-    const { state, pictureSize, report } = this.session;
-    if (!report || (this.camera === state.camera && this.size === pictureSize)) return;
-    this.camera = state.camera;
-    this.size = pictureSize;
-    this.changedAt = performance.now();
-    this.isComplete = false;
-    if (this.pixels < kMovingPixels) this.pixels = kMovingPixels;
-    if (!this.isRunning) void this.run();
-  }
-
-  private async run(): Promise<void> {
-    this.isRunning = true;
-    try {
-      while (!this.isEnded && !this.isComplete) await this.step();
-    } finally {
-      this.isRunning = false;
-    }
-  }
-
-  private async step(): Promise<void> {
-    const { session } = this;
-    const { camera, size } = this;
-    const still = performance.now() - this.changedAt;
-    if (this.pixels <= kMovingPixels) this.pixels = still < kStillAfter ? kMovingPixels : kStillPixels;
-    const { pixels } = this;
-    try {
-      const { scene } = session.describe(session.pictureSize, 1);
-      const look = await session.engine!.followCity(this.files, scene, session.pictureSize, {
-        pixels,
-        memory: this.memory,
-        shown: this.key,
-        isMoving: pixels > kStillPixels,
-      });
-      if (this.isEnded) return;
-      if (look.info) {
-        this.take(look);
-        this.isInfoDue = pixels > kStillPixels;
-        if (this.isInfoDue) session.redraw();
-        else session.takeTiles(look.info);
-      } else if (this.look) this.look = { ...this.look, pixels: look.pixels };
-    } catch (error) {
-      if ((error as EngineError).code === kCancelled || this.isEnded) return this.stop();
-      // What stands stays; the next movement tries again.
-      session.fail(error, t("cityStopped"));
-      return this.stop();
-    }
-    const isSame = this.camera === camera && this.size === size;
-    if (isSame && pixels === kStillPixels) {
-      await this.takeInfo();
-      this.isComplete = this.camera === camera && this.size === size;
-      session.changed();
-    } else if (pixels > kMovingPixels) this.pixels = kMovingPixels;
-    else if (!isSame || pixels === kMovingPixels) await this.pause();
-    if (this.pixels === kMovingPixels && isSame && performance.now() - this.changedAt >= kStillAfter) this.pixels = kStillPixels;
-  }
-
-  /** Features of what was opened while the camera moved. */
-  private async takeInfo(): Promise<void> {
-    if (!this.isInfoDue) return;
-    const info = await this.session.engine!.cityInfo().catch(() => null);
-    if (this.isEnded || !info) return;
-    this.isInfoDue = false;
-    this.session.takeTiles(info);
-  }
-  private isInfoDue = false;
-
-  private stop(): void {
-    this.isComplete = true;
-    this.session.changed();
+    if (look.lacks.length) this.host.messages.tell(t("cityLacks", { n: look.lacks.length, first: look.lacks[0]! }));
   }
 
   private pause(): Promise<void> {
@@ -151,16 +194,10 @@ export class CityStream {
       setTimeout(done, kPause);
     });
   }
+}
 
-  /** Looks for a building in all of the city, and goes there. */
-  async find(id: string): Promise<void> {
-    const { session } = this;
-    const { scene } = session.describe(session.pictureSize, 1);
-    try {
-      const camera = await session.engine!.findInCity(this.files, id, scene.camera ?? {}, session.aspect);
-      session.goToFound(id, camera);
-    } catch (error) {
-      session.fail(error);
-    }
-  }
+function memoryOfTiles(): number {
+  const device = (navigator as { deviceMemory?: number }).deviceMemory ?? 8;
+  const isPhone = device < 4 || matchMedia("(max-width: 759px) and (pointer: coarse)").matches;
+  return (isPhone ? kPhone : kDesk) * kTileShare;
 }

@@ -34,10 +34,6 @@ export class HelpDialog extends Part {
   `,
   ];
 
-  protected override uses() {
-    return [];
-  }
-
   private get dialog() {
     return this.renderRoot.querySelector("wa-dialog") as HTMLElement & { open: boolean };
   }

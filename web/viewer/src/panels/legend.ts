@@ -14,17 +14,14 @@ export class Legend extends Part {
     span.swatch { width: 12px; height: 12px; border-radius: 3px; border: 1px solid #0003; flex: none; }
   `;
 
-  protected override uses() {
-    const { index, hidden, state } = this.session;
-    return [index, hidden, state.styles];
-  }
-
   override render() {
-    const { index, hidden, state } = this.session;
+    const { volume, view } = this.session;
+    const { index } = volume;
+    const { hidden, now } = view;
     const rows = [...index.classes].flatMap(([name, members]) => {
       const seen = members.filter((i) => index.features[i]!.count > 0 && !hidden[i]);
       if (!seen.length) return [];
-      const style = state.styles.find((s) => s.select === ofClass(name) && s.color);
+      const style = now.styles.find((s) => s.select === ofClass(name) && s.color);
       const colors = style?.color ? [style.color] : mostUsed(seen.map((i) => index.features[i]!.color));
       return [{ name, colors }];
     });

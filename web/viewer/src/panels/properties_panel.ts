@@ -33,23 +33,18 @@ export class PropertiesPanel extends Part {
     `,
   ];
 
-  protected override uses() {
-    const { properties, along, state, info, hidden } = this.session;
-    return [properties, along, state.selection, state.styles, state.show, state.effect, info, hidden];
-  }
-
   override render() {
     const { session } = this;
-    if (session.along) return this.alongList();
-    const feature = session.selected();
-    if (feature) return this.one(session.properties);
-    const n = session.state.selection.length;
+    if (session.selection.along) return this.alongList();
+    const feature = session.selection.only;
+    if (feature) return this.one(session.selection.properties);
+    const n = session.view.now.selection.length;
     if (n > 1) return this.several(n);
     return html`<h2>${t("nothingSelected")}</h2><p class="hint">${t("selectHint")}</p>${this.findings()}`;
   }
 
   private findings() {
-    const { findings: found = [], spacingReason = "" } = this.session.info ?? {};
+    const { findings: found = [], spacingReason = "" } = this.session.volume.info ?? {};
     const findings = spacingReason ? [t("spacingTold", { reason: spacingReason }), ...found] : found;
     if (!findings.length) return nothing;
     return html`<h3>${t("findingsTitle")}</h3><ul class="findings">${findings.slice(0, 50).map((text) => html`<li>${text}</li>`)}</ul>`;
@@ -57,14 +52,14 @@ export class PropertiesPanel extends Part {
 
   private close() {
     return html`<button class="bare" aria-label=${t("deselect")} title=${t("deselect")} @click=${() => {
-      this.session.along = null;
-      this.session.select([]);
+      this.session.selection.along = null;
+      this.session.selection.select([]);
     }}>${icon("close", 18)}</button>`;
   }
 
   private one(properties: FeatureProperties | null) {
     const { session } = this;
-    const feature = session.selected()!;
+    const feature = session.selection.only!;
     return html`
       <div class="head"><div><h2>${labelOf(feature)}</h2><div class="quiet">${feature.class}</div><div class="id">${feature.id}</div></div>${this.close()}</div>
       ${this.actions()}
@@ -94,7 +89,7 @@ export class PropertiesPanel extends Part {
           ? html`<h3>${t("neighbours")}</h3><ul>${p.neighbours.map((n) =>
               n.id === ""
                 ? html`<li class="outside"><span>${t("outside")}</span><span>${number(n.area, 2)} m²</span></li>`
-                : html`<li><button @click=${() => this.session.select([n.id])}><span>${labelOf(n)}</span><span>${number(n.area, 2)} m²</span></button></li>`,
+                : html`<li><button @click=${() => this.session.selection.select([n.id])}><span>${labelOf(n)}</span><span>${number(n.area, 2)} m²</span></button></li>`,
             )}</ul>`
           : nothing
       }
@@ -102,14 +97,15 @@ export class PropertiesPanel extends Part {
   }
 
   private several(n: number) {
-    const { index, state } = this.session;
+    const { volume, view } = this.session;
+    const { index } = volume;
     return html`
       <div class="head"><h2>${t("severalSelected", { n })}</h2>${this.close()}</div>
       ${this.actions()}
-      <ul>${state.selection.slice(0, 200).map((id) => {
+      <ul>${view.now.selection.slice(0, 200).map((id) => {
         const feature = index.features[index.byId.get(id) ?? -1];
         return feature
-          ? html`<li><button @click=${() => this.session.select([id])}><span>${labelOf(feature)}</span><span>${feature.class}</span></button></li>`
+          ? html`<li><button @click=${() => this.session.selection.select([id])}><span>${labelOf(feature)}</span><span>${feature.class}</span></button></li>`
           : nothing;
       })}</ul>
     `;
@@ -117,29 +113,32 @@ export class PropertiesPanel extends Part {
 
   private actions() {
     const { session } = this;
-    const { index, state, hidden } = session;
-    const members = state.selection.flatMap((id) => {
+    const { index } = session.volume;
+    const { now, hidden } = session.view;
+    const members = now.selection.flatMap((id) => {
       const i = index.byId.get(id);
       return i === undefined ? [] : [...subtree(index, i)];
     });
     const isHidden = members.some((i) => index.features[i]!.count > 0) && members.every((i) => hidden[i]);
-    const focus = { ...state.focus, query: "" };
+    const focus = { ...now.focus, query: "" };
     return html`<div class="actions">
-      <button @click=${() => void session.goTo(state.selection.map(ofSubtree).join(" or "), null)}>${icon("fit", 16)}${t("frameIt")}</button>
-      <button aria-pressed=${state.effect === "highlight"} @click=${() => session.set({ effect: state.effect === "highlight" ? "none" : "highlight", focus })}>${icon("focus", 16)}${t("highlightIt")}</button>
-      <button aria-pressed=${state.effect === "cutaway"} @click=${() => session.set({ effect: state.effect === "cutaway" ? "none" : "cutaway", focus })}>${icon("target", 16)}${t("cutawayTo")}</button>
-      <button aria-pressed=${isHidden} @click=${() => session.hide(members, !isHidden)}>${icon(isHidden ? "eye" : "eyeOff", 16)}${isHidden ? t("show") : t("hide")}</button>
-      <button aria-pressed=${state.show.length > 0} @click=${() => session.set({ show: state.show.length ? [] : state.selection.map(ofSubtree) })}>${icon("only", 16)}${t("onlyThis")}</button>
+      <button @click=${() => void session.view.goTo(now.selection.map(ofSubtree).join(" or "), null)}>${icon("fit", 16)}${t("frameIt")}</button>
+      <button aria-pressed=${now.effect === "highlight"} @click=${() => session.view.set({ effect: now.effect === "highlight" ? "none" : "highlight", focus })}>${icon("focus", 16)}${t("highlightIt")}</button>
+      <button aria-pressed=${now.effect === "cutaway"} @click=${() => session.view.set({ effect: now.effect === "cutaway" ? "none" : "cutaway", focus })}>${icon("target", 16)}${t("cutawayTo")}</button>
+      <button aria-pressed=${isHidden} @click=${() => session.view.hide(members, !isHidden)}>${icon(isHidden ? "eye" : "eyeOff", 16)}${isHidden ? t("show") : t("hide")}</button>
+      <button aria-pressed=${now.show.length > 0} @click=${() => session.view.set({ show: now.show.length ? [] : now.selection.map(ofSubtree) })}>${icon("only", 16)}${t("onlyThis")}</button>
     </div>`;
   }
 
   private alongList() {
-    const { stretches } = this.session.along!;
+    const { stretches } = this.session.selection.along!;
     return html`
       <div class="head"><h2>${t("alongTitle")}</h2>${this.close()}</div>
       ${stretches.length ? nothing : html`<p class="hint">${t("alongNothing")}</p>`}
       <ul class="along">${stretches.map(
-        (s) => html`<li><button @click=${() => this.session.select([s.id])}><span>${labelOf(s)} <span class="quiet">${s.class}</span></span>
+        (
+          s,
+        ) => html`<li><button @click=${() => this.session.selection.select([s.id])}><span>${labelOf(s)} <span class="quiet">${s.class}</span></span>
           <span>${t("alongAt", { from: number(s.from, 2), to: number(s.to, 2) })}</span></button></li>`,
       )}</ul>
     `;

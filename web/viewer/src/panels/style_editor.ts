@@ -31,7 +31,7 @@ export class StyleEditor extends Part {
   ];
 
   override render() {
-    const style = this.session.state.styles.find((s) => s.select === this.query);
+    const style = this.session.view.now.styles.find((s) => s.select === this.query);
     const color = style?.color ?? this.color,
       opacity = style?.opacity ?? this.opacity;
     return html`
@@ -46,10 +46,10 @@ export class StyleEditor extends Part {
   }
 
   private change(change: { color?: string; opacity?: number }): void {
-    this.session.set({ styles: withStyle(this.session.state.styles, this.query, change) });
+    this.session.view.set({ styles: withStyle(this.session.view.now.styles, this.query, change) });
   }
   private reset(): void {
-    this.session.set({ styles: this.session.state.styles.filter((style) => style.select !== this.query) });
+    this.session.view.set({ styles: this.session.view.now.styles.filter((style) => style.select !== this.query) });
   }
 }
 

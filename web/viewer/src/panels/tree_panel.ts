@@ -109,13 +109,10 @@ export class TreePanel extends Part {
     super.disconnectedCallback();
   }
 
-  protected override uses() {
-    const { index, hidden, state } = this.session;
-    return [index, hidden, state.selection, state.styles, state.show];
-  }
-
   override willUpdate(): void {
-    const { index, state, hidden } = this.session;
+    const { volume, view, model } = this.session;
+    const { index } = volume;
+    const { now, hidden } = view;
     if (this.seenHidden !== hidden || this.seenIndex !== index) {
       this.seenHidden = hidden;
       this.counts = new SeenCounts(index, hidden);
@@ -123,17 +120,17 @@ export class TreePanel extends Part {
     if (this.seenIndex !== index) {
       this.seenIndex = index;
       // Other tiles of a city: what is being looked for stays.
-      const isSameCity = this.session.city !== null && this.seenCity === this.session.city;
-      this.seenCity = this.session.city;
+      const isSameCity = model.city !== null && this.seenCity === model.city;
+      this.seenCity = model.city;
       this.open = firstOpen(index);
       if (!isSameCity) this.search = this.answer = this.error = "";
       this.byAttribute = new Set();
       this.edited = null;
       this.active = this.top = 0;
     }
-    if (this.seenSelection !== state.selection) {
-      this.seenSelection = state.selection;
-      const last = index.byId.get(state.selection.at(-1) ?? "");
+    if (this.seenSelection !== now.selection) {
+      this.seenSelection = now.selection;
+      const last = index.byId.get(now.selection.at(-1) ?? "");
       if (last !== undefined) {
         for (const above of ancestors(index, last)) this.open.add(above);
         this.active = last;
@@ -185,7 +182,7 @@ export class TreePanel extends Part {
         }
         ${
           this.search && this.tab === "structure"
-            ? html`<div class="small quiet" role="status">${this.rows.matches ? t("found", { n: this.rows.matches }) : session.city ? t("cityFind") : t("nothingFound")}</div>`
+            ? html`<div class="small quiet" role="status">${this.rows.matches ? t("found", { n: this.rows.matches }) : session.model.city ? t("cityFind") : t("nothingFound")}</div>`
             : nothing
         }
       </header>
@@ -195,15 +192,15 @@ export class TreePanel extends Part {
       <footer>
         ${this.edited ? this.editor(this.edited) : nothing}
         ${
-          session.state.show.length
-            ? html`<div class="note small"><span>${t("filterNote", { name: session.state.show.join(", ") })}</span>
-              <button class="small" @click=${() => session.set({ show: [] })}>${t("showAll")}</button></div>`
+          session.view.now.show.length
+            ? html`<div class="note small"><span>${t("filterNote", { name: session.view.now.show.join(", ") })}</span>
+              <button class="small" @click=${() => session.view.set({ show: [] })}>${t("showAll")}</button></div>`
             : nothing
         }
         ${
           hiddenSolids
             ? html`<div class="note small"><span>${t("hiddenCount", { n: hiddenSolids })}</span>
-              <button class="small" @click=${() => session.set({ hide: [] })}>${t("showAll")}</button></div>`
+              <button class="small" @click=${() => session.view.set({ hide: [] })}>${t("showAll")}</button></div>`
             : nothing
         }
         <form @submit=${this.ask}>
@@ -223,7 +220,7 @@ export class TreePanel extends Part {
     const from = Math.max(0, Math.floor(this.top / kRow) - kSpare);
     const to = Math.min(shown.length, Math.ceil((this.top + this.listHeight) / kRow) + kSpare);
     if (!shown.length) return nothing;
-    const selected = new Set(session.state.selection);
+    const selected = new Set(session.view.now.selection);
     return html`<div class="space" role="tree" tabindex="0" aria-label=${t("structure")} aria-multiselectable="true"
       aria-activedescendant="row-${this.active}" @keydown=${this.treeKey}>
       ${shown.slice(from, to).map((i, n) => this.item(i, from + n, selected))}
@@ -231,19 +228,20 @@ export class TreePanel extends Part {
   }
 
   private item(i: number, row: number, selected: ReadonlySet<string>) {
-    const { index, state } = this.session;
+    const { index } = this.session.volume;
+    const { styles } = this.session.view.now;
     const feature = index.features[i]!;
     const isParent = index.end[i]! > i + 1;
     const seen = this.counts.ofSubtree(i);
     const isSelected = selected.has(feature.id);
     const color =
-      state.styles.find((s) => s.select === ofId(feature.id) && s.color)?.color ??
-      state.styles.find((s) => s.select === ofClass(feature.class) && s.color)?.color ??
+      styles.find((s) => s.select === ofId(feature.id) && s.color)?.color ??
+      styles.find((s) => s.select === ofClass(feature.class) && s.color)?.color ??
       feature.color;
     return html`<div id="row-${i}" role="treeitem" class="item ${isSelected ? "selected" : ""} ${this.active === i ? "active" : ""} ${seen === "none" ? "gone" : ""}"
       data-top=${row * kRow} data-depth=${index.depth[i]!} aria-level=${index.depth[i]! + 1} aria-posinset=${row + 1} aria-setsize=${this.rows.shown.length}
       aria-selected=${isSelected} aria-expanded=${isParent ? String(this.rows.isOpen(i)) : nothing}
-      @click=${(e: MouseEvent) => this.picked(i, e)} @dblclick=${() => void this.session.goTo(ofSubtree(feature.id), null)}>
+      @click=${(e: MouseEvent) => this.picked(i, e)} @dblclick=${() => void this.session.view.goTo(ofSubtree(feature.id), null)}>
       ${
         isParent
           ? html`<button class="bare twist" tabindex="-1" aria-hidden="true" @click=${(e: Event) => this.toggle(i, e)}>${icon(this.rows.isOpen(i) ? "down" : "right", 14)}</button>`
@@ -262,7 +260,8 @@ export class TreePanel extends Part {
   }
 
   private classes() {
-    const { index, state } = this.session;
+    const { index } = this.session.volume;
+    const { styles } = this.session.view.now;
     const rows = [...index.classes].map(([name, members]) => ({
       name,
       members,
@@ -274,17 +273,17 @@ export class TreePanel extends Part {
         .map(({ name, members, solids }) => {
           const seen = this.counts.ofMembers(members);
           const query = ofClass(name);
-          const color = state.styles.find((s) => s.select === query && s.color)?.color ?? index.features[solids[0]!]!.color;
+          const color = styles.find((s) => s.select === query && s.color)?.color ?? index.features[solids[0]!]!.color;
           return html`<li class="item ${seen === "none" ? "gone" : ""}">
           <button class="bare" aria-label=${t("styleOf", { name })} aria-expanded=${this.edited?.query === query}
             @click=${() => this.editQuery(query, name, solids[0]!)}><span class="swatch" data-color=${color}></span></button>
           <button class="bare name" @click=${(e: MouseEvent) =>
-            this.session.select(
+            this.session.selection.select(
               members.map((i) => index.features[i]!.id),
               e.ctrlKey,
             )}><span class="name">${name}</span></button>
           <span class="count">${solids.length}</span>
-          <button class="bare eye ${seen}" aria-pressed=${seen === "none"} aria-label="${t("hide")}: ${name}" @click=${() => this.session.hide(members, seen !== "none")}>${eyeOf(seen)}</button>
+          <button class="bare eye ${seen}" aria-pressed=${seen === "none"} aria-label="${t("hide")}: ${name}" @click=${() => this.session.view.hide(members, seen !== "none")}>${eyeOf(seen)}</button>
         </li>`;
         })}
     </ul>`;
@@ -306,15 +305,15 @@ export class TreePanel extends Part {
   }
 
   private async findInAttributes(text: string): Promise<void> {
-    const ids = await this.session.engine?.findInAttributes(text).catch(() => []);
+    const ids = await this.session.volume.engine?.findInAttributes(text).catch(() => []);
     if (this.search !== text || !ids?.length) return;
-    const { byId } = this.session.index;
+    const { byId } = this.session.volume.index;
     this.byAttribute = new Set(ids.map((id) => byId.get(id)!));
   }
 
   private picked(i: number, event: MouseEvent | KeyboardEvent): void {
     this.active = i;
-    this.session.select([this.session.index.features[i]!.id], event.ctrlKey || event.metaKey);
+    this.session.selection.select([this.session.volume.index.features[i]!.id], event.ctrlKey || event.metaKey);
   }
 
   private toggle(i: number, event?: Event): void {
@@ -326,17 +325,17 @@ export class TreePanel extends Part {
 
   private see(i: number, seen: Seen, event?: Event): void {
     event?.stopPropagation();
-    this.session.hide(subtree(this.session.index, i), seen !== "none");
+    this.session.view.hide(subtree(this.session.volume.index, i), seen !== "none");
   }
 
   private edit(i: number, event?: Event): void {
     event?.stopPropagation();
-    const feature = this.session.index.features[i]!;
+    const feature = this.session.volume.index.features[i]!;
     this.editQuery(ofId(feature.id), labelOf(feature), i);
   }
 
   private editQuery(query: string, label: string, like: number): void {
-    const { color, opacity } = this.session.index.features[like]!;
+    const { color, opacity } = this.session.volume.index.features[like]!;
     this.edited = this.edited?.query === query ? null : { query, label, color, opacity };
   }
 
@@ -344,10 +343,10 @@ export class TreePanel extends Part {
     event.preventDefault();
     this.error = this.answer = "";
     const query = this.query.trim();
-    if (!query || !this.session.engine) return;
+    if (!query || !this.session.volume.engine) return;
     try {
-      const ids = await this.session.engine.select(query);
-      this.session.select(ids);
+      const ids = await this.session.volume.engine.select(query);
+      this.session.selection.select(ids);
       this.answer = t("selectedByQuery", { n: ids.length });
     } catch (error) {
       this.error = (error as EngineError).message;
@@ -375,7 +374,8 @@ export class TreePanel extends Part {
 
   private readonly searchKey = (event: KeyboardEvent): void => {
     if (event.key !== "ArrowDown" && event.key !== "Enter") return;
-    const { index, city } = this.session;
+    const { index } = this.session.volume;
+    const { city } = this.session.model;
     if (city && event.key === "Enter" && !this.rows.matches) return void city.find(this.search.trim());
     const words = this.search.toLowerCase();
     const first =
@@ -390,7 +390,7 @@ export class TreePanel extends Part {
 
   private readonly treeKey = (event: KeyboardEvent): void => {
     const { shown } = this.rows;
-    const { index } = this.session;
+    const { index } = this.session.volume;
     const at = Math.max(0, shown.indexOf(this.active));
     const i = shown[at]!;
     const isParent = index.end[i]! > i + 1;

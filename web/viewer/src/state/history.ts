@@ -1,5 +1,6 @@
 /** Undo and redo of the view. States never change, so a step is two references. */
 
+import { Observable } from "../observable";
 import type { ViewState } from "./view_state";
 
 /** What a step changed, for its name: the members of the view that were given. */
@@ -18,9 +19,9 @@ const kMaxSteps = 200;
 /** Not steps of their own: the selection draws nothing, the picture's first camera is no choice. */
 const kUncounted = new Set<keyof ViewState>(["selection", "preset"]);
 
-export class History {
-  private done: Step[] = [];
-  private undone: Step[] = [];
+export class History extends Observable {
+  private done: readonly Step[] = [];
+  private undone: readonly Step[] = [];
   private isSealed = true;
 
   /** @param now  milliseconds, on any clock that only grows */
@@ -28,15 +29,14 @@ export class History {
     const changed = (Object.keys(after) as Changed).filter((key) => before[key] !== after[key] && !kUncounted.has(key));
     if (!changed.length || before.camera === null || isHovering(before, after, changed)) return;
     const last = this.done.at(-1);
-    this.undone = [];
+    if (this.undone.length) this.undone = [];
     if (last && !this.isSealed && now - last.at < kSameStep && last.changed.join() === changed.join()) {
       last.after = after;
       last.at = now;
       return;
     }
     this.isSealed = false;
-    this.done.push({ before, after, changed, at: now });
-    if (this.done.length > kMaxSteps) this.done.shift();
+    this.done = [...this.done, { before, after, changed, at: now }].slice(-kMaxSteps);
   }
 
   /** What comes next is a step of its own. */
@@ -68,17 +68,19 @@ export class History {
 
   /** The view before the last step, but with what no step counts as it is now; null if there is none. */
   undo(now: ViewState): ViewState | null {
-    const step = this.done.pop();
+    const step = this.done.at(-1);
     if (!step) return null;
-    this.undone.push(step);
+    this.done = this.done.slice(0, -1);
+    this.undone = [...this.undone, step];
     this.isSealed = true;
     return restoredTo(step.before, step.changed, now);
   }
 
   redo(now: ViewState): ViewState | null {
-    const step = this.undone.pop();
+    const step = this.undone.at(-1);
     if (!step) return null;
-    this.done.push(step);
+    this.undone = this.undone.slice(0, -1);
+    this.done = [...this.done, step];
     this.isSealed = true;
     return restoredTo(step.after, step.changed, now);
   }

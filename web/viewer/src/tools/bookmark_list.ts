@@ -39,13 +39,9 @@ export class BookmarkList extends Part {
     this.views = [];
   }
 
-  protected override uses() {
-    return [this.session.modelFile];
-  }
-
   override willUpdate(): void {
-    if (this.viewsOf === this.session.modelFile) return;
-    this.viewsOf = this.session.modelFile;
+    if (this.viewsOf === this.session.volume.file) return;
+    this.viewsOf = this.session.volume.file;
     this.views = loadBookmarks(this.viewsOf);
   }
 
@@ -80,13 +76,13 @@ export class BookmarkList extends Part {
 
   private go(state: ViewState): void {
     const { camera, ...rest } = state;
-    this.session.history.seal();
-    this.session.set(rest);
-    if (camera) this.session.moveTo(camera);
+    this.session.view.history.seal();
+    this.session.view.set(rest);
+    if (camera) this.session.view.moveTo(camera);
   }
 
   private async keep(): Promise<void> {
-    const { state } = this.session;
+    const { state } = this.session.view;
     const picture = await this.smallPicture();
     this.store([
       ...this.views,
@@ -109,7 +105,7 @@ export class BookmarkList extends Part {
   private async smallPicture(): Promise<string | null> {
     const { session } = this;
     try {
-      const png = await session.engine!.picture(await session.composed(kPicture, 1));
+      const png = await session.volume.engine!.picture(await session.view.composed(kPicture, 1));
       return `data:image/png;base64,${btoa(Array.from(new Uint8Array(png), (byte) => String.fromCharCode(byte)).join(""))}`;
     } catch {
       return null;
@@ -123,9 +119,9 @@ export class BookmarkList extends Part {
     const { session } = this;
     if (/\.bcf(zip)?$/i.test(file.name)) return this.addBcf(file);
     const views = bookmarksOfFile(await file.text());
-    if (!views?.length) return session.tell(t("noViews", { name: file.name }));
+    if (!views?.length) return session.messages.tell(t("noViews", { name: file.name }));
     this.store([...this.views, ...views]);
-    session.tell(t("bookmarksAdded", { n: views.length }));
+    session.messages.tell(t("bookmarksAdded", { n: views.length }));
   }
 
   private async addBcf(file: File): Promise<void> {
@@ -134,17 +130,17 @@ export class BookmarkList extends Part {
     if (!model) return;
     try {
       const { views, missing } = await viewsOfBcf(await file.arrayBuffer(), model);
-      if (!views.length) return session.tell(t("noViews", { name: file.name }));
+      if (!views.length) return session.messages.tell(t("noViews", { name: file.name }));
       this.store([...this.views, ...views]);
-      session.tell([t("bookmarksAdded", { n: views.length }), ...(missing ? [t("bcfMissing", { n: missing })] : [])].join(". "));
+      session.messages.tell([t("bookmarksAdded", { n: views.length }), ...(missing ? [t("bcfMissing", { n: missing })] : [])].join(". "));
     } catch (error) {
-      session.fail({ message: t("notBcf", { name: file.name, error: (error as Error).message ?? String(error) }) });
+      session.messages.fail({ message: t("notBcf", { name: file.name, error: (error as Error).message ?? String(error) }) });
     }
   }
 
   private bcfModel(): BcfModel | null {
-    const { engine, info, index, box, aspect, modelFile } = this.session;
-    return engine && info && { engine, info, index, box, aspect, file: modelFile };
+    const { engine, info, index, box, file } = this.session.volume;
+    return engine && info && { engine, info, index, box, aspect: this.session.view.aspect, file };
   }
 
   private async exportBcf(): Promise<void> {
@@ -154,16 +150,16 @@ export class BookmarkList extends Part {
 
   private store(views: Bookmark[]): void {
     this.views = views;
-    if (!saveBookmarks(this.viewsOf, views)) this.session.tell(t("notKept"));
+    if (!saveBookmarks(this.viewsOf, views)) this.session.messages.tell(t("notKept"));
   }
 
   private async exportScene(name: string, state: ViewState): Promise<void> {
     const { session } = this;
-    const { scene, effects } = sceneOf(state, session.box, this.size);
+    const { scene, effects } = sceneOf(state, session.volume.box, this.size);
     try {
-      save(pretty(await session.engine!.compose(scene, effects)), `${name.replace(/[^\p{L}\p{N}_-]+/gu, "_")}.scene.json`);
+      save(pretty(await session.volume.engine!.compose(scene, effects)), `${name.replace(/[^\p{L}\p{N}_-]+/gu, "_")}.scene.json`);
     } catch (error) {
-      session.fail(error);
+      session.messages.fail(error);
     }
   }
 }

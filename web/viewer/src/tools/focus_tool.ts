@@ -30,25 +30,20 @@ export class FocusTool extends Part {
     this.error = "";
   }
 
-  protected override uses() {
-    const { state } = this.session;
-    return [state.effect, state.focus, state.selection, state.shell];
-  }
-
   override render() {
-    const { effect, focus, shell } = this.session.state;
+    const { effect, focus, shell } = this.session.view.now;
     const isOn = effect === "highlight" || effect === "cutaway";
     return html`
       <div class="segments" role="radiogroup" aria-label=${t("focusEffect")}>${(["none", "highlight", "cutaway"] as const).map(
         (wanted) =>
-          html`<button role="radio" aria-checked=${wanted === "none" ? !isOn : effect === wanted} @click=${() => this.session.set({ effect: wanted as Effect })}>${t(kEffects[wanted])}</button>`,
+          html`<button role="radio" aria-checked=${wanted === "none" ? !isOn : effect === wanted} @click=${() => this.session.view.set({ effect: wanted as Effect })}>${t(kEffects[wanted])}</button>`,
       )}</div>
       <form @submit=${this.apply}>
         <input id="focus-query" autocomplete="off" spellcheck="false" aria-label=${t("focusQuery")} placeholder=${t("focusQuery")} .value=${focus.query} />
         <button type="submit">${t("apply")}</button>
       </form>
       ${this.error ? html`<p class="error" role="alert">${this.error}</p>` : nothing}
-      ${isOn && !focusQueries(this.session.state).length ? html`<p class="small quiet">${t("focusEmpty")}</p>` : nothing}
+      ${isOn && !focusQueries(this.session.view.now).length ? html`<p class="small quiet">${t("focusEmpty")}</p>` : nothing}
       ${effect === "highlight" ? contextChoice(focus.context, (context) => this.change({ context })) : nothing}
       ${
         effect === "cutaway"
@@ -58,7 +53,7 @@ export class FocusTool extends Part {
           : nothing
       }
       <h3 id="shell-title">${t("shell")}</h3>
-      <select id="shell" aria-labelledby="shell-title" title=${help("/passes/*/shell")} @change=${(e: Event) => this.session.set({ shell: ((e.target as HTMLSelectElement).value || null) as ShellLevel | null })}>
+      <select id="shell" aria-labelledby="shell-title" title=${help("/passes/*/shell")} @change=${(e: Event) => this.session.view.set({ shell: ((e.target as HTMLSelectElement).value || null) as ShellLevel | null })}>
         <option value="" ?selected=${!shell}>${t("shellOff")}</option>
         ${kLevels.map((level) => html`<option value=${level} ?selected=${shell === level}>${t(`shell_${level}`)}</option>`)}
       </select>
@@ -66,7 +61,7 @@ export class FocusTool extends Part {
   }
 
   private change(change: Partial<Focus>): void {
-    this.session.set({ focus: { ...this.session.state.focus, ...change } });
+    this.session.view.set({ focus: { ...this.session.view.now.focus, ...change } });
   }
 
   private readonly apply = async (event: Event): Promise<void> => {
@@ -74,10 +69,10 @@ export class FocusTool extends Part {
     const query = this.renderRoot.querySelector<HTMLInputElement>("#focus-query")!.value.trim();
     this.error = "";
     try {
-      if (query) await this.session.engine!.select(query);
-      const { effect } = this.session.state;
+      if (query) await this.session.volume.engine!.select(query);
+      const { effect } = this.session.view.now;
       this.change({ query });
-      if (query && effect !== "cutaway") this.session.set({ effect: "highlight" });
+      if (query && effect !== "cutaway") this.session.view.set({ effect: "highlight" });
     } catch (error) {
       this.error = (error as EngineError).message;
     }

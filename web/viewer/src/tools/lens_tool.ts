@@ -17,17 +17,12 @@ export class LensTool extends Part {
     `,
   ];
 
-  protected override uses() {
-    const { state } = this.session;
-    return [state.effect, state.lens];
-  }
-
   override render() {
-    const { effect, lens } = this.session.state;
+    const { effect, lens } = this.session.view.now;
     const isOn = effect === "lens";
     return html`
       <div class="row">
-        <label class="check"><input type="checkbox" id="lens-on" .checked=${isOn} @change=${(e: Event) => this.session.set({ effect: (e.target as HTMLInputElement).checked ? "lens" : "none", lens: { ...lens, pinned: false } })} />${t("lensOn")}</label>
+        <label class="check"><input type="checkbox" id="lens-on" .checked=${isOn} @change=${(e: Event) => this.session.view.set({ effect: (e.target as HTMLInputElement).checked ? "lens" : "none", lens: { ...lens, pinned: false } })} />${t("lensOn")}</label>
         <label class="check"><input type="checkbox" id="lens-pinned" .checked=${lens.pinned} ?disabled=${!isOn} @change=${(e: Event) => this.change({ pinned: (e.target as HTMLInputElement).checked })} />${t("lensPinned")}</label>
       </div>
       ${this.slider(t("lensSize"), lens.radius, 0.04, 0.9, (radius) => this.change({ radius }))}
@@ -48,7 +43,7 @@ export class LensTool extends Part {
   }
 
   private change(change: Partial<Lens>): void {
-    this.session.set({ lens: { ...this.session.state.lens, ...change } });
+    this.session.view.set({ lens: { ...this.session.view.now.lens, ...change } });
   }
 }
 customElements.define("svt-lens-tool", LensTool);

@@ -18,39 +18,31 @@ const kColorKeys = ["class", "name", "storey", "volume", "area"] as const;
 export class LookTool extends Part {
   static override styles = [controls, css`.segments { display: flex; } h3:first-child { margin-top: 0; }`];
 
-  protected override uses() {
-    const { state, info, isLegendShown } = this.session;
-    return [state.look, state.wireframe, state.names, state.colorBy, state.picture, info, isLegendShown];
-  }
-
   override render() {
     const { session } = this;
-    const { look, wireframe, names, colorBy, picture } = session.state;
-    const hasEdges = session.info?.hasEdges ?? false;
+    const { look, wireframe, names, colorBy, picture } = session.view.now;
+    const hasEdges = session.volume.info?.hasEdges ?? false;
     return html`
       <div class="segments" role="radiogroup" aria-label=${t("look")} title=${help("/look")}>${kLooks.map(
         (wanted) =>
-          html`<button role="radio" aria-checked=${look === wanted} @click=${() => session.set({ look: wanted })}>${t(`look_${wanted}`)}</button>`,
+          html`<button role="radio" aria-checked=${look === wanted} @click=${() => session.view.set({ look: wanted })}>${t(`look_${wanted}`)}</button>`,
       )}</div>
       <h3 id="wire-title">${t("wireframe")}</h3>
       <select id="wireframe" aria-labelledby="wire-title" title=${help("/passes/*/lines/*/hidden")} ?disabled=${!hasEdges} @change=${(
         e: Event,
       ) => {
         const value = (e.target as HTMLSelectElement).value;
-        session.set({ wireframe: value === "off" ? null : (value as HiddenLines) });
+        session.view.set({ wireframe: value === "off" ? null : (value as HiddenLines) });
       }}>${kLines.map((line) => html`<option value=${line} ?selected=${(wireframe ?? "off") === line}>${t(`wireframe_${line}`)}</option>`)}</select>
       ${hasEdges ? nothing : html`<p class="small quiet">${t("noEdges")}</p>`}
       <div class="row">
-        <label class="check" title=${help("/names")}><input type="checkbox" id="names" .checked=${names} @change=${(e: Event) => session.set({ names: (e.target as HTMLInputElement).checked })} />${t("names")}</label>
-        <label class="check"><input type="checkbox" id="legend" .checked=${session.isLegendShown} @change=${(e: Event) => {
-          session.isLegendShown = (e.target as HTMLInputElement).checked;
-          session.changed();
-        }} />${t("legend")}</label>
+        <label class="check" title=${help("/names")}><input type="checkbox" id="names" .checked=${names} @change=${(e: Event) => session.view.set({ names: (e.target as HTMLInputElement).checked })} />${t("names")}</label>
+        <label class="check"><input type="checkbox" id="legend" .checked=${session.view.isLegendShown} @change=${(e: Event) => (session.view.isLegendShown = (e.target as HTMLInputElement).checked)} />${t("legend")}</label>
       </div>
       <h3 id="color-by-title">${t("colorBy")}</h3>
-      <input id="color-by" list="color-by-keys" aria-labelledby="color-by-title" title=${help("/colorBy")} placeholder=${t("colorByNothing")} .value=${colorBy} @change=${(e: Event) => session.set({ colorBy: (e.target as HTMLInputElement).value.trim() })} />
-      <datalist id="color-by-keys">${[...kColorKeys, ...(session.owners.file ? ["owner"] : []), ...(session.info?.attributes ?? [])].map((key) => html`<option value=${key}></option>`)}</datalist>
-      ${kPlainMembers.map((name) => plainControl(name, picture[name.slice(1) as PlainMember], (value) => session.set({ picture: withMember(picture, name, value) })))}
+      <input id="color-by" list="color-by-keys" aria-labelledby="color-by-title" title=${help("/colorBy")} placeholder=${t("colorByNothing")} .value=${colorBy} @change=${(e: Event) => session.view.set({ colorBy: (e.target as HTMLInputElement).value.trim() })} />
+      <datalist id="color-by-keys">${[...kColorKeys, ...(session.model.owners.file ? ["owner"] : []), ...(session.volume.info?.attributes ?? [])].map((key) => html`<option value=${key}></option>`)}</datalist>
+      ${kPlainMembers.map((name) => plainControl(name, picture[name.slice(1) as PlainMember], (value) => session.view.set({ picture: withMember(picture, name, value) })))}
     `;
   }
 }

@@ -17,14 +17,10 @@ export class MeasureTool extends Part {
   `,
   ];
 
-  protected override uses() {
-    return [this.session.state.measured];
-  }
-
   override render() {
     const { session } = this;
-    const points = session.state.measured;
-    const set = (measured: typeof points) => session.set({ measured });
+    const points = session.view.now.measured;
+    const set = (measured: typeof points) => session.view.set({ measured });
     return html`
       <p class="quiet">${t("measureHint")}</p>
       <dl aria-live="polite">

@@ -58,14 +58,9 @@ export class SectionTool extends Part {
     `,
   ];
 
-  protected override uses() {
-    const { state, info } = this.session;
-    return [state.sections, state.hatches, state.look, info];
-  }
-
   override render() {
     const { session } = this;
-    const { sections, hatches, look } = session.state;
+    const { sections, hatches, look } = session.view.now;
     const isHatched = hatches ?? (look === "paper" || look === "blueprint");
     return html`
       ${sections.length ? nothing : html`<p class="quiet">${t("sectionHint")}</p>`}
@@ -73,14 +68,14 @@ export class SectionTool extends Part {
       ${sections.map((section, n) => this.plane(section, n))}
       <div class="row">
         <button class=${sections.length ? "" : "loud"} id="add-plane" @click=${() => this.add()}>${icon("plus", 16)}${t("addPlane")}</button>
-        <label class="check" title=${help("/hatches/show")}><input type="checkbox" .checked=${isHatched} @change=${(e: Event) => session.set({ hatches: (e.target as HTMLInputElement).checked })} />${t("hatches")}</label>
+        <label class="check" title=${help("/hatches/show")}><input type="checkbox" .checked=${isHatched} @change=${(e: Event) => session.view.set({ hatches: (e.target as HTMLInputElement).checked })} />${t("hatches")}</label>
       </div>
       ${this.drawingParts()}
     `;
   }
 
   private drawingParts() {
-    const { info } = this.session;
+    const { info } = this.session.volume;
     if (!info) return nothing;
     const lacks = !info.hasMeshes;
     return html`<div class="row small drawings" role="group" aria-label=${t("drawnToo")}><span class="quiet grow">${t("drawnToo")}</span>${kParts.map(
@@ -100,10 +95,10 @@ export class SectionTool extends Part {
     this.isDrawing = true;
     this.requestUpdate();
     try {
-      const sheets = await session.engine!.sheets(language() === "de" ? "de" : "en");
+      const sheets = await session.volume.engine!.sheets(language() === "de" ? "de" : "en");
       save(zipOf(sheets.map((text, n) => ({ name: `sheet-${n + 1}.svg`, text }))), "sheets.zip");
     } catch (error) {
-      session.fail(error);
+      session.messages.fail(error);
     } finally {
       this.isDrawing = false;
       this.requestUpdate();
@@ -111,7 +106,7 @@ export class SectionTool extends Part {
   }
 
   private storeys() {
-    const levels = levelsOf(this.session.info?.storeys ?? []);
+    const levels = levelsOf(this.session.volume.info?.storeys ?? []);
     if (!levels.length) return nothing;
     if (levels.length > kMostChips)
       return html`<select id="storeys" aria-label=${t("storeys")} @change=${(e: Event) => this.cutStorey(levels[(e.target as HTMLSelectElement).selectedIndex - 1]!.floor)}>
@@ -122,7 +117,7 @@ export class SectionTool extends Part {
   }
 
   private plane(section: Section, n: number) {
-    const [low, high] = rangeOf(section, this.session.box);
+    const [low, high] = rangeOf(section, this.session.volume.box);
     return html`<div class="plane" role="group" aria-label=${t("planeNumber", { n: n + 1 })}>
       <div class="head">
         <div class="segments" role="radiogroup" aria-label=${t("axis")}>${kAxes.map(
@@ -165,7 +160,7 @@ export class SectionTool extends Part {
 
   /** The position in the model's own coordinates, where the plane is at right angles to one of their axes. */
   private inTheWorld(section: Section, n: number) {
-    const { info } = this.session;
+    const { info } = this.session.volume;
     const axis = { x: 0, y: 1, z: 2, free: -1 }[section.axis];
     const offset = info?.origin[axis];
     const isAlong = info && axis >= 0 && (!info.axes || Math.abs(info.axes[axis]![axis]! - 1) < 1e-9);
@@ -176,40 +171,42 @@ export class SectionTool extends Part {
   }
 
   private typed(n: number, value: number): void {
-    const [low, high] = rangeOf(this.session.state.sections[n]!, this.session.box);
+    const [low, high] = rangeOf(this.session.view.now.sections[n]!, this.session.volume.box);
     if (Number.isFinite(value)) this.change(n, { at: Math.min(high, Math.max(low, value)) });
     this.requestUpdate(); // what was typed and not taken is put back
   }
 
   private add(): void {
-    const { sections } = this.session.state;
+    const { sections } = this.session.view.now;
     const axis = (["y", "z", "x"] as const).find((wanted) => !sections.some((section) => section.axis === wanted)) ?? "free";
     const plane = this.middle({ axis, at: 0, flip: axis === "y", turn: 45, tilt: 0 });
-    this.session.set({ sections: [...sections, keptApart(plane, sections, this.session.box)] });
+    this.session.view.set({ sections: [...sections, keptApart(plane, sections, this.session.volume.box)] });
   }
 
   /** Removes everything in front of the centre. */
   private middle(section: Section): Section {
-    const [low, high] = rangeOf(section, this.session.box);
+    const [low, high] = rangeOf(section, this.session.volume.box);
     return { ...section, at: Number(((low + high) / 2).toFixed(2)) };
   }
 
   private turnTo(n: number, axis: SectionAxis): void {
-    const section = this.session.state.sections[n]!;
+    const section = this.session.view.now.sections[n]!;
     if (section.axis !== axis) this.change(n, this.middle({ ...section, axis, flip: axis === "y" }));
   }
 
   private change(n: number, change: Partial<Section>): void {
-    this.session.set({ sections: this.session.state.sections.map((section, i) => (i === n ? { ...section, ...change } : section)) });
+    this.session.view.set({
+      sections: this.session.view.now.sections.map((section, i) => (i === n ? { ...section, ...change } : section)),
+    });
   }
 
   private removePlane(n: number): void {
-    this.session.set({ sections: this.session.state.sections.filter((_, i) => i !== n) });
+    this.session.view.set({ sections: this.session.view.now.sections.filter((_, i) => i !== n) });
   }
 
   private cutStorey(floor: number): void {
-    const others = this.session.state.sections.filter((section) => section.axis !== "z");
-    this.session.set({
+    const others = this.session.view.now.sections.filter((section) => section.axis !== "z");
+    this.session.view.set({
       sections: [...others, { axis: "z", at: Number((floor + kPlanHeight).toFixed(3)), flip: false, turn: 0, tilt: 90 }],
     });
   }
@@ -218,10 +215,10 @@ export class SectionTool extends Part {
     const { session } = this;
     const drawn: DrawingFormat = format === "png" ? "svg" : format;
     try {
-      const bytes = await session.engine!.drawing(regionOf(session.state.sections[n]!), drawn, this.parts);
+      const bytes = await session.volume.engine!.drawing(regionOf(session.view.now.sections[n]!), drawn, this.parts);
       save(format === "png" ? await pngOf(bytes, kPngScale) : bytes, `section-${n + 1}.${format}`);
     } catch (error) {
-      session.fail(error);
+      session.messages.fail(error);
     }
   }
 }

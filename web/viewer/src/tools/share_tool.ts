@@ -51,12 +51,8 @@ export class ShareTool extends Part {
     this.isFileKept = false;
   }
 
-  protected override uses() {
-    return [this.session.modelFile, this.session.isLocal, this.session.state.custom];
-  }
-
   override willUpdate(): void {
-    const file = this.session.isLocal ? this.session.modelFile : "";
+    const file = this.session.volume.isLocal ? this.session.volume.file : "";
     if (this.seenFile === file) return;
     this.seenFile = file;
     this.isFileKept = false;
@@ -70,14 +66,14 @@ export class ShareTool extends Part {
       <div class="row">
         <button id="copy-link" @click=${() => void this.copyLink()}>${icon("copy", 16)}${t("copyLink")}</button>
         <button id="copy-command" @click=${() => void this.copyCommand()}>${icon("code", 16)}${t("copyCommand")}</button>
-        <button id="copy-embedding" title=${t("copyEmbeddingHint")} ?hidden=${this.session.isLocal} @click=${() => void this.copyEmbedding()}>${t("copyEmbedding")}</button>
+        <button id="copy-embedding" title=${t("copyEmbeddingHint")} ?hidden=${this.session.volume.isLocal} @click=${() => void this.copyEmbedding()}>${t("copyEmbedding")}</button>
         <button id="show-scene" aria-expanded=${this.sceneText !== null} @click=${() => void this.toggleScene()}>${t("sceneJson")}</button>
       </div>
       ${this.sceneText !== null ? this.scene(this.sceneText) : nothing}
       ${
-        this.session.isLocal
+        this.session.volume.isLocal
           ? html`<label class="check" title=${t("keepFileHint")}><input type="checkbox" id="keep-file" .checked=${this.isFileKept} @change=${(e: Event) => void this.keepFile((e.target as HTMLInputElement).checked)} />
-        ${t("keepFile", { name: this.session.modelFile })}</label>`
+        ${t("keepFile", { name: this.session.volume.file })}</label>`
           : nothing
       }
       <h3>${t("picture")}</h3>
@@ -106,7 +102,7 @@ export class ShareTool extends Part {
       ${this.error ? html`<p class="error" role="alert">${this.error}</p>` : nothing}
       <div class="row">
         <button id="apply-scene" @click=${() => void this.applyScene()}>${t("apply")}</button>
-        <button @click=${() => void copy(this.sceneInput).then((done) => this.session.tell(t(done ? "copied" : "notCopied")))}>${t("copy")}</button>
+        <button @click=${() => void copy(this.sceneInput).then((done) => this.session.messages.tell(t(done ? "copied" : "notCopied")))}>${t("copy")}</button>
         <button @click=${() => save(this.sceneInput, "view.scene.json")}>${t("download")}</button>
       </div>`;
   }
@@ -117,48 +113,48 @@ export class ShareTool extends Part {
 
   private async keepFile(isWanted: boolean): Promise<void> {
     const { session } = this;
-    if (!isWanted) await forgetFile(session.modelFile);
-    const bytes = isWanted ? ((await session.filesAgain())?.[0]?.bytes ?? null) : null;
-    this.isFileKept = bytes !== null && (await keepFile(session.modelFile, bytes));
-    if (isWanted && !this.isFileKept) session.tell(t("notKept"));
+    if (!isWanted) await forgetFile(session.volume.file);
+    const bytes = isWanted ? ((await session.model.filesAgain())?.[0]?.bytes ?? null) : null;
+    this.isFileKept = bytes !== null && (await keepFile(session.volume.file, bytes));
+    if (isWanted && !this.isFileKept) session.messages.tell(t("notKept"));
   }
 
   private async copyLink(): Promise<void> {
     const { session } = this;
-    await session.writeLink();
+    await session.address.write();
     const isCopied = await copy(location.href);
-    if (!isCopied) return session.tell(t("notCopied"));
-    if (session.isLocal) session.tell(t("linkNeedsFile", { name: session.fileNames.join(", ") }));
-    else if (isOfThisMachine(location)) session.tell(t("linkOnThisMachine"));
-    else if (location.href.length > kLongLink) session.tell(t("linkTooLong", { n: location.href.length }));
-    else session.tell(t("copied"));
+    if (!isCopied) return session.messages.tell(t("notCopied"));
+    if (session.volume.isLocal) session.messages.tell(t("linkNeedsFile", { name: session.volume.fileNames.join(", ") }));
+    else if (isOfThisMachine(location)) session.messages.tell(t("linkOnThisMachine"));
+    else if (location.href.length > kLongLink) session.messages.tell(t("linkTooLong", { n: location.href.length }));
+    else session.messages.tell(t("copied"));
   }
 
   private async copyCommand(): Promise<void> {
     const { session } = this;
-    const command = commandOf(session.state, session.describe(this.size), {
-      files: session.fileNames,
-      owners: session.owners.file,
+    const command = commandOf(session.view.state, session.view.describe(this.size), {
+      files: session.volume.fileNames,
+      owners: session.model.owners.file,
       // A model of the site is not on the reader's machine yet.
-      address: session.isLocal ? "" : new URL(session.modelAddress, location.href).href,
+      address: session.volume.isLocal ? "" : new URL(session.volume.address, location.href).href,
     });
-    if (command.includes("--scene")) save(pretty(await session.composed(this.size)), "view.scene.json");
-    session.tell((await copy(command)) ? `${t("copied")}: ${command}` : command);
+    if (command.includes("--scene")) save(pretty(await session.view.composed(this.size)), "view.scene.json");
+    session.messages.tell((await copy(command)) ? `${t("copied")}: ${command}` : command);
   }
 
   private async copyEmbedding(): Promise<void> {
     const { session } = this;
-    await session.writeLink();
-    const code = embeddingOf(location.href, session.modelName || session.modelFile, this.size);
-    session.tell((await copy(code)) ? `${t("copied")}: ${code}` : code);
+    await session.address.write();
+    const code = embeddingOf(location.href, session.volume.name || session.volume.file, this.size);
+    session.messages.tell((await copy(code)) ? `${t("copied")}: ${code}` : code);
   }
 
   private async toggleScene(): Promise<void> {
     this.error = "";
     try {
-      this.sceneText = this.sceneText === null ? pretty(await this.session.composed(this.size)) : null;
+      this.sceneText = this.sceneText === null ? pretty(await this.session.view.composed(this.size)) : null;
     } catch (error) {
-      this.session.fail(error);
+      this.session.messages.fail(error);
     }
   }
 
@@ -174,8 +170,8 @@ export class ShareTool extends Part {
     }
     try {
       // The library validates it by drawing a small picture.
-      await session.engine!.picture({ ...scene, size: [16, 9], samples: 1 });
-      session.set({ ...ofScene(scene, session.state), selection: session.state.selection });
+      await session.volume.engine!.picture({ ...scene, size: [16, 9], samples: 1 });
+      session.view.set({ ...ofScene(scene, session.view.state), selection: session.view.state.selection });
     } catch (error) {
       this.error = (error as { message?: string }).message ?? String(error);
     }
@@ -185,9 +181,9 @@ export class ShareTool extends Part {
     const { session } = this;
     this.isDrawing = true;
     try {
-      save(await session.engine!.picture(await session.composed(this.size)), "view.png");
+      save(await session.volume.engine!.picture(await session.view.composed(this.size)), "view.png");
     } catch (error) {
-      session.fail(error);
+      session.messages.fail(error);
     }
     this.isDrawing = false;
   }

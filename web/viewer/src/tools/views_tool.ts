@@ -6,6 +6,7 @@ import { standAt } from "../camera/controls";
 import { kSceneMembers } from "../generated/scene_members";
 import type { Session } from "../session";
 import { kViews } from "../state/member_controls";
+import type { Camera } from "../state/view_state";
 import { help, t, withUnit } from "../texts";
 import { icon } from "../ui/icons";
 import { memberSlider } from "../ui/member_slider";
@@ -16,28 +17,27 @@ const kEyeHeight = 1.65;
 
 /** Walking begins where there is air, on the storey whose heights the view's target is in; else on the lowest. */
 export function setWalking(session: Session, isWalking: boolean): void {
-  session.isWalking = isWalking;
-  session.changed();
-  if (!session.state.camera) return;
+  session.view.isWalking = isWalking;
+  if (!session.view.now.camera) return;
   if (isWalking) void enter(session);
-  else void session.goTo("", kSceneMembers["/camera/preset"].default);
+  else void session.view.goTo("", kSceneMembers["/camera/preset"].default);
 }
 
 async function enter(session: Session): Promise<void> {
-  const { state, info, box, engine } = session;
-  const { target } = state.camera!;
+  const { info, box, engine } = session.volume;
+  const { target } = session.view.state.camera!;
   const storeys = info?.storeys ?? [];
   const storey = storeys.find(({ floor, top }) => target[2] >= floor && target[2] < top) ?? storeys[0];
   const floor = storey?.floor ?? box.low[2];
   const eye = await engine?.stand([target[0], target[1], floor + kEyeHeight]).catch(() => null);
-  const { camera } = session.state;
-  if (!session.isWalking || !camera) return;
+  const { camera } = session.view.state;
+  if (!session.view.isWalking || !camera) return;
   if (eye) {
     const standing = await standAt(withProjection(camera, false), eye, (from, by) => engine!.step(from, by));
-    return session.isWalking ? session.moveTo(standing) : undefined;
+    return session.view.isWalking ? session.view.moveTo(standing) : undefined;
   }
-  session.isWalking = false;
-  session.tell(t("walkNowhere"));
+  session.view.isWalking = false;
+  session.messages.tell(t("walkNowhere"));
 }
 
 export class ViewsTool extends Part {
@@ -52,33 +52,33 @@ export class ViewsTool extends Part {
   `,
   ];
 
-  protected override uses() {
-    const { camera } = this.session.state;
-    return [camera?.parallel, camera?.fieldOfView, this.session.isWalking];
-  }
-
   override render() {
     const { session } = this;
-    const { camera } = session.state;
+    const { parallel, fieldOfView } = session.view.projection;
     return html`
       <div class="views" role="toolbar" aria-label=${t("views")}>${kViews.map(
         (view, n) =>
-          html`<button title=${help("/camera/preset")} @click=${() => void session.goTo("", view)}>${t(`view_${view}`)} <kbd>${n + 1}</kbd></button>`,
-      )}<button @click=${() => void session.goTo("", null)}>${icon("fit", 16)} <kbd>0</kbd><span class="visually-hidden">${t("fit")}</span></button></div>
+          html`<button title=${help("/camera/preset")} @click=${() => void session.view.goTo("", view)}>${t(`view_${view}`)} <kbd>${n + 1}</kbd></button>`,
+      )}<button @click=${() => void session.view.goTo("", null)}>${icon("fit", 16)} <kbd>0</kbd><span class="visually-hidden">${t("fit")}</span></button></div>
       <div class="row">
-        <label class="check" title=${help("/camera/parallel")}><input type="checkbox" id="parallel" .checked=${camera?.parallel ?? kSceneMembers["/camera/parallel"].default} ?disabled=${session.isWalking}
-          @change=${(e: Event) => camera && session.turn(withProjection(session.state.camera!, (e.target as HTMLInputElement).checked))} />${t("parallel")}</label>
-        <label class="check"><input type="checkbox" id="walk" .checked=${session.isWalking} @change=${(e: Event) => setWalking(session, (e.target as HTMLInputElement).checked)} />${t("walk")}</label>
+        <label class="check" title=${help("/camera/parallel")}><input type="checkbox" id="parallel" .checked=${parallel} ?disabled=${session.view.isWalking}
+          @change=${(e: Event) => this.change((camera) => withProjection(camera, (e.target as HTMLInputElement).checked))} />${t("parallel")}</label>
+        <label class="check"><input type="checkbox" id="walk" .checked=${session.view.isWalking} @change=${(e: Event) => setWalking(session, (e.target as HTMLInputElement).checked)} />${t("walk")}</label>
       </div>
       ${
-        camera && !camera.parallel
+        fieldOfView !== null && !parallel
           ? html`<div class="line"><span class="quiet">${t("fieldOfView")}</span>
-            ${memberSlider("fieldOfView", t("fieldOfView"), Math.round(camera.fieldOfView), (fieldOfView) => session.turn({ ...session.state.camera!, fieldOfView }))}
-            <output>${withUnit(camera.fieldOfView, 0, kSceneMembers["/camera/fieldOfView"].unit)}</output></div>`
+            ${memberSlider("fieldOfView", t("fieldOfView"), Math.round(fieldOfView), (wanted) => this.change((camera) => ({ ...camera, fieldOfView: wanted })))}
+            <output>${withUnit(fieldOfView, 0, kSceneMembers["/camera/fieldOfView"].unit)}</output></div>`
           : nothing
       }
-      ${session.isWalking ? html`<p class="small quiet">${t("walkHint")}</p>` : nothing}
+      ${session.view.isWalking ? html`<p class="small quiet">${t("walkHint")}</p>` : nothing}
     `;
+  }
+
+  private change(of: (camera: Camera) => Camera): void {
+    const { view } = this.session;
+    if (view.state.camera) view.turn(of(view.state.camera));
   }
 }
 customElements.define("svt-views-tool", ViewsTool);

@@ -1,33 +1,31 @@
-/** A part of the page that observes the session. */
+/** A part of the page. It is rendered again when something observable changes that its rendering read. */
 
 import { css, LitElement } from "lit";
+import { effect } from "../observable";
 import type { Session } from "../session";
 
 export abstract class Part extends LitElement {
   static override properties = { session: { attribute: false } };
   declare session: Session;
-  private seen: unknown[] | null = null;
-  private readonly follow = () => {
-    const uses = this.uses();
-    const isSame =
-      uses !== null && this.seen !== null && uses.every((value, i) => value === this.seen![i]) && this.language === this.session.language;
-    this.seen = uses;
-    this.language = this.session.language;
-    if (!isSame) this.requestUpdate();
-  };
-  private language = "";
+  private unwatch: () => void = () => {};
 
-  /** The session data it shows; null: anything. With this, a part is not updated while the camera moves. */
-  protected uses(): unknown[] | null {
-    return null;
+  protected override performUpdate(): void {
+    if (!this.isUpdatePending) return;
+    this.unwatch();
+    let isRendered = false;
+    this.unwatch = effect(() => {
+      if (isRendered) return this.requestUpdate();
+      isRendered = true;
+      super.performUpdate();
+    });
   }
 
   override connectedCallback(): void {
     super.connectedCallback();
-    this.session?.addEventListener("change", this.follow);
+    this.requestUpdate();
   }
   override disconnectedCallback(): void {
-    this.session?.removeEventListener("change", this.follow);
+    this.unwatch();
     super.disconnectedCallback();
   }
 }

@@ -1,0 +1,52 @@
+/** Keeps the address of the page at the current view. */
+
+import { effect, untracked } from "../observable";
+import { hashOf } from "../state/link";
+import type { OpenVolume } from "./open_volume";
+import type { View } from "./view";
+
+/** Milliseconds after the last change. */
+const kWriteAfter = 500;
+
+export class Address {
+  private timer = 0;
+
+  constructor(
+    private readonly volume: OpenVolume,
+    private readonly view: View,
+  ) {
+    effect(() => {
+      const { measured } = view.now;
+      if (view.revision || measured.length) untracked(() => this.writeSoon());
+    });
+  }
+
+  private writeSoon(): void {
+    clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => void this.write(), kWriteAfter);
+  }
+
+  /** Updates it at once. */
+  async write(): Promise<void> {
+    const { view } = this;
+    const { state } = view;
+    if (!this.volume.info || !state.camera) return;
+    try {
+      const hash = await hashOf(await view.composed(view.size), state);
+      if (view.state === state) history.replaceState(null, "", `${this.plain()}${hash}`);
+    } catch {
+      // A view that cannot be drawn has no link; the picture already reported why.
+    }
+  }
+
+  /** That of the open model, if there are several; of a local file only its name. */
+  private plain(): string {
+    const { name, models, isLocal, file } = this.volume;
+    const url = new URL(location.href);
+    if (name && models.length > 1) url.searchParams.set("model", name);
+    else url.searchParams.delete("model");
+    if (isLocal) url.searchParams.set("file", file);
+    else url.searchParams.delete("file");
+    return url.pathname + url.search;
+  }
+}

@@ -1,0 +1,40 @@
+/** What the page tells: one message at a time, the progress of what it waits for, and words for a live region. */
+
+import { kCancelled, type EngineError } from "../engine";
+import { Observable } from "../observable";
+
+/** A message at the lower border of the page. */
+export interface Message {
+  title?: string;
+  text: string;
+  isError: boolean;
+}
+
+export interface Progress {
+  text: string;
+  /** 0 to 1; negative: unknown. */
+  share: number;
+}
+
+export class Messages extends Observable {
+  message: Message | null = null;
+  progress: Progress | null = null;
+  /** What is read out to those who do not see the page. */
+  said = "";
+
+  fail(error: unknown, title?: string): void {
+    const { code, message } = error as Partial<EngineError>;
+    if (code === kCancelled) return;
+    const text = message ?? String(error);
+    this.message = { ...(title ? { title } : {}), text: code ? `${text} (${code})` : text, isError: true };
+  }
+
+  tell(text: string): void {
+    this.message = { text, isError: false };
+    this.say(text);
+  }
+
+  say(text: string): void {
+    this.said = text;
+  }
+}

@@ -1,0 +1,237 @@
+/** Opens models and cities, and brings back what the library has lost. */
+
+import { CityStream } from "../city/city_stream";
+import type { CityFiles } from "../city/city_files";
+import { kCancelled } from "../engine";
+import type { EngineError, FileBytes, OpenOptions, Point, VolumeInfo } from "../engine";
+import { sub } from "../camera/vec";
+import { batch, Observable, until } from "../observable";
+import { initialState, shifted, type ViewState } from "../state/view_state";
+import { stageText, t } from "../texts";
+import type { Messages } from "./messages";
+import type { OpenVolume } from "./open_volume";
+import { Owners } from "./owners";
+import { memoryOfPage, Refining, wantsDraft, type Source } from "./refining";
+import type { Selection } from "./selection";
+import type { ShownPicture } from "./shown_picture";
+import type { View } from "./view";
+
+export type Status = "starting" | "empty" | "loading" | "ready";
+
+/** A model that is being fetched and opened. */
+export interface Opening {
+  name: string;
+  /** Stops its download. */
+  abort: AbortController;
+}
+
+/** Milliseconds in which the library is not reopened twice. */
+const kReopenAfter = 20_000;
+
+export class Model extends Observable {
+  status: Status = "starting";
+  /** null: nothing is being opened. */
+  opening: Opening | null = null;
+  /** null: what is open is no city. */
+  city: CityStream | null = null;
+  /** A view whose model is a file that is not here yet. */
+  awaited: { file: string; state: ViewState | null } | null = null;
+  readonly refining: Refining;
+  readonly owners: Owners;
+  /** Fetches the bytes of the open model again, for a restarted library. */
+  private source: Source | null = null;
+  private openedWith: OpenOptions = {};
+  private restartedAt = -Infinity;
+  /** The page shows a model that the library has not open any more. */
+  private hasLostVolume = false;
+  /** The library is reading the model that is being opened. */
+  private isReading = false;
+
+  constructor(
+    private readonly volume: OpenVolume,
+    private readonly view: View,
+    private readonly selection: Selection,
+    private readonly picture: ShownPicture,
+    private readonly messages: Messages,
+  ) {
+    super();
+    this.owners = new Owners(volume, view, messages);
+    this.refining = new Refining(volume, messages, {
+      firstPicture: () => until(() => picture.report !== null),
+      take: (info, memory) => this.takeFiner(info, memory),
+    });
+  }
+
+  /** The files of the open model; null if they cannot be had again. */
+  async filesAgain(): Promise<FileBytes[] | null> {
+    return (await this.source?.().catch(() => null)) ?? null;
+  }
+
+  /** Gives up what is being opened; what was open before stays. */
+  cancelOpening(): void {
+    const { opening } = this;
+    if (!opening) return;
+    opening.abort.abort();
+    if (this.isReading) {
+      this.volume.engine?.cancel();
+      this.hasLostVolume = true;
+    }
+    this.endOpening();
+    this.messages.tell(t("cancelled", { name: opening.name }));
+  }
+
+  private endOpening(): void {
+    this.opening = this.messages.progress = null;
+    this.isReading = false;
+    if (this.status === "loading") this.status = this.volume.info ? "ready" : "empty";
+  }
+
+  /**
+   * Fetches and opens a model; on failure, or when it is cancelled, the previous one stays open. One that is still coming is given up.
+   * @param fetched  fetches the files, and tells of its progress
+   * @param again  fetches them again
+   * @param state  null: the view begins anew
+   */
+  open(name: string, fetched: (signal: AbortSignal) => Promise<FileBytes[]>, again: Source, state: ViewState | null): Promise<boolean> {
+    return this.attempt(name, fetched, async (files) => {
+      const options = { draft: wantsDraft(files), memory: memoryOfPage() };
+      const [file, ...otherFiles] = files.map((one) => one.name);
+      const tell = (step: string, share: number) => (this.messages.progress = { text: stageText(step), share });
+      const info = await this.volume.engine!.open(files, tell, options);
+      this.city?.end();
+      this.city = null;
+      this.openedWith = options;
+      this.replace(info, { file: file!, otherFiles, source: again, state });
+      if (options.draft) this.refining.begin(again, options.memory);
+    });
+  }
+
+  /** Opens a city with its coarsest tile; then it follows the camera. As open(). */
+  openCity(name: string, files: CityFiles, state: ViewState | null): Promise<boolean> {
+    const city = this.newCity(files);
+    return this.attempt(
+      name,
+      async () => {
+        this.messages.progress = { text: t("loadingFile", { name }), share: -1 };
+      },
+      async () => {
+        this.city?.end();
+        const info = await city.open();
+        this.city = city;
+        this.openedWith = {};
+        this.replace({ ...info, name }, { file: "city", otherFiles: [], source: null, state });
+        city.begin();
+      },
+    );
+  }
+
+  private async attempt<T>(
+    name: string,
+    fetched: (signal: AbortSignal) => Promise<T>,
+    open: (files: T) => Promise<void>,
+  ): Promise<boolean> {
+    this.cancelOpening();
+    const opening = (this.opening = { name, abort: new AbortController() });
+    try {
+      const files = await fetched(opening.abort.signal);
+      if (!this.volume.engine || this.opening !== opening) return false;
+      this.status = "loading";
+      this.messages.message = null;
+      this.isReading = true;
+      this.refining.cancel();
+      await open(files);
+      return true;
+    } catch (error) {
+      if (this.opening !== opening || (error as EngineError).code === kCancelled) return false;
+      this.endOpening();
+      this.messages.fail(error, t("failedTitle"));
+      if (isFatal(error)) await this.reopen(error);
+      return false;
+    } finally {
+      if (this.opening === opening) this.endOpening();
+      // Unless another opening was begun meanwhile, which replaces the volume.
+      if (this.hasLostVolume && !this.opening) await this.bringBack();
+    }
+  }
+
+  /** Another model has taken the place of the one before. */
+  private replace(info: VolumeInfo, from: { file: string; otherFiles: string[]; source: Source | null; state: ViewState | null }): void {
+    this.hasLostVolume = false;
+    this.source = from.source;
+    this.volume.file = from.file;
+    this.volume.otherFiles = from.otherFiles;
+    this.owners.forget();
+    this.take(info, from.state ?? { ...initialState(this.view.state.look), wireframe: null });
+  }
+
+  private take(info: VolumeInfo, state: ViewState): void {
+    const { volume, view } = this;
+    batch(() => {
+      volume.take(info);
+      this.selection.forget();
+      this.picture.forget();
+      // Of a city, what is selected may not be seen yet.
+      view.begin({ ...state, selection: state.selection.filter((id) => volume.isCity || volume.index.byId.has(id)) });
+      this.status = "ready";
+    });
+    document.title = `${info.name || info.source} - SVT`;
+    if (!view.state.camera) void view.fit(0);
+  }
+
+  /** A finer volume of the same model has taken the place of the coarse one: what was chosen meanwhile stays. */
+  private async takeFiner(info: VolumeInfo, memory: number): Promise<void> {
+    const { volume } = this;
+    const by = volume.info ? sub(volume.info.origin, info.origin) : ([0, 0, 0] as Point);
+    this.openedWith = { draft: false, memory };
+    batch(() => {
+      volume.take(info);
+      this.selection.properties = null;
+      this.view.shift((state) => shifted(state, by, volume.box));
+    });
+    await this.owners.giveAgain();
+  }
+
+  private newCity(files: CityFiles): CityStream {
+    const { volume, view, selection, picture, messages } = this;
+    return new CityStream(files, { volume, view, selection, picture, messages });
+  }
+
+  /** The library has crashed and lost the volume: reopens it, unless that just failed. */
+  async reopen(error: EngineError): Promise<void> {
+    if (performance.now() - this.restartedAt < kReopenAfter) return;
+    this.restartedAt = performance.now();
+    if (await this.bringBack()) this.messages.tell(t("reopened", { error: error.message }));
+  }
+
+  /** Opens the model again that the library has lost. */
+  private async bringBack(): Promise<boolean> {
+    const { city, source } = this;
+    const { engine } = this.volume;
+    if (!(source || city) || !engine) return false;
+    try {
+      if (city) await this.reopenCity(city);
+      else {
+        await engine.open(await source!(), () => undefined, this.openedWith);
+        await this.owners.giveAgain();
+        this.view.redraw();
+      }
+      this.hasLostVolume = false;
+      return true;
+    } catch (again) {
+      this.messages.fail(again);
+      return false;
+    }
+  }
+
+  private async reopenCity(before: CityStream): Promise<void> {
+    before.end();
+    const city = (this.city = this.newCity(before.files));
+    city.show(await city.open());
+    city.begin();
+  }
+}
+
+/** Errors after which the worker is replaced and has no volume. */
+export function isFatal(error: unknown): error is EngineError {
+  return (error as EngineError).code === "E999";
+}

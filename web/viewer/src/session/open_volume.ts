@@ -1,0 +1,68 @@
+/** The library and the model that it has open: data, which Model changes and the others read. */
+
+import { boxOf, type Box } from "../camera/camera";
+import type { Engine, VolumeInfo } from "../engine";
+import { computed, Observable } from "../observable";
+import { indexFeatures, type FeatureIndex } from "../state/feature_index";
+
+export interface ListedModel {
+  name: string;
+  file: string;
+  bytes: number;
+  title?: string;
+  /** A city, whose folder `file` is: it is fetched piece by piece. */
+  city?: boolean;
+}
+
+const kUnitBox: Box = {
+  low: [0, 0, 0],
+  high: [1, 1, 1],
+  axes: [
+    [1, 0, 0],
+    [0, 1, 0],
+    [0, 0, 1],
+  ],
+};
+
+export class OpenVolume extends Observable {
+  engine: Engine | null = null;
+  /** Pictures only, from the server. */
+  isServerOnly = false;
+  /** Those of the site. */
+  models: ListedModel[] = [];
+  /** The open one of `models`; empty: it is none of them. */
+  name = "";
+  /** File name for generated commands. */
+  file = "model.svt";
+  /** Names of the files that were opened with it. */
+  otherFiles: string[] = [];
+  /** It is a file of this computer, which no link leads to. */
+  isLocal = false;
+  /** null: nothing is open. */
+  info: VolumeInfo | null = null;
+  /** Of a city, that of its first tile: others change nothing of it. */
+  box: Box = kUnitBox;
+
+  private readonly indexed = computed(() => indexFeatures(this.info?.features ?? []));
+
+  get index(): FeatureIndex {
+    return this.indexed.value;
+  }
+  get isCity(): boolean {
+    return this.info?.buildings !== undefined;
+  }
+  /** Where the open model of the site lies, relative to the page. */
+  get address(): string {
+    return this.models.find((model) => model.name === this.name)?.file ?? this.file;
+  }
+  /** The files that are open. */
+  get fileNames(): string[] {
+    return [this.file, ...this.otherFiles];
+  }
+
+  /** Another model, or the same one with another grid. */
+  take(info: VolumeInfo): void {
+    this.info = info;
+    this.box = boxOf(info);
+  }
+}

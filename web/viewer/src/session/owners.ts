@@ -1,0 +1,45 @@
+/** A table of owners or parcels (CSV) that was dropped on the page: features have owners by it, for colours and queries. */
+
+import { Observable } from "../observable";
+import { t } from "../texts";
+import type { Messages } from "./messages";
+import type { OpenVolume } from "./open_volume";
+import type { View } from "./view";
+
+export class Owners extends Observable {
+  /** Its name; empty: none. */
+  file = "";
+  private table: ArrayBuffer | null = null;
+
+  constructor(
+    private readonly volume: OpenVolume,
+    private readonly view: View,
+    private readonly messages: Messages,
+  ) {
+    super();
+  }
+
+  /** Colours by it at once. Rejects with an error of the library that names the line. */
+  async give(table: ArrayBuffer, file: string): Promise<void> {
+    const { engine, info } = this.volume;
+    if (!engine || !info) return this.messages.tell(t("ownersNeedModel", { name: file }));
+    await engine.owners(table.slice(0), file);
+    this.table = table;
+    this.file = file;
+    if (this.view.state.colorBy === "owner") this.view.redraw();
+    else this.view.set({ colorBy: "owner" });
+    this.messages.tell(t("ownersGiven", { name: file }));
+  }
+
+  /** To a volume that took the place of another one of the same model. */
+  async giveAgain(): Promise<void> {
+    if (!this.table) return;
+    await this.volume.engine?.owners(this.table.slice(0), this.file).catch(() => this.forget());
+    this.view.redraw();
+  }
+
+  forget(): void {
+    this.file = "";
+    this.table = null;
+  }
+}

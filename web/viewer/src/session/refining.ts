@@ -1,0 +1,122 @@
+/**
+ * Large models: a coarse volume is the first picture; a finer one is made in a second worker meanwhile, and takes its place
+ * at the end. Whoever stops that, or has no memory for it, keeps the coarse one and is told.
+ */
+
+import { kCancelled } from "../engine";
+import type { EngineError, FileBytes, VolumeInfo } from "../engine";
+import { Observable } from "../observable";
+import { number, stageText, t } from "../texts";
+import type { Messages, Progress } from "./messages";
+import type { OpenVolume } from "./open_volume";
+
+/** Fetches the files of a model again. */
+export type Source = () => Promise<FileBytes[]>;
+
+/** Smaller models are built finely about as soon as coarsely. */
+const kLargeBytes = 8e6;
+/** What gzip makes of models, about. */
+const kPacked = 10;
+
+export function wantsDraft(files: FileBytes[]): boolean {
+  if (files.some(({ name }) => /\.svt$/i.test(name))) return false;
+  const bytes = files.reduce((sum, { name, bytes }) => sum + bytes.byteLength * (/\.(gz|ifczip)$/i.test(name) ? kPacked : 1), 0);
+  return bytes >= kLargeBytes;
+}
+
+/** `?memory=MB` or else a quarter of the device's memory, at most 1 GB: what a volume may take that is built here. */
+export function memoryOfPage(): number {
+  const asked = Number(new URLSearchParams(location.search).get("memory"));
+  if (asked > 0) return Math.max(16, asked) * 1e6;
+  const device = (navigator as { deviceMemory?: number }).deviceMemory ?? 4;
+  return Math.min(1e9, device * 0.25e9);
+}
+
+export interface RefiningHost {
+  /** Resolves when the coarse volume is seen: both at once would take each other's time. */
+  firstPicture(): Promise<void>;
+  /** The finer volume has taken the place of the coarse one. */
+  take(info: VolumeInfo, memory: number): Promise<void>;
+}
+
+export class Refining extends Observable {
+  /** null: nothing is being made finer. */
+  progress: Progress | null = null;
+  /** null: what is open is fine, or coarse for good. */
+  private wanted: { source: Source; memory: number } | null = null;
+  private token = {};
+
+  constructor(
+    private readonly volume: OpenVolume,
+    private readonly messages: Messages,
+    private readonly host: RefiningHost,
+  ) {
+    super();
+  }
+
+  /** What is open is a draft, and stays so unless it is begun again. */
+  get isCoarse(): boolean {
+    return this.wanted !== null;
+  }
+
+  /** Samples are so far apart, metres. */
+  get spacing(): number {
+    return this.volume.info?.spacing[0] ?? 0;
+  }
+
+  begin(source: Source, memory: number): void {
+    this.wanted = { source, memory };
+    void this.run(source, memory);
+  }
+
+  again(): void {
+    if (this.wanted && !this.progress) this.begin(this.wanted.source, this.wanted.memory);
+  }
+
+  /** Ends it, as another model is opened. */
+  cancel(): void {
+    this.wanted = null;
+    this.end();
+  }
+
+  /** Keeps the coarse volume. */
+  stop(): void {
+    if (!this.progress) return;
+    this.end();
+    this.messages.tell(this.staysCoarse());
+  }
+
+  private end(): void {
+    this.progress = null;
+    this.token = {};
+    this.volume.engine?.cancelRefining();
+  }
+
+  private staysCoarse(): string {
+    return t("staysCoarse", { spacing: number(this.spacing, 2) });
+  }
+
+  private async run(source: Source, memory: number): Promise<void> {
+    const token = (this.token = {});
+    const isOver = () => this.token !== token;
+    this.progress = { text: t("makingFiner"), share: -1 };
+    try {
+      await this.host.firstPicture();
+      const files = await source();
+      if (isOver()) return;
+      const tell = (step: string, share: number) => {
+        if (!isOver()) this.progress = { text: stageText(step), share };
+      };
+      const info = await this.volume.engine!.refine(files, tell, { memory });
+      if (isOver()) return;
+      this.wanted = this.progress = null;
+      await this.host.take(info, memory);
+      this.messages.say(t("isFiner", { spacing: number(this.spacing, 2) }));
+    } catch (error) {
+      if (isOver()) return;
+      this.progress = null;
+      const { code, message } = error as EngineError;
+      if (code !== kCancelled) this.messages.tell(`${this.staysCoarse()} ${message ?? String(error)}`);
+    }
+  }
+}

@@ -1,0 +1,91 @@
+/** The picture that stands on the page, which lags the view by a frame, and what it tells. */
+
+import { PictureLoop, type Quality } from "../canvas/picture_loop";
+import type { ColorScale, Engine, EngineError, FrameReport, MovedPlane } from "../engine";
+import { effect, Observable, untracked } from "../observable";
+import { cutOf } from "../state/scene_of";
+import type { Camera, ViewState } from "../state/view_state";
+import { movedText } from "../texts";
+import type { Messages } from "./messages";
+import type { OpenVolume } from "./open_volume";
+import type { View } from "./view";
+
+export class ShownPicture extends Observable {
+  /** null: the open model has none yet. */
+  report: FrameReport | null = null;
+  /** null: another one is coming. */
+  quality: Quality | null = null;
+  camera: Camera | null = null;
+  /** Section planes that are drawn beside faces of the model in which they lie. */
+  moved: MovedPlane[] = [];
+  /** What the colours mean, for those who cannot see the legend; null: they are no legend's. */
+  scale: ColorScale | null = null;
+  private loop: PictureLoop | null = null;
+  private seenSections: unknown = null;
+
+  constructor(
+    private readonly volume: OpenVolume,
+    private readonly view: View,
+    private readonly messages: Messages,
+  ) {
+    super();
+    effect(() => {
+      if (view.revision) untracked(() => this.redraw());
+    });
+  }
+
+  /** @param failed  called with the errors of pictures */
+  start(engine: Engine, failed: (error: EngineError) => void): void {
+    const { volume, view } = this;
+    this.loop = new PictureLoop({
+      engine,
+      size: () => view.size,
+      describe: (size, samples) => (volume.info ? view.describe(size, samples) : null),
+      take: () => view.state,
+      shown: (report, quality, token) => this.shown(report, quality, token as ViewState),
+      failed,
+    });
+  }
+
+  /** As another model is opened. */
+  forget(): void {
+    this.moved = [];
+    this.seenSections = null;
+    this.report = null;
+  }
+
+  private redraw(): void {
+    this.quality = null;
+    this.loop?.invalidate();
+  }
+
+  private shown(report: FrameReport, quality: Quality, state: ViewState): void {
+    if (!this.report) performance.mark("svt-first-image");
+    this.report = report;
+    this.quality = quality;
+    this.camera = state.camera;
+    this.view.refit(report.width / report.height);
+    if (quality !== "moving") void this.findMoved(state);
+    if (quality === "fine") void this.findScale(state);
+  }
+
+  /** Tells which planes lie in faces, once each time. */
+  private async findMoved({ sections }: ViewState): Promise<void> {
+    const { engine } = this.volume;
+    if (sections === this.seenSections || !engine) return;
+    this.seenSections = sections;
+    const cut = cutOf(sections);
+    const moved = cut ? await engine.movedPlanes({ passes: [{ cut }] }).catch(() => []) : [];
+    if (this.view.state.sections !== sections) return;
+    const isNew = moved.some(({ text }) => !this.moved.some((other) => other.text === text));
+    this.moved = moved;
+    if (isNew) this.messages.say(movedText(moved));
+  }
+
+  private async findScale(state: ViewState): Promise<void> {
+    const { engine } = this.volume;
+    const legend = async () => engine!.legend(await this.view.composed(this.view.size));
+    const scale = state.colorBy && engine ? await legend().catch(() => null) : null;
+    if (this.view.state === state && JSON.stringify(scale) !== JSON.stringify(this.scale)) this.scale = scale;
+  }
+}
