@@ -1,6 +1,7 @@
-#include <svt/core/hash.hpp>
 #include <svt/mesh/polygons/local_polygons.hpp>
 
+#include <svt/core/hash.hpp>
+#include <svt/core/hash_index.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/mesh/polygons/triangulate.hpp>
 
@@ -23,22 +24,19 @@ bool isSane(Vec3d point) {
 
 // Numbers points by first use, so that equal coordinates have equal numbers. Returns the count of distinct points.
 std::uint32_t weld(std::span<const Vec3d> points, std::vector<std::uint32_t>& ids) {
-    std::vector<std::uint32_t> table(std::bit_ceil(points.size() * 2 + 16), 0);
+    HashIndex index(std::bit_ceil(points.size() * 2 + 16));
     std::vector<std::uint32_t> representative;
-    const std::size_t mask = table.size() - 1;
     ids.resize(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const Vec3d p = points[i];
-        std::uint64_t hash = mixHash(0, std::bit_cast<std::uint64_t>(p.x + 0.0));
-        hash = mixHash(hash, std::bit_cast<std::uint64_t>(p.y + 0.0));
-        hash = (hash ^ (hash >> 29) ^ std::bit_cast<std::uint64_t>(p.z + 0.0)) * 0x94D049BB133111EBull;
-        std::size_t slot = (hash ^ (hash >> 32)) & mask;
-        while (table[slot] != 0 && !(points[representative[table[slot] - 1]] == p)) slot = (slot + 1) & mask;
-        if (table[slot] == 0) {
-            representative.push_back(i);
-            table[slot] = static_cast<std::uint32_t>(representative.size());
-        }
-        ids[i] = table[slot] - 1;
+        std::uint64_t hash = 0;
+        for (const double at : {p.x, p.y, p.z}) hash = mixHash(hash, std::bit_cast<std::uint64_t>(at + 0.0));
+        ids[i] = index.findOrAdd(
+            mixHash(hash, 0), [&](std::uint32_t id) { return points[representative[id]] == p; },
+            [&] {
+                representative.push_back(i);
+                return static_cast<std::uint32_t>(representative.size() - 1);
+            });
     }
     return static_cast<std::uint32_t>(representative.size());
 }
