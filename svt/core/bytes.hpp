@@ -69,8 +69,7 @@ template <class T>
                                               std::endian order = std::endian::little) noexcept {
     std::uint64_t value = 0;
     for (std::size_t b = 0; b < size; ++b)
-        value = value << 8 | std::to_integer<std::uint64_t>(
-                                 bytes[at + (order == std::endian::big ? b : size - 1 - b)]);
+        value = value << 8 | std::to_integer<std::uint64_t>(bytes[at + (order == std::endian::big ? b : size - 1 - b)]);
     return value;
 }
 

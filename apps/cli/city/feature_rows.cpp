@@ -1,5 +1,7 @@
 #include <apps/cli/city/feature_rows.hpp>
 
+#include <svt/plane/hull.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,24 +14,18 @@ using volume::kNoLabel;
 
 using Point = std::array<double, 2>;
 
-double turn(const Point& a, const Point& b, const Point& c) {
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
-// The convex hull of points, counter-clockwise (Andrew 1979).
+// The convex hull of points, counter-clockwise.
 std::vector<Point> hullOf(std::vector<Point> points) {
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
     if (points.size() < 3) return {};
-    std::vector<Point> hull;
-    const auto add = [&](const Point& point, std::size_t least) {
-        while (hull.size() >= least && turn(hull[hull.size() - 2], hull.back(), point) <= 0) hull.pop_back();
-        hull.push_back(point);
+    const auto chain = [&] {
+        return plane::hullChain(points, 1, [](const Point& point) { return Vec3d{point[0], point[1], 0}; });
     };
-    for (const Point& point : points) add(point, 2);
-    const std::size_t upper = hull.size() + 1;
-    for (std::size_t n = points.size() - 1; n-- > 0;) add(points[n], upper);
-    hull.pop_back();
+    std::vector<Point> hull = chain();
+    std::reverse(points.begin(), points.end());
+    const std::vector<Point> upper = chain();
+    hull.insert(hull.end(), upper.begin() + 1, upper.end() - 1);
     return hull;
 }
 

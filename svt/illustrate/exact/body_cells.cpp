@@ -19,9 +19,9 @@ constexpr double kMargin = 2e-4;        // metres around the material
 
 // A square of the plane.
 struct Cell {
-    DrawingPoint low;
+    plane::Point low;
     std::int32_t size = 0;
-    [[nodiscard]] DrawingPoint corner(int n) const noexcept {  // counter-clockwise
+    [[nodiscard]] plane::Point corner(int n) const noexcept {  // counter-clockwise
         return {low.u + (n == 1 || n == 2 ? size : 0), low.v + (n >= 2 ? size : 0)};
     }
 };
@@ -29,29 +29,28 @@ struct Cell {
 // One side of a part of a grid line: what lies above a horizontal line, or to the right of a vertical one, or opposite.
 struct LineSide {
     bool isVertical = false;
-    std::int32_t line = 0;
-    std::int32_t from = 0, to = 0;
+    std::int64_t line = 0, from = 0, to = 0;
     bool isUpper = false;
     std::uint32_t body = 0;
 };
 
 // Borders along grid lines: where the bodies on both sides differ.
-void addLineBorders(std::vector<LineSide>& sides, std::vector<ClaimSegment>& borders) {
+void addLineBorders(std::vector<LineSide>& sides, std::vector<plane::ClaimSegment>& borders) {
     std::sort(sides.begin(), sides.end(), [](const LineSide& a, const LineSide& b) {
         return std::tie(a.isVertical, a.line, a.from, a.to, a.isUpper) <
                std::tie(b.isVertical, b.line, b.from, b.to, b.isUpper);
     });
-    const auto add = [&](const LineSide& line, std::int32_t from, std::int32_t to, std::uint32_t lower,
+    const auto add = [&](const LineSide& line, std::int64_t from, std::int64_t to, std::uint32_t lower,
                          std::uint32_t upper) {
         if (from >= to || lower == upper) return;
-        const DrawingPoint a = line.isVertical ? DrawingPoint{line.line, from} : DrawingPoint{from, line.line};
-        const DrawingPoint b = line.isVertical ? DrawingPoint{line.line, to} : DrawingPoint{to, line.line};
+        const plane::Point a = line.isVertical ? plane::Point{line.line, from} : plane::Point{from, line.line};
+        const plane::Point b = line.isVertical ? plane::Point{line.line, to} : plane::Point{to, line.line};
         const std::uint32_t left = line.isVertical ? lower : upper, right = line.isVertical ? upper : lower;
         if (left != kNoBody) borders.push_back({a, b, left, 1});
         if (right != kNoBody) borders.push_back({b, a, right, 1});
     };
     for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-        std::vector<std::int32_t> ends;
+        std::vector<std::int64_t> ends;
         for (end = begin; end < sides.size() && sides[end].isVertical == sides[begin].isVertical &&
                           sides[end].line == sides[begin].line;
              ++end) {
@@ -87,23 +86,23 @@ public:
         margin_ = std::max(2, static_cast<std::int32_t>(kMargin / unit));
     }
 
-    std::vector<ClaimSegment> run() {
-        DrawingPoint low = material_.front().first, high = low;
-        for (const MaterialEdge& edge : material_)
-            for (const DrawingPoint p : {edge.first, edge.second}) {
-                low = {std::min(low.u, p.u), std::min(low.v, p.v)};
-                high = {std::max(high.u, p.u), std::max(high.v, p.v)};
-            }
-        const std::int64_t extent = std::max(std::int64_t{high.u} - low.u, std::int64_t{high.v} - low.v) + 4 * margin_;
+    std::vector<plane::ClaimSegment> run() {
+        plane::Box box;
+        for (const MaterialEdge& edge : material_) {
+            box.add(edge.first);
+            box.add(edge.second);
+        }
+        const plane::Point low = box.low, high = box.high;
+        const std::int64_t extent = std::max(high.u - low.u, high.v - low.v) + 4 * margin_;
         // Squares of at most 2^28, so that corners stay within 32 bits; each is halved down to the leaves.
         std::int32_t side = leafSize_;
         while (side < extent && side < (1 << 27)) side *= 2;
         std::vector<std::uint32_t> all(faces_.size()), edges(material_.size());
         for (std::uint32_t n = 0; n < all.size(); ++n) all[n] = n;
         for (std::uint32_t n = 0; n < edges.size(); ++n) edges[n] = n;
-        for (std::int64_t v = low.v - 2 * margin_; v < std::int64_t{high.v} + 2 * margin_; v += side)
-            for (std::int64_t u = low.u - 2 * margin_; u < std::int64_t{high.u} + 2 * margin_; u += side) {
-                const Cell cell{{static_cast<std::int32_t>(u), static_cast<std::int32_t>(v)}, side};
+        for (std::int64_t v = low.v - 2 * margin_; v < high.v + 2 * margin_; v += side)
+            for (std::int64_t u = low.u - 2 * margin_; u < high.u + 2 * margin_; u += side) {
+                const Cell cell{{u, v}, side};
                 visit(cell, all, edgesIn(cell, edges));
             }
         addLineBorders(sides_, borders_);
@@ -118,16 +117,17 @@ private:
 
     [[nodiscard]] std::vector<std::uint32_t> edgesIn(const Cell& cell, const std::vector<std::uint32_t>& edges) const {
         std::vector<std::uint32_t> kept;
-        const double reach = margin_, lowU = cell.low.u - reach, lowV = cell.low.v - reach;
+        const double reach = margin_, lowU = double(cell.low.u) - reach, lowV = double(cell.low.v) - reach;
         const double highU = double(cell.low.u) + cell.size + reach, highV = double(cell.low.v) + cell.size + reach;
         for (const std::uint32_t e : edges) {
-            const DrawingPoint a = material_[e].first, b = material_[e].second;
-            if (std::max(a.u, b.u) < lowU || std::min(a.u, b.u) > highU || std::max(a.v, b.v) < lowV ||
-                std::min(a.v, b.v) > highV)
+            const plane::Point a = material_[e].first, b = material_[e].second;
+            const plane::Box box = plane::boxOf(a, b);
+            if (double(box.high.u) < lowU || double(box.low.u) > highU || double(box.high.v) < lowV ||
+                double(box.low.v) > highV)
                 continue;
             // All corners on one side of the line?
-            const double du = double(b.u) - a.u, dv = double(b.v) - a.v;
-            const auto side = [&](double u, double v) { return du * (v - a.v) - dv * (u - a.u); };
+            const double du = double(b.u - a.u), dv = double(b.v - a.v);
+            const auto side = [&](double u, double v) { return du * (v - double(a.v)) - dv * (u - double(a.u)); };
             const auto [least, most] =
                 std::minmax({side(lowU, lowV), side(highU, lowV), side(highU, highV), side(lowU, highV)});
             if (least <= 0 && most >= 0) kept.push_back(e);
@@ -137,11 +137,12 @@ private:
 
     // Whether the material encloses the middle of a cell: crossings of a ray to the right.
     [[nodiscard]] bool isInside(const Cell& cell) const noexcept {
-        const double u = cell.low.u + 0.5 * cell.size + 0.25, v = cell.low.v + 0.5 * cell.size + 0.25;
+        const double u = double(cell.low.u) + 0.5 * cell.size + 0.25, v = double(cell.low.v) + 0.5 * cell.size + 0.25;
         int winding = 0;
         for (const auto& [a, b] : material_) {
-            if ((a.v > v) == (b.v > v)) continue;
-            if (a.u + (v - a.v) / (double(b.v) - a.v) * (double(b.u) - a.u) > u) winding += b.v > a.v ? 1 : -1;
+            const double au = double(a.u), av = double(a.v), bu = double(b.u), bv = double(b.v);
+            if ((av > v) == (bv > v)) continue;
+            if (au + (v - av) / (bv - av) * (bu - au) > u) winding += b.v > a.v ? 1 : -1;
         }
         return winding > 0;
     }
@@ -150,7 +151,7 @@ private:
                const std::vector<std::uint32_t>& edges) {
         if (edges.empty() && !isInside(cell)) return;
         const double half = 0.5 * cell.size, radius = half * std::sqrt(2.0) * unit_;
-        const Vec3d middle = placeOf(cell.low.u + half, cell.low.v + half);
+        const Vec3d middle = placeOf(double(cell.low.u) + half, double(cell.low.v) + half);
         std::vector<double> distances(candidates.size());
         double nearest = std::numeric_limits<double>::infinity(), nearestOther = nearest;
         std::uint32_t best = kNoBody;
@@ -177,7 +178,7 @@ private:
         }
     }
 
-    void addSide(DrawingPoint a, DrawingPoint b, std::uint32_t body) {
+    void addSide(plane::Point a, plane::Point b, std::uint32_t body) {
         // Counter-clockwise around the cell: the cell is to the left.
         if (a == b) return;
         if (a.v == b.v)
@@ -190,10 +191,10 @@ private:
         for (int n = 0; n < 4; ++n) addSide(cell.corner(n), cell.corner((n + 1) % 4), body);
     }
 
-    [[nodiscard]] std::uint32_t nearestBody(DrawingPoint at, const std::vector<std::uint32_t>& candidates) const {
+    [[nodiscard]] std::uint32_t nearestBody(plane::Point at, const std::vector<std::uint32_t>& candidates) const {
         // Behind a corner that two surfaces share both are equally near, up to rounding.
         constexpr double kSame = 1e-9;
-        const Vec3d place = placeOf(at.u, at.v);
+        const Vec3d place = placeOf(double(at.u), double(at.v));
         double nearest = std::numeric_limits<double>::infinity();
         std::uint32_t best = kNoBody;
         for (const std::uint32_t f : candidates) {
@@ -209,10 +210,10 @@ private:
     }
 
     // Where a side of a cell leaves the body of `from`.
-    [[nodiscard]] DrawingPoint endOf(DrawingPoint from, DrawingPoint to, std::uint32_t body,
+    [[nodiscard]] plane::Point endOf(plane::Point from, plane::Point to, std::uint32_t body,
                                      const std::vector<std::uint32_t>& candidates) const {
-        for (std::int32_t step = std::max(std::abs(to.u - from.u), std::abs(to.v - from.v)); step > 1;) {
-            const DrawingPoint middle{from.u + (to.u - from.u) / 2, from.v + (to.v - from.v) / 2};
+        for (std::int64_t step = std::max(std::abs(to.u - from.u), std::abs(to.v - from.v)); step > 1;) {
+            const plane::Point middle{from.u + (to.u - from.u) / 2, from.v + (to.v - from.v) / 2};
             (nearestBody(middle, candidates) == body ? from : to) = middle;
             step = std::max(std::abs(to.u - from.u), std::abs(to.v - from.v));
         }
@@ -222,22 +223,22 @@ private:
     // Draws the borders within a small cell, from where they cross its sides. False if it should be divided.
     bool march(const Cell& cell, const std::vector<std::uint32_t>& candidates) {
         struct Crossing {
-            DrawingPoint point;
+            plane::Point point;
             std::uint32_t before = 0, after = 0;
         };
         std::vector<Crossing> crossings;
-        std::vector<std::pair<DrawingPoint, std::uint32_t>> outline;  // points, and the body of the way to the next
+        std::vector<std::pair<plane::Point, std::uint32_t>> outline;  // points, and the body of the way to the next
         std::array<std::uint32_t, 4> corners{};
         for (int n = 0; n < 4; ++n) corners[static_cast<std::size_t>(n)] = nearestBody(cell.corner(n), candidates);
         for (int n = 0; n < 4; ++n) {
-            const DrawingPoint a = cell.corner(n), b = cell.corner((n + 1) % 4);
+            const plane::Point a = cell.corner(n), b = cell.corner((n + 1) % 4);
             const std::uint32_t first = corners[static_cast<std::size_t>(n)];
             const std::uint32_t last = corners[static_cast<std::size_t>((n + 1) % 4)];
             outline.emplace_back(a, first);
             if (first == last) continue;
             // Looked for from the same end by both cells that share the side.
             const bool isTurned = b < a;
-            const DrawingPoint leaves = isTurned ? endOf(b, a, last, candidates) : endOf(a, b, first, candidates);
+            const plane::Point leaves = isTurned ? endOf(b, a, last, candidates) : endOf(a, b, first, candidates);
             crossings.push_back({leaves, first, last});
             outline.emplace_back(leaves, last);
         }
@@ -250,14 +251,14 @@ private:
         if (crossings.size() == 2) {
             addBorder(crossings[1].point, crossings[0].point, crossings[0].after, crossings[0].before);
         } else {
-            const DrawingPoint middle{cell.low.u + cell.size / 2, cell.low.v + cell.size / 2};
+            const plane::Point middle{cell.low.u + cell.size / 2, cell.low.v + cell.size / 2};
             for (const Crossing& crossing : crossings)
                 addBorder(middle, crossing.point, crossing.after, crossing.before);
         }
         return true;
     }
 
-    void addBorder(DrawingPoint from, DrawingPoint to, std::uint32_t left, std::uint32_t right) {
+    void addBorder(plane::Point from, plane::Point to, std::uint32_t left, std::uint32_t right) {
         borders_.push_back({from, to, left, 1});
         borders_.push_back({to, from, right, 1});
     }
@@ -268,13 +269,13 @@ private:
     double unit_;
     std::int32_t leafSize_ = 0, smallest_ = 0, margin_ = 0;
     std::vector<LineSide> sides_;
-    std::vector<ClaimSegment> borders_;
+    std::vector<plane::ClaimSegment> borders_;
 };
 
 }  // namespace
 
-std::vector<ClaimSegment> divideBodies(std::span<const BodyFace> faces, std::span<const MaterialEdge> material,
-                                       const BodyPlane& plane, double unit) {
+std::vector<plane::ClaimSegment> divideBodies(std::span<const BodyFace> faces, std::span<const MaterialEdge> material,
+                                              const BodyPlane& plane, double unit) {
     if (faces.empty() || material.empty()) return {};
     return BodyDivider(faces, material, plane, unit).run();
 }

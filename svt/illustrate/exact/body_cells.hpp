@@ -5,7 +5,7 @@
 /// are found on cells of a few millimetres, and are straight within one.
 
 #include <svt/core/vec.hpp>
-#include <svt/illustrate/exact/arrangement.hpp>
+#include <svt/plane/arrangement.hpp>
 
 #include <cstdint>
 #include <span>
@@ -26,7 +26,7 @@ struct BodyPlane {
 };
 
 /// A border of the material: the material is to the left.
-using MaterialEdge = std::pair<DrawingPoint, DrawingPoint>;
+using MaterialEdge = std::pair<plane::Point, plane::Point>;
 
 /// Largest distance of a border between two bodies from where it should be, metres.
 inline constexpr double kBodyTolerance = 5e-4;
@@ -35,8 +35,8 @@ inline constexpr double kBodyTolerance = 5e-4;
 /// \param unit  metres of a drawing unit
 /// \return the borders of each body, claims being body numbers; they are closed rings
 /// Cost: O(length of the borders between bodies in cells * faces close by).
-[[nodiscard]] std::vector<ClaimSegment> divideBodies(std::span<const BodyFace> faces,
-                                                     std::span<const MaterialEdge> material, const BodyPlane& plane,
-                                                     double unit);
+[[nodiscard]] std::vector<plane::ClaimSegment> divideBodies(std::span<const BodyFace> faces,
+                                                            std::span<const MaterialEdge> material,
+                                                            const BodyPlane& plane, double unit);
 
 }  // namespace svt::illustrate

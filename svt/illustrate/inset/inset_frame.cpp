@@ -1,6 +1,7 @@
 #include <svt/illustrate/inset/inset_frame.hpp>
 
 #include <svt/image/text.hpp>
+#include <svt/plane/hull.hpp>
 #include <svt/render/camera_rays.hpp>
 
 #include <algorithm>
@@ -58,8 +59,6 @@ private:
     render::CameraRays rays_;
     PictureBox box_{1e30, 1e30, -1e30, -1e30};
 };
-
-double turn(Vec3d a, Vec3d b, Vec3d c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
 }  // namespace
 
@@ -119,15 +118,9 @@ std::vector<std::pair<Vec3d, Vec3d>> leadersBetween(const PictureBox& a, const P
     std::stable_sort(corners.begin(), corners.end(), [](const Corner& p, const Corner& q) {
         return p.at.x < q.at.x || (p.at.x == q.at.x && p.at.y < q.at.y);
     });
-    // Lower and upper chain of the convex hull (Andrew 1979).
     std::vector<std::pair<Vec3d, Vec3d>> leaders;
-    for (const double side : {1.0, -1.0}) {
-        std::vector<Corner> hull;
-        for (const Corner& corner : corners) {
-            while (hull.size() >= 2 && side * turn(hull[hull.size() - 2].at, hull.back().at, corner.at) <= 0)
-                hull.pop_back();
-            hull.push_back(corner);
-        }
+    for (const double turns : {1.0, -1.0}) {
+        const auto hull = plane::hullChain(corners, turns, [](const Corner& corner) { return corner.at; });
         for (std::size_t n = 1; n < hull.size(); ++n)
             if (hull[n - 1].ofA != hull[n].ofA) {
                 const bool isForward = hull[n - 1].ofA;

@@ -6,6 +6,7 @@
 #include <svt/illustrate/scene/cutaway.hpp>
 #include <svt/illustrate/section_plane.hpp>
 #include <svt/illustrate/storey_floors.hpp>
+#include <svt/plane/point.hpp>
 
 #include <fmt/format.h>
 
@@ -28,8 +29,7 @@ using Parts = std::vector<ConvexPart>;
 constexpr int kMaxDepth = 32;
 constexpr std::size_t kMostNumbers = 256;  // of a primitive
 
-// Twice the signed area of triangle a, b, c; positive if counter-clockwise.
-double twiceSignedArea(Vec3d a, Vec3d b, Vec3d c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+using plane::twiceArea;
 
 // Triangulates a simple, counter-clockwise polygon by ear clipping; empty if an ear is missing: it is not simple.
 std::vector<std::vector<Vec3d>> triangles(std::vector<Vec3d> polygon) {
@@ -39,10 +39,10 @@ std::vector<std::vector<Vec3d>> triangles(std::vector<Vec3d> polygon) {
         std::size_t ear = n;
         for (std::size_t i = 0; i < n && ear == n; ++i) {
             const Vec3d a = polygon[(i + n - 1) % n], b = polygon[i], c = polygon[(i + 1) % n];
-            if (!(twiceSignedArea(a, b, c) > 0)) continue;
+            if (!(twiceArea(a, b, c) > 0)) continue;
             const bool isFree = std::none_of(polygon.begin(), polygon.end(), [&](Vec3d p) {
-                return p != a && p != b && p != c && twiceSignedArea(a, b, p) >= 0 && twiceSignedArea(b, c, p) >= 0 &&
-                       twiceSignedArea(c, a, p) >= 0;
+                return p != a && p != b && p != c && twiceArea(a, b, p) >= 0 && twiceArea(b, c, p) >= 0 &&
+                       twiceArea(c, a, p) >= 0;
             });
             if (isFree) ear = i;
         }
@@ -57,7 +57,7 @@ std::vector<std::vector<Vec3d>> triangles(std::vector<Vec3d> polygon) {
 bool isConvex(const std::vector<Vec3d>& polygon) {
     const std::size_t n = polygon.size();
     for (std::size_t i = 0; i < n; ++i)
-        if (!(twiceSignedArea(polygon[i], polygon[(i + 1) % n], polygon[(i + 2) % n]) > 0)) return false;
+        if (!(twiceArea(polygon[i], polygon[(i + 1) % n], polygon[(i + 2) % n]) > 0)) return false;
     return true;
 }
 
@@ -300,7 +300,7 @@ private:
         for (std::size_t i = 0; i < plan->size(); i += 2) polygon.push_back({(*plan)[i], (*plan)[i + 1], 0});
         double area = 0;
         for (std::size_t i = 0; i < polygon.size(); ++i)
-            area += twiceSignedArea({}, polygon[i], polygon[(i + 1) % polygon.size()]);
+            area += twiceArea({}, polygon[i], polygon[(i + 1) % polygon.size()]);
         if (area < 0) std::reverse(polygon.begin(), polygon.end());
         const bool isOne = isConvex(polygon) && polygon.size() + 2 <= ConvexPart::kMaxFaces;
         const auto pieces = isOne ? std::vector<std::vector<Vec3d>>{polygon} : triangles(polygon);

@@ -2,10 +2,10 @@
 
 #include <svt/illustrate/exact/body_cells.hpp>
 #include <svt/illustrate/exact/mesh_cut.hpp>
-#include <svt/illustrate/exact/region_sweep.hpp>
 #include <svt/illustrate/section/section_pieces.hpp>
 #include <svt/illustrate/section/section_rings.hpp>
 #include <svt/model/classes.hpp>
+#include <svt/plane/regions.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -129,14 +129,14 @@ private:
         section_.tolerance = std::max(2, static_cast<std::int32_t>(std::lround(kMeetDistance / section_.drawingUnit)));
     }
 
-    [[nodiscard]] DrawingPoint placed(PlanePoint p) const noexcept {
-        return {static_cast<std::int32_t>(std::floor(p.u / section_.drawingUnit + 0.5)),
-                static_cast<std::int32_t>(std::floor(p.v / section_.drawingUnit + 0.5))};
+    [[nodiscard]] plane::Point placed(PlanePoint p) const noexcept {
+        return {static_cast<std::int64_t>(std::floor(p.u / section_.drawingUnit + 0.5)),
+                static_cast<std::int64_t>(std::floor(p.v / section_.drawingUnit + 0.5))};
     }
 
     void addMeshSegments(const MeshCut& cut) {
         for (const CutSegment& segment : cut.segments) {
-            const DrawingPoint from = placed(segment.from), to = placed(segment.to);
+            const plane::Point from = placed(segment.from), to = placed(segment.to);
             if (isClosedShell(labelOf(segment.label).filling))
                 segments_.push_back({from, to, solidClaim_[segment.label], 1});
             else if (sheetClaim_[segment.label] != kNoClaim)
@@ -164,10 +164,12 @@ private:
         std::vector<DrawingBorder> borders = joinEdges(cutPieces(*bricks_, volume_.planes, cut, labels));
         const Vec3d spacing = volume_.grid.spacing();
         straighten(borders, 0.01 * std::min({spacing.x, spacing.y, spacing.z}) / cut.drawingUnit());
-        const auto moved = [&](DrawingPoint p) { return placed({p.u * cut.drawingUnit(), p.v * cut.drawingUnit()}); };
+        const auto moved = [&](plane::Point p) {
+            return placed({double(p.u) * cut.drawingUnit(), double(p.v) * cut.drawingUnit()});
+        };
         for (const DrawingBorder& border : borders)
             for (std::size_t n = 0; n + 1 < border.points.size(); ++n) {
-                const DrawingPoint a = moved(border.points[n]), b = moved(border.points[n + 1]);
+                const plane::Point a = moved(border.points[n]), b = moved(border.points[n + 1]);
                 if (border.left != kNoLabel) segments_.push_back({a, b, solidClaim_[border.left], 1});
                 if (border.right != kNoLabel) segments_.push_back({b, a, solidClaim_[border.right], 1});
             }
@@ -176,8 +178,8 @@ private:
     }
 
     // The claim of highest priority; what a building's material is divided into stands behind the claims.
-    [[nodiscard]] std::uint32_t topClaim(std::span<const ClaimCount> counts) const noexcept {
-        for (const ClaimCount& count : counts) {
+    [[nodiscard]] std::uint32_t topClaim(std::span<const plane::ClaimCount> counts) const noexcept {
+        for (const plane::ClaimCount& count : counts) {
             if (count.winding <= 0) continue;
             if (count.claim >= claims_.size()) return kNoClaim;
             for (const MaterialGroup& group : groups_)
@@ -186,9 +188,9 @@ private:
         }
         return kNoClaim;
     }
-    [[nodiscard]] std::uint32_t bodyClaim(std::span<const ClaimCount> counts, const MaterialGroup& group,
+    [[nodiscard]] std::uint32_t bodyClaim(std::span<const plane::ClaimCount> counts, const MaterialGroup& group,
                                           std::uint32_t otherwise) const noexcept {
-        for (const ClaimCount& count : counts)
+        for (const plane::ClaimCount& count : counts)
             if (count.winding > 0 && count.claim >= claims_.size() + group.firstBody &&
                 count.claim < claims_.size() + group.endBody)
                 return count.claim;
@@ -201,21 +203,22 @@ private:
 
     // Divides the material of closed buildings: where they are on top without regard to their bodies.
     bool addBodies() {
-        const auto arranged = arrangeSegments(segments_, section_.tolerance);
+        const auto arranged = plane::arrangeSegments(segments_, section_.tolerance);
         if (!arranged) return false;
-        const auto sides = sweepRegions(*arranged, [&](std::span<const ClaimCount> c) { return topClaim(c); });
+        const auto sides =
+            plane::sweepRegions(*arranged, [&](std::span<const plane::ClaimCount> c) { return topClaim(c); });
         for (const MaterialGroup& group : groups_) {
             const std::uint32_t claim = solidClaim_[group.building];
             if (section_.isExact[group.building] == 0) continue;
             std::vector<MaterialEdge> material;
             for (std::size_t e = 0; e < sides.size(); ++e) {
-                const ArrangementEdge& edge = arranged->edges[e];
+                const plane::ArrangementEdge& edge = arranged->edges[e];
                 if ((sides[e].left == claim) == (sides[e].right == claim)) continue;
                 material.emplace_back(sides[e].left == claim ? edge.from : edge.to,
                                       sides[e].left == claim ? edge.to : edge.from);
             }
             const Vec3d u = axes_.u * section_.drawingUnit, v = axes_.v * section_.drawingUnit;
-            for (ClaimSegment border : divideBodies(facesOf(group), material, {u, v}, section_.drawingUnit)) {
+            for (plane::ClaimSegment border : divideBodies(facesOf(group), material, {u, v}, section_.drawingUnit)) {
                 border.claim += static_cast<std::uint32_t>(claims_.size()) + group.firstBody;
                 segments_.push_back(border);
             }
@@ -238,14 +241,15 @@ private:
     }
 
     bool drawRegions() {
-        const auto arranged = arrangeSegments(segments_, section_.tolerance);
+        const auto arranged = plane::arrangeSegments(segments_, section_.tolerance);
         if (!arranged) return false;
-        const auto sides = sweepRegions(*arranged, [&](std::span<const ClaimCount> c) { return topClaim(c); });
+        const auto sides =
+            plane::sweepRegions(*arranged, [&](std::span<const plane::ClaimCount> c) { return topClaim(c); });
         const auto drawn = [&](std::uint32_t label) {
             return label != kNoLabel && isDrawn_[label] != 0 ? label : kNoLabel;
         };
         for (std::size_t e = 0; e < sides.size(); ++e) {
-            const ArrangementEdge& edge = arranged->edges[e];
+            const plane::ArrangementEdge& edge = arranged->edges[e];
             const std::uint32_t left = labelOfClaim(sides[e].left), right = labelOfClaim(sides[e].right);
             if (drawn(left) != drawn(right)) {
                 if (drawn(left) != kNoLabel) section_.edges.push_back({edge.from, edge.to, left});
@@ -275,7 +279,7 @@ private:
     std::vector<std::uint32_t> solidClaim_, sheetClaim_;  // by label
     std::vector<MaterialGroup> groups_;
     std::vector<std::uint32_t> bodies_;  // labels
-    std::vector<ClaimSegment> segments_;
+    std::vector<plane::ClaimSegment> segments_;
 };
 
 }  // namespace

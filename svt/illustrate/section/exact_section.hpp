@@ -8,8 +8,7 @@
 ///     sheets              lines, where nothing of a higher rank is on both of their sides
 ///     open shells         the polygons of their voxels
 
-#include <svt/illustrate/exact/plane_points.hpp>
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/illustrate/section/section_pieces.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -35,7 +34,7 @@ struct ExactSection {
 /// Cuts `volume` with the plane through `axes`.
 /// \param bricks   those of the volume, or null: made where open shells are cut
 /// \param isDrawn  by label; others are gaps
-/// \return the section, or nothing where the arrangement could not be made (see arrangeSegments()); or the error of
+/// \return the section, or nothing where the arrangement could not be made (see plane::arrangeSegments()); or the error of
 ///         BrickVolume::fromColumns()
 [[nodiscard]] Result<std::optional<ExactSection>> cutExactly(const volume::SemanticVolume& volume,
                                                              const volume::BrickVolume* bricks,

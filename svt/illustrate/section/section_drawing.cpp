@@ -65,7 +65,7 @@ public:
         for (const DrawingBorder& line : lines) {
             SectionLine added;
             added.label = line.left != kNoLabel ? line.left : line.right;
-            for (const DrawingPoint p : line.points) added.points.push_back(placed(p));
+            for (const plane::Point p : line.points) added.points.push_back(placed(p));
             drawing_.lines.push_back(std::move(added));
         }
         std::ranges::stable_sort(drawing_.lines, {}, &SectionLine::label);
@@ -80,7 +80,7 @@ public:
             border.left = shown.contains({borders[b].left, b}) ? borders[b].left : kNoLabel;
             border.right = shown.contains({borders[b].right, b}) ? borders[b].right : kNoLabel;
             if (border.left == border.right) continue;
-            for (const DrawingPoint p : borders[b].points) border.points.push_back(placed(p));
+            for (const plane::Point p : borders[b].points) border.points.push_back(placed(p));
             drawing_.borders.push_back(std::move(border));
         }
         addLineLengths();
@@ -89,8 +89,8 @@ public:
     }
 
 private:
-    [[nodiscard]] PlanePoint placed(DrawingPoint p) const noexcept {
-        return {p.u * drawing_.drawingUnit, p.v * drawing_.drawingUnit};
+    [[nodiscard]] PlanePoint placed(plane::Point p) const noexcept {
+        return {double(p.u) * drawing_.drawingUnit, double(p.v) * drawing_.drawingUnit};
     }
 
     void addPolygon(const DrawingPolygon& polygon, std::set<std::pair<std::uint32_t, std::uint32_t>>& shown) {

@@ -297,7 +297,7 @@ private:
 
     void emit(const Piece& piece, std::uint32_t label) {
         if (label == volume::kNoLabel) return;
-        std::array<DrawingPoint, 12> points;
+        std::array<plane::Point, 12> points;
         for (std::size_t n = 0; n < piece.count; ++n) points[n] = plane_.quantized(piece.corners[n].voxel);
         for (std::size_t n = 0; n < piece.count; ++n) {
             const std::size_t next = (n + 1) % piece.count;
@@ -330,7 +330,7 @@ private:
             return std::tie(a.face, a.edge.from, a.edge.to, a.edge.label) <
                    std::tie(b.face, b.edge.from, b.edge.to, b.edge.label);
         });
-        std::vector<DrawingPoint> points;
+        std::vector<plane::Point> points;
         for (std::size_t begin = 0, end = 0; begin < faceEdges_.size(); begin = end) {
             while (end < faceEdges_.size() && faceEdges_[end].face == faceEdges_[begin].face) ++end;
             points.clear();
@@ -342,7 +342,7 @@ private:
             points.erase(std::unique(points.begin(), points.end()), points.end());
             // All points are on one line, up to a drawing unit; sort them along it.
             const std::int64_t du = points.back().u - points.front().u, dv = points.back().v - points.front().v;
-            const auto isBefore = [&](DrawingPoint a, DrawingPoint b) {
+            const auto isBefore = [&](plane::Point a, plane::Point b) {
                 const std::int64_t ta = a.u * du + a.v * dv, tb = b.u * du + b.v * dv;
                 return ta != tb ? ta < tb : a < b;
             };
@@ -352,8 +352,8 @@ private:
     }
 
     template <class IsBefore>
-    void addThrough(const PieceEdge& edge, const std::vector<DrawingPoint>& points, const IsBefore& isBefore) {
-        const auto placeOf = [&](DrawingPoint p) {
+    void addThrough(const PieceEdge& edge, const std::vector<plane::Point>& points, const IsBefore& isBefore) {
+        const auto placeOf = [&](plane::Point p) {
             return std::lower_bound(points.begin(), points.end(), p, isBefore) - points.begin();
         };
         const std::ptrdiff_t from = placeOf(edge.from), to = placeOf(edge.to), step = from < to ? 1 : -1;
@@ -406,9 +406,9 @@ Vec3d CutPlane::crossing(int axis, Vec3d voxel) const noexcept {
     return voxel;
 }
 
-DrawingPoint CutPlane::quantized(Vec3d voxel) const noexcept {
-    return {static_cast<std::int32_t>(std::floor((dot(uOfVoxel_, voxel) + uOffset_) / drawingUnit_ + 0.5)),
-            static_cast<std::int32_t>(std::floor((dot(vOfVoxel_, voxel) + vOffset_) / drawingUnit_ + 0.5))};
+plane::Point CutPlane::quantized(Vec3d voxel) const noexcept {
+    return {static_cast<std::int64_t>(std::floor((dot(uOfVoxel_, voxel) + uOffset_) / drawingUnit_ + 0.5)),
+            static_cast<std::int64_t>(std::floor((dot(vOfVoxel_, voxel) + vOffset_) / drawingUnit_ + 0.5))};
 }
 
 std::vector<PieceEdge> cutPieces(const BrickVolume& bricks, std::span<const volume::FacePlane> faces,

@@ -2,14 +2,20 @@
 /// \file
 /// Cuts the bricks of a volume with a plane, brick by brick, into convex pieces.
 
-#include <svt/illustrate/exact/plane_points.hpp>
 #include <svt/illustrate/section_drawing.hpp>
+#include <svt/plane/point.hpp>
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace svt::illustrate {
+
+/// A directed edge of a piece, in drawing units of at most 2^29 from 0; `label` is on its left.
+struct PieceEdge {
+    plane::Point from, to;
+    std::uint32_t label = 0;
+};
 
 /// The plane in voxel space, and the transform from voxel space to the drawing.
 ///
@@ -29,7 +35,7 @@ public:
     /// Gradient of the height above the plane: metres per voxel along each axis.
     [[nodiscard]] Vec3d gradient() const noexcept { return gradient_; }
     [[nodiscard]] double heightOf(Vec3d voxel) const noexcept { return dot(gradient_, voxel) + offset_; }
-    [[nodiscard]] DrawingPoint quantized(Vec3d voxel) const noexcept;
+    [[nodiscard]] plane::Point quantized(Vec3d voxel) const noexcept;
     [[nodiscard]] double drawingUnit() const noexcept { return drawingUnit_; }
 
 private:

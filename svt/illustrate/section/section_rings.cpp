@@ -1,8 +1,9 @@
 #include <svt/illustrate/section/section_rings.hpp>
 
+#include <svt/plane/rings.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <span>
 #include <tuple>
@@ -15,14 +16,14 @@ using volume::kNoLabel;
 
 // An edge between two labels; from < to.
 struct BorderEdge {
-    DrawingPoint from, to;
+    plane::Point from, to;
     std::uint32_t left = kNoLabel, right = kNoLabel;
 };
 
 // Finds the labels on both sides of each edge; edges between equal labels cancel.
 std::vector<BorderEdge> cancel(std::vector<PieceEdge> edges) {
     struct Side {
-        DrawingPoint from, to;
+        plane::Point from, to;
         std::uint32_t label = 0;
         std::int32_t isLeft = 0;
     };
@@ -60,7 +61,7 @@ std::vector<BorderEdge> cancel(std::vector<PieceEdge> edges) {
 
 // One end of an edge.
 struct EdgeEnd {
-    DrawingPoint point;
+    plane::Point point;
     std::uint32_t edge = 0;
     bool isStart = true;
 };
@@ -132,8 +133,8 @@ private:
 };
 
 // Squared distance of p from a line segment, square drawing units.
-double squareDistance(DrawingPoint p, DrawingPoint a, DrawingPoint b) noexcept {
-    const Step along = b - a, to = p - a;
+double squareDistance(plane::Point p, plane::Point a, plane::Point b) noexcept {
+    const plane::Point along = b - a, to = p - a;
     const double length2 = static_cast<double>(dot(along, along));
     const double t = length2 > 0 ? std::clamp(static_cast<double>(dot(along, to)) / length2, 0.0, 1.0) : 0;
     const double u = static_cast<double>(to.u) - t * static_cast<double>(along.u);
@@ -142,7 +143,7 @@ double squareDistance(DrawingPoint p, DrawingPoint a, DrawingPoint b) noexcept {
 }
 
 void straighten(DrawingBorder& border, double tolerance) {
-    const std::vector<DrawingPoint>& points = border.points;
+    const std::vector<plane::Point>& points = border.points;
     const std::size_t last = points.size() - 1;
     std::vector<std::uint8_t> isKept(points.size(), 0);
     isKept[0] = isKept[last] = 1;
@@ -164,7 +165,7 @@ void straighten(DrawingBorder& border, double tolerance) {
         open.emplace_back(from, furthest);
         open.emplace_back(furthest, to);
     }
-    std::vector<DrawingPoint> kept;
+    std::vector<plane::Point> kept;
     for (std::size_t n = 0; n < points.size(); ++n)
         if (isKept[n] != 0) kept.push_back(points[n]);
     border.points = std::move(kept);
@@ -183,18 +184,15 @@ public:
 
     explicit OuterFinder(std::span<const DrawingPolygon> polygons) {
         std::size_t edges = 0;
-        low_ = std::numeric_limits<std::int32_t>::max();
-        std::int32_t high = std::numeric_limits<std::int32_t>::min();
+        plane::Box box;
         for (const DrawingPolygon& polygon : polygons) {
             areas_.push_back(twiceSignedArea(polygon.rings.front()));
             edges += polygon.rings.front().size();
-            for (const RingPoint& p : polygon.rings.front()) {
-                low_ = std::min(low_, p.point.v);
-                high = std::max(high, p.point.v);
-            }
+            for (const RingPoint& p : polygon.rings.front()) box.add(p.point);
         }
         const auto levels = static_cast<std::int64_t>(std::clamp<std::size_t>(edges / 32, 1, 4096));
-        step_ = (std::int64_t{high} - low_) / levels + 1;
+        low_ = box.low.v;
+        step_ = (box.high.v - low_) / levels + 1;
         levels_.resize(static_cast<std::size_t>(levels));
         for (std::size_t o = 0; o < polygons.size(); ++o) {
             const auto& ring = polygons[o].rings.front();
@@ -206,8 +204,7 @@ public:
     // The smallest outer ring around the midpoint of the hole's first edge; rings of one label share no edges.
     [[nodiscard]] std::size_t find(const std::vector<RingPoint>& hole) const {
         // Twice the midpoint, which is an integer point.
-        const std::int64_t u = std::int64_t{hole[0].point.u} + hole[1].point.u;
-        const std::int64_t v = std::int64_t{hole[0].point.v} + hole[1].point.v;
+        const std::int64_t u = hole[0].point.u + hole[1].point.u, v = hole[0].point.v + hole[1].point.v;
         const std::int64_t level = levelOf((v - (v & 1)) / 2);
         if (level < 0 || level >= std::ssize(levels_)) return kNone;
         std::vector<std::size_t> crossed;
@@ -225,7 +222,7 @@ public:
 
 private:
     struct Edge {
-        DrawingPoint from, to;
+        plane::Point from, to;
         std::size_t outer = 0;
     };
     [[nodiscard]] std::int64_t levelOf(std::int64_t v) const noexcept { return (v - low_) / step_; }
@@ -236,16 +233,13 @@ private:
     }
     // Whether a ray from (u, v) / 2 in the direction of u crosses the edge.
     static bool isCrossed(const Edge& edge, std::int64_t u, std::int64_t v) noexcept {
-        const DrawingPoint a = edge.from, b = edge.to;
-        const std::int64_t av = 2 * std::int64_t{a.v}, bv = 2 * std::int64_t{b.v};
-        if ((av > v) == (bv > v)) return false;
-        const std::int64_t side = (b - a).u * (v - av) - (u - 2 * std::int64_t{a.u}) * (b - a).v;
-        return (side > 0) == (bv > av);
+        const plane::Point a = edge.from, b = edge.to;
+        if ((2 * a.v > v) == (2 * b.v > v)) return false;
+        return (cross(b - a, {u - 2 * a.u, v - 2 * a.v}) > 0) == (b.v > a.v);
     }
 
     std::vector<double> areas_;
-    std::int32_t low_ = 0;
-    std::int64_t step_ = 1;
+    std::int64_t low_ = 0, step_ = 1;
     std::vector<std::vector<Edge>> levels_;
 };
 
@@ -276,7 +270,7 @@ public:
 private:
     using LabelRing = std::vector<RingPoint>;
 
-    [[nodiscard]] DrawingPoint pointOf(HalfBorder half, std::size_t n) const noexcept {
+    [[nodiscard]] plane::Point pointOf(HalfBorder half, std::size_t n) const noexcept {
         const auto& points = borders_[half.border].points;
         return points[half.isForward ? n : points.size() - 1 - n];
     }
@@ -299,7 +293,9 @@ private:
                 if (next == kNone) break;
                 h = next;
             }
-            if (!walk.empty()) splitWalk(walk);
+            plane::splitAtRepeats(
+                walk, [](const RingPoint& step) { return step.point; },
+                [&](LabelRing ring) { addRing(std::move(ring)); });
         }
         sortRings(label);
     }
@@ -308,18 +304,18 @@ private:
     [[nodiscard]] std::uint32_t nextOf(std::uint32_t h, const std::vector<std::uint32_t>& byStart,
                                        const std::vector<std::uint8_t>& isUsed) const {
         const std::size_t size = sizeOf(halves_[h]);
-        const DrawingPoint node = pointOf(halves_[h], size - 1);
-        const Step back = pointOf(halves_[h], size - 2) - node;
+        const plane::Point node = pointOf(halves_[h], size - 1);
+        const plane::Point back = pointOf(halves_[h], size - 2) - node;
         const auto startOf = [&](std::uint32_t other) { return pointOf(halves_[other], 0); };
         std::uint32_t best = kNone;
-        Step bestStep;
+        plane::Point bestStep;
         for (auto candidate =
                  std::lower_bound(byStart.begin(), byStart.end(), node,
-                                  [&](std::uint32_t other, DrawingPoint at) { return startOf(other) < at; });
+                                  [&](std::uint32_t other, plane::Point at) { return startOf(other) < at; });
              candidate != byStart.end() && startOf(*candidate) == node; ++candidate) {
             const std::uint32_t other = *candidate;
             if (isUsed[other] != 0) continue;
-            const Step step = pointOf(halves_[other], 1) - node;
+            const plane::Point step = pointOf(halves_[other], 1) - node;
             if (best == kNone || isClockwiseBefore(back, step, bestStep)) {
                 best = other;
                 bestStep = step;
@@ -329,30 +325,13 @@ private:
     }
 
     // Whether `a` comes before `b`, turning clockwise from `back`. The direction of `back` itself comes last.
-    static bool isClockwiseBefore(Step back, Step a, Step b) noexcept {
-        const auto half = [&](Step s) {
-            const std::int64_t side = cross(back, s);
+    static bool isClockwiseBefore(plane::Point back, plane::Point a, plane::Point b) noexcept {
+        const auto half = [&](plane::Point s) {
+            const plane::Wide side = cross(back, s);
             return side < 0 ? 0 : side == 0 && dot(back, s) < 0 ? 1 : side > 0 ? 2 : 3;
         };
         const int halfA = half(a), halfB = half(b);
         return halfA != halfB ? halfA < halfB : cross(a, b) < 0;
-    }
-
-    // Splits a walk at the points that it visits again into rings that touch there.
-    void splitWalk(const LabelRing& walk) {
-        std::map<DrawingPoint, std::size_t> placeOf;
-        LabelRing open;
-        for (const RingPoint& step : walk) {
-            if (const auto known = placeOf.find(step.point); known != placeOf.end()) {
-                const std::size_t at = known->second;
-                addRing(LabelRing(open.begin() + static_cast<std::ptrdiff_t>(at), open.end()));
-                for (std::size_t n = at; n < open.size(); ++n) placeOf.erase(open[n].point);
-                open.resize(at);
-            }
-            placeOf.emplace(step.point, open.size());
-            open.push_back(step);
-        }
-        addRing(std::move(open));
     }
 
     void addRing(LabelRing ring) {

@@ -30,13 +30,13 @@ namespace svt::illustrate {
 
 /// A polyline between two labels, from node to node, or closed.
 struct DrawingBorder {
-    std::vector<DrawingPoint> points;  ///< a closed one repeats the first at the end
+    std::vector<plane::Point> points;  ///< a closed one repeats the first at the end
     std::uint32_t left = 0, right = 0;
 };
 
 /// A point of a ring, and the border that leads to the next point.
 struct RingPoint {
-    DrawingPoint point;
+    plane::Point point;
     std::uint32_t border = 0;
 };
 

@@ -125,9 +125,9 @@ private:
 
 // What stands directly below each label: its children, and the members of a group. A district has a thousand storeys, so
 // that these are found once for all.
-class Members {
+class StoreyMembers {
 public:
-    explicit Members(const volume::LabelTable& table) : begins_(table.labels.size() + 1, 0) {
+    explicit StoreyMembers(const volume::LabelTable& table) : begins_(table.labels.size() + 1, 0) {
         const auto forEachAbove = [&](std::uint32_t l, const auto& visit) {
             const volume::Label& label = table.labels[l];
             if (label.parent != volume::kNoLabel) visit(label.parent);
@@ -260,7 +260,7 @@ std::vector<StoreyHeights> findStoreys(const volume::SemanticVolume& volume) {
     const std::vector<FloorHeight> floors = roomFloors(volume, extents);
     const analyze::LabelRows labelRows(volume.labels);
     const std::span<const model::QueryRow> rows = labelRows.get();
-    const Members members(volume.labels);
+    const StoreyMembers members(volume.labels);
     std::vector<std::uint32_t> seenBy(rows.size(), volume::kNoLabel);
     std::vector<StoreyHeights> storeys;
     for (std::uint32_t l = 0; l < rows.size(); ++l) {

@@ -1,8 +1,8 @@
 #include <svt/mesh/closing/gaps.hpp>
 
-#include <svt/core/hash.hpp>
 #include <svt/mesh/polygons/edges.hpp>
 #include <svt/mesh/polygons/triangulate.hpp>
+#include <svt/plane/welder.hpp>
 
 #include <algorithm>
 #include <array>
@@ -47,45 +47,33 @@ public:
         double reach = 0;
         for (const LooseEnd& end : ends) reach = std::max(reach, end.reach);
         perMetre_ = reach > 0 ? 1 / reach : 1;
-        for (std::uint32_t e = 0; e < ends.size(); ++e) cells_.emplace_back(keyOf(cellOf(at(e))), e);
-        std::sort(cells_.begin(), cells_.end());
+        for (std::uint32_t e = 0; e < ends.size(); ++e) cells_.add(cellOf(at(e)));
     }
 
     // Ends behind `e` in the cells around it, in ascending order.
     void findAround(std::uint32_t e, std::vector<std::uint32_t>& found) const {
         found.clear();
-        const std::array<std::int64_t, 3> cell = cellOf(at(e));
-        for (std::int64_t x = cell[0] - 1; x <= cell[0] + 1; ++x)
-            for (std::int64_t y = cell[1] - 1; y <= cell[1] + 1; ++y)
-                for (std::int64_t z = cell[2] - 1; z <= cell[2] + 1; ++z) {
-                    const std::uint64_t key = keyOf({x, y, z});
-                    for (auto i = std::upper_bound(cells_.begin(), cells_.end(), std::pair(key, e));
-                         i != cells_.end() && i->first == key; ++i)
-                        found.push_back(i->second);
-                }
+        const plane::Cell cell = cellOf(at(e)), next{1, 1, 1};
+        cells_.forEach(cell - next, cell + next, [&](std::uint32_t other) {
+            if (other > e) found.push_back(other);
+        });
         std::sort(found.begin(), found.end());
         found.erase(std::unique(found.begin(), found.end()), found.end());
     }
 
 private:
     [[nodiscard]] Vec3d at(std::uint32_t e) const { return mesh_.vertices[ends_[e].vertex]; }
-    [[nodiscard]] std::array<std::int64_t, 3> cellOf(Vec3d p) const {
+    [[nodiscard]] plane::Cell cellOf(Vec3d p) const {
         const auto step = [&](double v) {
             return static_cast<std::int64_t>(std::floor(std::clamp(v * perMetre_, -1e15, 1e15)));
         };
         return {step(p.x), step(p.y), step(p.z)};
     }
-    // Different cells may share a key; the distance tells what is near.
-    static std::uint64_t keyOf(const std::array<std::int64_t, 3>& cell) {
-        std::uint64_t key = 0;
-        for (const std::int64_t step : cell) key = mixHash(key, static_cast<std::uint64_t>(step));
-        return key;
-    }
 
     const ObjectMesh& mesh_;
     const std::vector<LooseEnd>& ends_;
     double perMetre_ = 1;
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> cells_;
+    plane::CellIndex cells_;
 };
 
 double openLength(const std::vector<Vec3d>& vertices, const std::vector<OpenEdge>& edges) {

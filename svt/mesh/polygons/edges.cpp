@@ -1,6 +1,6 @@
 #include <svt/mesh/polygons/edges.hpp>
 
-#include <svt/mesh/polygons/box_tree.hpp>
+#include <svt/plane/box_tree.hpp>
 
 #include <algorithm>
 #include <map>
@@ -154,7 +154,7 @@ private:
 
     const std::vector<Vec3d>& vertices_;
     const std::vector<Triangle>& others_;
-    BoxTree tree_;
+    plane::BoxTree tree_;
 };
 
 void flip(Triangle& triangle) { std::swap(triangle.corners[1], triangle.corners[2]); }
@@ -241,8 +241,8 @@ private:
     std::vector<std::vector<std::uint32_t>> members_;
     std::vector<double> volume_;
     std::vector<Box3d> bounds_;
-    std::optional<BoxTree> boundsTree_;          // made when it is asked for
-    std::vector<std::optional<BoxTree>> trees_;  // of the triangles of each component, the same
+    std::optional<plane::BoxTree> boundsTree_;          // made when it is asked for
+    std::vector<std::optional<plane::BoxTree>> trees_;  // of the triangles of each component, the same
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 /// The faces of one mesh, found by rays.
 
 #include <svt/mesh/mesh_set.hpp>
-#include <svt/mesh/polygons/box_tree.hpp>
+#include <svt/plane/box_tree.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -54,7 +54,7 @@ public:
 
 private:
     std::vector<RayFace> faces_;
-    BoxTree tree_;
+    plane::BoxTree tree_;
     std::uint64_t testsLeft_;
 };
 

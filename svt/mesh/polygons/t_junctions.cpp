@@ -1,6 +1,6 @@
 #include <svt/mesh/polygons/edges.hpp>
 
-#include <svt/mesh/polygons/box_tree.hpp>
+#include <svt/plane/box_tree.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -100,7 +100,7 @@ private:
         if (keys.empty() || points.empty()) return true;
         std::vector<Box3d> boxes;
         for (const std::uint32_t point : points) boxes.push_back({vertices_[point], vertices_[point]});
-        const BoxTree tree(std::move(boxes));
+        const plane::BoxTree tree(std::move(boxes));
         for (const auto& [from, to] : keys) {
             const Key key{from, to};
             const Vec3d a = vertices_[from], b = vertices_[to];

@@ -1,6 +1,6 @@
-#include <svt/mesh/polygons/flat_edges.hpp>
-#include <svt/mesh/polygons/sweep.hpp>
 #include <svt/mesh/polygons/triangulate.hpp>
+
+#include <svt/plane/triangulate_graph.hpp>
 
 #include <GL/glu.h>
 
@@ -106,7 +106,7 @@ void tessellate(std::span<const Vec3d> points, std::span<const std::uint32_t> ri
 
 // The points of a polygon in the coordinate plane that its normal is nearest to, on a grid of 2^50 steps across at least:
 // a nanometre for a polygon of a thousand kilometres. The same projection as GLU's.
-std::vector<FlatGraph::Vertex> flatten(std::span<const Vec3d> points, Vec3d normal) {
+std::vector<plane::EdgeGraph::Vertex> flatten(std::span<const Vec3d> points, Vec3d normal) {
     const Vec3d size{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
     int axis = size.y > size.x ? 1 : 0;
     if (size.z > size[axis]) axis = 2;
@@ -117,7 +117,7 @@ std::vector<FlatGraph::Vertex> flatten(std::span<const Vec3d> points, Vec3d norm
     if (!(extent > 0) || !std::isfinite(extent)) return {};
     const int shift = 48 - std::ilogb(extent);
     const auto steps = [&](double length) { return static_cast<std::int64_t>(std::llrint(std::ldexp(length, shift))); };
-    std::vector<FlatGraph::Vertex> vertices(points.size());
+    std::vector<plane::EdgeGraph::Vertex> vertices(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const std::int64_t y = steps(points[i][v] - points[0][v]);
         vertices[i] = {{steps(points[i][u] - points[0][u]), normal[axis] < 0 ? -y : y}, i};
@@ -126,8 +126,8 @@ std::vector<FlatGraph::Vertex> flatten(std::span<const Vec3d> points, Vec3d norm
 }
 
 // The edges of the rings, tidy; without vertices if the polygon has no extent.
-FlatGraph flatGraph(std::span<const Vec3d> points, std::span<const std::uint32_t> ringEnds, Vec3d normal) {
-    FlatGraph graph;
+plane::EdgeGraph flatGraph(std::span<const Vec3d> points, std::span<const std::uint32_t> ringEnds, Vec3d normal) {
+    plane::EdgeGraph graph;
     graph.vertices = flatten(points, normal);
     if (graph.vertices.empty()) return graph;
     std::uint32_t begin = 0;
@@ -140,7 +140,7 @@ FlatGraph flatGraph(std::span<const Vec3d> points, std::span<const std::uint32_t
     return graph;
 }
 
-void triangulateBySweep(FlatGraph graph, std::span<const Vec3d> points, Triangulation& result) {
+void triangulateBySweep(plane::EdgeGraph graph, std::span<const Vec3d> points, Triangulation& result) {
     using Ends = std::pair<std::uint32_t, std::uint32_t>;
     const auto makePoint = [&](Ends first, double t, Ends second, double u) {
         const auto at = [&](std::uint32_t point) {
@@ -152,16 +152,16 @@ void triangulateBySweep(FlatGraph graph, std::span<const Vec3d> points, Triangul
         result.extraPoints.push_back((onEdge(first, t) + onEdge(second, u)) * 0.5);
         return static_cast<std::uint32_t>(points.size() + result.extraPoints.size() - 1);
     };
-    result.crossesTooOften = !cutCrossings(graph, maxCrossings(points.size()), makePoint);
+    result.crossesTooOften = !plane::cutCrossings(graph, maxCrossings(points.size()), makePoint);
     result.hasFailed = result.crossesTooOften || graph.vertices.empty();
     result.isSelfTouching = graph.isTouching;
-    if (!result.hasFailed) result.triangles = triangulateInside(graph);
+    if (!result.hasFailed) result.triangles = plane::triangulateInside(graph);
 }
 
 // GLU adds crossings one by one, each with a search through all edges.
-bool crossesTooOften(FlatGraph graph, std::size_t pointCount) {
+bool crossesTooOften(plane::EdgeGraph graph, std::size_t pointCount) {
     const auto noPoint = [](auto, double, auto, double) { return std::uint32_t{0}; };
-    return !cutCrossings(graph, maxCrossings(pointCount), noPoint);
+    return !plane::cutCrossings(graph, maxCrossings(pointCount), noPoint);
 }
 
 // GLU has the places where edges cross with the precision of a float; where many edges meet it lost 3 % of an area. So
@@ -196,16 +196,6 @@ void triangulateRings(std::span<const Vec3d> points, std::span<const std::uint32
 }
 
 }  // namespace
-
-Vec3d newellNormal(std::span<const Vec3d> ring) noexcept {
-    Vec3d normal{};
-    if (ring.empty()) return normal;
-    // Relative to the first point, to avoid cancellation with large world coordinates.
-    const Vec3d base = ring[0];
-    for (std::size_t i = 0; i < ring.size(); ++i)
-        normal = normal + cross(ring[i] - base, ring[(i + 1) % ring.size()] - base);
-    return normal;
-}
 
 Triangulation triangulatePolygon(std::span<const Vec3d> points, std::span<const std::uint32_t> ringEnds,
                                  TriangulateBy by) {

@@ -4,7 +4,7 @@
 /// and a ring that crosses itself still gets an area. The GLU tessellator does it for polygons as buildings have them; it
 /// is quadratic in their points, so those of many points have a sweep of our own.
 
-#include <svt/core/vec.hpp>
+#include <svt/plane/rings.hpp>
 
 #include <array>
 #include <cstdint>
@@ -38,8 +38,7 @@ enum class TriangulateBy : std::uint8_t {
     Sweep
 };
 
-/// Newell's normal of a ring: twice its area vector; robust for non-planar rings.
-[[nodiscard]] Vec3d newellNormal(std::span<const Vec3d> ring) noexcept;
+using plane::newellNormal;
 
 /// Triangulates one polygon. `ringEnds` as in model::Polygon: the first ring is the exterior one.
 /// Rings of fewer than three points are ignored. All points are used as corners, also those on a straight edge, so that

@@ -135,14 +135,8 @@ bool isClosed(const std::vector<model::Polygon>& faces) {
     return counts.empty();
 }
 
-Vec3d newellNormal(std::span<const Vec3d> ring) noexcept {
-    Vec3d sum{};
-    for (std::size_t i = 1; i + 1 < ring.size(); ++i) sum = sum + cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
-    return sum;
-}
-
 Vec3d newellNormal(const model::Polygon& face) noexcept {
-    return newellNormal(std::span(face.points).first(face.ringEnds.empty() ? 0 : face.ringEnds.front()));
+    return plane::newellNormal(std::span(face.points).first(face.ringEnds.empty() ? 0 : face.ringEnds.front()));
 }
 
 std::uint64_t pointCount(const std::vector<model::Polygon>& faces) noexcept {

@@ -3,6 +3,7 @@
 /// Polygons of one representation item, in metres, and functions that all of their makers share.
 
 #include <svt/model/building_model.hpp>
+#include <svt/plane/rings.hpp>
 #include <svt/readers/ifc_shape/transform.hpp>
 
 #include <cstdint>
@@ -41,7 +42,7 @@ void turnOver(std::vector<model::Polygon>& faces);
 [[nodiscard]] bool isClosed(const std::vector<model::Polygon>& faces);
 
 /// Newell's normal of a ring, or of the exterior ring of a face; its length is twice the area.
-[[nodiscard]] Vec3d newellNormal(std::span<const Vec3d> ring) noexcept;
+using plane::newellNormal;
 [[nodiscard]] Vec3d newellNormal(const model::Polygon& face) noexcept;
 
 [[nodiscard]] std::uint64_t pointCount(const std::vector<model::Polygon>& faces) noexcept;

@@ -314,7 +314,7 @@ bool layOut(const Surface& surface, const std::vector<std::vector<Vec3d>>& rings
 }
 
 void addRectangle(double lowU, double highU, double lowV, double highV, std::uint32_t channel,
-                  std::vector<FlatSegment>& segments) {
+                  std::vector<OverlaySegment>& segments) {
     const Vec3d a{lowU, lowV, 0}, b{highU, lowV, 0}, c{highU, highV, 0}, d{lowU, highV, 0};
     segments.push_back({a, b, channel, 1});
     segments.push_back({b, c, channel, 1});
@@ -326,7 +326,7 @@ constexpr int kMaxStrips = 512;
 constexpr std::uint64_t kMaxFaceSteps = 500'000'000, kSplineSteps = 2'000'000;
 
 // Marks every second strip between lines of equal parameter as the inside of a channel.
-void addStrips(const Surface& surface, const Layout& layout, std::vector<FlatSegment>& segments) {
+void addStrips(const Surface& surface, const Layout& layout, std::vector<OverlaySegment>& segments) {
     const double lowU = layout.lowU - 1, highU = layout.highU + 1, lowV = layout.lowV - 1, highV = layout.highV + 1;
     if (surface.kind == Entity::SurfaceOfLinearExtrusion) {
         double along = 0;
@@ -402,7 +402,7 @@ bool addCurvedFace(const IfcFile& file, RecordIndex record, const std::vector<st
             std::reverse(layout.rings[r].begin(), layout.rings[r].end());
             std::reverse(layout.places[r].begin(), layout.places[r].end());
         }
-    std::vector<FlatSegment> segments;
+    std::vector<OverlaySegment> segments;
     for (const auto& ring : layout.rings)
         for (std::size_t i = 0; i < ring.size(); ++i) segments.push_back({ring[i], ring[(i + 1) % ring.size()], 0, 1});
     addStrips(*surface, layout, segments);
@@ -413,9 +413,9 @@ bool addCurvedFace(const IfcFile& file, RecordIndex record, const std::vector<st
     const std::size_t before = faces.size();
     const std::uint64_t granted = std::min(kMaxFaceSteps, guard.stepsLeft());
     std::uint64_t left = granted;
-    std::vector<FlatFace> cells = overlay(segments, 3, stateOf, left);
+    std::vector<OverlayFace> cells = overlay(segments, 3, stateOf, left);
     guard.takeSteps(granted - std::min(left, granted));
-    for (FlatFace& cell : cells) {
+    for (OverlayFace& cell : cells) {
         std::uint64_t corners = 0;
         for (const auto& ring : cell.rings) corners += ring.size();
         if (!guard.takeSteps(corners * (points + surface->curve.size()))) break;

@@ -1,5 +1,6 @@
 #include <svt/readers/ifc_shape/overlay.hpp>
 
+#include <svt/plane/rings.hpp>
 #include <svt/readers/ifc_shape/curves.hpp>
 #include <svt/readers/ifc_shape/welder.hpp>
 
@@ -20,7 +21,7 @@ struct Net {
     std::int32_t count;  // from the lower to the higher vertex
 };
 
-struct FlatEdge {
+struct BorderEdge {
     Vertex from = 0, to = 0;
     std::vector<Net> nets;
     std::uint8_t left = 0, right = 0;  // states
@@ -44,11 +45,11 @@ double cross2(Vec3d a, Vec3d b) noexcept { return a.x * b.y - a.y * b.x; }
 
 class Overlay {
 public:
-    Overlay(std::span<const FlatSegment> segments, std::uint32_t channelCount,
+    Overlay(std::span<const OverlaySegment> segments, std::uint32_t channelCount,
             const std::function<std::uint8_t(std::span<const std::int32_t>)>& stateOf)
         : channelCount_(channelCount), stateOf_(stateOf), welder_(kSnap) {
         EdgeMap edges;
-        for (const FlatSegment& s : segments) {
+        for (const OverlaySegment& s : segments) {
             const Vertex from = welder_.add(s.from), to = welder_.add(s.to);
             addEdge(edges, from, to, s.channel, s.count);
         }
@@ -64,16 +65,16 @@ public:
     [[nodiscard]] std::size_t edgeCount() const noexcept { return edges_.size(); }
     [[nodiscard]] bool isTooMuch() const noexcept { return crossings_ > kMaxCrossings; }
 
-    std::vector<FlatFace> run() {
-        for (FlatEdge& edge : edges_) findStates(edge);
+    std::vector<OverlayFace> run() {
+        for (BorderEdge& edge : edges_) findStates(edge);
         std::vector<std::uint8_t> states;
-        for (const FlatEdge& edge : edges_) {
+        for (const BorderEdge& edge : edges_) {
             states.push_back(edge.left);
             states.push_back(edge.right);
         }
         std::sort(states.begin(), states.end());
         states.erase(std::unique(states.begin(), states.end()), states.end());
-        std::vector<FlatFace> faces;
+        std::vector<OverlayFace> faces;
         for (const std::uint8_t state : states)
             if (state != 0) traceFaces(state, faces);
         return faces;
@@ -143,7 +144,7 @@ private:
     }
 
     // The winding numbers on both sides of an edge, by a ray from its middle across it.
-    void findStates(FlatEdge& edge) {
+    void findStates(BorderEdge& edge) {
         const Vec3d a = at(edge.from), b = at(edge.to), middle = (a + b) * 0.5;
         const bool isSteep = std::abs(b.y - a.y) >= std::abs(b.x - a.x);
         // Coordinate along the ray and across it.
@@ -151,7 +152,7 @@ private:
         const auto across = [&](Vec3d p) { return isSteep ? p.y : p.x; };
         windings_.assign(channelCount_, 0);
         const double m = across(middle), reach = along(middle);
-        for (const FlatEdge& other : edges_) {
+        for (const BorderEdge& other : edges_) {
             if (&other == &edge) continue;
             const Vec3d p = at(other.from), q = at(other.to);
             const bool isLow = across(p) <= m;
@@ -173,10 +174,10 @@ private:
 
     using Ring = std::vector<Vertex>;
 
-    void traceFaces(std::uint8_t state, std::vector<FlatFace>& faces) {
+    void traceFaces(std::uint8_t state, std::vector<OverlayFace>& faces) {
         // Directed edges with the state on their left, by the vertex that they leave.
         std::vector<std::pair<Vertex, Vertex>> directed;
-        for (const FlatEdge& edge : edges_) {
+        for (const BorderEdge& edge : edges_) {
             if (edge.left == state && edge.right != state) directed.emplace_back(edge.from, edge.to);
             if (edge.right == state && edge.left != state) directed.emplace_back(edge.to, edge.from);
         }
@@ -195,7 +196,9 @@ private:
                 e = next;
             }
             // Left open where rounding broke the loop; the closing test of the result tells.
-            if (directed[e].second == directed[start].first) splitRing(ring, rings);
+            if (directed[e].second != directed[start].first) continue;
+            plane::splitAtRepeats(
+                ring, [](Vertex v) { return v; }, [&](Ring part) { rings.push_back(std::move(part)); });
         }
         group(rings, state, faces);
     }
@@ -223,23 +226,6 @@ private:
         return best;
     }
 
-    // Cuts a ring where it passes a vertex twice.
-    static void splitRing(const Ring& ring, std::vector<Ring>& rings) {
-        Ring open;
-        std::map<Vertex, std::size_t> seen;
-        for (const Vertex v : ring) {
-            if (const auto found = seen.find(v); found != seen.end()) {
-                const std::size_t from = found->second;
-                rings.emplace_back(open.begin() + std::ptrdiff_t(from), open.end());
-                for (std::size_t i = from; i < open.size(); ++i) seen.erase(open[i]);
-                open.resize(from);
-            }
-            seen.emplace(v, open.size());
-            open.push_back(v);
-        }
-        rings.push_back(std::move(open));
-    }
-
     [[nodiscard]] std::vector<Vec3d> pointsOf(const Ring& ring) const {
         std::vector<Vec3d> points;
         for (const Vertex v : ring) points.push_back(at(v));
@@ -247,7 +233,7 @@ private:
     }
 
     // Each hole to the smallest exterior ring around it.
-    void group(const std::vector<Ring>& rings, std::uint8_t state, std::vector<FlatFace>& faces) const {
+    void group(const std::vector<Ring>& rings, std::uint8_t state, std::vector<OverlayFace>& faces) const {
         const std::size_t first = faces.size();
         std::vector<double> areas;
         std::vector<std::vector<Vec3d>> holes;
@@ -289,15 +275,15 @@ private:
     std::size_t crossings_ = 0;
     const std::function<std::uint8_t(std::span<const std::int32_t>)>& stateOf_;
     Welder welder_;
-    std::vector<FlatEdge> edges_;
+    std::vector<BorderEdge> edges_;
     std::vector<std::int32_t> windings_;
 };
 
 }  // namespace
 
-std::vector<FlatFace> overlay(std::span<const FlatSegment> segments, std::uint32_t channelCount,
-                              const std::function<std::uint8_t(std::span<const std::int32_t>)>& stateOf,
-                              std::uint64_t& budget) {
+std::vector<OverlayFace> overlay(std::span<const OverlaySegment> segments, std::uint32_t channelCount,
+                                 const std::function<std::uint8_t(std::span<const std::int32_t>)>& stateOf,
+                                 std::uint64_t& budget) {
     // All pairs of segments may have to be looked at, then all pairs of pieces.
     const auto take = [&](std::uint64_t steps) {
         budget = steps > budget ? 0 : budget - steps;

@@ -16,14 +16,14 @@ namespace svt::readers::ifc {
 inline constexpr double kSnap = 1e-5;
 
 /// A directed piece of the boundary of a channel, z = 0; the channel's inside is on its left.
-struct FlatSegment {
+struct OverlaySegment {
     Vec3d from, to;
     std::uint32_t channel = 0;
     std::int32_t count = 1;  ///< how often
 };
 
 /// Exterior ring counter-clockwise, holes clockwise, z = 0.
-struct FlatFace {
+struct OverlayFace {
     std::vector<std::vector<Vec3d>> rings;
     std::uint8_t state = 0;
 };
@@ -36,8 +36,8 @@ struct FlatFace {
 /// \param budget      steps that may still be taken, which is made less; where it does not suffice nothing is returned,
 ///                     and it is 0
 /// Cost: O(n^2) for n pieces after cutting, with a small constant.
-[[nodiscard]] std::vector<FlatFace> overlay(std::span<const FlatSegment> segments, std::uint32_t channelCount,
-                                            const std::function<std::uint8_t(std::span<const std::int32_t>)>& stateOf,
-                                            std::uint64_t& budget);
+[[nodiscard]] std::vector<OverlayFace> overlay(
+    std::span<const OverlaySegment> segments, std::uint32_t channelCount,
+    const std::function<std::uint8_t(std::span<const std::int32_t>)>& stateOf, std::uint64_t& budget);
 
 }  // namespace svt::readers::ifc

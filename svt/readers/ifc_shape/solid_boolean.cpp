@@ -1,5 +1,6 @@
 #include <svt/readers/ifc_shape/solid_boolean.hpp>
 
+#include <svt/plane/box_tree.hpp>
 #include <svt/readers/ifc_shape/overlay.hpp>
 #include <svt/readers/ifc_shape/sweeps.hpp>
 #include <svt/readers/ifc_shape/welder.hpp>
@@ -79,12 +80,6 @@ Operand makeOperand(const Polygons& faces) {
     return operand;
 }
 
-Box3d grown(Box3d box, double by) noexcept {
-    box.min = box.min - Vec3d{by, by, by};
-    box.max = box.max + Vec3d{by, by, by};
-    return box;
-}
-
 class Boolean {
 public:
     Boolean(BooleanOperator op, const std::vector<Polygons>& operands, std::uint64_t& budget)
@@ -162,7 +157,7 @@ private:
     }
 
     void evaluate(const Plane& plane) {
-        const Box3d region = grown(plane.region, 10 * kSnap);
+        const Box3d region = plane::grown(plane.region, 10 * kSnap);
         std::vector<std::uint32_t> near;
         for (std::uint32_t o = 0; o < operands_.size(); ++o)
             if (operands_[o].box.overlaps(region)) near.push_back(o);
@@ -170,7 +165,7 @@ private:
         if (op_ == BooleanOperator::Difference && !hasFirst) return;
         if (op_ == BooleanOperator::Intersection && near.size() < operands_.size()) return;
         if (near.size() == 1) return keepFaces(plane);
-        std::vector<FlatSegment> segments;
+        std::vector<OverlaySegment> segments;
         for (const std::uint32_t o : near)
             for (std::uint32_t side = 0; side < 2; ++side) cut(plane, o, side, segments);
         const auto stateOf = [&](std::span<const std::int32_t> windings) {
@@ -178,7 +173,7 @@ private:
             return static_cast<std::uint8_t>(below == above ? 0 : below ? 1 : 2);
         };
         const auto channels = static_cast<std::uint32_t>(2 * operands_.size());
-        for (const FlatFace& face : overlay(segments, channels, stateOf, budget_)) {
+        for (const OverlayFace& face : overlay(segments, channels, stateOf, budget_)) {
             std::vector<std::vector<Vec3d>> rings;
             for (std::vector<Vec3d> ring : face.rings) {
                 for (Vec3d& p : ring) p = plane.axes.point(p);
@@ -202,7 +197,7 @@ private:
     }
 
     // The section of an operand just below (side 0) or just above (side 1) a plane, in the axes of the plane.
-    void cut(const Plane& plane, std::uint32_t o, std::uint32_t side, std::vector<FlatSegment>& segments) {
+    void cut(const Plane& plane, std::uint32_t o, std::uint32_t side, std::vector<OverlaySegment>& segments) {
         const Operand& operand = operands_[o];
         if (!take(operand.vertices.size() + 4 * operand.faces.size())) return;
         distances_.clear();

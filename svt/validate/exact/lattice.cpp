@@ -3,16 +3,15 @@
 namespace svt::validate {
 namespace {
 
-// Not of standard C++, but of each compiler that SVT is built with.
-__extension__ using Int128 = __int128;
+using plane::Wide;
 
 constexpr double kReach = 1099511627776.0;  // 2^40: products of three differences then fit 128 bits
 // Rounding error of the determinants below, relative to the sum of their terms' magnitudes: at most 8 roundings.
 constexpr double kRounding = 8 * 1.2e-16;
 
-int signOf(Int128 value) noexcept { return value > 0 ? 1 : value < 0 ? -1 : 0; }
+int signOf(Wide value) noexcept { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
-Int128 product(std::int64_t a, std::int64_t b) noexcept { return static_cast<Int128>(a) * b; }
+Wide product(std::int64_t a, std::int64_t b) noexcept { return static_cast<Wide>(a) * b; }
 
 bool isSame(int a, int b, int c) noexcept { return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0); }
 
@@ -30,17 +29,6 @@ Lattice::Lattice(const Box3d& bounds) noexcept {
 Point Lattice::toLattice(Vec3d world) const noexcept {
     const Vec3d at = (world - origin_) / unit_;
     return {std::llround(at.x), std::llround(at.y), std::llround(at.z)};
-}
-
-int turn(Point2 a, Point2 b, Point2 c) noexcept {
-    const std::int64_t bu = b.u - a.u, bv = b.v - a.v, cu = c.u - a.u, cv = c.v - a.v;
-    const double left = static_cast<double>(bu) * static_cast<double>(cv);
-    const double right = static_cast<double>(bv) * static_cast<double>(cu);
-    const double difference = left - right;
-    const double error = kRounding * (std::abs(left) + std::abs(right));
-    if (difference > error) return 1;
-    if (difference < -error) return -1;
-    return signOf(product(bu, cv) - product(bv, cu));
 }
 
 int side(const Point& a, const Point& b, const Point& c, const Point& d) noexcept {
@@ -71,26 +59,6 @@ int axisOf(const Point& a, const Point& b, const Point& c) noexcept {
     return -1;
 }
 
-bool isBetween(Point2 a, Point2 b, Point2 p) noexcept {
-    return std::min(a.u, b.u) <= p.u && p.u <= std::max(a.u, b.u) && std::min(a.v, b.v) <= p.v &&
-           p.v <= std::max(a.v, b.v);
-}
-
-Meeting meet(Point2 a, Point2 b, Point2 c, Point2 d) noexcept {
-    if (std::max(a.u, b.u) < std::min(c.u, d.u) || std::max(c.u, d.u) < std::min(a.u, b.u) ||
-        std::max(a.v, b.v) < std::min(c.v, d.v) || std::max(c.v, d.v) < std::min(a.v, b.v))
-        return Meeting::None;
-    const int abc = turn(a, b, c), abd = turn(a, b, d), cda = turn(c, d, a), cdb = turn(c, d, b);
-    if (abc * abd < 0 && cda * cdb < 0) return Meeting::Cross;
-    const bool isTouch = (abc == 0 && isBetween(a, b, c)) || (abd == 0 && isBetween(a, b, d)) ||
-                         (cda == 0 && isBetween(c, d, a)) || (cdb == 0 && isBetween(c, d, b));
-    return isTouch ? Meeting::Touch : Meeting::None;
-}
-
-bool holds(const std::array<Point2, 3>& t, Point2 p) noexcept {
-    return isSame(turn(t[0], t[1], p), turn(t[1], t[2], p), turn(t[2], t[0], p));
-}
-
 Meeting meet(const Point& p, const Point& q, const std::array<Point, 3>& t) noexcept {
     const int ofP = side(t[0], t[1], t[2], p), ofQ = side(t[0], t[1], t[2], q);
     if (ofP * ofQ > 0) return Meeting::None;
@@ -101,8 +69,8 @@ Meeting meet(const Point& p, const Point& q, const std::array<Point, 3>& t) noex
     }
     const int axis = axisOf(t[0], t[1], t[2]);
     if (axis < 0) return Meeting::None;
-    const std::array<Point2, 3> flat{dropped(t[0], axis), dropped(t[1], axis), dropped(t[2], axis)};
-    const Point2 a = dropped(p, axis), b = dropped(q, axis);
+    const std::array<plane::Point, 3> flat{dropped(t[0], axis), dropped(t[1], axis), dropped(t[2], axis)};
+    const plane::Point a = dropped(p, axis), b = dropped(q, axis);
     if (ofP == 0 && holds(flat, a)) return Meeting::Touch;
     if (ofQ == 0 && holds(flat, b)) return Meeting::Touch;
     if (ofP != 0 || ofQ != 0) return Meeting::None;

@@ -2,11 +2,8 @@
 /// \file
 /// One index for all points that are closer to each other than a tolerance: the first of them stands for the others.
 
+#include <svt/plane/welder.hpp>
 #include <svt/validate/exact/lattice.hpp>
-
-#include <cstdint>
-#include <unordered_map>
-#include <vector>
 
 namespace svt::validate {
 
@@ -21,18 +18,12 @@ public:
     /// The index of `point`: of the first added point that is near enough, else a new one.
     /// Cost: O(1) unless many points crowd within the tolerance.
     std::uint32_t add(const Point& point);
-    [[nodiscard]] const std::vector<Point>& points() const noexcept { return points_; }
+    [[nodiscard]] const std::vector<Point>& points() const noexcept { return welder_.points(); }
 
 private:
-    struct CellHash {
-        std::size_t operator()(const Point& p) const noexcept;
-    };
-
     double tolerance_;
     std::int64_t reach_, cell_;
-    std::vector<Point> points_;
-    std::vector<std::uint32_t> next_;                        // of the same cell, kNone at the end
-    std::unordered_map<Point, std::uint32_t, CellHash> at_;  // cell -> its last point
+    plane::Welder<Point> welder_;
 };
 
 }  // namespace svt::validate

@@ -1,15 +1,14 @@
 #include <svt/validate/polygons/polygon_checks.hpp>
 
+#include <svt/plane/edges.hpp>
 #include <svt/validate/exact/snapper.hpp>
+#include <svt/validate/polygons/groups.hpp>
 #include <svt/validate/polygons/plane_fit.hpp>
-#include <svt/validate/polygons/sweep_edges.hpp>
-#include <svt/validate/polygons/triangulate.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -23,7 +22,7 @@ constexpr double kNoise = 2;
 struct Ring {
     std::vector<std::uint32_t> ids;                            // of the snapped points
     std::vector<std::uint32_t> flat;                           // in Polygon::points
-    std::vector<Point2> at;                                    // projected
+    std::vector<plane::Point> at;                              // projected
     std::map<std::size_t, std::vector<std::uint32_t>> splits;  // edge -> ids of points of other rings that lie on it
     [[nodiscard]] std::size_t size() const { return ids.size(); }
     [[nodiscard]] std::size_t after(std::size_t i) const { return i + 1 == ids.size() ? 0 : i + 1; }
@@ -32,26 +31,25 @@ struct Ring {
 enum class Where { Outside, On, Inside };
 
 // Where a point lies to a ring that does not cross itself.
-Where locate(const Ring& ring, Point2 p) {
+Where locate(const Ring& ring, plane::Point p) {
     bool isInside = false;
     for (std::size_t i = 0; i < ring.size(); ++i) {
-        const Point2 a = ring.at[i], b = ring.at[ring.after(i)];
-        const int t = turn(a, b, p);
-        if (t == 0 && isBetween(a, b, p)) return Where::On;
-        if ((a.v > p.v) != (b.v > p.v) && (t > 0) == (b.v > a.v)) isInside = !isInside;
+        const plane::Point a = ring.at[i], b = ring.at[ring.after(i)];
+        if (liesOn(p, a, b)) return Where::On;
+        if ((a.v > p.v) != (b.v > p.v) && (turn(a, b, p) > 0) == (b.v > a.v)) isInside = !isInside;
     }
     return isInside ? Where::Inside : Where::Outside;
 }
 
 // Distance of p from the line through a and b, in steps.
-double distanceFromLine(Point2 a, Point2 b, Point2 p) {
+double distanceFromLine(plane::Point a, plane::Point b, plane::Point p) {
     const double u = static_cast<double>(b.u - a.u), v = static_cast<double>(b.v - a.v);
     const double pu = static_cast<double>(p.u - a.u), pv = static_cast<double>(p.v - a.v);
     const double l = std::sqrt(u * u + v * v);
     return l > 0 ? std::abs(u * pv - v * pu) / l : std::sqrt(pu * pu + pv * pv);
 }
 
-double distanceFromSegment(Point2 a, Point2 b, Point2 p) {
+double distanceFromSegment(plane::Point a, plane::Point b, plane::Point p) {
     const double u = static_cast<double>(b.u - a.u), v = static_cast<double>(b.v - a.v);
     const double pu = static_cast<double>(p.u - a.u), pv = static_cast<double>(p.v - a.v);
     const double square = u * u + v * v;
@@ -80,9 +78,8 @@ public:
 private:
     struct Edge {
         std::size_t ring, index;
-        Point2 a, b;
-        std::int64_t low, high;  // along u
-        std::int64_t lowV, highV;
+        plane::Point a, b;
+        plane::Box box;
     };
 
     Defect& report(Code code, Vec3d at, std::string message) {
@@ -176,21 +173,21 @@ private:
             for (const std::uint32_t id : ring.ids) ring.at.push_back(dropped(snapper_.points()[id], axis));
         for (std::size_t r = 0; r < rings_.size(); ++r)
             for (std::size_t i = 0; i < rings_[r].size(); ++i) {
-                const Point2 a = rings_[r].at[i], b = rings_[r].at[rings_[r].after(i)];
-                edges_.push_back(
-                    {r, i, a, b, std::min(a.u, b.u), std::max(a.u, b.u), std::min(a.v, b.v), std::max(a.v, b.v)});
+                const plane::Point a = rings_[r].at[i], b = rings_[r].at[rings_[r].after(i)];
+                edges_.push_back({r, i, a, b, plane::boxOf(a, b)});
             }
-        std::stable_sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.low < b.low; });
+        std::stable_sort(edges_.begin(), edges_.end(),
+                         [](const Edge& a, const Edge& b) { return a.box.low.u < b.box.low.u; });
     }
 
     // Most polygons are simple. Of those with many edges it is asked first, since long edges side by side have common ranges.
     [[nodiscard]] bool isSimple() {
         constexpr std::size_t kFew = 64;
         if (isSimple_ || edges_.size() < kFew) return isSimple_;
-        std::vector<FlatEdge> edges;
+        std::vector<std::pair<plane::Point, plane::Point>> edges;
         edges.reserve(edges_.size());
-        for (const Edge& edge : edges_) edges.push_back({edge.a, edge.b});
-        return isSimple_ = !meetBeyondEnds(edges);
+        for (const Edge& edge : edges_) edges.emplace_back(edge.a, edge.b);
+        return isSimple_ = !plane::meetBeyondEnds(edges);
     }
 
     // Calls visit(edge, edge, meeting) for all edges that have a point in common, unless those are neighbours alone; stops
@@ -199,8 +196,8 @@ private:
     bool forEachMeeting(const Visit& visit) {
         if (isSimple()) return true;
         for (std::size_t i = 0; i < edges_.size(); ++i)
-            for (std::size_t j = i + 1; j < edges_.size() && edges_[j].low <= edges_[i].high; ++j) {
-                if (edges_[j].lowV > edges_[i].highV || edges_[j].highV < edges_[i].lowV) continue;
+            for (std::size_t j = i + 1; j < edges_.size() && edges_[j].box.low.u <= edges_[i].box.high.u; ++j) {
+                if (!edges_[j].box.overlaps(edges_[i].box)) continue;
                 const Meeting meeting = meet(edges_[i].a, edges_[i].b, edges_[j].a, edges_[j].b);
                 if (meeting != Meeting::None && !visit(edges_[i], edges_[j], meeting)) return false;
             }
@@ -234,9 +231,9 @@ private:
     // The corner at which two edges touch; size() where they cross.
     static std::size_t touchPoint(const Ring& ring, const Edge& e, const Edge& f, Meeting meeting) {
         if (meeting == Meeting::Cross) return ring.size();
-        if (turn(f.a, f.b, e.a) == 0 && isBetween(f.a, f.b, e.a)) return e.index;
-        if (turn(f.a, f.b, e.b) == 0 && isBetween(f.a, f.b, e.b)) return ring.after(e.index);
-        return turn(e.a, e.b, f.a) == 0 && isBetween(e.a, e.b, f.a) ? f.index : ring.after(f.index);
+        if (liesOn(e.a, f.a, f.b)) return e.index;
+        if (liesOn(e.b, f.a, f.b)) return ring.after(e.index);
+        return liesOn(f.a, e.a, e.b) ? f.index : ring.after(f.index);
     }
 
     [[nodiscard]] Vec3d crossing(const Ring& ring, const Edge& e, const Edge& f) const {
@@ -315,7 +312,7 @@ private:
     static bool overlapAlongLine(const Edge& e, const Edge& f) {
         if (turn(e.a, e.b, f.a) != 0 || turn(e.a, e.b, f.b) != 0) return false;
         const bool alongU = std::abs(e.a.u - e.b.u) >= std::abs(e.a.v - e.b.v);
-        const auto value = [&](Point2 p) { return alongU ? p.u : p.v; };
+        const auto value = [&](plane::Point p) { return alongU ? p.u : p.v; };
         return std::max(std::min(value(e.a), value(e.b)), std::min(value(f.a), value(f.b))) <
                std::min(std::max(value(e.a), value(e.b)), std::max(value(f.a), value(f.b)));
     }
@@ -324,10 +321,8 @@ private:
     void noteTouches(const Edge& e, const Edge& f) {
         const Ring& ring = rings_[e.ring];
         for (const std::size_t corner : {e.index, ring.after(e.index)}) {
-            const Point2 p = ring.at[corner];
-            const bool isOn =
-                (turn(f.a, f.b, p) == 0 && isBetween(f.a, f.b, p)) || distanceFromSegment(f.a, f.b, p) <= kNoise;
-            if (!isOn) continue;
+            const plane::Point p = ring.at[corner];
+            if (!liesOn(p, f.a, f.b) && distanceFromSegment(f.a, f.b, p) > kNoise) continue;
             touches_.insert({e.ring, ring.ids[corner]});
             touches_.insert({f.ring, ring.ids[corner]});
             if (p != f.a && p != f.b) {
@@ -340,11 +335,11 @@ private:
 
     // Where `ring` lies to `other`, which it does not cross.
     [[nodiscard]] Where locateRing(const Ring& ring, const Ring& other) const {
-        for (const Point2 p : ring.at)
+        for (const plane::Point p : ring.at)
             if (const Where where = locate(other, p); where != Where::On) return where;
         for (std::size_t i = 0; i < ring.size(); ++i) {
-            const Point2 a = ring.at[i], b = ring.at[ring.after(i)];
-            const Point2 middle{a.u + (b.u - a.u) / 2, a.v + (b.v - a.v) / 2};
+            const plane::Point a = ring.at[i], b = ring.at[ring.after(i)];
+            const plane::Point middle{a.u + (b.u - a.u) / 2, a.v + (b.v - a.v) / 2};
             if (const Where where = locate(other, middle); where != Where::On) return where;
         }
         return Where::On;
@@ -370,32 +365,29 @@ private:
     // boxes lie within each other.
     [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> findNestedRings() const {
         struct Extent {
-            Point2 low, high;
+            plane::Box box;
             std::size_t ring;
         };
         std::vector<Extent> extents;
         for (std::size_t r = 1; r < rings_.size(); ++r) {
-            Extent extent{rings_[r].at[0], rings_[r].at[0], r};
-            for (const Point2 p : rings_[r].at) {
-                extent.low = {std::min(extent.low.u, p.u), std::min(extent.low.v, p.v)};
-                extent.high = {std::max(extent.high.u, p.u), std::max(extent.high.v, p.v)};
-            }
-            extents.push_back(extent);
+            Extent& extent = extents.emplace_back();
+            extent.ring = r;
+            for (const plane::Point p : rings_[r].at) extent.box.add(p);
         }
         std::sort(extents.begin(), extents.end(), [](const Extent& a, const Extent& b) {
-            return std::tie(a.low.u, a.ring) < std::tie(b.low.u, b.ring);
+            return std::tie(a.box.low.u, a.ring) < std::tie(b.box.low.u, b.ring);
         });
         std::optional<std::pair<std::size_t, std::size_t>> first;
         for (std::size_t outer = 0; outer < extents.size(); ++outer) {
-            const Extent& o = extents[outer];
+            const plane::Box& o = extents[outer].box;
             std::size_t inner = outer;
-            while (inner > 0 && extents[inner - 1].low.u == o.low.u) --inner;
-            for (; inner < extents.size() && extents[inner].low.u <= o.high.u; ++inner) {
-                const Extent& i = extents[inner];
-                if (inner == outer || i.high.u > o.high.u || i.low.v < o.low.v || i.high.v > o.high.v) continue;
-                const std::pair found{i.ring, o.ring};
+            while (inner > 0 && extents[inner - 1].box.low.u == o.low.u) --inner;
+            for (; inner < extents.size() && extents[inner].box.low.u <= o.high.u; ++inner) {
+                if (inner == outer || !o.contains(extents[inner].box.low) || !o.contains(extents[inner].box.high))
+                    continue;
+                const std::pair found{extents[inner].ring, extents[outer].ring};
                 if (first && !(found < *first)) continue;
-                if (locateRing(rings_[i.ring], rings_[o.ring]) == Where::Inside) first = found;
+                if (locateRing(rings_[found.first], rings_[found.second]) == Where::Inside) first = found;
             }
         }
         return first;
@@ -403,21 +395,15 @@ private:
 
     // Rings and the points where they touch, as a graph: a circle of them cuts the interior in two.
     bool checkConnected() {
-        std::vector<std::size_t> leader(rings_.size() + snapper_.points().size());
-        std::iota(leader.begin(), leader.end(), std::size_t{0});
-        const auto leaderOf = [&](std::size_t i) {
-            while (leader[i] != i) i = leader[i] = leader[leader[i]];
-            return i;
-        };
+        Groups groups(rings_.size() + snapper_.points().size());
         for (const auto& [ring, id] : touches_) {
-            const std::size_t a = leaderOf(ring), b = leaderOf(rings_.size() + id);
-            if (a == b) {
+            if (groups.leaderOf(ring) == groups.leaderOf(rings_.size() + id)) {
                 markRing(report(Code::PolygonSplit, polygon_.points[firstAt_[id]],
                                 "rings touch so that they cut the interior of the polygon in two"),
                          rings_[ring]);
                 return false;
             }
-            leader[b] = a;
+            groups.join(ring, rings_.size() + id);
         }
         return true;
     }
@@ -425,9 +411,9 @@ private:
     void cutIntoTriangles() {
         std::vector<Vec3d> points(polygon_.points.size());
         for (std::size_t i = 0; i < firstAt_.size(); ++i) points[firstAt_[i]] = Lattice::local(snapper_.points()[i]);
-        std::vector<std::vector<RingCorner>> rings;
+        std::vector<std::vector<plane::RingCorner>> rings;
         for (Ring& ring : rings_) {
-            std::vector<RingCorner> corners;
+            std::vector<plane::RingCorner> corners;
             for (std::size_t i = 0; i < ring.size(); ++i) {
                 corners.push_back({ring.at[i], firstAt_[ring.ids[i]]});
                 const auto split = ring.splits.find(i);
@@ -442,13 +428,13 @@ private:
             if (turns_[0] < 0) std::reverse(corners.begin(), corners.end());
             rings.push_back(std::move(corners));
         }
-        result_.triangles = triangulate(rings, points);
+        result_.triangles = plane::triangulateRings(rings, points);
         if (turns_[0] < 0)
             for (Corners& corners : result_.triangles) std::swap(corners[1], corners[2]);
         points_ = std::move(points);
     }
 
-    [[nodiscard]] Point2 flatOf(std::uint32_t id) const {
+    [[nodiscard]] plane::Point flatOf(std::uint32_t id) const {
         for (const Ring& ring : rings_)
             for (std::size_t i = 0; i < ring.size(); ++i)
                 if (ring.ids[i] == id) return ring.at[i];

@@ -4,15 +4,17 @@
 /// the last test and all of shells need them.
 
 #include <svt/model/building_model.hpp>
+#include <svt/plane/triangulate_rings.hpp>
 #include <svt/validate/exact/lattice.hpp>
 #include <svt/validate/polygons/defect.hpp>
-#include <svt/validate/polygons/triangulate.hpp>
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
 namespace svt::validate {
+
+using plane::Corners;
 
 struct PolygonTolerances {
     double snap = 0.001;  ///< metres

@@ -19,8 +19,8 @@ std::string textOf(const Feature& feature, std::string_view name) {
     return {};
 }
 
-IntegerBox boundsOf(const SolidBodies& cell) {
-    IntegerBox box;
+Box3d boundsOf(const SolidBodies& cell) {
+    Box3d box;
     for (const Body& body : cell.solids) box.add(body.tree().bounds());
     return box;
 }
@@ -78,12 +78,12 @@ private:
         std::vector<std::size_t> order(cells_.size());
         for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
         std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-            return boxes_[a].low.x != boxes_[b].low.x ? boxes_[a].low.x < boxes_[b].low.x : a < b;
+            return boxes_[a].min.x != boxes_[b].min.x ? boxes_[a].min.x < boxes_[b].min.x : a < b;
         });
         std::vector<std::pair<std::size_t, std::size_t>> pairs;
         for (std::size_t i = 0; i < order.size(); ++i)
-            for (std::size_t j = i + 1; j < order.size() && boxes_[order[j]].low.x <= boxes_[order[i]].high.x; ++j)
-                if (boxes_[order[i]].meets(boxes_[order[j]])) pairs.push_back(std::minmax(order[i], order[j]));
+            for (std::size_t j = i + 1; j < order.size() && boxes_[order[j]].min.x <= boxes_[order[i]].max.x; ++j)
+                if (boxes_[order[i]].overlaps(boxes_[order[j]])) pairs.push_back(std::minmax(order[i], order[j]));
         std::sort(pairs.begin(), pairs.end());
         for (const auto& [a, b] : pairs)
             if (!mayOverlap(cells_[a].feature, cells_[b].feature)) comparePair(cells_[a], cells_[b]);
@@ -118,8 +118,8 @@ private:
 
     // Distance of a point from a cell, metres; 0 inside and on its surface.
     [[nodiscard]] double distanceTo(const SolidBodies& cell, Vec3d world) const {
-        const IntegerBox box = boundsOf(cell);
-        const Vec3d low = lattice_.toWorld(box.low), high = lattice_.toWorld(box.high);
+        const Box3d box = boundsOf(cell);
+        const Vec3d low = lattice_.toWorld(box.min), high = lattice_.toWorld(box.max);
         Vec3d beyond{};
         for (int axis = 0; axis < 3; ++axis)
             beyond[axis] = std::max({low[axis] - world[axis], world[axis] - high[axis], 0.0});
@@ -152,10 +152,10 @@ private:
         if (from == byId_.end() || to == byId_.end()) return;
         const SolidBodies *one = cellOfState(from->second), *other = cellOfState(to->second);
         if (one == nullptr || other == nullptr || one == other) return;
-        const auto reach = static_cast<std::int64_t>(std::ceil(snap_)) + 1;
+        const double reach = std::ceil(snap_) + 1;
         for (const Body& a : one->solids)
             for (const Body& b : other->solids) {
-                if (!a.tree().bounds().grown(reach).meets(b.tree().bounds())) continue;
+                if (!plane::grown(a.tree().bounds(), reach).overlaps(b.tree().bounds())) continue;
                 const Relation relation = relate(a, b, snap_);
                 if (relation.haveContact || relation.shareFaces() || relation.overlap()) return;
             }
@@ -173,8 +173,8 @@ private:
         for (const model::Polyline& line : model_.lines)
             if (line.feature == transition && line.points.size() > 1)
                 return (line.points[line.points.size() / 2 - 1] + line.points[line.points.size() / 2]) * 0.5;
-        const IntegerBox box = boundsOf(cell);
-        return (lattice_.toWorld(box.low) + lattice_.toWorld(box.high)) * 0.5;
+        const Box3d box = boundsOf(cell);
+        return (lattice_.toWorld(box.min) + lattice_.toWorld(box.max)) * 0.5;
     }
 
     const model::BuildingModel& model_;
@@ -184,7 +184,7 @@ private:
     std::unordered_map<std::string, FeatureIndex> byId_;
     std::unordered_map<FeatureIndex, std::size_t> cellOf_;
     std::unordered_map<FeatureIndex, std::set<FeatureIndex>> layersOf_;
-    std::vector<IntegerBox> boxes_;
+    std::vector<Box3d> boxes_;
     std::set<FeatureIndex> invalid_;
     GroupReport report_;
 };

@@ -17,7 +17,7 @@ Point rounded(Vec3d p) noexcept { return {std::llround(p.x), std::llround(p.y), 
 
 // On which side of the line a b the point p lies that is moved by an infinitely small way along u, and by an infinitely
 // smaller one along v (simulation of simplicity, Edelsbrunner and Muecke 1990). Never 0 for a line of two points.
-int turnMoved(Point2 a, Point2 b, Point2 p) noexcept {
+int turnMoved(plane::Point a, plane::Point b, plane::Point p) noexcept {
     if (const int exact = turn(a, b, p); exact != 0) return exact;
     if (a.v != b.v) return a.v > b.v ? 1 : -1;
     return b.u > a.u ? 1 : b.u < a.u ? -1 : 0;
@@ -102,20 +102,18 @@ bool halve(const Piece& piece, const Segment& segment, Vec3d normal, double leas
 
 }  // namespace
 
-Body::Body(std::vector<Corners> triangles, PointSet points) : triangles_(std::move(triangles)), points_(points) {
-    tree_.build(boxesOf(triangles_, points_));
-}
+Body::Body(std::vector<Corners> triangles, PointSet points)
+    : triangles_(std::move(triangles)), points_(points), tree_(treeOf(boxesOf(triangles_, points_))) {}
 
 bool Body::encloses(Vec3d p) const {
     const Point at = rounded(p);
-    const Point2 flat = dropped(at, 2);
+    const plane::Point flat = dropped(at, 2);
     bool isInside = false;
-    IntegerBox ray;
-    ray.low = at;
-    ray.high = {at.x, at.y, IntegerBox::kFar};
+    Box3d ray{Lattice::local(at), Lattice::local(at)};
+    ray.max.z = kInfinity;
     tree_.forEach(ray, [&](std::uint32_t t) {
         const Triangle corners = triangle(t);
-        const Point2 a = dropped(corners[0], 2), b = dropped(corners[1], 2), c = dropped(corners[2], 2);
+        const plane::Point a = dropped(corners[0], 2), b = dropped(corners[1], 2), c = dropped(corners[2], 2);
         const int ab = turnMoved(a, b, flat), bc = turnMoved(b, c, flat), ca = turnMoved(c, a, flat);
         if (ab == 0 || ab != bc || bc != ca) return;
         if (side(corners[0], corners[1], corners[2], at) == -ab) isInside = !isInside;
@@ -124,11 +122,10 @@ bool Body::encloses(Vec3d p) const {
 }
 
 std::optional<Body::Nearest> Body::near(Vec3d p, double reach, Vec3d normal) const {
-    IntegerBox box;
-    box.add(rounded(p));
+    const Vec3d at = Lattice::local(rounded(p));
     std::optional<Nearest> best;
     double bestParallel = -1;
-    tree_.forEach(box.grown(static_cast<std::int64_t>(std::ceil(reach)) + 1), [&](std::uint32_t t) {
+    tree_.forEach(plane::grown({at, at}, std::ceil(reach) + 1), [&](std::uint32_t t) {
         const Triangle corners = triangle(t);
         const Vec3d a = Lattice::local(corners[0]), b = Lattice::local(corners[1]), c = Lattice::local(corners[2]);
         const double distance = length(nearestOf(a, b, c, p) - p);
@@ -164,9 +161,9 @@ std::vector<Piece> cutTriangle(const Triangle& triangle, const std::vector<Segme
 
 std::vector<Segment> linesOn(const Triangle& triangle, const Body& body, double noise) {
     std::vector<Segment> lines;
-    IntegerBox box;
-    for (const Point& corner : triangle) box.add(corner);
-    body.tree().forEach(box.grown(static_cast<std::int64_t>(std::ceil(noise)) + 1), [&](std::uint32_t t) {
+    Box3d box;
+    for (const Point& corner : triangle) box.add(Lattice::local(corner));
+    body.tree().forEach(plane::grown(box, std::ceil(noise) + 1), [&](std::uint32_t t) {
         const Triangle other = body.triangle(t);
         bool isCoplanar = false;
         if (const auto line = cutByPlane(triangle, other, noise, isCoplanar)) {
@@ -220,10 +217,9 @@ bool Relation::areSame() const noexcept {
 
 Relation relate(const Body& first, const Body& second, double noise) {
     Relation relation;
-    const std::int64_t reach = static_cast<std::int64_t>(std::ceil(noise));
     for (std::uint32_t t = 0; t < first.triangles().size() && !relation.crossing; ++t) {
         const Triangle a = first.triangle(t);
-        second.tree().forEach(first.tree().boxes()[t].grown(reach), [&](std::uint32_t u) {
+        second.tree().forEach(plane::grown(first.tree().boxes()[t], std::ceil(noise)), [&](std::uint32_t u) {
             const Triangle b = second.triangle(u);
             relation.haveContact = relation.haveContact || triangleMeets(a, b);
             if (!relation.crossing && triangleCrosses(a, b, noise)) {

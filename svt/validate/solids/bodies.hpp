@@ -20,7 +20,7 @@ public:
 
     [[nodiscard]] const std::vector<Corners>& triangles() const noexcept { return triangles_; }
     [[nodiscard]] const PointSet& points() const noexcept { return points_; }
-    [[nodiscard]] const TriangleTree& tree() const noexcept { return tree_; }
+    [[nodiscard]] const plane::BoxTree& tree() const noexcept { return tree_; }
     [[nodiscard]] Triangle triangle(std::uint32_t t) const { return points_.corners(triangles_[t]); }
 
     /// True if `p` (units) is enclosed. Exact for the nearest point of the lattice, which must not lie on the surface.
@@ -36,7 +36,7 @@ public:
 private:
     std::vector<Corners> triangles_;
     PointSet points_;
-    TriangleTree tree_;
+    plane::BoxTree tree_;
 };
 
 /// A convex part of a triangle.

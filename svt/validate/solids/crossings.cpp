@@ -16,7 +16,7 @@ bool foldOntoEachOther(const Point& p, const Point& q, const Point& a, const Poi
     if (side(p, q, a, b) != 0) return false;
     const int axis = axisOf(p, q, a);
     if (axis < 0) return false;
-    const Point2 from = dropped(p, axis), to = dropped(q, axis);
+    const plane::Point from = dropped(p, axis), to = dropped(q, axis);
     return turn(from, to, dropped(a, axis)) == turn(from, to, dropped(b, axis));
 }
 
@@ -145,17 +145,16 @@ std::optional<Segment> clippedTo(const Triangle& t, const Segment& s, double noi
     return Segment{s[0] + along * from, s[0] + along * to};
 }
 
-std::vector<IntegerBox> boxesOf(std::span<const Corners> triangles, const PointSet& points) {
-    std::vector<IntegerBox> boxes(triangles.size());
+std::vector<Box3d> boxesOf(std::span<const Corners> triangles, const PointSet& points) {
+    std::vector<Box3d> boxes(triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t)
-        for (const std::uint32_t corner : triangles[t]) boxes[t].add(points.at(corner));
+        for (const std::uint32_t corner : triangles[t]) boxes[t].add(points.units(corner));
     return boxes;
 }
 
 void checkIntersections(const Shell& shell, const PointSet& points, std::vector<Defect>& defects) {
-    TriangleTree tree;
-    tree.build(boxesOf(shell.triangles, points));
-    std::vector<RoundTriangle> triangles;
+    plane::BoxTree tree = treeOf(boxesOf(shell.triangles, points));
+    std::vector<plane::SpaceTriangle> triangles;
     triangles.reserve(shell.triangles.size());
     for (const Corners& t : shell.triangles)
         triangles.push_back({points.units(t[0]), points.units(t[1]), points.units(t[2])});

@@ -33,6 +33,6 @@ using Segment = std::array<Vec3d, 2>;
 void checkIntersections(const Shell& shell, const PointSet& points, std::vector<Defect>& defects);
 
 /// Boxes of triangles.
-[[nodiscard]] std::vector<IntegerBox> boxesOf(std::span<const Corners> triangles, const PointSet& points);
+[[nodiscard]] std::vector<Box3d> boxesOf(std::span<const Corners> triangles, const PointSet& points);
 
 }  // namespace svt::validate

@@ -1,6 +1,6 @@
 #include <svt/validate/solids/interior.hpp>
 
-#include <svt/validate/solids/groups.hpp>
+#include <svt/validate/polygons/groups.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -30,8 +30,8 @@ std::optional<Segment> commonPart(const Segment& a, const Segment& b, double noi
     return Segment{a[0] + along * from, a[0] + along * to};
 }
 
-std::vector<IntegerBox> boundsOf(const std::vector<const Body*>& shells) {
-    std::vector<IntegerBox> bounds;
+std::vector<Box3d> boundsOf(const std::vector<const Body*>& shells) {
+    std::vector<Box3d> bounds;
     for (const Body* shell : shells) bounds.push_back(shell->tree().bounds());
     return bounds;
 }
@@ -54,14 +54,13 @@ private:
     // Pieces of all shells; false if nothing touches along a line.
     bool cut() {
         bool haveContact = false;
-        TriangleTree bounds;
-        bounds.build(boundsOf(shells_));
-        const std::int64_t reach = static_cast<std::int64_t>(std::ceil(noise_)) + 1;
+        const plane::BoxTree bounds = treeOf(boundsOf(shells_));
         for (std::size_t s = 0; s < shells_.size(); ++s)
             for (std::uint32_t t = 0; t < shells_[s]->triangles().size(); ++t) {
                 const Triangle triangle = shells_[s]->triangle(t);
                 std::vector<Segment> lines;
-                for (const std::uint32_t other : bounds.findAll(shells_[s]->tree().boxes()[t].grown(reach))) {
+                for (const std::uint32_t other :
+                     bounds.findAll(plane::grown(shells_[s]->tree().boxes()[t], std::ceil(noise_) + 1))) {
                     if (other == s) continue;
                     for (const Segment& line : linesOn(triangle, *shells_[other], noise_))
                         if (length(line[1] - line[0]) > 4 * noise_) lines.push_back(line);

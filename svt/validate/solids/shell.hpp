@@ -2,10 +2,10 @@
 /// \file
 /// A shell as faces and triangles over shared points, and the tests of one shell.
 
+#include <svt/plane/box_tree.hpp>
 #include <svt/validate/exact/snapper.hpp>
 #include <svt/validate/polygons/defect.hpp>
 #include <svt/validate/polygons/polygon_checks.hpp>
-#include <svt/validate/solids/triangle_tree.hpp>
 
 #include <cstdint>
 #include <span>
@@ -36,6 +36,11 @@ struct PointSet {
     [[nodiscard]] Vec3d world(std::uint32_t i) const { return lattice->toWorld(at(i)); }
     [[nodiscard]] std::array<Point, 3> corners(const Corners& t) const { return {at(t[0]), at(t[1]), at(t[2])}; }
 };
+
+/// The tree of boxes of triangles or of bodies; which piece of a surface comes first rests on its order.
+[[nodiscard]] inline plane::BoxTree treeOf(std::vector<Box3d> boxes) {
+    return plane::BoxTree(std::move(boxes), {.leafSize = 6, .usesCenters = false});
+}
 
 /// The tests of a shell.
 struct ShellRules {

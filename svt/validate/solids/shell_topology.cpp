@@ -1,6 +1,6 @@
 #include <svt/validate/solids/shell_topology.hpp>
 
-#include <svt/validate/solids/groups.hpp>
+#include <svt/validate/polygons/groups.hpp>
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
 #include <svt/validate/solids/solid_checks.hpp>
 
+#include <svt/validate/polygons/groups.hpp>
 #include <svt/validate/solids/interior.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace svt::validate {
 namespace {
@@ -42,8 +42,8 @@ void markShell(Defect& defect, const Shell& shell, const PointSet& points) {
                 defect.marks.push_back({points.world(ring[i]), points.world(ring[i + 1 == ring.size() ? 0 : i + 1])});
 }
 
-std::vector<IntegerBox> boundsOf(const std::vector<Body>& bodies) {
-    std::vector<IntegerBox> bounds;
+std::vector<Box3d> boundsOf(const std::vector<Body>& bodies) {
+    std::vector<Box3d> bounds;
     for (const Body& body : bodies) bounds.push_back(body.tree().bounds());
     return bounds;
 }
@@ -110,10 +110,9 @@ std::vector<Defect> checkSolid(const std::vector<Shell>& shells, const PointSet&
         defects.push_back(std::move(*defect));
     };
     for (std::size_t i = 1; i < bodies.size(); ++i) keep(checkInterior(bodies[0], bodies[i], i, points), i);
-    TriangleTree bounds;
-    bounds.build(boundsOf(bodies));
+    const plane::BoxTree bounds = treeOf(boundsOf(bodies));
     for (std::size_t i = 1; i < bodies.size(); ++i)
-        for (const std::uint32_t j : bounds.findAll(bodies[i].tree().bounds().grown(1)))
+        for (const std::uint32_t j : bounds.findAll(plane::grown(bodies[i].tree().bounds(), 1)))
             if (j > i) keep(checkInteriors(bodies[i], bodies[j], i, j, points), j);
     if (!defects.empty()) return defects;
     std::vector<Body> material;  // looking away from the material between the shells
@@ -147,9 +146,9 @@ Body bodyOf(const std::vector<Shell>& shells, const PointSet& points) {
 }
 
 std::optional<Conflict> findConflict(const Body& a, const Body& b, double noise) {
-    const IntegerBox one = a.tree().bounds(), other = b.tree().bounds();
+    const Box3d one = a.tree().bounds(), other = b.tree().bounds();
     // Boxes that overlap by less than the depth hold no overlap that is deeper.
-    if (!one.grown(-static_cast<std::int64_t>(noise)).meets(other)) return std::nullopt;
+    if (!plane::grown(one, -std::trunc(noise)).overlaps(other)) return std::nullopt;
     const Relation relation = relate(a, b, noise);
     if (!relation.overlap()) return std::nullopt;
     Conflict conflict;
@@ -162,21 +161,13 @@ std::optional<Conflict> findConflict(const Body& a, const Body& b, double noise)
 
 std::vector<Defect> checkComposite(const std::vector<Body>& solids, const PointSet& points, double noise) {
     std::vector<Defect> defects;
-    std::vector<std::size_t> leader(solids.size());
-    std::iota(leader.begin(), leader.end(), std::size_t{0});
-    const auto leaderOf = [&](std::size_t i) {
-        while (leader[i] != i) i = leader[i] = leader[leader[i]];
-        return i;
-    };
-    TriangleTree bounds;
-    bounds.build(boundsOf(solids));
-    const std::int64_t reach = static_cast<std::int64_t>(std::ceil(noise)) + 1;
+    Groups groups(solids.size());
+    const plane::BoxTree bounds = treeOf(boundsOf(solids));
     for (std::size_t i = 0; i < solids.size(); ++i)
-        for (const std::uint32_t j : bounds.findAll(solids[i].tree().bounds().grown(reach))) {
+        for (const std::uint32_t j : bounds.findAll(plane::grown(solids[i].tree().bounds(), std::ceil(noise) + 1))) {
             if (j <= i) continue;
             const Relation relation = relate(solids[i], solids[j], noise);
-            if (relation.first.opposite > 0 || relation.second.opposite > 0)
-                leader[std::max(leaderOf(i), leaderOf(j))] = std::min(leaderOf(i), leaderOf(j));
+            if (relation.first.opposite > 0 || relation.second.opposite > 0) groups.join(i, j);
             if (!relation.overlap() || defects.size() >= kLargestDefectCount) continue;
             const bool isFirst = relation.first.depth >= relation.second.depth;
             const Vec3d at = relation.areSame() ? relation.first.onAt
@@ -191,7 +182,7 @@ std::vector<Defect> checkComposite(const std::vector<Body>& solids, const PointS
         }
     if (!defects.empty()) return defects;
     for (std::size_t i = 0; i < solids.size(); ++i) {
-        if (leaderOf(i) != i || i == 0) continue;
+        if (groups.leaderOf(i) != i || i == 0) continue;
         Defect& defect = defects.emplace_back();
         defect.code = Code::SolidsDisconnected;
         defect.solid = static_cast<int>(i);

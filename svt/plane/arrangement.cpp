@@ -1,15 +1,14 @@
-#include <svt/illustrate/exact/arrangement.hpp>
+#include <svt/plane/arrangement.hpp>
+
+#include <svt/plane/square_grid.hpp>
+#include <svt/plane/welder.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
-#include <unordered_map>
 
-namespace svt::illustrate {
+namespace svt::plane {
 namespace {
-
-constexpr std::uint32_t kNoNode = 0xFFFFFFFFu;
 
 // Nodes, and which is near to a point.
 class NodeSet {
@@ -17,46 +16,27 @@ public:
     explicit NodeSet(std::int32_t tolerance) : tolerance_(tolerance) {}
 
     // The nearest node within the tolerance, or a new one.
-    std::uint32_t nodeAt(DrawingPoint p) {
-        const std::int64_t cellU = cellOf(p.u), cellV = cellOf(p.v);
-        const std::int64_t reach = std::int64_t{tolerance_} * tolerance_;
-        std::uint32_t best = kNoNode;
-        std::int64_t bestDistance = reach + 1;
-        for (std::int64_t v = cellV - 1; v <= cellV + 1; ++v)
-            for (std::int64_t u = cellU - 1; u <= cellU + 1; ++u) {
-                const auto found = first_.find(keyOf(u, v));
-                if (found == first_.end()) continue;
-                for (std::uint32_t n = found->second; n != kNoNode; n = next_[n]) {
-                    const Step step = p - points_[n];
-                    const std::int64_t distance = dot(step, step);
-                    if (distance > reach || distance > bestDistance || (distance == bestDistance && n > best)) continue;
-                    best = n;
-                    bestDistance = distance;
-                }
-            }
-        if (best != kNoNode) return best;
-        const auto added = static_cast<std::uint32_t>(points_.size());
-        points_.push_back(p);
-        const auto [place, isNew] = first_.try_emplace(keyOf(cellU, cellV), kNoNode);
-        next_.push_back(place->second);
-        place->second = added;
-        return added;
+    std::uint32_t nodeAt(Point p) {
+        Wide least = Wide(tolerance_) * tolerance_;
+        const Cell cell{cellOf(p.u), cellOf(p.v), 0}, next{1, 1, 0};
+        return nodes_.add(p, cell, cell - next, cell + next, [&](std::uint32_t n, std::uint32_t best) {
+            const Point step = p - points()[n];
+            const Wide distance = dot(step, step);
+            if (distance > least || (distance == least && n > best)) return false;
+            least = distance;
+            return true;
+        });
     }
 
-    [[nodiscard]] const std::vector<DrawingPoint>& points() const noexcept { return points_; }
+    [[nodiscard]] const std::vector<Point>& points() const noexcept { return nodes_.points(); }
 
 private:
-    [[nodiscard]] std::int64_t cellOf(std::int32_t at) const noexcept {
-        return at >= 0 ? at / tolerance_ : -1 - (-1 - std::int64_t{at}) / tolerance_;
-    }
-    static std::uint64_t keyOf(std::int64_t u, std::int64_t v) noexcept {
-        return (static_cast<std::uint64_t>(u) << 32) ^ (static_cast<std::uint64_t>(v) & 0xFFFFFFFFu);
+    [[nodiscard]] std::int64_t cellOf(std::int64_t at) const noexcept {
+        return at >= 0 ? at / tolerance_ : -1 - (-1 - at) / tolerance_;
     }
 
-    std::int32_t tolerance_;
-    std::vector<DrawingPoint> points_;
-    std::vector<std::uint32_t> next_;  // of the same cell
-    std::unordered_map<std::uint64_t, std::uint32_t> first_;
+    std::int64_t tolerance_;
+    Welder<Point> nodes_;
 };
 
 // A piece of a segment between two nodes; from < to as points.
@@ -65,60 +45,6 @@ struct NodePair {
     std::uint32_t claim = 0;
     std::int32_t winding = 0;
     bool isLine = false;
-};
-
-// Equal squares over all nodes: which edges and nodes are in a square.
-class SquareGrid {
-public:
-    SquareGrid(std::span<const DrawingPoint> points, std::size_t edges, double least) {
-        low_ = high_ = points.front();
-        for (const DrawingPoint p : points) {
-            low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
-            high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
-        }
-        const double width = double(high_.u) - low_.u + 1, height = double(high_.v) - low_.v + 1;
-        // About two squares an edge; long and narrow drawings get fewer rows.
-        const double wanted = std::clamp(2.0 * double(edges), 1.0, double(1 << 22));
-        side_ = std::max({std::sqrt(width * height / wanted), std::max(width, height) / 65536, least});
-        columns_ = static_cast<std::int64_t>(width / side_) + 1;
-        rows_ = static_cast<std::int64_t>(height / side_) + 1;
-    }
-
-    [[nodiscard]] std::size_t count() const noexcept { return static_cast<std::size_t>(columns_ * rows_); }
-    [[nodiscard]] std::size_t squareOf(DrawingPoint p) const noexcept {
-        return static_cast<std::size_t>(columnOf(p.u) + columns_ * rowOf(p.v));
-    }
-
-    // Calls `add(square)` for each square that comes within `reach` of the segment.
-    template <class Add>
-    void visit(DrawingPoint a, DrawingPoint b, double reach, Add&& add) const {
-        const auto [left, right] = std::minmax(a, b);
-        const std::int64_t first = columnOf(left.u - reach), last = columnOf(right.u + reach);
-        const double du = double(right.u) - left.u, dv = double(right.v) - left.v;
-        for (std::int64_t column = first; column <= last; ++column) {
-            double from = left.v, to = right.v;
-            if (du > 0) {
-                const double begin = low_.u + double(column) * side_ - reach, end = begin + side_ + 2 * reach;
-                from = left.v + dv * std::clamp((begin - left.u) / du, 0.0, 1.0);
-                to = left.v + dv * std::clamp((end - left.u) / du, 0.0, 1.0);
-            }
-            const std::int64_t bottom = rowOf(std::min(from, to) - reach - 1),
-                               top = rowOf(std::max(from, to) + reach + 1);
-            for (std::int64_t row = bottom; row <= top; ++row) add(static_cast<std::size_t>(column + columns_ * row));
-        }
-    }
-
-private:
-    [[nodiscard]] std::int64_t columnOf(double u) const noexcept {
-        return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((u - low_.u) / side_)), 0, columns_ - 1);
-    }
-    [[nodiscard]] std::int64_t rowOf(double v) const noexcept {
-        return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((v - low_.v) / side_)), 0, rows_ - 1);
-    }
-
-    DrawingPoint low_, high_;
-    double side_ = 1;
-    std::int64_t columns_ = 1, rows_ = 1;
 };
 
 // Numbers by square, stored square after square.
@@ -172,7 +98,7 @@ public:
         std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
         for (const std::uint32_t n : order) {
             const NodePair& pair = pairs_[n];
-            const DrawingPoint from = points[pair.from], to = points[pair.to];
+            const Point from = points[pair.from], to = points[pair.to];
             const auto mark = static_cast<std::uint32_t>(all.marks.size());
             if (all.edges.empty() || all.edges.back().from != from || all.edges.back().to != to)
                 all.edges.push_back({from, to, mark, mark});
@@ -186,10 +112,10 @@ private:
     // An edge that is led through a node.
     struct Split {
         std::uint32_t pair = 0, node = 0;
-        std::int64_t along = 0;
+        Wide along = 0;
     };
 
-    [[nodiscard]] DrawingPoint pointOf(std::uint32_t node) const noexcept { return nodes_.points()[node]; }
+    [[nodiscard]] Point pointOf(std::uint32_t node) const noexcept { return nodes_.points()[node]; }
 
     void addPair(std::uint32_t from, std::uint32_t to, std::uint32_t claim, std::int32_t winding, bool isLine) {
         if (from == to) return;
@@ -218,11 +144,15 @@ private:
     bool split() {
         if (pairs_.empty()) return false;
         splits_.clear();
-        const SquareGrid grid(nodes_.points(), pairs_.size(), 8.0 * reach_);
+        Box box;
+        for (const Point p : nodes_.points()) box.add(p);
+        const SquareGrid grid(box, std::min(2.0 * double(pairs_.size()), double(1 << 22)), 65536, 8.0 * reach_);
         SquareLists pairsIn, nodesIn;
         for (std::uint32_t n = 0; n < pairs_.size(); ++n)
-            grid.visit(pointOf(pairs_[n].from), pointOf(pairs_[n].to), reach_,
-                       [&](std::size_t square) { pairsIn.add(square, n); });
+            grid.forSegment(pointOf(pairs_[n].from), pointOf(pairs_[n].to), reach_, [&](std::size_t square) {
+                pairsIn.add(square, n);
+                return true;
+            });
         for (std::uint32_t n = 0; n < nodes_.points().size(); ++n) nodesIn.add(grid.squareOf(pointOf(n)), n);
         pairsIn.finish(grid.count());
         nodesIn.finish(grid.count());
@@ -247,8 +177,8 @@ private:
     void meetNode(std::uint32_t pair, std::uint32_t node) {
         const NodePair& p = pairs_[pair];
         if (node == p.from || node == p.to) return;
-        const Step along = pointOf(p.to) - pointOf(p.from), to = pointOf(node) - pointOf(p.from);
-        const std::int64_t at = dot(along, to), whole = dot(along, along);
+        const Point along = pointOf(p.to) - pointOf(p.from), to = pointOf(node) - pointOf(p.from);
+        const Wide at = dot(along, to), whole = dot(along, along);
         if (at <= 0 || at >= whole) return;
         const double off = static_cast<double>(cross(along, to));
         if (off * off <= double(reach_) * double(reach_) * static_cast<double>(whole)) addSplit(pair, node);
@@ -257,17 +187,17 @@ private:
     void meetPair(std::uint32_t first, std::uint32_t second) {
         const NodePair &p = pairs_[first], &q = pairs_[second];
         if (p.from == q.from || p.from == q.to || p.to == q.from || p.to == q.to) return;
-        const DrawingPoint a = pointOf(p.from), b = pointOf(p.to), c = pointOf(q.from), d = pointOf(q.to);
-        const Step along = b - a, other = d - c;
-        const std::int64_t sideC = cross(along, c - a), sideD = cross(along, d - a);
+        const Point a = pointOf(p.from), b = pointOf(p.to), c = pointOf(q.from), d = pointOf(q.to);
+        const Point along = b - a, other = d - c;
+        const Wide sideC = cross(along, c - a), sideD = cross(along, d - a);
         if ((sideC > 0) == (sideD > 0) || sideC == 0 || sideD == 0) return;
-        const std::int64_t sideA = cross(other, a - c), sideB = cross(other, b - c);
+        const Wide sideA = cross(other, a - c), sideB = cross(other, b - c);
         if ((sideA > 0) == (sideB > 0) || sideA == 0 || sideB == 0) return;
         const double t = static_cast<double>(sideA) / (static_cast<double>(sideA) - static_cast<double>(sideB));
-        const auto whole = [](double x) { return static_cast<std::int32_t>(std::floor(x + 0.5)); };
-        const DrawingPoint at{whole(a.u + t * static_cast<double>(along.u)),
-                              whole(a.v + t * static_cast<double>(along.v))};
-        const std::uint32_t node = nodes_.nodeAt(at);
+        const auto onGrid = [&](std::int64_t from, std::int64_t step) {
+            return static_cast<std::int64_t>(std::floor(double(from) + t * double(step) + 0.5));
+        };
+        const std::uint32_t node = nodes_.nodeAt({onGrid(a.u, along.u), onGrid(a.v, along.v)});
         addSplit(first, node);
         addSplit(second, node);
     }
@@ -309,4 +239,4 @@ std::optional<Arrangement> arrangeSegments(std::span<const ClaimSegment> segment
     return arranger.result();
 }
 
-}  // namespace svt::illustrate
+}  // namespace svt::plane

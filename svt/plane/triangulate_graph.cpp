@@ -1,9 +1,8 @@
-#include <svt/mesh/polygons/sweep.hpp>
+#include <svt/plane/triangulate_graph.hpp>
 
-#include <algorithm>
-#include <set>
+#include <svt/plane/sweep.hpp>
 
-namespace svt::mesh {
+namespace svt::plane {
 namespace {
 
 // Between two neighbouring edges that the sweeping line meets, the inside that has no triangles yet is bounded on its
@@ -15,29 +14,20 @@ namespace {
 //          )  chain, rightmost at )
 //         /___ lower edge
 //
-class Sweep {
+class GraphTriangulator {
 public:
-    explicit Sweep(const FlatGraph& graph)
-        : graph_(graph),
-          chainOver_(graph.edges.size(), kNone),
-          isInsideOver_(graph.edges.size(), 0),
-          open_(Below{&graph}) {}
+    explicit GraphTriangulator(const EdgeGraph& graph)
+        : graph_(graph), chainOver_(graph.edges.size(), kNone), isInsideOver_(graph.edges.size(), 0) {}
 
     std::vector<std::array<std::uint32_t, 3>> run() {
-        std::uint32_t next = 0;
-        for (std::uint32_t v = 0; v < graph_.vertices.size(); ++v) {
-            starting_.clear();
-            for (; next < graph_.edges.size() && graph_.edges[next].left == v; ++next) starting_.push_back(next);
-            std::sort(starting_.begin(), starting_.end(), [&](std::uint32_t a, std::uint32_t b) {
-                return sideOf(at(v), at(graph_.edges[a].right), at(graph_.edges[b].right)) > 0;
-            });
-            visit(v);
-        }
+        sweepEdges(
+            static_cast<std::uint32_t>(graph_.edges.size()), [&](std::uint32_t edge) { return graph_.endsOf(edge); },
+            [&](Point, Edges ending, Edges starting, std::uint32_t below) { visit(ending, starting, below); });
         return std::move(triangles_);
     }
 
 private:
-    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+    using Edges = std::span<const std::uint32_t>;  // by number
 
     // A link of a chain.
     struct Link {
@@ -46,51 +36,29 @@ private:
     struct Chain {
         std::uint32_t bottom, top, rightmost;  // links
     };
-    struct Below {
-        using is_transparent = void;
-        const FlatGraph* graph;
-        [[nodiscard]] int side(std::uint32_t edge, const FlatPoint& point) const {
-            const FlatEdge& ends = graph->edges[edge];
-            return sideOf(graph->vertices[ends.left].at, graph->vertices[ends.right].at, point);
-        }
-        bool operator()(std::uint32_t a, std::uint32_t b) const {
-            const FlatEdge &p = graph->edges[a], &q = graph->edges[b];
-            if (p.left == q.left) return side(a, graph->vertices[q.right].at) > 0;
-            return p.left < q.left ? side(a, graph->vertices[q.left].at) > 0 : side(b, graph->vertices[p.left].at) < 0;
-        }
-        bool operator()(std::uint32_t edge, const FlatPoint& point) const { return side(edge, point) > 0; }
-        bool operator()(const FlatPoint& point, std::uint32_t edge) const { return side(edge, point) < 0; }
-    };
 
-    [[nodiscard]] const FlatPoint& at(std::uint32_t vertex) const { return graph_.vertices[vertex].at; }
+    [[nodiscard]] const Point& at(std::uint32_t vertex) const { return graph_.vertices[vertex].at; }
     [[nodiscard]] std::uint32_t vertexOf(std::uint32_t link) const { return links_[link].vertex; }
 
-    void visit(std::uint32_t v) {
-        auto above = open_.lower_bound(at(v));
-        ending_.clear();
-        while (above != open_.end() && graph_.edges[*above].right == v) {
-            ending_.push_back(*above);
-            above = open_.erase(above);
-        }
-        if (ending_.empty() && starting_.empty()) return;  // on no edge that is left
-        const std::uint32_t edgeBelow = above == open_.begin() ? kNone : *std::prev(above);
+    void visit(Edges ending, Edges starting, std::uint32_t edgeBelow) {
+        const std::uint32_t v =
+            starting.empty() ? graph_.edges[ending.front()].right : graph_.edges[starting.front()].left;
         bool isInside = edgeBelow != kNone && isInsideOver_[edgeBelow] != 0;
-        for (std::size_t i = 0; i + 1 < ending_.size(); ++i)
-            if (isInsideOver_[ending_[i]] != 0) close(chainOver_[ending_[i]], v);
+        for (std::size_t i = 0; i + 1 < ending.size(); ++i)
+            if (isInsideOver_[ending[i]] != 0) close(chainOver_[ending[i]], v);
 
         std::uint32_t upper = kNone;  // the chain of the inside over the last edge
-        if (!ending_.empty()) {
+        if (!ending.empty()) {
             if (isInside) extendTop(chainOver_[edgeBelow], v);
-            if (isInsideOver_[ending_.back()] != 0) extendBottom(upper = chainOver_[ending_.back()], v);
+            if (isInsideOver_[ending.back()] != 0) extendBottom(upper = chainOver_[ending.back()], v);
         } else if (isInside) {
             upper = part(chainOver_[edgeBelow], v);
         }
-        if (starting_.empty() && isInside && upper != kNone) join(chainOver_[edgeBelow], upper);
-        for (const std::uint32_t edge : starting_) {
+        if (starting.empty() && isInside && upper != kNone) join(chainOver_[edgeBelow], upper);
+        for (const std::uint32_t edge : starting) {
             isInside = !isInside;
             isInsideOver_[edge] = isInside ? 1 : 0;
-            if (isInside) chainOver_[edge] = edge == starting_.back() ? upper : startChain(v);
-            open_.insert(above, edge);
+            if (isInside) chainOver_[edge] = edge == starting.back() ? upper : startChain(v);
         }
     }
 
@@ -113,7 +81,7 @@ private:
         Chain& chain = chains_[index];
         while (chain.top != chain.bottom) {
             const std::uint32_t under = links_[chain.top].below;
-            if (sideOf(at(vertexOf(under)), at(vertexOf(chain.top)), at(v)) >= 0) break;
+            if (turn(at(vertexOf(under)), at(vertexOf(chain.top)), at(v)) >= 0) break;
             emit(v, vertexOf(chain.top), vertexOf(under));
             chain.top = under;
         }
@@ -124,7 +92,7 @@ private:
         Chain& chain = chains_[index];
         while (chain.top != chain.bottom) {
             const std::uint32_t over = links_[chain.bottom].above;
-            if (sideOf(at(vertexOf(chain.bottom)), at(vertexOf(over)), at(v)) >= 0) break;
+            if (turn(at(vertexOf(chain.bottom)), at(vertexOf(over)), at(v)) >= 0) break;
             emit(v, vertexOf(over), vertexOf(chain.bottom));
             chain.bottom = over;
         }
@@ -163,8 +131,8 @@ private:
         for (std::uint32_t link = chains_[index].bottom; link != kNone; link = links_[link].above)
             ring.push_back(vertexOf(link));
         std::size_t low = 0, high = ring.size() - 1;  // ring[0 .. low] and ring[high ..] lie on lines with v
-        while (low + 1 < high && sideOf(at(ring[0]), at(ring[low + 1]), at(v)) == 0) ++low;
-        while (high > low + 1 && sideOf(at(ring[high - 1]), at(ring.back()), at(v)) == 0) --high;
+        while (low + 1 < high && turn(at(ring[0]), at(ring[low + 1]), at(v)) == 0) ++low;
+        while (high > low + 1 && turn(at(ring[high - 1]), at(ring.back()), at(v)) == 0) --high;
         for (std::size_t i = low; i > 0; --i) emit(ring[low + 1], ring[i], ring[i - 1]);
         if (low + 1 == high) {
             // One triangle is left, with vertices on up to two of its sides.
@@ -184,18 +152,19 @@ private:
         triangles_.push_back({graph_.vertices[a].point, graph_.vertices[b].point, graph_.vertices[c].point});
     }
 
-    const FlatGraph& graph_;
+    const EdgeGraph& graph_;
     std::vector<Link> links_;
     std::vector<Chain> chains_;
     std::vector<std::uint32_t> chainOver_;    // per edge with inside over it
     std::vector<std::uint8_t> isInsideOver_;  // per edge
-    std::vector<std::uint32_t> starting_, ending_, ring_;
-    std::set<std::uint32_t, Below> open_;
+    std::vector<std::uint32_t> ring_;
     std::vector<std::array<std::uint32_t, 3>> triangles_;
 };
 
 }  // namespace
 
-std::vector<std::array<std::uint32_t, 3>> triangulateInside(const FlatGraph& graph) { return Sweep(graph).run(); }
+std::vector<std::array<std::uint32_t, 3>> triangulateInside(const EdgeGraph& graph) {
+    return GraphTriangulator(graph).run();
+}
 
-}  // namespace svt::mesh
+}  // namespace svt::plane

@@ -3,20 +3,18 @@
 /// Triangles of a polygon whose rings do not cross. All points of the rings become corners, also those in the middle of
 /// a straight line, so that two faces that share an edge share the edges of their triangles.
 
-#include <svt/validate/exact/lattice.hpp>
+#include <svt/plane/point.hpp>
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
-namespace svt::validate {
+namespace svt::plane {
 
 /// Corners of a triangle: indices of points.
 using Corners = std::array<std::uint32_t, 3>;
 
 /// A corner of a ring: where it lies, and by which index it is known. Equal places have equal indices.
 struct RingCorner {
-    Point2 at;
+    Point at;
     std::uint32_t index = 0;
 };
 
@@ -27,7 +25,7 @@ struct RingCorner {
 /// \param points  in space, by index
 /// \return corners by index, counter-clockwise
 /// Cost: O(n^2) in the worst case; near O(n) for convex polygons, and for many small holes.
-[[nodiscard]] std::vector<Corners> triangulate(const std::vector<std::vector<RingCorner>>& rings,
-                                               const std::vector<Vec3d>& points);
+[[nodiscard]] std::vector<Corners> triangulateRings(const std::vector<std::vector<RingCorner>>& rings,
+                                                    const std::vector<Vec3d>& points);
 
-}  // namespace svt::validate
+}  // namespace svt::plane

@@ -1,6 +1,6 @@
-#include <svt/validate/polygons/triangulate.hpp>
+#include <svt/plane/triangulate_rings.hpp>
 
-#include <svt/validate/polygons/flat_grid.hpp>
+#include <svt/plane/square_grid.hpp>
 
 #include <algorithm>
 #include <functional>
@@ -8,7 +8,7 @@
 #include <optional>
 #include <queue>
 
-namespace svt::validate {
+namespace svt::plane {
 namespace {
 
 // The border that is still to be cut, as a closed chain.
@@ -18,30 +18,28 @@ struct Link {
     bool isCut = false;
 };
 
-FlatGrid gridOver(const std::vector<std::vector<RingCorner>>& rings) {
-    Point2 low = rings.front().front().at, high = low;
+// Squares over all rings: about one for every two corners.
+SquareGrid gridOver(const std::vector<std::vector<RingCorner>>& rings) {
+    Box box;
     std::size_t corners = 0;
     for (const auto& ring : rings) {
         corners += ring.size();
-        for (const RingCorner& corner : ring) {
-            low = {std::min(low.u, corner.at.u), std::min(low.v, corner.at.v)};
-            high = {std::max(high.u, corner.at.u), std::max(high.v, corner.at.v)};
-        }
+        for (const RingCorner& corner : ring) box.add(corner.at);
     }
-    return {low, high, corners};
+    return {box, std::max(1.0, double(corners) / 2), 4096, 1};
 }
 
 class EarCutter {
 public:
     explicit EarCutter(const std::vector<std::vector<RingCorner>>& rings)
-        : grid_(gridOver(rings)), hasHoles_(rings.size() > 1) {
+        : grid_(gridOver(rings)), linksIn_(grid_.count()), linesIn_(grid_.count()), hasHoles_(rings.size() > 1) {
         std::size_t count = 0;
         for (const auto& ring : rings) count += ring.size();
         links_.reserve(count + 2 * rings.size());
         start_ = addRing(rings.front());
         addToBorder(start_);
         struct Hole {
-            Point2 leftmost;
+            Point leftmost;
             std::size_t link;
         };
         std::vector<Hole> holes;
@@ -98,21 +96,24 @@ private:
         } while (i != first);
     }
     void addToBorder(std::size_t link, std::size_t next) {
-        grid_.addPoint(at(link), link);
+        linksIn_[grid_.squareOf(at(link))].push_back(link);
         if (!hasHoles_) return;
-        grid_.addLine(at(link), at(next), lines_.size());
+        grid_.forSegment(at(link), at(next), 1, [&](std::size_t square) {
+            linesIn_[square].push_back(lines_.size());
+            return true;
+        });
         lines_.push_back({at(link), at(next)});
     }
 
-    [[nodiscard]] const Point2& at(std::size_t link) const { return links_[link].corner.at; }
+    [[nodiscard]] const Point& at(std::size_t link) const { return links_[link].corner.at; }
     [[nodiscard]] int turnAt(std::size_t link) const {
         return turn(at(links_[link].previous), at(link), at(links_[link].next));
     }
     [[nodiscard]] bool isConvex(std::size_t link) const { return turnAt(link) > 0; }
 
     // True if a way from `link` towards `target` starts within the polygon.
-    [[nodiscard]] bool opensTowards(std::size_t link, Point2 target) const {
-        const Point2 previous = at(links_[link].previous), here = at(link), next = at(links_[link].next);
+    [[nodiscard]] bool opensTowards(std::size_t link, Point target) const {
+        const Point previous = at(links_[link].previous), here = at(link), next = at(links_[link].next);
         if (turn(previous, here, next) > 0) return turn(here, target, previous) > 0 && turn(here, next, target) > 0;
         return !(turn(here, target, next) >= 0 && turn(here, previous, target) >= 0);
     }
@@ -120,18 +121,20 @@ private:
     [[nodiscard]] bool isEar(std::size_t link) const {
         if (!isConvex(link)) return false;
         const std::size_t previous = links_[link].previous, next = links_[link].next;
-        const std::array<Point2, 3> t{at(previous), at(link), at(next)};
-        const std::int64_t lowU = std::min({t[0].u, t[1].u, t[2].u}), highU = std::max({t[0].u, t[1].u, t[2].u});
-        const std::int64_t lowV = std::min({t[0].v, t[1].v, t[2].v}), highV = std::max({t[0].v, t[1].v, t[2].v});
+        const std::array<Point, 3> t{at(previous), at(link), at(next)};
+        Box box;
+        for (const Point corner : t) box.add(corner);
         const auto isClear = [&](std::size_t i) {
-            const Point2& p = at(i);
-            if (links_[i].isCut || p.u < lowU || p.u > highU || p.v < lowV || p.v > highV) return true;
+            const Point& p = at(i);
+            if (links_[i].isCut || !box.contains(p)) return true;
             if (p == t[0] || p == t[1] || p == t[2]) return true;
             // Only corners that do not turn outwards can reach into an ear first.
             return !(turnAt(i) <= 0 && holds(t, p));
         };
-        const FlatGrid::Cells cells = grid_.cellsOf({lowU, lowV}, {highU, highV});
-        if (2 * cells.count() < double(remaining_)) return grid_.forPoints(cells, isClear);
+        if (2 * grid_.countIn(box) < double(remaining_))
+            return grid_.forBox(box, [&](std::size_t square) {
+                return std::all_of(linksIn_[square].begin(), linksIn_[square].end(), isClear);
+            });
         for (std::size_t i = links_[next].next; i != previous; i = links_[i].next)
             if (!isClear(i)) return false;
         return true;
@@ -176,7 +179,7 @@ private:
 
     // The nearest corner of the border from which the hole is seen; if there is none, one that touches it, else the nearest.
     [[nodiscard]] std::size_t findPartner(std::size_t hole) const {
-        const Point2 from = at(hole);
+        const Point from = at(hole);
         using Candidate = std::pair<double, std::size_t>;  // squared distance, link
         std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates;
         std::optional<Candidate> nearest;
@@ -187,12 +190,14 @@ private:
             return at(link).u <= from.u && opensTowards(link, from) && opensTowards(hole, at(link)) && sees(hole, link);
         };
         for (std::int64_t ring = 0;; ++ring) {
-            const bool isMore = grid_.forPointsInRing(from, ring, [&](std::size_t i) {
-                const double u = static_cast<double>(at(i).u - from.u), v = static_cast<double>(at(i).v - from.v);
-                candidates.emplace(u * u + v * v, i);
+            const bool isMore = grid_.forRing(from, ring, [&](std::size_t square) {
+                for (const std::size_t i : linksIn_[square]) {
+                    const double u = static_cast<double>(at(i).u - from.u), v = static_cast<double>(at(i).v - from.v);
+                    candidates.emplace(u * u + v * v, i);
+                }
             });
-            // What is nearer than the cells of the next ring comes in order.
-            const double reach = grid_.reachOf(ring) * grid_.reachOf(ring);
+            // What is nearer than the squares of the next ring comes in order.
+            const double reach = double(ring) * grid_.side() * (double(ring) * grid_.side());
             while (!candidates.empty() && (!isMore || candidates.top().first <= reach)) {
                 if (!nearest) nearest = candidates.top();
                 if (isPartner(candidates.top())) return candidates.top().second;
@@ -204,17 +209,21 @@ private:
 
     // Only the border can stand between a hole and what lies left of it, and holes that are joined already.
     [[nodiscard]] bool sees(std::size_t hole, std::size_t link) const {
-        const Point2 a = at(hole), b = at(link);
-        return grid_.forLines(a, b, [&](std::size_t line) {
+        const Point a = at(hole), b = at(link);
+        const auto isClear = [&](std::size_t line) {
             const auto& [c, d] = lines_[line];
             return c == b || d == b || c == a || d == a || meet(a, b, c, d) == Meeting::None;
+        };
+        return grid_.forSegment(a, b, 1, [&](std::size_t square) {
+            return std::all_of(linesIn_[square].begin(), linesIn_[square].end(), isClear);
         });
     }
 
-    FlatGrid grid_;
+    SquareGrid grid_;
+    std::vector<std::vector<std::size_t>> linksIn_, linesIn_;  // by square
     bool hasHoles_;
-    std::vector<std::pair<Point2, Point2>> lines_;  // of the border, with those to holes
-    std::size_t remaining_ = 0;                     // corners that are not cut
+    std::vector<std::pair<Point, Point>> lines_;  // of the border, with those to holes
+    std::size_t remaining_ = 0;                   // corners that are not cut
     std::vector<Link> links_;
     std::size_t start_ = 0;
 };
@@ -228,7 +237,7 @@ double cotangent(Vec3d corner, Vec3d a, Vec3d b) {
 // Turns the edges between triangles whose opposite angles sum up to more than 180 degrees.
 class EdgeTurner {
 public:
-    EdgeTurner(std::vector<Corners>& triangles, const std::map<std::uint32_t, Point2>& flat,
+    EdgeTurner(std::vector<Corners>& triangles, const std::map<std::uint32_t, Point>& flat,
                const std::vector<Vec3d>& points)
         : triangles_(triangles), flat_(flat), points_(points) {}
 
@@ -269,7 +278,7 @@ private:
     }
 
     [[nodiscard]] bool isBetter(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
-        const Point2 pa = flat_.at(a), pb = flat_.at(b), pc = flat_.at(c), pd = flat_.at(d);
+        const Point pa = flat_.at(a), pb = flat_.at(b), pc = flat_.at(c), pd = flat_.at(d);
         if (turn(pc, pa, pd) <= 0 || turn(pd, pb, pc) <= 0) return false;
         const double sum =
             cotangent(points_[c], points_[a], points_[b]) + cotangent(points_[d], points_[a], points_[b]);
@@ -277,16 +286,17 @@ private:
     }
 
     std::vector<Corners>& triangles_;
-    const std::map<std::uint32_t, Point2>& flat_;
+    const std::map<std::uint32_t, Point>& flat_;
     const std::vector<Vec3d>& points_;
 };
 
 }  // namespace
 
-std::vector<Corners> triangulate(const std::vector<std::vector<RingCorner>>& rings, const std::vector<Vec3d>& points) {
+std::vector<Corners> triangulateRings(const std::vector<std::vector<RingCorner>>& rings,
+                                      const std::vector<Vec3d>& points) {
     std::vector<Corners> triangles = EarCutter(rings).cut();
     if (triangles.size() > 1) {
-        std::map<std::uint32_t, Point2> flat;
+        std::map<std::uint32_t, Point> flat;
         for (const auto& ring : rings)
             for (const RingCorner& corner : ring) flat.emplace(corner.index, corner.at);
         EdgeTurner(triangles, flat, points).run();
@@ -294,4 +304,4 @@ std::vector<Corners> triangulate(const std::vector<std::vector<RingCorner>>& rin
     return triangles;
 }
 
-}  // namespace svt::validate
+}  // namespace svt::plane

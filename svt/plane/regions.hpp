@@ -2,14 +2,14 @@
 /// \file
 /// Which claims enclose the two sides of each edge of an arrangement, by one sweep over the plane.
 
-#include <svt/illustrate/exact/arrangement.hpp>
+#include <svt/plane/arrangement.hpp>
 
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
 
-namespace svt::illustrate {
+namespace svt::plane {
 
 /// How often a claim encloses a place.
 struct ClaimCount {
@@ -32,4 +32,4 @@ struct EdgeSides {
 /// Cost: O(n log n), and the claims that enclose each edge.
 [[nodiscard]] std::vector<EdgeSides> sweepRegions(const Arrangement& arrangement, const RegionRule& regionOf);
 
-}  // namespace svt::illustrate
+}  // namespace svt::plane

@@ -15,18 +15,18 @@
 /// 1999, Halperin and Packer 2002). Each closed ring of segments stays closed, so that counts of what encloses a place
 /// stay consistent however points move.
 
-#include <svt/illustrate/exact/plane_points.hpp>
+#include <svt/plane/point.hpp>
 
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
-namespace svt::illustrate {
+namespace svt::plane {
 
 /// A segment of the border of a claim.
 struct ClaimSegment {
-    DrawingPoint from, to;
+    Point from, to;
     std::uint32_t claim = 0;
     /// 1: the claim's inside is to the left; 0: a line without inside.
     std::int32_t winding = 1;
@@ -39,7 +39,7 @@ struct EdgeMark {
 };
 
 struct ArrangementEdge {
-    DrawingPoint from, to;                     ///< from < to
+    Point from, to;                            ///< from < to
     std::uint32_t firstMark = 0, endMark = 0;  ///< range of Arrangement::marks, by claim
 };
 
@@ -49,10 +49,11 @@ struct Arrangement {
 };
 
 /// Cuts `segments` where they meet. Where borders of one claim cancel, no edge remains.
-/// \param tolerance  drawing units, >= 2: no point moves further in one step
+/// \param segments   coordinates at most 2^29 from 0
+/// \param tolerance  steps of the grid, >= 2: no point moves further in one step
 /// \return the arrangement, or nothing where it was not done after 40 steps (points chase each other; not seen yet)
 /// Cost: O(n log n) for segments that are spread over the plane.
 [[nodiscard]] std::optional<Arrangement> arrangeSegments(std::span<const ClaimSegment> segments,
                                                          std::int32_t tolerance);
 
-}  // namespace svt::illustrate
+}  // namespace svt::plane

@@ -1,20 +1,22 @@
-#include <svt/validate/polygons/sweep_edges.hpp>
+#include <svt/plane/edges.hpp>
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace svt::validate {
+namespace svt::plane {
 namespace {
 
-std::vector<FlatEdge> edgesOf(const std::vector<std::vector<Point2>>& rings) {
-    std::vector<FlatEdge> edges;
+using Segment = std::pair<Point, Point>;
+
+std::vector<Segment> edgesOf(const std::vector<std::vector<Point>>& rings) {
+    std::vector<Segment> edges;
     for (const auto& ring : rings)
         for (std::size_t i = 0; i < ring.size(); ++i) edges.push_back({ring[i], ring[(i + 1) % ring.size()]});
     return edges;
 }
 
-const std::vector<Point2> kOutline{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+const std::vector<Point> kOutline{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
 
 TEST(MeetBeyondEnds, SimpleRingsDoNot) {
     EXPECT_FALSE(meetBeyondEnds(edgesOf({kOutline})));
@@ -34,17 +36,17 @@ TEST(MeetBeyondEnds, WhatTouchesOrCrossesDoes) {
 }
 
 // Every pair of edges held against each other.
-bool meetPairwise(const std::vector<FlatEdge>& edges) {
+bool meetPairwise(const std::vector<Segment>& edges) {
     for (std::size_t a = 0; a < edges.size(); ++a)
         for (std::size_t b = 0; b < a; ++b) {
-            const FlatEdge &e = edges[a], &f = edges[b];
-            const Meeting meeting = meet(e[0], e[1], f[0], f[1]);
+            const Segment &e = edges[a], &f = edges[b];
+            const Meeting meeting = meet(e.first, e.second, f.first, f.second);
             if (meeting == Meeting::None) continue;
             const bool isNeighbour = b + 1 == a || (b == 0 && a + 1 == edges.size());
             if (!isNeighbour || meeting == Meeting::Cross) return true;
             // Of neighbours only the shared corner may lie on both.
-            const Point2 shared = e[0] == f[1] || e[0] == f[0] ? e[0] : e[1];
-            const Point2 ofE = e[0] == shared ? e[1] : e[0], ofF = f[0] == shared ? f[1] : f[0];
+            const Point shared = e.first == f.second || e.first == f.first ? e.first : e.second;
+            const Point ofE = e.first == shared ? e.second : e.first, ofF = f.first == shared ? f.second : f.first;
             if (meet(shared, ofE, ofF, ofF) != Meeting::None || meet(shared, ofF, ofE, ofE) != Meeting::None)
                 return true;
         }
@@ -57,9 +59,9 @@ TEST(MeetBeyondEnds, IsWhatPairsTell) {
     for (int n = 3; n < 9; ++n)
         for (int grid : {4, 9, 40})
             for (int round = 0; round < 400; ++round) {
-                std::vector<Point2> ring;
+                std::vector<Point> ring;
                 while (ring.size() < std::size_t(n)) {
-                    const Point2 p{std::int64_t(random() % unsigned(grid)), std::int64_t(random() % unsigned(grid))};
+                    const Point p{std::int64_t(random() % unsigned(grid)), std::int64_t(random() % unsigned(grid))};
                     if (ring.empty() || (p != ring.back() && (ring.size() + 1 < std::size_t(n) || p != ring.front())))
                         ring.push_back(p);
                 }
@@ -73,4 +75,4 @@ TEST(MeetBeyondEnds, IsWhatPairsTell) {
 }
 
 }  // namespace
-}  // namespace svt::validate
+}  // namespace svt::plane

@@ -1,10 +1,10 @@
-#include <svt/validate/polygons/triangulate.hpp>
+#include <svt/plane/triangulate_rings.hpp>
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace svt::validate {
+namespace svt::plane {
 namespace {
 
 // Rings over points of their own.
@@ -12,9 +12,9 @@ struct Plan {
     std::vector<std::vector<RingCorner>> rings;
     std::vector<Vec3d> points;
 
-    void add(const std::vector<Point2>& ring) {
+    void add(const std::vector<Point>& ring) {
         rings.emplace_back();
-        for (const Point2& at : ring) {
+        for (const Point& at : ring) {
             rings.back().push_back({at, static_cast<std::uint32_t>(points.size())});
             points.push_back({double(at.u), double(at.v), 0});
         }
@@ -23,7 +23,7 @@ struct Plan {
         double sum = 0;
         for (const auto& ring : rings)
             for (std::size_t i = 0; i < ring.size(); ++i) {
-                const Point2 a = ring[i].at, b = ring[(i + 1) % ring.size()].at;
+                const Point a = ring[i].at, b = ring[(i + 1) % ring.size()].at;
                 sum += (double(a.u) * double(b.v) - double(b.u) * double(a.v)) / 2;
             }
         return sum;
@@ -40,42 +40,42 @@ struct Plan {
     }
 };
 
-TEST(Triangulate, AFacadeOfWindowsIsCutAroundThem) {
+TEST(TriangulateRings, AFacadeOfWindowsIsCutAroundThem) {
     constexpr std::int64_t kSide = 40, kPitch = 1000;
     Plan plan;
     plan.add({{0, 0}, {kSide * kPitch, 0}, {kSide * kPitch, kSide * kPitch}, {0, kSide * kPitch}});
     for (std::int64_t v = 0; v < kSide; ++v)
         for (std::int64_t u = 0; u < kSide; ++u) {
-            const Point2 at{u * kPitch + 250, v * kPitch + 250};
+            const Point at{u * kPitch + 250, v * kPitch + 250};
             plan.add({at, {at.u, at.v + 500}, {at.u + 500, at.v + 500}, {at.u + 500, at.v}});
         }
-    const auto triangles = triangulate(plan.rings, plan.points);
+    const auto triangles = triangulateRings(plan.rings, plan.points);
     EXPECT_EQ(triangles.size(), plan.points.size() + 2 * (plan.rings.size() - 1) - 2);
     EXPECT_NEAR(plan.areaOf(triangles), plan.areaOfRings(), 1);
 }
 
-TEST(Triangulate, HolesOfAnySizeInAJaggedBorderAreLeftOut) {
+TEST(TriangulateRings, HolesOfAnySizeInAJaggedBorderAreLeftOut) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         std::mt19937_64 random(seed);
         const auto below = [&](std::int64_t n) { return static_cast<std::int64_t>(random() % std::uint64_t(n)); };
         // Teeth along two sides, and in each cell of 10 x 10 a hole or none.
         Plan plan;
-        std::vector<Point2> border;
+        std::vector<Point> border;
         for (std::int64_t u = 0; u < 100; ++u) border.push_back({u * 100, -below(3000)});
         for (std::int64_t u = 100; u > 0; --u) border.push_back({u * 100, 10000 + below(3000)});
         plan.add(border);
         for (std::int64_t v = 0; v < 10; ++v)
             for (std::int64_t u = 0; u < 10; ++u) {
                 if (below(4) == 0) continue;
-                const Point2 at{u * 1000 + 150 + below(300), v * 1000 + 50 + below(400)};
+                const Point at{u * 1000 + 150 + below(300), v * 1000 + 50 + below(400)};
                 if (at.u > 9300) continue;
                 plan.add({at, {at.u + below(50), at.v + 100 + below(400)}, {at.u + 60 + below(400), at.v + below(90)}});
             }
-        const auto triangles = triangulate(plan.rings, plan.points);
+        const auto triangles = triangulateRings(plan.rings, plan.points);
         EXPECT_EQ(triangles.size(), plan.points.size() + 2 * (plan.rings.size() - 1) - 2) << seed;
         EXPECT_NEAR(plan.areaOf(triangles), plan.areaOfRings(), 1) << seed;
     }
 }
 
 }  // namespace
-}  // namespace svt::validate
+}  // namespace svt::plane

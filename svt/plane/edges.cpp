@@ -1,23 +1,20 @@
-#include <svt/mesh/polygons/flat_edges.hpp>
+#include <svt/plane/edges.hpp>
+
+#include <svt/plane/sweep.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <set>
 
-namespace svt::mesh {
+namespace svt::plane {
 namespace {
-
-__extension__ using Wide = __int128;
 
 constexpr int kMaxRounds = 40;
 
-Wide crossOf(const FlatPoint& a, const FlatPoint& b) { return Wide(a.x) * b.y - Wide(a.y) * b.x; }
-FlatPoint minus(const FlatPoint& a, const FlatPoint& b) { return {a.x - b.x, a.y - b.y}; }
-
 // Where two edges cross: the place, rounded, and the fractions of both.
-struct Meeting {
-    FlatPoint at;
+struct CrossingPlace {
+    Point at;
     double t = 0, u = 0;
 };
 
@@ -27,12 +24,12 @@ struct Meeting {
 // proved that no edges cross.
 class CrossingSweep {
 public:
-    CrossingSweep(FlatGraph& graph, std::size_t maxCrossings, const MakePoint& makePoint)
+    CrossingSweep(EdgeGraph& graph, std::size_t maxCrossings, const MakePoint& makePoint)
         : graph_(graph),
           maxCrossings_(maxCrossings),
           makePoint_(makePoint),
           firstLater_(graph.vertices.size(), kNone),
-          open_(Below{this}) {}
+          open_(BelowEdge<EndsOf>{{this}}) {}
 
     // Returns the count of crossings; over `maxCrossings`, nothing is cut.
     std::size_t run() {
@@ -52,10 +49,8 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-
-    struct Edge {
-        FlatEdge ends;
+    struct SweptEdge {
+        Edge ends;
         std::uint32_t cuts = 0;  // how many are noted
     };
     // A cut that is made after the sweep.
@@ -66,36 +61,28 @@ private:
     struct Later {
         std::uint32_t right, next;
     };
-    // The order of the edges that the sweeping line meets, from below; and of vertices among them.
-    struct Below {
-        using is_transparent = void;
+    struct EndsOf {
         const CrossingSweep* sweep;
-        bool operator()(std::uint32_t a, std::uint32_t b) const {
-            const FlatEdge &p = sweep->edges_[a].ends, &q = sweep->edges_[b].ends;
-            if (p.left == q.left) return sweep->side(p, q.right) > 0;
-            return p.left < q.left ? sweep->side(p, q.left) > 0 : sweep->side(q, p.left) < 0;
+        std::pair<Point, Point> operator()(std::uint32_t edge) const {
+            const Edge& ends = sweep->edges_[edge].ends;
+            return {sweep->at(ends.left), sweep->at(ends.right)};
         }
-        bool operator()(std::uint32_t edge, FlatPoint point) const { return sweep->side(edge, point) > 0; }
-        bool operator()(FlatPoint point, std::uint32_t edge) const { return sweep->side(edge, point) < 0; }
     };
-    using Open = std::set<std::uint32_t, Below>;
+    using Open = std::set<std::uint32_t, BelowEdge<EndsOf>>;
 
-    [[nodiscard]] const FlatPoint& at(std::uint32_t vertex) const { return graph_.vertices[vertex].at; }
-    [[nodiscard]] int side(const FlatEdge& edge, std::uint32_t vertex) const {
-        return sideOf(at(edge.left), at(edge.right), at(vertex));
-    }
-    [[nodiscard]] int side(std::uint32_t edge, FlatPoint point) const {
-        return sideOf(at(edges_[edge].ends.left), at(edges_[edge].ends.right), point);
+    [[nodiscard]] const Point& at(std::uint32_t vertex) const { return graph_.vertices[vertex].at; }
+    [[nodiscard]] int side(const Edge& edge, std::uint32_t vertex) const {
+        return turn(at(edge.left), at(edge.right), at(vertex));
     }
 
-    void start(FlatEdge ends) {
+    void start(Edge ends) {
         starting_.push_back(static_cast<std::uint32_t>(edges_.size()));
         edges_.push_back({ends, 0});
     }
 
     void visit(std::uint32_t v) {
         auto above = open_.lower_bound(at(v));
-        while (above != open_.end() && side(*above, at(v)) == 0) {
+        while (above != open_.end() && side(edges_[*above].ends, v) == 0) {
             const std::uint32_t edge = *above;
             above = open_.erase(above);
             const std::uint32_t right = edges_[edge].ends.right;
@@ -135,7 +122,7 @@ private:
         for (std::size_t begin = 0, end = 0; begin < starting_.size(); begin = end) {
             const std::uint32_t nearest = edges_[starting_[begin]].ends.right;
             for (end = begin + 1; end < starting_.size(); ++end) {
-                Edge& edge = edges_[starting_[end]];
+                SweptEdge& edge = edges_[starting_[end]];
                 if (side(edges_[starting_[begin]].ends, edge.ends.right) != 0) break;
                 graph_.isTouching = true;
                 if (edge.ends.right != nearest) {
@@ -154,10 +141,10 @@ private:
 
     // Takes edges out until the two neighbours do not cross.
     void testPair(Open::iterator lower, Open::iterator upper) {
-        Meeting meeting;
-        while (crossingOf(edges_[*lower].ends, edges_[*upper].ends, meeting)) {
+        CrossingPlace place;
+        while (crossingOf(edges_[*lower].ends, edges_[*upper].ends, place)) {
             if (++crossings_ > maxCrossings_) return;
-            const std::uint32_t vertex = makeVertex(edges_[*lower].ends, edges_[*upper].ends, meeting);
+            const std::uint32_t vertex = makeVertex(edges_[*lower].ends, edges_[*upper].ends, place);
             note(*lower, vertex);
             note(*upper, vertex);
             if (isKept(*lower, *upper)) {
@@ -175,32 +162,32 @@ private:
     [[nodiscard]] bool isKept(std::uint32_t a, std::uint32_t b) const {
         if (edges_[a].cuts != edges_[b].cuts) return edges_[a].cuts > edges_[b].cuts;
         const auto squared = [&](std::uint32_t edge) {
-            const FlatPoint along = minus(at(edges_[edge].ends.right), at(edges_[edge].ends.left));
-            return Wide(along.x) * along.x + Wide(along.y) * along.y;
+            const Point along = at(edges_[edge].ends.right) - at(edges_[edge].ends.left);
+            return dot(along, along);
         };
         return squared(a) >= squared(b);
     }
 
     // True where the insides of two edges cross. An end of one on the other is found when the sweep comes to it.
-    [[nodiscard]] bool crossingOf(const FlatEdge& a, const FlatEdge& b, Meeting& meeting) const {
+    [[nodiscard]] bool crossingOf(const Edge& a, const Edge& b, CrossingPlace& place) const {
         if (side(a, b.left) * side(a, b.right) >= 0 || side(b, a.left) * side(b, a.right) >= 0) return false;
-        const FlatPoint alongA = minus(at(a.right), at(a.left)), alongB = minus(at(b.right), at(b.left));
-        const FlatPoint between = minus(at(b.left), at(a.left));
-        const auto whole = static_cast<double>(crossOf(alongA, alongB));
-        meeting.t = static_cast<double>(crossOf(between, alongB)) / whole;
-        meeting.u = static_cast<double>(crossOf(between, alongA)) / whole;
-        meeting.at = {at(a.left).x + std::llround(static_cast<double>(alongA.x) * meeting.t),
-                      at(a.left).y + std::llround(static_cast<double>(alongA.y) * meeting.t)};
+        const Point alongA = at(a.right) - at(a.left), alongB = at(b.right) - at(b.left);
+        const Point between = at(b.left) - at(a.left);
+        const auto whole = static_cast<double>(cross(alongA, alongB));
+        place.t = static_cast<double>(cross(between, alongB)) / whole;
+        place.u = static_cast<double>(cross(between, alongA)) / whole;
+        place.at = {at(a.left).u + std::llround(static_cast<double>(alongA.u) * place.t),
+                    at(a.left).v + std::llround(static_cast<double>(alongA.v) * place.t)};
         return true;
     }
 
-    std::uint32_t makeVertex(const FlatEdge& a, const FlatEdge& b, const Meeting& meeting) {
+    std::uint32_t makeVertex(const Edge& a, const Edge& b, const CrossingPlace& place) {
         graph_.isTouching = true;
-        const auto pointsOf = [&](const FlatEdge& edge) {
+        const auto pointsOf = [&](const Edge& edge) {
             return std::pair{graph_.vertices[edge.left].point, graph_.vertices[edge.right].point};
         };
-        const std::uint32_t point = makePoint_(pointsOf(a), meeting.t, pointsOf(b), meeting.u);
-        graph_.vertices.push_back({meeting.at, point});
+        const std::uint32_t point = makePoint_(pointsOf(a), place.t, pointsOf(b), place.u);
+        graph_.vertices.push_back({place.at, point});
         return static_cast<std::uint32_t>(graph_.vertices.size() - 1);
     }
 
@@ -212,9 +199,8 @@ private:
     // The edges of the next sweep.
     void cutNoted() {
         const auto along = [&](const Cut& cut) {
-            const FlatEdge& ends = edges_[cut.edge].ends;
-            const FlatPoint whole = minus(at(ends.right), at(ends.left)), part = minus(at(cut.vertex), at(ends.left));
-            return Wide(whole.x) * part.x + Wide(whole.y) * part.y;
+            const Edge& ends = edges_[cut.edge].ends;
+            return dot(at(ends.right) - at(ends.left), at(cut.vertex) - at(ends.left));
         };
         std::sort(cuts_.begin(), cuts_.end(), [&](const Cut& a, const Cut& b) {
             if (a.edge != b.edge) return a.edge < b.edge;
@@ -233,10 +219,10 @@ private:
         }
     }
 
-    FlatGraph& graph_;
+    EdgeGraph& graph_;
     std::size_t maxCrossings_;
     const MakePoint& makePoint_;
-    std::vector<Edge> edges_;
+    std::vector<SweptEdge> edges_;
     std::vector<Cut> cuts_;
     std::vector<Later> later_;
     std::vector<std::uint32_t> firstLater_;  // per vertex
@@ -247,7 +233,7 @@ private:
 
 }  // namespace
 
-void FlatGraph::tidy() {
+void EdgeGraph::tidy() {
     std::vector<std::uint32_t> order(vertices.size()), place(vertices.size());
     std::iota(order.begin(), order.end(), 0u);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -264,11 +250,11 @@ void FlatGraph::tidy() {
         place[v] = static_cast<std::uint32_t>(sorted.size() - 1);
     }
     vertices = std::move(sorted);
-    for (FlatEdge& edge : edges) {
+    for (Edge& edge : edges) {
         edge = {place[edge.left], place[edge.right]};
         if (edge.right < edge.left) std::swap(edge.left, edge.right);
     }
-    std::erase_if(edges, [](const FlatEdge& edge) { return edge.left == edge.right; });
+    std::erase_if(edges, [](const Edge& edge) { return edge.left == edge.right; });
     std::sort(edges.begin(), edges.end());
     std::size_t kept = 0;
     for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
@@ -280,7 +266,7 @@ void FlatGraph::tidy() {
     edges.resize(kept);
 }
 
-bool cutCrossings(FlatGraph& graph, std::size_t maxCrossings, const MakePoint& makePoint) {
+bool cutCrossings(EdgeGraph& graph, std::size_t maxCrossings, const MakePoint& makePoint) {
     for (int round = 0; round < kMaxRounds; ++round) {
         const std::size_t crossings = CrossingSweep(graph, maxCrossings, makePoint).run();
         if (crossings > maxCrossings) return false;
@@ -291,4 +277,21 @@ bool cutCrossings(FlatGraph& graph, std::size_t maxCrossings, const MakePoint& m
     return false;
 }
 
-}  // namespace svt::mesh
+bool meetBeyondEnds(std::span<const std::pair<Point, Point>> edges) {
+    EdgeGraph graph;
+    for (const auto& [from, to] : edges) {
+        const auto first = static_cast<std::uint32_t>(graph.vertices.size());
+        graph.vertices.push_back({from, first});
+        graph.vertices.push_back({to, first + 1});
+        graph.edges.push_back({first, first + 1});
+    }
+    graph.tidy();
+    if (graph.edges.size() != edges.size()) return true;  // without length, or equal
+    std::vector<std::uint8_t> uses(graph.vertices.size(), 0);
+    for (const Edge& edge : graph.edges)
+        if (++uses[edge.left] > 2 || ++uses[edge.right] > 2) return true;
+    graph.isTouching = false;  // tells of joined ends until here
+    return !cutCrossings(graph, 0, {}) || graph.isTouching;
+}
+
+}  // namespace svt::plane
