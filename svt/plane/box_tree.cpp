@@ -4,6 +4,11 @@
 #include <numeric>
 
 namespace svt::plane {
+namespace {
+
+Vec3d centerOf(const Box3d& box) noexcept { return box.isEmpty() ? Vec3d{} : box.center(); }
+
+}  // namespace
 
 BoxTree::BoxTree(std::vector<Box3d> boxes, Halving halving) : boxes_(std::move(boxes)), order_(boxes_.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
@@ -17,7 +22,7 @@ std::uint32_t BoxTree::build(std::uint32_t begin, std::uint32_t end, Halving hal
     Box3d box, centers;
     for (std::uint32_t i = begin; i < end; ++i) {
         box.add(boxes_[order_[i]]);
-        centers.add(boxes_[order_[i]].center());
+        centers.add(centerOf(boxes_[order_[i]]));
     }
     nodes_[index].box = box;
     nodes_[index].begin = begin;
@@ -28,7 +33,7 @@ std::uint32_t BoxTree::build(std::uint32_t begin, std::uint32_t end, Halving hal
     const std::uint32_t middle = begin + (end - begin) / 2;
     std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
                      [&](std::uint32_t p, std::uint32_t q) {
-                         const double a = boxes_[p].center()[axis], b = boxes_[q].center()[axis];
+                         const double a = centerOf(boxes_[p])[axis], b = centerOf(boxes_[q])[axis];
                          return a != b ? a < b : p < q;
                      });
     build(begin, middle, halving);

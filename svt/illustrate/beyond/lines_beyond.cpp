@@ -96,8 +96,6 @@ public:
         add(partsLeft({0, 1}, scratch.joints, least), BeyondKind::Hidden);
     }
 
-    [[nodiscard]] const PlaneIndex& index() const noexcept { return index_; }
-
 private:
     static PlaneIndex indexOf(const ViewShapes& shapes) {
         std::vector<PlanePoint> corners;
@@ -199,7 +197,7 @@ void addLinesBeyond(SectionDrawing& drawing, const volume::SemanticVolume& volum
         const LineClipper clipper(shapes, cut, kinds, wantsHidden);
         const BeyondKind kind = looksAtCut ? BeyondKind::Above : BeyondKind::Visible;
         clipEdges(shapes.edges, clipper, kind, threads, lines);
-        clipEdges(findPiercingLines(shapes.faces, clipper.index()), clipper, kind, threads, lines);
+        clipEdges(findPiercingLines(shapes.faces), clipper, kind, threads, lines);
     }
     drawing.beyond = mergeLines(std::move(lines), drawing, volume.labels, threads);
     if (!options.visible)
@@ -215,7 +213,7 @@ void addLinesOfView(SectionDrawing& drawing, const volume::SemanticVolume& volum
     const LineClipper clipper(shapes, cut, kinds, isHidden);
     std::vector<BeyondLine> lines;
     clipEdges(shapes.edges, clipper, BeyondKind::Visible, threads, lines);
-    clipEdges(findPiercingLines(shapes.faces, clipper.index()), clipper, BeyondKind::Visible, threads, lines);
+    clipEdges(findPiercingLines(shapes.faces), clipper, BeyondKind::Visible, threads, lines);
     drawing.beyond = mergeLines(std::move(lines), drawing, volume.labels, threads);
 }
 

@@ -1,5 +1,7 @@
 #include <svt/illustrate/beyond/piercing.hpp>
 
+#include <svt/plane/box_tree.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -52,45 +54,20 @@ std::optional<std::pair<Vec3d, Vec3d>> commonLine(const ViewFace& a, const ViewF
     return std::pair(from, to);
 }
 
-struct FaceBox {
-    double left = 0, right = 0, bottom = 0, top = 0, near = 0, far = 0;
-    [[nodiscard]] bool meets(const FaceBox& o) const noexcept {
-        return left < o.right && o.left < right && bottom < o.top && o.bottom < top && near < o.far && o.near < far;
-    }
-};
-
-FaceBox boxOf(const ViewFace& face) noexcept {
-    const Vec3d p = face.corners[0];
-    FaceBox box{p.x, p.x, p.y, p.y, p.z, p.z};
-    for (std::uint32_t n = 1; n < face.cornerCount; ++n) {
-        const Vec3d q = face.corners[n];
-        box = {std::min(box.left, q.x), std::max(box.right, q.x), std::min(box.bottom, q.y),
-               std::max(box.top, q.y),  std::min(box.near, q.z),  std::max(box.far, q.z)};
-    }
-    return box;
-}
-
 }  // namespace
 
-std::vector<ViewEdge> findPiercingLines(const std::vector<ViewFace>& faces, const PlaneIndex& index) {
-    std::vector<FaceBox> boxes;
-    boxes.reserve(faces.size());
-    for (const ViewFace& face : faces) boxes.push_back(boxOf(face));
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-    index.forEachCell([&](std::span<const std::uint32_t> items) {
-        for (std::size_t n = 0; n < items.size(); ++n)
-            for (std::size_t m = n + 1; m < items.size(); ++m) {
-                const std::uint32_t a = items[n], b = items[m];
-                if (boxes[a].meets(boxes[b]) && faces[a].label != faces[b].label && commonLine(faces[a], faces[b]))
-                    pairs.emplace_back(a, b);
-            }
-    });
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+std::vector<ViewEdge> findPiercingLines(const std::vector<ViewFace>& faces) {
+    std::vector<Box3d> boxes(faces.size());
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (std::uint32_t n = 0; n < faces[f].cornerCount; ++n) boxes[f].add(faces[f].corners[n]);
+    const plane::BoxTree tree(boxes);
     std::vector<ViewEdge> lines;
-    for (const auto& [a, b] : pairs)
-        if (const auto line = commonLine(faces[a], faces[b]))
-            lines.push_back({line->first, line->second, std::min(faces[a].label, faces[b].label), {}, 0, true});
+    for (std::uint32_t a = 0; a < faces.size(); ++a)
+        for (const std::uint32_t b : tree.findAll(boxes[a])) {
+            if (b <= a || faces[a].label == faces[b].label) continue;
+            if (const auto line = commonLine(faces[a], faces[b]))
+                lines.push_back({line->first, line->second, std::min(faces[a].label, faces[b].label), {}, 0, true});
+        }
     return lines;
 }
 

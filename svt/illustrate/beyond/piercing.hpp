@@ -3,7 +3,6 @@
 /// Where the shells of two objects pierce each other, meshes have no edge, but a drawing has a line: a slab that
 /// reaches into a wall meets the wall's face in the corner of the room.
 
-#include <svt/illustrate/beyond/plane_index.hpp>
 #include <svt/illustrate/beyond/view_shapes.hpp>
 
 #include <vector>
@@ -11,9 +10,8 @@
 namespace svt::illustrate {
 
 /// Lines where faces of two labels cross each other. Faces that end at the other one only touch it: no line.
-/// \param index  the faces, by number
 /// \return the lines, by their faces; with `isPiercing`
-/// Cost: O(pairs of faces in the cells of the index).
-[[nodiscard]] std::vector<ViewEdge> findPiercingLines(const std::vector<ViewFace>& faces, const PlaneIndex& index);
+/// Cost: O(n log n) and the pairs of faces whose boxes meet.
+[[nodiscard]] std::vector<ViewEdge> findPiercingLines(const std::vector<ViewFace>& faces);
 
 }  // namespace svt::illustrate

@@ -49,13 +49,6 @@ public:
         }
     }
 
-    /// Calls `visit` with the items of each cell, ascending.
-    template <class Visit>
-    void forEachCell(const Visit& visit) const {
-        for (std::size_t cell = 0; cell + 1 < cellStart_.size(); ++cell)
-            visit(std::span(cellItems_).subspan(cellStart_[cell], cellStart_[cell + 1] - cellStart_[cell]));
-    }
-
 private:
     struct Rows {
         std::int32_t first = 0, last = -1;

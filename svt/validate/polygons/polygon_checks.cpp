@@ -1,5 +1,6 @@
 #include <svt/validate/polygons/polygon_checks.hpp>
 
+#include <svt/plane/box_tree.hpp>
 #include <svt/plane/edges.hpp>
 #include <svt/validate/exact/snapper.hpp>
 #include <svt/validate/polygons/groups.hpp>
@@ -364,33 +365,17 @@ private:
     // The first interior ring, if any, that lies within another, and the first one around it. Rings are compared whose
     // boxes lie within each other.
     [[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> findNestedRings() const {
-        struct Extent {
-            plane::Box box;
-            std::size_t ring;
-        };
-        std::vector<Extent> extents;
-        for (std::size_t r = 1; r < rings_.size(); ++r) {
-            Extent& extent = extents.emplace_back();
-            extent.ring = r;
-            for (const plane::Point p : rings_[r].at) extent.box.add(p);
-        }
-        std::sort(extents.begin(), extents.end(), [](const Extent& a, const Extent& b) {
-            return std::tie(a.box.low.u, a.ring) < std::tie(b.box.low.u, b.ring);
-        });
-        std::optional<std::pair<std::size_t, std::size_t>> first;
-        for (std::size_t outer = 0; outer < extents.size(); ++outer) {
-            const plane::Box& o = extents[outer].box;
-            std::size_t inner = outer;
-            while (inner > 0 && extents[inner - 1].box.low.u == o.low.u) --inner;
-            for (; inner < extents.size() && extents[inner].box.low.u <= o.high.u; ++inner) {
-                if (inner == outer || !o.contains(extents[inner].box.low) || !o.contains(extents[inner].box.high))
-                    continue;
-                const std::pair found{extents[inner].ring, extents[outer].ring};
-                if (first && !(found < *first)) continue;
-                if (locateRing(rings_[found.first], rings_[found.second]) == Where::Inside) first = found;
-            }
-        }
-        return first;
+        std::vector<Box3d> boxes(rings_.size());
+        for (std::size_t r = 1; r < rings_.size(); ++r)
+            for (const plane::Point p : rings_[r].at) boxes[r].add(Vec3d{double(p.u), double(p.v), 0});
+        const plane::BoxTree tree(boxes);
+        for (std::size_t inner = 1; inner < boxes.size(); ++inner)
+            for (const std::uint32_t outer : tree.findAll(boxes[inner]))
+                if (outer != inner && boxes[outer].contains(boxes[inner].min) &&
+                    boxes[outer].contains(boxes[inner].max) &&
+                    locateRing(rings_[inner], rings_[outer]) == Where::Inside)
+                    return std::pair{inner, std::size_t(outer)};
+        return std::nullopt;
     }
 
     // Rings and the points where they touch, as a graph: a circle of them cuts the interior in two.

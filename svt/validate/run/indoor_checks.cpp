@@ -35,10 +35,7 @@ public:
           snap_(options.snap / lattice.unit()),
           overlap_(std::max({options.snap, 2 * options.overlap, 4 * lattice.unit()}) / lattice.unit()) {
         for (FeatureIndex f = 0; f < model.features.size(); ++f) byId_.emplace(model.features[f].id, f);
-        for (std::size_t c = 0; c < cells.size(); ++c) {
-            cellOf_.emplace(cells[c].feature, c);
-            boxes_.push_back(boundsOf(cells[c]));
-        }
+        for (std::size_t c = 0; c < cells.size(); ++c) cellOf_.emplace(cells[c].feature, c);
         for (const model::Membership& membership : model.memberships)
             layersOf_[membership.member].insert(membership.group);
     }
@@ -73,20 +70,14 @@ private:
                             [&](FeatureIndex layer) { return other->second.count(layer) != 0; });
     }
 
-    // Pairs whose boxes meet, by a sweep along x.
+    // Pairs whose boxes meet.
     void compareCells() {
-        std::vector<std::size_t> order(cells_.size());
-        for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-        std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-            return boxes_[a].min.x != boxes_[b].min.x ? boxes_[a].min.x < boxes_[b].min.x : a < b;
-        });
-        std::vector<std::pair<std::size_t, std::size_t>> pairs;
-        for (std::size_t i = 0; i < order.size(); ++i)
-            for (std::size_t j = i + 1; j < order.size() && boxes_[order[j]].min.x <= boxes_[order[i]].max.x; ++j)
-                if (boxes_[order[i]].overlaps(boxes_[order[j]])) pairs.push_back(std::minmax(order[i], order[j]));
-        std::sort(pairs.begin(), pairs.end());
-        for (const auto& [a, b] : pairs)
-            if (!mayOverlap(cells_[a].feature, cells_[b].feature)) comparePair(cells_[a], cells_[b]);
+        std::vector<Box3d> boxes;
+        for (const SolidBodies& cell : cells_) boxes.push_back(boundsOf(cell));
+        const plane::BoxTree tree(boxes);
+        for (std::size_t a = 0; a < cells_.size(); ++a)
+            for (const std::uint32_t b : tree.findAll(boxes[a]))
+                if (b > a && !mayOverlap(cells_[a].feature, cells_[b].feature)) comparePair(cells_[a], cells_[b]);
     }
 
     void comparePair(const SolidBodies& one, const SolidBodies& other) {
@@ -184,7 +175,6 @@ private:
     std::unordered_map<std::string, FeatureIndex> byId_;
     std::unordered_map<FeatureIndex, std::size_t> cellOf_;
     std::unordered_map<FeatureIndex, std::set<FeatureIndex>> layersOf_;
-    std::vector<Box3d> boxes_;
     std::set<FeatureIndex> invalid_;
     GroupReport report_;
 };
