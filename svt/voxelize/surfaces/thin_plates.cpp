@@ -1,10 +1,10 @@
 #include <svt/voxelize/surfaces/thin_plates.hpp>
 
+#include <svt/plane/box_tree.hpp>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,97 +19,17 @@ constexpr std::uint64_t kLooks = 34'000'000, kLooksPerFace = 256;
 constexpr std::int32_t kSnap = 4;  // quanta by which the snap of corners may bring two sides past each other
 constexpr std::int64_t kNoExit = std::numeric_limits<std::int64_t>::max(), kAtEntry = kNoExit - 1;
 
-// Rows and columns in samples, heights in quanta; from low up to below high.
-struct Extent {
-    std::array<std::int32_t, 3> low{}, high{};
-
-    [[nodiscard]] bool meets(const Extent& other) const noexcept {
-        for (std::size_t n = 0; n < 3; ++n)
-            if (low[n] >= other.high[n] || other.low[n] >= high[n]) return false;
-        return true;
-    }
-    void add(const Extent& other) noexcept {
-        for (std::size_t n = 0; n < 3; ++n) {
-            low[n] = std::min(low[n], other.low[n]);
-            high[n] = std::max(high[n], other.high[n]);
-        }
-    }
-    // Of the side that is longest in samples.
-    [[nodiscard]] std::size_t longest() const noexcept {
-        const std::array<std::int64_t, 3> size{std::int64_t{high[0]} - low[0], std::int64_t{high[1]} - low[1],
-                                               (std::int64_t{high[2]} - low[2]) / kQuanta};
-        return static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
-    }
-};
+// Whether two boxes have a part in common; borders do not count.
+bool meets(const Box3d& a, const Box3d& b) noexcept {
+    return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y && a.min.z < b.max.z &&
+           b.min.z < a.max.z;
+}
 
 // A face that sample lines along an axis cross.
 struct PlateFace {
     ScanTriangle scan;
     Vec3d normal, corner;  // local space; the normal has length 1
-    Extent extent;
-};
-
-// Faces by place: halved again and again along their longest side.
-class FaceBoxes {
-public:
-    explicit FaceBoxes(std::span<const PlateFace> faces) : faces_(faces), order_(faces.size()) {
-        std::iota(order_.begin(), order_.end(), 0u);
-        if (!faces.empty()) build(0, static_cast<std::uint32_t>(faces.size()));
-    }
-
-    // Calls visit(face) for all faces whose box meets `extent`. Returns how many boxes it looked at.
-    template <class Visit>
-    [[nodiscard]] std::uint64_t forEach(const Extent& extent, const Visit& visit) const {
-        std::uint64_t looks = 0;
-        std::vector<std::uint32_t> open;
-        if (!nodes_.empty()) open.push_back(0);
-        while (!open.empty()) {
-            const std::uint32_t at = open.back();
-            const Node& node = nodes_[at];
-            open.pop_back();
-            ++looks;
-            if (!node.extent.meets(extent)) continue;
-            if (node.right != 0) {
-                open.push_back(at + 1);
-                open.push_back(node.right);
-                continue;
-            }
-            looks += node.end - node.begin;
-            for (std::uint32_t n = node.begin; n < node.end; ++n)
-                if (const PlateFace& face = faces_[order_[n]]; face.extent.meets(extent)) visit(face);
-        }
-        return looks;
-    }
-
-private:
-    static constexpr std::uint32_t kLeaf = 4;
-    struct Node {
-        Extent extent;
-        std::uint32_t begin = 0, end = 0;  // in order_
-        std::uint32_t right = 0;           // node of the second half, 0: a leaf; the first half follows
-    };
-
-    void build(std::uint32_t begin, std::uint32_t end) {
-        const std::size_t at = nodes_.size();
-        nodes_.push_back({faces_[order_[begin]].extent, begin, end, 0});
-        for (std::uint32_t n = begin; n < end; ++n) nodes_[at].extent.add(faces_[order_[n]].extent);
-        if (end - begin <= kLeaf) return;
-        const std::size_t side = nodes_[at].extent.longest();
-        const auto middle = [&](std::uint32_t face) {
-            const Extent& extent = faces_[face].extent;
-            return std::pair(std::int64_t{extent.low[side]} + extent.high[side], face);
-        };
-        const std::uint32_t half = begin + (end - begin) / 2;
-        std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
-                         [&](std::uint32_t f, std::uint32_t g) { return middle(f) < middle(g); });
-        build(begin, half);
-        nodes_[at].right = static_cast<std::uint32_t>(nodes_.size());
-        build(half, end);
-    }
-
-    std::span<const PlateFace> faces_;
-    std::vector<std::uint32_t> order_;
-    std::vector<Node> nodes_;
+    Box3d box;             // rows, columns and heights, in samples
 };
 
 // The faces through which lines along an axis enter a solid, where it is the dominant one of the face, and leave it.
@@ -133,8 +53,8 @@ Sides sidesAcross(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, i
         face.normal = normalized(across);
         face.corner = a;
         const auto [low, high] = std::minmax({p[axes.z], q[axes.z], r[axes.z]});
-        face.extent = {{face.scan.firstRow, face.scan.firstColumn, low},
-                       {face.scan.endRow, face.scan.endColumn, high + 1}};
+        face.box = {{double(face.scan.firstRow), double(face.scan.firstColumn), double(low) / kQuanta},
+                    {double(face.scan.endRow), double(face.scan.endColumn), double(high + 1) / kQuanta}};
         if (face.scan.sign < 0) {
             sides.exits.push_back(face);
             continue;
@@ -257,15 +177,22 @@ void addThinPlates(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, 
     std::vector<const PlateFace*> exits;
     for (int axis = 0; axis < 3; ++axis) {
         const Sides sides = sidesAcross(mesh, indexFromLocal, axis);
-        const FaceBoxes places(sides.exits);
+        std::vector<Box3d> boxesOfExits;
+        for (const PlateFace& exit : sides.exits) boxesOfExits.push_back(exit.box);
+        const plane::BoxTree places(std::move(boxesOfExits), {.leafSize = 4, .usesCenters = false});
         PlateLines lines(kScanAxes[axis], dimension);
         for (const PlateFace& entry : sides.entries) {
-            Extent behind = entry.extent;
-            behind.low[2] -= kSnap;
-            behind.high[2] += static_cast<std::int32_t>(kQuanta);  // a voxel on
+            Box3d behind = entry.box;
+            behind.min.z -= double(kSnap) / kQuanta;
+            behind.max.z += 1;  // a voxel on
             exits.clear();
-            const std::uint64_t looked = places.forEach(behind, [&](const PlateFace& exit) {
-                if (dot(exit.normal, entry.normal) < kOpposite) exits.push_back(&exit);
+            std::uint64_t looked = 0;
+            const auto isBehind = [&](const Box3d& box) {
+                ++looked;
+                return meets(box, behind);
+            };
+            places.forEach(isBehind, [&](std::uint32_t e) {
+                if (dot(sides.exits[e].normal, entry.normal) < kOpposite) exits.push_back(&sides.exits[e]);
             });
             if (!exits.empty()) lines.add(entry, exits, claims, boxes);
             if (looked >= looks) return;
