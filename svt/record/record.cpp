@@ -39,8 +39,9 @@ Json valueOfTexts(const Option& option, std::span<const std::string> texts) {
 
 bool isInRange(Faults& faults, const Json& value, const std::string& path, const Option& option, bool isWhole) {
     if (!value.is_number() || !(value.get<double>() >= option.least && value.get<double>() <= option.most)) {
-        faults.add(path, fmt::format("expected a number from {} to {}, found {}", option.least, option.most,
-                                     shortened(value)));
+        const bool hasRange = std::isfinite(option.least) || std::isfinite(option.most);
+        const std::string range = hasRange ? fmt::format(" from {} to {}", option.least, option.most) : std::string();
+        faults.add(path, fmt::format("expected a number{}, found {}", range, shortened(value)));
         return false;
     }
     if (isWhole && value.get<double>() != std::floor(value.get<double>())) {
