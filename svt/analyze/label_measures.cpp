@@ -32,6 +32,15 @@ std::vector<double> ownVolumes(const volume::LabelTable& table, const volume::Gr
     return volumes;
 }
 
+double solidVolume(const volume::LabelTable& labels, std::uint32_t label) noexcept {
+    const volume::Label& own = labels.labels[label];
+    if (own.volume > 0) return own.volume;
+    double sum = 0;
+    for (std::uint32_t below = label + 1; below < own.subtreeEnd; below = labels.labels[below].subtreeEnd)
+        sum += solidVolume(labels, below);
+    return sum;
+}
+
 Box3d worldBox(const SampleBox& box, const volume::Grid& grid) noexcept {
     Box3d world;
     if (box.isEmpty()) return world;

@@ -29,6 +29,9 @@ struct LabelMeasure {
 /// rooms. 0 for sheets.
 [[nodiscard]] std::vector<double> ownVolumes(const volume::LabelTable& labels, const volume::Grid& grid);
 
+/// Volume of a label's solid, m3; where it has none, of the solids below it in the tree.
+[[nodiscard]] double solidVolume(const volume::LabelTable& labels, std::uint32_t label) noexcept;
+
 /// The box around the voxels of `box`, along world axes, metres; empty if `box` is.
 [[nodiscard]] Box3d worldBox(const SampleBox& box, const volume::Grid& grid) noexcept;
 

@@ -4,6 +4,7 @@
 /// and GIS.
 
 #include <svt/core/result.hpp>
+#include <svt/writers/table.hpp>
 
 #include <array>
 #include <cstdint>
@@ -11,19 +12,9 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace svt::writers {
-
-using FeatureCell = std::variant<std::monostate, std::string, std::int64_t, double, bool>;
-
-/// A column of a layer; what stands in it has this kind, or is empty. In CSV and GeoJSON each cell keeps its own.
-struct FeatureColumn {
-    enum class Kind : std::uint8_t { Text, Whole, Number };
-    std::string name;
-    Kind kind = Kind::Text;
-};
 
 /// A file that features are added to. Nothing is there before finish().
 class FeatureLayer {
@@ -33,13 +24,13 @@ public:
     ///                 GeoParquet has it as PROJJSON, which needs PROJ (none without it)
     /// \return the layer, or BadArgument for another ending; CannotWrite, DiskFull
     [[nodiscard]] static Result<std::unique_ptr<FeatureLayer>> create(const std::filesystem::path& path,
-                                                                      std::vector<FeatureColumn> columns,
+                                                                      std::vector<Column> columns,
                                                                       const std::string& crsName);
     virtual ~FeatureLayer() = default;
 
-    /// \param cells    one for each column
+    /// \param cells    one for each column, of its type or empty
     /// \param outline  a simple ring (east, north), the first point not repeated; empty: none
-    [[nodiscard]] virtual Result<void> add(std::span<const FeatureCell> cells,
+    [[nodiscard]] virtual Result<void> add(std::span<const Cell> cells,
                                            std::span<const std::array<double, 2>> outline) = 0;
     /// \return bytes written, or CannotWrite, DiskFull. Equal features give equal bytes.
     [[nodiscard]] virtual Result<std::uint64_t> finish() = 0;

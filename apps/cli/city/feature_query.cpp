@@ -21,19 +21,24 @@
 namespace svt::cli {
 namespace {
 
-using writers::FeatureCell;
-using writers::FeatureColumn;
-using Kind = FeatureColumn::Kind;
+using writers::CellType;
 
-const std::vector<FeatureColumn>& ownColumns() {
-    static const std::vector<FeatureColumn> kColumns = {
-        {"id", Kind::Text},      {"class", Kind::Text},    {"name", Kind::Text},     {"volume", Kind::Number},
-        {"area", Kind::Number},  {"height", Kind::Number}, {"lowest", Kind::Number}, {"highest", Kind::Number},
-        {"voxels", Kind::Whole}, {"filling", Kind::Text},  {"open", Kind::Whole}};
+const std::vector<Column>& ownColumns() {
+    static const std::vector<Column> kColumns = {{"id", "id"},
+                                                 {"class", "class"},
+                                                 {"name", "name"},
+                                                 {"volume", "volume", 2, CellType::Number},
+                                                 {"area", "area", 2, CellType::Number},
+                                                 {"height", "height", 2, CellType::Number},
+                                                 {"lowest", "lowest", 2, CellType::Number},
+                                                 {"highest", "highest", 2, CellType::Number},
+                                                 {"voxels", "voxels", 0, CellType::Whole},
+                                                 {"filling", "filling"},
+                                                 {"open", "open", 0, CellType::Whole}};
     return kColumns;
 }
 
-std::vector<FeatureCell> cellsOf(const FeatureRow& row, const volume::Label& label) {
+Row cellsOf(const FeatureRow& row, const volume::Label& label) {
     return {label.id,
             label.className,
             label.name,
@@ -42,18 +47,14 @@ std::vector<FeatureCell> cellsOf(const FeatureRow& row, const volume::Label& lab
             row.highest - row.lowest,
             row.lowest,
             row.highest,
-            static_cast<std::int64_t>(row.voxels),
-            std::string(volume::fillingName(label.filling)),
-            std::int64_t{row.isOpen ? 1 : 0}};
+            row.voxels,
+            volume::fillingName(label.filling),
+            row.isOpen ? 1 : 0};
 }
 
-FeatureCell cellOf(const AttributeValue& value) {
-    return std::visit([](const auto& v) { return FeatureCell(v); }, value);
-}
-
-Kind kindOf(const AttributeValue& value) {
-    if (std::holds_alternative<std::int64_t>(value)) return Kind::Whole;
-    return std::holds_alternative<double>(value) ? Kind::Number : Kind::Text;
+CellType typeOf(const AttributeValue& value) {
+    if (std::holds_alternative<std::int64_t>(value)) return CellType::Whole;
+    return std::holds_alternative<double>(value) ? CellType::Number : CellType::Text;
 }
 
 // Volumes one after the other: the tiles of a city, or one volume.
@@ -135,7 +136,7 @@ private:
     };
     struct Kept {
         double order = 0;
-        std::vector<FeatureCell> cells;
+        Row cells;
         std::vector<std::array<double, 2>> outline;
     };
 
@@ -143,32 +144,28 @@ private:
         std::vector<std::string> nothing;
         auto selected = analyze::selectLabels(analyze::LabelRows(labels, &nothing), query_.query);
         if (selected && query_.leaks)
-            std::erase_if(*selected, [&](std::uint32_t l) {
-                const auto filling = labels.labels[l].filling;
-                return filling != volume::Filling::Capped && filling != volume::Filling::Winding &&
-                       filling != volume::Filling::Complemented;
-            });
+            std::erase_if(*selected, [&](std::uint32_t l) { return !isOpenShell(labels.labels[l]); });
         return selected;
     }
 
     // The columns of attributes must be known before the first row.
     Result<void> beginFile() {
-        std::map<std::string, Kind> attributes;
+        std::map<std::string, CellType> attributes;
         const auto add = [&](const volume::LabelTable& labels) -> Result<void> {
             SVT_TRY(selected, select(labels));
             for (const std::uint32_t l : *selected)
                 for (const Attribute& attribute : labels.labels[l].attributes) {
-                    const Kind kind = kindOf(attribute.value);
-                    const auto [known, isNew] = attributes.emplace(attribute.name, kind);
-                    if (isNew || known->second == kind) continue;
-                    const bool areNumbers = known->second != Kind::Text && kind != Kind::Text;
-                    known->second = areNumbers ? Kind::Number : Kind::Text;
+                    const CellType type = typeOf(attribute.value);
+                    const auto [known, isNew] = attributes.emplace(attribute.name, type);
+                    if (isNew || known->second == type) continue;
+                    const bool areNumbers = known->second != CellType::Text && type != CellType::Text;
+                    known->second = areNumbers ? CellType::Number : CellType::Text;
                 }
             return {};
         };
         SVT_DO(source_.forEachTable(add));
         columns_ = ownColumns();
-        for (const auto& [name, kind] : attributes) {
+        for (const auto& [name, type] : attributes) {
             // Names of columns are not told apart by case, and one table has each once.
             const bool isOwn = std::any_of(columns_.begin(), columns_.end(), [&, &wanted = name](const auto& column) {
                 return equalsIgnoringCase(column.name, wanted) || equalsIgnoringCase(wanted, "fid") ||
@@ -179,7 +176,7 @@ private:
                                [&](const auto& column) { return equalsIgnoringCase(column.name, unique); }))
                 unique += "_";
             placeOf_[name] = columns_.size();
-            columns_.push_back({unique, kind});
+            columns_.push_back({unique, unique, 2, type});
         }
         SVT_TRY(layer, writers::FeatureLayer::create(query_.output, columns_, source_.frame().crsName));
         layer_ = std::move(*layer);
@@ -230,7 +227,7 @@ private:
             for (const Attribute& attribute : label.attributes) {
                 const std::size_t place = placeOf_.at(attribute.name);
                 kept.cells[place] =
-                    columns_[place].kind == Kind::Text ? FeatureCell(toText(attribute.value)) : cellOf(attribute.value);
+                    columns_[place].type == CellType::Text ? Cell(toText(attribute.value)) : Cell(attribute.value);
             }
         }
         if (!query_.sort.empty()) {
@@ -244,11 +241,12 @@ private:
         return give(kept);
     }
 
+    static bool isLarger(const Kept& a, const Kept& b) {
+        const auto id = [](const Kept& kept) { return std::get<std::string>(kept.cells[0].value); };
+        return a.order != b.order ? a.order > b.order : id(a) < id(b);
+    }
+
     Result<void> keepLargest(Kept kept) {
-        const auto isLarger = [](const Kept& a, const Kept& b) {
-            return a.order != b.order ? a.order > b.order
-                                      : std::get<std::string>(a.cells[0]) < std::get<std::string>(b.cells[0]);
-        };
         largest_.push_back(std::move(kept));
         const auto most = static_cast<std::size_t>(query_.first > 0 ? query_.first : 100);
         if (largest_.size() < 2 * most) return {};
@@ -261,32 +259,16 @@ private:
     Result<void> give(const Kept& kept) {
         if (layer_) return layer_->add(kept.cells, kept.outline);
         if (!keys_.empty()) return {};
-        std::vector<Json> row;
-        for (const FeatureCell& cell : kept.cells)
-            row.push_back(std::visit(
-                [](const auto& value) -> Json {
-                    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::monostate>)
-                        return nullptr;
-                    else
-                        return value;
-                },
-                cell));
-        table_.rows.push_back(std::move(row));
-        if (query_.json || table_.rows.size() < 1000) return {};
+        table_.rows.push_back(kept.cells);
+        if (query_.form == TableForm::Json || table_.rows.size() < 1000) return {};
         printTable();
         return {};
     }
 
     // Rows so far, so that memory does not grow with them.
     void printTable() {
-        if (!isBegun_)
-            for (const FeatureColumn& column : ownColumns()) table_.columns.push_back({column.name, column.name, 2});
-        if (query_.json)
-            print(table_.toJson());
-        else if (query_.csv)
-            isBegun_ ? table_.printCsvRows() : table_.printCsv();
-        else
-            table_.printText();
+        table_.columns = ownColumns();
+        print(table_, query_.form, !isBegun_);
         isBegun_ = true;
         table_.rows.clear();
     }
@@ -298,29 +280,17 @@ private:
         table.columns.push_back({"volume", "m3", 1});
         table.columns.push_back({"area", "m2 in plan", 1});
         for (const auto& [values, sum] : sums_) {
-            std::vector<Json> row(values.begin(), values.end());
-            for (Json& cell : row)
-                if (cell.get<std::string>().empty()) cell = nullptr;
-            row.emplace_back(sum.count);
-            row.emplace_back(sum.volume);
-            row.emplace_back(sum.area);
-            table.rows.push_back(std::move(row));
+            Row& row = table.rows.emplace_back();
+            for (const std::string& value : values) row.push_back(value.empty() ? Cell() : Cell(value));
+            row.insert(row.end(), {sum.count, sum.volume, sum.area});
         }
-        if (query_.json)
-            print(table.toJson());
-        else if (query_.csv)
-            table.printCsv();
-        else
-            table.printText();
+        print(table, query_.form);
     }
 
     Result<void> finish() {
         if (!query_.sort.empty()) {
             const auto most = largest_.size();
-            std::sort(largest_.begin(), largest_.end(), [](const Kept& a, const Kept& b) {
-                return a.order != b.order ? a.order > b.order
-                                          : std::get<std::string>(a.cells[0]) < std::get<std::string>(b.cells[0]);
-            });
+            std::sort(largest_.begin(), largest_.end(), isLarger);
             const auto wanted = static_cast<std::size_t>(query_.first > 0 ? query_.first : 100);
             for (std::size_t n = 0; n < std::min(most, wanted); ++n)
                 if (auto given = give(largest_[n]); !given) return given;
@@ -343,7 +313,7 @@ private:
     Source source_;
     std::optional<illustrate::SectionPlane> plane_;
     std::vector<std::string> keys_;
-    std::vector<FeatureColumn> columns_;
+    std::vector<Column> columns_;
     std::map<std::string, std::size_t> placeOf_;
     std::unique_ptr<writers::FeatureLayer> layer_;
     std::map<std::vector<std::string>, Sum> sums_;

@@ -4,6 +4,7 @@
 /// one volume.
 
 #include <apps/cli/options/build_options.hpp>
+#include <apps/cli/output/table.hpp>
 
 #include <filesystem>
 #include <string>
@@ -17,7 +18,8 @@ struct FeatureQuery {
     std::vector<double> box;
     std::string by, cut, sort;
     int first = 0;
-    bool leaks = false, json = false, csv = false;
+    bool leaks = false;
+    TableForm form = TableForm::Text;
     pipeline::BuildOptions build;
 
     /// Whether an option is given that only this answers.

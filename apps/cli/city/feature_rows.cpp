@@ -1,5 +1,6 @@
 #include <apps/cli/city/feature_rows.hpp>
 
+#include <svt/analyze/label_measures.hpp>
 #include <svt/plane/hull.hpp>
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 namespace svt::cli {
 namespace {
 
-using volume::Filling;
 using volume::kNoLabel;
 
 using Point = std::array<double, 2>;
@@ -27,20 +27,6 @@ std::vector<Point> hullOf(std::vector<Point> points) {
     const std::vector<Point> upper = chain();
     hull.insert(hull.end(), upper.begin() + 1, upper.end() - 1);
     return hull;
-}
-
-// The m3 of a label's solid, or of those below it.
-double volumeOf(const std::vector<volume::Label>& labels, std::uint32_t l) {
-    if (labels[l].volume > 0) return labels[l].volume;
-    double sum = 0;
-    for (std::uint32_t below = l + 1; below < labels[l].subtreeEnd; below = labels[below].subtreeEnd)
-        sum += volumeOf(labels, below);
-    return sum;
-}
-
-bool isOpenShell(const volume::Label& label) {
-    return label.filling == Filling::Capped || label.filling == Filling::Winding ||
-           label.filling == Filling::Complemented;
 }
 
 // What is gathered of a row while columns are read.
@@ -122,6 +108,12 @@ std::vector<Point> outlineOf(const Gathered& gathered, const volume::Grid& grid)
 
 }  // namespace
 
+bool isOpenShell(const volume::Label& label) noexcept {
+    using volume::Filling;
+    return label.filling == Filling::Capped || label.filling == Filling::Winding ||
+           label.filling == Filling::Complemented;
+}
+
 std::vector<FeatureRow> featureRows(const volume::SemanticVolume& volume, std::span<const std::uint32_t> selected,
                                     const illustrate::SectionPlane* plane) {
     const std::vector<volume::Label>& labels = volume.labels.labels;
@@ -131,7 +123,7 @@ std::vector<FeatureRow> featureRows(const volume::SemanticVolume& volume, std::s
     for (std::size_t n = 0; n < selected.size(); ++n) {
         FeatureRow& row = rows.emplace_back();
         row.label = selected[n];
-        row.volume = volumeOf(labels, row.label);
+        row.volume = analyze::solidVolume(volume.labels, row.label);
         for (std::uint32_t l = row.label; l < labels[row.label].subtreeEnd; ++l)
             row.isOpen = row.isOpen || isOpenShell(labels[l]);
         const Gathered& own = gathered[n];

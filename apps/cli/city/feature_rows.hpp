@@ -25,6 +25,9 @@ struct FeatureRow {
     std::vector<std::array<double, 2>> outline;  ///< convex, around its voxels in plan; counter-clockwise
 };
 
+/// Whether the shell of a solid is open in the model, and was closed or filled all the same.
+[[nodiscard]] bool isOpenShell(const volume::Label& label) noexcept;
+
 /// \param selected  labels, ascending
 /// \param plane     that cuts, at the accuracy of voxels; null: none
 /// Cost: O(columns + runs * depth of the tree)

@@ -31,6 +31,7 @@ struct QueryArguments {
         return !with.empty() + !along.empty() + !owners.empty() + !parcels.empty() + neighbors + overlaps + gaps +
                areas;
     }
+    [[nodiscard]] TableForm form() const { return json ? TableForm::Json : csv ? TableForm::Csv : TableForm::Text; }
 };
 
 void printFeatures(const volume::LabelTable& table, const Labels& selected) {
@@ -52,10 +53,8 @@ int printFeatures(const volume::SemanticVolume& volume, const Labels& selected, 
     const int threads = arguments.build.threads;
     if (arguments.json)
         print(featureJson(volume, selected, with, threads));
-    else if (arguments.csv)
-        featureTable(volume, selected, with, threads).printCsv();
-    else if (!arguments.with.empty())
-        featureTable(volume, selected, with, threads).printText();
+    else if (arguments.csv || !arguments.with.empty())
+        print(featureTable(volume, selected, with, threads), arguments.form());
     else
         printFeatures(volume.labels, selected);
     return kDone;
@@ -79,16 +78,6 @@ Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& sel
     return parcelTable(volume, selected, *parcels, threads);
 }
 
-int printTable(const Table& table, const QueryArguments& arguments) {
-    if (arguments.json)
-        print(table.toJson());
-    else if (arguments.csv)
-        table.printCsv();
-    else
-        table.printText();
-    return kDone;
-}
-
 int printReport(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
     const auto table = [&]() -> Result<Table> {
         const TerminalProgress progress;
@@ -99,7 +88,8 @@ int printReport(const volume::SemanticVolume& volume, const Labels& selected, co
     }();
     if (!table) return fail(table.error());
     if (table->rows.empty() && !selected.empty()) note("the report is empty: it has nothing of what the query selects");
-    return printTable(*table, arguments);
+    print(*table, arguments.form());
+    return kDone;
 }
 
 int printOwners(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
@@ -111,11 +101,11 @@ int printOwners(const volume::SemanticVolume& volume, const Labels& selected, co
     if (arguments.json) {
         print(report.json);
     } else if (arguments.csv) {
-        report.components.printCsv();
+        print(report.components, TableForm::Csv);
     } else {
-        report.totals.printText();
+        print(report.totals, TableForm::Text);
         fmt::print("\n");
-        report.components.printText();
+        print(report.components, TableForm::Text);
     }
     return kDone;
 }
@@ -127,7 +117,8 @@ int runCityOverlaps(const QueryArguments& arguments) {
     }();
     if (!table) return fail(table.error());
     if (table->rows.empty()) note("no two buildings of what the query selects claim the same space");
-    return printTable(*table, arguments);
+    print(*table, arguments.form());
+    return kDone;
 }
 
 // Of a city, or with options that are answered feature by feature.
@@ -145,8 +136,7 @@ int runFeatures(const QueryArguments& arguments) {
     query.input = arguments.input;
     query.query = arguments.query;
     query.build = arguments.build;
-    query.json = arguments.json;
-    query.csv = arguments.csv;
+    query.form = arguments.form();
     return runFeatureQuery(query);
 }
 

@@ -21,7 +21,7 @@ bool isIn(const Labels& selected, std::uint32_t label) {
 }
 
 // Id, class and name of a label, or nulls for background.
-void addNames(std::vector<Json>& row, const volume::LabelTable& table, std::uint32_t label) {
+void addNames(Row& row, const volume::LabelTable& table, std::uint32_t label) {
     if (label == volume::kNoLabel) {
         row.insert(row.end(), 3, nullptr);
         return;
@@ -35,9 +35,9 @@ Json boxJson(const Box3d& box) {
     return {{"min", toJson(box.min)}, {"max", toJson(box.max)}};
 }
 
-void addCorners(std::vector<Json>& row, const Box3d& box) {
+void addCorners(Row& row, const Box3d& box) {
     for (const Vec3d& corner : {box.min, box.max})
-        for (int axis = 0; axis < 3; ++axis) row.push_back(box.isEmpty() ? Json(nullptr) : Json(corner[axis]));
+        for (int axis = 0; axis < 3; ++axis) row.push_back(box.isEmpty() ? Cell() : Cell(corner[axis]));
 }
 
 void addBoxColumns(std::vector<Column>& columns) {
@@ -101,12 +101,12 @@ Table featureTable(const volume::SemanticVolume& volume, const Labels& selected,
     const std::vector<analyze::LabelMeasure> measures = measure(volume, with, threads);
     for (const std::uint32_t l : selected) {
         const volume::Label& label = volume.labels.labels[l];
-        std::vector<Json> row;
+        Row row;
         addNames(row, volume.labels, l);
         row.insert(row.end(), {label.volume, label.voxels});
         if (with.volume)
             row.insert(row.end(), {double(label.voxels) * volume.grid.voxelVolume(),
-                                   std::string(volume::fillingName(label.filling))});
+                                   volume::fillingName(label.filling)});
         if (with.surface) row.insert(row.end(), {measures[l].area, measures[l].outsideArea});
         if (with.box) addCorners(row, analyze::worldBox(measures[l].box, volume.grid));
         table.rows.push_back(std::move(row));
@@ -149,7 +149,7 @@ Table neighborTable(const volume::SemanticVolume& volume, const Labels& selected
         return a.own != b.own ? a.own < b.own : a.area != b.area ? a.area > b.area : a.other < b.other;
     });
     for (const Neighbor& neighbor : neighbors) {
-        std::vector<Json> row;
+        Row row;
         addNames(row, volume.labels, neighbor.own);
         addNames(row, volume.labels, neighbor.other);
         row.push_back(neighbor.area);
@@ -169,7 +169,7 @@ Result<Table> rayTable(const volume::SemanticVolume& volume, const Labels& selec
                      {"enter", "from m"}, {"leave", "to m"},  {"length", "length m"}};
     for (const render::LabelInterval& stretch : *stretches) {
         if (!isIn(selected, stretch.label)) continue;
-        std::vector<Json> row;
+        Row row;
         addNames(row, volume.labels, stretch.label);
         row.insert(row.end(), {stretch.enter, stretch.leave, stretch.leave - stretch.enter});
         table.rows.push_back(std::move(row));
@@ -194,11 +194,11 @@ Table overlapTable(const volume::SemanticVolume& volume, const Labels& selected)
             "part");
     for (const analyze::SolidOverlap& overlap : overlaps.pairs) {
         if (!isIn(selected, overlap.a) && !isIn(selected, overlap.b)) continue;
-        std::vector<Json> row;
+        Row row;
         addNames(row, volume.labels, overlap.a);
         addNames(row, volume.labels, overlap.b);
         row.insert(row.end(), {overlap.isNested, overlap.voxels, overlap.volume,
-                               std::isfinite(overlap.bound) ? Json(overlap.bound) : Json(nullptr), overlap.isExact});
+                               std::isfinite(overlap.bound) ? Cell(overlap.bound) : Cell(), overlap.isExact});
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -210,14 +210,14 @@ Table gapTable(const volume::SemanticVolume& volume, const Labels& selected) {
     addBoxColumns(table.columns);
     table.columns.push_back({"around", "around"});
     for (const analyze::Gap& gap : analyze::findGaps(volume.columns, volume.labels)) {
-        Json around = Json::array();
+        std::vector<std::string> around;
         bool isNear = false;
         for (const std::uint32_t label : gap.around) {
             around.push_back(volume.labels.labels[label].id);
             isNear = isNear || isIn(selected, label);
         }
         if (!isNear) continue;
-        std::vector<Json> row{double(gap.voxels) * volume.grid.voxelVolume(), gap.voxels};
+        Row row{double(gap.voxels) * volume.grid.voxelVolume(), gap.voxels};
         addCorners(row, analyze::worldBox(gap.box, volume.grid));
         row.push_back(std::move(around));
         table.rows.push_back(std::move(row));
@@ -253,15 +253,15 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
     for (const illustrate::RoomArea& room : areas->rooms) {
         if (!isIn(selected, room.label)) continue;
         const auto use = illustrate::roomUseName(room.use);
-        std::vector<Json> row{"room",
+        Row row{"room",
                               volume.labels.labels[room.label].id,
-                              room.number.empty() ? Json(nullptr) : Json(room.number),
+                              room.number.empty() ? Cell() : Cell(room.number),
                               room.name,
                               levels[room.level].name,
                               levels[room.level].floor,
                               levels[room.level].bound,
                               datum + levels[room.level].floor,
-                              use.empty() ? Json(nullptr) : Json(use),
+                              use.empty() ? Cell() : Cell(use),
                               room.area,
                               room.height,
                               room.volume};
@@ -271,7 +271,7 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
     }
     const auto addSums = [&](const char* kind, const illustrate::LevelArea& sums,
                              const illustrate::BuildingLevel* level) {
-        std::vector<Json> row{kind, nullptr, nullptr, nullptr};
+        Row row{kind, nullptr, nullptr, nullptr};
         if (level != nullptr)
             row.insert(row.end(), {level->name, level->floor, level->bound, datum + level->floor});
         else
@@ -295,7 +295,7 @@ Result<Table> parcelTable(const volume::SemanticVolume& volume, const Labels& se
                      {"voxels", ""},       {"volume", "m3"},    {"part", "part"}};
     for (const analyze::SharedVoxels& pair : *shared) {
         if (pair.a == volume::kNoLabel || !isIn(selected, pair.a)) continue;
-        std::vector<Json> row;
+        Row row;
         addNames(row, volume.labels, pair.a);
         addNames(row, parcels.labels, pair.b);
         row.insert(row.end(), {pair.voxels, double(pair.voxels) * volume.grid.voxelVolume(),
@@ -335,7 +335,7 @@ OwnerReport ownerReport(const volume::SemanticVolume& volume, const Labels& sele
         const volume::Label& label = volume.labels.labels[component.label];
         double sum = 0;
         for (const analyze::OwnerShare& share : component.shares) {
-            std::vector<Json> row;
+            Row row;
             addNames(row, volume.labels, component.label);
             row.insert(row.end(), {ownerName(owners, share.owner), share.area, share.volume});
             report.components.rows.push_back(std::move(row));

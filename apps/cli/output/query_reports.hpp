@@ -2,6 +2,7 @@
 /// \file
 /// Reports of `svt query` on the selected features, as tables.
 
+#include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/table.hpp>
 
 #include <svt/analyze/contacts.hpp>

@@ -1,6 +1,7 @@
 #include <svt/volume/volume_json.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/section_table.hpp>
+#include <svt/writers/table.hpp>
 
 #include <fmt/format.h>
 
@@ -16,16 +17,6 @@ std::string jsonText(std::string_view text) {
 std::string jsonVector(Vec3d v, int decimals) {
     return fmt::format("[{}, {}, {}]", shortNumber(v.x, decimals), shortNumber(v.y, decimals),
                        shortNumber(v.z, decimals));
-}
-
-std::string csvText(std::string_view text) {
-    if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"') quoted += '"';
-        quoted += c;
-    }
-    return quoted + '"';
 }
 
 }  // namespace
@@ -61,14 +52,13 @@ std::string makeSectionCsv(const illustrate::SectionDrawing& drawing, const volu
     for (const illustrate::SectionComponent& component : drawing.components) {
         const volume::Label& label = volume.labels.labels[component.label];
         polygons += component.polygons.size();
-        csv += fmt::format("component,{},{},{},{},{},{},{},{}\r\n", csvText(label.id), csvText(label.className),
-                           csvText(label.name), component.polygons.size(), shortNumber(component.area, 6),
-                           shortNumber(component.areaBound, 6), component.isExact ? "yes" : "no",
-                           shortNumber(component.lineLength, 6));
+        csv += csvLine(Row{"component", label.id, label.className, label.name, component.polygons.size(),
+                           shortNumber(component.area, 6), shortNumber(component.areaBound, 6),
+                           component.isExact ? "yes" : "no", shortNumber(component.lineLength, 6)});
     }
     for (const illustrate::ClassArea& total : drawing.classes)
-        csv += fmt::format("class,,{},,,{},,,\r\n", csvText(total.className), shortNumber(total.area, 6));
-    return csv + fmt::format("total,,,,{},{},,,\r\n", polygons, shortNumber(drawing.area, 6));
+        csv += csvLine(Row{"class", {}, total.className, {}, {}, shortNumber(total.area, 6), {}, {}, {}});
+    return csv + csvLine(Row{"total", {}, {}, {}, polygons, shortNumber(drawing.area, 6), {}, {}, {}});
 }
 
 }  // namespace svt::writers

@@ -2,7 +2,7 @@
 #include <svt/volume/volume_json.hpp>
 #include <svt/writers/simulation/box_list.hpp>
 #include <svt/writers/simulation/solid_boxes.hpp>
-#include <svt/writers/tables/csv_text.hpp>
+#include <svt/writers/table.hpp>
 #include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
@@ -19,26 +19,20 @@ std::string jsonOf(Vec3i v) { return fmt::format("[{},{},{}]", v.x, v.y, v.z); }
 
 Result<std::string> makeBoxTable(const volume::SemanticVolume& volume, const VolumeWriteOptions& options) {
     SVT_TRY(solids, solidBoxes(volume, options));
-    CsvText csv;
-    for (const char* key : {"group", "name", "id", "class", "beginX", "beginY", "beginZ", "endX", "endY", "endZ",
-                            "minX", "minY", "minZ", "maxX", "maxY", "maxZ"})
-        csv.field(key);
-    csv.endLine();
+    std::string csv = csvLine(Row{"group", "name", "id", "class", "beginX", "beginY", "beginZ", "endX", "endY", "endZ",
+                                  "minX", "minY", "minZ", "maxX", "maxY", "maxZ"});
     const bool isOne = options.mergeBy == MergeBy::Label;
     for (const analyze::GroupBox& box : solids->boxes) {
         const SolidGroup& group = solids->groups[box.group];
         const volume::Label& label = volume.labels.labels[group.label];
-        csv.number(box.group);
-        csv.field(group.name);
-        csv.field(isOne ? label.id : std::string());
-        csv.field(options.mergeBy == MergeBy::Material ? std::string() : label.className);
+        Row row{box.group, group.name, isOne ? label.id : "", options.mergeBy == MergeBy::Material ? "" : label.className};
         for (const Vec3i& corner : {box.box.begin, box.box.end})
-            for (int axis = 0; axis < 3; ++axis) csv.number(corner[axis]);
+            for (int axis = 0; axis < 3; ++axis) row.emplace_back(corner[axis]);
         for (const Vec3i& corner : {box.box.begin, box.box.end})
-            for (int axis = 0; axis < 3; ++axis) csv.number(cornerOf(corner, volume.grid)[axis]);
-        csv.endLine();
+            for (int axis = 0; axis < 3; ++axis) row.emplace_back(cornerOf(corner, volume.grid)[axis]);
+        csv += csvLine(row);
     }
-    return csv.take();
+    return csv;
 }
 
 Result<std::string> makeBoxJson(const volume::SemanticVolume& volume, const VolumeWriteOptions& options) {

@@ -1,7 +1,6 @@
 #include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/tables/parquet_stream.hpp>
 
-#include <svt/core/attribute.hpp>
 #include <svt/core/check.hpp>
 
 #include <fmt/format.h>
@@ -15,39 +14,43 @@ namespace {
 constexpr std::int32_t kPlain = 0, kRunLength = 3, kDataPage = 0, kUncompressed = 0, kUtf8 = 0;
 constexpr std::size_t kMostPageBytes = 0x7FFFFFFF;
 
-/// The one type that holds all cells.
-ParquetType typeOf(const TableColumn& column) {
+/// The one type that holds all cells of a column.
+CellType typeOf(std::span<const Row> rows, std::size_t column) {
     bool hasText = false, hasWhole = false, hasReal = false, hasSmall = false, hasTruth = false;
-    for (const TableCell& cell : column.cells) {
-        hasText = hasText || std::holds_alternative<std::string>(cell);
-        hasWhole = hasWhole || std::holds_alternative<std::int64_t>(cell);
-        hasReal = hasReal || std::holds_alternative<double>(cell);
-        hasSmall = hasSmall || std::holds_alternative<float>(cell);
-        hasTruth = hasTruth || std::holds_alternative<bool>(cell);
+    for (const Row& row : rows) {
+        const auto& value = row[column].value;
+        hasText = hasText || std::holds_alternative<std::string>(value);
+        hasWhole = hasWhole || std::holds_alternative<std::int64_t>(value);
+        hasReal = hasReal || std::holds_alternative<double>(value);
+        hasSmall = hasSmall || std::holds_alternative<float>(value);
+        hasTruth = hasTruth || std::holds_alternative<bool>(value);
     }
     const bool hasNumber = hasWhole || hasReal || hasSmall;
-    if (hasText || (hasTruth && hasNumber)) return ParquetType::Text;
-    if (hasTruth) return ParquetType::Truth;
-    if (hasReal || (hasSmall && hasWhole)) return ParquetType::Real;
-    if (hasSmall) return ParquetType::Small;
-    return hasWhole ? ParquetType::Whole : ParquetType::Text;
+    if (hasText || (hasTruth && hasNumber)) return CellType::Text;
+    if (hasTruth) return CellType::Truth;
+    if (hasReal || (hasSmall && hasWhole)) return CellType::Number;
+    if (hasSmall) return CellType::SmallNumber;
+    return hasWhole ? CellType::Whole : CellType::Text;
 }
 
-std::string textOf(const TableCell& cell) {
-    if (const auto* text = std::get_if<std::string>(&cell)) return validText(*text);
-    if (const auto* whole = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *whole);
-    if (const auto* real = std::get_if<double>(&cell)) return fmt::format("{}", *real);
-    if (const auto* small = std::get_if<float>(&cell)) return fmt::format("{}", *small);
-    return std::get<bool>(cell) ? "true" : "false";
+/// The physical type's number of parquet.thrift.
+std::int32_t numberOf(CellType type) {
+    switch (type) {
+        case CellType::Truth: return 0;
+        case CellType::Whole: return 2;
+        case CellType::SmallNumber: return 4;
+        case CellType::Number: return 5;
+        case CellType::Text:
+        case CellType::Blob: break;
+    }
+    return 6;
 }
 
-double realOf(const TableCell& cell) {
-    if (const auto* whole = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*whole);
-    if (const auto* small = std::get_if<float>(&cell)) return static_cast<double>(*small);
-    return std::get<double>(cell);
+double realOf(const Cell& cell) {
+    if (const auto* whole = std::get_if<std::int64_t>(&cell.value)) return static_cast<double>(*whole);
+    if (const auto* small = std::get_if<float>(&cell.value)) return static_cast<double>(*small);
+    return std::get<double>(cell.value);
 }
-
-bool isPresent(const TableCell& cell) { return !std::holds_alternative<std::monostate>(cell); }
 
 /// Bits, the lowest of each byte first.
 template <class IsSet>
@@ -59,27 +62,29 @@ std::string packedBits(std::size_t count, const IsSet& isSet) {
 }
 
 /// Which cells have a value, as one bit-packed run.
-std::string definitionLevels(const TableColumn& column) {
+std::string definitionLevels(std::span<const Row> rows, std::size_t column) {
     std::string run;
-    for (std::uint64_t header = (column.cells.size() + 7) / 8 << 1 | 1; header != 0 || run.empty(); header >>= 7)
+    for (std::uint64_t header = (rows.size() + 7) / 8 << 1 | 1; header != 0 || run.empty(); header >>= 7)
         run += static_cast<char>(header > 127 ? (header & 127) | 128 : header);
-    run += packedBits(column.cells.size(), [&](std::size_t n) { return isPresent(column.cells[n]); });
+    run += packedBits(rows.size(), [&](std::size_t n) { return !rows[n][column].isEmpty(); });
     std::string bytes;
     appendBytes(bytes, static_cast<std::uint32_t>(run.size()));
     return bytes + run;
 }
 
-std::string plainValues(const TableColumn& column, ParquetType type, bool isBinary) {
+std::string plainValues(std::span<const Row> rows, std::size_t column, CellType type) {
     std::string bytes;
     std::vector<bool> truths;
-    for (const TableCell& cell : column.cells) {
-        if (!isPresent(cell)) continue;
-        if (type == ParquetType::Whole) appendBytes(bytes, std::get<std::int64_t>(cell));
-        if (type == ParquetType::Real) appendBytes(bytes, realOf(cell));
-        if (type == ParquetType::Small) appendBytes(bytes, std::get<float>(cell));
-        if (type == ParquetType::Truth) truths.push_back(std::get<bool>(cell));
-        if (type != ParquetType::Text) continue;
-        const std::string text = isBinary ? std::get<std::string>(cell) : textOf(cell);
+    for (const Row& row : rows) {
+        const Cell& cell = row[column];
+        if (cell.isEmpty()) continue;
+        if (type == CellType::Whole) appendBytes(bytes, std::get<std::int64_t>(cell.value));
+        if (type == CellType::Number) appendBytes(bytes, realOf(cell));
+        if (type == CellType::SmallNumber) appendBytes(bytes, std::get<float>(cell.value));
+        if (type == CellType::Truth) truths.push_back(std::get<bool>(cell.value));
+        if (type != CellType::Text && type != CellType::Blob) continue;
+        const std::string text =
+            type == CellType::Blob ? std::get<Blob>(cell.value).bytes : validText(cellText(cell));
         appendBytes(bytes, static_cast<std::uint32_t>(text.size()));
         bytes += text;
     }
@@ -93,17 +98,17 @@ std::string ParquetStream::begin() {
     return "PAR1";
 }
 
-Result<std::string> ParquetStream::group(std::span<const TableColumn> columns) {
-    SVT_CHECK(columns.size() == columns_.size());
-    const auto rows = static_cast<std::int64_t>(columns.empty() ? 0 : columns.front().cells.size());
-    if (rows == 0) return std::string();
+Result<std::string> ParquetStream::group(std::span<const Row> rows) {
+    if (rows.empty()) return std::string();
+    SVT_CHECK(rows.front().size() == columns_.size());
+    const auto rowCount = static_cast<std::int64_t>(rows.size());
     std::string bytes;
     std::vector<ThriftStruct> chunks;
     std::int64_t total = 0;
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-        const auto& [name, type, isOptional, isBinary] = columns_[c];
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+        const auto& [name, type, isOptional] = columns_[c];
         const std::string page =
-            (isOptional ? definitionLevels(columns[c]) : std::string()) + plainValues(columns[c], type, isBinary);
+            (isOptional ? definitionLevels(rows, c) : std::string()) + plainValues(rows, c, type);
         if (page.size() > kMostPageBytes)
             return Error(Code::GridTooLarge, fmt::format("column '{}' has more than 2 GiB; use --select", name));
         const auto size = static_cast<std::int32_t>(page.size());
@@ -112,7 +117,7 @@ Result<std::string> ParquetStream::group(std::span<const TableColumn> columns) {
                                      .number32(2, size)
                                      .number32(3, size)
                                      .inner(5, ThriftStruct()
-                                                   .number32(1, static_cast<std::int32_t>(rows))
+                                                   .number32(1, static_cast<std::int32_t>(rowCount))
                                                    .number32(2, kPlain)
                                                    .number32(3, kRunLength)
                                                    .number32(4, kRunLength))
@@ -123,17 +128,17 @@ Result<std::string> ParquetStream::group(std::span<const TableColumn> columns) {
         total += length;
         chunks.push_back(
             ThriftStruct().number64(2, begin).inner(3, ThriftStruct()
-                                                           .number32(1, static_cast<std::int32_t>(type))
+                                                           .number32(1, numberOf(type))
                                                            .list(2, std::vector<std::int32_t>{kPlain, kRunLength})
                                                            .list(3, std::vector<std::string>{name})
                                                            .number32(4, kUncompressed)
-                                                           .number64(5, rows)
+                                                           .number64(5, rowCount)
                                                            .number64(6, length)
                                                            .number64(7, length)
                                                            .number64(9, begin)));
     }
-    groups_.push_back(ThriftStruct().list(1, chunks).number64(2, total).number64(3, rows));
-    rows_ += rows;
+    groups_.push_back(ThriftStruct().list(1, chunks).number64(2, total).number64(3, rowCount));
+    rows_ += rowCount;
     size_ += bytes.size();
     return bytes;
 }
@@ -143,10 +148,10 @@ std::string ParquetStream::end(std::span<const std::pair<std::string, std::strin
         ThriftStruct().text(4, "schema").number32(5, static_cast<std::int32_t>(columns_.size()))};
     for (const ParquetColumn& column : columns_) {
         ThriftStruct element;
-        element.number32(1, static_cast<std::int32_t>(column.type))
+        element.number32(1, numberOf(column.type))
             .number32(3, column.isOptional ? 1 : 0)
             .text(4, column.name);
-        if (column.type == ParquetType::Text && !column.isBinary)
+        if (column.type == CellType::Text)
             element.number32(6, kUtf8).inner(10, ThriftStruct().inner(1, ThriftStruct()));  // the logical type STRING
         schema.push_back(element);
     }
@@ -163,12 +168,14 @@ std::string ParquetStream::end(std::span<const std::pair<std::string, std::strin
 
 Result<std::string> makeParquet(const Table& table) {
     std::vector<ParquetColumn> columns;
-    for (const TableColumn& column : table.columns)
-        columns.push_back({validText(column.name), typeOf(column),
-                           !std::all_of(column.cells.begin(), column.cells.end(), isPresent), false});
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        const auto isEmpty = [c](const Row& row) { return row[c].isEmpty(); };
+        columns.push_back({validText(table.columns[c].name), typeOf(table.rows, c),
+                           std::any_of(table.rows.begin(), table.rows.end(), isEmpty)});
+    }
     ParquetStream stream(std::move(columns));
     std::string file = stream.begin();
-    SVT_TRY(group, stream.group(table.columns));
+    SVT_TRY(group, stream.group(table.rows));
     return file + *group + stream.end(table.notes);
 }
 

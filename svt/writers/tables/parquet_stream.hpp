@@ -4,7 +4,7 @@
 /// Source: the format's own parquet.thrift and Encodings.md.
 
 #include <svt/core/result.hpp>
-#include <svt/writers/tables/table.hpp>
+#include <svt/writers/table.hpp>
 #include <svt/writers/tables/thrift_struct.hpp>
 
 #include <cstdint>
@@ -15,14 +15,10 @@
 
 namespace svt::writers {
 
-/// Physical types: numbers of parquet.thrift.
-enum class ParquetType : std::int32_t { Truth = 0, Whole = 2, Small = 4, Real = 5, Text = 6 };
-
 struct ParquetColumn {
     std::string name;  ///< valid UTF-8
-    ParquetType type = ParquetType::Text;
+    CellType type = CellType::Text;
     bool isOptional = false;  ///< cells may be empty
-    bool isBinary = false;    ///< of Text: bytes, not UTF-8
 };
 
 /// Pieces of a file, to be written one after the other: begin(), groups, end().
@@ -31,9 +27,9 @@ public:
     explicit ParquetStream(std::vector<ParquetColumn> columns) : columns_(std::move(columns)) {}
 
     [[nodiscard]] std::string begin();
-    /// \param columns  as given at first, all of one length; cells of the column's type, numbers of Real of any kind
+    /// \param rows  cells of the types of their columns; of Text any but blobs, of Number numbers of any type
     /// \return the bytes, none without rows; or GridTooLarge where a column would have 2 GiB
-    [[nodiscard]] Result<std::string> group(std::span<const TableColumn> columns);
+    [[nodiscard]] Result<std::string> group(std::span<const Row> rows);
     /// \param texts  key/value metadata
     [[nodiscard]] std::string end(std::span<const std::pair<std::string, std::string>> texts) const;
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <map>
 #include <span>
-#include <variant>
 #include <vector>
 
 namespace svt::writers {
@@ -26,45 +25,30 @@ std::map<std::string, std::string> attributesOf(const volume::LabelTable& labels
 }
 
 /// A cell that is empty without text.
-TableCell textCell(std::string_view text) { return text.empty() ? TableCell() : TableCell(std::string(text)); }
+Cell textCell(std::string_view text) { return text.empty() ? Cell() : Cell(text); }
 
-template <class T>
-TableCell wholeCell(T value) {
-    return static_cast<std::int64_t>(value);
-}
-
-TableCell attributeCell(const volume::Label& label, const std::string& name) {
+Cell attributeCell(const volume::Label& label, const std::string& name) {
     const auto found = std::find_if(label.attributes.begin(), label.attributes.end(),
                                     [&](const Attribute& attribute) { return attribute.name == name; });
-    if (found == label.attributes.end()) return {};
-    return std::visit([](const auto& value) -> TableCell { return value; }, found->value);
+    return found == label.attributes.end() ? Cell() : Cell(found->value);
 }
 
 /// The cells of a label, in the order of kObjectColumns.
-std::vector<TableCell> cellsOf(const volume::SemanticVolume& volume, std::size_t number,
-                               const analyze::LabelMeasure& measure, double cubicMetres) {
+Row cellsOf(const volume::SemanticVolume& volume, std::size_t number, const analyze::LabelMeasure& measure,
+            double cubicMetres) {
     const volume::Label& label = volume.labels.labels[number];
     const std::string_view parent =
         label.parent == volume::kNoLabel ? std::string_view() : volume.labels.labels[label.parent].id;
-    std::vector<TableCell> cells{wholeCell(number),
-                                 label.id,
-                                 label.className,
-                                 textCell(label.name),
-                                 textCell(parent),
-                                 wholeCell(label.first),
-                                 wholeCell(label.count),
-                                 wholeCell(label.voxels),
-                                 cubicMetres,
-                                 measure.area,
-                                 measure.outsideArea};
+    Row cells{number,      label.id,    label.className, textCell(label.name), textCell(parent),   label.first,
+              label.count, label.voxels, cubicMetres,     measure.area,         measure.outsideArea};
     const Box3d box = analyze::worldBox(measure.box, volume.grid);
     for (const Vec3d corner : {box.min, box.max})
-        for (int axis = 0; axis < 3; ++axis) cells.push_back(box.isEmpty() ? TableCell() : TableCell(corner[axis]));
+        for (int axis = 0; axis < 3; ++axis) cells.push_back(box.isEmpty() ? Cell() : Cell(corner[axis]));
     const auto byte = [](float c) { return static_cast<int>(std::clamp(c, 0.0f, 1.0f) * 255 + 0.5f); };
     cells.emplace_back(
         fmt::format("#{:02x}{:02x}{:02x}", byte(label.color.x), byte(label.color.y), byte(label.color.z)));
     cells.emplace_back(label.opacity);
-    cells.emplace_back(std::string(volume::fillingName(label.filling)));
+    cells.emplace_back(volume::fillingName(label.filling));
     return cells;
 }
 
@@ -76,7 +60,7 @@ constexpr const char* kContactColumns[] = {"a",     "aClass", "aName",  "b",    
 
 Table emptyTable(std::span<const char* const> names, const volume::SemanticVolume& volume) {
     Table table;
-    for (const char* name : names) table.columns.push_back({name, {}});
+    for (const char* name : names) table.columns.push_back({name});
     table.notes = {{"crs", volume.crsName}, {"source", volume.source}, {"unit", "metre"}};
     return table;
 }
@@ -88,14 +72,12 @@ Table makeObjectTable(const volume::SemanticVolume& volume, int threads) {
     const auto measures = analyze::measureLabels(volume, contacts);
     const auto volumes = analyze::ownVolumes(volume.labels, volume.grid);
     Table table = emptyTable(kObjectColumns, volume);
-    for (std::size_t l = 0; l < volume.labels.labels.size(); ++l) {
-        auto cells = cellsOf(volume, l, measures[l], volumes[l]);
-        for (std::size_t c = 0; c < cells.size(); ++c) table.columns[c].cells.push_back(std::move(cells[c]));
-    }
+    for (std::size_t l = 0; l < volume.labels.labels.size(); ++l)
+        table.rows.push_back(cellsOf(volume, l, measures[l], volumes[l]));
     for (const auto& [name, unit] : attributesOf(volume.labels)) {
-        TableColumn column{unit.empty() ? "attribute:" + name : fmt::format("attribute:{} [{}]", name, unit), {}};
-        for (const volume::Label& label : volume.labels.labels) column.cells.push_back(attributeCell(label, name));
-        table.columns.push_back(std::move(column));
+        table.columns.push_back({unit.empty() ? "attribute:" + name : fmt::format("attribute:{} [{}]", name, unit)});
+        for (std::size_t l = 0; l < table.rows.size(); ++l)
+            table.rows[l].push_back(attributeCell(volume.labels.labels[l], name));
     }
     return table;
 }
@@ -103,17 +85,29 @@ Table makeObjectTable(const volume::SemanticVolume& volume, int threads) {
 Table makeContactTable(const volume::SemanticVolume& volume, int threads) {
     Table table = emptyTable(kContactColumns, volume);
     for (const analyze::Contact& contact : analyze::findContacts(volume.columns, volume.grid, volume.labels, threads)) {
-        std::size_t column = 0;
-        const auto add = [&](TableCell cell) { table.columns[column++].cells.push_back(std::move(cell)); };
+        Row& row = table.rows.emplace_back();
         for (const std::uint32_t number : {contact.a, contact.b}) {
             const volume::Label none;
             const volume::Label& label = number == volume::kNoLabel ? none : volume.labels.labels[number];
-            for (const std::string* text : {&label.id, &label.className, &label.name}) add(textCell(*text));
+            for (const std::string* text : {&label.id, &label.className, &label.name}) row.push_back(textCell(*text));
         }
-        add(contact.area);
-        for (const std::uint64_t faces : contact.faces) add(wholeCell(faces));
+        row.emplace_back(contact.area);
+        for (const std::uint64_t faces : contact.faces) row.emplace_back(faces);
     }
     return table;
+}
+
+template <Table (*makeTable)(const volume::SemanticVolume&, int)>
+Result<std::uint64_t> writeCsv(const volume::SemanticVolume& volume, const std::filesystem::path& path,
+                               const VolumeWriteOptions& options) {
+    return writeFileAtomically(path, makeCsv(makeTable(volume, options.threads)));
+}
+
+template <Table (*makeTable)(const volume::SemanticVolume&, int)>
+Result<std::uint64_t> writeParquet(const volume::SemanticVolume& volume, const std::filesystem::path& path,
+                                   const VolumeWriteOptions& options) {
+    SVT_TRY(bytes, makeParquet(makeTable(volume, options.threads)));
+    return writeFileAtomically(path, *bytes);
 }
 
 extern const VolumeFormat kObjects{.name = "objects",
@@ -121,20 +115,14 @@ extern const VolumeFormat kObjects{.name = "objects",
                                    .holds = "a line per object: class, name, parent, volume, surface, box, attributes",
                                    .readers = "spreadsheets, pandas, databases",
                                    .content = FileContent::Text,
-                                   .write = [](const auto& volume, const auto& path, const auto& options) {
-                                       return writeFileAtomically(path,
-                                                                  makeCsv(makeObjectTable(volume, options.threads)));
-                                   }};
+                                   .write = writeCsv<makeObjectTable>};
 
 extern const VolumeFormat kContacts{.name = "contacts",
                                     .endings = ".contacts.csv",
                                     .holds = "a line per pair of objects that touch: area, faces",
                                     .readers = "spreadsheets, pandas, databases",
                                     .content = FileContent::Text,
-                                    .write = [](const auto& volume, const auto& path, const auto& options) {
-                                        return writeFileAtomically(path,
-                                                                   makeCsv(makeContactTable(volume, options.threads)));
-                                    }};
+                                    .write = writeCsv<makeContactTable>};
 
 extern const VolumeFormat kObjectParquet{
     .name = "objectparquet",
@@ -142,10 +130,7 @@ extern const VolumeFormat kObjectParquet{
     .holds = "the table of objects as Apache Parquet",
     .readers = "pandas, DuckDB, Spark, GDAL, R",
     .content = FileContent::Parquet,
-    .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
-        SVT_TRY(bytes, makeParquet(makeObjectTable(volume, options.threads)));
-        return writeFileAtomically(path, *bytes);
-    }};
+    .write = writeParquet<makeObjectTable>};
 
 extern const VolumeFormat kContactParquet{
     .name = "contactparquet",
@@ -153,9 +138,6 @@ extern const VolumeFormat kContactParquet{
     .holds = "the table of contacts as Apache Parquet",
     .readers = "pandas, DuckDB, Spark, GDAL, R",
     .content = FileContent::Parquet,
-    .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
-        SVT_TRY(bytes, makeParquet(makeContactTable(volume, options.threads)));
-        return writeFileAtomically(path, *bytes);
-    }};
+    .write = writeParquet<makeContactTable>};
 
 }  // namespace svt::writers

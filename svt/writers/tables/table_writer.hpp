@@ -4,7 +4,7 @@
 /// pandas and databases. Metres.
 
 #include <svt/volume/semantic_volume.hpp>
-#include <svt/writers/tables/table.hpp>
+#include <svt/writers/table.hpp>
 
 namespace svt::writers {
 

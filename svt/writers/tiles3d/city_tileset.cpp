@@ -1,5 +1,6 @@
 #include <svt/writers/city_tileset.hpp>
 
+#include <svt/analyze/label_measures.hpp>
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/gltf/label_surface.hpp>
 #include <svt/writers/gltf/surface_positions.hpp>
@@ -32,15 +33,6 @@ struct Content {
     Box3d box;     // in the frame of the root
     Vec3d origin;  // of the mesh, in the frame of the root
 };
-
-// The m3 of a label's solid, or of those below it.
-double volumeOf(const std::vector<volume::Label>& labels, std::uint32_t l) {
-    if (labels[l].volume > 0) return labels[l].volume;
-    double sum = 0;
-    for (std::uint32_t below = l + 1; below < labels[l].subtreeEnd; below = labels[below].subtreeEnd)
-        sum += volumeOf(labels, below);
-    return sum;
-}
 
 // The label without parent above each scalar.
 std::vector<std::uint32_t> rootOfScalar(const volume::LabelTable& table) {
@@ -182,7 +174,7 @@ private:
         for (std::size_t s = 0; s < surfaces->size(); ++s) {
             const LabelSurface& surface = (*surfaces)[s];
             std::vector<Vec3d> places;
-            Building building{&labels[surface.label], volumeOf(labels, surface.label), INFINITY, -INFINITY};
+            Building building{&labels[surface.label], analyze::solidVolume(volume.labels, surface.label), INFINITY, -INFINITY};
             for (const Vec3f position : (*positions)[s]) {
                 const Vec3d world = low + toDouble(position);
                 building.lowest = std::min(building.lowest, world.z);

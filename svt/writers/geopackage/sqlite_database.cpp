@@ -1,4 +1,4 @@
-#include <svt/writers/sheets/sqlite_database.hpp>
+#include <svt/writers/geopackage/sqlite_database.hpp>
 
 #include <svt/core/machine.hpp>
 
@@ -59,7 +59,7 @@ public:
         keep(sqlite_.exec(handle_, statements.c_str(), nullptr, nullptr, nullptr), kSqliteOk);
     }
 
-    void insert(std::string_view table, const std::vector<SqliteValue>& row) override {
+    void insert(std::string_view table, std::span<const Cell> row) override {
         std::string marks;
         for (std::size_t n = 0; n < row.size(); ++n) marks += n == 0 ? "?" : ",?";
         void* statement = nullptr;
@@ -82,15 +82,20 @@ public:
 
 private:
     // The values live until the statement has run, so nothing is copied.
-    void bind(void* statement, int number, const SqliteValue& value) {
-        if (const auto* whole = std::get_if<std::int64_t>(&value))
+    void bind(void* statement, int number, const Cell& cell) {
+        const auto bindBytes = [&](auto* function, const std::string& bytes) {
+            keep(function(statement, number, bytes.data(), static_cast<int>(bytes.size()), nullptr), kSqliteOk);
+        };
+        if (const auto* truth = std::get_if<bool>(&cell.value))
+            keep(sqlite_.bindInteger(statement, number, *truth ? 1 : 0), kSqliteOk);
+        else if (const auto* whole = std::get_if<std::int64_t>(&cell.value))
             keep(sqlite_.bindInteger(statement, number, *whole), kSqliteOk);
-        else if (const auto* real = std::get_if<double>(&value))
+        else if (const auto* real = std::get_if<double>(&cell.value))
             keep(sqlite_.bindNumber(statement, number, *real), kSqliteOk);
-        else if (const auto* text = std::get_if<std::string>(&value))
-            keep(sqlite_.bindText(statement, number, text->data(), static_cast<int>(text->size()), nullptr), kSqliteOk);
-        else if (const auto* blob = std::get_if<std::vector<std::byte>>(&value))
-            keep(sqlite_.bindBlob(statement, number, blob->data(), static_cast<int>(blob->size()), nullptr), kSqliteOk);
+        else if (const auto* text = std::get_if<std::string>(&cell.value))
+            bindBytes(sqlite_.bindText, *text);
+        else if (const auto* blob = std::get_if<Blob>(&cell.value))
+            bindBytes(sqlite_.bindBlob, blob->bytes);
     }
 
     bool keep(int result, int wanted) {

@@ -1,4 +1,4 @@
-#include <svt/writers/sheets/sqlite_database.hpp>
+#include <svt/writers/geopackage/sqlite_database.hpp>
 
 namespace svt::writers {
 

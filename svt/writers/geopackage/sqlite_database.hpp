@@ -4,18 +4,14 @@
 /// neither headers nor a link.
 
 #include <svt/core/result.hpp>
+#include <svt/writers/table.hpp>
 
-#include <cstddef>
-#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
-#include <variant>
-#include <vector>
 
 namespace svt::writers {
-
-using SqliteValue = std::variant<std::monostate, std::int64_t, double, std::string, std::vector<std::byte>>;
 
 /// Errors are kept, and returned by bytes().
 class SqliteDatabase {
@@ -23,8 +19,8 @@ public:
     virtual ~SqliteDatabase() = default;
     /// Runs statements without results.
     virtual void run(const std::string& statements) = 0;
-    /// Adds a row to a table: a value for each column.
-    virtual void insert(std::string_view table, const std::vector<SqliteValue>& row) = 0;
+    /// Adds a row to a table: a cell for each column. Truth values become 0 and 1.
+    virtual void insert(std::string_view table, std::span<const Cell> row) = 0;
     /// The database as a file, or CannotWrite. Equal statements give equal bytes with the same release of SQLite.
     [[nodiscard]] virtual Result<std::string> bytes() = 0;
 };

@@ -1,0 +1,47 @@
+#pragma once
+/// \file
+/// A GeoPackage (OGC 12-128r19) while it is made: its reference systems, tables of features, and their contents.
+
+#include <svt/core/result.hpp>
+#include <svt/writers/geopackage/geometry_blob.hpp>
+#include <svt/writers/geopackage/sqlite_database.hpp>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace svt::writers {
+
+class GeoPackage {
+public:
+    static constexpr std::int64_t kCartesian = -1;  ///< the reference system of coordinates without a CRS
+
+    /// \return an empty package, or CannotWrite if the SQLite library is missing
+    [[nodiscard]] static Result<GeoPackage> create(const std::string& crsName);
+
+    /// The EPSG code of the CRS, or kCartesian.
+    [[nodiscard]] std::int64_t reference() const noexcept { return reference_; }
+
+    /// Creates a table with a key `fid`, a geometry `geom` of that type, and columns in SQL.
+    void createFeatures(const std::string& name, const char* geometryType, const std::string& columns);
+    /// The same without a geometry.
+    void createTable(const std::string& name, const std::string& columns);
+    /// Adds a row; its first cell is the key, empty for the next number. Errors are returned by finish().
+    void insert(std::string_view table, std::span<const Cell> row) { database_->insert(table, row); }
+    /// Lists a table of features with its extent in the package's contents. \param bounds  empty: no extent
+    void describeFeatures(const std::string& name, const char* geometryType, std::int64_t reference,
+                          const MapBounds& bounds);
+    /// The same of a table without geometry.
+    void describeAttributes(const std::string& name);
+
+    /// \return the file's bytes, or CannotWrite. Equal calls give equal bytes with the same release of SQLite.
+    [[nodiscard]] Result<std::string> finish();
+
+private:
+    GeoPackage(std::unique_ptr<SqliteDatabase> database, const std::string& crsName);
+
+    std::unique_ptr<SqliteDatabase> database_;
+    std::int64_t reference_ = kCartesian;
+};
+
+}  // namespace svt::writers

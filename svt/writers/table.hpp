@@ -1,0 +1,90 @@
+#pragma once
+/// \file
+/// A table: named columns, and rows of typed cells. Its forms are text, JSON, CSV and Parquet.
+
+#include <svt/core/attribute.hpp>
+#include <svt/core/result.hpp>
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace svt::writers {
+
+/// Bytes that are not text, such as a geometry. GeoPackage and Parquet store them.
+struct Blob {
+    std::string bytes;
+};
+
+/// Nothing, or a value. Cells of one column may differ in type, as attributes of models do.
+struct Cell {
+    std::variant<std::monostate, bool, std::int64_t, float, double, std::string, std::vector<std::string>, Blob> value;
+
+    Cell() = default;
+    Cell(std::nullptr_t) {}
+    Cell(bool truth) : value(truth) {}
+    template <std::integral T>
+    Cell(T whole) : value(static_cast<std::int64_t>(whole)) {}
+    Cell(float number) : value(number) {}
+    Cell(double number) : value(number) {}
+    Cell(const char* text) : value(std::string(text)) {}
+    Cell(std::string_view text) : value(std::string(text)) {}
+    Cell(std::string text) : value(std::move(text)) {}
+    Cell(std::vector<std::string> texts) : value(std::move(texts)) {}
+    Cell(Blob blob) : value(std::move(blob)) {}
+    Cell(const AttributeValue& attribute) {
+        std::visit([this](const auto& known) { value = known; }, attribute);
+    }
+
+    [[nodiscard]] bool isEmpty() const noexcept { return value.index() == 0; }
+};
+using Row = std::vector<Cell>;
+
+enum class CellType : std::uint8_t { Text, Whole, Number, SmallNumber, Truth, Blob };
+
+struct Column {
+    std::string name;
+    std::string title{};             ///< heading of text: the unit or a shorter name; empty: the column is left out there
+    int decimals = 3;                ///< of floating-point numbers in text
+    CellType type = CellType::Text;  ///< of GeoPackage and GeoParquet, where each cell has this type or is empty
+};
+
+struct Table {
+    std::vector<Column> columns;
+    std::vector<Row> rows;                                     ///< a cell for each column
+    std::vector<std::pair<std::string, std::string>> notes{};  ///< of the whole, where the format has a place for them
+};
+
+/// The cell as text: numbers in shortest round-trip form, lists joined by blanks; empty for nothing and blobs.
+[[nodiscard]] std::string cellText(const Cell& cell);
+
+/// Aligned columns under their titles: numbers at the right, `-` for empty cells.
+[[nodiscard]] std::string makeText(const Table& table);
+
+/// A JSON array with an object for each row, indented by two blanks. Empty cells are null. Invalid UTF-8 is replaced.
+[[nodiscard]] std::string makeJson(const Table& table);
+
+/// Forms of comma-separated values.
+enum class CsvForm : std::uint8_t {
+    File,   ///< RFC 4180
+    Stream  ///< for tools of the shell: lines end with LF only, numbers are those of JSON, texts with `;` have quotes too
+};
+[[nodiscard]] std::string csvLine(std::span<const Cell> cells, CsvForm form = CsvForm::File);
+/// The line of column names.
+[[nodiscard]] std::string csvHeader(std::span<const Column> columns, CsvForm form = CsvForm::File);
+/// Header and rows in UTF-8, without the notes.
+[[nodiscard]] std::string makeCsv(const Table& table);
+
+/// Apache Parquet: one row group, plain encoding, not compressed. A column whose cells are all whole numbers is INT64, of
+/// numbers DOUBLE (FLOAT), of truth values BOOLEAN, else UTF-8 text; one with empty cells is optional. Notes are key/value
+/// metadata. Source: the format's own parquet.thrift and Encodings.md.
+/// \return the file, or GridTooLarge where a column would have 2 GiB
+[[nodiscard]] Result<std::string> makeParquet(const Table& table);
+
+}  // namespace svt::writers
