@@ -4,6 +4,7 @@
 
 #include <svt/core/attribute.hpp>
 #include <svt/core/result.hpp>
+#include <svt/core/vec.hpp>
 
 #include <concepts>
 #include <cstddef>
@@ -46,12 +47,15 @@ struct Cell {
 };
 using Row = std::vector<Cell>;
 
+/// Appends the six coordinates of a box, its lower corner first; empty cells for an empty box.
+void appendCorners(Row& row, const Box3d& box);
+
 enum class CellType : std::uint8_t { Text, Whole, Number, SmallNumber, Truth, Blob };
 
 struct Column {
     std::string name;
-    std::string title{};             ///< heading of text: the unit or a shorter name; empty: the column is left out there
-    int decimals = 3;                ///< of floating-point numbers in text
+    std::string title{};  ///< heading of text: the unit or a shorter name; empty: the column is left out there
+    int decimals = 3;     ///< of floating-point numbers in text
     CellType type = CellType::Text;  ///< of GeoPackage and GeoParquet, where each cell has this type or is empty
 };
 
@@ -72,7 +76,7 @@ struct Table {
 
 /// Forms of comma-separated values.
 enum class CsvForm : std::uint8_t {
-    File,   ///< RFC 4180
+    File,  ///< RFC 4180
     Stream  ///< for tools of the shell: lines end with LF only, numbers are those of JSON, texts with `;` have quotes too
 };
 [[nodiscard]] std::string csvLine(std::span<const Cell> cells, CsvForm form = CsvForm::File);

@@ -39,16 +39,11 @@ const std::vector<Column>& ownColumns() {
 }
 
 Row cellsOf(const FeatureRow& row, const volume::Label& label) {
-    return {label.id,
-            label.className,
-            label.name,
-            row.volume,
-            row.area,
-            row.highest - row.lowest,
-            row.lowest,
-            row.highest,
-            row.voxels,
-            volume::fillingName(label.filling),
+    return {label.id,          label.className,
+            label.name,        row.volume,
+            row.area,          row.highest - row.lowest,
+            row.lowest,        row.highest,
+            row.voxels,        volume::fillingName(label.filling),
             row.isOpen ? 1 : 0};
 }
 
@@ -260,7 +255,7 @@ private:
         if (layer_) return layer_->add(kept.cells, kept.outline);
         if (!keys_.empty()) return {};
         table_.rows.push_back(kept.cells);
-        if (query_.form == TableForm::Json || table_.rows.size() < 1000) return {};
+        if (query_.form == TableForm::JsonRows || table_.rows.size() < 1000) return {};
         printTable();
         return {};
     }

@@ -31,7 +31,7 @@ struct QueryArguments {
         return !with.empty() + !along.empty() + !owners.empty() + !parcels.empty() + neighbors + overlaps + gaps +
                areas;
     }
-    [[nodiscard]] TableForm form() const { return json ? TableForm::Json : csv ? TableForm::Csv : TableForm::Text; }
+    [[nodiscard]] TableForm form() const { return json ? TableForm::JsonRows : csv ? TableForm::Csv : TableForm::Text; }
 };
 
 void printFeatures(const volume::LabelTable& table, const Labels& selected) {

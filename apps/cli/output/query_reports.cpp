@@ -35,11 +35,6 @@ Json boxJson(const Box3d& box) {
     return {{"min", toJson(box.min)}, {"max", toJson(box.max)}};
 }
 
-void addCorners(Row& row, const Box3d& box) {
-    for (const Vec3d& corner : {box.min, box.max})
-        for (int axis = 0; axis < 3; ++axis) row.push_back(box.isEmpty() ? Cell() : Cell(corner[axis]));
-}
-
 void addBoxColumns(std::vector<Column>& columns) {
     for (const char* const end : {"min", "max"})
         for (const char* const axis : {"X", "Y", "Z"})
@@ -105,10 +100,10 @@ Table featureTable(const volume::SemanticVolume& volume, const Labels& selected,
         addNames(row, volume.labels, l);
         row.insert(row.end(), {label.volume, label.voxels});
         if (with.volume)
-            row.insert(row.end(), {double(label.voxels) * volume.grid.voxelVolume(),
-                                   volume::fillingName(label.filling)});
+            row.insert(row.end(),
+                       {double(label.voxels) * volume.grid.voxelVolume(), volume::fillingName(label.filling)});
         if (with.surface) row.insert(row.end(), {measures[l].area, measures[l].outsideArea});
-        if (with.box) addCorners(row, analyze::worldBox(measures[l].box, volume.grid));
+        if (with.box) appendCorners(row, analyze::worldBox(measures[l].box, volume.grid));
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -218,7 +213,7 @@ Table gapTable(const volume::SemanticVolume& volume, const Labels& selected) {
         }
         if (!isNear) continue;
         Row row{double(gap.voxels) * volume.grid.voxelVolume(), gap.voxels};
-        addCorners(row, analyze::worldBox(gap.box, volume.grid));
+        appendCorners(row, analyze::worldBox(gap.box, volume.grid));
         row.push_back(std::move(around));
         table.rows.push_back(std::move(row));
     }
@@ -254,17 +249,17 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
         if (!isIn(selected, room.label)) continue;
         const auto use = illustrate::roomUseName(room.use);
         Row row{"room",
-                              volume.labels.labels[room.label].id,
-                              room.number.empty() ? Cell() : Cell(room.number),
-                              room.name,
-                              levels[room.level].name,
-                              levels[room.level].floor,
-                              levels[room.level].bound,
-                              datum + levels[room.level].floor,
-                              use.empty() ? Cell() : Cell(use),
-                              room.area,
-                              room.height,
-                              room.volume};
+                volume.labels.labels[room.label].id,
+                room.number.empty() ? Cell() : Cell(room.number),
+                room.name,
+                levels[room.level].name,
+                levels[room.level].floor,
+                levels[room.level].bound,
+                datum + levels[room.level].floor,
+                use.empty() ? Cell() : Cell(use),
+                room.area,
+                room.height,
+                room.volume};
         row.insert(row.end(), 7, nullptr);
         row.push_back(room.isExact);
         table.rows.push_back(std::move(row));
@@ -337,7 +332,8 @@ OwnerReport ownerReport(const volume::SemanticVolume& volume, const Labels& sele
         for (const analyze::OwnerShare& share : component.shares) {
             Row row;
             addNames(row, volume.labels, component.label);
-            row.insert(row.end(), {ownerName(owners, share.owner), share.area, share.volume});
+            row.push_back(share.owner == analyze::kNoOwner ? Cell() : Cell(owners.names[share.owner]));
+            row.insert(row.end(), {share.area, share.volume});
             report.components.rows.push_back(std::move(row));
             sum += share.volume;
         }

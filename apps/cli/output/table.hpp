@@ -11,7 +11,7 @@ using writers::Column;
 using writers::Row;
 using writers::Table;
 
-enum class TableForm : std::uint8_t { Text, Csv, Json };
+enum class TableForm : std::uint8_t { Text, Csv, JsonRows };
 
 /// \param hasHeader  of CSV: false for rows that follow others
 void print(const Table& table, TableForm form, bool hasHeader = true);

@@ -1,6 +1,15 @@
+/// \file
+/// Writes a semantic volume into a CityGML document, as the paper defines it: a VolumeTexture in an Appearance, by an
+/// application domain extension (docs/formats/citygml/svt-ade-2.0.xsd and -3.0.xsd).
+///
+/// The document is that of the model, byte for byte, with one appearance of the theme "SVT" in front of its last end tag;
+/// CityGML 1.0 is written as 2.0, which it is but for its namespaces. Where there is no document, features stand as
+/// buildings and generic objects without geometry. The texture has scalar type, dimension, spacing, envelope (from the
+/// first to the last sample: `node`), and for each feature its gml:id with the range of scalars that it and all below it
+/// own. Its metadata hold `svt.json` and `labels.json` of a `.svt`, so that the document can become the same volume again.
+
 #include <svt/core/text.hpp>
 #include <svt/volume/volume_json.hpp>
-#include <svt/writers/ade/ade_writer.hpp>
 #include <svt/writers/ade/model_document.hpp>
 #include <svt/writers/nrrd_writer.hpp>
 #include <svt/writers/volume_formats.hpp>
@@ -120,8 +129,7 @@ Result<std::string> writeBeside(const volume::SemanticVolume& volume, int bits, 
         return fmt::format("<svt:imageURI>{}</svt:imageURI>\n<svt:mimeType>application/x-nrrd</svt:mimeType>\n",
                            referenceTo(name).substr(1));
     }
-    const auto files =
-        writeSlices(volume, bits, SliceKind::Gray16, {}, path, {"write", options.threads, options.progress});
+    const auto files = writeSlices(volume, bits, SliceKind::Gray16, {}, path, writeStream(options));
     if (!files) return files.error();
     std::string text;
     for (const std::string& file : *files) {
@@ -136,7 +144,7 @@ Result<void> writePixelImage(const volume::SemanticVolume& volume, int bits, con
                              AtomicFile& file) {
     const Vec3i dimension = volume.grid.dimension();
     SVT_DO(file.write(fmt::format("<svt:image>1 {} {} {}", dimension.x, dimension.y, dimension.z)));
-    SVT_DO(writePixelNumbers(volume, bits, {}, {"write", options.threads, options.progress}, file));
+    SVT_DO(writePixelNumbers(volume, bits, {}, writeStream(options), file));
     return file.write("</svt:image>\n");
 }
 
@@ -155,8 +163,10 @@ Result<ModelDocument> documentFor(const volume::SemanticVolume& volume, const Vo
     return document;
 }
 
-}  // namespace
-
+/// What is written beside the document: `<stem>.labels.nrrd`, or `<stem>_slices/0000.png` and so on.
+/// \return bytes of the document, or BadArgument (a turned grid, which the extension cannot say; another version than the
+///         model's; a model with a volume; too many voxels), CannotOpen, UnknownFormat (a model that is no CityGML in
+///         UTF-8), CannotWrite, DiskFull, WouldDestroy, Cancelled
 Result<std::uint64_t> writeAde(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const VolumeWriteOptions& options) {
     SVT_TRY(bits, checkedSampleBits(volume));
@@ -190,6 +200,8 @@ Result<std::uint64_t> writeAde(const volume::SemanticVolume& volume, const std::
     SVT_DO(document->writeEnd(*file));
     return file->commit();
 }
+
+}  // namespace
 
 extern const VolumeFormat kAde{
     .name = "ade",

@@ -9,6 +9,7 @@
 #include <svt/core/result.hpp>
 #include <svt/volume/dense.hpp>
 #include <svt/volume/semantic_volume.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +26,11 @@ struct StreamOptions {
     const Progress* progress = nullptr;  ///< may be null
     double begin = 0, end = 1;           ///< shares of the stage that the stream goes from and to
 };
+
+/// The stage "write" of a format.
+[[nodiscard]] inline StreamOptions writeStream(const VolumeWriteOptions& options) noexcept {
+    return {.stage = "write", .threads = options.threads, .progress = options.progress};
+}
 
 /// Bits of a sample: 8, 16 or 32.
 /// \return the bits, or BadArgument if grid and columns differ in dimension or a scalar belongs to no label

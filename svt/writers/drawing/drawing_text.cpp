@@ -26,8 +26,6 @@ std::string plainName(std::string_view name, std::string_view fallback) {
     return plain;
 }
 
-const std::string& shownName(const volume::Label& label) noexcept { return label.name.empty() ? label.id : label.name; }
-
 bool isPlan(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) noexcept {
     return std::abs(dot(drawing.axes.normal, grid.axes()[2])) > 1 - 1e-12;
 }

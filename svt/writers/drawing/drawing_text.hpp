@@ -3,8 +3,8 @@
 /// Text helpers shared by the drawing writers: numbers, names and a description of the plane.
 
 #include <svt/crs/crs_name.hpp>
-
 #include <svt/illustrate/section_drawing.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 
 #include <cstdint>
 #include <string>
@@ -17,9 +17,6 @@ namespace svt::writers {
 
 /// `name` with every character outside A-Z, a-z, 0-9, '_' and '-' replaced by '_'; `fallback` if empty.
 [[nodiscard]] std::string plainName(std::string_view name, std::string_view fallback = "none");
-
-/// Display name of a component: its name, else its id.
-[[nodiscard]] const std::string& shownName(const volume::Label& label) noexcept;
 
 /// "visible", "hidden" or "above".
 [[nodiscard]] std::string_view beyondName(illustrate::BeyondKind kind) noexcept;

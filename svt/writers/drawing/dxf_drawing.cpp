@@ -6,6 +6,7 @@
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/drawing/dxf_parts.hpp>
 #include <svt/writers/dxf_drawing.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 
 #include <fmt/format.h>
 
@@ -141,8 +142,7 @@ private:
                                shortNumber(v.z, decimals));
         };
         const illustrate::PlaneAxes& axes = drawing_.axes;
-        tag(999, dxfText(volume_.modelName.empty() ? volume_.source : volume_.modelName) + ", " +
-                     planeText(drawing_, volume_.grid));
+        tag(999, dxfText(shownName(volume_)) + ", " + planeText(drawing_, volume_.grid));
         tag(999, (options_.world
                       ? std::string("coordinates of the world; the drawing lies at origin + u * x + v * y, metres")
                       : std::string("world = origin + u * x + v * y, metres")) +

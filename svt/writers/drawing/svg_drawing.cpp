@@ -6,6 +6,7 @@
 #include <svt/writers/drawing/drawing_style.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/drawing/name_place.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/svg_drawing.hpp>
 
 #include <fmt/format.h>
@@ -82,7 +83,8 @@ private:
             "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
             "xmlns:svt=\"urn:svt:drawing\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n",
             width, height);
-        svg_ += fmt::format("<title>{}, {}</title>\n", xmlAttribute(modelName()), planeText(drawing_, volume_.grid));
+        svg_ +=
+            fmt::format("<title>{}, {}</title>\n", xmlAttribute(shownName(volume_)), planeText(drawing_, volume_.grid));
         addMetadata();
         svg_ +=
             "<style>\n"
@@ -143,10 +145,6 @@ private:
     [[nodiscard]] bool isUsed(Hatch hatch) const {
         return std::ranges::any_of(drawing_.components,
                                    [&](const SectionComponent& c) { return style_.hatchOf(c.label) == hatch; });
-    }
-
-    [[nodiscard]] const std::string& modelName() const noexcept {
-        return volume_.modelName.empty() ? volume_.source : volume_.modelName;
     }
 
     [[nodiscard]] std::string fillOf(std::uint32_t label) const {
@@ -330,7 +328,7 @@ private:
         svg_ +=
             layer("title", "Title") + fmt::format("<path class=\"thin\" d=\"M{} {}H{}\"/>\n", shortNumber(kMargin, 3),
                                                   shortNumber(top, 3), shortNumber(right, 3));
-        addText(kMargin, top + 6, 3.5, modelName(), " font-weight=\"bold\"");
+        addText(kMargin, top + 6, 3.5, shownName(volume_), " font-weight=\"bold\"");
         addText(kMargin, top + 11, 2.5,
                 fmt::format("{}, 1:{}", planeText(drawing_, volume_.grid), shortNumber(scale_, 2)));
         const double field = page_.field, size = field * millimetres_;

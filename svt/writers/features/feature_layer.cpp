@@ -18,8 +18,7 @@ using OutlineRing = std::span<const MapPoint>;
 
 class CsvLayer : public FeatureLayer {
 public:
-    CsvLayer(AtomicFile file, const std::vector<Column>& columns)
-        : file_(std::move(file)), text_(csvHeader(columns)) {}
+    CsvLayer(AtomicFile file, const std::vector<Column>& columns) : file_(std::move(file)), text_(csvHeader(columns)) {}
     Result<void> add(std::span<const Cell> cells, OutlineRing) override {
         text_ += csvLine(cells);
         return file_.write(std::exchange(text_, {}));
@@ -180,8 +179,7 @@ private:
 }  // namespace
 
 Result<std::unique_ptr<FeatureLayer>> FeatureLayer::create(const std::filesystem::path& path,
-                                                           std::vector<Column> columns,
-                                                           const std::string& crsName) {
+                                                           std::vector<Column> columns, const std::string& crsName) {
     const std::string ending = lowerAscii(path.extension().string());
     if (ending == ".gpkg") {
         SVT_TRY(package, GeoPackage::create(crsName));

@@ -54,8 +54,7 @@ void GeoPackage::createFeatures(const std::string& name, const char* geometryTyp
 }
 
 void GeoPackage::createTable(const std::string& name, const std::string& columns) {
-    database_->run(
-        fmt::format("CREATE TABLE {}(fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,{});", name, columns));
+    database_->run(fmt::format("CREATE TABLE {}(fid INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL,{});", name, columns));
 }
 
 void GeoPackage::describeFeatures(const std::string& name, const char* geometryType, std::int64_t reference,

@@ -1,4 +1,5 @@
 #include <svt/writers/glb_writer.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/volume_formats.hpp>
 
 #include <svt/core/file.hpp>
@@ -36,20 +37,15 @@ std::uint64_t indexBytes(const LabelSurface& surface) {
     return (bytes + 3) / 4 * 4;
 }
 
-// sRGB to linear, rounded to four digits, so that math libraries that differ in the last bit give the same file.
-double linear(float value) {
-    const double v = value <= 0.04045f ? value / 12.92 : std::pow((double(value) + 0.055) / 1.055, 2.4);
-    return std::round(v * 1e4) / 1e4;
-}
-
 Json materialOf(const volume::Label& label, const std::string& name) {
     Json material;
     material["name"] = name;
     const double alpha = std::round(std::clamp(double(label.opacity), 0.0, 1.0) * 1e4) / 1e4;
-    material["pbrMetallicRoughness"] = {
-        {"baseColorFactor", {linear(label.color.x), linear(label.color.y), linear(label.color.z), alpha}},
-        {"metallicFactor", 0},
-        {"roughnessFactor", 1}};
+    material["pbrMetallicRoughness"] = {{"baseColorFactor",
+                                         {roundedLinearChannel(label.color.x), roundedLinearChannel(label.color.y),
+                                          roundedLinearChannel(label.color.z), alpha}},
+                                        {"metallicFactor", 0},
+                                        {"roughnessFactor", 1}};
     if (alpha < 1) material["alphaMode"] = "BLEND";
     return material;
 }
@@ -89,7 +85,7 @@ Json nodesOf(const volume::SemanticVolume& volume, std::span<const LabelSurface>
         if (!isUsed[l]) continue;
         nodeOf[l] = nodes.size();
         Json node;
-        node["name"] = labels[l].name.empty() ? labels[l].id : labels[l].name;
+        node["name"] = shownName(labels[l]);
         if (meshOf[l] >= 0) node["mesh"] = meshOf[l];
         node["extras"] = {{"id", labels[l].id}, {"class", labels[l].className}};
         nodes.push_back(std::move(node));
@@ -129,7 +125,7 @@ Json accessorsOf(std::span<const LabelSurface> surfaces, std::span<const Positio
 }
 
 Json assetOf(const volume::SemanticVolume& volume) {
-    const Vec3d origin = volume.grid.worldFromIndex({-0.5, -0.5, -0.5});
+    const Vec3d origin = lowerCorner(volume.grid);
     Json extras;
     extras["origin"] = {origin.x, origin.y, origin.z};
     extras["crs"] = volume.crsName;
@@ -147,7 +143,7 @@ std::string sceneText(const volume::SemanticVolume& volume, std::span<const Labe
     Json meshes = Json::array(), materials = Json::array();
     for (std::size_t m = 0; m < surfaces.size(); ++m) {
         const volume::Label& label = volume.labels.labels[surfaces[m].label];
-        const std::string& name = label.name.empty() ? label.id : label.name;
+        const std::string& name = shownName(label);
         Json primitive = {{"attributes", {{"POSITION", 2 * m}}}, {"indices", 2 * m + 1}, {"material", m}};
         meshes.push_back({{"name", name}, {"primitives", Json::array({std::move(primitive)})}});
         materials.push_back(materialOf(label, name));

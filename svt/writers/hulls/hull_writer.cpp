@@ -1,7 +1,17 @@
+/// \file
+/// Writes the surface of each label as triangles in the plain formats that CAD, print and mesh programs read. The surfaces
+/// are those of a .glb (see GlbOptions::faces): closed for each label.
+///
+/// - OBJ: an object per label, named by its id, a group by its class, a material by its colour in `<stem>.mtl` beside it;
+///   world coordinates, metres.
+/// - PLY: binary, world coordinates as doubles; each face has `label` (its number in the table) and colour; comments tell
+///   id, class and name of each label.
+/// - STL: binary, no names; coordinates are 32-bit floats, so they are metres from the lower corner of the grid, along world
+///   axes; the header of 80 bytes tells where that is.
+
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 #include <svt/writers/dense/piece_writer.hpp>
-#include <svt/writers/hulls/hull_writer.hpp>
 #include <svt/writers/hulls/label_hulls.hpp>
 #include <svt/writers/volume_formats.hpp>
 #include <svt/writers/x3d/texture_files.hpp>
@@ -18,6 +28,8 @@
 namespace svt::writers {
 namespace {
 
+enum class HullFormat : std::uint8_t { Obj, Ply, Stl };
+
 using volume::Label;
 
 /// A text on one line without blanks at its ends.
@@ -29,8 +41,6 @@ std::string lineText(std::string_view text, bool hasBlanks) {
     }
     return line.empty() ? "_" : line;
 }
-
-int colorByte(float channel) { return static_cast<int>(std::clamp(channel, 0.0f, 1.0f) * 255 + 0.5f); }
 
 Result<void> writeMaterials(const LabelHulls& hulls, const std::filesystem::path& path) {
     SVT_DO(checkSibling(path, "# Semantic volume"));
@@ -101,8 +111,7 @@ Result<void> writePly(const LabelHulls& hulls, PieceWriter& out) {
             for (const std::uint32_t vertex : triangle)
                 appendBytes(out.text, static_cast<std::int32_t>(first + vertex));
             appendBytes(out.text, static_cast<std::int32_t>(hulls.surfaces[s].label));
-            for (int axis = 0; axis < 3; ++axis)
-                appendBytes(out.text, static_cast<std::uint8_t>(colorByte(color[axis])));
+            for (int axis = 0; axis < 3; ++axis) appendBytes(out.text, colorByte(color[axis]));
             SVT_DO(out.flush());
         }
         first += static_cast<std::uint32_t>(hulls.positions[s].size());
@@ -131,10 +140,12 @@ Result<void> writeStl(const LabelHulls& hulls, PieceWriter& out) {
     return out.flush(true);
 }
 
-}  // namespace
-
+/// Writes one file (OBJ: two), all or nothing. Equal volumes give equal bytes.
+/// \return bytes, or NothingSelected if no label has voxels, GridTooLarge for too many triangles, CannotWrite, DiskFull,
+///         WouldDestroy (something else beside the OBJ), Cancelled
+template <HullFormat format>
 Result<std::uint64_t> writeHulls(const volume::SemanticVolume& volume, const std::filesystem::path& path,
-                                 HullFormat format, const VolumeWriteOptions& options) {
+                                 const VolumeWriteOptions& options) {
     SVT_TRY(made, makeLabelHulls(volume, options));
     const LabelHulls& hulls = *made;
     std::uint64_t vertices = 0;
@@ -143,8 +154,7 @@ Result<std::uint64_t> writeHulls(const volume::SemanticVolume& volume, const std
         return Error(Code::GridTooLarge,
                      fmt::format("{} vertices are more than the format can number; use --level", vertices));
     const std::filesystem::path materials = std::filesystem::path(path).replace_extension(".mtl");
-    if (format == HullFormat::Obj)
-        if (auto done = writeMaterials(hulls, materials); !done) return done.error();
+    if (format == HullFormat::Obj) SVT_DO(writeMaterials(hulls, materials));
     SVT_TRY(file, AtomicFile::create(path));
     PieceWriter out(*file);
     SVT_TRY(done, format == HullFormat::Obj   ? writeObj(hulls, materials.filename().string(), out)
@@ -153,31 +163,27 @@ Result<std::uint64_t> writeHulls(const volume::SemanticVolume& volume, const std
     return file->commit();
 }
 
+}  // namespace
+
 extern const VolumeFormat kObj{.name = "obj",
                                .endings = ".obj",
                                .holds = "Wavefront OBJ: an object per label, colours in an .mtl beside it",
                                .readers = "Blender, MeshLab, CAD, VTK",
                                .content = FileContent::Text,
-                               .write = [](const auto& volume, const auto& path, const auto& options) {
-                                   return writeHulls(volume, path, HullFormat::Obj, options);
-                               }};
+                               .write = writeHulls<HullFormat::Obj>};
 
 extern const VolumeFormat kPly{.name = "ply",
                                .endings = ".ply",
                                .holds = "PLY, binary: triangles with label and colour",
                                .readers = "MeshLab, CloudCompare, Open3D, VTK",
                                .content = FileContent::Ply,
-                               .write = [](const auto& volume, const auto& path, const auto& options) {
-                                   return writeHulls(volume, path, HullFormat::Ply, options);
-                               }};
+                               .write = writeHulls<HullFormat::Ply>};
 
 extern const VolumeFormat kStl{.name = "stl",
                                .endings = ".stl",
                                .holds = "STL, binary: triangles alone",
                                .readers = "printers, CAD, simulation",
                                .content = FileContent::Unknown,
-                               .write = [](const auto& volume, const auto& path, const auto& options) {
-                                   return writeHulls(volume, path, HullFormat::Stl, options);
-                               }};
+                               .write = writeHulls<HullFormat::Stl>};
 
 }  // namespace svt::writers

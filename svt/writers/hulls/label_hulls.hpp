@@ -6,6 +6,7 @@
 #include <svt/volume/semantic_volume.hpp>
 #include <svt/writers/gltf/label_surface.hpp>
 #include <svt/writers/gltf/surface_positions.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/volume_formats.hpp>
 
 #include <cstddef>
@@ -25,7 +26,7 @@ struct LabelHulls {
         return x * p.x + y * p.y + z * p.z;
     }
     /// The lower corner of the grid, the outer corner of sample (0, 0, 0), world space.
-    [[nodiscard]] Vec3d corner() const { return volume->grid.worldFromIndex({-0.5, -0.5, -0.5}); }
+    [[nodiscard]] Vec3d corner() const { return lowerCorner(volume->grid); }
     [[nodiscard]] const volume::Label& label(std::size_t surface) const {
         return volume->labels.labels[surfaces[surface].label];
     }

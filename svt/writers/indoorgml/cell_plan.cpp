@@ -1,4 +1,5 @@
 #include <svt/writers/indoorgml/cell_plan.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 
 #include <svt/analyze/space_boundaries.hpp>
 #include <svt/core/text.hpp>
@@ -136,10 +137,9 @@ private:
     [[nodiscard]] std::string storeyOf(std::uint32_t label) const {
         const auto& labels = volume_.labels.labels;
         for (std::uint32_t l = label; l != kNoLabel; l = labels[l].parent) {
-            if (labels[l].className == "Storey") return labels[l].name.empty() ? labels[l].id : labels[l].name;
+            if (labels[l].className == "Storey") return shownName(labels[l]);
             for (const std::uint32_t group : labels[l].groups)
-                if (labels[group].className == "Storey")
-                    return labels[group].name.empty() ? labels[group].id : labels[group].name;
+                if (labels[group].className == "Storey") return shownName(labels[group]);
         }
         return textOf(labels[label], "storey");
     }

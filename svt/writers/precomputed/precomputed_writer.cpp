@@ -1,10 +1,12 @@
 #include <svt/core/parallel.hpp>
+#include <svt/image/color_text.hpp>
 #include <svt/writers/dense/coarser_levels.hpp>
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/dense/sample_band.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/hulls/label_hulls.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/precomputed/precomputed_shards.hpp>
 #include <svt/writers/precomputed/precomputed_writer.hpp>
 #include <svt/writers/volume_formats.hpp>
@@ -89,7 +91,7 @@ std::string propertiesJson(const volume::SemanticVolume& volume) {
     for (const volume::Label& label : volume.labels.labels)
         for (volume::Scalar s = label.first; s < label.first + label.count; ++s) {
             ids.push_back(std::to_string(s));
-            names.push_back(label.name.empty() ? label.id : label.name);
+            names.push_back(shownName(label));
             classes.push_back(label.className);
             gmlIds.push_back(label.id);
             volumes.push_back(static_cast<double>(voxels[s]) * volume.grid.voxelVolume());
@@ -106,17 +108,14 @@ std::string propertiesJson(const volume::SemanticVolume& volume) {
 
 /// A state of neuroglancer: one layer in our colours. Its voxels begin half a voxel before the first sample.
 std::string stateJson(const volume::SemanticVolume& volume) {
-    const auto byte = [](float c) { return static_cast<int>(std::clamp(c, 0.0f, 1.0f) * 255 + 0.5f); };
     SceneJson colors = SceneJson::object(), segments = SceneJson::array();
     for (const volume::Label& label : volume.labels.labels)
         for (volume::Scalar s = label.first; s < label.first + label.count; ++s) {
-            const Vec3f c =
-                volume.labels.phaseColors.empty() || label.count == 1 ? label.color : volume.labels.phaseColors[s];
-            colors[std::to_string(s)] = fmt::format("#{:02x}{:02x}{:02x}", byte(c.x), byte(c.y), byte(c.z));
+            colors[std::to_string(s)] = image::colorText(colorOf(volume.labels, label, s));
             segments.push_back(std::to_string(s));
         }
     const Vec3d x = volume.grid.worldFromIndexDirection({1, 0, 0}), y = volume.grid.worldFromIndexDirection({0, 1, 0}),
-                z = volume.grid.worldFromIndexDirection({0, 0, 1}), o = volume.grid.worldFromIndex({-0.5, -0.5, -0.5});
+                z = volume.grid.worldFromIndexDirection({0, 0, 1}), o = lowerCorner(volume.grid);
     const SceneJson metres = SceneJson::array({1, "m"});
     const SceneJson transform{{"matrix", {{x.x, y.x, z.x, o.x}, {x.y, y.y, z.y, o.y}, {x.z, y.z, z.z, o.z}}},
                               {"outputDimensions", {{"x", metres}, {"y", metres}, {"z", metres}}}};

@@ -13,8 +13,7 @@ namespace {
 using illustrate::PlanePoint;
 using MapLine = std::vector<MapPoint>;
 
-constexpr const char* kViewColumns =
-    "name TEXT,kind TEXT,height DOUBLE,origin TEXT,u TEXT,v TEXT,\n normal TEXT";
+constexpr const char* kViewColumns = "name TEXT,kind TEXT,height DOUBLE,origin TEXT,u TEXT,v TEXT,\n normal TEXT";
 constexpr const char* kLineColumns = "view INTEGER,kind TEXT,id TEXT,class TEXT,name TEXT";
 constexpr const char* kPolygonColumns =
     "view INTEGER,kind TEXT,id TEXT,class TEXT,name TEXT,area DOUBLE,bound DOUBLE,exact INTEGER";

@@ -65,8 +65,7 @@ public:
 private:
     [[nodiscard]] std::string_view word(SheetWord w) const noexcept { return sheetWord(w, options_.language); }
     [[nodiscard]] const std::string& modelName() const noexcept {
-        if (!options_.title.empty()) return options_.title;
-        return volume_.modelName.empty() ? volume_.source : volume_.modelName;
+        return options_.title.empty() ? shownName(volume_) : options_.title;
     }
     [[nodiscard]] double datum() const noexcept { return content_.levels.empty() ? 0 : content_.levels.front().floor; }
 
@@ -322,7 +321,7 @@ Result<std::vector<std::string>> makeSvgSheets(const SheetContent& content, cons
 Result<std::string> makePdfSheets(const SheetContent& content, const volume::SemanticVolume& volume,
                                   const SheetOptions& options) {
     SVT_TRY(layout, layOutSheets(content, options));
-    SVT_TRY(canvas, makePdfCanvas(volume.modelName.empty() ? volume.source : volume.modelName));
+    SVT_TRY(canvas, makePdfCanvas(shownName(volume)));
     SheetPainter(content, volume, *layout, options, **canvas).paint();
     return (*canvas)->finish();
 }

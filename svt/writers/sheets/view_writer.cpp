@@ -10,14 +10,10 @@
 namespace svt::writers {
 namespace {
 
-const std::string& titleOfView(const volume::SemanticVolume& volume) noexcept {
-    return volume.modelName.empty() ? volume.source : volume.modelName;
-}
-
 void paintView(const illustrate::LineView& view, const volume::SemanticVolume& volume, double width,
                SheetCanvas& canvas) {
     const double millimetres = width / view.width, height = view.height * millimetres;
-    canvas.beginSheet(width, height, titleOfView(volume));
+    canvas.beginSheet(width, height, shownName(volume));
     paintDrawing(view.drawing, volume, {{0.5 * width, 0.5 * height}, {0, 0}, millimetres}, canvas);
     canvas.endSheet();
 }
@@ -28,7 +24,7 @@ void addTitle(const illustrate::SectionDrawing& drawing, const volume::SemanticV
     constexpr double left = DrawingPage::kMargin;
     const double top = page.titleTop(), y = top + 17, size = page.field * page.millimetres;
     canvas.stroke({{{left, top}, {page.width - left, top}}}, {0.13});
-    canvas.text({{left, top + 6}, 3.5, titleOfView(volume)});
+    canvas.text({{left, top + 6}, 3.5, shownName(volume)});
     canvas.text(
         {{left, top + 11}, 2.5, fmt::format("{}, 1:{}", planeText(drawing, volume.grid), shortNumber(page.scale, 2))});
     for (int n = 0; n < 4; ++n) {
@@ -54,7 +50,7 @@ Result<std::string> makeSectionPdf(const illustrate::SectionDrawing& drawing, co
         return Error(Code::BadArgument,
                      fmt::format("at 1:{} the page has {:.1f} x {:.1f} m; PDF allows 5.08 m; give a smaller scale",
                                  shortNumber(scale, 2), page->width / 1000, page->height / 1000));
-    SVT_TRY(canvas, makePdfCanvas(titleOfView(volume)));
+    SVT_TRY(canvas, makePdfCanvas(shownName(volume)));
     (*canvas)->beginSheet(page->width, page->height, planeText(drawing, volume.grid));
     const double below = page->top + (page->high.v - page->low.v) * page->millimetres;
     paintDrawing(drawing, volume, {{page->left, below}, page->low, page->millimetres}, **canvas);
@@ -72,7 +68,7 @@ std::string makeViewSvg(const illustrate::LineView& view, const volume::Semantic
 }
 
 Result<std::string> makeViewPdf(const illustrate::LineView& view, const volume::SemanticVolume& volume, double width) {
-    SVT_TRY(canvas, makePdfCanvas(titleOfView(volume)));
+    SVT_TRY(canvas, makePdfCanvas(shownName(volume)));
     paintView(view, volume, width, **canvas);
     return (*canvas)->finish();
 }

@@ -25,7 +25,8 @@ Result<std::string> makeBoxTable(const volume::SemanticVolume& volume, const Vol
     for (const analyze::GroupBox& box : solids->boxes) {
         const SolidGroup& group = solids->groups[box.group];
         const volume::Label& label = volume.labels.labels[group.label];
-        Row row{box.group, group.name, isOne ? label.id : "", options.mergeBy == MergeBy::Material ? "" : label.className};
+        Row row{box.group, group.name, isOne ? label.id : "",
+                options.mergeBy == MergeBy::Material ? "" : label.className};
         for (const Vec3i& corner : {box.box.begin, box.box.end})
             for (int axis = 0; axis < 3; ++axis) row.emplace_back(corner[axis]);
         for (const Vec3i& corner : {box.box.begin, box.box.end})

@@ -1,5 +1,6 @@
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/simulation/fds_writer.hpp>
 #include <svt/writers/simulation/solid_boxes.hpp>
 #include <svt/writers/volume_formats.hpp>
@@ -75,10 +76,9 @@ public:
     }
 
     void surfaces() {
-        const auto byte = [](float c) { return static_cast<int>(std::clamp(c, 0.0f, 1.0f) * 255 + 0.5f); };
         for (std::size_t g = 0; g < ids_.size(); ++g) {
             const Vec3f& c = solids_.groups[g].color;
-            const std::string rgb = fmt::format("{},{},{}", byte(c.x), byte(c.y), byte(c.z));
+            const std::string rgb = fmt::format("{},{},{}", colorByte(c.x), colorByte(c.y), colorByte(c.z));
             line("&SURF ID='{}', RGB={} /", ids_[g], rgb);
             if (solids_.groups[g].hasVents) line("&SURF ID='{} vent', RGB={} /", ids_[g], rgb);
         }

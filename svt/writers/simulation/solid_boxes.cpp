@@ -1,3 +1,4 @@
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/simulation/solid_boxes.hpp>
 
 #include <svt/analyze/selection.hpp>
@@ -20,7 +21,7 @@ std::string groupName(const Label& label, MergeBy by) {
         case MergeBy::Material: return materialOf(label);
         case MergeBy::Label: break;
     }
-    return label.name.empty() ? label.id : label.name;
+    return shownName(label);
 }
 
 // Surfaces of a room are one voxel of it; its furniture is not.
@@ -53,8 +54,6 @@ Vec3d cornerOf(Vec3i samples, const volume::Grid& grid) noexcept {
 }
 
 double roundedMetres(double metres) noexcept { return std::round(metres * 1e6) / 1e6; }
-
-Vec3d lowerCorner(const volume::Grid& grid) noexcept { return grid.worldFromIndex({-0.5, -0.5, -0.5}); }
 
 Result<SolidBoxes> solidBoxes(const volume::SemanticVolume& volume, const VolumeWriteOptions& options) {
     const auto& labels = volume.labels.labels;

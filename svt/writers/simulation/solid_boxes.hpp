@@ -4,6 +4,7 @@
 
 #include <svt/analyze/merged_boxes.hpp>
 #include <svt/volume/semantic_volume.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/volume_formats.hpp>
 
 #include <cstdint>
@@ -40,8 +41,5 @@ struct SolidBoxes {
 
 /// To a micrometre (or square millimetre), so that a file has no digits that are rounding alone.
 [[nodiscard]] double roundedMetres(double metres) noexcept;
-
-/// World position of the lower corner of the first voxel.
-[[nodiscard]] Vec3d lowerCorner(const volume::Grid& grid) noexcept;
 
 }  // namespace svt::writers

@@ -83,8 +83,7 @@ std::string plainValues(std::span<const Row> rows, std::size_t column, CellType 
         if (type == CellType::SmallNumber) appendBytes(bytes, std::get<float>(cell.value));
         if (type == CellType::Truth) truths.push_back(std::get<bool>(cell.value));
         if (type != CellType::Text && type != CellType::Blob) continue;
-        const std::string text =
-            type == CellType::Blob ? std::get<Blob>(cell.value).bytes : validText(cellText(cell));
+        const std::string text = type == CellType::Blob ? std::get<Blob>(cell.value).bytes : validText(cellText(cell));
         appendBytes(bytes, static_cast<std::uint32_t>(text.size()));
         bytes += text;
     }
@@ -107,8 +106,7 @@ Result<std::string> ParquetStream::group(std::span<const Row> rows) {
     std::int64_t total = 0;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
         const auto& [name, type, isOptional] = columns_[c];
-        const std::string page =
-            (isOptional ? definitionLevels(rows, c) : std::string()) + plainValues(rows, c, type);
+        const std::string page = (isOptional ? definitionLevels(rows, c) : std::string()) + plainValues(rows, c, type);
         if (page.size() > kMostPageBytes)
             return Error(Code::GridTooLarge, fmt::format("column '{}' has more than 2 GiB; use --select", name));
         const auto size = static_cast<std::int32_t>(page.size());
@@ -148,9 +146,7 @@ std::string ParquetStream::end(std::span<const std::pair<std::string, std::strin
         ThriftStruct().text(4, "schema").number32(5, static_cast<std::int32_t>(columns_.size()))};
     for (const ParquetColumn& column : columns_) {
         ThriftStruct element;
-        element.number32(1, numberOf(column.type))
-            .number32(3, column.isOptional ? 1 : 0)
-            .text(4, column.name);
+        element.number32(1, numberOf(column.type)).number32(3, column.isOptional ? 1 : 0).text(4, column.name);
         if (column.type == CellType::Text)
             element.number32(6, kUtf8).inner(10, ThriftStruct().inner(1, ThriftStruct()));  // the logical type STRING
         schema.push_back(element);

@@ -38,6 +38,14 @@ std::size_t letterCount(const std::string& text) {
 
 }  // namespace
 
+void appendCorners(Row& row, const Box3d& box) {
+    for (const Vec3d& corner : {box.min, box.max})
+        for (int axis = 0; axis < 3; ++axis) {
+            Cell& cell = row.emplace_back();
+            if (!box.isEmpty()) cell.value = corner[axis];
+        }
+}
+
 std::string cellText(const Cell& cell) { return std::visit(TextOfValue(), cell.value); }
 
 std::string makeText(const Table& table) {

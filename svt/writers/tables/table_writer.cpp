@@ -1,6 +1,11 @@
+/// \file
+/// What is known of the objects of a volume, and their contacts, as tables, which become CSV or Parquet for spreadsheets,
+/// pandas and databases. Metres.
+
 #include <svt/analyze/label_measures.hpp>
 #include <svt/core/file.hpp>
-#include <svt/writers/tables/table_writer.hpp>
+#include <svt/image/color_text.hpp>
+#include <svt/writers/table.hpp>
 #include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
@@ -30,7 +35,8 @@ Cell textCell(std::string_view text) { return text.empty() ? Cell() : Cell(text)
 Cell attributeCell(const volume::Label& label, const std::string& name) {
     const auto found = std::find_if(label.attributes.begin(), label.attributes.end(),
                                     [&](const Attribute& attribute) { return attribute.name == name; });
-    return found == label.attributes.end() ? Cell() : Cell(found->value);
+    if (found == label.attributes.end()) return {};
+    return found->value;
 }
 
 /// The cells of a label, in the order of kObjectColumns.
@@ -39,16 +45,10 @@ Row cellsOf(const volume::SemanticVolume& volume, std::size_t number, const anal
     const volume::Label& label = volume.labels.labels[number];
     const std::string_view parent =
         label.parent == volume::kNoLabel ? std::string_view() : volume.labels.labels[label.parent].id;
-    Row cells{number,      label.id,    label.className, textCell(label.name), textCell(parent),   label.first,
+    Row cells{number,      label.id,     label.className, textCell(label.name), textCell(parent),   label.first,
               label.count, label.voxels, cubicMetres,     measure.area,         measure.outsideArea};
-    const Box3d box = analyze::worldBox(measure.box, volume.grid);
-    for (const Vec3d corner : {box.min, box.max})
-        for (int axis = 0; axis < 3; ++axis) cells.push_back(box.isEmpty() ? Cell() : Cell(corner[axis]));
-    const auto byte = [](float c) { return static_cast<int>(std::clamp(c, 0.0f, 1.0f) * 255 + 0.5f); };
-    cells.emplace_back(
-        fmt::format("#{:02x}{:02x}{:02x}", byte(label.color.x), byte(label.color.y), byte(label.color.z)));
-    cells.emplace_back(label.opacity);
-    cells.emplace_back(volume::fillingName(label.filling));
+    appendCorners(cells, analyze::worldBox(measure.box, volume.grid));
+    cells.insert(cells.end(), {image::colorText(label.color), label.opacity, volume::fillingName(label.filling)});
     return cells;
 }
 
@@ -65,8 +65,10 @@ Table emptyTable(std::span<const char* const> names, const volume::SemanticVolum
     return table;
 }
 
-}  // namespace
-
+/// One row per label in table order: number, id, class, name, parent's id, scalars, voxels, volume (m3), surface and
+/// its part that touches background (m2), box of its voxels along world axes (m), colour, opacity, filling, then each
+/// attribute that some label has, named `attribute:NAME`, with its unit in brackets where all have the same.
+/// Cost: that of analyze::findContacts().
 Table makeObjectTable(const volume::SemanticVolume& volume, int threads) {
     const auto contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, threads);
     const auto measures = analyze::measureLabels(volume, contacts);
@@ -82,6 +84,8 @@ Table makeObjectTable(const volume::SemanticVolume& volume, int threads) {
     return table;
 }
 
+/// One row per pair of labels whose voxels share faces, and per label that touches background (b is empty): ids,
+/// classes and names of both, area (m2), faces across x, y and z. Ordered by (a, b).
 Table makeContactTable(const volume::SemanticVolume& volume, int threads) {
     Table table = emptyTable(kContactColumns, volume);
     for (const analyze::Contact& contact : analyze::findContacts(volume.columns, volume.grid, volume.labels, threads)) {
@@ -110,6 +114,8 @@ Result<std::uint64_t> writeParquet(const volume::SemanticVolume& volume, const s
     return writeFileAtomically(path, *bytes);
 }
 
+}  // namespace
+
 extern const VolumeFormat kObjects{.name = "objects",
                                    .endings = ".csv",
                                    .holds = "a line per object: class, name, parent, volume, surface, box, attributes",
@@ -124,20 +130,18 @@ extern const VolumeFormat kContacts{.name = "contacts",
                                     .content = FileContent::Text,
                                     .write = writeCsv<makeContactTable>};
 
-extern const VolumeFormat kObjectParquet{
-    .name = "objectparquet",
-    .endings = ".parquet",
-    .holds = "the table of objects as Apache Parquet",
-    .readers = "pandas, DuckDB, Spark, GDAL, R",
-    .content = FileContent::Parquet,
-    .write = writeParquet<makeObjectTable>};
+extern const VolumeFormat kObjectParquet{.name = "objectparquet",
+                                         .endings = ".parquet",
+                                         .holds = "the table of objects as Apache Parquet",
+                                         .readers = "pandas, DuckDB, Spark, GDAL, R",
+                                         .content = FileContent::Parquet,
+                                         .write = writeParquet<makeObjectTable>};
 
-extern const VolumeFormat kContactParquet{
-    .name = "contactparquet",
-    .endings = ".contacts.parquet",
-    .holds = "the table of contacts as Apache Parquet",
-    .readers = "pandas, DuckDB, Spark, GDAL, R",
-    .content = FileContent::Parquet,
-    .write = writeParquet<makeContactTable>};
+extern const VolumeFormat kContactParquet{.name = "contactparquet",
+                                          .endings = ".contacts.parquet",
+                                          .holds = "the table of contacts as Apache Parquet",
+                                          .readers = "pandas, DuckDB, Spark, GDAL, R",
+                                          .content = FileContent::Parquet,
+                                          .write = writeParquet<makeContactTable>};
 
 }  // namespace svt::writers

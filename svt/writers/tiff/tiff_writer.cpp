@@ -1,9 +1,17 @@
+/// \file
+/// Writes a semantic volume as a TIFF stack (.tif, .ome.tif), which Fiji/ImageJ, tifffile, napari and GDAL read.
+///
+/// A page is a slice k; its rows are j, its pixels i: the page is the array as it is, so that north is at the bottom of
+/// what a viewer shows. Samples of 8, 16 or 32 bits, unsigned; BigTIFF from 4 GB on. The first page tells spacing and
+/// unit: as ImageJ's text, or as OME-XML where the name ends in .ome.tif; ImageJ itself has no whole numbers of 32 bits,
+/// so for these its text is left out. The matrix of GeoTIFF (ModelTransformation, tag 34264) leads from pixel (i, j, k) to
+/// world space, where a sample is a point. Private tags 65080, 65081 and 65082 hold `svt.json` and `labels.json` of a `.svt`
+/// and their seal, so that the file can become a volume again.
+
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 #include <svt/volume/volume_json.hpp>
-#include <svt/writers/dense/format_options.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
-#include <svt/writers/tiff/tiff_writer.hpp>
 #include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
@@ -19,6 +27,8 @@
 
 namespace svt::writers {
 namespace {
+
+enum class TiffMetadata : std::uint8_t { ImageJ, Ome };
 
 constexpr std::uint64_t kStripBytes = std::uint64_t{1} << 20;
 constexpr std::uint64_t kClassicLimit = 0xFFFF0000u;
@@ -219,14 +229,16 @@ private:
     bool isBig_ = false;
 };
 
-}  // namespace
-
+/// Writes one file, all or nothing, in strips of about 1 MiB by Deflate, or raw with one strip per page. Equal volumes
+/// give equal bytes. Cost: O(samples); memory: about 150 MB at most, besides the label table.
+/// \return bytes written, or CannotWrite, DiskFull, Cancelled; BadArgument as checkedSampleBits()
+template <TiffMetadata metadata>
 Result<std::uint64_t> writeTiff(const volume::SemanticVolume& volume, const std::filesystem::path& path,
-                                TiffMetadata metadata, const DenseOptions& options) {
+                                const VolumeWriteOptions& options) {
     SVT_TRY(bits, checkedSampleBits(volume));
     SVT_TRY(file, AtomicFile::create(path));
     const Vec3i dimension = volume.grid.dimension();
-    const StreamOptions stream{"write", options.threads, options.progress};
+    const StreamOptions stream = writeStream(options);
     if (!options.isCompressed) {
         const TiffLayout layout(volume, *bits, metadata, static_cast<std::uint64_t>(dimension.y), nullptr);
         SVT_DO(layout.write(*file));
@@ -245,15 +257,15 @@ Result<std::uint64_t> writeTiff(const volume::SemanticVolume& volume, const std:
     return file->commit();
 }
 
+}  // namespace
+
 extern const VolumeFormat kTiff{.name = "tiff",
                                 .endings = ".tif|.tiff",
                                 .holds = "TIFF stack: a page per slice, with ImageJ's metadata",
                                 .readers = "Fiji/ImageJ, tifffile, napari, GDAL",
                                 .content = FileContent::Tiff,
                                 .isDense = true,
-                                .write = [](const auto& volume, const auto& path, const auto& options) {
-                                    return writeTiff(volume, path, TiffMetadata::ImageJ, denseOptions(options));
-                                }};
+                                .write = writeTiff<TiffMetadata::ImageJ>};
 
 extern const VolumeFormat kOmeTiff{.name = "ometiff",
                                    .endings = ".ome.tif|.ome.tiff",
@@ -261,8 +273,6 @@ extern const VolumeFormat kOmeTiff{.name = "ometiff",
                                    .readers = "Bio-Formats, tifffile, napari, QuPath",
                                    .content = FileContent::Tiff,
                                    .isDense = true,
-                                   .write = [](const auto& volume, const auto& path, const auto& options) {
-                                       return writeTiff(volume, path, TiffMetadata::Ome, denseOptions(options));
-                                   }};
+                                   .write = writeTiff<TiffMetadata::Ome>};
 
 }  // namespace svt::writers

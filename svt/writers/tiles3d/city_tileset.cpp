@@ -4,6 +4,7 @@
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/gltf/label_surface.hpp>
 #include <svt/writers/gltf/surface_positions.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/tiles3d/feature_glb.hpp>
 #include <svt/writers/tiles3d/globe_patch.hpp>
 #include <svt/writers/tiles3d/quadtree_index.hpp>
@@ -166,7 +167,7 @@ private:
         if (surfaces->empty()) return {};
         SVT_TRY(positions, placeVertices(volume, *surfaces, frame_.write.faces, nullptr, 1, nullptr));
         const volume::Grid& grid = volume.grid;
-        const Vec3d low = grid.worldFromIndex({-0.5, -0.5, -0.5});
+        const Vec3d low = lowerCorner(grid);
         const Vec3d high = grid.worldFromIndex(toDouble(grid.dimension()) + Vec3d{-0.5, -0.5, -0.5});
         SVT_TRY(patch, lattice_->patch({low.x, low.y, high.x, high.y}));
         if (content.mesh.positions.empty()) content.origin = patch->place(low);
@@ -174,7 +175,8 @@ private:
         for (std::size_t s = 0; s < surfaces->size(); ++s) {
             const LabelSurface& surface = (*surfaces)[s];
             std::vector<Vec3d> places;
-            Building building{&labels[surface.label], analyze::solidVolume(volume.labels, surface.label), INFINITY, -INFINITY};
+            Building building{&labels[surface.label], analyze::solidVolume(volume.labels, surface.label), INFINITY,
+                              -INFINITY};
             for (const Vec3f position : (*positions)[s]) {
                 const Vec3d world = low + toDouble(position);
                 building.lowest = std::min(building.lowest, world.z);

@@ -1,3 +1,4 @@
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/tiles3d/feature_glb.hpp>
 
 #include <svt/analyze/label_measures.hpp>
@@ -19,12 +20,6 @@ using GltfJson = nlohmann::ordered_json;
 
 constexpr int kFloatType = 5126, kByteType = 5121, kIndexType = 5125, kVertices = 34962, kIndices = 34963;
 constexpr float kOpaque = 0.999f;
-
-/// glTF has vertex colours linear.
-std::uint8_t linearByte(float value) {
-    const double v = value <= 0.04045f ? value / 12.92 : std::pow((double(value) + 0.055) / 1.055, 2.4);
-    return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0, 1.0) * 255));
-}
 
 void appendSurface(const LabelHulls& hulls, std::size_t surface, float feature, FlatMesh& mesh) {
     const volume::Label& label = hulls.label(surface);
@@ -188,7 +183,10 @@ GltfJson metadataOf(const LabelHulls& hulls, std::size_t begin, std::size_t end,
 }  // namespace
 
 std::array<std::uint8_t, 4> linearColor(Vec3f color, float opacity) noexcept {
-    return {linearByte(color.x), linearByte(color.y), linearByte(color.z),
+    const auto byteOf = [](float channel) {
+        return static_cast<std::uint8_t>(std::lround(std::clamp(linearChannel(channel), 0.0, 1.0) * 255));
+    };
+    return {byteOf(color.x), byteOf(color.y), byteOf(color.z),
             static_cast<std::uint8_t>(std::lround(std::clamp(opacity, 0.0f, 1.0f) * 255))};
 }
 
@@ -262,14 +260,13 @@ FeatureTexts featureTexts(const volume::SemanticVolume& volume) {
     FeatureTexts texts{std::vector<std::string>(labels.size()), analyze::ownVolumes(volume.labels, volume.grid)};
     // Parents stand before their children, groups anywhere: what the parent belongs to, or a group that is a storey.
     for (std::size_t l = 0; l < labels.size(); ++l) {
-        const auto nameOf = [&](std::size_t n) { return labels[n].name.empty() ? labels[n].id : labels[n].name; };
         if (model::query::isStorey(rows[l])) {
-            texts.storeys[l] = nameOf(l);
+            texts.storeys[l] = shownName(labels[l]);
             continue;
         }
         for (const std::uint32_t group : labels[l].groups)
             if (group < rows.size() && texts.storeys[l].empty() && model::query::isStorey(rows[group]))
-                texts.storeys[l] = nameOf(group);
+                texts.storeys[l] = shownName(labels[group]);
         if (texts.storeys[l].empty() && labels[l].parent < l) texts.storeys[l] = texts.storeys[labels[l].parent];
     }
     return texts;

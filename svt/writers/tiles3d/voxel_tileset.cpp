@@ -1,3 +1,4 @@
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/tiles3d/voxel_tileset.hpp>
 
 #include <svt/volume/dense.hpp>
@@ -143,14 +144,8 @@ std::string subtreeOf(const std::vector<bool>& isThere) {
 
 std::vector<std::uint32_t> looksOf(const volume::LabelTable& labels) {
     std::vector<std::uint32_t> looks(labels.scalarCount(), 0);
-    const auto byteOf = [](float c) {
-        return static_cast<std::uint32_t>(std::lround(std::clamp(c, 0.0f, 1.0f) * 255));
-    };
     for (const volume::Label& label : labels.labels)
-        for (volume::Scalar s = label.first; s < label.first + label.count; ++s) {
-            const Vec3f c = labels.phaseColors.empty() || label.count == 1 ? label.color : labels.phaseColors[s];
-            looks[s] = byteOf(c.x) << 24 | byteOf(c.y) << 16 | byteOf(c.z) << 8 | std::max(byteOf(label.opacity), 1u);
-        }
+        for (volume::Scalar s = label.first; s < label.first + label.count; ++s) looks[s] = lookOf(labels, label, s);
     return looks;
 }
 
@@ -193,7 +188,7 @@ Result<std::uint64_t> writeVoxelTileset(const volume::SemanticVolume& volume, co
                                         const VolumeWriteOptions& options) {
     SVT_DO(checkedSampleBits(volume));
     const volume::Grid& grid = volume.grid;
-    const Vec3d corner = grid.worldFromIndex({-0.5, -0.5, -0.5});
+    const Vec3d corner = lowerCorner(grid);
     SVT_TRY(frame, frameOfVolume(volume, corner, options));
     // Tiles lie along the axes of the grid.
     const std::array<Vec3d, 3> world = frame->axes;

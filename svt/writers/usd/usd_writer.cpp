@@ -1,10 +1,18 @@
-#include <svt/core/text.hpp>
-#include <svt/writers/usd/usd_writer.hpp>
-#include <svt/writers/volume_formats.hpp>
+/// \file
+/// Writes the hulls of labels as USD in its text form (.usda), which Blender, Omniverse, Houdini, Maya and usdview open.
+///
+/// A prim `Xform` for each label with a hull in or below it, nested as the labels are, named by its id; `displayName` is its
+/// name, `svt:id`, `svt:class`, `svt:name` and `svt:volume` (m3) are attributes. Its hull is a `Mesh` below it, `Hull`, of
+/// triangles that are closed, with `displayColor` (linear, as USD has colours) and `displayOpacity`, the fraction of light
+/// that a metre of it stops. Metres, z up. Points are metres from the grid's lower corner along its axes; the matrix of the
+/// root, in doubles, leads to world coordinates.
 
 #include <svt/analyze/label_measures.hpp>
+#include <svt/core/text.hpp>
 #include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/hulls/label_hulls.hpp>
+#include <svt/writers/labels/label_looks.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
 
@@ -26,11 +34,6 @@ std::string usdText(std::string_view text) {
         quoted += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
     }
     return quoted + '"';
-}
-
-double linearColor(float value) {
-    const double v = value <= 0.04045f ? value / 12.92 : std::pow((double(value) + 0.055) / 1.055, 2.4);
-    return std::round(v * 1e4) / 1e4;
 }
 
 /// Names of prims: letters, digits and '_', no digit first, each once.
@@ -138,7 +141,8 @@ private:
             done = list("point3f[] points", points.size(),
                         [&](std::size_t n) { append("({}, {}, {})", points[n].x, points[n].y, points[n].z); });
         append("color3f[] primvars:displayColor = [({}, {}, {})] (\n    interpolation = \"constant\"\n)\n",
-               linearColor(label.color.x), linearColor(label.color.y), linearColor(label.color.z));
+               roundedLinearChannel(label.color.x), roundedLinearChannel(label.color.y),
+               roundedLinearChannel(label.color.z));
         append("float[] primvars:displayOpacity = [{}] (\n    interpolation = \"constant\"\n)\n", label.opacity);
         append("uniform token orientation = \"rightHanded\"\nuniform token subdivisionScheme = \"none\"\n}}\n");
         return done;
@@ -155,8 +159,9 @@ private:
     std::vector<double> volumes_;
 };
 
-}  // namespace
-
+/// Writes one file, all or nothing. Equal volumes give equal bytes. Memory: that of labelSurfaces().
+/// \return bytes, or NothingSelected if no label has voxels, GridTooLarge for too many triangles, CannotWrite, DiskFull,
+///         Cancelled
 Result<std::uint64_t> writeUsd(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const VolumeWriteOptions& options) {
     SVT_TRY(hulls, makeLabelHulls(volume, options));
@@ -167,6 +172,8 @@ Result<std::uint64_t> writeUsd(const volume::SemanticVolume& volume, const std::
     SVT_DO(UsdDocument(*hulls, *file).write());
     return file->commit();
 }
+
+}  // namespace
 
 extern const VolumeFormat kUsd{.name = "usd",
                                .endings = ".usda",

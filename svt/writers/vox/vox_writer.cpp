@@ -1,9 +1,17 @@
-#include <svt/writers/volume_formats.hpp>
-#include <svt/writers/vox/vox_writer.hpp>
+/// \file
+/// Writes a volume for MagicaVoxel (.vox, version 150 with the scene graph), which voxel editors and game engines open.
+///
+/// A group for each label with voxels, named by its name or id, with its voxels in models of at most 256 x 256 x 256, the
+/// format's limit; a model is cut to what the label has there. z is up; a voxel is a voxel, its size in metres is told by
+/// the root's attributes `svt_spacing`, and `svt_origin` is where the first sample is (world coordinates), `svt_crs` what
+/// they are in. The palette has the colours of the labels with their opacity; of more than 255 the most frequent ones, the
+/// others become the nearest of them.
 
 #include <svt/analyze/scalar_boxes.hpp>
 #include <svt/volume/dense.hpp>
 #include <svt/writers/dense/piece_writer.hpp>
+#include <svt/writers/labels/label_looks.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
 
@@ -27,8 +35,7 @@ using VoxColor = std::array<std::uint8_t, 4>;
 VoxColor voxColor(Vec3f color, float opacity) {
     VoxColor bytes{};
     const std::array<float, 4> channels{color.x, color.y, color.z, opacity};
-    for (std::size_t c = 0; c < 4; ++c)
-        bytes[c] = static_cast<std::uint8_t>(std::clamp(channels[c], 0.0f, 1.0f) * 255 + 0.5f);
+    for (std::size_t c = 0; c < 4; ++c) bytes[c] = colorByte(channels[c]);
     return bytes;
 }
 
@@ -41,13 +48,12 @@ struct VoxPalette {
 VoxPalette paletteOf(const volume::SemanticVolume& volume) {
     const volume::LabelTable& table = volume.labels;
     const auto voxels = volume.columns.countVoxels(table.scalarCount());
-    std::vector<VoxColor> colorOf(voxels.size());
+    std::vector<VoxColor> colors(voxels.size());
     std::map<VoxColor, std::uint64_t> counts;
     for (const volume::Label& label : table.labels)
         for (volume::Scalar s = label.first; s < label.first + label.count; ++s) {
-            colorOf[s] = voxColor(table.phaseColors.empty() || label.count == 1 ? label.color : table.phaseColors[s],
-                                  label.opacity);
-            if (voxels[s] > 0) counts[colorOf[s]] += voxels[s];
+            colors[s] = voxColor(colorOf(table, label, s), label.opacity);
+            if (voxels[s] > 0) counts[colors[s]] += voxels[s];
         }
     std::vector<std::pair<std::uint64_t, VoxColor>> byCount;
     for (const auto& [color, count] : counts) byCount.emplace_back(count, color);
@@ -69,7 +75,7 @@ VoxPalette paletteOf(const volume::SemanticVolume& volume) {
         numbers[color] = static_cast<std::uint8_t>(nearest - palette.colors.begin() + 1);
     }
     for (std::size_t s = 0; s < voxels.size(); ++s)
-        if (voxels[s] > 0 && numbers.contains(colorOf[s])) palette.numberOf[s] = numbers[colorOf[s]];
+        if (voxels[s] > 0 && numbers.contains(colors[s])) palette.numberOf[s] = numbers[colors[s]];
     return palette;
 }
 
@@ -248,7 +254,7 @@ private:
                 models += shapeChunk(shape, static_cast<std::int32_t>(m));
             }
             below += transformChunk(transform,
-                                    {{"_name", validText(label.name.empty() ? label.id : label.name)},
+                                    {{"_name", validText(shownName(label))},
                                      {"svt_id", validText(label.id)},
                                      {"svt_class", validText(label.className)}},
                                     group, {});
@@ -273,8 +279,10 @@ private:
     std::vector<std::uint32_t> samples_;
 };
 
-}  // namespace
-
+/// Writes one file, all or nothing. Equal volumes give equal bytes. Memory: a box of 256 x 256 x 256 samples; the voxels
+/// are unrolled twice.
+/// \return bytes, or BadArgument for more voxels than VolumeWriteOptions::maxVoxels, NothingSelected if no label has voxels,
+///         CannotWrite, DiskFull, Cancelled
 Result<std::uint64_t> writeVox(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const VolumeWriteOptions& options) {
     if (volume.grid.dimension() != volume.columns.dimension())
@@ -296,6 +304,8 @@ Result<std::uint64_t> writeVox(const volume::SemanticVolume& volume, const std::
     SVT_DO(vox.write(*file));
     return file->commit();
 }
+
+}  // namespace
 
 extern const VolumeFormat kVox{.name = "vox",
                                .endings = ".vox",

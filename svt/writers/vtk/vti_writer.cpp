@@ -1,7 +1,7 @@
 #include <svt/core/file.hpp>
 #include <svt/volume/volume_json.hpp>
-#include <svt/writers/dense/format_options.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/volume_formats.hpp>
 #include <svt/writers/vtk/vti_writer.hpp>
 
@@ -89,7 +89,7 @@ std::string vtkFieldData(const volume::SemanticVolume& volume) {
 std::string vtiBeginning(const volume::SemanticVolume& volume, int bits, bool isCompressed) {
     const volume::Grid& grid = volume.grid;
     const Vec3i dimension = grid.dimension();
-    const Vec3d spacing = grid.spacing(), corner = grid.worldFromIndex({-0.5, -0.5, -0.5});
+    const Vec3d spacing = grid.spacing(), corner = lowerCorner(grid);
     const auto& [x, y, z] = grid.axes();
     const std::string extent = fmt::format("0 {} 0 {} 0 {}", dimension.x, dimension.y, dimension.z);
     std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
@@ -126,11 +126,11 @@ Result<void> writeVtkZlib(const volume::SemanticVolume& volume, int bits, const 
 }  // namespace
 
 Result<std::uint64_t> writeVti(const volume::SemanticVolume& volume, const std::filesystem::path& path,
-                               const DenseOptions& options) {
+                               const VolumeWriteOptions& options) {
     SVT_TRY(bits, checkedSampleBits(volume));
     SVT_TRY(file, AtomicFile::create(path));
     SVT_DO(file->write(vtiBeginning(volume, *bits, options.isCompressed)));
-    const StreamOptions stream{"write", options.threads, options.progress};
+    const StreamOptions stream = writeStream(options);
     const auto done =
         options.isCompressed ? writeVtkZlib(volume, *bits, stream, *file) : writeVtkRaw(volume, *bits, stream, *file);
     if (!done) return done.error();
@@ -144,8 +144,6 @@ extern const VolumeFormat kVti{.name = "vti",
                                .readers = "ParaView, VTK, PyVista",
                                .content = FileContent::Vtk,
                                .isDense = true,
-                               .write = [](const auto& volume, const auto& path, const auto& options) {
-                                   return writeVti(volume, path, denseOptions(options));
-                               }};
+                               .write = writeVti};
 
 }  // namespace svt::writers

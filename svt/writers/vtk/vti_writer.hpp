@@ -11,7 +11,7 @@
 
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
-#include <svt/writers/dense/format_options.hpp>
+#include <svt/writers/volume_formats.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -22,6 +22,6 @@ namespace svt::writers {
 /// Cost: O(samples); memory: about 150 MB at most, besides the label table.
 /// \return bytes written, or CannotWrite, DiskFull, Cancelled; BadArgument as checkedSampleBits()
 [[nodiscard]] Result<std::uint64_t> writeVti(const volume::SemanticVolume& volume, const std::filesystem::path& path,
-                                             const DenseOptions& options = {});
+                                             const VolumeWriteOptions& options = {});
 
 }  // namespace svt::writers

@@ -1,11 +1,12 @@
-#include <svt/writers/dense/format_options.hpp>
-#include <svt/writers/volume_formats.hpp>
-#include <svt/writers/vtk/vtm_writer.hpp>
+/// \file
+/// Writes a volume with all its levels for VTK and ParaView: a multi-block file (.vtm) and beside it a .vti per level,
+/// `<stem>.level0.vti` and so on, until 64 samples are the longest side.
 
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 #include <svt/writers/dense/coarser_levels.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
+#include <svt/writers/volume_formats.hpp>
 #include <svt/writers/vtk/vti_writer.hpp>
 #include <svt/writers/x3d/texture_files.hpp>
 
@@ -16,9 +17,13 @@
 #include <vector>
 
 namespace svt::writers {
+namespace {
 
+/// Writes the levels first, then the file that names them; each all or nothing. Equal volumes give equal bytes.
+/// \return bytes of all files, or WouldDestroy (something else beside it), CannotWrite, DiskFull, Cancelled; BadArgument as
+///         checkedSampleBits()
 Result<std::uint64_t> writeVtm(const volume::SemanticVolume& volume, const std::filesystem::path& path,
-                               const DenseOptions& options) {
+                               const VolumeWriteOptions& options) {
     SVT_DO(checkedSampleBits(volume));
     SVT_TRY(coarser, coarserLevels(volume, options.threads));
     const std::vector<volume::SemanticVolume>& coarse = *coarser;
@@ -44,14 +49,14 @@ Result<std::uint64_t> writeVtm(const volume::SemanticVolume& volume, const std::
     return bytes + *written;
 }
 
+}  // namespace
+
 extern const VolumeFormat kVtm{.name = "vtm",
                                .endings = ".vtm",
                                .holds = "VTK multi-block data: all levels, each a .vti beside it",
                                .readers = "ParaView, VTK",
                                .content = FileContent::Vtk,
                                .isDense = true,
-                               .write = [](const auto& volume, const auto& path, const auto& options) {
-                                   return writeVtm(volume, path, denseOptions(options));
-                               }};
+                               .write = writeVtm};
 
 }  // namespace svt::writers

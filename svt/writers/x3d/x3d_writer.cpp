@@ -1,8 +1,21 @@
+/// \file
+/// Writes a semantic volume as X3D 4.0 (ISO/IEC 19775-1, components Texturing3D and VolumeRendering): the 3D texture that
+/// the paper calls a semantic volume texture, as the voxels of a SegmentedVolumeData. X_ITE and Castle show it.
+///
+/// An X3D texture has bytes, so a voxel is a colour: red is the code of its look (3 times its number in the palette), green
+/// the low byte of the scalar, blue the high byte. The transfer function, from red to colour and opacity, is the picture of
+/// 256 x 1 pixels of an OpacityMapVolumeStyle. Of more than 84 looks, further ones are shown as the nearest.
+/// Samples are never interpolated (NEAREST_PIXEL). The volume stands in metres with y up, its lower corner at the origin;
+/// the world coordinates of that corner, the CRS and the range of scalars of each feature are metadata.
+///
+/// The fourth kind is not of the standard: an ImageTextureAtlas, one picture of all slices, which is all that X3DOM shows as a
+/// volume. It has colours, not labels, and no features.
+
 #include <svt/core/text.hpp>
-#include <svt/writers/dense/format_options.hpp>
 #include <svt/writers/dense/gzip_writer.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/volume_formats.hpp>
-#include <svt/writers/x3d/x3d_writer.hpp>
+#include <svt/writers/x3d/texture_files.hpp>
 
 #include <fmt/format.h>
 
@@ -19,8 +32,6 @@ namespace {
 constexpr const char* kNearest =
     "<TextureProperties magnificationFilter='NEAREST_PIXEL' minificationFilter='NEAREST_PIXEL' generateMipMaps='false' "
     "boundaryModeS='CLAMP_TO_EDGE' boundaryModeT='CLAMP_TO_EDGE' boundaryModeR='CLAMP_TO_EDGE'/>";
-
-std::uint32_t byteOf(float channel) { return static_cast<std::uint32_t>(std::clamp(channel, 0.0f, 1.0f) * 255 + 0.5f); }
 
 /// The looks of labels, 0xRRGGBBAA, and which one each scalar has.
 struct Palette {
@@ -47,10 +58,7 @@ Palette paletteOf(const volume::LabelTable& labels) {
     palette.lookOfScalar.assign(labels.scalarCount(), 0);
     for (const volume::Label& label : labels.labels)
         for (volume::Scalar s = label.first; s < label.first + label.count; ++s) {
-            const Vec3f color = labels.phaseColors.empty() || label.count == 1 ? label.color : labels.phaseColors[s];
-            // Nothing that is there is quite invisible.
-            const std::uint32_t alpha = std::max<std::uint32_t>(byteOf(label.opacity), 1);
-            const std::uint32_t look = byteOf(color.x) << 24 | byteOf(color.y) << 16 | byteOf(color.z) << 8 | alpha;
+            const std::uint32_t look = lookOf(labels, label, s);
             auto found = std::find(palette.looks.begin() + 1, palette.looks.end(), look);
             if (found == palette.looks.end() && palette.looks.size() < Palette::kMaxLooks) {
                 palette.looks.push_back(look);
@@ -94,7 +102,7 @@ std::string rotationText(const std::array<Vec3d, 3>& axes) {
 }
 
 std::string metadata(const volume::SemanticVolume& volume, const Palette& palette, bool hasLabels) {
-    const Vec3d corner = volume.grid.worldFromIndex({-0.5, -0.5, -0.5});
+    const Vec3d corner = lowerCorner(volume.grid);
     std::string text = "<MetadataSet containerField='metadata' name='svt'>\n";
     text += fmt::format("<MetadataString containerField='value' name='crs' value='\"{}\"'/>\n",
                         xmlAttribute(volume.crsName));
@@ -135,7 +143,7 @@ std::string beginningOfX3d(const volume::SemanticVolume& volume, const Palette& 
         "<X3D profile='Full' version='4.0' xmlns:xsd='http://www.w3.org/2001/XMLSchema-instance' "
         "xsd:noNamespaceSchemaLocation='https://www.web3d.org/specifications/x3d-4.0.xsd'>\n<head>\n";
     text += fmt::format("<meta name='title' content='{}'/>\n<meta name='generator' content='SVT'/>\n</head>\n<Scene>\n",
-                        xmlAttribute(volume.modelName.empty() ? volume.source : volume.modelName));
+                        xmlAttribute(shownName(volume)));
     const double size = length(extent);
     // From the south-east, above: +x is east, +y up, -z north.
     const Vec3d look{extent.x / 2, extent.z / 2, -extent.y / 2};
@@ -166,10 +174,10 @@ std::string endOfX3d(const Palette& palette) {
 /// the way to a transfer function; colours become colours between them. Each of its steps through the volume is opaque by
 /// opacityFactor, which is that number of steps; it takes the red channel for opacity.
 Result<std::string> writeAtlasScene(const volume::SemanticVolume& volume, int bits, const Palette& palette,
-                                    const std::filesystem::path& path, const DenseOptions& options) {
+                                    const std::filesystem::path& path, const VolumeWriteOptions& options) {
     std::vector<std::uint32_t> lookOf;
     for (const std::uint32_t look : palette.lookOfScalar) lookOf.push_back(palette.looks[look]);
-    SVT_TRY(atlas, writeAtlas(volume, bits, lookOf, path, {"write", options.threads, options.progress}));
+    SVT_TRY(atlas, writeAtlas(volume, bits, lookOf, path, writeStream(options)));
     return fmt::format(
         "<ImageTextureAtlas containerField='voxels' url='\"{}\"' numberOfSlices='{}' slicesOverX='{}' "
         "slicesOverY='{}'/>\n<OpacityMapVolumeStyle containerField='renderStyle' opacityFactor='85' "
@@ -179,7 +187,7 @@ Result<std::string> writeAtlasScene(const volume::SemanticVolume& volume, int bi
 
 /// An NRRD as browsers read it: bytes, components first.
 Result<void> writeColorNrrd(const volume::SemanticVolume& volume, int bits, const std::vector<std::uint32_t>& codes,
-                            const std::filesystem::path& path, const DenseOptions& options) {
+                            const std::filesystem::path& path, const VolumeWriteOptions& options) {
     SVT_DO(checkSibling(path, "NRRD000"));
     SVT_TRY(file, AtomicFile::create(path));
     const Vec3i dimension = volume.grid.dimension();
@@ -191,18 +199,16 @@ Result<void> writeColorNrrd(const volume::SemanticVolume& volume, int bits, cons
     SVT_DO(file->write(head));
     GzipWriter gzip(*file, options.threads);
     std::vector<std::byte> colors;
-    auto done = streamSamples(volume.columns, bits, {"write", options.threads, options.progress},
-                              [&](std::span<const std::byte> bytes) {
-                                  const auto size = static_cast<std::size_t>(bits / 8);
-                                  colors.clear();
-                                  for (std::size_t at = 0; at < bytes.size(); at += size) {
-                                      std::uint32_t scalar = 0;
-                                      std::memcpy(&scalar, bytes.data() + at, size);
-                                      for (const int shift : {16, 8, 0})
-                                          colors.push_back(static_cast<std::byte>(codes[scalar] >> shift & 0xFF));
-                                  }
-                                  return options.isCompressed ? gzip.write(colors) : file->write(colors);
-                              });
+    auto done = streamSamples(volume.columns, bits, writeStream(options), [&](std::span<const std::byte> bytes) {
+        const auto size = static_cast<std::size_t>(bits / 8);
+        colors.clear();
+        for (std::size_t at = 0; at < bytes.size(); at += size) {
+            std::uint32_t scalar = 0;
+            std::memcpy(&scalar, bytes.data() + at, size);
+            for (const int shift : {16, 8, 0}) colors.push_back(static_cast<std::byte>(codes[scalar] >> shift & 0xFF));
+        }
+        return options.isCompressed ? gzip.write(colors) : file->write(colors);
+    });
     if (!done) return done;
     if (options.isCompressed)
         if (auto ended = gzip.finish(); !ended) return ended;
@@ -214,10 +220,8 @@ Result<void> writeColorNrrd(const volume::SemanticVolume& volume, int bits, cons
 Result<void> writePixels(const volume::SemanticVolume& volume, int bits, const std::vector<std::uint32_t>& codes,
                          const StreamOptions& stream, AtomicFile& file) {
     const Vec3i dimension = volume.grid.dimension();
-    if (auto done = file.write(fmt::format("<PixelTexture3D containerField='voxels' image='3 {} {} {}", dimension.x,
-                                           dimension.y, dimension.z));
-        !done)
-        return done;
+    SVT_DO(file.write(fmt::format("<PixelTexture3D containerField='voxels' image='3 {} {} {}", dimension.x, dimension.y,
+                                  dimension.z)));
     SVT_DO(writePixelNumbers(volume, bits, codes, stream, file));
     return file.write(fmt::format("'>{}</PixelTexture3D>\n", kNearest));
 }
@@ -225,15 +229,14 @@ Result<void> writePixels(const volume::SemanticVolume& volume, int bits, const s
 /// Writes what stands beside the document; returns the element that names it.
 Result<std::string> writeBesideScene(const volume::SemanticVolume& volume, int bits,
                                      const std::vector<std::uint32_t>& codes, const std::filesystem::path& path,
-                                     TextureKind kind, const DenseOptions& options) {
-    if (kind == TextureKind::Image) {
+                                     const VolumeWriteOptions& options) {
+    if (options.texture == TextureKind::Image) {
         const std::string nrrd = stemOf(path) + ".labels.nrrd";
         SVT_DO(writeColorNrrd(volume, bits, codes, path.parent_path() / nrrd, options));
         return fmt::format("<ImageTexture3D containerField='voxels' url='\"{}\"'>{}</ImageTexture3D>\n",
                            xmlAttribute(nrrd), kNearest);
     }
-    const auto files =
-        writeSlices(volume, bits, SliceKind::Colors, codes, path, {"write", options.threads, options.progress});
+    const auto files = writeSlices(volume, bits, SliceKind::Colors, codes, path, writeStream(options));
     if (!files) return files.error();
     std::string text = "<ComposedTexture3D containerField='voxels'>\n";
     for (const std::string& file : *files)
@@ -241,36 +244,40 @@ Result<std::string> writeBesideScene(const volume::SemanticVolume& volume, int b
     return text + fmt::format("{}</ComposedTexture3D>\n", kNearest);
 }
 
-}  // namespace
-
+/// What is written beside the document: `<stem>.labels.nrrd`, or `<stem>_slices/0000.png` and so on, or
+/// `<stem>.atlas.png`.
+/// Equal volumes give equal bytes; the document appears when all is written.
+/// \param maxVoxels  limit of samples as numbers in the document
+/// \return bytes of the document, or BadArgument (too many scalars or voxels), CannotWrite, DiskFull, WouldDestroy,
+///         Cancelled
 Result<std::uint64_t> writeX3d(const volume::SemanticVolume& volume, const std::filesystem::path& path,
-                               TextureKind kind, std::uint64_t maxVoxels, const DenseOptions& options) {
+                               const VolumeWriteOptions& options) {
+    const TextureKind kind = options.texture;
     SVT_TRY(bits, checkedSampleBits(volume));
     if (volume.labels.scalarCount() > 65536)
         return Error(Code::BadArgument,
                      fmt::format("{} scalars are more than the 65536 that a texture of X3D can colour; build without "
                                  "--patterns, or write another format",
                                  volume.labels.scalarCount()));
-    if (kind == TextureKind::Pixel)
-        if (auto checked = checkPixelCount(volume.grid.dimension(), maxVoxels); !checked) return checked.error();
+    if (kind == TextureKind::Pixel) SVT_DO(checkPixelCount(volume.grid.dimension(), options.maxVoxels));
     const Palette palette = paletteOf(volume.labels);
     const std::vector<std::uint32_t> codes = codesOf(palette);
     std::string beside;
     if (kind != TextureKind::Pixel) {
         SVT_TRY(written, kind == TextureKind::Atlas ? writeAtlasScene(volume, *bits, palette, path, options)
-                                                    : writeBesideScene(volume, *bits, codes, path, kind, options));
+                                                    : writeBesideScene(volume, *bits, codes, path, options));
         beside = std::move(*written);
     }
     SVT_TRY(file, AtomicFile::create(path));
     const bool hasLabels = kind != TextureKind::Atlas;
     SVT_DO(file->write(beginningOfX3d(volume, palette, hasLabels)));
-    const StreamOptions stream{"write", options.threads, options.progress};
-    const auto done =
-        kind == TextureKind::Pixel ? writePixels(volume, *bits, codes, stream, *file) : file->write(beside);
-    if (!done) return done.error();
+    SVT_DO(kind == TextureKind::Pixel ? writePixels(volume, *bits, codes, writeStream(options), *file)
+                                      : file->write(beside));
     SVT_DO(file->write((hasLabels ? endOfX3d(palette) : std::string()) + kEndOfScene));
     return file->commit();
 }
+
+}  // namespace
 
 extern const VolumeFormat kX3d{
     .name = "x3d",
@@ -279,8 +286,6 @@ extern const VolumeFormat kX3d{
     .readers = "X_ITE, Castle, InstantReality; X3DOM by --texture atlas",
     .content = FileContent::X3d,
     .isDense = true,
-    .write = [](const auto& volume, const auto& path, const auto& options) {
-        return writeX3d(volume, path, options.texture, options.maxVoxels, denseOptions(options));
-    }};
+    .write = writeX3d};
 
 }  // namespace svt::writers

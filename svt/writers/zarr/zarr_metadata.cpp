@@ -1,4 +1,5 @@
 #include <svt/volume/volume_json.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/zarr/zarr_metadata.hpp>
 
 #include <fmt/format.h>
@@ -28,18 +29,18 @@ Json multiscales(const volume::SemanticVolume& volume, std::span<const volume::G
         datasets.push_back(
             {{"path", std::to_string(l)}, {"coordinateTransformations", Json::array({scale, translation})}});
     }
-    const std::string& name = volume.modelName.empty() ? volume.source : volume.modelName;
+    const std::string& name = shownName(volume);
     return Json{{"name", name}, {"type", "mode"}, {"axes", axes}, {"datasets", datasets}};
 }
 
 Json imageLabel(const volume::LabelTable& table) {
-    const auto byte = [](float c) { return static_cast<int>(std::clamp(c, 0.0f, 1.0f) * 255 + 0.5f); };
     Json colors = Json::array(), properties = Json::array();
     for (const volume::Label& label : table.labels)
         for (volume::Scalar s = label.first; s < label.first + label.count; ++s) {
-            const Vec3f color = table.phaseColors.empty() || label.count == 1 ? label.color : table.phaseColors[s];
+            const Vec3f color = colorOf(table, label, s);
             colors.push_back(
-                {{"label-value", s}, {"rgba", {byte(color.x), byte(color.y), byte(color.z), byte(label.opacity)}}});
+                {{"label-value", s},
+                 {"rgba", {colorByte(color.x), colorByte(color.y), colorByte(color.z), colorByte(label.opacity)}}});
             properties.push_back(
                 {{"label-value", s}, {"gml:id", label.id}, {"class", label.className}, {"name", label.name}});
             if (label.parent != volume::kNoLabel) properties.back()["parent"] = table.labels[label.parent].id;

@@ -1,13 +1,22 @@
+/// \file
+/// Writes a semantic volume as Zarr with the metadata of OME-NGFF, which zarr-python, zarrita, napari, neuroglancer and
+/// vizarr read: a folder with one array per level, axes z, y, x.
+///
+/// Version 2 (OME-NGFF 0.4): chunks of 64 x 64 x 64 samples, each a zstd frame in a file of its own, `LEVEL/z/y/x`.
+/// Version 3 (OME-NGFF 0.5): shards of 128 x 128 x 128 samples with inner chunks of 32 x 32 x 32, `LEVEL/c/z/y/x`, their
+/// index at the end. What is background alone is left out. Levels are those of volume::coarseVolumes(), until 64 samples
+/// are the longest side. Scale and translation are metres of the model's CRS; a turned grid has them along its own axes,
+/// since the metadata know no rotation. `image-label` has colour, id, class and name of each scalar; `svt` has the same as
+/// `svt.json` and `labels.json` of a `.svt`.
+
 #include <svt/core/check.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/writers/dense/coarser_levels.hpp>
-#include <svt/writers/dense/format_options.hpp>
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/dense/sample_band.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/volume_formats.hpp>
 #include <svt/writers/zarr/zarr_metadata.hpp>
-#include <svt/writers/zarr/zarr_writer.hpp>
 
 #include <fmt/format.h>
 #include <zstd.h>
@@ -74,7 +83,7 @@ Bytes fileBytes(const SampleBand<T>& band, Vec3i first, const ZarrShape& shape, 
 
 template <class T>
 Result<void> writeArray(const volume::ColumnVolume& columns, const std::string& folder, const ZarrShape& shape,
-                        const DenseOptions& options, NewFolder& to) {
+                        const VolumeWriteOptions& options, NewFolder& to) {
     const Vec3i dimension = columns.dimension();
     for (std::int32_t k = 0; k < dimension.z; k += shape.file) {
         Progress::tell(options.progress, "write", double(k) / dimension.z);
@@ -98,10 +107,13 @@ Result<void> writeArray(const volume::ColumnVolume& columns, const std::string& 
     return {};
 }
 
-}  // namespace
-
-Result<std::uint64_t> writeZarr(const volume::SemanticVolume& volume, const fs::path& path, int version,
-                                const DenseOptions& options) {
+/// Writes a folder that appears when all of it is written; one that is there is not replaced. Equal volumes give equal
+/// bytes. Memory: besides the volume and its levels, a band of chunks: 4096 nx samples (version 2) or 16384 nx (version 3).
+/// \param version  2 or 3
+/// \return bytes of all files, or WouldDestroy, CannotWrite, Cancelled; BadArgument as checkedSampleBits()
+Result<std::uint64_t> writeZarr(const volume::SemanticVolume& volume, const fs::path& path,
+                                const VolumeWriteOptions& options) {
+    const int version = options.zarrVersion;
     SVT_TRY(bits, checkedSampleBits(volume));
     SVT_CHECK(version == 2 || version == 3);
     NewFolder folder(path);
@@ -129,14 +141,14 @@ Result<std::uint64_t> writeZarr(const volume::SemanticVolume& volume, const fs::
     return folder.commit();
 }
 
+}  // namespace
+
 extern const VolumeFormat kZarr{.name = "zarr",
                                 .endings = ".zarr",
                                 .holds = "Zarr v2 or v3 with OME-NGFF: a folder with all levels, colours and names",
                                 .readers = "zarr-python, zarrita, napari, neuroglancer, vizarr",
                                 .content = FileContent::Nothing,
                                 .isDense = true,
-                                .write = [](const auto& volume, const auto& path, const auto& options) {
-                                    return writeZarr(volume, path, options.zarrVersion, denseOptions(options));
-                                }};
+                                .write = writeZarr};
 
 }  // namespace svt::writers

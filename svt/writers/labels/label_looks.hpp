@@ -1,0 +1,57 @@
+#pragma once
+/// \file
+/// How formats show labels and models: names and colours.
+
+#include <svt/volume/semantic_volume.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+namespace svt::writers {
+
+/// The name of a feature; its id where it has none.
+[[nodiscard]] inline const std::string& shownName(const volume::Label& label) noexcept {
+    return label.name.empty() ? label.id : label.name;
+}
+/// The name of a model; its source where it has none.
+[[nodiscard]] inline const std::string& shownName(const volume::SemanticVolume& volume) noexcept {
+    return volume.modelName.empty() ? volume.source : volume.modelName;
+}
+
+/// The lower corner of the grid, world space: the outer corner of sample (0, 0, 0).
+[[nodiscard]] inline Vec3d lowerCorner(const volume::Grid& grid) noexcept {
+    return grid.worldFromIndex({-0.5, -0.5, -0.5});
+}
+
+/// The colour of a scalar: that of its phase, where its label has a pattern, else that of the label.
+[[nodiscard]] inline Vec3f colorOf(const volume::LabelTable& labels, const volume::Label& label,
+                                   volume::Scalar scalar) noexcept {
+    return labels.phaseColors.empty() || label.count == 1 ? label.color : labels.phaseColors[scalar];
+}
+
+/// A channel of a colour, 0 to 1, as a byte.
+[[nodiscard]] inline std::uint8_t colorByte(float channel) noexcept {
+    return static_cast<std::uint8_t>(std::clamp(channel, 0.0f, 1.0f) * 255 + 0.5f);
+}
+
+/// The look of a scalar, 0xRRGGBBAA. Nothing that is there is quite invisible.
+[[nodiscard]] inline std::uint32_t lookOf(const volume::LabelTable& labels, const volume::Label& label,
+                                          volume::Scalar scalar) noexcept {
+    const Vec3f color = colorOf(labels, label, scalar);
+    std::uint32_t look = 0;
+    for (int axis = 0; axis < 3; ++axis) look = look << 8 | colorByte(color[axis]);
+    return look << 8 | std::max<std::uint32_t>(colorByte(label.opacity), 1);
+}
+
+/// A channel of sRGB as glTF and USD have it: linear.
+[[nodiscard]] inline double linearChannel(float value) noexcept {
+    return value <= 0.04045f ? value / 12.92 : std::pow((double(value) + 0.055) / 1.055, 2.4);
+}
+/// The same in four digits, so that math libraries that differ in the last bit give the same file.
+[[nodiscard]] inline double roundedLinearChannel(float value) noexcept {
+    return std::round(linearChannel(value) * 1e4) / 1e4;
+}
+
+}  // namespace svt::writers
