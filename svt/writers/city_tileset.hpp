@@ -7,7 +7,7 @@
 ///     subtrees/LEVEL/X/Y.subtree      which squares of five levels there are, with their boxes and errors
 ///     content/LEVEL/X/Y.glb           surfaces; a feature is a building, a table has its attributes
 ///
-/// The root stands on the globe by the CRS, as that of tileset_writer.hpp. Content is bent along the globe: each vertex is
+/// The root stands on the globe by the CRS, as that of tileset_writer.cpp. Content is bent along the globe: each vertex is
 /// where the projection has it, to a millimetre.
 
 #include <svt/core/result.hpp>

@@ -13,8 +13,6 @@
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/record/members.hpp>
 
-#include <cstdint>
-#include <filesystem>
 #include <string>
 
 namespace svt::writers {
@@ -31,11 +29,5 @@ record::Members<DxfOptions> membersOf(const DxfOptions*) noexcept;
 /// The drawing as DXF text. `volume` is the volume the drawing was made from. Equal drawings give equal bytes.
 [[nodiscard]] std::string makeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                   const DxfOptions& options = {});
-
-/// Writes the same as a file, all or nothing.
-/// \return bytes written, or CannotWrite or DiskFull
-[[nodiscard]] Result<std::uint64_t> writeDxf(const illustrate::SectionDrawing& drawing,
-                                             const volume::SemanticVolume& volume, const std::filesystem::path& path,
-                                             const DxfOptions& options = {});
 
 }  // namespace svt::writers

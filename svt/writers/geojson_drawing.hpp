@@ -14,8 +14,6 @@
 #include <svt/core/result.hpp>
 #include <svt/illustrate/section_drawing.hpp>
 
-#include <cstdint>
-#include <filesystem>
 #include <string>
 
 namespace svt::writers {
@@ -23,11 +21,5 @@ namespace svt::writers {
 /// The drawing as GeoJSON text, one feature per line. `volume` is the volume the drawing was made from. `area` is in m2
 /// in the section plane. Exterior rings of plans are counter-clockwise as seen from above.
 [[nodiscard]] std::string makeGeojson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume);
-
-/// Writes the same as a file, all or nothing.
-/// \return bytes written, or CannotWrite or DiskFull
-[[nodiscard]] Result<std::uint64_t> writeGeojson(const illustrate::SectionDrawing& drawing,
-                                                 const volume::SemanticVolume& volume,
-                                                 const std::filesystem::path& path);
 
 }  // namespace svt::writers

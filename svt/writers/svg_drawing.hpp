@@ -13,8 +13,6 @@
 #include <svt/core/result.hpp>
 #include <svt/illustrate/section_drawing.hpp>
 
-#include <cstdint>
-#include <filesystem>
 #include <string>
 
 namespace svt::writers {
@@ -27,11 +25,5 @@ struct SvgOptions {
 /// \return the text, or BadArgument if the scale is out of range
 [[nodiscard]] Result<std::string> makeSvg(const illustrate::SectionDrawing& drawing,
                                           const volume::SemanticVolume& volume, const SvgOptions& options = {});
-
-/// Writes the same as a file, all or nothing.
-/// \return bytes written, or the errors of makeSvg, CannotWrite or DiskFull
-[[nodiscard]] Result<std::uint64_t> writeSvg(const illustrate::SectionDrawing& drawing,
-                                             const volume::SemanticVolume& volume, const std::filesystem::path& path,
-                                             const SvgOptions& options = {});
 
 }  // namespace svt::writers

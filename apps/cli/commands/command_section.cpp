@@ -40,16 +40,15 @@ struct SectionArguments {
 Result<std::uint64_t> writeDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                    const std::filesystem::path& path, double scale, const writers::DxfOptions& dxf) {
     const std::string ending = endingOf(path);
-    if (ending == ".dxf") return writers::writeDxf(drawing, volume, path, dxf);
-    if (ending == ".geojson") return writers::writeGeojson(drawing, volume, path);
+    if (ending == ".dxf") return writeFileAtomically(path, writers::makeDxf(drawing, volume, dxf));
+    if (ending == ".geojson") return writeFileAtomically(path, writers::makeGeojson(drawing, volume));
     if (ending == ".pdf") {
         SVT_TRY(pdf, writers::makeSectionPdf(drawing, volume, scale));
         if (!writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
         return writeFileAtomically(path, *pdf);
     }
-    writers::SvgOptions options;
-    options.scale = scale;
-    return writers::writeSvg(drawing, volume, path, options);
+    SVT_TRY(svg, writers::makeSvg(drawing, volume, {.scale = scale}));
+    return writeFileAtomically(path, *svg);
 }
 
 Result<illustrate::SectionPlane> planeOf(const SectionArguments& arguments, const volume::SemanticVolume& volume) {

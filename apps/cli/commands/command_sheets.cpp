@@ -134,7 +134,7 @@ Result<void> writeDxfFolder(const writers::SheetContent& content, const volume::
     SVT_DO(makeFolder(folder));
     for (std::size_t n = 0; n < content.views.size(); ++n) {
         const auto path = folder / (fileNameOf(content, n) + ".dxf");
-        SVT_DO(writers::writeDxf(content.views[n].drawing, volume, path, options));
+        SVT_DO(writeFileAtomically(path, writers::makeDxf(content.views[n].drawing, volume, options)));
     }
     return {};
 }

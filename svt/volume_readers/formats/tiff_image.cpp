@@ -186,10 +186,9 @@ Result<LabelImage> openTiff(const SharedFile& file) {
             return badTiff(fmt::format("the TIFF has more than {} pages", volume::Grid::kMaxDimension));
         const TiffPage page = readPage(bytes, offset, isWide);
         if (bytes.isCut) return badTiff(fmt::format("page {} of the TIFF is cut short", stack.image.dimension.z));
-        if (stack.image.dimension.z == 0)
-            if (auto done = readFirst(bytes, page, stack); !done) return done.error();
+        if (stack.image.dimension.z == 0) SVT_DO(readFirst(bytes, page, stack));
         if (stack.image.bits != 8 && stack.image.bits != 16 && stack.image.bits != 32) break;  // told by checkImage()
-        if (auto done = readStrips(bytes, page, stack); !done) return done.error();
+        SVT_DO(readStrips(bytes, page, stack));
         offset = page.next;
     }
     stack.image.isSwapped = isBigEndian;

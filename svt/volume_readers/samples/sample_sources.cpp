@@ -95,8 +95,7 @@ public:
         if (out.empty() && (block_ != blocks_.size() || at_ != bytes_.size()))
             return Error(code_, "the samples are more than the sizes say");
         while (!out.empty()) {
-            if (at_ == bytes_.size())
-                if (auto done = next(); !done) return done;
+            if (at_ == bytes_.size()) SVT_DO(next());
             const std::size_t count = std::min(out.size(), bytes_.size() - at_);
             std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), count, out.begin());
             at_ += count;

@@ -136,8 +136,7 @@ Result<UserTable> parseUserTable(std::string_view text) {
         table.labelsJson = text;
         return table;
     }
-    for (std::size_t number = 0; number < labels->size(); ++number)
-        if (auto done = readEntry((*labels)[number], number, table); !done) return done.error();
+    for (std::size_t number = 0; number < labels->size(); ++number) SVT_DO(readEntry((*labels)[number], number, table));
     return table;
 }
 

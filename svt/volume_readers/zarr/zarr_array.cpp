@@ -226,7 +226,7 @@ Result<ZarrArray> readVersion3(const ZarrJson& json) {
         return badZarr("the array has storage transformers, which cannot be read");
     const bool isSharded = textOf(member(codecs.front(), "name")) == "sharding_indexed";
     if (isSharded && codecs.size() > 1) return badZarr("shards that are packed as a whole cannot be read");
-    SVT_TRY(done, isSharded ? readShards(member(codecs.front(), "configuration"), array) : readChain(codecs, array));
+    SVT_DO(isSharded ? readShards(member(codecs.front(), "configuration"), array) : readChain(codecs, array));
     SVT_TRY(fill, fillOf(member(json, "fill_value")));
     array.fill = *fill;
     return array;
@@ -344,8 +344,7 @@ Result<ZarrScale> readZarrScale(const ZarrJson& attributes) {
     SVT_TRY(metres, unitsOf(member(first, "axes")));
     scale.scale = *metres;
     for (const ZarrJson* from : {&levels.front(), &first})
-        if (auto done = applyTransformations(member(*from, "coordinateTransformations"), *metres, scale); !done)
-            return done.error();
+        SVT_DO(applyTransformations(member(*from, "coordinateTransformations"), *metres, scale));
     const ZarrJson& label = member(ome, "image-label");
     scale.colors = member(label, "colors");
     scale.properties = member(label, "properties");

@@ -72,8 +72,7 @@ public:
 
     Result<void> read(std::span<std::byte> out) {
         if (out.empty()) return {};
-        if (at_ == band_.size())
-            if (auto done = readBand(); !done) return done;
+        if (at_ == band_.size()) SVT_DO(readBand());
         if (out.size() > band_.size() - at_) return Error(Code::BadImage, "the samples are fewer than the sizes say");
         std::copy_n(band_.begin() + static_cast<std::ptrdiff_t>(at_), out.size(), out.begin());
         at_ += out.size();
@@ -92,7 +91,7 @@ private:
         if (!filled) return filled;
         for (std::uint64_t y = 0; y < shape_[1]; y += file_[1])
             for (std::uint64_t x = 0; x < shape_[2]; x += file_[2])
-                if (auto done = readFile({z_ / file_[0], y / file_[1], x / file_[2]}); !done) return done;
+                SVT_DO(readFile({z_ / file_[0], y / file_[1], x / file_[2]}));
         z_ += depth;
         return {};
     }
@@ -361,9 +360,7 @@ Result<LabelImage> openZarr(const fs::path& folder, std::uint64_t maxBytes) {
     image.isSigned = array->isSigned;
     if (const auto group = json->find("svt_group"); group != json->end() && group->is_object()) takeOwn(*group, image);
     SVT_DO(checkImage(image, ~std::uint64_t{0}, false, Code::BadImage));
-    if (auto checked = checkProportion(at, image.sliceBytes() * static_cast<std::uint64_t>(image.dimension.z));
-        !checked)
-        return checked.error();
+    SVT_DO(checkProportion(at, image.sliceBytes() * static_cast<std::uint64_t>(image.dimension.z)));
     auto source = std::make_shared<ZarrSource>(root, at, std::move(*array), image.bits / 8);
     if (source->bandBytes() > maxBytes / 2)
         return Error(Code::InputTooBig,

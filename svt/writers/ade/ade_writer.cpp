@@ -123,14 +123,12 @@ Result<std::string> writeBeside(const volume::SemanticVolume& volume, int bits, 
         const std::string name = stem + ".labels.nrrd";
         SVT_DO(checkSibling(path.parent_path() / name, "NRRD000"));
         const auto encoding = options.isCompressed ? NrrdEncoding::Gzip : NrrdEncoding::Raw;
-        const auto bytes =
-            writeNrrd(volume, path.parent_path() / name, {encoding, options.threads, options.progress, false});
-        if (!bytes) return bytes.error();
+        SVT_TRY(bytes,
+                writeNrrd(volume, path.parent_path() / name, {encoding, options.threads, options.progress, false}));
         return fmt::format("<svt:imageURI>{}</svt:imageURI>\n<svt:mimeType>application/x-nrrd</svt:mimeType>\n",
                            referenceTo(name).substr(1));
     }
-    const auto files = writeSlices(volume, bits, SliceKind::Gray16, {}, path, writeStream(options));
-    if (!files) return files.error();
+    SVT_TRY(files, writeSlices(volume, bits, SliceKind::Gray16, {}, path, writeStream(options)));
     std::string text;
     for (const std::string& file : *files) {
         const std::size_t slash = file.find('/');
@@ -180,9 +178,7 @@ Result<std::uint64_t> writeAde(const volume::SemanticVolume& volume, const std::
             Code::BadArgument,
             "an atlas of slices has no labels, and the extension of CityGML has no place for it; use --texture "
             "pixel, image or composed");
-    if (options.texture == TextureKind::Pixel)
-        if (auto checked = checkPixelCount(volume.grid.dimension(), options.maxVoxels); !checked)
-            return checked.error();
+    if (options.texture == TextureKind::Pixel) SVT_DO(checkPixelCount(volume.grid.dimension(), options.maxVoxels));
     SVT_TRY(document, documentFor(volume, options));
     std::string beside;
     if (options.texture != TextureKind::Pixel) {
@@ -193,9 +189,8 @@ Result<std::uint64_t> writeAde(const volume::SemanticVolume& volume, const std::
     SVT_DO(document->writeBegin(*file));
     SVT_DO(file->write(beginningOfTexture(volume, *bits, *document, options.texture)));
     SVT_DO(file->write(targets(volume.labels, *document, options.model.empty())));
-    const auto done =
-        options.texture == TextureKind::Pixel ? writePixelImage(volume, *bits, options, *file) : file->write(beside);
-    if (!done) return done.error();
+    SVT_DO(options.texture == TextureKind::Pixel ? writePixelImage(volume, *bits, options, *file)
+                                                 : file->write(beside));
     SVT_DO(file->write(endOfTexture(*document, options.texture)));
     SVT_DO(document->writeEnd(*file));
     return file->commit();

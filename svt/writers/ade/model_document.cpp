@@ -112,8 +112,7 @@ Result<void> ModelDocument::write(std::string_view text, AtomicFile& file) const
         const std::size_t end = std::min(text.find_first_of("\"' \t\r\n<", at), text.size());
         const bool isOld = end > at && text.substr(at, end - at).ends_with("/1.0");
         SVT_DO(file.write(text.substr(0, isOld ? end - 3 : end)));
-        if (isOld)
-            if (auto done = file.write("2.0"); !done) return done;
+        if (isOld) SVT_DO(file.write("2.0"));
         text.remove_prefix(end);
     }
     return {};

@@ -65,8 +65,7 @@ Result<void> GzipWriter::write(std::span<const std::byte> bytes) {
         pending_.clear();
     }
     const std::size_t whole = bytes.size() / kPieceBytes * kPieceBytes;
-    if (whole > 0)
-        if (auto done = compress(bytes.first(whole)); !done) return done;
+    if (whole > 0) SVT_DO(compress(bytes.first(whole)));
     const auto rest = bytes.subspan(whole);
     pending_.assign(rest.begin(), rest.end());
     return {};

@@ -33,8 +33,7 @@ Result<void> streamAs(const volume::ColumnVolume& columns, const StreamOptions& 
     std::vector<T> slab;
     for (std::int32_t k = 0; k < dimension.z; k += slices) {
         for (std::int32_t j = 0; j < dimension.y; j += rows) {
-            if (Progress::isCancelled(options.progress))
-                return Error(Code::Cancelled, "writing the volume was stopped; no file was left");
+            SVT_DO(checkNotStopped(options.progress));
             const volume::DenseBox box{j, std::min(j + rows, dimension.y), k, std::min(k + slices, dimension.z)};
             slab.resize(std::size_t(dimension.x) * std::size_t(box.jEnd - box.jBegin) *
                         std::size_t(box.kEnd - box.kBegin));
@@ -49,13 +48,20 @@ Result<void> streamAs(const volume::ColumnVolume& columns, const StreamOptions& 
 
 }  // namespace
 
+Result<void> checkDimension(const volume::Grid& grid, const volume::ColumnVolume& columns) {
+    const Vec3i expected = grid.dimension(), found = columns.dimension();
+    if (expected == found) return {};
+    return Error(Code::BadArgument, fmt::format("the grid has {} x {} x {} samples, the columns have {} x {} x {}",
+                                                expected.x, expected.y, expected.z, found.x, found.y, found.z));
+}
+
+Result<void> checkNotStopped(const Progress* progress, std::string_view left) {
+    if (!Progress::isCancelled(progress)) return {};
+    return Error(Code::Cancelled, fmt::format("writing the volume was stopped; {} was left", left));
+}
+
 Result<int> checkedSampleBits(const volume::SemanticVolume& volume) {
-    const Vec3i dimension = volume.grid.dimension();
-    const Vec3i columns = volume.columns.dimension();
-    if (dimension != columns)
-        return Error(Code::BadArgument,
-                     fmt::format("the grid has {} x {} x {} samples, the columns have {} x {} x {}", dimension.x,
-                                 dimension.y, dimension.z, columns.x, columns.y, columns.z));
+    SVT_DO(checkDimension(volume.grid, volume.columns));
     const volume::Scalar largest = volume::largestScalar(volume.columns);
     if (largest >= volume.labels.scalarCount())
         return Error(Code::BadArgument, fmt::format("scalar {} belongs to no label", largest));
@@ -98,8 +104,7 @@ Result<void> ZlibBlocks::forEach(const StreamOptions& options, const BlockSink& 
                 compressed[b].assign(packed.begin(), packed.end());
             }
         });
-        for (std::vector<std::byte>& block : compressed)
-            if (auto done = sink(std::move(block)); !done) return done;
+        for (std::vector<std::byte>& block : compressed) SVT_DO(sink(std::move(block)));
         pending.erase(pending.begin(), pending.begin() + static_cast<std::ptrdiff_t>(at));
         return {};
     });
@@ -122,8 +127,7 @@ Result<void> ZlibBlocks::compress() {
 
 Result<void> ZlibBlocks::write(AtomicFile& file) {
     if (areAllKept_) {
-        for (const std::vector<std::byte>& block : kept_)
-            if (auto done = file.write(block); !done) return done;
+        for (const std::vector<std::byte>& block : kept_) SVT_DO(file.write(block));
         return {};
     }
     StreamOptions options = options_;

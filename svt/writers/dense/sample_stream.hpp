@@ -32,6 +32,12 @@ struct StreamOptions {
     return {.stage = "write", .threads = options.threads, .progress = options.progress};
 }
 
+/// \return nothing, or BadArgument if grid and columns differ in dimension
+[[nodiscard]] Result<void> checkDimension(const volume::Grid& grid, const volume::ColumnVolume& columns);
+
+/// \return nothing, or Cancelled, which tells that there is nothing of what was begun: no file, or nothing of a folder
+[[nodiscard]] Result<void> checkNotStopped(const Progress* progress, std::string_view left = "no file");
+
 /// Bits of a sample: 8, 16 or 32.
 /// \return the bits, or BadArgument if grid and columns differ in dimension or a scalar belongs to no label
 [[nodiscard]] Result<int> checkedSampleBits(const volume::SemanticVolume& volume);

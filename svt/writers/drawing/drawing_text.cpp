@@ -16,6 +16,11 @@ std::string shortNumber(double value, int decimals) {
     return text == "-0" ? "0" : text;
 }
 
+std::string vectorText(Vec3d v, int decimals, std::string_view separator) {
+    return fmt::format("{}{}{}{}{}", shortNumber(v.x, decimals), separator, shortNumber(v.y, decimals), separator,
+                       shortNumber(v.z, decimals));
+}
+
 std::string plainName(std::string_view name, std::string_view fallback) {
     if (name.empty()) return std::string(fallback);
     std::string plain(name);
@@ -37,6 +42,26 @@ std::string_view beyondName(illustrate::BeyondKind kind) noexcept {
         case illustrate::BeyondKind::Visible: break;
     }
     return "visible";
+}
+
+std::string geoJsonCrs(std::string_view crsName) {
+    const std::uint32_t epsg = epsgCodeOf(crsName);
+    if (epsg == 0) return {};
+    return fmt::format(",\n\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":\"urn:ogc:def:crs:EPSG::{}\"}}}}",
+                       epsg);
+}
+
+std::string svgPattern(const HatchTile& tile, bool isTurned) {
+    const std::string size =
+        fmt::format("width=\"{}\" height=\"{}\"", shortNumber(tile.width, 3), shortNumber(tile.height, 3));
+    const std::string turn =
+        isTurned ? fmt::format(" patternTransform=\"rotate({})\"", shortNumber(tile.turnDegrees, 3)) : "";
+    std::string text = fmt::format(
+        "<pattern id=\"{0}\" patternUnits=\"userSpaceOnUse\" {1}{2}><rect {1} fill=\"{3}\"/><path d=\"{4}\" "
+        "fill=\"none\" stroke=\"#444\" stroke-width=\"0.13\"/>",
+        nameOf(tile.hatch), size, turn, tile.tint, tile.lines);
+    if (*tile.filled != '\0') text += fmt::format("<path d=\"{}\" fill=\"#444\"/>", tile.filled);
+    return text + "</pattern>\n";
 }
 
 bool isElevation(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) noexcept {

@@ -4,6 +4,7 @@
 
 #include <svt/crs/crs_name.hpp>
 #include <svt/illustrate/section_drawing.hpp>
+#include <svt/writers/drawing/drawing_style.hpp>
 #include <svt/writers/labels/label_looks.hpp>
 
 #include <cstdint>
@@ -14,6 +15,9 @@ namespace svt::writers {
 
 /// `value` with at most `decimals` decimals, without trailing zeros; never "-0".
 [[nodiscard]] std::string shortNumber(double value, int decimals);
+
+/// The coordinates of a vector, each as by shortNumber().
+[[nodiscard]] std::string vectorText(Vec3d v, int decimals, std::string_view separator = " ");
 
 /// `name` with every character outside A-Z, a-z, 0-9, '_' and '-' replaced by '_'; `fallback` if empty.
 [[nodiscard]] std::string plainName(std::string_view name, std::string_view fallback = "none");
@@ -32,6 +36,12 @@ namespace svt::writers {
 
 /// True if the section plane is horizontal.
 [[nodiscard]] bool isPlan(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) noexcept;
+
+/// The member `crs` of the GeoJSON of 2008, which GDAL and QGIS read, after a comma; empty for a CRS without a code of EPSG.
+[[nodiscard]] std::string geoJsonCrs(std::string_view crsName);
+
+/// A hatch as a pattern of SVG. \param isTurned  whether its turn is written
+[[nodiscard]] std::string svgPattern(const HatchTile& tile, bool isTurned);
 
 using crs::epsgCodeOf;
 

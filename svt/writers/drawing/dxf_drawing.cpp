@@ -1,19 +1,12 @@
-#include <svt/core/file.hpp>
-#include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_style.hpp>
-#include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/drawing/dxf_file.hpp>
 #include <svt/writers/drawing/dxf_parts.hpp>
 #include <svt/writers/dxf_drawing.hpp>
-#include <svt/writers/labels/label_looks.hpp>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <iterator>
 #include <numbers>
 #include <tuple>
 
@@ -37,665 +30,333 @@ int colorOf(const std::string& className) noexcept {
     return 7;
 }
 
-// Windows code page 1252 for its Latin-1 part; other characters as \U+XXXX, those beyond 16 bits as a question mark.
-// Line breaks would end the value and are replaced.
-std::string dxfText(std::string_view text) {
-    std::string safe;
-    for (std::size_t at = 0; at < text.size();) {
-        const auto [c, size] = firstCharacter(text.substr(at));
-        if (size == 0) {
-            safe += '?';
-            do ++at;
-            while (at < text.size() && (text[at] & 0xC0) == 0x80);
-            continue;
-        }
-        if (c < 0x80)
-            safe += c < 0x20 || c == 0x7F ? ' ' : static_cast<char>(c);
-        else if (c >= 0xA0 && c <= 0xFF)
-            safe += static_cast<char>(c);
-        else if (c < 0x10000)
-            safe += fmt::format("\\U+{:04X}", static_cast<std::uint32_t>(c));
-        else
-            safe += '?';
-        at += size;
-    }
-    return safe;
-}
-
 constexpr std::size_t kMostCharacters = 255;  // of a text in extended data
 
 // Lines beyond the cut, by kind: narrow lines of ISO 128-2, dashes in widths of the line, gaps below zero.
 struct BeyondStyle {
-    illustrate::BeyondKind kind;
     const char *layer, *lineType, *words;
     int color;
-    int dashCount;
-    double dashes[6];
+    std::vector<double> dashes;
 };
-constexpr BeyondStyle kBeyondStyles[] = {
-    {illustrate::BeyondKind::Visible, "BEYOND_VISIBLE", "Continuous", "", 7, 0, {}},
-    {illustrate::BeyondKind::Hidden, "BEYOND_HIDDEN", "ACAD_ISO02W100", "ISO dash", 8, 2, {12, -3}},
-    {illustrate::BeyondKind::Above,
-     "BEYOND_ABOVE",
-     "ACAD_ISO05W100",
-     "ISO long-dash double-dot",
-     8,
-     6,
-     {24, -3, 0, -3, 0, -3}}};
+const BeyondStyle& beyondStyle(illustrate::BeyondKind kind) {
+    static const BeyondStyle kStyles[] = {
+        {"BEYOND_VISIBLE", "Continuous", "", 7, {}},
+        {"BEYOND_HIDDEN", "ACAD_ISO02W100", "ISO dash", 8, {12, -3}},
+        {"BEYOND_ABOVE", "ACAD_ISO05W100", "ISO long-dash double-dot", 8, {24, -3, 0, -3, 0, -3}}};
+    return kStyles[static_cast<std::size_t>(kind)];
+}
 constexpr int kBeyondWidth = 18;            // hundredths of a millimetre
 constexpr double kDashUnit = 1.8e-4 * 100;  // metres: the width of the line at a scale of 1:100
 
 // Dimensions are placed for a scale of 1:100.
 constexpr double kDimensionScale = 10;  // millimetres on paper per metre
-constexpr const char* kDimensionLayer = "DIMENSIONS";
 
-class DxfWriter {
-    // The looks of a dimension, or a door.
-    struct Block {
-        std::string record, begin, end;  // handles
-        std::string name, entities;
-        bool isAnonymous = true;
-    };
+double degreesOf(double radians) { return radians * 180 / std::numbers::pi; }
 
+// Where points of a drawing are in the file: in the drawing's plane, or in the world.
+class DxfPlace {
 public:
-    DxfWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-              const DxfOptions& options)
-        : drawing_(drawing), volume_(volume), options_(options), style_(drawing, volume, kDimensionScale) {
-        findObjectAxes();
-        std::tie(low_, high_) = drawnBox(drawing);
-        for (const illustrate::BeyondLine& line : drawing.beyond) hasKind_[static_cast<std::size_t>(line.kind)] = true;
-        if (!options.world || isPlan(drawing, volume.grid))
-            dimensions_ = placeDimensions(drawing, {low_, high_}, kDimensionScale);
-        for (const DimensionMark& mark : dimensions_.marks)
-            for (const PlanePoint p : {inMetres(mark.line.from), inMetres(mark.line.to)}) {
-                low_ = {std::min(low_.u, p.u), std::min(low_.v, p.v)};
-                high_ = {std::max(high_.u, p.u), std::max(high_.v, p.v)};
-            }
-    }
-
-    std::string write() {
-        entities();
-        const std::string body = std::move(dxf_);
-        dxf_.clear();
-        const std::string tablesText = [&] {
-            tables();
-            return std::move(dxf_);
-        }();
-        dxf_.clear();
-        blocks();
-        const std::string blocksText = std::move(dxf_);
-        dxf_.clear();
-        header();
-        return dxf_ + tablesText + blocksText + body + objectsText() + "  0\nEOF\n";
-    }
-
-private:
-    void tag(int code, std::string_view value) { dxf_ += fmt::format("{:>3}\n{}\n", code, value); }
-    void tag(int code, int value) { dxf_ += fmt::format("{:>3}\n{}\n", code, value); }
-    void number(int code, double value) { tag(code, shortNumber(value, 6)); }
-    // Handles below 0x100 are reserved for the fixed parts.
-    std::string newHandle() { return fmt::format("{:X}", nextHandle_++); }
-
-    void header() {
-        const auto vector = [](Vec3d v, int decimals) {
-            return fmt::format("{} {} {}", shortNumber(v.x, decimals), shortNumber(v.y, decimals),
-                               shortNumber(v.z, decimals));
-        };
-        const illustrate::PlaneAxes& axes = drawing_.axes;
-        tag(999, dxfText(shownName(volume_)) + ", " + planeText(drawing_, volume_.grid));
-        tag(999, (options_.world
-                      ? std::string("coordinates of the world; the drawing lies at origin + u * x + v * y, metres")
-                      : std::string("world = origin + u * x + v * y, metres")) +
-                     (volume_.crsName.empty() ? std::string() : ", CRS " + dxfText(volume_.crsName)));
-        tag(999, "origin " + vector(axes.origin, 6));
-        tag(999, "u " + vector(axes.u, 15));
-        tag(999, "v " + vector(axes.v, 15));
-        section("HEADER");
-        const auto variable = [&](const char* name, int code, std::string_view value) {
-            tag(9, name);
-            tag(code, value);
-        };
-        variable("$ACADVER", 1, "AC1015");
-        variable("$DWGCODEPAGE", 3, "ANSI_1252");
-        variable("$HANDSEED", 5, fmt::format("{:X}", nextHandle_));
-        variable("$INSUNITS", 70, "6");     // metres
-        variable("$MEASUREMENT", 70, "1");  // metric
-        variable("$LUNITS", 70, "2");       // decimal
-        const Vec3d a = placed(low_), b = placed(high_);
-        tag(9, "$EXTMIN");
-        point(10, {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)});
-        tag(9, "$EXTMAX");
-        point(10, {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)});
-        endSection();
-        section("CLASSES");
-        endSection();
-    }
-
-    void section(const char* name) {
-        tag(0, "SECTION");
-        tag(2, name);
-    }
-    void endSection() { tag(0, "ENDSEC"); }
-    void point(int code, PlanePoint p) {
-        number(code, p.u);
-        number(code + 10, p.v);
-    }
-    void point(int code, Vec3d p) {
-        number(code, p.x);
-        number(code + 10, p.y);
-        number(code + 20, p.z);
-    }
-
-    // Flat entities in the world have axes of their own, which follow from their normal (the "arbitrary axis").
-    void findObjectAxes() {
-        if (!options_.world) return;
-        normal_ = drawing_.axes.normal;
+    DxfPlace(const illustrate::PlaneAxes& axes, bool isWorld) : axes_(axes), isWorld_(isWorld) {
+        if (!isWorld) return;
+        normal_ = axes.normal;
         const bool isUpright = std::abs(normal_.x) < 1.0 / 64 && std::abs(normal_.y) < 1.0 / 64;
         objectX_ = normalized(cross(isUpright ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1}, normal_));
         objectY_ = normalized(cross(normal_, objectX_));
-        elevation_ = dot(normal_, drawing_.axes.origin);
-        turnDegrees_ =
-            std::atan2(dot(drawing_.axes.u, objectY_), dot(drawing_.axes.u, objectX_)) * 180 / std::numbers::pi;
+        elevation_ = dot(normal_, axes.origin);
+        turnDegrees_ = degreesOf(std::atan2(dot(axes.u, objectY_), dot(axes.u, objectX_)));
     }
+
     // A point for entities in space, such as LINE.
     [[nodiscard]] Vec3d placed(PlanePoint p) const noexcept {
-        return options_.world ? drawing_.axes.worldFromPlane(p) : Vec3d{p.u, p.v, 0};
+        return isWorld_ ? axes_.worldFromPlane(p) : Vec3d{p.u, p.v, 0};
     }
-    // A point for flat entities, in their own axes.
+    // A point for flat entities. In the world they have axes of their own, which follow from their normal (the
+    // "arbitrary axis").
     [[nodiscard]] PlanePoint flat(PlanePoint p) const noexcept {
-        if (!options_.world) return p;
-        const Vec3d world = drawing_.axes.worldFromPlane(p);
+        if (!isWorld_) return p;
+        const Vec3d world = axes_.worldFromPlane(p);
         return {dot(world, objectX_), dot(world, objectY_)};
     }
-    void extrusion() {
-        if (!options_.world || normal_ == Vec3d{0, 0, 1}) return;
-        point(210, normal_);
+    [[nodiscard]] bool isWorld() const noexcept { return isWorld_; }
+    [[nodiscard]] Vec3d normal() const noexcept { return normal_; }
+    [[nodiscard]] double elevation() const noexcept { return elevation_; }
+    [[nodiscard]] double turnDegrees() const noexcept { return turnDegrees_; }
+
+private:
+    const illustrate::PlaneAxes& axes_;
+    bool isWorld_;
+    Vec3d normal_{0, 0, 1}, objectX_{1, 0, 0}, objectY_{0, 1, 0};
+    double elevation_ = 0, turnDegrees_ = 0;
+};
+
+class DxfWriter {
+public:
+    DxfWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+              const DxfOptions& options)
+        : drawing_(drawing),
+          volume_(volume),
+          hasIsoLayers_(options.isoLayers),
+          style_(drawing, volume, kDimensionScale),
+          place_(drawing.axes, options.world) {
+        if (!options.world || isPlan(drawing, volume.grid))
+            dimensions_ = placeDimensions(drawing, drawnBox(drawing), kDimensionScale);
     }
 
-    void table(const char* name, const char* handle, int count) {
-        tag(0, "TABLE");
-        tag(2, name);
-        tag(5, handle);
-        tag(330, "0");
-        tag(100, "AcDbSymbolTable");
-        tag(70, count);
-    }
-    void endTable() { tag(0, "ENDTAB"); }
-    void record(const char* type, std::string_view handle, const char* owner, const char* subclass,
-                std::string_view name) {
-        tag(0, type);
-        tag(std::string_view(type) == "DIMSTYLE" ? 105 : 5, handle);
-        tag(330, owner);
-        tag(100, "AcDbSymbolTableRecord");
-        tag(100, subclass);
-        tag(2, name);
-        tag(70, 0);
-    }
-
-    void tables() {
-        section("TABLES");
-        viewportTable();
-        lineTypeTable();
-        layerTable();
-        textStyleTable();
-        table("VIEW", "5", 0);
-        endTable();
-        table("UCS", "6", 0);
-        endTable();
-        table("APPID", "7", 2);
-        record("APPID", "28", "7", "AcDbRegAppTableRecord", "ACAD");
-        record("APPID", "2E", "7", "AcDbRegAppTableRecord", "SVT");
-        endTable();
-        table("DIMSTYLE", "8", 1);
-        tag(100, "AcDbDimStyleTable");
-        record("DIMSTYLE", "29", "8", "AcDbDimStyleTableRecord", "Standard");
-        endTable();
-        blockRecordTable();
-        endSection();
-    }
-
-    // The view that a program shows first: all of the drawing.
-    void viewportTable() {
-        table("VPORT", "1", 1);
-        record("VPORT", "21", "1", "AcDbViewportTableRecord", "*Active");
-        const double width = std::max(high_.u - low_.u, 1.0), height = std::max(high_.v - low_.v, 1.0);
-        for (const auto& [code, p] :
-             {std::pair(10, PlanePoint{0, 0}), std::pair(11, PlanePoint{1, 1}), std::pair(12, viewCenter()),
-              std::pair(13, PlanePoint{0, 0}), std::pair(14, PlanePoint{1, 1}), std::pair(15, PlanePoint{1, 1}),
-              std::pair(16, PlanePoint{0, 0}), std::pair(17, PlanePoint{0, 0})}) {
-            point(code, p);
-            if (code == 16) tag(36, "1");
-            if (code == 17) tag(37, "0");
+    std::string write() {
+        addEntities();
+        for (const auto kind :
+             {illustrate::BeyondKind::Visible, illustrate::BeyondKind::Hidden, illustrate::BeyondKind::Above}) {
+            const BeyondStyle& style = beyondStyle(kind);
+            const bool isUsed = std::ranges::any_of(
+                drawing_.beyond, [&](const illustrate::BeyondLine& line) { return line.kind == kind; });
+            if (style.dashes.empty() || !isUsed) continue;
+            DxfLineType type{style.lineType, style.words, style.dashes};
+            for (double& dash : type.dashes) dash *= kDashUnit;
+            file_.add(std::move(type));
         }
-        number(40, 1.1 * std::max(height, width / 1.5));
-        number(41, 1.5);
-        number(42, 50);
-        endTable();
+        return file_.write(comments(), view(), out_.take());
     }
 
-    [[nodiscard]] PlanePoint viewCenter() const noexcept {
-        const Vec3d middle = placed({0.5 * (low_.u + high_.u), 0.5 * (low_.v + high_.v)});
-        return {middle.x, middle.y};
+private:
+    // How a text is written; it is centred at its point.
+    struct Letters {
+        const char* style;
+        double height, degrees;
+        bool isTurned, isOnBaseline;
+    };
+
+    [[nodiscard]] std::vector<std::string> comments() const {
+        const illustrate::PlaneAxes& axes = drawing_.axes;
+        return {dxfText(shownName(volume_)) + ", " + planeText(drawing_, volume_.grid),
+                (place_.isWorld() ? "coordinates of the world; the drawing lies at origin + u * x + v * y, metres"
+                                  : "world = origin + u * x + v * y, metres") +
+                    (volume_.crsName.empty() ? std::string() : ", CRS " + dxfText(volume_.crsName)),
+                "origin " + vectorText(axes.origin, 6), "u " + vectorText(axes.u, 15), "v " + vectorText(axes.v, 15)};
     }
 
-    void lineTypeTable() {
-        int count = 3;
-        for (const BeyondStyle& style : kBeyondStyles)
-            if (hasKind_[static_cast<std::size_t>(style.kind)] && style.dashCount != 0) ++count;
-        table("LTYPE", "2", count);
-        for (const auto& [handle, name] :
-             {std::pair("22", "ByBlock"), std::pair("23", "ByLayer"), std::pair("24", "Continuous")}) {
-            record("LTYPE", handle, "2", "AcDbLinetypeTableRecord", name);
-            tag(3, "");
-            tag(72, 65);
-            tag(73, 0);
-            tag(40, "0");
-        }
-        for (const BeyondStyle& style : kBeyondStyles) {
-            if (!hasKind_[static_cast<std::size_t>(style.kind)] || style.dashCount == 0) continue;
-            record("LTYPE", newHandle(), "2", "AcDbLinetypeTableRecord", style.lineType);
-            tag(3, style.words);
-            tag(72, 65);
-            tag(73, style.dashCount);
-            double length = 0;
-            for (int n = 0; n < style.dashCount; ++n) length += std::abs(style.dashes[n]);
-            number(40, kDashUnit * length);
-            for (int n = 0; n < style.dashCount; ++n) {
-                number(49, kDashUnit * style.dashes[n]);
-                tag(74, 0);
+    [[nodiscard]] DxfView view() const {
+        auto [low, high] = drawnBox(drawing_);
+        for (const DimensionMark& mark : dimensions_.marks)
+            for (const PlanePoint p : {inMetres(mark.line.from), inMetres(mark.line.to)}) {
+                low = {std::min(low.u, p.u), std::min(low.v, p.v)};
+                high = {std::max(high.u, p.u), std::max(high.v, p.v)};
             }
+        return {place_.placed(low), place_.placed(high),
+                place_.placed({0.5 * (low.u + high.u), 0.5 * (low.v + high.v)}), high.u - low.u, high.v - low.v};
+    }
+
+    void addEntities() {
+        for (const illustrate::SectionComponent& component : drawing_.components)
+            for (const illustrate::SectionPolygon& polygon : component.polygons) addHatch(component.label, polygon);
+        for (const illustrate::SectionComponent& component : drawing_.components) {
+            const std::string layer = layerOf(component.label, DxfContent::Element);
+            for (const illustrate::SectionPolygon& polygon : component.polygons) {
+                addPolyline(polygon.outer, true, layer, component);
+                for (const illustrate::Ring& hole : polygon.holes) addPolyline(hole, true, layer, component);
+            }
+            if (component.lineLength > 0) addLines(component, layer);
+            if (!component.polygons.empty() && model::isSpace(labelOf(component.label).className)) addName(component);
         }
-        endTable();
+        for (const illustrate::BeyondLine& line : drawing_.beyond) addBeyond(line);
+        for (const illustrate::DoorSwing& swing : drawing_.doors) addDoor(swing);
+        for (const DimensionMark& mark : dimensions_.marks) addDimension(mark);
     }
 
-    void layerTable() {
-        table("LAYER", "3", static_cast<int>(layers_.size()) + 1);
-        const auto layer = [&](std::string_view handle, std::string_view name, int color, const char* lineType,
-                               int width) {
-            record("LAYER", handle, "3", "AcDbLayerTableRecord", name);
-            tag(62, color);
-            tag(6, lineType);
-            tag(370, width);
-            tag(390, "F");
-        };
-        layer("25", "0", 7, "Continuous", -3);
-        for (const Layer& known : layers_) layer(newHandle(), known.name, known.color, known.lineType, known.width);
-        endTable();
+    [[nodiscard]] const volume::Label& labelOf(std::uint32_t label) const noexcept {
+        return volume_.labels.labels[label];
+    }
+    const std::string& layerOf(std::uint32_t label, DxfContent content) {
+        const volume::Label& of = labelOf(label);
+        const int color = content == DxfContent::Hatch ? 8 : colorOf(of.className);
+        if (hasIsoLayers_) return file_.layer(isoLayerOf(of, content), color);
+        return file_.layer(dxfLayerOf(of) + (content == DxfContent::Hatch ? "_HATCH" : ""), color);
+    }
+    const std::string& dimensionLayer() {
+        return file_.layer(hasIsoLayers_ ? isoLayerOf(DxfContent::Dimension) : "DIMENSIONS", 7, "Continuous", 13);
     }
 
-    void textStyleTable() {
-        table("STYLE", "4", 3);
-        for (const auto& [handle, name] :
-             {std::pair("27", "Standard"), std::pair("2F", "SVT_NAMES"), std::pair("30", "SVT_DIMENSIONS")}) {
-            record("STYLE", handle, "4", "AcDbTextStyleTableRecord", name);
-            tag(40, "0");
-            tag(41, "1");
-            tag(50, "0");
-            tag(71, 0);
-            tag(42, "2.5");
-            tag(3, "arial.ttf");
-            tag(4, "");
-        }
-        endTable();
+    void begin(const char* type, std::string_view layer, const char* subclass) {
+        out_.add({{0, type}, {5, file_.newHandle()}, {330, owner_}, {100, "AcDbEntity"}, {8, layer}, {100, subclass}});
+    }
+    // What is drawn meanwhile becomes the content of a block.
+    template <class Draw>
+    void addBlock(DxfBlock block, const Draw& draw) {
+        const std::string before = out_.take();
+        owner_ = block.record;
+        draw();
+        block.entities = out_.take();
+        owner_ = DxfFile::kModelSpace;
+        out_.append(before);
+        file_.add(std::move(block));
+    }
+    void addExtrusion() {
+        if (place_.isWorld() && place_.normal() != Vec3d{0, 0, 1}) out_.point(210, place_.normal());
+    }
+    void addId(std::uint32_t label) {
+        out_.add({{1001, "SVT"}, {1000, dxfText(labelOf(label).id).substr(0, kMostCharacters)}});
     }
 
-    void blockRecordTable() {
-        table("BLOCK_RECORD", "9", 2 + static_cast<int>(blocks_.size()));
-        for (const auto& [handle, name] : {std::pair("1A", "*Model_Space"), std::pair("1B", "*Paper_Space")}) {
-            tag(0, "BLOCK_RECORD");
-            tag(5, handle);
-            tag(330, "9");
-            tag(100, "AcDbSymbolTableRecord");
-            tag(100, "AcDbBlockTableRecord");
-            tag(2, name);
-            tag(340, "0");
-        }
-        for (const Block& block : blocks_) {
-            tag(0, "BLOCK_RECORD");
-            tag(5, block.record);
-            tag(330, "9");
-            tag(100, "AcDbSymbolTableRecord");
-            tag(100, "AcDbBlockTableRecord");
-            tag(2, block.name);
-            tag(340, "0");
-        }
-        endTable();
+    void addLine(Vec3d from, Vec3d to, std::string_view layer) {
+        begin("LINE", layer, "AcDbLine");
+        out_.point(10, from);
+        out_.point(11, to);
     }
 
-    void blocks() {
-        section("BLOCKS");
-        addBlock({"1A", "2A", "2B", "*Model_Space", "", false}, 0);
-        addBlock({"1B", "2C", "2D", "*Paper_Space", "", false}, 0);
-        for (const Block& block : blocks_) addBlock(block, block.isAnonymous ? 1 : 0);
-        endSection();
+    // With id, area and its bound (m2), and whether it is exact (1) or drawn by voxels (0).
+    void addPolyline(const std::vector<PlanePoint>& points, bool isClosed, std::string_view layer,
+                     const illustrate::SectionComponent& component) {
+        begin("LWPOLYLINE", layer, "AcDbPolyline");
+        out_.add({{90, static_cast<int>(points.size())}, {70, isClosed ? 1 : 0}, {43, 0}});
+        if (place_.isWorld()) out_.add({{38, place_.elevation()}});
+        for (const PlanePoint p : points) out_.point(10, place_.flat(p));
+        addExtrusion();
+        addId(component.label);
+        out_.add({{1040, component.area}, {1040, component.areaBound}, {1070, component.isExact ? 1 : 0}});
     }
 
-    void addBlock(const Block& block, int flags) {
-        tag(0, "BLOCK");
-        tag(5, block.begin);
-        tag(330, block.record);
-        tag(100, "AcDbEntity");
-        tag(8, "0");
-        tag(100, "AcDbBlockBegin");
-        tag(2, block.name);
-        tag(70, flags);
-        point(10, PlanePoint{0, 0});
-        tag(30, "0");
-        tag(3, block.name);
-        tag(1, "");
-        dxf_ += block.entities;
-        tag(0, "ENDBLK");
-        tag(5, block.end);
-        tag(330, block.record);
-        tag(100, "AcDbEntity");
-        tag(8, "0");
-        tag(100, "AcDbBlockEnd");
-    }
-
-    static std::string objectsText() {
-        return "  0\nSECTION\n  2\nOBJECTS\n"
-               "  0\nDICTIONARY\n  5\nC\n330\n0\n100\nAcDbDictionary\n281\n1\n  3\nACAD_GROUP\n350\nD\n"
-               "  3\nACAD_PLOTSTYLENAME\n350\nE\n"
-               "  0\nDICTIONARY\n  5\nD\n330\nC\n100\nAcDbDictionary\n281\n1\n"
-               "  0\nACDBDICTIONARYWDFLT\n  5\nE\n330\nC\n100\nAcDbDictionary\n281\n1\n  3\nNormal\n350\nF\n"
-               "100\nAcDbDictionaryWithDefault\n340\nF\n"
-               "  0\nACDBPLACEHOLDER\n  5\nF\n330\nE\n"
-               "  0\nENDSEC\n";
-    }
-
-    void entity(const char* type, std::string_view layer) {
-        tag(0, type);
-        tag(5, newHandle());
-        tag(330, owner_);
-        tag(100, "AcDbEntity");
-        tag(8, layer);
-    }
-
-    void polyline(const std::vector<PlanePoint>& points, bool isClosed, std::string_view layer,
-                  const illustrate::SectionComponent& component) {
-        entity("LWPOLYLINE", layer);
-        tag(100, "AcDbPolyline");
-        tag(90, static_cast<int>(points.size()));
-        tag(70, isClosed ? 1 : 0);
-        number(43, 0);
-        if (options_.world) number(38, elevation_);
-        for (const PlanePoint p : points) point(10, flat(p));
-        extrusion();
-        extendedData(component);
-    }
-
-    // Id, area and its bound (m2), and whether it is exact (1) or drawn by voxels (0).
-    void extendedData(const illustrate::SectionComponent& component) {
-        tag(1001, "SVT");
-        tag(1000, dxfText(volume_.labels.labels[component.label].id).substr(0, kMostCharacters));
-        number(1040, component.area);
-        number(1040, component.areaBound);
-        tag(1070, component.isExact ? 1 : 0);
-    }
-
-    void lines(const illustrate::SectionComponent& component, std::string_view layer) {
+    void addLines(const illustrate::SectionComponent& component, std::string_view layer) {
         for (const illustrate::SectionLine& line : drawing_.lines) {
             if (line.label != component.label) continue;
             const bool isClosed = line.points.size() > 3 && line.points.front() == line.points.back();
             std::vector<PlanePoint> points = line.points;
             if (isClosed) points.pop_back();
-            polyline(points, isClosed, layer, component);
+            addPolyline(points, isClosed, layer, component);
         }
     }
 
-    void beyond(const illustrate::BeyondLine& line) {
-        const BeyondStyle& style = kBeyondStyles[static_cast<std::size_t>(line.kind)];
-        entity("LINE", layerFor(style.layer, style.color, style.lineType, kBeyondWidth));
-        tag(100, "AcDbLine");
-        point(10, placed(line.from));
-        point(11, placed(line.to));
-        tag(1001, "SVT");
-        tag(1000, dxfText(volume_.labels.labels[line.label].id).substr(0, kMostCharacters));
+    void addBeyond(const illustrate::BeyondLine& line) {
+        const BeyondStyle& style = beyondStyle(line.kind);
+        addLine(place_.placed(line.from), place_.placed(line.to),
+                file_.layer(style.layer, style.color, style.lineType, kBeyondWidth));
+        addId(line.label);
     }
 
-    void text(PlanePoint at, double height, std::string_view content) {
-        entity("TEXT", layerFor(options_.isoLayers ? isoLayerOf(DxfContent::Text) : "TEXT", 7));
-        tag(100, "AcDbText");
-        point(10, flat(at));
-        number(30, elevation_);
-        number(40, height);
-        tag(1, content);
-        if (turnDegrees_ != 0) number(50, turnDegrees_);
-        tag(7, "SVT_NAMES");
-        tag(72, 1);  // centred at the second point
-        point(11, flat(at));
-        number(31, elevation_);
-        extrusion();
-        tag(100, "AcDbText");
-        tag(73, 2);
+    void addText(PlanePoint at, std::string_view content, std::string_view layer, const Letters& letters) {
+        begin("TEXT", layer, "AcDbText");
+        out_.point(10, place_.flat(at));
+        out_.add({{30, place_.elevation()}, {40, letters.height}, {1, content}});
+        if (letters.isTurned) out_.add({{50, letters.degrees}});
+        out_.add({{7, letters.style}, {72, 1}});  // centred at the second point
+        out_.point(11, place_.flat(at));
+        out_.add({{31, place_.elevation()}});
+        if (!letters.isOnBaseline) addExtrusion();
+        out_.add({{100, "AcDbText"}, {73, letters.isOnBaseline ? 0 : 2}});
     }
 
-    // The name of a layer, which is added to the table where it is new.
-    const std::string& layerFor(const std::string& name, int color, const char* lineType = "Continuous",
-                                int width = -3) {
-        const auto known = std::ranges::find(layers_, name, &Layer::name);
-        if (known != layers_.end()) return known->name;
-        layers_.push_back({name, lineType, color, width});
-        return layers_.back().name;
-    }
-    const std::string& layerOf(std::uint32_t label, DxfContent content) {
-        const volume::Label& of = volume_.labels.labels[label];
-        if (options_.isoLayers)
-            return layerFor(isoLayerOf(of, content), content == DxfContent::Hatch ? 8 : colorOf(of.className));
-        if (content == DxfContent::Hatch) return layerFor(dxfLayerOf(of) + "_HATCH", 8);
-        return layerFor(dxfLayerOf(of), colorOf(of.className));
-    }
-
-    void entities() {
-        section("ENTITIES");
-        for (const illustrate::SectionComponent& component : drawing_.components)
-            for (const illustrate::SectionPolygon& polygon : component.polygons) hatch(component.label, polygon);
-        for (const illustrate::SectionComponent& component : drawing_.components) {
-            const volume::Label& label = volume_.labels.labels[component.label];
-            const std::string layer = layerOf(component.label, DxfContent::Element);
-            for (const illustrate::SectionPolygon& polygon : component.polygons) {
-                polyline(polygon.outer, true, layer, component);
-                for (const illustrate::Ring& hole : polygon.holes) polyline(hole, true, layer, component);
-            }
-            if (component.lineLength > 0) lines(component, layer);
-            if (component.polygons.empty()) continue;
-            if (model::isSpace(label.className)) name(component, shownName(label));
-        }
-        for (const illustrate::BeyondLine& line : drawing_.beyond) beyond(line);
-        for (const illustrate::DoorSwing& swing : drawing_.doors) door(swing);
-        for (const DimensionMark& mark : dimensions_.marks) dimension(mark);
-        endSection();
-    }
-
-    void hatch(std::uint32_t label, const illustrate::SectionPolygon& polygon) {
-        const DxfHatch* const pattern = dxfHatchOf(style_.hatchOf(label));
-        if (pattern == nullptr) return;
-        entity("HATCH", layerOf(label, DxfContent::Hatch));
-        tag(100, "AcDbHatch");
-        point(10, Vec3d{0, 0, elevation_});
-        point(210, options_.world ? normal_ : Vec3d{0, 0, 1});
-        tag(2, pattern->name);
-        tag(70, 0);  // a pattern
-        tag(71, 0);
-        tag(91, static_cast<int>(1 + polygon.holes.size()));
-        const auto path = [&](const illustrate::Ring& ring, int kind) {
-            tag(92, kind);
-            tag(72, 0);
-            tag(73, 1);
-            tag(93, static_cast<int>(ring.size()));
-            for (const PlanePoint p : ring) point(10, flat(p));
-            tag(97, 0);
-        };
-        path(polygon.outer, 1 + 2);  // external, a polyline
-        for (const illustrate::Ring& hole : polygon.holes) path(hole, 16 + 2);
-        tag(75, 0);
-        tag(76, 0);  // its own lines
-        number(52, 0);
-        number(41, 1);
-        tag(77, 0);
-        tag(78, static_cast<int>(pattern->lines.size()));
-        for (const DxfHatchLine& line : pattern->lines) {
-            const double angle = line.degrees * std::numbers::pi / 180;
-            number(53, line.degrees);
-            number(43, line.x);
-            number(44, line.y);
-            number(45, -line.distance * std::sin(angle));
-            number(46, line.distance * std::cos(angle));
-            tag(79, line.dash > 0 ? 2 : 0);
-            if (line.dash > 0) {
-                number(49, line.dash);
-                number(49, -line.gap);
-            }
-        }
-        tag(98, 0);
-    }
-
-    // A block with leaves and arcs about the first hinge, and where it is inserted.
-    void door(const illustrate::DoorSwing& swing) {
-        const std::string& layer = layerOf(swing.label, DxfContent::Element);
-        const std::string inBlock = layer;
-        Block block{newHandle(), newHandle(), newHandle(), fmt::format("DOOR_{}", ++doorCount_), {}, false};
-        const PlanePoint base = flat(swing.lines.front().front());
-        const auto local = [&](PlanePoint p) {
-            const PlanePoint at = flat(p);
-            return PlanePoint{at.u - base.u, at.v - base.v};
-        };
-        const std::string before = std::move(dxf_);
-        dxf_.clear();
-        owner_ = block.record;
-        for (const auto& points : swing.lines)
-            for (std::size_t n = 0; n + 1 < points.size(); ++n) {
-                entity("LINE", inBlock);
-                tag(100, "AcDbLine");
-                point(10, local(points[n]));
-                tag(30, "0");
-                point(11, local(points[n + 1]));
-                tag(31, "0");
-            }
-        for (const illustrate::DoorSwing::Arc& arc : swing.arcs) {
-            const PlanePoint center = local(arc.center), from = local(arc.from), to = local(arc.to);
-            const auto degrees = [&](PlanePoint p) {
-                const double turn = std::atan2(p.v - center.v, p.u - center.u) * 180 / std::numbers::pi;
-                return turn < -1e-9 ? turn + 360 : turn;
-            };
-            entity("ARC", inBlock);
-            tag(100, "AcDbCircle");
-            point(10, center);
-            tag(30, "0");
-            number(40, std::hypot(from.u - center.u, from.v - center.v));
-            tag(100, "AcDbArc");
-            number(50, degrees(from));
-            number(51, degrees(to));
-        }
-        block.entities = std::move(dxf_);
-        dxf_ = before;
-        owner_ = "1A";
-        entity("INSERT", inBlock);
-        tag(100, "AcDbBlockReference");
-        tag(2, block.name);
-        point(10, base);
-        number(30, elevation_);
-        extrusion();
-        tag(1001, "SVT");
-        tag(1000, dxfText(volume_.labels.labels[swing.label].id).substr(0, kMostCharacters));
-        blocks_.push_back(std::move(block));
-    }
-
-    [[nodiscard]] const std::string& dimensionLayer() {
-        return layerFor(options_.isoLayers ? isoLayerOf(DxfContent::Dimension) : kDimensionLayer, 7, "Continuous", 13);
-    }
-
-    void line(const MarkLine& drawn) {
-        entity("LINE", dimensionLayer());
-        tag(100, "AcDbLine");
-        point(10, placed(inMetres(drawn.from)));
-        point(11, placed(inMetres(drawn.to)));
-    }
-    static PlanePoint inMetres(PlanePoint p) noexcept { return {p.u / kDimensionScale, p.v / kDimensionScale}; }
-
-    // A DIMENSION, and the block that says how it looks, as programs write both.
-    void dimension(const DimensionMark& mark) {
-        Block block{newHandle(), newHandle(), newHandle(), fmt::format("*D{}", blocks_.size() + 1), {}, true};
-        const std::string before = std::move(dxf_);
-        dxf_.clear();
-        owner_ = block.record;
-        line(mark.line);
-        for (const MarkLine& foot : mark.feet) line(foot);
-        for (const MarkLine& tick : mark.ticks) line(tick);
-        const bool isUpright = mark.line.from.u == mark.line.to.u;
-        const PlanePoint middle =
-            inMetres({0.5 * (mark.line.from.u + mark.line.to.u), 0.5 * (mark.line.from.v + mark.line.to.v)});
-        const PlanePoint at = mark.text.text.empty() ? middle : inMetres(mark.text.at);
-        if (!mark.text.text.empty()) dimensionNumber(mark, at);
-        block.entities = std::move(dxf_);
-        dxf_ = before;
-        owner_ = "1A";
-        entity("DIMENSION", dimensionLayer());
-        tag(100, "AcDbDimension");
-        tag(2, block.name);
-        point(10, placed(inMetres(mark.line.to)));
-        point(11, placed(at));
-        tag(70, 32 + 128);  // linear; its block is its own; the place of the text is set
-        tag(1, mark.text.text.empty() ? " " : dxfText(mark.text.text));
-        tag(3, "Standard");
-        tag(100, "AcDbAlignedDimension");
-        point(13, placed(inMetres(mark.line.from)));
-        point(14, placed(inMetres(mark.line.to)));
-        number(50, (isUpright ? 90 : 0) + turnDegrees_);
-        tag(100, "AcDbRotatedDimension");
-        blocks_.push_back(std::move(block));
-    }
-
-    void dimensionNumber(const DimensionMark& mark, PlanePoint at) {
-        entity("TEXT", dimensionLayer());
-        tag(100, "AcDbText");
-        point(10, flat(at));
-        number(30, elevation_);
-        number(40, 0.73 * mark.text.size / kDimensionScale);  // height of capitals
-        tag(1, dxfText(mark.text.text));
-        if (mark.text.isUpright || turnDegrees_ != 0) number(50, (mark.text.isUpright ? 90 : 0) + turnDegrees_);
-        tag(7, "SVT_DIMENSIONS");
-        tag(72, 1);  // centred on the baseline at the second point
-        point(11, flat(at));
-        number(31, elevation_);
-        tag(100, "AcDbText");
-        tag(73, 0);
-    }
-
-    void name(const illustrate::SectionComponent& component, const std::string& shown) {
+    void addName(const illustrate::SectionComponent& component) {
+        const std::string& shown = shownName(labelOf(component.label));
         const auto& largest = *std::ranges::max_element(component.polygons, {}, &illustrate::SectionPolygon::area);
         const illustrate::TextPlace place = illustrate::findTextPlace(largest);
         const double height =
             std::min({0.25, place.height / 3, place.width / (0.8 * double(std::max<std::size_t>(shown.size(), 6)))});
         if (!(height > 0)) return;
-        if (!isPlan(drawing_, volume_.grid)) {
-            text(place.center, height, dxfText(shown));
-            return;
-        }
-        text({place.center.u, place.center.v + 0.8 * height}, height, dxfText(shown));
-        text({place.center.u, place.center.v - 0.8 * height}, height,
-             dxfText(fmt::format("{:.2f} m\u00B2", component.area)));
+        const std::string layer = file_.layer(hasIsoLayers_ ? isoLayerOf(DxfContent::Text) : "TEXT", 7);
+        const Letters letters{"SVT_NAMES", height, place_.turnDegrees(), place_.turnDegrees() != 0, false};
+        const auto [u, v] = place.center;
+        if (!isPlan(drawing_, volume_.grid)) return addText(place.center, dxfText(shown), layer, letters);
+        addText({u, v + 0.8 * height}, dxfText(shown), layer, letters);
+        addText({u, v - 0.8 * height}, dxfText(fmt::format("{:.2f} m\u00B2", component.area)), layer, letters);
     }
 
-    struct Layer {
-        std::string name;
-        const char* lineType;
-        int color, width;
-    };
+    void addHatch(std::uint32_t label, const illustrate::SectionPolygon& polygon) {
+        const DxfHatch* const pattern = dxfHatchOf(style_.hatchOf(label));
+        if (pattern == nullptr) return;
+        begin("HATCH", layerOf(label, DxfContent::Hatch), "AcDbHatch");
+        out_.point(10, Vec3d{0, 0, place_.elevation()});
+        out_.point(210, place_.normal());
+        // A pattern; then how many rings follow.
+        out_.add({{2, pattern->name}, {70, 0}, {71, 0}, {91, static_cast<int>(1 + polygon.holes.size())}});
+        const auto addRing = [&](const illustrate::Ring& ring, int kind) {
+            out_.add({{92, kind}, {72, 0}, {73, 1}, {93, static_cast<int>(ring.size())}});
+            for (const PlanePoint p : ring) out_.point(10, place_.flat(p));
+            out_.add({{97, 0}});
+        };
+        addRing(polygon.outer, 1 + 2);  // external, a polyline
+        for (const illustrate::Ring& hole : polygon.holes) addRing(hole, 16 + 2);
+        // Its own lines, not turned and not scaled.
+        out_.add({{75, 0}, {76, 0}, {52, 0}, {41, 1}, {77, 0}, {78, static_cast<int>(pattern->lines.size())}});
+        for (const DxfHatchLine& line : pattern->lines) {
+            const double angle = line.degrees * std::numbers::pi / 180;
+            out_.add({{53, line.degrees}, {43, line.x}, {44, line.y}});
+            out_.add({{45, -line.distance * std::sin(angle)}, {46, line.distance * std::cos(angle)}});
+            out_.add({{79, line.dash > 0 ? 2 : 0}});
+            if (line.dash > 0) out_.add({{49, line.dash}, {49, -line.gap}});
+        }
+        out_.add({{98, 0}});
+    }
+
+    // A block with leaves and arcs about the first hinge, and where it is inserted.
+    void addDoor(const illustrate::DoorSwing& swing) {
+        const std::string layer = layerOf(swing.label, DxfContent::Element);
+        const std::string name = fmt::format("DOOR_{}", ++doorCount_);
+        const PlanePoint base = place_.flat(swing.lines.front().front());
+        const auto local = [&](PlanePoint p) {
+            const PlanePoint at = place_.flat(p);
+            return Vec3d{at.u - base.u, at.v - base.v, 0};
+        };
+        addBlock(file_.newBlock(name, false), [&] {
+            for (const auto& points : swing.lines)
+                for (std::size_t n = 0; n + 1 < points.size(); ++n)
+                    addLine(local(points[n]), local(points[n + 1]), layer);
+            for (const illustrate::DoorSwing::Arc& arc : swing.arcs) {
+                const Vec3d center = local(arc.center), from = local(arc.from) - center, to = local(arc.to) - center;
+                const auto degrees = [](Vec3d v) {
+                    const double turn = degreesOf(std::atan2(v.y, v.x));
+                    return turn < -1e-9 ? turn + 360 : turn;
+                };
+                begin("ARC", layer, "AcDbCircle");
+                out_.point(10, center);
+                out_.add({{40, std::hypot(from.x, from.y)}, {100, "AcDbArc"}, {50, degrees(from)}, {51, degrees(to)}});
+            }
+        });
+        begin("INSERT", layer, "AcDbBlockReference");
+        out_.add({{2, name}});
+        out_.point(10, base);
+        out_.add({{30, place_.elevation()}});
+        addExtrusion();
+        addId(swing.label);
+    }
+
+    static PlanePoint inMetres(PlanePoint p) noexcept { return {p.u / kDimensionScale, p.v / kDimensionScale}; }
+
+    // A DIMENSION, and the block that says how it looks, as programs write both.
+    void addDimension(const DimensionMark& mark) {
+        const std::string name = fmt::format("*D{}", file_.blockCount() + 1), content = dxfText(mark.text.text);
+        const auto placed = [&](PlanePoint p) { return place_.placed(inMetres(p)); };
+        const auto& [from, to] = mark.line;
+        const PlanePoint at = content.empty() ? PlanePoint{0.5 * (from.u + to.u), 0.5 * (from.v + to.v)} : mark.text.at;
+        addBlock(file_.newBlock(name, true), [&] {
+            addLine(placed(from), placed(to), dimensionLayer());
+            for (const auto* const lines : {&mark.feet, &mark.ticks})
+                for (const MarkLine& line : *lines) addLine(placed(line.from), placed(line.to), dimensionLayer());
+            if (content.empty()) return;
+            const double degrees = (mark.text.isUpright ? 90 : 0) + place_.turnDegrees();
+            const double height = 0.73 * mark.text.size / kDimensionScale;  // of capitals
+            addText(inMetres(at), content, dimensionLayer(),
+                    {"SVT_DIMENSIONS", height, degrees, mark.text.isUpright || place_.turnDegrees() != 0, true});
+        });
+        begin("DIMENSION", dimensionLayer(), "AcDbDimension");
+        out_.add({{2, name}});
+        out_.point(10, placed(to));
+        out_.point(11, placed(at));
+        // Linear; its block is its own; the place of the text is set.
+        out_.add({{70, 32 + 128}, {1, content.empty() ? " " : content}, {3, "Standard"}});
+        out_.add({{100, "AcDbAlignedDimension"}});
+        out_.point(13, placed(from));
+        out_.point(14, placed(to));
+        out_.add({{50, (from.u == to.u ? 90 : 0) + place_.turnDegrees()}, {100, "AcDbRotatedDimension"}});
+    }
+
     const illustrate::SectionDrawing& drawing_;
     const volume::SemanticVolume& volume_;
-    DxfOptions options_;
+    bool hasIsoLayers_;
     DrawingStyle style_;
-    Vec3d normal_{0, 0, 1}, objectX_{1, 0, 0}, objectY_{0, 1, 0};
-    double elevation_ = 0, turnDegrees_ = 0;
-    int doorCount_ = 0;
-    PlanePoint low_, high_;
-    std::deque<Layer> layers_;  // in order of first use
-    bool hasKind_[3] = {};      // of lines beyond the cut
+    DxfPlace place_;
     DimensionMarks dimensions_;
-    std::vector<Block> blocks_;
-    unsigned nextHandle_ = 0x100;
-    std::string owner_ = "1A", dxf_;
+    int doorCount_ = 0;
+    std::string owner_ = DxfFile::kModelSpace;
+    DxfFile file_;
+    DxfText out_;
 };
 
 }  // namespace
@@ -703,11 +364,6 @@ private:
 std::string makeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                     const DxfOptions& options) {
     return DxfWriter(drawing, volume, options).write();
-}
-
-Result<std::uint64_t> writeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                               const std::filesystem::path& path, const DxfOptions& options) {
-    return writeFileAtomically(path, makeDxf(drawing, volume, options));
 }
 
 }  // namespace svt::writers

@@ -1,4 +1,3 @@
-#include <svt/core/file.hpp>
 #include <svt/volume/volume_json.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/geojson_drawing.hpp>
@@ -8,167 +7,119 @@
 namespace svt::writers {
 namespace {
 
-void appendVector(std::string& json, Vec3d v, int decimals) {
-    json +=
-        fmt::format("[{},{},{}]", shortNumber(v.x, decimals), shortNumber(v.y, decimals), shortNumber(v.z, decimals));
-}
+using PlaneLine = std::vector<illustrate::PlanePoint>;
 
-void appendMember(std::string& json, std::string_view key, std::string_view text) {
-    json += fmt::format("\"{}\":", key);
+std::string jsonMember(std::string_view key, std::string_view text) {
+    std::string json = fmt::format("\"{}\":", key);
     volume::appendJsonString(json, text);
+    return json;
 }
 
-void appendRing(std::string& json, const illustrate::Ring& ring, const illustrate::PlaneAxes& axes) {
-    json += '[';
-    for (std::size_t n = 0; n <= ring.size(); ++n) {
-        if (n != 0) json += ',';
-        appendVector(json, axes.worldFromPlane(ring[n % ring.size()]), 6);
-    }
-    json += ']';
+std::string jsonVector(Vec3d v, int decimals) { return "[" + vectorText(v, decimals, ",") + "]"; }
+
+// The texts of all items in brackets.
+template <class Items, class TextOf>
+std::string jsonList(const Items& items, const TextOf& textOf) {
+    std::string json;
+    for (const auto& item : items) json += (json.empty() ? "" : ",") + textOf(item);
+    return "[" + json + "]";
 }
 
-void appendPolygons(std::string& json, const illustrate::SectionComponent& component,
-                    const illustrate::PlaneAxes& axes) {
-    json += "{\"type\":\"MultiPolygon\",\"coordinates\":[";
-    for (const illustrate::SectionPolygon& polygon : component.polygons) {
-        json += &polygon == &component.polygons.front() ? "[" : ",[";
-        appendRing(json, polygon.outer, axes);
-        for (const illustrate::Ring& hole : polygon.holes) {
-            json += ',';
-            appendRing(json, hole, axes);
+class GeojsonWriter {
+public:
+    GeojsonWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume)
+        : drawing_(drawing), volume_(volume) {}
+
+    std::string write() {
+        const illustrate::PlaneAxes& axes = drawing_.axes;
+        json_ = "{\"type\":\"FeatureCollection\",\n" + jsonMember("name", planeText(drawing_, volume_.grid));
+        json_ += geoJsonCrs(volume_.crsName) + ",\n\"plane\":{\"origin\":" + jsonVector(axes.origin, 6);
+        for (const auto& [key, axis] :
+             {std::pair("u", axes.u), std::pair("v", axes.v), std::pair("normal", axes.normal)})
+            json_ += fmt::format(",\"{}\":{}", key, jsonVector(axis, 15));
+        json_ += "},\n\"features\":[";
+        for (const illustrate::SectionComponent& component : drawing_.components)
+            addFeature(component.label, jsonMember("id", labelOf(component.label).id) + ",",
+                       fmt::format("\"area\":{},\"areaBound\":{},\"exact\":{}", shortNumber(component.area, 6),
+                                   shortNumber(component.areaBound, 6), component.isExact),
+                       geometryOf(component));
+        addBeyond();
+        // How doors open: a feature per door.
+        for (const illustrate::DoorSwing& door : drawing_.doors) {
+            std::vector<PlaneLine> lines = door.lines;
+            for (const illustrate::DoorSwing::Arc& arc : door.arcs) lines.push_back(illustrate::pointsOf(arc));
+            addFeature(door.label, "", "\"swing\":true", multiLine(lines));
         }
-        json += ']';
+        return std::move(json_ += "\n]}\n");
     }
-    json += "]}";
-}
 
-void appendLines(std::string& json, std::uint32_t label, const illustrate::SectionDrawing& drawing) {
-    json += "{\"type\":\"MultiLineString\",\"coordinates\":[";
-    bool isFirst = true;
-    for (const illustrate::SectionLine& line : drawing.lines) {
-        if (line.label != label) continue;
-        json += isFirst ? "[" : ",[";
-        isFirst = false;
-        for (std::size_t n = 0; n < line.points.size(); ++n) {
-            if (n != 0) json += ',';
-            appendVector(json, drawing.axes.worldFromPlane(line.points[n]), 6);
+private:
+    [[nodiscard]] const volume::Label& labelOf(std::uint32_t label) const { return volume_.labels.labels[label]; }
+
+    void addFeature(std::uint32_t number, std::string_view head, std::string_view properties,
+                    std::string_view geometry) {
+        const volume::Label& label = labelOf(number);
+        json_ +=
+            fmt::format("{}{{\"type\":\"Feature\",{}\"properties\":{{{},{},{},{}}},\"geometry\":{}}}",
+                        json_.back() == '[' ? "\n" : ",\n", head, jsonMember("id", label.id),
+                        jsonMember("class", label.className), jsonMember("name", label.name), properties, geometry);
+    }
+
+    [[nodiscard]] std::string lineText(const PlaneLine& points) const {
+        return jsonList(points,
+                        [&](illustrate::PlanePoint p) { return jsonVector(drawing_.axes.worldFromPlane(p), 6); });
+    }
+    [[nodiscard]] std::string ringText(PlaneLine ring) const {
+        ring.push_back(ring.front());
+        return lineText(ring);
+    }
+    [[nodiscard]] std::string multiLine(const std::vector<PlaneLine>& lines) const {
+        return "{\"type\":\"MultiLineString\",\"coordinates\":" +
+               jsonList(lines, [&](const PlaneLine& line) { return lineText(line); }) + "}";
+    }
+    [[nodiscard]] std::string multiPolygon(const std::vector<illustrate::SectionPolygon>& polygons) const {
+        return "{\"type\":\"MultiPolygon\",\"coordinates\":" +
+               jsonList(polygons,
+                        [&](const illustrate::SectionPolygon& polygon) {
+                            std::vector<PlaneLine> rings{polygon.outer};
+                            rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
+                            return jsonList(rings, [&](const PlaneLine& ring) { return ringText(ring); });
+                        }) +
+               "}";
+    }
+
+    // Polygons, lines, or a collection of both.
+    [[nodiscard]] std::string geometryOf(const illustrate::SectionComponent& component) const {
+        if (!(component.lineLength > 0)) return multiPolygon(component.polygons);
+        std::vector<PlaneLine> lines;
+        for (const illustrate::SectionLine& line : drawing_.lines)
+            if (line.label == component.label) lines.push_back(line.points);
+        if (component.polygons.empty()) return multiLine(lines);
+        return "{\"type\":\"GeometryCollection\",\"geometries\":[" + multiPolygon(component.polygons) + "," +
+               multiLine(lines) + "]}";
+    }
+
+    // What stands beyond the cut: a feature per component and kind of line.
+    void addBeyond() {
+        const std::vector<illustrate::BeyondLine>& all = drawing_.beyond;
+        for (std::size_t n = 0; n < all.size();) {
+            const illustrate::BeyondLine first = all[n];
+            std::vector<PlaneLine> lines;
+            for (; n < all.size() && all[n].kind == first.kind && all[n].label == first.label; ++n)
+                lines.push_back({all[n].from, all[n].to});
+            addFeature(first.label, "", jsonMember("beyond", beyondName(first.kind)), multiLine(lines));
         }
-        json += ']';
     }
-    json += "]}";
-}
 
-// Polygons, lines, or a collection of both.
-void appendGeometry(std::string& json, const illustrate::SectionComponent& component,
-                    const illustrate::SectionDrawing& drawing) {
-    const bool hasLines = component.lineLength > 0;
-    if (!hasLines) return appendPolygons(json, component, drawing.axes);
-    if (component.polygons.empty()) return appendLines(json, component.label, drawing);
-    json += "{\"type\":\"GeometryCollection\",\"geometries\":[";
-    appendPolygons(json, component, drawing.axes);
-    json += ',';
-    appendLines(json, component.label, drawing);
-    json += "]}";
-}
-
-// What stands beyond the cut: a feature per component and kind of line.
-void appendBeyond(std::string& json, const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                  bool isFirst) {
-    const std::vector<illustrate::BeyondLine>& lines = drawing.beyond;
-    for (std::size_t n = 0; n < lines.size();) {
-        const illustrate::BeyondLine first = lines[n];
-        const volume::Label& label = volume.labels.labels[first.label];
-        json += isFirst ? "\n" : ",\n";
-        isFirst = false;
-        json += "{\"type\":\"Feature\",\"properties\":{";
-        appendMember(json, "id", label.id);
-        json += ',';
-        appendMember(json, "class", label.className);
-        json += ',';
-        appendMember(json, "name", label.name);
-        json += ',';
-        appendMember(json, "beyond", beyondName(first.kind));
-        json += "},\"geometry\":{\"type\":\"MultiLineString\",\"coordinates\":[";
-        for (std::size_t from = n; n < lines.size() && lines[n].kind == first.kind && lines[n].label == first.label;
-             ++n) {
-            json += n == from ? "[" : ",[";
-            appendVector(json, drawing.axes.worldFromPlane(lines[n].from), 6);
-            json += ',';
-            appendVector(json, drawing.axes.worldFromPlane(lines[n].to), 6);
-            json += ']';
-        }
-        json += "]}}";
-    }
-}
-
-// How doors open: a feature per door.
-void appendDoors(std::string& json, const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
-    for (const illustrate::DoorSwing& door : drawing.doors) {
-        const volume::Label& label = volume.labels.labels[door.label];
-        json += ",\n{\"type\":\"Feature\",\"properties\":{";
-        appendMember(json, "id", label.id);
-        json += ',';
-        appendMember(json, "class", label.className);
-        json += ',';
-        appendMember(json, "name", label.name);
-        json += ",\"swing\":true},\"geometry\":{\"type\":\"MultiLineString\",\"coordinates\":[";
-        std::vector<std::vector<illustrate::PlanePoint>> lines = door.lines;
-        for (const illustrate::DoorSwing::Arc& arc : door.arcs) lines.push_back(illustrate::pointsOf(arc));
-        for (std::size_t n = 0; n < lines.size(); ++n) {
-            json += n == 0 ? "[" : ",[";
-            for (std::size_t p = 0; p < lines[n].size(); ++p) {
-                if (p > 0) json += ',';
-                appendVector(json, drawing.axes.worldFromPlane(lines[n][p]), 6);
-            }
-            json += ']';
-        }
-        json += "]}}";
-    }
-}
+    const illustrate::SectionDrawing& drawing_;
+    const volume::SemanticVolume& volume_;
+    std::string json_;
+};
 
 }  // namespace
 
 std::string makeGeojson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
-    const illustrate::PlaneAxes& axes = drawing.axes;
-    std::string json = "{\"type\":\"FeatureCollection\",\n";
-    appendMember(json, "name", planeText(drawing, volume.grid));
-    if (const std::uint32_t epsg = epsgCodeOf(volume.crsName); epsg != 0)
-        json += fmt::format(",\n\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":\"urn:ogc:def:crs:EPSG::{}\"}}}}",
-                            epsg);
-    json += ",\n\"plane\":{\"origin\":";
-    appendVector(json, axes.origin, 6);
-    for (const auto& [key, axis] : {std::pair("u", axes.u), std::pair("v", axes.v), std::pair("normal", axes.normal)}) {
-        json += fmt::format(",\"{}\":", key);
-        appendVector(json, axis, 15);
-    }
-    json += "},\n\"features\":[";
-    bool isFirst = true;
-    for (const illustrate::SectionComponent& component : drawing.components) {
-        const volume::Label& label = volume.labels.labels[component.label];
-        json += isFirst ? "\n" : ",\n";
-        isFirst = false;
-        json += "{\"type\":\"Feature\",";
-        appendMember(json, "id", label.id);
-        json += ",\"properties\":{";
-        appendMember(json, "id", label.id);
-        json += ',';
-        appendMember(json, "class", label.className);
-        json += ',';
-        appendMember(json, "name", label.name);
-        json +=
-            fmt::format(",\"area\":{},\"areaBound\":{},\"exact\":{}}},\"geometry\":", shortNumber(component.area, 6),
-                        shortNumber(component.areaBound, 6), component.isExact);
-        appendGeometry(json, component, drawing);
-        json += '}';
-    }
-    appendBeyond(json, drawing, volume, isFirst);
-    appendDoors(json, drawing, volume);
-    return json + "\n]}\n";
-}
-
-Result<std::uint64_t> writeGeojson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                                   const std::filesystem::path& path) {
-    return writeFileAtomically(path, makeGeojson(drawing, volume));
+    return GeojsonWriter(drawing, volume).write();
 }
 
 }  // namespace svt::writers

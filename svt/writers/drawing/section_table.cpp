@@ -14,21 +14,18 @@ std::string jsonText(std::string_view text) {
     return json;
 }
 
-std::string jsonVector(Vec3d v, int decimals) {
-    return fmt::format("[{}, {}, {}]", shortNumber(v.x, decimals), shortNumber(v.y, decimals),
-                       shortNumber(v.z, decimals));
-}
-
 }  // namespace
 
 std::string makeSectionJson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
     const illustrate::PlaneAxes& axes = drawing.axes;
     std::string json = fmt::format(
-        "{{\n  \"plane\": {{\"origin\": {}, \"u\": {}, \"v\": {}, \"normal\": {}, \"edgesInPlane\": {}, \"shift\": "
+        "{{\n  \"plane\": {{\"origin\": [{}], \"u\": [{}], \"v\": [{}], \"normal\": [{}], \"edgesInPlane\": {}, "
+        "\"shift\": "
         "{}, \"bound\": {}}},\n"
         "  \"components\": [",
-        jsonVector(axes.origin, 6), jsonVector(axes.u, 15), jsonVector(axes.v, 15), jsonVector(axes.normal, 15),
-        drawing.edgesInPlane, shortNumber(drawing.planeShift, 6), shortNumber(drawing.plane.bound, 6));
+        vectorText(axes.origin, 6, ", "), vectorText(axes.u, 15, ", "), vectorText(axes.v, 15, ", "),
+        vectorText(axes.normal, 15, ", "), drawing.edgesInPlane, shortNumber(drawing.planeShift, 6),
+        shortNumber(drawing.plane.bound, 6));
     for (const illustrate::SectionComponent& component : drawing.components) {
         const volume::Label& label = volume.labels.labels[component.label];
         json += fmt::format(

@@ -1,4 +1,3 @@
-#include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/writers/drawing/dimension_marks.hpp>
@@ -21,7 +20,6 @@ using illustrate::PlanePoint;
 using illustrate::SectionBorder;
 using illustrate::SectionComponent;
 using render::Hatch;
-using volume::kNoLabel;
 
 // Millimetres on paper.
 constexpr double kMargin = DrawingPage::kMargin;
@@ -30,16 +28,7 @@ constexpr double kTextWidth = 0.56;  // width of a character relative to the fon
 class SvgWriter {
 public:
     SvgWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume, const DrawingPage& page)
-        : drawing_(drawing),
-          volume_(volume),
-          scale_(page.scale),
-          millimetres_(page.millimetres),
-          style_(drawing, volume, page.millimetres),
-          page_(page),
-          low_(page.low),
-          high_(page.high),
-          left_(page.left),
-          top_(page.top) {}
+        : drawing_(drawing), volume_(volume), style_(drawing, volume, page.millimetres), page_(page) {}
 
     std::string write() {
         begin();
@@ -59,11 +48,14 @@ private:
     [[nodiscard]] const volume::Label& labelOf(std::uint32_t label) const noexcept {
         return volume_.labels.labels[label];
     }
-    [[nodiscard]] bool isSpace(std::uint32_t label) const noexcept { return style_.isSpace(label); }
 
+    [[nodiscard]] std::pair<double, double> onPaper(PlanePoint p) const noexcept {
+        return {page_.left + (p.u - page_.low.u) * page_.millimetres,
+                page_.top + (page_.high.v - p.v) * page_.millimetres};
+    }
     [[nodiscard]] std::string pointText(PlanePoint p) const {
-        return shortNumber(left_ + (p.u - low_.u) * millimetres_, 3) + " " +
-               shortNumber(top_ + (high_.v - p.v) * millimetres_, 3);
+        const auto [x, y] = onPaper(p);
+        return shortNumber(x, 3) + " " + shortNumber(y, 3);
     }
     void addLine(const std::vector<PlanePoint>& points) {
         for (std::size_t n = 0; n < points.size(); ++n)
@@ -71,9 +63,9 @@ private:
     }
 
     // A group that Inkscape knows as a layer.
-    [[nodiscard]] std::string layer(std::string_view classes, std::string_view label) {
-        return fmt::format("<g id=\"layer-{}\" class=\"{}\" inkscape:groupmode=\"layer\" inkscape:label=\"{}\">\n",
-                           ++layers_, classes, xmlAttribute(label));
+    [[nodiscard]] std::string layer(std::string_view classes, std::string_view label, std::string_view further = "") {
+        return fmt::format("<g id=\"layer-{}\" class=\"{}\" inkscape:groupmode=\"layer\" inkscape:label=\"{}\"{}>\n",
+                           ++layers_, classes, xmlAttribute(label), further);
     }
 
     void begin() {
@@ -108,36 +100,22 @@ private:
                 ".dimensions { text-anchor: middle }\n"
                 ".tick { fill: none; stroke: #000; stroke-width: 0.35; stroke-linecap: round }\n";
         svg_ += "</style>\n<defs>\n";
-        for (const HatchTile& style : hatchTiles()) {
-            if (!isUsed(style.hatch)) continue;
-            const std::string size =
-                fmt::format("width=\"{}\" height=\"{}\"", shortNumber(style.width, 3), shortNumber(style.height, 3));
-            const std::string turn = style.turnDegrees == 0 ? ""
-                                                            : fmt::format(" patternTransform=\"rotate({})\"",
-                                                                          shortNumber(style.turnDegrees, 3));
-            svg_ += fmt::format(
-                "<pattern id=\"{0}\" patternUnits=\"userSpaceOnUse\" {1}{2}><rect {1} fill=\"{3}\"/><path d=\"{4}\" "
-                "fill=\"none\" stroke=\"#444\" stroke-width=\"0.13\"/>",
-                nameOf(style.hatch), size, turn, style.tint, style.lines);
-            if (*style.filled != '\0') svg_ += fmt::format("<path d=\"{}\" fill=\"#444\"/>", style.filled);
-            svg_ += "</pattern>\n";
-        }
+        for (const HatchTile& tile : hatchTiles())
+            if (isUsed(tile.hatch)) svg_ += svgPattern(tile, tile.turnDegrees != 0);
         svg_ += fmt::format("</defs>\n<rect width=\"{}\" height=\"{}\" fill=\"#fff\"/>\n", width, height);
     }
 
     // Where the drawing lies in the world: world = origin + u * metres to the right + v * metres up.
     void addMetadata() {
         const illustrate::PlaneAxes& axes = drawing_.axes;
-        const auto vector = [](Vec3d v, int decimals) {
-            return fmt::format("{} {} {}", shortNumber(v.x, decimals), shortNumber(v.y, decimals),
-                               shortNumber(v.z, decimals));
-        };
-        const PlanePoint corner{low_.u - left_ / millimetres_, high_.v + top_ / millimetres_};
+        const PlanePoint corner{page_.low.u - page_.left / page_.millimetres,
+                                page_.high.v + page_.top / page_.millimetres};
         svg_ += fmt::format(
             "<metadata><svt:drawing scale=\"{}\" crs=\"{}\" origin=\"{}\" u=\"{}\" v=\"{}\" normal=\"{}\" "
             "corner=\"{} {}\"{}/></metadata>\n",
-            shortNumber(scale_, 6), xmlAttribute(volume_.crsName), vector(axes.origin, 6), vector(axes.u, 15),
-            vector(axes.v, 15), vector(axes.normal, 15), shortNumber(corner.u, 6), shortNumber(corner.v, 6),
+            shortNumber(page_.scale, 6), xmlAttribute(volume_.crsName), vectorText(axes.origin, 6),
+            vectorText(axes.u, 15), vectorText(axes.v, 15), vectorText(axes.normal, 15), shortNumber(corner.u, 6),
+            shortNumber(corner.v, 6),
             isPlan(drawing_, volume_.grid) ? fmt::format(" height=\"{}\"", shortNumber(drawing_.plane.point.z, 6))
                                            : std::string());
     }
@@ -148,7 +126,7 @@ private:
     }
 
     [[nodiscard]] std::string fillOf(std::uint32_t label) const {
-        if (isSpace(label)) return "#fff";
+        if (style_.isSpace(label)) return "#fff";
         if (style_.hatchOf(label) == Hatch::None) return "#d9d9d9";
         return fmt::format("url(#{})", nameOf(style_.hatchOf(label)));
     }
@@ -156,11 +134,9 @@ private:
     void addComponents() {
         for (const illustrate::ClassArea& group : drawing_.classes) {
             const std::string name = plainName(group.className);
-            svg_ += fmt::format(
-                "<g id=\"layer-{}\" class=\"{}\" inkscape:groupmode=\"layer\" inkscape:label=\"{}\" data-class=\"{}\" "
-                "data-area=\"{}\">\n",
-                ++layers_, name, xmlAttribute(group.className), xmlAttribute(group.className),
-                shortNumber(group.area, 4));
+            svg_ += layer(name, group.className,
+                          fmt::format(" data-class=\"{}\" data-area=\"{}\"", xmlAttribute(group.className),
+                                      shortNumber(group.area, 4)));
             for (const SectionComponent& component : drawing_.components)
                 if (labelOf(component.label).className == group.className) addComponent(component, name);
             svg_ += "</g>\n";
@@ -192,7 +168,7 @@ private:
             svg_ += layer(bold ? "bold" : "thin", bold ? "Outlines" : "Thin outlines");
             for (const SectionBorder& border : drawing_.borders) {
                 // Thin between two cut parts and around fillings and furniture; no line between two rooms.
-                if (isSpace(border.left) && isSpace(border.right)) continue;
+                if (style_.isSpace(border.left) && style_.isSpace(border.right)) continue;
                 if (bold != style_.isBoldBetween(border.left, border.right)) continue;
                 svg_ += "<path d=\"";
                 const bool isClosed = border.points.front() == border.points.back();
@@ -251,7 +227,8 @@ private:
             if (door.arcs.empty()) continue;
             svg_ += fmt::format("<path class=\"thin\" data-id=\"{}\" d=\"", xmlAttribute(labelOf(door.label).id));
             for (const illustrate::DoorSwing::Arc& arc : door.arcs) {
-                const double radius = millimetres_ * std::hypot(arc.from.u - arc.center.u, arc.from.v - arc.center.v);
+                const double radius =
+                    page_.millimetres * std::hypot(arc.from.u - arc.center.u, arc.from.v - arc.center.v);
                 svg_ += fmt::format("M{}A{} {} 0 0 0 {}", pointText(arc.from), shortNumber(radius, 3),
                                     shortNumber(radius, 3), pointText(arc.to));
             }
@@ -270,17 +247,16 @@ private:
     void addNames() {
         svg_ += layer("names", "Names");
         for (const SectionComponent& component : drawing_.components) {
-            if (!isSpace(component.label) || component.polygons.empty()) continue;
+            if (!style_.isSpace(component.label) || component.polygons.empty()) continue;
             const std::string& name = shownName(labelOf(component.label));
             const std::string area =
                 isPlan(drawing_, volume_.grid) ? fmt::format("{:.2f} m\u00B2", component.area) : std::string();
             const auto longest = static_cast<double>(std::max(characterCount(name), characterCount(area)));
             const auto place =
-                placeName(component, drawing_, millimetres_, kTextWidth * longest, area.empty() ? 1 : 2.3);
+                placeName(component, drawing_, page_.millimetres, kTextWidth * longest, area.empty() ? 1 : 2.3);
             if (!place) continue;
             const double size = place->size;
-            const double x = left_ + (place->center.u - low_.u) * millimetres_;
-            const double y = top_ + (high_.v - place->center.v) * millimetres_;
+            const auto [x, y] = onPaper(place->center);
             addText(x, y + size * (area.empty() ? 0.35 : -0.25), size, name);
             if (!area.empty()) addText(x, y + size * 1.05, size, area);
         }
@@ -290,9 +266,10 @@ private:
     // Chains of dimensions: a group each, with its lines, ticks and numbers.
     void addDimensions() {
         if (drawing_.dimensions.empty()) return;
-        const DimensionMarks placed = placeDimensions(drawing_, {low_, high_}, millimetres_);
+        const DimensionMarks placed = placeDimensions(drawing_, {page_.low, page_.high}, page_.millimetres);
         const auto at = [&](PlanePoint p) {
-            return std::pair(left_ + p.u - low_.u * millimetres_, top_ + high_.v * millimetres_ - p.v);
+            return std::pair(page_.left + p.u - page_.low.u * page_.millimetres,
+                             page_.top + page_.high.v * page_.millimetres - p.v);
         };
         const auto lineText = [&](const MarkLine& line) {
             const auto [x0, y0] = at(line.from);
@@ -330,8 +307,8 @@ private:
                                                   shortNumber(top, 3), shortNumber(right, 3));
         addText(kMargin, top + 6, 3.5, shownName(volume_), " font-weight=\"bold\"");
         addText(kMargin, top + 11, 2.5,
-                fmt::format("{}, 1:{}", planeText(drawing_, volume_.grid), shortNumber(scale_, 2)));
-        const double field = page_.field, size = field * millimetres_;
+                fmt::format("{}, 1:{}", planeText(drawing_, volume_.grid), shortNumber(page_.scale, 2)));
+        const double field = page_.field, size = field * page_.millimetres;
         const double y = top + 17;
         for (int n = 0; n < 4; ++n)
             svg_ += fmt::format(
@@ -347,11 +324,8 @@ private:
 
     const illustrate::SectionDrawing& drawing_;
     const volume::SemanticVolume& volume_;
-    double scale_, millimetres_;  // millimetres on paper per metre
     DrawingStyle style_;
     const DrawingPage& page_;
-    PlanePoint low_, high_;
-    double left_, top_;
     int layers_ = 0;
     std::string svg_;
 };
@@ -362,12 +336,6 @@ Result<std::string> makeSvg(const illustrate::SectionDrawing& drawing, const vol
                             const SvgOptions& options) {
     SVT_TRY(page, makeDrawingPage(drawing, options.scale));
     return SvgWriter(drawing, volume, *page).write();
-}
-
-Result<std::uint64_t> writeSvg(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                               const std::filesystem::path& path, const SvgOptions& options) {
-    SVT_TRY(text, makeSvg(drawing, volume, options));
-    return writeFileAtomically(path, *text);
 }
 
 }  // namespace svt::writers

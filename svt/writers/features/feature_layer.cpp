@@ -4,6 +4,7 @@
 #include <svt/core/text.hpp>
 #include <svt/crs/crs_name.hpp>
 #include <svt/crs/projection.hpp>
+#include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/geopackage/geopackage.hpp>
 #include <svt/writers/tables/cell_json.hpp>
 #include <svt/writers/tables/parquet_stream.hpp>
@@ -37,11 +38,7 @@ class GeoJsonLayer : public FeatureLayer {
 public:
     GeoJsonLayer(AtomicFile file, std::vector<Column> columns, const std::string& crsName)
         : file_(std::move(file)), columns_(std::move(columns)) {
-        head_ = "{\"type\":\"FeatureCollection\"";
-        if (const std::uint32_t epsg = crs::epsgCodeOf(crsName); epsg != 0)
-            head_ += fmt::format(
-                ",\n\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":\"urn:ogc:def:crs:EPSG::{}\"}}}}", epsg);
-        head_ += ",\n\"features\":[";
+        head_ = "{\"type\":\"FeatureCollection\"" + geoJsonCrs(crsName) + ",\n\"features\":[";
     }
     Result<void> add(std::span<const Cell> cells, OutlineRing outline) override {
         Json feature;

@@ -1,3 +1,4 @@
+#include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/glb_writer.hpp>
 #include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/volume_formats.hpp>
@@ -100,12 +101,7 @@ Json accessorsOf(std::span<const LabelSurface> surfaces, std::span<const Positio
     std::uint64_t positionOffset = 0, indexOffset = 0;
     for (std::size_t m = 0; m < surfaces.size(); ++m) {
         const LabelSurface& surface = surfaces[m];
-        Vec3f min = positions[m].front(), max = min;
-        for (const Vec3f position : positions[m])
-            for (int axis = 0; axis < 3; ++axis) {
-                min[axis] = std::min(min[axis], position[axis]);
-                max[axis] = std::max(max[axis], position[axis]);
-            }
+        const auto [min, max] = extentOf(positions[m]);
         accessors.push_back({{"bufferView", 0},
                              {"byteOffset", positionOffset},
                              {"componentType", kFloat},
@@ -182,28 +178,19 @@ Result<void> writeIndices(AtomicFile& file, const LabelSurface& surface) {
     return file.write(std::as_bytes(std::span(indices)));
 }
 
-Result<void> checkDimension(Vec3i expected, Vec3i found) {
-    if (expected == found) return {};
-    return Error(Code::BadArgument, fmt::format("the grid has {} x {} x {} samples, the columns have {} x {} x {}",
-                                                expected.x, expected.y, expected.z, found.x, found.y, found.z));
-}
-
 }  // namespace
 
 Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                            const GlbOptions& options) {
     for (const volume::SemanticVolume* v : {&volume, options.planesOf})
-        if (v != nullptr)
-            if (auto checked = checkDimension(volume.grid.dimension(), v->columns.dimension()); !checked)
-                return checked.error();
+        if (v != nullptr) SVT_DO(checkDimension(volume.grid, v->columns));
     SVT_TRY(surfaces, labelSurfaces(volume.columns, volume.labels.labelOfScalar(),
                                     {options.maxTriangles, options.threads, options.progress}));
     if (surfaces->empty()) return Error(Code::NothingSelected, "the volume has no voxels, so there is no surface");
 
     Progress::tell(options.progress, "vertices", 0);
-    const auto positions =
-        placeVertices(volume, *surfaces, options.faces, options.planesOf, options.threads, options.progress);
-    if (!positions) return positions.error();
+    SVT_TRY(positions,
+            placeVertices(volume, *surfaces, options.faces, options.planesOf, options.threads, options.progress));
 
     GlbReport report;
     std::uint64_t positionBytes = 0, binBytes = 0;

@@ -34,6 +34,16 @@ Positions positionsOf(const LabelSurface& surface, Vec3d spacing, const SlopeVer
 
 }  // namespace
 
+Extent extentOf(const Positions& positions) noexcept {
+    Vec3f min = positions.front(), max = min;
+    for (const Vec3f position : positions)
+        for (int axis = 0; axis < 3; ++axis) {
+            min[axis] = std::min(min[axis], position[axis]);
+            max[axis] = std::max(max[axis], position[axis]);
+        }
+    return {min, max};
+}
+
 Result<std::vector<Positions>> placeVertices(const volume::SemanticVolume& volume,
                                              std::span<const LabelSurface> surfaces, GlbFaces faces,
                                              const volume::SemanticVolume* planesOf, int threads,

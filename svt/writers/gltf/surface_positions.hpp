@@ -16,6 +16,12 @@ namespace svt::writers {
 /// Metres from the grid's lower corner, the outer corner of sample (0, 0, 0), along the grid's axes.
 using Positions = std::vector<Vec3f>;
 
+/// Least and greatest coordinates.
+struct Extent {
+    Vec3f min, max;
+};
+[[nodiscard]] Extent extentOf(const Positions& positions) noexcept;
+
 /// Positions of the vertices of each surface.
 /// \param planesOf  the volume whose planes are used; null: `volume`
 /// \param told      stage "vertices"; may be null

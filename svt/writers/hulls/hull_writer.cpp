@@ -157,9 +157,9 @@ Result<std::uint64_t> writeHulls(const volume::SemanticVolume& volume, const std
     if (format == HullFormat::Obj) SVT_DO(writeMaterials(hulls, materials));
     SVT_TRY(file, AtomicFile::create(path));
     PieceWriter out(*file);
-    SVT_TRY(done, format == HullFormat::Obj   ? writeObj(hulls, materials.filename().string(), out)
-                  : format == HullFormat::Ply ? writePly(hulls, out)
-                                              : writeStl(hulls, out));
+    SVT_DO(format == HullFormat::Obj   ? writeObj(hulls, materials.filename().string(), out)
+           : format == HullFormat::Ply ? writePly(hulls, out)
+                                       : writeStl(hulls, out));
     return file->commit();
 }
 

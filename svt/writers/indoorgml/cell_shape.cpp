@@ -289,8 +289,7 @@ Result<std::vector<CellShape>> voxelShapes(const volume::SemanticVolume& volume,
     std::vector<std::uint32_t> ownerOfScalar = volume.labels.labelOfScalar();
     for (std::uint32_t& label : ownerOfScalar)
         if (label != volume::kNoLabel) label = ownerOf[label];
-    const auto surfaces = labelSurfaces(volume.columns, ownerOfScalar, {std::uint64_t{1} << 27, threads, progress});
-    if (!surfaces) return surfaces.error();
+    SVT_TRY(surfaces, labelSurfaces(volume.columns, ownerOfScalar, {std::uint64_t{1} << 27, threads, progress}));
     for (const LabelSurface& surface : *surfaces) {
         CellShape& shape = shapes[surface.label];
         for (const Vec3i& vertex : surface.vertices)

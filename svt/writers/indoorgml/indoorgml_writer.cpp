@@ -1,4 +1,5 @@
 #include <svt/core/file.hpp>
+#include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/indoorgml/indoorgml_writer.hpp>
 #include <svt/writers/volume_formats.hpp>
 
@@ -76,10 +77,7 @@ private:
         out_ += fmt::format("<{0}>{1}</{0}>\n", element, xmlContent(content));
     }
 
-    void place(Vec3d local) {
-        const Vec3d p = volume_.grid.origin() + local;
-        out_ += shortNumber(p.x, 7) + ' ' + shortNumber(p.y, 7) + ' ' + shortNumber(p.z, 7);
-    }
+    void place(Vec3d local) { out_ += vectorText(volume_.grid.origin() + local, 7); }
 
     void head() {
         out_ =

@@ -163,8 +163,7 @@ Result<std::uint64_t> writeNifti(const volume::SemanticVolume& volume, const std
     const std::string head = niftiBeginning(volume, *bits);
     SVT_DO(write(std::as_bytes(std::span(head))));
     SVT_DO(streamSamples(volume.columns, *bits, writeStream(options), write));
-    if (gzip)
-        if (auto done = gzip->finish(); !done) return done.error();
+    if (gzip) SVT_DO(gzip->finish());
     return file->commit();
 }
 

@@ -141,8 +141,7 @@ Result<void> writeData(const volume::ColumnVolume& columns, int bits, const Nrrd
     if (options.encoding == NrrdEncoding::Raw)
         return streamSamples(columns, bits, stream, [&](auto bytes) { return file.write(bytes); });
     GzipWriter gzip(file, options.threads);
-    if (auto done = streamSamples(columns, bits, stream, [&](auto bytes) { return gzip.write(bytes); }); !done)
-        return done;
+    SVT_DO(streamSamples(columns, bits, stream, [&](auto bytes) { return gzip.write(bytes); }));
     return gzip.finish();
 }
 

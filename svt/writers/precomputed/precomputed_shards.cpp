@@ -1,3 +1,4 @@
+#include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/precomputed/precomputed_shards.hpp>
 
 #include <svt/core/deflate.hpp>
@@ -111,8 +112,7 @@ Result<void> writeShards(const volume::ColumnVolume& columns, std::int32_t side,
     const ShardBits bits = ShardBits::of(count);
     const int inside = bits.chunk + bits.minishard;
     for (std::size_t begin = 0, end = 0; begin < chunks.size(); begin = end) {
-        if (Progress::isCancelled(options.progress))
-            return Error(Code::Cancelled, "writing the volume was stopped; nothing was left");
+        SVT_DO(checkNotStopped(options.progress, "nothing"));
         Progress::tell(options.progress, "write", double(begin) / double(chunks.size()));
         const std::uint64_t shard = chunks[begin].code >> inside;
         while (end < chunks.size() && chunks[end].code >> inside == shard) ++end;
@@ -121,9 +121,7 @@ Result<void> writeShards(const volume::ColumnVolume& columns, std::int32_t side,
             for (std::size_t n = from; n < to; ++n) packed[n] = packedChunk(columns, chunks[begin + n].place, side);
         });
         const std::string name = fmt::format("{}/{:0{}x}.shard", key, shard, std::max(1, (bits.shard + 3) / 4));
-        if (auto done = folder.write(name, shardBytes(std::span(chunks).subspan(begin, end - begin), packed, bits));
-            !done)
-            return done;
+        SVT_DO(folder.write(name, shardBytes(std::span(chunks).subspan(begin, end - begin), packed, bits)));
     }
     return {};
 }

@@ -136,8 +136,7 @@ Result<void> writeLevel(const volume::ColumnVolume& columns, const std::string& 
     for (std::int32_t k = 0; k < dimension.z; k += kSide) {
         Progress::tell(options.progress, "write", double(k) / dimension.z);
         for (std::int32_t j = 0; j < dimension.y; j += kSide) {
-            if (Progress::isCancelled(options.progress))
-                return Error(Code::Cancelled, "writing the volume was stopped; nothing was left");
+            SVT_DO(checkNotStopped(options.progress, "nothing"));
             const SampleBand<std::uint32_t> band(columns, j, k, kSide, options.threads);
             std::vector<std::vector<std::uint32_t>> chunks(static_cast<std::size_t>((dimension.x + kSide - 1) / kSide));
             const auto sizeOf = [&](std::size_t c) {
@@ -229,12 +228,9 @@ Result<std::uint64_t> writePrecomputed(const volume::SemanticVolume& volume, con
     SVT_DO(folder.write("properties/info", propertiesJson(volume)));
     SVT_DO(folder.write("state.json", stateJson(volume)));
     for (std::size_t l = 0; l < levels.size(); ++l)
-        if (auto done = options.isSharded ? writeShards(levels[l]->columns, kSide, std::to_string(l), options, folder)
-                                          : writeLevel(levels[l]->columns, std::to_string(l), options, folder);
-            !done)
-            return done.error();
-    if (options.hasMeshes)
-        if (auto done = writeMeshes(volume, options, folder); !done) return done.error();
+        SVT_DO(options.isSharded ? writeShards(levels[l]->columns, kSide, std::to_string(l), options, folder)
+                                 : writeLevel(levels[l]->columns, std::to_string(l), options, folder));
+    if (options.hasMeshes) SVT_DO(writeMeshes(volume, options, folder));
     return folder.commit();
 }
 

@@ -48,15 +48,11 @@ private:
     void addView(std::size_t number) {
         const DrawnView& drawn = content_.views[number];
         const illustrate::PlaneAxes& axes = drawn.drawing.axes;
-        const auto text = [](Vec3d v, int decimals) {
-            return fmt::format("{} {} {}", shortNumber(v.x, decimals), shortNumber(v.y, decimals),
-                               shortNumber(v.z, decimals));
-        };
         const bool isPlan = drawn.view.kind == illustrate::ViewKind::Plan;
         view_ = static_cast<std::int64_t>(number) + 1;
         package_.insert("views", Row{view_, drawn.view.name, kindName(drawn.view.kind),
-                                     isPlan ? Cell(drawn.drawing.plane.point.z) : Cell(), text(axes.origin, 6),
-                                     text(axes.u, 15), text(axes.v, 15), text(axes.normal, 15)});
+                                     isPlan ? Cell(drawn.drawing.plane.point.z) : Cell(), vectorText(axes.origin, 6),
+                                     vectorText(axes.u, 15), vectorText(axes.v, 15), vectorText(axes.normal, 15)});
         drawing_ = &drawn.drawing;
         isPlan_ = isPlan;
         for (const illustrate::SectionComponent& component : drawn.drawing.components)

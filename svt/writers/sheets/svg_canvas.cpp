@@ -25,17 +25,8 @@ void SvgCanvas::beginSheet(double width, double height, const std::string& title
 void SvgCanvas::endSheet() {
     if (!hatches_.empty()) {
         head_ += "<defs>\n";
-        for (const HatchTile& tile : hatchTiles()) {
-            if (!hatches_.contains(tile.hatch)) continue;
-            const std::string size =
-                fmt::format("width=\"{}\" height=\"{}\"", shortNumber(tile.width, 3), shortNumber(tile.height, 3));
-            head_ += fmt::format(
-                "<pattern id=\"{0}\" patternUnits=\"userSpaceOnUse\" {1} patternTransform=\"rotate({2})\"><rect {1} "
-                "fill=\"{3}\"/><path d=\"{4}\" fill=\"none\" stroke=\"#444\" stroke-width=\"0.13\"/>",
-                nameOf(tile.hatch), size, shortNumber(tile.turnDegrees, 3), tile.tint, tile.lines);
-            if (*tile.filled != '\0') head_ += fmt::format("<path d=\"{}\" fill=\"#444\"/>", tile.filled);
-            head_ += "</pattern>\n";
-        }
+        for (const HatchTile& tile : hatchTiles())
+            if (hatches_.contains(tile.hatch)) head_ += svgPattern(tile, true);
         head_ += "</defs>\n";
     }
     documents_.push_back(head_ + body_ + "</svg>\n");

@@ -242,9 +242,7 @@ Result<std::uint64_t> writeTiff(const volume::SemanticVolume& volume, const std:
     if (!options.isCompressed) {
         const TiffLayout layout(volume, *bits, metadata, static_cast<std::uint64_t>(dimension.y), nullptr);
         SVT_DO(layout.write(*file));
-        if (auto done = streamSamples(volume.columns, *bits, stream, [&](auto bytes) { return file->write(bytes); });
-            !done)
-            return done.error();
+        SVT_DO(streamSamples(volume.columns, *bits, stream, [&](auto bytes) { return file->write(bytes); }));
         return file->commit();
     }
     const std::uint64_t rowBytes = sampleBytes({dimension.x, 1, 1}, *bits);

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 namespace svt::writers {
 namespace {
@@ -46,9 +45,9 @@ std::vector<std::uint32_t> rootOfScalar(const volume::LabelTable& table) {
 }
 
 // Colours of upward, upright and downward faces.
-std::array<std::array<std::uint8_t, 4>, 3> colorsOf(const std::vector<volume::Label>& labels, std::uint32_t root) {
+std::array<VertexColor, 3> colorsOf(const std::vector<volume::Label>& labels, std::uint32_t root) {
     constexpr std::string_view kClasses[] = {"RoofSurface", "WallSurface", "GroundSurface"};
-    std::array<std::array<std::uint8_t, 4>, 3> colors;
+    std::array<VertexColor, 3> colors;
     colors.fill(linearColor(labels[root].color, 1));
     std::array<bool, 3> isKnown{};
     for (std::uint32_t l = root + 1; l < labels[root].subtreeEnd; ++l)
@@ -60,36 +59,8 @@ std::array<std::array<std::uint8_t, 4>, 3> colorsOf(const std::vector<volume::La
     return colors;
 }
 
-void appendSurface(const LabelSurface& surface, const std::vector<Vec3d>& places,
-                   const std::array<std::array<std::uint8_t, 4>, 3>& colors, Content& content) {
-    FlatMesh& mesh = content.mesh;
-    std::unordered_map<std::uint64_t, std::uint32_t> known;
-    known.reserve(places.size() * 2);
-    for (const auto& triangle : surface.triangles) {
-        const Vec3d across =
-            cross(places[triangle[1]] - places[triangle[0]], places[triangle[2]] - places[triangle[0]]);
-        const double size = length(across);
-        if (!(size > 0)) continue;  // moved onto a plane, it has no area and no normal
-        const Vec3d normal = across * (1 / size);
-        constexpr double kUpright = 0.2;  // 78 degrees
-        const std::size_t kind = normal.z > kUpright ? 0 : normal.z < -kUpright ? 2 : 1;
-        for (std::size_t p = 0; p < 3; ++p) {
-            const auto [vertex, isNew] =
-                known.try_emplace(vertexKey(triangle[p], normal), static_cast<std::uint32_t>(mesh.positions.size()));
-            if (isNew) {
-                mesh.positions.push_back(withYUp(places[triangle[p]]));
-                mesh.normals.push_back(withYUp(normal));
-                mesh.colors.push_back(colors[kind]);
-                mesh.features.push_back(static_cast<float>(content.buildings.size()));
-            }
-            mesh.indices.push_back(vertex->second);
-        }
-    }
-}
-
 /// The table of a content.
 nlohmann::ordered_json tableOf(const std::vector<Building>& buildings, GltfBuffer& buffer) {
-    using Json = nlohmann::ordered_json;
     std::vector<std::string> ids, names, classes, attributes;
     std::vector<double> volumes, heights, lowest;
     for (const Building& building : buildings) {
@@ -100,9 +71,7 @@ nlohmann::ordered_json tableOf(const std::vector<Building>& buildings, GltfBuffe
         volumes.push_back(building.volume);
         heights.push_back(building.highest - building.lowest);
         lowest.push_back(building.lowest);
-        Json told = Json::object();
-        for (const Attribute& attribute : label.attributes) told[attribute.name] = toText(attribute.value);
-        attributes.push_back(told.dump(-1, ' ', false, Json::error_handler_t::replace));
+        attributes.push_back(attributesText(label));
     }
     PropertyTable table(buffer, buildings.size());
     table.strings("id", "id of the building in the model; of coarse content the classes that stand there", ids);
@@ -124,18 +93,16 @@ public:
 
     Result<TileContent> make(std::span<const volume::SemanticVolume> volumes, double error) const override {
         Content content;
-        for (const volume::SemanticVolume& volume : volumes)
-            if (auto added = append(volume, content); !added) return added.error();
+        for (const volume::SemanticVolume& volume : volumes) SVT_DO(append(volume, content));
         TileContent made;
         made.error = error;
         made.box = content.box;
         made.features = content.buildings.size();
         if (content.mesh.indices.empty()) return made;
-        auto glb = makeMeshGlb(
-            content.mesh, {}, content.buildings.size(),
-            [&](GltfBuffer& buffer) { return tableOf(content.buildings, buffer); }, content.origin,
-            content.buildings.size() < 65536 ? VertexStorage::Quantized : VertexStorage::Full);
-        if (!glb) return glb.error();
+        SVT_TRY(glb, makeMeshGlb(
+                         content.mesh, {}, content.buildings.size(),
+                         [&](GltfBuffer& buffer) { return tableOf(content.buildings, buffer); }, content.origin,
+                         content.buildings.size() < 65536 ? VertexStorage::Quantized : VertexStorage::Full));
         made.glb = std::move(*glb);
         return made;
     }
@@ -161,9 +128,8 @@ public:
 private:
     Result<void> append(const volume::SemanticVolume& volume, Content& content) const {
         if (Progress::isCancelled(frame_.write.progress)) return Error(Code::Cancelled, "stopped; nothing was left");
-        const auto surfaces =
-            labelSurfaces(volume.columns, rootOfScalar(volume.labels), {std::uint64_t{1} << 27, 1, nullptr});
-        if (!surfaces) return surfaces.error();
+        SVT_TRY(surfaces,
+                labelSurfaces(volume.columns, rootOfScalar(volume.labels), {std::uint64_t{1} << 27, 1, nullptr}));
         if (surfaces->empty()) return {};
         SVT_TRY(positions, placeVertices(volume, *surfaces, frame_.write.faces, nullptr, 1, nullptr));
         const volume::Grid& grid = volume.grid;
@@ -185,7 +151,11 @@ private:
                 content.box.add(place);
                 places.push_back(place - content.origin);
             }
-            appendSurface(surface, places, colorsOf(labels, surface.label), content);
+            const auto colors = colorsOf(labels, surface.label);
+            content.mesh.append(surface, places, static_cast<float>(content.buildings.size()), [&](Vec3d normal) {
+                constexpr double kUpright = 0.2;  // 78 degrees
+                return colors[normal.z > kUpright ? 0 : normal.z < -kUpright ? 2 : 1];
+            });
             content.buildings.push_back(building);
         }
         return {};

@@ -23,28 +23,10 @@ constexpr float kOpaque = 0.999f;
 
 void appendSurface(const LabelHulls& hulls, std::size_t surface, float feature, FlatMesh& mesh) {
     const volume::Label& label = hulls.label(surface);
-    const std::array<std::uint8_t, 4> color = linearColor(label.color, label.opacity);
-    std::unordered_map<std::uint64_t, std::uint32_t> known;
-    known.reserve(hulls.positions[surface].size() * 2);
-    for (const auto& triangle : hulls.surfaces[surface].triangles) {
-        std::array<Vec3d, 3> points;
-        for (std::size_t p = 0; p < 3; ++p) points[p] = hulls.fromCorner(surface, triangle[p]);
-        const Vec3d across = cross(points[1] - points[0], points[2] - points[0]);
-        const double size = length(across);
-        if (!(size > 0)) continue;  // moved onto a plane, it has no area and no normal
-        const Vec3d normal = across * (1 / size);
-        for (std::size_t p = 0; p < 3; ++p) {
-            const auto [vertex, isNew] =
-                known.try_emplace(vertexKey(triangle[p], normal), static_cast<std::uint32_t>(mesh.positions.size()));
-            if (isNew) {
-                mesh.positions.push_back(withYUp(points[p]));
-                mesh.normals.push_back(withYUp(normal));
-                mesh.colors.push_back(color);
-                mesh.features.push_back(feature);
-            }
-            mesh.indices.push_back(vertex->second);
-        }
-    }
+    const VertexColor color = linearColor(label.color, label.opacity);
+    std::vector<Vec3d> places;
+    for (std::size_t v = 0; v < hulls.positions[surface].size(); ++v) places.push_back(hulls.fromCorner(surface, v));
+    mesh.append(hulls.surfaces[surface], places, feature, [&](Vec3d) { return color; });
 }
 
 template <class T>
@@ -58,12 +40,7 @@ GltfJson accessor(std::size_t view, int type, std::size_t count, const char* sha
 
 GltfJson primitiveOf(const FlatMesh& mesh, std::size_t features, std::size_t material, GltfBuffer& buffer,
                      GltfJson& accessors) {
-    Vec3f min = mesh.positions.front(), max = min;
-    for (const Vec3f position : mesh.positions)
-        for (int axis = 0; axis < 3; ++axis) {
-            min[axis] = std::min(min[axis], position[axis]);
-            max[axis] = std::max(max[axis], position[axis]);
-        }
+    const auto [min, max] = extentOf(mesh.positions);
     const std::size_t first = accessors.size(), count = mesh.positions.size();
     accessors.push_back(accessor(addVertices(buffer, mesh.positions), kFloatType, count, "VEC3"));
     accessors.back()["min"] = {min.x, min.y, min.z};
@@ -88,12 +65,7 @@ GltfJson quantizedPrimitive(const FlatMesh& mesh, std::size_t features, GltfBuff
                             GltfJson& node) {
     constexpr int kShortType = 5123, kSignedByteType = 5120;
     constexpr float kSteps = 65535;
-    Vec3f min = mesh.positions.front(), max = min;
-    for (const Vec3f position : mesh.positions)
-        for (int axis = 0; axis < 3; ++axis) {
-            min[axis] = std::min(min[axis], position[axis]);
-            max[axis] = std::max(max[axis], position[axis]);
-        }
+    const auto [min, max] = extentOf(mesh.positions);
     const float scale = std::max({max.x - min.x, max.y - min.y, max.z - min.z}) / kSteps;
     std::vector<std::array<std::uint16_t, 4>> places;
     std::vector<std::array<std::int8_t, 4>> normals;
@@ -163,9 +135,7 @@ GltfJson metadataOf(const LabelHulls& hulls, std::size_t begin, std::size_t end,
         volumes.push_back(texts.volumes[hulls.surfaces[s].label]);
         firsts.push_back(label.first);
         counts.push_back(label.count);
-        GltfJson told = GltfJson::object();
-        for (const Attribute& attribute : label.attributes) told[attribute.name] = toText(attribute.value);
-        attributes.push_back(told.dump(-1, ' ', false, GltfJson::error_handler_t::replace));
+        attributes.push_back(attributesText(label));
     }
     PropertyTable table(buffer, end - begin);
     table.strings("id", "id of the feature in the model", ids);
@@ -182,7 +152,7 @@ GltfJson metadataOf(const LabelHulls& hulls, std::size_t begin, std::size_t end,
 
 }  // namespace
 
-std::array<std::uint8_t, 4> linearColor(Vec3f color, float opacity) noexcept {
+VertexColor linearColor(Vec3f color, float opacity) noexcept {
     const auto byteOf = [](float channel) {
         return static_cast<std::uint8_t>(std::lround(std::clamp(linearChannel(channel), 0.0, 1.0) * 255));
     };
@@ -194,11 +164,31 @@ Vec3f withYUp(Vec3d v) noexcept {
     return {static_cast<float>(v.x), static_cast<float>(v.z), static_cast<float>(-v.y + 0.0)};
 }
 
-std::uint64_t vertexKey(std::uint32_t corner, Vec3d normal) noexcept {
-    std::uint64_t key = corner;
-    for (int axis = 0; axis < 3; ++axis)
-        key = key << 10 | static_cast<std::uint64_t>(std::lround((normal[axis] + 1) * 511));
-    return key;
+void FlatMesh::append(const LabelSurface& surface, std::span<const Vec3d> places, float feature,
+                      const std::function<VertexColor(Vec3d)>& colorOf) {
+    // Vertices that are one: the same corner, and the same normal in a few bits.
+    std::unordered_map<std::uint64_t, std::uint32_t> known;
+    known.reserve(places.size() * 2);
+    for (const auto& triangle : surface.triangles) {
+        const Vec3d across =
+            cross(places[triangle[1]] - places[triangle[0]], places[triangle[2]] - places[triangle[0]]);
+        const double size = length(across);
+        if (!(size > 0)) continue;  // moved onto a plane, it has no area and no normal
+        const Vec3d normal = across * (1 / size);
+        for (const std::uint32_t corner : triangle) {
+            std::uint64_t key = corner;
+            for (int axis = 0; axis < 3; ++axis)
+                key = key << 10 | static_cast<std::uint64_t>(std::lround((normal[axis] + 1) * 511));
+            const auto [vertex, isNew] = known.try_emplace(key, static_cast<std::uint32_t>(positions.size()));
+            if (isNew) {
+                positions.push_back(withYUp(places[corner]));
+                normals.push_back(withYUp(normal));
+                colors.push_back(colorOf(normal));
+                features.push_back(feature);
+            }
+            indices.push_back(vertex->second);
+        }
+    }
 }
 
 Result<std::string> makeMeshGlb(const FlatMesh& opaque, const FlatMesh& clear, std::size_t features,

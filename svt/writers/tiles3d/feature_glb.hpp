@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,24 +31,29 @@ struct FeatureTexts {
 [[nodiscard]] Result<std::string> makeFeatureGlb(const LabelHulls& hulls, std::size_t begin, std::size_t end,
                                                  const FeatureTexts& texts);
 
+using VertexColor = std::array<std::uint8_t, 4>;  ///< linear, with opacity
+
 /// The vertices of a primitive, each attribute in its own array; a vertex has the normal of its face.
 struct FlatMesh {
-    std::vector<Vec3f> positions, normals;            ///< y up
-    std::vector<std::array<std::uint8_t, 4>> colors;  ///< linear
+    std::vector<Vec3f> positions, normals;  ///< y up
+    std::vector<VertexColor> colors;
     std::vector<float> features;
     std::vector<std::uint32_t> indices;
+
+    /// Appends a surface without its triangles that have no area.
+    /// \param places   of its vertices, world directions, metres
+    /// \param colorOf  takes the normal of a face
+    void append(const LabelSurface& surface, std::span<const Vec3d> places, float feature,
+                const std::function<VertexColor(Vec3d)>& colorOf);
 
     [[nodiscard]] std::uint64_t sizeBytes() const noexcept { return positions.size() * 32 + indices.size() * 4; }
 };
 
 /// A vertex colour of glTF, which has them linear, of a colour in sRGB.
-[[nodiscard]] std::array<std::uint8_t, 4> linearColor(Vec3f color, float opacity) noexcept;
+[[nodiscard]] VertexColor linearColor(Vec3f color, float opacity) noexcept;
 
 /// A direction of the world (z up) as glTF has it (y up).
 [[nodiscard]] Vec3f withYUp(Vec3d v) noexcept;
-
-/// A number that vertices share which are one: that of the corner, and the normal to a few bits.
-[[nodiscard]] std::uint64_t vertexKey(std::uint32_t corner, Vec3d normal) noexcept;
 
 /// How vertices are stored.
 enum class VertexStorage {

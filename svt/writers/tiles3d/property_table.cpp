@@ -14,6 +14,12 @@ std::size_t GltfBuffer::add(std::span<const std::byte> bytes, int stride, int ta
     return views_.size() - 1;
 }
 
+std::string attributesText(const volume::Label& label) {
+    GltfBuffer::Json texts = GltfBuffer::Json::object();
+    for (const Attribute& attribute : label.attributes) texts[attribute.name] = toText(attribute.value);
+    return texts.dump(-1, ' ', false, GltfBuffer::Json::error_handler_t::replace);
+}
+
 void PropertyTable::strings(const char* name, std::string_view description, const std::vector<std::string>& values) {
     SVT_CHECK(values.size() == rows_);
     std::string text;

@@ -2,6 +2,8 @@
 /// \file
 /// A property table of EXT_structural_metadata: columns of strings and numbers in a binary buffer, each row a component.
 
+#include <svt/volume/label_table.hpp>
+
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
@@ -30,6 +32,9 @@ private:
     Json views_ = Json::array();
     std::string bytes_;
 };
+
+/// The attributes of a label as a JSON object of texts, for a column.
+[[nodiscard]] std::string attributesText(const volume::Label& label);
 
 /// Columns of a table of one class.
 class PropertyTable {

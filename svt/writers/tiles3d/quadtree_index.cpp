@@ -1,8 +1,7 @@
 #include <svt/writers/tiles3d/quadtree_index.hpp>
 
 #include <svt/writers/dense/piece_writer.hpp>
-
-#include <nlohmann/json.hpp>
+#include <svt/writers/tiles3d/property_table.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -12,36 +11,34 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Buffer views of a subtree, each at a multiple of 8 bytes.
-class SubtreeBuffer {
-public:
-    std::size_t add(const std::string& bytes) {
-        bytes_.resize((bytes_.size() + 7) / 8 * 8, '\0');
-        views_.push_back({{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}});
-        bytes_ += bytes;
-        return views_.size() - 1;
-    }
-    // Bits, the lowest of a byte first; a constant where all are equal.
-    Json availability(const std::vector<bool>& bits) {
-        const auto count = std::count(bits.begin(), bits.end(), true);
-        if (count == 0) return {{"constant", 0}};
-        std::string bytes((bits.size() + 7) / 8, '\0');
-        for (std::size_t n = 0; n < bits.size(); ++n)
-            if (bits[n]) bytes[n / 8] = static_cast<char>(static_cast<unsigned char>(bytes[n / 8]) | 1u << (n % 8));
-        return {{"bitstream", add(bytes)}, {"availableCount", count}};
-    }
-    [[nodiscard]] const Json& views() const noexcept { return views_; }
-    [[nodiscard]] std::string take() {
-        bytes_.resize((bytes_.size() + 7) / 8 * 8, '\0');
-        return std::move(bytes_);
-    }
-
-private:
-    Json views_ = Json::array();
-    std::string bytes_;
-};
+// A constant where all are equal.
+Json availability(const std::vector<bool>& bits, GltfBuffer& buffer) {
+    const auto count = std::count(bits.begin(), bits.end(), true);
+    if (count == 0) return {{"constant", 0}};
+    const std::string bytes = packedBits(bits);
+    return {{"bitstream", buffer.add(std::as_bytes(std::span(bytes)))}, {"availableCount", count}};
+}
 
 }  // namespace
+
+std::string packedBits(const std::vector<bool>& bits) {
+    std::string bytes((bits.size() + 7) / 8, '\0');
+    for (std::size_t n = 0; n < bits.size(); ++n)
+        if (bits[n]) bytes[n / 8] = static_cast<char>(static_cast<unsigned char>(bytes[n / 8]) | 1u << (n % 8));
+    return bytes;
+}
+
+std::string makeSubtreeFile(nlohmann::ordered_json json, std::string binary) {
+    binary.resize((binary.size() + 7) / 8 * 8, '\0');
+    json["buffers"] = nlohmann::ordered_json::array({{{"byteLength", binary.size()}}});
+    std::string text = json.dump();
+    text.resize((text.size() + 7) / 8 * 8, ' ');
+    std::string bytes = "subt";
+    appendBytes(bytes, std::uint32_t{1});
+    appendBytes(bytes, static_cast<std::uint64_t>(text.size()));
+    appendBytes(bytes, static_cast<std::uint64_t>(binary.size()));
+    return bytes + text + binary;
+}
 
 std::uint64_t mortonOf(QuadtreeNode node) noexcept {
     std::uint64_t morton = 0;
@@ -112,25 +109,18 @@ std::string QuadtreeIndex::subtreeAt(int level, std::uint64_t morton) const {
         isThere.insert(isThere.end(), there.begin(), there.end());
         hasContent.insert(hasContent.end(), content.begin(), content.end());
     }
-    SubtreeBuffer buffer;
+    GltfBuffer buffer;
     Json json;
-    json["tileAvailability"] = buffer.availability(isThere);
-    json["contentAvailability"] = Json::array({buffer.availability(hasContent)});
-    json["childSubtreeAvailability"] = buffer.availability(hasChild);
-    const std::size_t boxView = buffer.add(boxes), errorView = buffer.add(errors);
+    json["tileAvailability"] = availability(isThere, buffer);
+    json["contentAvailability"] = Json::array({availability(hasContent, buffer)});
+    json["childSubtreeAvailability"] = availability(hasChild, buffer);
+    const std::size_t boxView = buffer.add(std::as_bytes(std::span(boxes))),
+                      errorView = buffer.add(std::as_bytes(std::span(errors)));
     const Json properties{{"boundingBox", {{"values", boxView}}}, {"geometricError", {{"values", errorView}}}};
     json["propertyTables"] = Json::array({{{"class", "tile"}, {"count", count}, {"properties", properties}}});
     json["tileMetadata"] = 0;
     json["bufferViews"] = buffer.views();
-    const std::string binary = buffer.take();
-    json["buffers"] = Json::array({{{"byteLength", binary.size()}}});
-    std::string text = json.dump();
-    text.resize((text.size() + 7) / 8 * 8, ' ');
-    std::string bytes = "subt";
-    appendBytes(bytes, std::uint32_t{1});
-    appendBytes(bytes, static_cast<std::uint64_t>(text.size()));
-    appendBytes(bytes, static_cast<std::uint64_t>(binary.size()));
-    return bytes + text + binary;
+    return makeSubtreeFile(std::move(json), buffer.bytes());
 }
 
 }  // namespace svt::writers

@@ -1,9 +1,12 @@
 #pragma once
 /// \file
-/// The squares of a quadtree that there are, and the files that say so: subtrees of 3D Tiles 1.1, each of some levels.
+/// The squares of a quadtree that there are, and the files that say so: subtrees of 3D Tiles 1.1 (implicit tiling), each of
+/// some levels.
 
 #include <svt/core/vec.hpp>
 #include <svt/writers/city_tileset.hpp>
+
+#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -44,5 +47,11 @@ private:
 
 /// Bit n of x is bit 2n, of y bit 2n + 1: the order of squares in subtrees.
 [[nodiscard]] std::uint64_t mortonOf(QuadtreeNode node) noexcept;
+
+/// Bits, the lowest of a byte first.
+[[nodiscard]] std::string packedBits(const std::vector<bool>& bits);
+
+/// A `.subtree` of a document and its one buffer, each padded to a multiple of 8 bytes; adds `buffers` to the document.
+[[nodiscard]] std::string makeSubtreeFile(nlohmann::ordered_json json, std::string binary);
 
 }  // namespace svt::writers

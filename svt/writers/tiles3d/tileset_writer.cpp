@@ -12,6 +12,7 @@
 /// `asset.extras` has corner and CRS.
 
 #include <svt/writers/dense/new_folder.hpp>
+#include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/tiles3d/feature_glb.hpp>
 #include <svt/writers/tiles3d/tileset_frame.hpp>
@@ -45,8 +46,7 @@ Result<std::uint64_t> writeTileset(const volume::SemanticVolume& volume, const s
         std::uint64_t triangles = 0;
         while (end < count && (end == begin || triangles + hulls->surfaces[end].triangles.size() <= kTileTriangles))
             triangles += hulls->surfaces[end++].triangles.size();
-        if (Progress::isCancelled(options.progress))
-            return Error(Code::Cancelled, "writing the volume was stopped; nothing was left");
+        SVT_DO(checkNotStopped(options.progress, "nothing"));
         Progress::tell(options.progress, "write", double(begin) / double(count));
         SVT_TRY(glb, makeFeatureGlb(*hulls, begin, end, texts));
         const std::string name = fmt::format("{}.glb", children.size());

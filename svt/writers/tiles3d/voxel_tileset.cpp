@@ -8,6 +8,7 @@
 #include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/tiles3d/feature_glb.hpp>
+#include <svt/writers/tiles3d/quadtree_index.hpp>
 #include <svt/writers/tiles3d/tileset_frame.hpp>
 
 #include <fmt/format.h>
@@ -122,24 +123,14 @@ std::string tileGlb(const std::string& bytes, Vec3i tile, Vec3d size, Vec3d cent
 
 /// The one subtree: which tiles there are.
 std::string subtreeOf(const std::vector<bool>& isThere) {
-    std::string bits((isThere.size() + 63) / 64 * 8, '\0');
-    for (std::size_t n = 0; n < isThere.size(); ++n)
-        if (isThere[n]) bits[n / 8] = static_cast<char>(static_cast<unsigned char>(bits[n / 8]) | 1u << (n % 8));
-    const auto count = std::count(isThere.begin(), isThere.end(), true);
-    const TilesetJson available{{"bitstream", 0}, {"availableCount", count}};
-    std::string text =
-        TilesetJson{{"buffers", {{{"byteLength", bits.size()}}}},
-                    {"bufferViews", {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", (isThere.size() + 7) / 8}}}},
-                    {"tileAvailability", available},
-                    {"contentAvailability", TilesetJson::array({available})},
-                    {"childSubtreeAvailability", {{"constant", 0}}}}
-            .dump();
-    text.resize((text.size() + 7) / 8 * 8, ' ');
-    std::string bytes = "subt";
-    appendBytes(bytes, std::uint32_t{1});
-    appendBytes(bytes, static_cast<std::uint64_t>(text.size()));
-    appendBytes(bytes, static_cast<std::uint64_t>(bits.size()));
-    return bytes + text + bits;
+    const std::string bits = packedBits(isThere);
+    const TilesetJson available{{"bitstream", 0}, {"availableCount", std::count(isThere.begin(), isThere.end(), true)}};
+    return makeSubtreeFile({{"buffers", nullptr},
+                            {"bufferViews", {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", bits.size()}}}},
+                            {"tileAvailability", available},
+                            {"contentAvailability", TilesetJson::array({available})},
+                            {"childSubtreeAvailability", {{"constant", 0}}}},
+                           bits);
 }
 
 std::vector<std::uint32_t> looksOf(const volume::LabelTable& labels) {
@@ -163,8 +154,7 @@ Result<std::vector<bool>> writeTiles(const volume::SemanticVolume& volume, const
         for (std::int32_t z = 0; z < 1 << level; ++z)
             for (std::int32_t y = 0; y < 1 << level; ++y)
                 for (std::int32_t x = 0; x < 1 << level; ++x) {
-                    if (Progress::isCancelled(options.progress))
-                        return Error(Code::Cancelled, "writing the volume was stopped; nothing was left");
+                    SVT_DO(checkNotStopped(options.progress, "nothing"));
                     const Vec3i place{x, y, z};
                     const std::size_t index = Octree::before(level) + Octree::morton(place, level);
                     const Vec3i first{x * octree.tile.x, y * octree.tile.y, z * octree.tile.z};

@@ -77,8 +77,7 @@ public:
             if (!isUsed[l]) continue;
             for (; !open.empty() && open.back() != labels[l].parent; open.pop_back()) out_.text += "}\n";
             beginLabel(l);
-            if (surfaceOf[l] >= 0)
-                if (auto done = writeMesh(static_cast<std::size_t>(surfaceOf[l])); !done) return done;
+            if (surfaceOf[l] >= 0) SVT_DO(writeMesh(static_cast<std::size_t>(surfaceOf[l])));
             open.push_back(static_cast<std::uint32_t>(l));
         }
         for (std::size_t n = 0; n <= open.size(); ++n) out_.text += "}\n";
@@ -113,12 +112,7 @@ private:
     Result<void> writeMesh(std::size_t s) {
         const Positions& points = hulls_.positions[s];
         const volume::Label& label = hulls_.label(s);
-        Vec3f min = points.front(), max = min;
-        for (const Vec3f point : points)
-            for (int axis = 0; axis < 3; ++axis) {
-                min[axis] = std::min(min[axis], point[axis]);
-                max[axis] = std::max(max[axis], point[axis]);
-            }
+        const auto [min, max] = extentOf(points);
         append("def Mesh \"Hull\"\n{{\nfloat3[] extent = [({}, {}, {}), ({}, {}, {})]\n", min.x, min.y, min.z, max.x,
                max.y, max.z);
         const auto& triangles = hulls_.surfaces[s].triangles;

@@ -1,3 +1,4 @@
+#include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/vdb/vdb_level_set.hpp>
 
 #include <svt/writers/vdb/vdb_nodes.hpp>
@@ -236,18 +237,14 @@ Result<void> VdbLevelSet::writeUpper(Vec3i upper, const VdbSink& topology, const
     VdbBytes bytes;
     appendBytes(bytes, first * VdbBlocks::kSide, children, tiles);
     putAllValues(bytes, tileValues);
-    if (topology)
-        if (auto done = topology(bytes); !done) return done;
+    if (topology) SVT_DO(topology(bytes));
     std::vector<float> values(std::size_t{VdbBlocks::kSide} * VdbBlocks::kSide * VdbBlocks::kSide, background_);
     const LowerNode empty = lowerNode(values, background_);
     for (const Vec3i block : bands) {
-        if (Progress::isCancelled(blocks_.progress()))
-            return Error(Code::Cancelled, "writing the volume was stopped; no file was left");
+        SVT_DO(checkNotStopped(blocks_.progress()));
         const LowerNode node = distances(block, values) ? lowerNode(values, background_) : empty;
-        if (topology)
-            if (auto done = topology(node.topology); !done) return done;
-        if (buffers)
-            if (auto done = buffers(node.buffers); !done) return done;
+        if (topology) SVT_DO(topology(node.topology));
+        if (buffers) SVT_DO(buffers(node.buffers));
     }
     return {};
 }
@@ -267,10 +264,8 @@ Result<void> VdbLevelSet::write(const VdbSink& topology, const VdbSink& buffers)
     VdbBytes bytes;
     // Buffers of a leaf, background, tiles and children of the root.
     appendBytes(bytes, std::int32_t{1}, background_, std::uint32_t{0}, static_cast<std::uint32_t>(uppers.size()));
-    if (topology)
-        if (auto done = topology(bytes); !done) return done;
-    for (const Vec3i upper : uppers)
-        if (auto done = writeUpper(upper, topology, buffers); !done) return done;
+    if (topology) SVT_DO(topology(bytes));
+    for (const Vec3i upper : uppers) SVT_DO(writeUpper(upper, topology, buffers));
     return {};
 }
 

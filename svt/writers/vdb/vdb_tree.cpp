@@ -1,3 +1,4 @@
+#include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/vdb/vdb_tree.hpp>
 
 #include <svt/volume/dense.hpp>
@@ -97,8 +98,7 @@ Result<VdbBlocks> VdbBlocks::of(const volume::ColumnVolume& columns, int threads
     std::vector<volume::Scalar> samples;
     std::vector<bool> isSeen(std::size_t(volume::largestScalar(columns)) + 1);
     for (std::int32_t z = 0; z < blocks.count_.z; ++z) {
-        if (Progress::isCancelled(progress))
-            return Error(Code::Cancelled, "writing the volume was stopped; no file was left");
+        SVT_DO(checkNotStopped(progress));
         for (std::int32_t y = 0; y < blocks.count_.y; ++y)
             for (std::int32_t x = 0; x < blocks.count_.x; ++x) {
                 blocks.samples({x, y, z}, 0, samples);
@@ -175,8 +175,7 @@ template <class Visit>
 Result<void> VdbTree::forEachChild(const Upper& upper, const Visit& visit) const {
     const Vec3i count = blocks_.count();
     for (std::int32_t x = 0; x < std::min(kUpperSide, count.x - upper.first.x); ++x) {
-        if (Progress::isCancelled(blocks_.progress()))
-            return Error(Code::Cancelled, "writing the volume was stopped; no file was left");
+        SVT_DO(checkNotStopped(blocks_.progress()));
         for (std::int32_t y = 0; y < std::min(kUpperSide, count.y - upper.first.y); ++y)
             for (std::int32_t z = 0; z < std::min(kUpperSide, count.z - upper.first.z); ++z) {
                 const Vec3i block = upper.first + Vec3i{x, y, z};
@@ -212,8 +211,7 @@ Result<void> VdbTree::writeUpper(const Upper& upper, const VdbSink& topology, co
     return forEachChild(upper, [&](std::size_t, Vec3i block, State state, std::uint32_t) -> Result<void> {
         if (state != State::Child) return {};
         readBlock(block, values);
-        if (topology)
-            if (auto written = topology(lowerTopology(values)); !written) return written;
+        if (topology) SVT_DO(topology(lowerTopology(values)));
         return buffers ? buffers(leafBuffers(values)) : Result<void>();
     });
 }
@@ -222,10 +220,8 @@ Result<void> VdbTree::write(const VdbSink& topology, const VdbSink& buffers) con
     VdbBytes bytes;
     // Buffers of a leaf, background, tiles and children of the root.
     appendAs<std::uint32_t>(bytes, 1, 0, 0, roots_.size());
-    if (topology)
-        if (auto done = topology(bytes); !done) return done;
-    for (const Upper& upper : roots_)
-        if (auto done = writeUpper(upper, topology, buffers); !done) return done;
+    if (topology) SVT_DO(topology(bytes));
+    for (const Upper& upper : roots_) SVT_DO(writeUpper(upper, topology, buffers));
     return {};
 }
 

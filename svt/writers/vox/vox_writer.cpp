@@ -10,6 +10,7 @@
 #include <svt/analyze/scalar_boxes.hpp>
 #include <svt/volume/dense.hpp>
 #include <svt/writers/dense/piece_writer.hpp>
+#include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/volume_formats.hpp>
 
@@ -142,7 +143,7 @@ public:
         const auto boxes = analyze::labelBoxes(volume_.columns, volume_.labels);
         for (std::uint32_t l = 0; l < boxes.size(); ++l) {
             if (boxes[l].isEmpty()) continue;
-            if (Progress::isCancelled(options_.progress)) return cancelled();
+            SVT_DO(checkNotStopped(options_.progress));
             planLabel(l, boxes[l]);
         }
         return {};
@@ -161,7 +162,7 @@ public:
         out.text += "MAIN";
         appendAs<std::int32_t>(out.text, 0, children);
         for (std::size_t m = 0; m < models_.size(); ++m) {
-            if (Progress::isCancelled(options_.progress)) return cancelled();
+            SVT_DO(checkNotStopped(options_.progress));
             Progress::tell(options_.progress, "write", double(m) / double(models_.size()));
             out.text += modelChunks(models_[m]);
             SVT_DO(out.flush());
@@ -171,7 +172,6 @@ public:
     }
 
 private:
-    static Error cancelled() { return Error(Code::Cancelled, "writing the volume was stopped; no file was left"); }
     static std::uint64_t modelBytes(std::size_t voxels) { return 24 + 16 + 4 * std::uint64_t(voxels); }
 
     /// Calls visit(i, j, k, scalar) for the voxels of a label in a box.
@@ -285,10 +285,7 @@ private:
 ///         CannotWrite, DiskFull, Cancelled
 Result<std::uint64_t> writeVox(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const VolumeWriteOptions& options) {
-    if (volume.grid.dimension() != volume.columns.dimension())
-        return Error(Code::BadArgument, "grid and columns differ in their number of samples");
-    if (volume::largestScalar(volume.columns) >= volume.labels.scalarCount())
-        return Error(Code::BadArgument, "a scalar belongs to no label");
+    SVT_DO(checkedSampleBits(volume));
     const auto counts = volume.columns.countVoxels(volume.labels.scalarCount());
     std::uint64_t voxels = 0;
     for (std::size_t s = 1; s < counts.size(); ++s) voxels += counts[s];

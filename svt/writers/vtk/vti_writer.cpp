@@ -131,9 +131,8 @@ Result<std::uint64_t> writeVti(const volume::SemanticVolume& volume, const std::
     SVT_TRY(file, AtomicFile::create(path));
     SVT_DO(file->write(vtiBeginning(volume, *bits, options.isCompressed)));
     const StreamOptions stream = writeStream(options);
-    const auto done =
-        options.isCompressed ? writeVtkZlib(volume, *bits, stream, *file) : writeVtkRaw(volume, *bits, stream, *file);
-    if (!done) return done.error();
+    SVT_DO(options.isCompressed ? writeVtkZlib(volume, *bits, stream, *file)
+                                : writeVtkRaw(volume, *bits, stream, *file));
     SVT_DO(file->write("\n</AppendedData>\n</VTKFile>\n"));
     return file->commit();
 }

@@ -127,7 +127,7 @@ Result<std::vector<std::string>> writeSlices(const volume::SemanticVolume& volum
             pending.insert(pending.end(), bytes.begin(), bytes.end());
             std::size_t at = 0;
             for (; at + sliceBytes <= pending.size(); at += sliceBytes)
-                if (auto written = writeOne(std::span(pending).subspan(at, sliceBytes)); !written) return written;
+                SVT_DO(writeOne(std::span(pending).subspan(at, sliceBytes)));
             pending.erase(pending.begin(), pending.begin() + static_cast<std::ptrdiff_t>(at));
             return {};
         });

@@ -210,8 +210,7 @@ Result<void> writeColorNrrd(const volume::SemanticVolume& volume, int bits, cons
         return options.isCompressed ? gzip.write(colors) : file->write(colors);
     });
     if (!done) return done;
-    if (options.isCompressed)
-        if (auto ended = gzip.finish(); !ended) return ended;
+    if (options.isCompressed) SVT_DO(gzip.finish());
     auto bytes = file->commit();
     return bytes ? Result<void>() : Result<void>(bytes.error());
 }
@@ -236,8 +235,7 @@ Result<std::string> writeBesideScene(const volume::SemanticVolume& volume, int b
         return fmt::format("<ImageTexture3D containerField='voxels' url='\"{}\"'>{}</ImageTexture3D>\n",
                            xmlAttribute(nrrd), kNearest);
     }
-    const auto files = writeSlices(volume, bits, SliceKind::Colors, codes, path, writeStream(options));
-    if (!files) return files.error();
+    SVT_TRY(files, writeSlices(volume, bits, SliceKind::Colors, codes, path, writeStream(options)));
     std::string text = "<ComposedTexture3D containerField='voxels'>\n";
     for (const std::string& file : *files)
         text += fmt::format("<ImageTexture containerField='texture' url='\"{}\"'/>\n", xmlAttribute(file));

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The JSON of a Zarr folder, see zarr_writer.hpp.
+/// The JSON of a Zarr folder, see zarr_writer.cpp.
 
 #include <svt/volume/semantic_volume.hpp>
 

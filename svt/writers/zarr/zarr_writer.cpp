@@ -88,8 +88,7 @@ Result<void> writeArray(const volume::ColumnVolume& columns, const std::string& 
     for (std::int32_t k = 0; k < dimension.z; k += shape.file) {
         Progress::tell(options.progress, "write", double(k) / dimension.z);
         for (std::int32_t j = 0; j < dimension.y; j += shape.file) {
-            if (Progress::isCancelled(options.progress))
-                return Error(Code::Cancelled, "writing the volume was stopped; nothing was left");
+            SVT_DO(checkNotStopped(options.progress, "nothing"));
             const SampleBand<T> band(columns, j, k, shape.file, options.threads);
             std::vector<Bytes> files(static_cast<std::size_t>((dimension.x + shape.file - 1) / shape.file));
             parallelFor(files.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
@@ -122,21 +121,18 @@ Result<std::uint64_t> writeZarr(const volume::SemanticVolume& volume, const fs::
     const std::vector<volume::SemanticVolume>& coarse = *coarser;
     std::vector<volume::Grid> grids{volume.grid};
     for (const volume::SemanticVolume& level : coarse) grids.push_back(level.grid);
-    if (version == 2)
-        if (auto done = folder.write(".zgroup", "{\"zarr_format\": 2}\n"); !done) return done.error();
+    if (version == 2) SVT_DO(folder.write(".zgroup", "{\"zarr_format\": 2}\n"));
     SVT_DO(folder.write(version == 2 ? ".zattrs" : "zarr.json", zarrGroupJson(volume, grids, version)));
     const ZarrShape shape = zarrShape(version);
     for (std::size_t l = 0; l < grids.size(); ++l) {
         const std::string name = std::to_string(l);
-        if (auto done = folder.write(name + (version == 2 ? "/.zarray" : "/zarr.json"),
-                                     zarrArrayJson(grids[l], *bits, version));
-            !done)
-            return done.error();
+        SVT_DO(
+            folder.write(name + (version == 2 ? "/.zarray" : "/zarr.json"), zarrArrayJson(grids[l], *bits, version)));
         const volume::ColumnVolume& columns = l == 0 ? volume.columns : coarse[l - 1].columns;
         const std::string chunks = version == 2 ? name : name + "/c";
-        SVT_TRY(done, *bits == 8    ? writeArray<std::uint8_t>(columns, chunks, shape, options, folder)
-                      : *bits == 16 ? writeArray<std::uint16_t>(columns, chunks, shape, options, folder)
-                                    : writeArray<std::uint32_t>(columns, chunks, shape, options, folder));
+        SVT_DO(*bits == 8    ? writeArray<std::uint8_t>(columns, chunks, shape, options, folder)
+               : *bits == 16 ? writeArray<std::uint16_t>(columns, chunks, shape, options, folder)
+                             : writeArray<std::uint32_t>(columns, chunks, shape, options, folder));
     }
     return folder.commit();
 }
