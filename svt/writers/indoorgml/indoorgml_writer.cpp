@@ -1,5 +1,4 @@
 #include <svt/core/file.hpp>
-#include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/indoorgml/indoorgml_writer.hpp>
 #include <svt/writers/volume_formats.hpp>
 
