@@ -8,6 +8,7 @@
 #include <svt/pipeline/split_faces_test.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/samples/sample.hpp>
+#include <svt/volume/dense.hpp>
 #include <svt/voxelize/solids_test.hpp>
 
 #include <gtest/gtest.h>
@@ -69,14 +70,19 @@ private:
     std::vector<test::SolidOracle> oracles_;
 };
 
-model::BuildingModel sampleModel(samples::SampleKind kind) {
+// Read once for all tests of a process.
+const model::BuildingModel& sampleModel(samples::SampleKind kind) {
+    static std::map<samples::SampleKind, model::BuildingModel> read;
+    const auto [place, isNew] = read.try_emplace(kind);
+    if (!isNew) return place->second;
     samples::SampleOptions options;
     options.storeys = 2;
     const auto text = samples::writeSample(kind, samples::SampleFormat::CityGml3, options);
     EXPECT_TRUE(text);
     auto model = readers::readModel(std::as_bytes(std::span(*text)), "sample.gml");
     EXPECT_TRUE(model);
-    return model ? *model : model::BuildingModel{};
+    if (model) place->second = std::move(*model);
+    return place->second;
 }
 
 struct Difference {
@@ -92,12 +98,18 @@ Difference differenceOf(const BuildOutput& straight, const BuildOutput& turned, 
     const auto name = [&](volume::Scalar s) {
         return s == 0 ? std::string("air") : straight.volume.labels.labels[labelOf[s]].id;
     };
-    for (std::int32_t j = 0; j < n.y; ++j)
-        for (std::int32_t i = 0; i < n.x; ++i)
-            for (std::int32_t k = 0; k < n.z; ++k) {
+    const auto before = *volume::toDense<std::uint16_t>(straight.volume.columns),
+               after = *volume::toDense<std::uint16_t>(turned.volume.columns);
+    const std::int32_t nx = turned.volume.grid.dimension().x, ny = turned.volume.grid.dimension().y;
+    std::size_t at = 0;
+    for (std::int32_t k = 0; k < n.z; ++k)
+        for (std::int32_t j = 0; j < n.y; ++j)
+            for (std::int32_t i = 0; i < n.x; ++i) {
                 const Vec3i v = turnedSample({i, j, k}, n, quarters);
-                const volume::Scalar a = straight.volume.columns.scalarAt(i, j, k);
-                const volume::Scalar b = turned.volume.columns.scalarAt(v.x, v.y, v.z);
+                const volume::Scalar
+                    a = before[at++],
+                    b = after[std::size_t(v.x) +
+                              std::size_t(nx) * (std::size_t(v.y) + std::size_t(ny) * std::size_t(v.z))];
                 difference.voxels += a != 0;
                 if (a == b) continue;
                 if (faces.isTie({i, j, k}, grid)) {
