@@ -9,10 +9,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 namespace svt::render_gl::test {
 
@@ -48,32 +50,54 @@ inline int apart(image::Rgba8 a, image::Rgba8 b) {
     return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b), std::abs(a.a - b.a)});
 }
 
-/// Edges: pixels of the CPU's frame that change when the camera moves sideways by 1e-3 voxel. Bits: 1 the label, 2 the
-/// color by more than the bound, 4 the depth by more than a voxel.
-inline image::Image<std::uint8_t> edgesOf(const volume::BrickVolume& volume, const volume::Grid& grid,
-                                          const render::FrameSpec& spec, const render::Frame& frame, int colorBound) {
-    image::Image<std::uint8_t> edges(spec.width, spec.height);
-    const Vec3d forward = normalized(spec.camera.target - spec.camera.eye);
-    const Vec3d right = normalized(cross(forward, spec.camera.up)), up = cross(right, forward);
-    const Vec3d spacing = grid.spacing();
-    const double voxel = std::min({spacing.x, spacing.y, spacing.z});
-    for (int direction = 0; direction < 8; ++direction) {
+/// Pixels of the CPU's frame that change when the camera moves sideways by 1e-3 voxel, in one of eight directions. A frame is
+/// cast for a direction when it is first needed: most edges show in the first few.
+class Edges {
+public:
+    enum Kind : std::uint8_t { kLabel = 1, kColor = 2, kDepth = 4 };  ///< kDepth: by more than a voxel
+
+    Edges(const volume::BrickVolume& volume, const volume::Grid& grid, const render::FrameSpec& spec,
+          const render::Frame& frame, int colorBound)
+        : volume_(volume), grid_(grid), spec_(spec), frame_(frame), colorBound_(colorBound) {}
+
+    [[nodiscard]] bool contain(std::int32_t x, std::int32_t y, Kind kind) {
+        for (const int direction : {0, 4, 2, 6, 1, 5, 3, 7}) {
+            std::optional<render::Frame>& moved = moved_[std::size_t(direction)];
+            if (!moved) moved = castFrom(direction);
+            if (moved->label.width() > 0 && differs(*moved, x, y, kind)) return true;
+        }
+        return false;
+    }
+
+private:
+    [[nodiscard]] render::Frame castFrom(int direction) const {
+        const Vec3d forward = normalized(spec_.camera.target - spec_.camera.eye);
+        const Vec3d right = normalized(cross(forward, spec_.camera.up)), up = cross(right, forward);
         const double angle = direction * 0.7853981633974483;
-        const Vec3d aside = (right * std::cos(angle) + up * std::sin(angle)) * (1e-3 * voxel);
-        render::FrameSpec moved = spec;
+        const Vec3d aside = (right * std::cos(angle) + up * std::sin(angle)) * (1e-3 * voxel());
+        render::FrameSpec moved = spec_;
         moved.camera.eye = moved.camera.eye + aside;
         moved.camera.target = moved.camera.target + aside;
-        const auto other = render::castRays(volume, grid, moved);
-        if (!other) continue;
-        for (std::size_t n = 0; n < edges.pixels().size(); ++n) {
-            std::uint8_t& edge = edges.pixels()[n];
-            if (other->label.pixels()[n] != frame.label.pixels()[n]) edge |= 1;
-            if (apart(other->color.pixels()[n], frame.color.pixels()[n]) > colorBound) edge |= 2;
-            if (!(std::abs(other->depth.pixels()[n] - frame.depth.pixels()[n]) <= voxel)) edge |= 4;
-        }
+        auto frame = render::castRays(volume_, grid_, moved);
+        return frame ? std::move(*frame) : render::Frame{};
     }
-    return edges;
-}
+    [[nodiscard]] bool differs(const render::Frame& moved, std::int32_t x, std::int32_t y, Kind kind) const {
+        if (kind == kLabel) return moved.label.at(x, y) != frame_.label.at(x, y);
+        if (kind == kColor) return apart(moved.color.at(x, y), frame_.color.at(x, y)) > colorBound_;
+        return !(std::abs(moved.depth.at(x, y) - frame_.depth.at(x, y)) <= voxel());
+    }
+    [[nodiscard]] double voxel() const {
+        const Vec3d spacing = grid_.spacing();
+        return std::min({spacing.x, spacing.y, spacing.z});
+    }
+
+    const volume::BrickVolume& volume_;
+    const volume::Grid& grid_;
+    const render::FrameSpec& spec_;
+    const render::Frame& frame_;
+    int colorBound_;
+    std::array<std::optional<render::Frame>, 8> moved_;
+};
 
 /// Compares two frames.
 /// \param drawn, cast  by OpenGL, and by the CPU
@@ -82,11 +106,7 @@ inline FrameDifference compare(const volume::BrickVolume& volume, const volume::
                                const render::FrameSpec& spec, const render::Frame& drawn, const render::Frame& cast,
                                int colorBound) {
     FrameDifference difference;
-    std::optional<image::Image<std::uint8_t>> edges;
-    const auto isEdge = [&](std::int32_t x, std::int32_t y, unsigned kind) {
-        if (!edges) edges = edgesOf(volume, grid, spec, cast, colorBound);
-        return (edges->at(x, y) & kind) != 0;
-    };
+    Edges edges(volume, grid, spec, cast, colorBound);
     const double voxel = std::max({grid.spacing().x, grid.spacing().y, grid.spacing().z});
     for (std::int32_t y = 0; y < spec.height; ++y)
         for (std::int32_t x = 0; x < spec.width; ++x) {
@@ -97,7 +117,7 @@ inline FrameDifference compare(const volume::BrickVolume& volume, const volume::
                 }
             };
             if (drawn.label.at(x, y) != cast.label.at(x, y)) {
-                if (isEdge(x, y, 1))
+                if (edges.contain(x, y, Edges::kLabel))
                     ++difference.edges;
                 else
                     bad(difference.labels);
@@ -105,14 +125,14 @@ inline FrameDifference compare(const volume::BrickVolume& volume, const volume::
             }
             const double depth = cast.depth.at(x, y);
             if (std::isfinite(depth) && std::abs(double(drawn.depth.at(x, y)) - depth) > 0.05 * voxel &&
-                !isEdge(x, y, 4))
+                !edges.contain(x, y, Edges::kDepth))
                 bad(difference.depths);
             const int color = apart(drawn.color.at(x, y), cast.color.at(x, y));
             if (color <= colorBound) {
                 difference.largestColor = std::max(difference.largestColor, color);
                 continue;
             }
-            if (isEdge(x, y, 2)) {
+            if (edges.contain(x, y, Edges::kColor)) {
                 ++difference.colorEdges;
                 continue;
             }
