@@ -4,6 +4,7 @@
 
 #include <svt/render/camera_presets.hpp>
 #include <svt/render/ray_caster.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -25,14 +26,10 @@ struct TestVolume {
 
 /// Sample (i, j, k) has `labelAt(i, j, k)`; voxel (0, 0, 0) begins at the origin and has `spacing` metres.
 inline TestVolume makeVolume(Vec3i n, Vec3d spacing, const LabelAt& labelAt) {
-    std::vector<volume::Scalar> scalars;
-    for (std::int32_t k = 0; k < n.z; ++k)
-        for (std::int32_t j = 0; j < n.y; ++j)
-            for (std::int32_t i = 0; i < n.x; ++i) scalars.push_back(labelAt(i, j, k));
     TestVolume volume;
-    volume.columns = volume::ColumnVolume::fromDense(n, scalars);
+    volume.columns = volume::test::paintedColumns(n, labelAt);
     volume.bricks = *volume::BrickVolume::fromColumns(volume.columns);
-    volume.grid = *volume::Grid::fromParts(n, spacing, spacing * 0.5, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    volume.grid = *volume::Grid::fromParts(n, spacing, spacing * 0.5, volume::test::kWorldAxes);
     return volume;
 }
 

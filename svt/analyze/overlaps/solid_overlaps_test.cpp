@@ -2,6 +2,7 @@
 
 #include <svt/analyze/overlaps/common_volume.hpp>
 #include <svt/analyze/solid_overlaps.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -15,38 +16,19 @@ namespace {
 
 // A volume of solids with meshes, 1 m voxels without labels.
 struct Solids {
-    volume::SemanticVolume volume;
-
-    Solids() {
-        volume.grid = *volume::Grid::fromParts({3, 3, 3}, {1, 1, 1}, {500000, 5400000, 100},
-                                               {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-        volume.columns = volume::ColumnVolume::fromDense({3, 3, 3}, std::vector<volume::Scalar>(27, 0));
-    }
+    volume::SemanticVolume volume = volume::test::emptyVolume({3, 3, 3}, {1, 1, 1}, {500000, 5400000, 100});
 
     std::uint32_t addLabel(const std::string& id, double size) {
-        volume::Label label;
-        label.id = id;
-        label.className = "BuildingConstructiveElement";
+        volume::Label& label = volume::test::addObject(volume, id, "BuildingConstructiveElement");
         label.filling = volume::Filling::Solid;
         label.volume = size;
-        label.first = volume.labels.scalarCount();
-        label.count = 1;
-        label.subtreeEnd = static_cast<std::uint32_t>(volume.labels.labels.size()) + 1;
-        volume.labels.labels.push_back(label);
         return label.subtreeEnd - 1;
     }
 
     void addTriangle(std::uint32_t label, const std::array<Vec3d, 3>& corners) {
-        volume::VectorParts& parts = volume.vectors;
         volume::VectorParts::Triangle triangle{label, {}};
-        for (std::size_t n = 0; n < 3; ++n) {
-            triangle.corners[n] = static_cast<std::uint32_t>(parts.points.size());
-            Vec3i point;
-            for (int axis = 0; axis < 3; ++axis)
-                point[axis] = static_cast<std::int32_t>(std::lround(corners[n][axis] / parts.unit));
-            parts.points.push_back(point);
-        }
-        parts.triangles.push_back(triangle);
+        for (std::size_t n = 0; n < 3; ++n) triangle.corners[n] = volume::test::addPoint(volume, corners[n]);
+        volume.vectors.triangles.push_back(triangle);
     }
 
     // A box whose corners are moved by `place`; its sides are split along the other diagonal where `other` says so.

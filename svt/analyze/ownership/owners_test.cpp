@@ -1,4 +1,5 @@
 #include <svt/analyze/owners.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -18,45 +19,20 @@ using volume::kNoLabel;
 //        ------- slab (24 x 20 x 3) -------
 //        c (12)            nothing
 volume::SemanticVolume threeRooms() {
-    volume::SemanticVolume volume;
-    const Vec3i n{24, 20, 43};
-    volume.grid =
-        *volume::Grid::fromParts(n, {0.5, 0.5, 0.5}, {0, 0, 0}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-    const auto add = [&](const char* id, const char* className, std::uint32_t parent, std::uint32_t end) {
-        volume::Label label;
-        label.id = id;
-        label.className = className;
-        label.parent = parent;
-        label.subtreeEnd = end;
-        label.filling = volume::Filling::Solid;
-        label.first = volume.labels.scalarCount();
-        label.count = 1;
-        volume.labels.labels.push_back(label);
-    };
-    add("a", "BuildingRoom", kNoLabel, 1);
-    add("b", "BuildingRoom", kNoLabel, 3);
-    add("b-sheet", "InteriorWallSurface", 1, 3);
-    add("c", "BuildingRoom", kNoLabel, 4);
-    add("wall", "BuildingConstructiveElement", kNoLabel, 5);
-    add("slab", "BuildingConstructiveElement", kNoLabel, 6);
-    add("flat", "BuildingUnit", kNoLabel, 7);
-    volume.labels.labels[6].count = 0;
-    volume.labels.labels[6].first = 0;
+    volume::SemanticVolume volume = volume::test::emptyVolume({24, 20, 43}, {0.5, 0.5, 0.5});
+    volume::test::addObject(volume, "a", "BuildingRoom");
+    volume::test::addObject(volume, "b", "BuildingRoom");
+    volume::test::addObject(volume, "b-sheet", "InteriorWallSurface", 1);
+    volume::test::addObject(volume, "c", "BuildingRoom");
+    volume::test::addObject(volume, "wall", "BuildingConstructiveElement");
+    volume::test::addObject(volume, "slab", "BuildingConstructiveElement");
+    volume::test::addGroup(volume, "flat", "BuildingUnit");
     volume.labels.labels[0].groups = {6};
-    std::vector<volume::Scalar> dense;
-    for (std::int32_t k = 0; k < n.z; ++k)
-        for (std::int32_t j = 0; j < n.y; ++j)
-            for (std::int32_t i = 0; i < n.x; ++i)
-                dense.push_back(k < 10   ? (i < 12 ? 4u : 0u)
-                                : k < 13 ? 6u
-                                : i < 10 ? 1u
-                                : i < 14 ? 5u
-                                : i < 15 ? 3u
-                                         : 2u);
-    volume.columns = volume::ColumnVolume::fromDense(n, dense);
-    const auto counts = volume.columns.countVoxels(7);
+    volume::test::paint(volume, [](int i, int, int k) {
+        return k < 10 ? (i < 12 ? 4 : 0) : k < 13 ? 6 : i < 10 ? 1 : i < 14 ? 5 : i < 15 ? 3 : 2;
+    });
     for (volume::Label& label : volume.labels.labels) {
-        label.voxels = label.count == 0 ? 0 : counts[label.first];
+        label.filling = volume::Filling::Solid;
         label.volume = double(label.voxels) * 0.125;
     }
     volume.labels.labels[2].filling = volume::Filling::Surface;

@@ -1,6 +1,7 @@
 #include <svt/analyze/shared_voxels.hpp>
 
 #include <svt/volume/random_columns_test.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -10,16 +11,9 @@ namespace svt::analyze {
 namespace {
 
 volume::SemanticVolume randomVolume(Vec3i n, std::uint32_t seed) {
-    volume::SemanticVolume volume;
-    volume.grid = *volume::Grid::fromParts(n, {0.1, 0.1, 0.1}, {458877, 5438353, 110},
-                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    volume::SemanticVolume volume = volume::test::emptyVolume(n, {0.1, 0.1, 0.1}, {458877, 5438353, 110});
     volume.columns = volume::test::randomColumns(n, seed);
-    for (volume::Scalar s = 1; s < volume::test::kRandomScalars; ++s) {
-        volume::Label label;
-        label.first = s;
-        label.count = 1;
-        volume.labels.labels.push_back(label);
-    }
+    for (volume::Scalar s = 1; s < volume::test::kRandomScalars; ++s) volume::test::addObject(volume, "", "");
     return volume;
 }
 

@@ -1,5 +1,6 @@
 // Coarse levels beside a second way to count: every column of detail 1 on its own, in a map.
 #include <svt/city/levels/level_builder.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 #include <svt/volume/svt_file.hpp>
 
 #include <gtest/gtest.h>
@@ -18,35 +19,25 @@ struct Sample {
 };
 
 volume::SemanticVolume boxes(std::array<std::int64_t, 3> first, Vec3i size, std::uint32_t seed) {
-    volume::SemanticVolume result;
-    result.grid = *volume::Grid::fromParts(size, {2 * kSpacing, 2 * kSpacing, 2 * kSpacing},
-                                           {double(first[0]) + 0.5, double(first[1]) + 0.5, double(first[2]) + 0.5},
-                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-    std::vector<volume::Scalar> dense(std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z), 0);
+    volume::SemanticVolume result =
+        volume::test::emptyVolume(size, {2 * kSpacing, 2 * kSpacing, 2 * kSpacing},
+                                  {double(first[0]) + 0.5, double(first[1]) + 0.5, double(first[2]) + 0.5});
     std::uint32_t state = seed;
     const auto next = [&](std::uint32_t below) {
         state = state * 1664525u + 1013904223u;
         return static_cast<std::int32_t>((state >> 8) % below);
     };
+    std::vector<volume::test::PaintedBox> painted;
     for (std::uint32_t l = 0; l < 5; ++l) {
-        volume::Label label;
-        label.id = "b" + std::to_string(l);
-        label.className = l == 1 ? "Bridge" : l == 2 ? "RoofSurface" : l == 3 ? "Tunnel" : "Building";
-        label.color = l == 1 ? Vec3f{1, 0, 0} : l == 3 ? Vec3f{0, 0, 1} : Vec3f{0, 1, 0};
-        label.first = l + 1;
-        label.count = 1;
         // The third is a part of the second.
-        label.parent = l == 2 ? 1 : volume::kNoLabel;
-        label.subtreeEnd = l == 1 ? 3 : l + 1;
-        result.labels.labels.push_back(label);
+        const char* className = l == 1 ? "Bridge" : l == 2 ? "RoofSurface" : l == 3 ? "Tunnel" : "Building";
+        volume::Label& label =
+            volume::test::addObject(result, "b" + std::to_string(l), className, l == 2 ? 1 : volume::kNoLabel);
+        label.color = l == 1 ? Vec3f{1, 0, 0} : l == 3 ? Vec3f{0, 0, 1} : Vec3f{0, 1, 0};
         const std::int32_t x = next(std::uint32_t(size.x) - 8), y = next(std::uint32_t(size.y) - 8), top = 2 + next(9);
-        for (std::int32_t k = 0; k < top; ++k)
-            for (std::int32_t j = y; j < y + 7; ++j)
-                for (std::int32_t i = x; i < x + 5; ++i)
-                    dense[std::size_t(i) +
-                          std::size_t(size.x) * (std::size_t(j) + std::size_t(size.y) * std::size_t(k))] = label.first;
+        painted.push_back({label.first, {x, y, 0}, {x + 5, y + 7, top}});
     }
-    result.columns = volume::ColumnVolume::fromDense(size, dense);
+    volume::test::paintBoxes(result, painted);
     return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <svt/illustrate/annotate/legend.hpp>
 #include <svt/illustrate/scene_painter.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -121,22 +122,10 @@ TEST_F(ColorByTest, LegendsOfAnySizeStayInThePicture) {
 
 // Two rooms of Anna and Bert with a wall between them, one of Anna's alone, and what touches nobody.
 TEST(OwnerAttributes, FollowTheTableAndContacts) {
-    volume::SemanticVolume volume;
-    volume.grid = *volume::Grid::fromParts({9, 4, 4}, {0.5, 0.5, 0.5}, {0, 0, 0},
-                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-    for (const char* id : {"outer", "a", "between", "b", "far"}) {
-        volume::Label& label = volume.labels.labels.emplace_back();
-        label.id = id;
-        label.className = id[1] == '\0' ? "BuildingRoom" : "WallSurface";
-        label.first = static_cast<volume::Scalar>(volume.labels.labels.size());
-        label.count = 1;
-        label.subtreeEnd = label.first;
-        label.voxels = 16;
-    }
-    std::vector<volume::Scalar> dense;
-    for (int row = 0; row < 16; ++row)
-        for (const volume::Scalar scalar : {1, 2, 2, 3, 4, 4, 0, 0, 5}) dense.push_back(scalar);
-    volume.columns = volume::ColumnVolume::fromDense({9, 4, 4}, dense);
+    volume::SemanticVolume volume = volume::test::emptyVolume({9, 4, 4}, {0.5, 0.5, 0.5});
+    for (const char* id : {"outer", "a", "between", "b", "far"})
+        volume::test::addObject(volume, id, id[1] == '\0' ? "BuildingRoom" : "WallSurface");
+    volume::test::paint(volume, [](int i, int, int) { return std::array{1, 2, 2, 3, 4, 4, 0, 0, 5}[std::size_t(i)]; });
     ASSERT_TRUE(addOwnerAttributes(volume, "feature,owner\na,Anna\nb,Bert\n", "t.csv"));
     const auto ownerOf = [&](std::size_t l) {
         const auto& attributes = volume.labels.labels[l].attributes;

@@ -3,6 +3,7 @@
 #include <svt/illustrate/scene.hpp>
 #include <svt/image/text.hpp>
 #include <svt/volume/brick_volume.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -16,29 +17,12 @@ namespace {
 
 // A big block and a small one on its east side, and one inside of the big.
 volume::SemanticVolume blocks() {
-    volume::SemanticVolume volume;
-    volume.grid = *volume::Grid::fromParts({40, 20, 20}, {0.5, 0.5, 0.5}, {10, 20, 30},
-                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-    for (const char* id : {"big", "small", "inner", "none"}) {
-        volume::Label label;
-        label.id = id;
-        label.className = "BuildingConstructiveElement";
-        label.name = std::string(id) == "small" ? "Kleiner Block" : "";
-        label.count = std::string(id) == "none" ? 0 : 1;
-        label.first = label.count == 0 ? 0 : volume.labels.scalarCount();
-        label.subtreeEnd = static_cast<std::uint32_t>(volume.labels.labels.size() + 1);
-        volume.labels.labels.push_back(label);
-    }
-    std::vector<volume::Scalar> dense(40 * 20 * 20, 0);
-    const auto fill = [&](Vec3i low, Vec3i high, volume::Scalar scalar) {
-        for (int k = low.z; k < high.z; ++k)
-            for (int j = low.y; j < high.y; ++j)
-                for (int i = low.x; i < high.x; ++i) dense[static_cast<std::size_t>(i + 40 * (j + 20 * k))] = scalar;
-    };
-    fill({0, 0, 0}, {20, 20, 20}, 1);
-    fill({30, 5, 5}, {40, 15, 15}, 2);
-    fill({5, 5, 5}, {10, 10, 10}, 3);
-    volume.columns = volume::ColumnVolume::fromDense({40, 20, 20}, dense);
+    volume::SemanticVolume volume = volume::test::emptyVolume({40, 20, 20}, {0.5, 0.5, 0.5}, {10, 20, 30});
+    for (const char* id : {"big", "small", "inner"}) volume::test::addObject(volume, id, "BuildingConstructiveElement");
+    volume::test::addGroup(volume, "none", "BuildingConstructiveElement");
+    volume.labels.labels[1].name = "Kleiner Block";
+    volume::test::paintBoxes(
+        volume, {{1, {0, 0, 0}, {20, 20, 20}}, {2, {30, 5, 5}, {40, 15, 15}}, {3, {5, 5, 5}, {10, 10, 10}}});
     return volume;
 }
 

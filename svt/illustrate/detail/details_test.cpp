@@ -1,6 +1,7 @@
 #include <svt/illustrate/details.hpp>
 
 #include <svt/illustrate/scene_painter.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 #include <svt/volume/volume_part.hpp>
 
 #include <gtest/gtest.h>
@@ -15,29 +16,17 @@ using LabelAt = std::function<volume::Scalar(Vec3d)>;
 // Samples of `at` in a box, metres; labels named after their scalars.
 volume::SemanticVolume sampled(Vec3d low, Vec3d high, double spacing, const std::vector<const char*>& ids,
                                const LabelAt& at) {
-    volume::SemanticVolume volume;
     Vec3i n;
     for (int axis = 0; axis < 3; ++axis) n[axis] = static_cast<std::int32_t>((high[axis] - low[axis]) / spacing + 0.5);
     const Vec3d half{spacing / 2, spacing / 2, spacing / 2};
-    volume.grid = *volume::Grid::fromParts(n, {spacing, spacing, spacing}, low + half,
-                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-    std::vector<volume::Scalar> dense;
-    for (int k = 0; k < n.z; ++k)
-        for (int j = 0; j < n.y; ++j)
-            for (int i = 0; i < n.x; ++i)
-                dense.push_back(at(volume.grid.worldFromIndex({double(i), double(j), double(k)})));
-    volume.columns = volume::ColumnVolume::fromDense(n, dense);
-    const auto voxels = volume.columns.countVoxels(static_cast<volume::Scalar>(ids.size() + 1));
+    volume::SemanticVolume volume = volume::test::emptyVolume(n, {spacing, spacing, spacing}, low + half);
     for (const char* id : ids) {
-        volume::Label& label = volume.labels.labels.emplace_back();
-        label.id = id;
-        label.className = "BuildingConstructiveElement";
-        label.first = static_cast<volume::Scalar>(volume.labels.labels.size());
-        label.count = 1;
-        label.voxels = voxels[label.first];
-        label.subtreeEnd = label.first;
+        volume::Label& label = volume::test::addObject(volume, id, "BuildingConstructiveElement");
         label.color = {0.3f * float(label.first), 0.5f, 0.2f};
     }
+    volume::test::paint(volume, [&](int i, int j, int k) {
+        return at(volume.grid.worldFromIndex({double(i), double(j), double(k)}));
+    });
     return volume;
 }
 

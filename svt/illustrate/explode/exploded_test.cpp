@@ -2,52 +2,33 @@
 
 #include <svt/analyze/scalar_boxes.hpp>
 #include <svt/illustrate/scene_painter.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
 namespace svt::illustrate {
 namespace {
 
-// A building (0) of two storeys (1, 2), each with a room (3, 4) and a slab below it (5, 6), and a wall of the whole
+// A building (0) of two storeys (1, 4), each with a room (2, 5) and a slab below it (3, 6), and a wall of the whole
 // height (7) that belongs to no storey. 0.1 m voxels, heights in samples:
 //
 //      56 +---+ wall
-//         |   | room 4: 32 .. 56
+//         |   | room 5: 32 .. 56
 //      32 |   +------- slab 6: 28 .. 32
-//      28 |   | room 3: 4 .. 28
-//       4 |   +------- slab 5: 0 .. 4
+//      28 |   | room 2: 4 .. 28
+//       4 |   +------- slab 3: 0 .. 4
 //       0 +---+
 volume::SemanticVolume building() {
-    volume::SemanticVolume volume;
-    const Vec3i n{16, 16, 56};
-    volume.grid = *volume::Grid::fromParts(n, {0.1, 0.1, 0.1}, {0.05, 0.05, 0.05},
-                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-    auto& labels = volume.labels.labels;
-    const auto add = [&](const char* id, const char* className, std::uint32_t parent, bool isBody) {
-        volume::Label& label = labels.emplace_back();
-        label.id = id;
-        label.className = className;
-        label.parent = parent;
-        label.subtreeEnd = static_cast<std::uint32_t>(labels.size());
-        if (!isBody) return;
-        label.first = volume.labels.scalarCount();
-        label.count = 1;
-        label.voxels = 1000;
-    };
-    add("b", "Building", volume::kNoLabel, false);
-    add("eg", "Storey", 0, false);
-    add("og", "Storey", 0, false);
-    add("r1", "BuildingRoom", 1, true);
-    add("r2", "BuildingRoom", 2, true);
-    add("s1", "FloorSurface", 1, true);
-    add("s2", "FloorSurface", 2, true);
-    add("w", "WallSurface", 0, true);
-    std::vector<volume::Scalar> dense(16 * 16 * 56, 0);
-    for (int k = 0; k < 56; ++k)
-        for (int j = 0; j < 16; ++j)
-            for (int i = 0; i < 16; ++i)
-                dense[std::size_t(i + 16 * (j + 16 * k))] = i < 4 ? 5 : k < 4 ? 3 : k < 28 ? 1 : k < 32 ? 4 : 2;
-    volume.columns = volume::ColumnVolume::fromDense(n, dense);
+    volume::SemanticVolume volume = volume::test::emptyVolume({16, 16, 56}, {0.1, 0.1, 0.1}, {0.05, 0.05, 0.05});
+    volume::test::addGroup(volume, "b", "Building");
+    volume::test::addGroup(volume, "eg", "Storey", 0);
+    volume::test::addObject(volume, "r1", "BuildingRoom", 1);
+    volume::test::addObject(volume, "s1", "FloorSurface", 1);
+    volume::test::addGroup(volume, "og", "Storey", 0);
+    volume::test::addObject(volume, "r2", "BuildingRoom", 4);
+    volume::test::addObject(volume, "s2", "FloorSurface", 4);
+    volume::test::addObject(volume, "w", "WallSurface", 0);
+    volume::test::paint(volume, [](int i, int, int k) { return i < 4 ? 5 : k < 4 ? 2 : k < 28 ? 1 : k < 32 ? 4 : 3; });
     // The upper face of the upper slab, and the wall's side.
     volume.planes = {{{{0, 0, 1}, -32}, {4, 0, 31}, {16, 16, 33}}, {{{1, 0, 0}, -4}, {3, 0, 0}, {5, 16, 56}}};
     volume.vectors.unit = volume::VectorParts::kCoarsestUnit;
@@ -71,7 +52,7 @@ TEST(ExplodeStoreys, LiftsEachStoreyWithItsFloor) {
         }
         return text;
     };
-    EXPECT_EQ(range(8), "3:0-4 1:4-28 0:28-44 4:44-48 2:48-72 ");
+    EXPECT_EQ(range(8), "2:0-4 1:4-28 0:28-44 4:44-48 3:48-72 ");
     EXPECT_EQ(range(1), "5:0-28 0:28-44 5:44-72 ") << "the wall is cut at the ceiling of the lower room";
     // All that there was is there, once.
     EXPECT_EQ(apart->columns.countVoxels(6)[5], volume.columns.countVoxels(6)[5]);

@@ -1,6 +1,7 @@
 #include <svt/illustrate/inset/inset_frame.hpp>
 
 #include <svt/illustrate/scene_painter.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -11,26 +12,9 @@ namespace {
 
 // A plate (1) of 20 x 20 m with a small block (2) at its north-east.
 volume::SemanticVolume plate() {
-    volume::SemanticVolume volume;
-    volume.grid = *volume::Grid::fromParts({40, 40, 8}, {0.5, 0.5, 0.5}, {0, 0, 0},
-                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-    for (const char* id : {"plate", "block"}) {
-        volume::Label label;
-        label.id = id;
-        label.className = "BuildingConstructiveElement";
-        label.first = volume.labels.scalarCount();
-        label.count = 1;
-        label.subtreeEnd = static_cast<std::uint32_t>(volume.labels.labels.size() + 1);
-        volume.labels.labels.push_back(label);
-    }
-    std::vector<volume::Scalar> dense(40 * 40 * 8, 0);
-    for (int j = 0; j < 40; ++j)
-        for (int i = 0; i < 40; ++i) {
-            dense[std::size_t(i + 40 * j)] = 1;
-            for (int k = 1; k < 6 && i >= 32 && i < 36 && j >= 32 && j < 36; ++k)
-                dense[std::size_t(i + 40 * (j + 40 * k))] = 2;
-        }
-    volume.columns = volume::ColumnVolume::fromDense({40, 40, 8}, dense);
+    volume::SemanticVolume volume = volume::test::emptyVolume({40, 40, 8}, {0.5, 0.5, 0.5});
+    for (const char* id : {"plate", "block"}) volume::test::addObject(volume, id, "BuildingConstructiveElement");
+    volume::test::paintBoxes(volume, {{1, {0, 0, 0}, {40, 40, 1}}, {2, {32, 32, 1}, {36, 36, 6}}});
     return volume;
 }
 

@@ -1,6 +1,7 @@
 #include <svt/illustrate/motion.hpp>
 
 #include <svt/illustrate/motion/interpolate.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -12,16 +13,9 @@ namespace svt::illustrate {
 namespace {
 
 volume::SemanticVolume block() {
-    volume::SemanticVolume volume;
-    volume.grid = *volume::Grid::fromParts({41, 21, 11}, {0.5, 0.5, 0.5}, {10, 20, 30},
-                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-    volume::Label label;
-    label.id = label.className = "block";
-    label.first = 1;
-    label.count = 1;
-    label.subtreeEnd = 1;
-    volume.labels.labels.push_back(label);
-    volume.columns = volume::ColumnVolume::fromDense({41, 21, 11}, std::vector<volume::Scalar>(41 * 21 * 11, 1));
+    volume::SemanticVolume volume = volume::test::emptyVolume({41, 21, 11}, {0.5, 0.5, 0.5}, {10, 20, 30});
+    volume::test::addObject(volume, "block", "block");
+    volume::test::paint(volume, [](int, int, int) { return 1; });
     return volume;
 }
 

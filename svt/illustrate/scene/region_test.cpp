@@ -1,4 +1,5 @@
 #include <svt/illustrate/scene/region.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -10,21 +11,10 @@ namespace {
 
 // Air of 10 x 10 x 10 m around a block of 2 m in its middle, turned by 90 degrees: the grid's x is the world's y.
 volume::SemanticVolume turnedBlock() {
-    volume::SemanticVolume volume;
-    volume.grid = *volume::Grid::fromParts({21, 21, 21}, {0.5, 0.5, 0.5}, {100, 200, 30},
-                                           {Vec3d{0, 1, 0}, Vec3d{-1, 0, 0}, Vec3d{0, 0, 1}});
-    volume::Label label;
-    label.id = "b1";
-    label.className = "Building";
-    label.first = 1;
-    label.count = 1;
-    label.subtreeEnd = 1;
-    volume.labels.labels.push_back(label);
-    std::vector<volume::Scalar> dense(21 * 21 * 21, 0);
-    for (int k = 8; k < 13; ++k)
-        for (int j = 8; j < 13; ++j)
-            for (int i = 8; i < 13; ++i) dense[static_cast<std::size_t>(i + 21 * (j + 21 * k))] = 1;
-    volume.columns = volume::ColumnVolume::fromDense({21, 21, 21}, dense);
+    volume::SemanticVolume volume = volume::test::emptyVolume({21, 21, 21}, {0.5, 0.5, 0.5}, {100, 200, 30},
+                                                              {Vec3d{0, 1, 0}, Vec3d{-1, 0, 0}, Vec3d{0, 0, 1}});
+    volume::test::addObject(volume, "b1", "Building");
+    volume::test::paintBoxes(volume, {{1, {8, 8, 8}, {13, 13, 13}}});
     return volume;
 }
 

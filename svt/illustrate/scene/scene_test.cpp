@@ -2,6 +2,7 @@
 #include <svt/illustrate/scene_members.hpp>
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/render/camera_presets.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -14,27 +15,12 @@ namespace {
 
 // A room (1) in a house of walls (2) with a beam (3).
 volume::SemanticVolume house() {
-    volume::SemanticVolume volume;
-    volume.grid = *volume::Grid::fromParts({20, 20, 20}, {0.5, 0.5, 0.5}, {10, 20, 30},
-                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-    const auto add = [&](const char* id, const char* className, float opacity) {
-        volume::Label label;
-        label.id = id;
-        label.className = className;
-        label.first = volume.labels.scalarCount();
-        label.count = 1;
-        label.subtreeEnd = static_cast<std::uint32_t>(volume.labels.labels.size() + 1);
-        label.opacity = opacity;
-        volume.labels.labels.push_back(label);
-    };
-    add("room", "BuildingRoom", 0.1f);
-    add("wall", "WallSurface", 1);
-    add("beam", "BuildingConstructiveElement", 1);
-    std::vector<volume::Scalar> dense(8000, 2);
-    for (int k = 2; k < 18; ++k)
-        for (int j = 2; j < 18; ++j)
-            for (int i = 2; i < 18; ++i) dense[static_cast<std::size_t>(i + 20 * (j + 20 * k))] = k == 10 ? 3 : 1;
-    volume.columns = volume::ColumnVolume::fromDense({20, 20, 20}, dense);
+    volume::SemanticVolume volume = volume::test::emptyVolume({20, 20, 20}, {0.5, 0.5, 0.5}, {10, 20, 30});
+    volume::test::addObject(volume, "room", "BuildingRoom").opacity = 0.1f;
+    volume::test::addObject(volume, "wall", "WallSurface");
+    volume::test::addObject(volume, "beam", "BuildingConstructiveElement");
+    volume::test::paintBoxes(
+        volume, {{2, {0, 0, 0}, {20, 20, 20}}, {1, {2, 2, 2}, {18, 18, 18}}, {3, {2, 2, 10}, {18, 18, 11}}});
     return volume;
 }
 

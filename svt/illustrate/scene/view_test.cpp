@@ -1,4 +1,5 @@
 #include <svt/illustrate/view.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -7,26 +8,9 @@ namespace {
 
 // Two cubes of 1 m (labels a and b), 6 m apart along x.
 volume::SemanticVolume twoCubes() {
-    volume::SemanticVolume volume;
-    volume.grid = *volume::Grid::fromParts({16, 4, 4}, {0.5, 0.5, 0.5}, {1000, 2000, 30},
-                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-    for (const char* const id : {"a", "b"}) {
-        volume::Label label;
-        label.id = id;
-        label.className = "Furniture";
-        label.first = volume.labels.scalarCount();
-        label.count = 1;
-        label.subtreeEnd = static_cast<std::uint32_t>(volume.labels.labels.size() + 1);
-        volume.labels.labels.push_back(label);
-    }
-    std::vector<volume::Scalar> dense(256, 0);
-    for (std::size_t k = 1; k < 3; ++k)
-        for (std::size_t j = 1; j < 3; ++j)
-            for (std::size_t i = 0; i < 2; ++i) {
-                dense[i + 1 + 16 * (j + 4 * k)] = 1;
-                dense[i + 13 + 16 * (j + 4 * k)] = 2;
-            }
-    volume.columns = volume::ColumnVolume::fromDense({16, 4, 4}, dense);
+    volume::SemanticVolume volume = volume::test::emptyVolume({16, 4, 4}, {0.5, 0.5, 0.5}, {1000, 2000, 30});
+    for (const char* const id : {"a", "b"}) volume::test::addObject(volume, id, "Furniture");
+    volume::test::paintBoxes(volume, {{1, {1, 1, 1}, {3, 3, 3}}, {2, {13, 1, 1}, {15, 3, 3}}});
     return volume;
 }
 

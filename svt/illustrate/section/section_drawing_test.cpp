@@ -1,4 +1,5 @@
 #include <svt/illustrate/section_drawing.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 #include <polyclipping/clipper.hpp>
@@ -28,27 +29,14 @@ struct Scene {
 
 /// Labels 0, 1, ... own the scalars 1, 2, ...; their classes are `classes`.
 volume::SemanticVolume volumeOf(const Scene& scene, const std::vector<std::string>& classes, const Solid& solid) {
-    volume::SemanticVolume volume;
-    const std::array<Vec3d, 3> straight{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
     const std::array<Vec3d, 3> turned{Vec3d{0.6, 0.8, 0}, Vec3d{-0.8, 0.6, 0}, Vec3d{0, 0, 1}};
-    volume.grid =
-        *volume::Grid::fromParts(scene.dimension, scene.spacing, scene.origin, scene.isTurned ? turned : straight);
-    for (std::size_t l = 0; l < classes.size(); ++l) {
-        volume::Label label;
-        label.id = "id-" + std::to_string(l);
-        label.className = classes[l];
-        label.subtreeEnd = static_cast<std::uint32_t>(l + 1);
-        label.first = static_cast<Scalar>(l + 1);
-        label.count = 1;
-        volume.labels.labels.push_back(label);
-    }
-    std::vector<Scalar> dense;
-    dense.reserve(volume.grid.sampleCount());
-    for (std::int32_t k = 0; k < scene.dimension.z; ++k)
-        for (std::int32_t j = 0; j < scene.dimension.y; ++j)
-            for (std::int32_t i = 0; i < scene.dimension.x; ++i)
-                dense.push_back(solid(scaled(Vec3d{double(i), double(j), double(k)}, scene.spacing)));
-    volume.columns = volume::ColumnVolume::fromDense(scene.dimension, dense);
+    volume::SemanticVolume volume = volume::test::emptyVolume(scene.dimension, scene.spacing, scene.origin,
+                                                              scene.isTurned ? turned : volume::test::kWorldAxes);
+    for (std::size_t l = 0; l < classes.size(); ++l)
+        volume::test::addObject(volume, "id-" + std::to_string(l), classes[l]);
+    volume::test::paint(volume, [&](int i, int j, int k) {
+        return solid(scaled(Vec3d{double(i), double(j), double(k)}, scene.spacing));
+    });
     return volume;
 }
 

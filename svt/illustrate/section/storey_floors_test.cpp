@@ -12,12 +12,7 @@ namespace {
 
 TEST(StoreyFloors, StoreysComeFromTheLowestWithTheHeightsOfTheirRooms) {
     auto volume = twoStoreys();
-    volume::Label empty;
-    empty.id = empty.name = "attic";
-    empty.className = "Storey";
-    empty.parent = 0;
-    empty.subtreeEnd = 7;
-    volume.labels.labels.push_back(empty);
+    volume::test::addGroup(volume, "attic", "Storey", 0).name = "attic";
     const auto storeys = findStoreys(volume);
     ASSERT_EQ(storeys.size(), 2u);
     EXPECT_EQ(storeys[0].label, 1u);
@@ -31,11 +26,7 @@ TEST(StoreyFloors, StoreysComeFromTheLowestWithTheHeightsOfTheirRooms) {
 
 // A storey; what is added from here on stands on it.
 void addStorey(Boxes& boxes, const std::string& name) {
-    volume::Label label;
-    label.id = label.name = name;
-    label.className = "Storey";
-    label.subtreeEnd = static_cast<std::uint32_t>(boxes.volume.labels.labels.size()) + 1;
-    boxes.volume.labels.labels.push_back(label);
+    volume::test::addGroup(boxes.volume, name, "Storey").name = name;
 }
 
 void putOnStorey(Boxes& boxes, std::uint32_t storey) { boxes.volume.labels.labels.back().parent = storey; }

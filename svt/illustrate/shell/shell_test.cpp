@@ -1,5 +1,6 @@
 #include <svt/illustrate/shell.hpp>
 #include <svt/volume/random_columns_test.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 #include <svt/volume/volume_json.hpp>
 
 #include <gtest/gtest.h>
@@ -31,25 +32,9 @@ volume::Label label(const char* id, const char* className, std::uint32_t parent,
 template <class Paint>
 SemanticVolume painted(Vec3i n, const Paint& paint, std::vector<volume::Label> labels,
                        Vec3d spacing = {0.1, 0.1, 0.1}) {
-    SemanticVolume result;
-    result.grid = *volume::Grid::fromParts(n, spacing, {0, 0, 0}, {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-    std::vector<Scalar> dense;
-    for (std::int32_t k = 0; k < n.z; ++k)
-        for (std::int32_t j = 0; j < n.y; ++j)
-            for (std::int32_t i = 0; i < n.x; ++i) dense.push_back(paint(i, j, k));
-    result.columns = ColumnVolume::fromDense(n, dense);
-    result.labels.labels = std::move(labels);
-    for (std::size_t l = result.labels.labels.size(); l-- > 0;) {
-        volume::Label& own = result.labels.labels[l];
-        own.subtreeEnd = std::max(own.subtreeEnd, static_cast<std::uint32_t>(l) + 1);
-        if (own.parent < l) {
-            volume::Label& parent = result.labels.labels[own.parent];
-            parent.subtreeEnd = std::max(parent.subtreeEnd, own.subtreeEnd);
-        }
-    }
-    const auto voxels = result.columns.countVoxels(result.labels.scalarCount());
-    for (auto& l : result.labels.labels)
-        for (Scalar s = 0; s < l.count; ++s) l.voxels += voxels[l.first + s];
+    SemanticVolume result = volume::test::emptyVolume(n, spacing);
+    for (volume::Label& own : labels) volume::test::addLabel(result, std::move(own));
+    volume::test::paint(result, paint);
     return result;
 }
 

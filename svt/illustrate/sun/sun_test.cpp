@@ -1,5 +1,6 @@
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/illustrate/sun.hpp>
+#include <svt/volume/sample_volume_test.hpp>
 
 #include <gtest/gtest.h>
 
@@ -46,27 +47,9 @@ TEST(Sun, StandsHighestAtMidsummer) {
 
 // A plate of 10 x 10 m with a post of 1 x 1 x 4 m in its middle, 0.1 m voxels.
 volume::SemanticVolume postOnPlate() {
-    volume::SemanticVolume volume;
-    const Vec3i n{100, 100, 50};
-    volume.grid = *volume::Grid::fromParts(n, {0.1, 0.1, 0.1}, {0.05, 0.05, 0.05},
-                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-    for (const char* id : {"plate", "post"}) {
-        volume::Label label;
-        label.id = id;
-        label.className = "BuildingConstructiveElement";
-        label.first = volume.labels.scalarCount();
-        label.count = 1;
-        label.subtreeEnd = static_cast<std::uint32_t>(volume.labels.labels.size() + 1);
-        volume.labels.labels.push_back(label);
-    }
-    std::vector<volume::Scalar> dense(static_cast<std::size_t>(n.x) * 100 * 50, 0);
-    const auto at = [&](int i, int j, int k) -> volume::Scalar& { return dense[std::size_t(i + 100 * (j + 100 * k))]; };
-    for (int j = 0; j < 100; ++j)
-        for (int i = 0; i < 100; ++i) {
-            for (int k = 0; k < 2; ++k) at(i, j, k) = 1;
-            for (int k = 2; k < 42 && i >= 45 && i < 55 && j >= 45 && j < 55; ++k) at(i, j, k) = 2;
-        }
-    volume.columns = volume::ColumnVolume::fromDense(n, dense);
+    volume::SemanticVolume volume = volume::test::emptyVolume({100, 100, 50}, {0.1, 0.1, 0.1}, {0.05, 0.05, 0.05});
+    for (const char* id : {"plate", "post"}) volume::test::addObject(volume, id, "BuildingConstructiveElement");
+    volume::test::paintBoxes(volume, {{1, {0, 0, 0}, {100, 100, 2}}, {2, {45, 45, 2}, {55, 55, 42}}});
     return volume;
 }
 

@@ -12,12 +12,8 @@ using test::sampleVolume;
 /// A volume whose scalars tell their place: no two axes look alike, tiles and their borders differ.
 SemanticVolume placesVolume(Vec3i dimension) {
     SemanticVolume volume = sampleVolume(dimension);
-    std::vector<Scalar> dense;
-    for (std::int32_t k = 0; k < dimension.z; ++k)
-        for (std::int32_t j = 0; j < dimension.y; ++j)
-            for (std::int32_t i = 0; i < dimension.x; ++i)
-                dense.push_back(static_cast<Scalar>((i / 3 + 2 * (j / 5) + 3 * (k / 2)) % 6));
-    volume.columns = ColumnVolume::fromDense(dimension, dense);
+    volume.columns =
+        test::paintedColumns(dimension, [](int i, int j, int k) { return (i / 3 + 2 * (j / 5) + 3 * (k / 2)) % 6; });
     return volume;
 }
 

@@ -285,9 +285,7 @@ TEST_F(GlbWriter, NodesAreTheSemanticTree) {
 // World position of a voxel: through the root's matrix, back to z up, plus the origin.
 TEST_F(GlbWriter, CoordinatesLeadBackToTheWorld) {
     SemanticVolume volume = volume::test::sampleVolume({8, 8, 8});
-    std::vector<Scalar> dense(512, 0);
-    dense[3 + 8 * (2 + 8 * 5)] = 1;
-    volume.columns = ColumnVolume::fromDense({8, 8, 8}, dense);
+    volume::test::paintBoxes(volume, {{1, {3, 2, 5}, {4, 3, 6}}});
     const Glb glb = written(volume);
     const auto positions = glb.numbers<float>(0, "VEC3", 5126, 34962);
     const auto matrix = glb.json["nodes"][0]["matrix"].get<std::vector<double>>();
@@ -305,23 +303,13 @@ TEST_F(GlbWriter, CoordinatesLeadBackToTheWorld) {
 
 // A slab under a slope: its oblique faces become flat and have the area of the slope; stairs have that of two sides.
 TEST_F(GlbWriter, SlopesAreFlat) {
-    const Vec3i n{40, 64, 60};
-    SemanticVolume volume;
-    volume.grid = *volume::Grid::fromParts(n, {0.1, 0.1, 0.1}, {0.05, 0.05, 0.05},
-                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
-    volume.labels.labels.resize(1);
-    volume.labels.labels[0].id = "slab";
-    volume.labels.labels[0].first = volume.labels.labels[0].count = 1;
+    SemanticVolume volume = volume::test::emptyVolume({40, 64, 60}, {0.1, 0.1, 0.1}, {0.05, 0.05, 0.05});
+    volume::test::addObject(volume, "slab", "");
     // Between two planes that rise by 0.6 along y and 0.1 along x, bounded at the sides.
-    std::vector<Scalar> dense;
-    for (std::int32_t k = 0; k < n.z; ++k)
-        for (std::int32_t j = 0; j < n.y; ++j)
-            for (std::int32_t i = 0; i < n.x; ++i) {
-                const double height = k + 0.5 - 0.6 * (j + 0.5) - 0.1 * (i + 0.5);
-                const bool isIn = i >= 4 && i < 36 && j >= 4 && j < 60 && height > 3.3 && height < 12.3;
-                dense.push_back(isIn ? 1 : 0);
-            }
-    volume.columns = ColumnVolume::fromDense(n, dense);
+    volume::test::paint(volume, [](int i, int j, int k) {
+        const double height = k + 0.5 - 0.6 * (j + 0.5) - 0.1 * (i + 0.5);
+        return i >= 4 && i < 36 && j >= 4 && j < 60 && height > 3.3 && height < 12.3 ? 1 : 0;
+    });
     std::array<double, 2> area{}, cubic{};
     for (const bool hasPlanes : {false, true}) {
         GlbOptions options;
@@ -352,16 +340,10 @@ TEST_F(GlbWriter, SlopesAreFlat) {
 TEST_F(GlbWriter, PlanesOfAnotherVolume) {
     const Vec3i n{24, 24, 24};
     SemanticVolume whole = volume::test::sampleVolume(n), layer = whole;
-    std::vector<Scalar> dense, thin;
-    for (std::int32_t k = 0; k < n.z; ++k)
-        for (std::int32_t j = 0; j < n.y; ++j)
-            for (std::int32_t i = 0; i < n.x; ++i) {
-                const double height = k - 0.7 * j - 0.2;
-                dense.push_back(height < 0 ? 1 : 0);
-                thin.push_back(height < 0 && height > -1.5 ? 1 : 0);
-            }
-    whole.columns = ColumnVolume::fromDense(n, dense);
-    layer.columns = ColumnVolume::fromDense(n, thin);
+    const auto height = [](int j, int k) { return k - 0.7 * j - 0.2; };
+    whole.columns = volume::test::paintedColumns(n, [&](int, int j, int k) { return height(j, k) < 0 ? 1 : 0; });
+    layer.columns = volume::test::paintedColumns(
+        n, [&](int, int j, int k) { return height(j, k) < 0 && height(j, k) > -1.5 ? 1 : 0; });
     GlbOptions options;
     options.planesOf = &whole;
     ASSERT_TRUE(writeGlb(layer, folder / "v.glb", options));
@@ -371,9 +353,9 @@ TEST_F(GlbWriter, PlanesOfAnotherVolume) {
     std::size_t onPlane = 0, between = 0;
     for (std::size_t v = 0; v < p.size(); v += 3) {
         // Distance from the plane of the upper side, in voxels.
-        const double height = p[v + 2] / spacing.z - 0.5 - 0.7 * (p[v + 1] / spacing.y - 0.5) - 0.2;
-        onPlane += std::abs(height) < 0.2 ? 1 : 0;
-        between += height > 0.25 ? 1 : 0;
+        const double above = p[v + 2] / spacing.z - 0.5 - 0.7 * (p[v + 1] / spacing.y - 0.5) - 0.2;
+        onPlane += std::abs(above) < 0.2 ? 1 : 0;
+        between += above > 0.25 ? 1 : 0;
     }
     EXPECT_EQ(between, 0u);
     EXPECT_GT(onPlane, 2 * std::size_t(n.y) - 10);
@@ -385,11 +367,7 @@ TEST_F(GlbWriter, ManyVerticesGetWideIndices) {
     // A 3D checkerboard: voxels share edges only.
     const Vec3i n{40, 40, 40};
     SemanticVolume volume = volume::test::sampleVolume(n);
-    std::vector<Scalar> dense;
-    for (std::int32_t k = 0; k < n.z; ++k)
-        for (std::int32_t j = 0; j < n.y; ++j)
-            for (std::int32_t i = 0; i < n.x; ++i) dense.push_back(static_cast<Scalar>((i + j + k) % 2));
-    volume.columns = ColumnVolume::fromDense(n, dense);
+    volume.columns = volume::test::paintedColumns(n, [](int i, int j, int k) { return (i + j + k) % 2; });
     const Glb glb = written(volume);
     EXPECT_EQ(glb.json["accessors"][1]["componentType"], 5125);
     EXPECT_EQ(glb.indices(1).size(), 32000u * 36);

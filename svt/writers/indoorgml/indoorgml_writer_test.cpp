@@ -1,3 +1,4 @@
+#include <svt/volume/sample_volume_test.hpp>
 #include <svt/volume/semantic_volume.hpp>
 #include <svt/writers/indoorgml/cell_plan.hpp>
 #include <svt/writers/indoorgml/indoorgml_writer.hpp>
@@ -20,65 +21,27 @@ using volume::SemanticVolume;
 class Painted {
 public:
     Painted() {
-        volume.grid =
-            *volume::Grid::fromParts(kSize, {0.1, 0.1, 0.1}, {1000, 2000, 50}, {Vec3d{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
         volume.source = "a house.gml";
         volume.crsName = "EPSG:25832";
-        dense_.assign(std::size_t(kSize.x) * kSize.y * kSize.z, 0);
     }
     std::uint32_t add(const char* id, const char* className, const char* name = "") {
-        volume::Label label;
-        label.id = id;
-        label.className = className;
-        label.name = name;
-        label.subtreeEnd = static_cast<std::uint32_t>(volume.labels.labels.size()) + 1;
-        label.first = volume.labels.scalarCount();
-        label.count = 1;
-        volume.labels.labels.push_back(label);
-        return label.subtreeEnd - 1;
+        volume::test::addObject(volume, id, className).name = name;
+        return volume.labels.labels.back().subtreeEnd - 1;
     }
     void fill(std::uint32_t label, Vec3i begin, Vec3i end) {
-        const volume::Scalar scalar = label == volume::kNoLabel ? 0 : volume.labels.labels[label].first;
-        for (int k = begin.z; k < end.z; ++k)
-            for (int j = begin.y; j < end.y; ++j)
-                for (int i = begin.x; i < end.x; ++i)
-                    dense_[std::size_t(i) +
-                           std::size_t(kSize.x) * (std::size_t(j) + std::size_t(kSize.y) * std::size_t(k))] = scalar;
+        boxes_.push_back({label == volume::kNoLabel ? 0 : volume.labels.labels[label].first, begin, end});
     }
     const SemanticVolume& done() {
-        volume.columns = volume::ColumnVolume::fromDense(kSize, dense_);
+        volume::test::paintBoxes(volume, boxes_);
         return volume;
     }
     // Twelve triangles of a box, local metres.
-    void addMesh(std::uint32_t label, Vec3d a, Vec3d b) {
-        const auto first = static_cast<std::uint32_t>(volume.vectors.points.size());
-        for (int i = 0; i < 8; ++i) {
-            const Vec3d p{(i & 1) != 0 ? b.x : a.x, (i & 2) != 0 ? b.y : a.y, (i & 4) != 0 ? b.z : a.z};
-            volume.vectors.points.push_back({int(std::lround(p.x / volume.vectors.unit)),
-                                             int(std::lround(p.y / volume.vectors.unit)),
-                                             int(std::lround(p.z / volume.vectors.unit))});
-        }
-        for (const auto& [x, y, z] : {Vec3i{0, 2, 3},
-                                      {0, 3, 1},
-                                      {4, 5, 7},
-                                      {4, 7, 6},
-                                      {0, 1, 5},
-                                      {0, 5, 4},
-                                      {2, 6, 7},
-                                      {2, 7, 3},
-                                      {0, 4, 6},
-                                      {0, 6, 2},
-                                      {1, 3, 7},
-                                      {1, 7, 5}})
-            volume.vectors.triangles.push_back(
-                {label, {first + std::uint32_t(x), first + std::uint32_t(y), first + std::uint32_t(z)}});
-    }
+    void addMesh(std::uint32_t label, Vec3d a, Vec3d b) { volume::test::addBoxMesh(volume, label, a, b); }
 
-    static constexpr Vec3i kSize{40, 30, 26};
-    SemanticVolume volume;
+    SemanticVolume volume = volume::test::emptyVolume({40, 30, 26}, {0.1, 0.1, 0.1}, {1000, 2000, 50});
 
 private:
-    std::vector<volume::Scalar> dense_;
+    std::vector<volume::test::PaintedBox> boxes_;
 };
 
 //   y                                  west: 1.5 x 2.6 m, east: 1.9 x 2.6 m, both 2.2 m high

@@ -20,46 +20,20 @@ namespace {
 using nlohmann::json;
 using volume::SemanticVolume;
 
-std::uint32_t addLabel(SemanticVolume& volume, const char* id, const char* className, const char* name = "") {
-    volume::Label label;
-    label.id = id;
-    label.className = className;
-    label.name = name;
-    label.subtreeEnd = static_cast<std::uint32_t>(volume.labels.labels.size()) + 1;
-    label.first = volume.labels.scalarCount();
-    label.count = 1;
-    volume.labels.labels.push_back(label);
-    return label.subtreeEnd - 1;
-}
-
 // A room in walls with a door of their thickness, 0.1 m a voxel; the second wall has the name of the first.
 SemanticVolume roomWithADoor() {
-    const Vec3i size{31, 23, 17};
-    SemanticVolume volume;
-    volume.grid =
-        *volume::Grid::fromParts(size, {0.1, 0.1, 0.1}, {1000, 2000, 50}, {Vec3d{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+    SemanticVolume volume = volume::test::emptyVolume({31, 23, 17}, {0.1, 0.1, 0.1}, {1000, 2000, 50});
     volume.modelName = "Haus \"Süd\" 'A'";
-    const auto wall = addLabel(volume, "w1", "BuildingConstructiveElement", "Wall"),
-               other = addLabel(volume, "w2", "BuildingConstructiveElement", "Wall"),
-               door = addLabel(volume, "d", "Door", "Tür"), room = addLabel(volume, "r", "BuildingRoom", "Room");
-    volume.labels.labels[wall].attributes = {{"material", std::string("brick"), ""}};
-    volume.labels.labels[other].attributes = {{"material", std::string("brick"), ""}};
-    std::vector<volume::Scalar> dense(std::size_t(size.x) * size.y * size.z, 0);
-    const auto fill = [&](std::uint32_t label, Vec3i begin, Vec3i end) {
-        for (int k = begin.z; k < end.z; ++k)
-            for (int j = begin.y; j < end.y; ++j)
-                for (int i = begin.x; i < end.x; ++i)
-                    dense[std::size_t(i) +
-                          std::size_t(size.x) * (std::size_t(j) + std::size_t(size.y) * std::size_t(k))] =
-                        volume.labels.labels[label].first;
-    };
-    fill(wall, {2, 2, 2}, {28, 20, 15});
-    fill(other, {20, 2, 2}, {28, 20, 15});
-    fill(room, {4, 4, 4}, {26, 18, 13});
-    fill(door, {10, 2, 4}, {14, 4, 11});
-    volume.columns = volume::ColumnVolume::fromDense(size, dense);
-    const auto counts = volume.columns.countVoxels(volume.labels.scalarCount());
-    for (auto& label : volume.labels.labels) label.voxels = counts[label.first];
+    for (const auto& [id, className, name] : {std::tuple("w1", "BuildingConstructiveElement", "Wall"),
+                                              std::tuple("w2", "BuildingConstructiveElement", "Wall"),
+                                              std::tuple("d", "Door", "Tür"), std::tuple("r", "BuildingRoom", "Room")})
+        volume::test::addObject(volume, id, className).name = name;
+    for (const std::size_t wall : {0, 1})
+        volume.labels.labels[wall].attributes = {{"material", std::string("brick"), ""}};
+    volume::test::paintBoxes(volume, {{1, {2, 2, 2}, {28, 20, 15}},
+                                      {2, {20, 2, 2}, {28, 20, 15}},
+                                      {4, {4, 4, 4}, {26, 18, 13}},
+                                      {3, {10, 2, 4}, {14, 4, 11}}});
     return volume;
 }
 
