@@ -1,5 +1,7 @@
 /// Tests of the writers of section drawings, with names that need escaping.
 
+#include <svt/volume/sample_volume_test.hpp>
+#include <svt/writers/drawing/drawing_files_test.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/dxf_drawing.hpp>
 #include <svt/writers/geojson_drawing.hpp>
@@ -7,9 +9,10 @@
 #include <svt/writers/svg_drawing.hpp>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -20,41 +23,19 @@ namespace {
 
 /// A room of 3 x 2 m in walls of 0.5 m, 4 x 3 x 2 m in all, at a large easting.
 volume::SemanticVolume roomInWalls() {
-    volume::SemanticVolume volume;
-    const Vec3i dimension{40, 30, 20};
-    volume.grid = *volume::Grid::fromParts(dimension, {0.1, 0.1, 0.1}, {500000, 5400000, 100},
-                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    volume::SemanticVolume volume = volume::test::emptyVolume({40, 30, 20}, {0.1, 0.1, 0.1}, {500000, 5400000, 100});
     volume.crsName = "urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::5783";
     volume.modelName = "Haus <1> & \"Söhne\"";
-    for (const auto& [id, className, name] : {std::tuple("wall,1", "Wall Surface",
-                                                         "Au\xC3\x9F"
-                                                         "enwand \"Nord\"\xFF"),
-                                              std::tuple("room&1", "BuildingRoom", "Küche <1> Ł")}) {
-        volume::Label label;
-        label.id = id;
-        label.className = className;
-        label.name = name;
-        label.first = volume.labels.scalarCount();
-        label.count = 1;
-        volume.labels.labels.push_back(label);
-        volume.labels.labels.back().subtreeEnd = static_cast<std::uint32_t>(volume.labels.labels.size());
-    }
-    std::vector<volume::Scalar> dense;
-    for (int k = 0; k < 20; ++k)
-        for (int j = 0; j < 30; ++j)
-            for (int i = 0; i < 40; ++i) dense.push_back(i < 5 || i >= 35 || j < 5 || j >= 25 ? 1 : 2);
-    volume.columns = volume::ColumnVolume::fromDense(dimension, dense);
+    volume::test::addObject(volume, "wall,1", "Wall Surface").name =
+        "Au\xC3\x9F"
+        "enwand \"Nord\"\xFF";
+    volume::test::addObject(volume, "room&1", "BuildingRoom").name = "Küche <1> Ł";
+    volume::test::paint(volume, [](int i, int j, int) { return i < 5 || i >= 35 || j < 5 || j >= 25 ? 1 : 2; });
     return volume;
 }
 
 illustrate::SectionDrawing planOf(const volume::SemanticVolume& volume) {
     return *illustrate::drawSection(volume, {{0, 0, 1}, volume.grid.origin() + Vec3d{0, 0, 1.03}});
-}
-
-std::size_t countOf(std::string_view text, std::string_view part) {
-    std::size_t count = 0;
-    for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + 1)) ++count;
-    return count;
 }
 
 TEST(DrawingText, EpsgCodesAreFoundInTheUsualNames) {
@@ -97,22 +78,27 @@ TEST(SvgDrawing, IsToScaleInMillimetres) {
     options.scale = 20;  // 4 x 3 m are 200 x 150 mm
     const auto svg = makeSvg(drawing, volume, options);
     ASSERT_TRUE(svg);
-    EXPECT_NE(svg->find("width=\"220mm\" height=\"194mm\" viewBox=\"0 0 220 194\""), std::string::npos);
+    const SvgFile read(*svg);
+    EXPECT_EQ(read.text("/svg/@width"), "220mm");
+    EXPECT_EQ(read.text("/svg/@height"), "194mm");
+    EXPECT_EQ(read.text("/svg/@viewBox"), "0 0 220 194");
     // The wall from corner to corner, with the room as a hole.
-    EXPECT_NE(svg->find("d=\"M10 160L210 160 210 10 10 10ZM35 135L35 35 185 35 185 135Z\""), std::string::npos) << *svg;
-    EXPECT_NE(svg->find(">6.00 m\u00B2</text>"), std::string::npos);
+    EXPECT_EQ(read.text("//path[@data-id='wall,1']/@d"), "M10 160L210 160 210 10 10 10ZM35 135L35 35 185 35 185 135Z");
+    EXPECT_EQ(read.count("//text[.='6.00 m\u00B2']"), 1u);
     EXPECT_EQ(*makeSvg(drawing, volume, options), *svg);
 }
 
 TEST(SvgDrawing, NamesAreEscapedAndClassesPlain) {
     const auto volume = roomInWalls();
-    const std::string svg = *makeSvg(planOf(volume), volume);
-    EXPECT_NE(svg.find("<path class=\"Wall_Surface\" data-id=\"wall,1\" data-area=\"6\""), std::string::npos);
-    EXPECT_NE(svg.find("<title>room&amp;1: Küche &lt;1&gt; Ł</title>"), std::string::npos);
-    EXPECT_NE(svg.find("Haus &lt;1&gt; &amp; &quot;Söhne&quot;"), std::string::npos);
-    EXPECT_NE(svg.find("Außenwand &quot;Nord&quot;\xEF\xBF\xBD"), std::string::npos);
-    EXPECT_EQ(svg.find('\xFF'), std::string::npos);
-    EXPECT_EQ(countOf(svg, "<pattern "), 1u);  // only hatches in use
+    const std::string text = *makeSvg(planOf(volume), volume);
+    const SvgFile svg(text);
+    EXPECT_EQ(svg.text("//path[@data-id='wall,1']/@class"), "Wall_Surface");
+    EXPECT_EQ(svg.text("//path[@data-id='wall,1']/@data-area"), "6");
+    EXPECT_EQ(svg.text("//path[@data-id='wall,1']/title"), "wall,1: Außenwand \"Nord\"\xEF\xBF\xBD");
+    EXPECT_EQ(svg.text("//path[@data-id='room&1']/title"), "room&1: Küche <1> Ł");
+    EXPECT_EQ(svg.text("/svg/title"), "Haus <1> & \"Söhne\", Plan at z = 1.03 m");
+    EXPECT_EQ(text.find('\xFF'), std::string::npos);
+    EXPECT_EQ(svg.count("//pattern"), 1u);  // only hatches in use
 }
 
 TEST(SvgDrawing, RefusesScalesAndDrawsNothingAsNothing) {
@@ -125,132 +111,123 @@ TEST(SvgDrawing, RefusesScalesAndDrawsNothingAsNothing) {
     const auto empty = *illustrate::drawSection(volume, {{0, 0, 1}, volume.grid.origin() + Vec3d{0, 0, 50}});
     const auto svg = makeSvg(empty, volume);
     ASSERT_TRUE(svg);
-    EXPECT_EQ(countOf(*svg, "<path data-"), 0u);
+    const SvgFile read(*svg);
+    EXPECT_EQ(read.count("//path[@data-id]"), 0u);
     EXPECT_EQ(svg->find("nan"), std::string::npos);
     EXPECT_EQ(svg->find("inf"), std::string::npos);
-    EXPECT_NE(svg->find("viewBox=\"0 0 "), std::string::npos);
+    EXPECT_TRUE(read.text("/svg/@viewBox").starts_with("0 0 ")) << *svg;
 }
 
 TEST(DxfDrawing, IsPairsOfCodesAndValuesWithHandlesUsedOnce) {
     const auto volume = roomInWalls();
-    std::istringstream in(makeDxf(planOf(volume), volume));
+    const std::string text = makeDxf(planOf(volume), volume);
+    for (const unsigned char c : text) ASSERT_TRUE(c == '\n' || (c >= 0x20 && c < 0x7F) || c >= 0xA0) << int(c);
+    const DxfFile dxf(text);
     std::set<std::string> handles;
-    std::map<std::string, int> entities;
-    std::string code, value, section;
-    bool isOpen = false;
-    while (std::getline(in, code)) {
-        ASSERT_TRUE(std::getline(in, value));
-        const int number = std::stoi(code);
-        for (const unsigned char c : value) ASSERT_TRUE((c >= 0x20 && c < 0x7F) || c >= 0xA0) << value;
-        if (number == 0 && value == "SECTION") isOpen = true;
-        if (number == 0 && value == "ENDSEC") isOpen = false;
-        if (number == 2 && isOpen && (value == "ENTITIES" || value == "TABLES" || value == "HEADER")) section = value;
-        if ((number == 5 && section != "HEADER") || number == 105) {
-            EXPECT_TRUE(handles.insert(value).second) << value;
-        }
-        if (number == 0 && section == "ENTITIES") ++entities[value];
-    }
-    EXPECT_EQ(value, "EOF");
-    EXPECT_EQ(entities["LWPOLYLINE"], 3);  // the wall, its hole, the room
-    EXPECT_EQ(entities["TEXT"], 2);        // name and area
-}
-
-// Positions of all points of a kind of entity.
-std::vector<std::array<double, 2>> pointsIn(const std::string& dxf, const std::string& kind) {
-    std::istringstream in(dxf);
-    std::vector<std::array<double, 2>> points;
-    std::string code, value, current;
-    double x = 0;
-    while (std::getline(in, code) && std::getline(in, value)) {
-        if (std::stoi(code) == 0) current = value;
-        if (current != kind) continue;
-        if (std::stoi(code) == 10) x = std::stod(value);
-        if (std::stoi(code) == 20) points.push_back({x, std::stod(value)});
-    }
-    return points;
+    for (const DxfPart& part : dxf.parts)
+        for (const auto& [code, value] : part.pairs)
+            if (code == 5 || code == 105) {
+                EXPECT_TRUE(handles.insert(value).second) << value;
+            }
+    EXPECT_EQ(dxf.of("LWPOLYLINE").size(), 3u);  // the wall, its hole, the room
+    EXPECT_EQ(dxf.of("TEXT").size(), 2u);        // name and area
 }
 
 TEST(DxfDrawing, HatchesWhatIsCutAndFollowsTheRings) {
     const auto volume = roomInWalls();
-    const std::string dxf = makeDxf(planOf(volume), volume);
-    EXPECT_EQ(countOf(dxf, "\nHATCH\n"), 1u);  // the wall with its hole, not the room
-    EXPECT_NE(dxf.find("SVT_GENERAL"), std::string::npos);
+    const DxfFile dxf(makeDxf(planOf(volume), volume));
+    const auto hatches = dxf.of("HATCH");
+    ASSERT_EQ(hatches.size(), 1u);  // the wall with its hole, not the room
+    EXPECT_EQ(hatches[0].value(2), "SVT_GENERAL");
     // Elevation, four corners of the wall, four of the hole.
-    EXPECT_EQ(pointsIn(dxf, "HATCH").size(), 9u);
-    EXPECT_NE(dxf.find("\nWall_Surface_HATCH\n"), std::string::npos);
+    EXPECT_EQ(dxf.points("HATCH").size(), 9u);
+    EXPECT_EQ(hatches[0].value(8), "Wall_Surface_HATCH");
 }
 
 TEST(DxfDrawing, NamesLayersAfterIso13567WhereAsked) {
     auto volume = roomInWalls();
-    const std::string iso = makeDxf(planOf(volume), volume, {.isoLayers = true, .world = false});
+    const DxfFile iso(makeDxf(planOf(volume), volume, {.isoLayers = true, .world = false}));
     for (const char* const layer : {"A-22----E-", "A-22----H-", "A-90SPACE-", "A-------T-"})
-        EXPECT_NE(iso.find(std::string("\n  8\n") + layer + "\n"), std::string::npos) << layer;
+        EXPECT_TRUE(iso.values(8).contains(layer)) << layer;
     volume.labels.labels[0].attributes.push_back({"ifcType", std::string("IfcWall"), ""});
-    EXPECT_NE(makeDxf(planOf(volume), volume).find("\n  8\nIfcWall\n"), std::string::npos);
+    EXPECT_TRUE(DxfFile(makeDxf(planOf(volume), volume)).values(8).contains("IfcWall"));
 }
 
 TEST(DxfDrawing, StandsInTheWorldWhereAsked) {
     const auto volume = roomInWalls();
     const DxfOptions world{.isoLayers = false, .world = true};
-    for (const auto& p : pointsIn(makeDxf(planOf(volume), volume, world), "LWPOLYLINE")) {
+    for (const auto& p : DxfFile(makeDxf(planOf(volume), volume, world)).points("LWPOLYLINE")) {
         EXPECT_TRUE(p[0] >= 499999.9 && p[0] <= 500004) << p[0];
         EXPECT_TRUE(p[1] >= 5399999.9 && p[1] <= 5400003) << p[1];
     }
     // Upright: seen from the south, x is east, y is up; the plane lies 1.5 m from the corner.
     const auto section = *illustrate::drawSection(volume, {{0, -1, 0}, volume.grid.origin() + Vec3d{0, 1.5, 0}});
-    const std::string dxf = makeDxf(section, volume, world);
-    for (const auto& p : pointsIn(dxf, "LWPOLYLINE")) {
+    const DxfFile dxf(makeDxf(section, volume, world));
+    for (const auto& p : dxf.points("LWPOLYLINE")) {
         EXPECT_TRUE(p[0] >= 499999.9 && p[0] <= 500004) << p[0];
         EXPECT_TRUE(p[1] >= 99.9 && p[1] <= 102) << p[1];
     }
-    EXPECT_NE(dxf.find("\n220\n-1\n"), std::string::npos);
-    EXPECT_NE(dxf.find("\n 38\n-5400001.5\n"), std::string::npos);
+    ASSERT_FALSE(dxf.of("LWPOLYLINE").empty());
+    for (const DxfPart& line : dxf.of("LWPOLYLINE")) {
+        EXPECT_EQ(line.value(220), "-1");
+        EXPECT_EQ(line.value(38), "-5400001.5");
+    }
 }
 
 TEST(DxfDrawing, HasABlockForEachDoor) {
     auto volume = roomInWalls();
     auto drawing = planOf(volume);
     drawing.doors.push_back({0, {{{1, 0}, {1, 0.8}}}, {{{1, 0}, {1.8, 0}, {1, 0.8}}}});
-    const std::string dxf = makeDxf(drawing, volume);
-    EXPECT_EQ(countOf(dxf, "\nINSERT\n"), 1u);
-    EXPECT_NE(dxf.find("\nDOOR_1\n"), std::string::npos);
-    EXPECT_NE(dxf.find("\nAcDbCircle\n 10\n0\n 20\n0\n 30\n0\n 40\n0.8\n100\nAcDbArc\n 50\n0\n 51\n90\n"),
-              std::string::npos);
-    EXPECT_EQ(pointsIn(dxf, "INSERT").front(), (std::array<double, 2>{1, 0}));
-    const std::string svg = *makeSvg(drawing, volume);
-    EXPECT_NE(svg.find("<path class=\"swing\" data-id=\"wall,1\""), std::string::npos);
-    EXPECT_NE(svg.find("A8 8 0 0 0 "), std::string::npos);
+    const DxfFile dxf(makeDxf(drawing, volume));
+    ASSERT_EQ(dxf.of("INSERT").size(), 1u);
+    EXPECT_EQ(dxf.of("INSERT")[0].value(2), "DOOR_1");
+    EXPECT_EQ(dxf.points("INSERT"), (std::vector<std::array<double, 2>>{{1, 0}}));
+    ASSERT_EQ(dxf.of("ARC").size(), 1u);
+    const DxfPart arc = dxf.of("ARC")[0];
+    EXPECT_EQ(arc.section, "BLOCKS");
+    for (const auto& [code, value] : {std::pair(10, "0"), {20, "0"}, {30, "0"}, {40, "0.8"}, {50, "0"}, {51, "90"}})
+        EXPECT_EQ(arc.value(code), value) << code;
+    const SvgFile svg(*makeSvg(drawing, volume));
+    EXPECT_EQ(svg.count("//path[@class='swing' and @data-id='wall,1']"), 1u);
+    EXPECT_EQ(svg.count("//path[@data-id='wall,1' and contains(@d, 'A8 8 0 0 0 ')]"), 1u);
 }
 
 TEST(SvgDrawing, SaysWhereItLiesAndHasLayers) {
     const auto volume = roomInWalls();
-    const std::string svg = *makeSvg(planOf(volume), volume);
-    EXPECT_NE(svg.find("crs=\"urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::5783\""), std::string::npos);
-    EXPECT_NE(svg.find("height=\"101.03\""), std::string::npos);
-    EXPECT_NE(svg.find("inkscape:groupmode=\"layer\" inkscape:label=\"Wall Surface\""), std::string::npos);
+    const SvgFile svg(*makeSvg(planOf(volume), volume));
+    EXPECT_EQ(svg.text("//svt:drawing/@crs"), "urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::5783");
+    EXPECT_EQ(svg.text("//svt:drawing/@height"), "101.03");
+    EXPECT_EQ(svg.count("//g[@inkscape:groupmode='layer' and @inkscape:label='Wall Surface']"), 1u);
 }
 
 TEST(DxfDrawing, SaysUnitsAndWritesNamesInItsCodePage) {
     const auto volume = roomInWalls();
-    const std::string dxf = makeDxf(planOf(volume), volume);
-    EXPECT_NE(dxf.find("$INSUNITS\n 70\n6\n"), std::string::npos);
-    EXPECT_NE(dxf.find("\n  1\nK\xFC"
-                       "che <1> \\U+0141\n"),
-              std::string::npos);
-    EXPECT_NE(dxf.find("\n  1\n6.00 m\xB2\n"), std::string::npos);
-    EXPECT_NE(dxf.find("\n  8\nWall_Surface\n"), std::string::npos);
-    EXPECT_NE(dxf.find("999\norigin 500000 5400000 101.03\n"), std::string::npos);
+    const DxfFile dxf(makeDxf(planOf(volume), volume));
+    EXPECT_EQ(dxf.variables.at("$INSUNITS"), "6");
+    std::set<std::string> texts;
+    for (const DxfPart& text : dxf.of("TEXT")) texts.insert(text.value(1));
+    EXPECT_EQ(texts, (std::set<std::string>{"K\xFC"
+                                            "che <1> \\U+0141",
+                                            "6.00 m\xB2"}));
+    EXPECT_TRUE(dxf.values(8).contains("Wall_Surface"));
+    EXPECT_EQ(std::count(dxf.comments.begin(), dxf.comments.end(), "origin 500000 5400000 101.03"), 1);
 }
 
 TEST(GeojsonDrawing, IsInTheCoordinatesOfTheModel) {
     const auto volume = roomInWalls();
-    const std::string json = makeGeojson(planOf(volume), volume);
-    EXPECT_NE(json.find("urn:ogc:def:crs:EPSG::25832"), std::string::npos);
-    EXPECT_NE(json.find("[[[[499999.95,5399999.95,101.03],[500003.95,5399999.95,101.03],"), std::string::npos) << json;
-    EXPECT_NE(json.find("\"class\":\"BuildingRoom\",\"name\":\"Küche <1> Ł\",\"area\":6,"), std::string::npos);
+    using nlohmann::json;
+    const json drawn = json::parse(makeGeojson(planOf(volume), volume));
+    EXPECT_EQ(drawn.at("crs").at("properties").at("name"), "urn:ogc:def:crs:EPSG::25832");
+    ASSERT_EQ(drawn.at("features").size(), 2u);
+    const json &wall = drawn["features"][0], &room = drawn["features"][1];
+    EXPECT_EQ(wall.at("geometry").at("coordinates")[0][0][0], json({499999.95, 5399999.95, 101.03}));
+    EXPECT_EQ(wall.at("geometry").at("coordinates")[0][0][1], json({500003.95, 5399999.95, 101.03}));
+    EXPECT_EQ(room.at("properties").at("class"), "BuildingRoom");
+    EXPECT_EQ(room.at("properties").at("name"), "Küche <1> Ł");
+    EXPECT_EQ(room.at("properties").at("area"), 6);
     auto unknown = volume;
     unknown.crsName = "local";
-    EXPECT_EQ(makeGeojson(planOf(unknown), unknown).find("\"crs\""), std::string::npos);
+    EXPECT_FALSE(json::parse(makeGeojson(planOf(unknown), unknown)).contains("crs"));
 }
 
 TEST(SectionTable, CsvQuotesAndSumsUp) {

@@ -1,6 +1,8 @@
 /// Sheets of boxes whose places on paper are known.
 
+#include <svt/volume/sample_volume_test.hpp>
 #include <svt/writers/drawing/dimension_marks.hpp>
+#include <svt/writers/drawing/drawing_files_test.hpp>
 #include <svt/writers/sheet_geopackage.hpp>
 #include <svt/writers/sheet_writer.hpp>
 #include <svt/writers/sheets/pdf_canvas.hpp>
@@ -21,19 +23,11 @@ using illustrate::ViewKind;
 
 /// A volume of one wall label; drawings refer to it.
 volume::SemanticVolume wallVolume() {
-    volume::SemanticVolume volume;
-    volume.grid = *volume::Grid::fromParts({11, 11, 11}, {1, 1, 1}, {500000, 5400000, 100},
-                                           {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});
+    volume::SemanticVolume volume = volume::test::emptyVolume({11, 11, 11}, {1, 1, 1}, {500000, 5400000, 100});
     volume.modelName = "Haus <1>";
     volume.source = "house.gml";
     volume.crsName = "urn:ogc:def:crs:EPSG::25832";
-    volume::Label label;
-    label.id = "wall";
-    label.className = "WallSurface";
-    label.subtreeEnd = 1;
-    label.count = 1;
-    label.first = 1;
-    volume.labels.labels.push_back(label);
+    volume::test::addObject(volume, "wall", "WallSurface");
     return volume;
 }
 
@@ -173,18 +167,21 @@ TEST(SvgSheets, AreToScaleWithFrameAndTitle) {
     const auto sheets = makeSvgSheets(content, volume, {.scale = 50, .paper = "A4"});
     ASSERT_TRUE(sheets);
     ASSERT_EQ(sheets->size(), 1u);
-    const std::string& svg = sheets->front();
-    EXPECT_NE(svg.find("width=\"297mm\" height=\"210mm\" viewBox=\"0 0 297 210\""), std::string::npos);
+    const SvgFile svg(sheets->front());
+    EXPECT_EQ(svg.text("/svg/@width"), "297mm");
+    EXPECT_EQ(svg.text("/svg/@height"), "210mm");
+    EXPECT_EQ(svg.text("/svg/@viewBox"), "0 0 297 210");
     // 4 x 3 m at 1:50 in the middle of the area of 267 x 154 mm: 80 x 60 mm.
     const auto layout = layOutSheets(content, {.scale = 50, .paper = "A4"});
     const PaperPoint low = layout->sheets[0].views[0].place.corner;
     EXPECT_NEAR(low.x, 20 + 0.5 * (267 - 80), 1e-9);
-    EXPECT_NE(svg.find(fmt::format("M{:g} {:g}L{:g} {:g} {:g} {:g}", low.x, low.y, low.x + 80, low.y, low.x + 80,
-                                   low.y - 60)),
-              std::string::npos);
-    for (const char* text : {">Haus &lt;1&gt;<", ">1:50<", ">Plan EG, level \u00B10.00<", ">1 of 1<", ">A4<",
-                             ">house.gml, EPSG:25832<", "url(#masonry)", "inkscape:label=\"Outlines\""})
-        EXPECT_NE(svg.find(text), std::string::npos) << text;
+    const std::string outline =
+        fmt::format("M{:g} {:g}L{:g} {:g} {:g} {:g}", low.x, low.y, low.x + 80, low.y, low.x + 80, low.y - 60);
+    EXPECT_GT(svg.count("//path[starts-with(@d, '" + outline + "')]"), 0u) << sheets->front();
+    for (const char* text : {"Haus <1>", "1:50", "Plan EG, level \u00B10.00", "1 of 1", "A4", "house.gml, EPSG:25832"})
+        EXPECT_GT(svg.count(fmt::format("//text[.='{}']", text)), 0u) << text;
+    EXPECT_EQ(svg.count("//path[@fill='url(#masonry)']"), 1u);
+    EXPECT_EQ(svg.count("//g[@inkscape:label='Outlines']"), 1u);
     EXPECT_EQ(*sheets, *makeSvgSheets(content, volume, {.scale = 50, .paper = "A4"}));
 }
 
@@ -254,9 +251,9 @@ TEST(SheetTables, GoOnBesideThemselvesAndOnTheNextSheet) {
     EXPECT_GT(layout->sheets[1].tables.size(), 1u);
     const auto german = makeSvgSheets(content, wallVolume(), {0, "A3", SheetLanguage::German, "Haus am See"});
     ASSERT_TRUE(german);
-    EXPECT_NE(german->front().find(">Haus am See<"), std::string::npos);
-    EXPECT_NE(german->front().find(">Ma\u00DFstab<"), std::string::npos);
-    EXPECT_NE(german->back().find(">1197.00<"), std::string::npos);
+    EXPECT_EQ(SvgFile(german->front()).count("//text[.='Haus am See']"), 1u);
+    EXPECT_EQ(SvgFile(german->front()).count("//text[.='Ma\u00DFstab']"), 1u);
+    EXPECT_EQ(SvgFile(german->back()).count("//text[.='1197.00']"), 1u);
 }
 
 TEST(SheetGroups, HaveAScaleAndTitleOfTheirOwn) {
@@ -273,8 +270,8 @@ TEST(SheetGroups, HaveAScaleAndTitleOfTheirOwn) {
     EXPECT_NEAR(layout->sheets[0].views[0].width, 200, 1e-9);
     EXPECT_EQ(layout->sheets[2].scale, 100);
     const auto sheets = makeSvgSheets(content, wallVolume(), {});
-    EXPECT_NE(sheets->front().find(">Details<"), std::string::npos);
-    EXPECT_NE(sheets->front().find(">1:20<"), std::string::npos);
+    EXPECT_EQ(SvgFile(sheets->front()).count("//text[.='Details']"), 1u);
+    EXPECT_GT(SvgFile(sheets->front()).count("//text[.='1:20']"), 0u);
     content.groups[0].scale = 5;
     const auto tooLarge = layOutSheets(content, {});
     ASSERT_FALSE(tooLarge);
