@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <map>
 #include <set>
 #include <string>
@@ -214,12 +213,12 @@ TEST_P(EveryKind, EveryFormatFollowsItsSchema) {
         SampleOptions options = smallOptions();
         options.thematic = c.thematic;
         options.turnDegrees = 17;
-        const std::filesystem::path file = folder / c.name;
-        std::ofstream(file, std::ios::binary) << text(GetParam(), c.format, options);
-        const std::string command =
-            "xmllint --nonet --noout --schema '" + schema.string() + "' '" + file.string() + "' >/dev/null 2>&1";
-        EXPECT_EQ(std::system(command.c_str()), 0) << c.name;
+        svt::test::writeText(folder / c.name, text(GetParam(), c.format, options));
     }
+    // All at once: reading the schemas takes longer than the files.
+    const std::string command = "cd '" + folder.path().string() + "' && xmllint --nonet --noout --schema '" +
+                                schema.string() + "' gml3 gml2 gml2_thematic >output.txt 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0) << svt::test::readText(folder / "output.txt").substr(0, 2000);
 }
 
 TEST_P(EveryKind, SameArgumentsGiveTheSameBytes) {
