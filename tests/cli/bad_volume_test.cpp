@@ -12,7 +12,7 @@ class GoodVolume : public ::testing::Test {
 protected:
     GoodVolume() {
         writeText(folder / "two.gml", twoBoxes());
-        runSvtWell(folder.path(), {"build", "two.gml", "-o", "good.svt", "--spacing", "0.25"});
+        prepare(folder.path(), {"build", "two.gml", "-o", "good.svt", "--spacing", "0.25"});
         bytes = readText(folder / "good.svt");
     }
     // Output of `svt info` for a damaged volume.

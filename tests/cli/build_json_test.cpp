@@ -265,8 +265,7 @@ TEST_F(TwoBoxes, NoFileIsLeftBesideTheOutput) {
 
 TEST(BuildOnly, KeepsTheSelectedInTheBoxAroundThem) {
     const TemporaryFolder folder;
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
-    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2"});
+    prepareHouse(folder.path(), "0.2");
     runSvtWell(folder.path(),
                {"build", "house.gml", "-o", "f.svt", "--spacing", "0.2", "--only", "class=BuildingFurniture"});
     const auto idsWithVoxels = [&](const char* file, const char* query) {

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <sstream>
 
@@ -70,20 +69,6 @@ TEST_F(CityFolder, HasTheSameBytesHoweverItsTasksAreRun) {
     }
 }
 
-// Runs a script of tests/formats with what SVT_ORACLES or build/oracles holds; false where the reader is not there.
-bool isReadByNode(const TemporaryFolder& folder, const std::string& script, const std::string& arguments,
-                  std::string& said) {
-    const char* told = std::getenv("SVT_ORACLES");
-    const std::string oracles = told != nullptr ? told : sourceRoot() + "/build/oracles";
-    const std::string command = "cd '" + folder.path().string() + "' && node " + sourceRoot() + "/tests/formats/" +
-                                script + " " + oracles + " " + arguments + " > output.txt 2>&1";
-    const int status = std::system(command.c_str());
-    said = readText(folder / "output.txt");
-    if (WEXITSTATUS(status) == 77 || WEXITSTATUS(status) == 127) return false;
-    EXPECT_EQ(status, 0) << script << " " << arguments << ":\n" << said;
-    return true;
-}
-
 TEST_F(CityFolder, BecomesTilesWithAFeatureForEachBuilding) {
     plan();
     runWell({"city", "run", "city", "-q"});
@@ -121,8 +106,8 @@ TEST_F(CityFolder, BecomesTilesWithAFeatureForEachBuilding) {
     // At a given place, and of detail 1 as the finest.
     runWell({"convert", "city", "one.3dtiles", "--level", "1", "--place", "49.1,8.44,110"});
     std::string said;
-    if (!isReadByNode(folder, "city_tiles.mjs", "city.3dtiles 64", said)) GTEST_SKIP() << said;
-    isReadByNode(folder, "city_tiles.mjs", "one.3dtiles 64", said);
+    if (!isRun(folder.path(), nodeOf("city_tiles.mjs") + "city.3dtiles 64", said)) GTEST_SKIP() << said;
+    (void)isRun(folder.path(), nodeOf("city_tiles.mjs") + "one.3dtiles 64", said);
 }
 
 TEST_F(CityFolder, IsShownByCesium) {
@@ -136,14 +121,13 @@ TEST_F(CityFolder, IsShownByCesium) {
     const std::string place = std::to_string(corner[0].get<double>() + box[3].get<double>()) + " " +
                               std::to_string(corner[1].get<double>() + box[7].get<double>()) + " " +
                               std::to_string(corner[2].get<double>() + box[2].get<double>());
-    const std::string command =
-        "echo " + place + " | cs2cs -f %.8f EPSG:25833 EPSG:4979 > '" + (folder / "place.txt").string() + "'";
-    if (std::system(command.c_str()) != 0) GTEST_SKIP() << "cs2cs is not there";
-    std::istringstream numbers(readText(folder / "place.txt"));
+    const ShellResult degrees = runShell(folder.path(), "echo " + place + " | cs2cs -f %.8f EPSG:25833 EPSG:4979");
+    if (degrees.exitCode != 0) GTEST_SKIP() << "cs2cs is not there";
+    std::istringstream numbers(degrees.text);
     std::string latitude, longitude, height;
     numbers >> latitude >> longitude >> height;
-    if (!isReadByNode(folder, "cesium.mjs", "city.3dtiles " + longitude + " " + latitude + " " + height + " Building",
-                      said))
+    if (!isRun(folder.path(),
+               nodeOf("cesium.mjs") + "city.3dtiles " + longitude + " " + latitude + " " + height + " Building", said))
         GTEST_SKIP() << said;
 }
 
@@ -168,12 +152,12 @@ TEST_F(CityFolder, BecomesTablesForGis) {
     runWell({"city", "extract", "city", "-o", "one.svt", "--id", "BLDG_0000000100000005"});
     runWell({"convert", "one.svt", "one.geojson", "--select", "class=Building"});
     EXPECT_EQ(nlohmann::json::parse(readText(folder / "one.geojson")).at("features").size(), 1u);
-    const std::string gdal = "cd '" + folder.path().string() + "' && ogrinfo -so b.gpkg features > ogr.txt 2>&1";
-    if (std::system(gdal.c_str()) == 0) {
-        EXPECT_NE(readText(folder / "ogr.txt").find("Feature Count: 64"), std::string::npos);
+    const ShellResult layers = runShell(folder.path(), "ogrinfo -so b.gpkg features");
+    if (layers.exitCode == 0) {
+        EXPECT_NE(layers.text.find("Feature Count: 64"), std::string::npos);
     }
     std::string said;
-    if (!isReadByNode(folder, "geoparquet.mjs", "b.parquet b.geojson 25833", said)) GTEST_SKIP() << said;
+    if (!isRun(folder.path(), nodeOf("geoparquet.mjs") + "b.parquet b.geojson 25833", said)) GTEST_SKIP() << said;
 }
 
 // What the city holds of a building is what `svt build` makes of the file on the same grid.

@@ -21,9 +21,7 @@ Limits limits() {
 // Draws with and without OpenGL and compares pictures and labels.
 void expectSame(const std::vector<std::string>& options) {
     const TemporaryFolder folder;
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
-    runSvtWell(folder.path(),
-               {"build", "house.gml", "-o", "house.svt", "--spacing", "0.1", "--vectors", "edges,meshes"});
+    prepareHouse(folder.path(), "0.1", {"--vectors", "edges,meshes"});
     std::vector<std::string> arguments{"render", "house.svt", "--size", "320x180"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const auto with = [&](std::vector<std::string> more) {
@@ -56,7 +54,7 @@ TEST(RenderByGl, DrawsLensesAndLines) {
 
 TEST(RenderByGl, WithoutADriverExitsWith6) {
     const TemporaryFolder folder;
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    prepare(folder.path(), {"sample", "house", "-o", "house.gml"});
     // The driver loader then finds no driver.
     ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere", 1);
     const auto result =

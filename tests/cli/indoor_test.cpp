@@ -45,7 +45,7 @@ protected:
 };
 
 TEST_F(Indoor, TheHouseComesBackWithItsRoomsAndDoors) {
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    prepare(folder.path(), {"sample", "house", "-o", "house.gml"});
     runSvtWell(folder.path(), {"convert", "house.gml", "house.indoor.gml"});
     const auto before = roomVolumes(check("house.gml")), after = roomVolumes(check("house.indoor.gml"));
     ASSERT_GT(before.size(), 10u);
@@ -64,15 +64,14 @@ TEST_F(Indoor, TheHouseComesBackWithItsRoomsAndDoors) {
 }
 
 TEST_F(Indoor, VoxelsAloneGiveValidCellsAsWell) {
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
-    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.05", "--vectors", "none"});
+    prepareHouse(folder.path(), "0.05", {"--vectors", "none"});
     runSvtWell(folder.path(), {"convert", "house.svt", "house.indoor.gml"});
     const auto after = roomVolumes(check("house.indoor.gml"));
     EXPECT_GT(after.size(), 20u);
 }
 
 TEST_F(Indoor, WhatIsWrittenIsWrittenAgainAlike) {
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    prepare(folder.path(), {"sample", "house", "-o", "house.gml"});
     runSvtWell(folder.path(), {"convert", "house.gml", "one.indoor.gml"});
     runSvtWell(folder.path(), {"convert", "one.indoor.gml", "two.indoor.gml"});
     const auto one = roomVolumes(check("one.indoor.gml")), two = roomVolumes(check("two.indoor.gml"));
@@ -97,7 +96,7 @@ TEST_F(Indoor, TheFzkHouseFromIfcHasTheVolumesOfItsSpaces) {
 }
 
 TEST_F(Indoor, AVolumeWithoutRoomsIsToldSo) {
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    prepare(folder.path(), {"sample", "house", "-o", "house.gml"});
     const CommandResult result = runSvt(
         folder.path(), {"convert", "house.gml", "walls.indoor.gml", "--spacing", "0.4", "--select", "class=Window"});
     EXPECT_NE(result.exitCode, 0);
@@ -105,7 +104,7 @@ TEST_F(Indoor, AVolumeWithoutRoomsIsToldSo) {
 }
 
 TEST_F(Indoor, GraphsAreDrawnAsLines) {
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    prepare(folder.path(), {"sample", "house", "-o", "house.gml"});
     runSvtWell(folder.path(), {"convert", "house.gml", "house.indoor.gml"});
     const std::vector<std::string> picture{"render",
                                            "house.indoor.gml",

@@ -21,7 +21,7 @@ class Outputs : public ::testing::Test {
 protected:
     Outputs() {
         writeText(folder / "two.gml", twoBoxes());
-        runSvtWell(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "0.5"});
+        prepare(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "0.5"});
     }
 
     // Expects that the command is refused and that nothing in the folder has changed.

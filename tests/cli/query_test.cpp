@@ -19,7 +19,7 @@ class TwoBoxReports : public ::testing::Test {
 protected:
     TwoBoxReports() {
         writeText(folder / "two.gml", twoBoxes());
-        (void)runSvtWell(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "0.1"});
+        prepare(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "0.1"});
     }
     json report(std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), {"query", "two.svt"});
@@ -202,7 +202,7 @@ TEST(QueryReports, OverlapsThinnerThanAVoxelAreTold) {
 
 TEST(QueryReports, ThePartyWallOfTheTowerIsHalfEachOnes) {
     const TemporaryFolder folder;
-    (void)runSvtWell(folder.path(), {"sample", "tower", "-o", "tower.gml", "--storeys", "1"});
+    prepare(folder.path(), {"sample", "tower", "-o", "tower.gml", "--storeys", "1"});
     (void)runSvtWell(folder.path(), {"build", "tower.gml", "-o", "tower.svt", "--spacing", "0.06"});
     writeText(folder / "owners.csv", "feature,owner\ntower_S00_F1,Weber\ntower_S00_F2,\"Hoffmann, H.\"\n");
     const std::vector<std::string> query{"query", "tower.svt", "id=tower_S00_wall_party_south_1", "--owners",
@@ -234,7 +234,7 @@ TEST(QueryReports, ThePartyWallOfTheTowerIsHalfEachOnes) {
 
 TEST(QueryReports, AreTheSameForAnyNumberOfThreads) {
     const TemporaryFolder folder;
-    (void)runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml", "--turn", "30"});
+    prepare(folder.path(), {"sample", "house", "-o", "house.gml", "--turn", "30"});
     (void)runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.08"});
     const auto report = [&](const char* threads) {
         return runSvtWell(folder.path(), {"query", "house.svt", "all", "--neighbours", "--json", "--threads", threads});

@@ -4,7 +4,6 @@
 // SVT_UPDATE_GOLDEN=1 rewrites the pictures; look at each before committing it.
 #include "run_command.hpp"
 
-#include <svt/core/file.hpp>
 #include <svt/core/test_data_test.hpp>
 #include <svt/image/image.hpp>
 #include <svt/image/png.hpp>
@@ -14,9 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <initializer_list>
 #include <utility>
 
@@ -81,10 +78,7 @@ class PictureTest : public ::testing::TestWithParam<Picture> {};
 TEST_P(PictureTest, LooksAsItsReference) {
     const Picture& picture = GetParam();
     const TemporaryFolder folder;
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
-    std::vector<std::string> buildArguments{"build", "house.gml", "-o", "house.svt", "--spacing", "0.06"};
-    buildArguments.insert(buildArguments.end(), picture.build.begin(), picture.build.end());
-    runSvtWell(folder.path(), buildArguments);
+    prepareHouse(folder.path(), "0.06", picture.build);
     expectAsReference(folder.path(), picture);
 }
 
@@ -171,7 +165,7 @@ std::string nameOfScene(const ::testing::TestParamInfo<const char*>& info) { ret
 class HouseSceneTest : public SceneTest {};
 TEST_P(HouseSceneTest, LooksAsItsReference) {
     SVT_NEEDS_DATA(model, "fzk_haus_citygml3.gml");
-    runSvtWell(folder.path(), {"build", model.string(), "-o", "house.svt", "--spacing", "0.04", "--vectors", "edges"});
+    prepare(folder.path(), {"build", model.string(), "-o", "house.svt", "--spacing", "0.04", "--vectors", "edges"});
     expectAsReference(folder.path(), picture());
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, HouseSceneTest,
@@ -180,8 +174,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, HouseSceneTest,
 
 class TowerSceneTest : public SceneTest {};
 TEST_P(TowerSceneTest, LooksAsItsReference) {
-    runSvtWell(folder.path(), {"sample", "tower", "-o", "tower.gml"});
-    runSvtWell(folder.path(), {"build", "tower.gml", "-o", "house.svt", "--spacing", "0.1"});
+    prepare(folder.path(), {"sample", "tower", "-o", "tower.gml"});
+    prepare(folder.path(), {"build", "tower.gml", "-o", "house.svt", "--spacing", "0.1"});
     expectAsReference(folder.path(), picture());
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, TowerSceneTest,
@@ -190,8 +184,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, TowerSceneTest,
 // Scenes with texts, which small pictures would not show.
 class SampleSceneTest : public SceneTest {};
 TEST_P(SampleSceneTest, LooksAsItsReference) {
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
-    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.05"});
+    prepareHouse(folder.path(), "0.05");
     Picture asked = picture();
     asked.size = "450x320";
     expectAsReference(folder.path(), asked);
@@ -201,10 +194,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SampleSceneTest,
 
 class SmallHouse : public ::testing::Test {
 protected:
-    SmallHouse() {
-        runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
-        runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2"});
-    }
+    SmallHouse() { prepareHouse(folder.path(), "0.2"); }
     image::Image<image::Rgba8> draw(std::vector<std::string> options) {
         std::vector<std::string> arguments{"render", "house.svt", "-o", "p.png", "--size", "160x90"};
         arguments.insert(arguments.end(), options.begin(), options.end());
@@ -421,7 +411,7 @@ TEST_F(SmallHouse, LineDrawingsRefuseWhatTheyDoNotHaveFromScenesToo) {
         {R"("passes":[{"cells":true}])", "--cells"},
         {R"("look":"paper")", nullptr}};
     for (const auto& [member, option] : members) {
-        std::ofstream(folder / "l.scene.json") << R"({"format":"svt-scene","version":1,)" << member << '}';
+        writeText(folder / "l.scene.json", std::string(R"({"format":"svt-scene","version":1,)") + member + '}');
         for (const char* output : {"l.svg", "l.pdf"}) {
             const CommandResult result = runSvt(
                 folder.path(), {"render", "house.svt", "-o", output, "--size", "160x90", "--scene", "l.scene.json"});
@@ -446,27 +436,18 @@ TEST_F(SmallHouse, LastOfTwoColorsWins) {
 class Films : public ::testing::Test {
 protected:
     void SetUp() override {
-        if (std::system("ffmpeg -version >/dev/null 2>&1") != 0)
-            GTEST_SKIP() << "ffmpeg is not installed (scripts/setup.sh readers)";
-        runSvtWell(folder_.path(), {"sample", "house", "-o", "house.gml"});
-        runSvtWell(folder_.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.25"});
+        if (!hasProgram("ffmpeg -version")) GTEST_SKIP() << "ffmpeg is not installed (scripts/setup.sh readers)";
+        prepareHouse(folder_.path(), "0.25");
     }
     [[nodiscard]] std::string streamOf(const std::string& film) const {
-        const std::string command =
+        const std::string text = runShellWell(
+            folder_.path(),
             "ffprobe -v error -count_frames -show_entries stream=codec_name,width,height,r_frame_rate,nb_read_frames "
-            "-of csv=p=0 '" +
-            (folder_.path() / film).string() + "'";
-        std::string text;
-        if (FILE* pipe = popen(command.c_str(), "r")) {
-            for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
-            pclose(pipe);
-        }
+            "-of csv=p=0 " +
+                film);
         return text.substr(0, text.find('\n'));
     }
-    [[nodiscard]] std::string bytesOf(const std::string& file) const {
-        const auto mapped = FileBytes::read(folder_.path() / file);
-        return mapped ? std::string(mapped->text()) : std::string();
-    }
+    [[nodiscard]] std::string bytesOf(const std::string& file) const { return readText(folder_.path() / file); }
 
     TemporaryFolder folder_;
 };
@@ -501,21 +482,19 @@ TEST_F(Films, AreTheSameBytesEachTimeAndRepeatAsWebP) {
     EXPECT_NE(bytesOf("a.webp").find("ANIM"), std::string::npos);
 }
 
+// Whether two files are there and have the same bytes.
+bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
+    return std::filesystem::exists(a) && std::filesystem::exists(b) && readText(a) == readText(b);
+}
+
 TEST(Motion, PicturesOfASeriesAreThoseOfTheScene) {
     const TemporaryFolder folder;
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
-    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.25"});
-    {
-        std::ofstream scene(folder.path() / "move.scene.json");
-        scene
-            << R"({"size":[160,90],"camera":{"fit":"all"},"passes":[{"cut":"z>6"}],"motion":{"seconds":2,"pace":"even",
-            "keys":[{"at":2,"scene":{"passes":[{"cut":"z>1"}]}}]}})";
-    }
+    prepareHouse(folder.path(), "0.25");
+    writeText(folder / "move.scene.json",
+              R"({"size":[160,90],"camera":{"fit":"all"},"passes":[{"cut":"z>6"}],"motion":{"seconds":2,"pace":"even",
+            "keys":[{"at":2,"scene":{"passes":[{"cut":"z>1"}]}}]}})");
     runSvtWell(folder.path(), {"render", "house.svt", "-o", "p.png", "--scene", "move.scene.json", "--frames", "3"});
-    const auto same = [&](const char* a, const char* b) {
-        const auto first = FileBytes::read(folder.path() / a), second = FileBytes::read(folder.path() / b);
-        return first && second && first->text() == second->text();
-    };
+    const auto same = [&](const std::string& a, const std::string& b) { return isSameFile(folder / a, folder / b); };
     for (const auto& [file, plane] :
          {std::pair("p_0000.png", "z>6"), std::pair("p_0001.png", "z>3.5"), std::pair("p_0002.png", "z>1")}) {
         runSvtWell(folder.path(),
@@ -526,12 +505,8 @@ TEST(Motion, PicturesOfASeriesAreThoseOfTheScene) {
 
 TEST(Motion, AMovingSectionIsKeptInTheWrittenScene) {
     const TemporaryFolder folder;
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
-    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.25"});
-    const auto same = [&](const std::string& a, const std::string& b) {
-        const auto first = FileBytes::read(folder.path() / a), second = FileBytes::read(folder.path() / b);
-        return first && second && first->text() == second->text();
-    };
+    prepareHouse(folder.path(), "0.25");
+    const auto same = [&](const std::string& a, const std::string& b) { return isSameFile(folder / a, folder / b); };
     const std::vector<std::vector<std::string>> cases{{"--section", "z=6..1"},
                                                       {"--section", "z=6..1", "--section", "y<3", "--turn", "90"},
                                                       {"--section", "z=4..1", "--lens", "box(0,0,0,5,5,5)"}};
@@ -558,10 +533,9 @@ TEST(Motion, AMovingSectionIsKeptInTheWrittenScene) {
 
 TEST(Motion, TheSceneFileIsReadOnce) {
     const TemporaryFolder folder;
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
-    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.5"});
+    prepareHouse(folder.path(), "0.5");
     const auto file = folder.path() / "move.scene.json";
-    std::ofstream(file) << R"({"size":[64,36],"motion":{"turn":360}})";
+    writeText(file, R"({"size":[64,36],"motion":{"turn":360}})");
     const int events = ::inotify_init1(IN_NONBLOCK);
     if (events < 0) GTEST_SKIP() << "no inotify on this machine";
     ASSERT_GE(::inotify_add_watch(events, file.c_str(), IN_OPEN | IN_CLOSE_NOWRITE), 0);
@@ -586,7 +560,7 @@ TEST(Motion, TheSceneFileIsReadOnce) {
 
 TEST(Motion, FilmsThatCannotBeAreRefusedBeforeTheWork) {
     const TemporaryFolder folder;
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    prepare(folder.path(), {"sample", "house", "-o", "house.gml"});
     const auto refused = [&](const std::vector<std::string>& more, const char* text) {
         std::vector<std::string> words{"render", "house.gml", "-o", "film.webm", "--size", "160x90"};
         words.insert(words.end(), more.begin(), more.end());

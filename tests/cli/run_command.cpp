@@ -7,11 +7,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
+#include <functional>
 #include <thread>
 
 #include <svt/core/machine.hpp>
@@ -54,6 +57,39 @@ double secondsOf(const timeval& time) { return double(time.tv_sec) + double(time
     if (limits.fileBytes != 0) limit(RLIMIT_FSIZE, limits.fileBytes);
     ::execv(command, arguments.data());
     ::_exit(kExecFailed);
+}
+
+namespace fs = std::filesystem;
+
+// Size and time of a file, which change when it is written anew.
+std::string stampOf(const fs::path& file) {
+    return std::to_string(fs::file_size(file)) + "-" +
+           std::to_string(fs::last_write_time(file).time_since_epoch().count());
+}
+
+// Outputs of prepare() by the command of this build; those of an earlier command are removed.
+const fs::path& preparedFolder() {
+    static const fs::path folder = [] {
+        const fs::path parent = buildFolder() / "tests/prepared", own = parent / stampOf(commandPath());
+        std::error_code ignored;
+        if (!fs::exists(own)) fs::remove_all(parent, ignored);
+        fs::create_directories(own);
+        return own;
+    }();
+    return folder;
+}
+
+// The arguments, with the content of those that name a file in `folder` and the stamp of those that name one elsewhere.
+std::string keyOf(const fs::path& folder, const std::vector<std::string>& arguments, const std::string& output) {
+    std::string key;
+    for (const std::string& argument : arguments) {
+        key += argument + '\0';
+        const fs::path file = folder / argument;
+        if (argument == output || !fs::exists(file)) continue;
+        EXPECT_FALSE(fs::is_directory(file)) << "the content of a folder is not looked at: " << file;
+        key += (fs::path(argument).is_absolute() ? stampOf(file) : readText(file)) + '\0';
+    }
+    return std::to_string(std::hash<std::string>()(key));
 }
 
 }  // namespace
@@ -151,10 +187,66 @@ nlohmann::json runSvtForJson(const std::filesystem::path& folder, const std::vec
     return result.json();
 }
 
+void prepare(const fs::path& folder, const std::vector<std::string>& arguments) {
+    const auto option = std::find(arguments.begin(), arguments.end(), "-o");
+    const std::string& output = option != arguments.end() ? option[1] : arguments.at(2);  // of `svt convert`
+    const fs::path kept = preparedFolder() / keyOf(folder, arguments, output);
+    if (!fs::exists(kept)) {
+        runSvtWell(folder, arguments);
+        // Under its final name only when it is whole: other tests run beside this one.
+        const fs::path whole = kept.string() + "-" + std::to_string(::getpid());
+        fs::copy(folder / output, whole, fs::copy_options::recursive);
+        std::error_code isThere;  // a folder that another test has made meanwhile
+        fs::rename(whole, kept, isThere);
+        if (isThere) fs::remove_all(whole);
+        return;
+    }
+    fs::copy(kept, folder / output, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+}
+
+void prepareHouse(const fs::path& folder, const std::string& spacing, const std::vector<std::string>& more) {
+    prepare(folder, {"sample", "house", "-o", "house.gml"});
+    std::vector<std::string> arguments{"build", "house.gml", "-o", "house.svt", "--spacing", spacing};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    prepare(folder, arguments);
+}
+
 std::vector<std::string> keysOf(const nlohmann::json& object) {
     std::vector<std::string> keys;
     for (const auto& [key, value] : object.items()) keys.push_back(key);
     return keys;
+}
+
+ShellResult runShell(const fs::path& folder, const std::string& command) {
+    const int status = std::system(("cd '" + folder.string() + "' && { " + command + "; } > output.txt 2>&1").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(folder / "output.txt")};
+}
+
+std::string runShellWell(const fs::path& folder, const std::string& command) {
+    ShellResult result = runShell(folder, command);
+    EXPECT_EQ(result.exitCode, 0) << command << ":\n" << result.text;
+    return std::move(result.text);
+}
+
+bool isRun(const fs::path& folder, const std::string& command, std::string& said) {
+    const ShellResult result = runShell(folder, command);
+    said = result.text;
+    if (result.isMissing()) return false;
+    EXPECT_EQ(result.exitCode, 0) << command << ":\n" << said;
+    return true;
+}
+
+bool hasProgram(const std::string& command) { return std::system((command + " > /dev/null 2>&1").c_str()) == 0; }
+
+std::string pythonOf(const std::string& script) {
+    const std::string python = fs::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
+    return python + " " + (fs::path(sourceRoot()) / "tests/scripts" / script).string() + " ";
+}
+
+std::string nodeOf(const std::string& script) {
+    const char* folder = std::getenv("SVT_ORACLES");
+    const std::string oracles = folder != nullptr ? folder : sourceRoot() + "/build/oracles";
+    return "node " + sourceRoot() + "/tests/formats/" + script + " " + oracles + " ";
 }
 
 }  // namespace svt::test

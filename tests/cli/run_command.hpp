@@ -57,7 +57,45 @@ std::string runSvtWell(const std::filesystem::path& folder, const std::vector<st
 /// Runs `svt`, expects exit code 0, and returns stdout as JSON.
 nlohmann::json runSvtForJson(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
-/// `objects` of `svt info --json` (or any array of objects) by id.
+/// Runs `svt sample`, `svt build` or `svt convert` for the set-up of a test and expects exit code 0. The output is kept in the
+/// build folder, so that the same command with the same arguments and inputs runs once for all tests. Not for commands that
+/// the test itself is about.
+void prepare(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
+
+/// Prepares the generated house as house.gml and its volume as house.svt; `more`: options of `svt build`.
+void prepareHouse(const std::filesystem::path& folder, const std::string& spacing,
+                  const std::vector<std::string>& more = {});
+
+/// Keys of a JSON object.
 [[nodiscard]] std::vector<std::string> keysOf(const nlohmann::json& object);
+
+/// How a shell command ended, such as one that reads with another program what `svt` has written.
+struct ShellResult {
+    int exitCode = -1;
+    std::string text;  ///< stdout and stderr
+
+    /// Whether the program, or a package that it needs, is not on this machine.
+    [[nodiscard]] bool isMissing() const { return exitCode == 77 || exitCode == 127; }
+};
+
+/// Runs a shell command with `folder` as working folder; writes `output.txt` there.
+[[nodiscard]] ShellResult runShell(const std::filesystem::path& folder, const std::string& command);
+
+/// Runs a shell command, expects exit code 0, and returns its output.
+std::string runShellWell(const std::filesystem::path& folder, const std::string& command);
+
+/// Runs a shell command and expects exit code 0, unless its program is missing. Returns whether it is there; `said` receives
+/// the output.
+[[nodiscard]] bool isRun(const std::filesystem::path& folder, const std::string& command, std::string& said);
+
+/// Whether a program is installed, by a command that prints its version.
+[[nodiscard]] bool hasProgram(const std::string& command);
+
+/// The command that runs a script, of tests/scripts unless its path is absolute, with the system's own Python: readers of
+/// other formats are packages of the system.
+[[nodiscard]] std::string pythonOf(const std::string& script);
+
+/// The command that runs a script of tests/formats with Node.js and the packages in $SVT_ORACLES, else in build/oracles.
+[[nodiscard]] std::string nodeOf(const std::string& script);
 
 }  // namespace svt::test

@@ -3,7 +3,6 @@
 #include "small_model.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <regex>
 
@@ -15,24 +14,11 @@ namespace fs = std::filesystem;
 /// Two boxes side by side, 4 x 6 x 3 m each, as a volume of 0.1 m in `folder`.
 void buildBoxes(const fs::path& folder) {
     writeText(folder / "boxes.gml", twoBoxes());
-    runSvtWell(folder, {"build", "boxes.gml", "-o", "boxes.svt", "--spacing", "0.1"});
+    prepare(folder, {"build", "boxes.gml", "-o", "boxes.svt", "--spacing", "0.1"});
 }
 
 /// The generated house, 0.1 m.
-void buildHouse(const fs::path& folder) {
-    runSvtWell(folder, {"sample", "house", "-o", "house.gml"});
-    runSvtWell(folder, {"build", "house.gml", "-o", "house.svt", "--spacing", "0.1"});
-}
-
-bool hasProgram(const std::string& name) { return std::system((name + " --version > /dev/null 2>&1").c_str()) == 0; }
-
-/// Output of a shell command.
-std::string outputOf(const fs::path& folder, const std::string& command) {
-    const fs::path file = folder / "output.txt";
-    const int status = std::system(("cd '" + folder.string() + "' && " + command + " > output.txt 2>&1").c_str());
-    EXPECT_EQ(status, 0) << command << "\n" << readText(file);
-    return readText(file);
-}
+void buildHouse(const fs::path& folder) { prepareHouse(folder, "0.1"); }
 
 double ringArea(const nlohmann::json& ring) {
     double area = 0;
@@ -50,7 +36,7 @@ double ringArea(const nlohmann::json& ring) {
 // A section of the generated IFC house from south to north, 9.9 m from its eaves: areas of the layers in closed form.
 TEST(Section, LayersOfIfcAreCutAndHatched) {
     const TemporaryFolder folder;
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.ifc"});
+    prepare(folder.path(), {"sample", "house", "-o", "house.ifc"});
     const auto drawn = runSvtForJson(folder.path(), {"section", "house.ifc", "--layers", "--spacing", "0.1", "--plane",
                                                      "x<9.9", "-o", "layers.svg", "--json"});
     std::map<std::string, double> areas;
@@ -184,9 +170,10 @@ TEST(Section, SvgIsXmlToScaleAndCanBeDrawn) {
     };
     // Twice as wide, between margins of 10 mm.
     EXPECT_NEAR(widthOf(readText(folder / "large.svg")) - 20, 2 * (widthOf(svg) - 20), 0.01);
-    if (!hasProgram("xmllint") || !hasProgram("rsvg-convert")) GTEST_SKIP() << "no xmllint or rsvg-convert here";
-    outputOf(folder.path(), "xmllint --noout a.svg");
-    outputOf(folder.path(), "rsvg-convert a.svg -o a.png");
+    if (!hasProgram("xmllint --version") || !hasProgram("rsvg-convert --version"))
+        GTEST_SKIP() << "no xmllint or rsvg-convert here";
+    runShellWell(folder.path(), "xmllint --noout a.svg");
+    runShellWell(folder.path(), "rsvg-convert a.svg -o a.png");
     EXPECT_GT(fs::file_size(folder / "a.png"), 5000u);
 }
 
@@ -210,14 +197,15 @@ TEST(Section, GeojsonHasAreasInTheModelsCrs) {
         }
         EXPECT_NEAR(area, feature["properties"]["area"].get<double>(), 1e-4) << feature["id"];
     }
-    if (!hasProgram("ogrinfo")) GTEST_SKIP() << "no ogrinfo here";
-    const std::string info = outputOf(folder.path(), "ogrinfo -al -so plan.geojson");
+    if (!hasProgram("ogrinfo --version")) GTEST_SKIP() << "no ogrinfo here";
+    const std::string info = runShellWell(folder.path(), "ogrinfo -al -so plan.geojson");
     EXPECT_NE(info.find("Feature Count: " + std::to_string(drawn["features"].size())), std::string::npos) << info;
     EXPECT_NE(info.find("25832"), std::string::npos) << info;
     EXPECT_NE(info.find("area: Real"), std::string::npos) << info;
     // OGR's own areas.
     const std::string query = "SELECT id, area, OGR_GEOM_AREA AS g FROM \"" + drawn["name"].get<std::string>() + "\"";
-    const std::string rows = outputOf(folder.path(), "ogr2ogr -f CSV /vsistdout/ plan.geojson -sql '" + query + "'");
+    const std::string rows =
+        runShellWell(folder.path(), "ogr2ogr -f CSV /vsistdout/ plan.geojson -sql '" + query + "'");
     const std::regex row(R"row(\n"?([^,"]+)"?,([0-9.]+),([0-9.]+))row");
     int count = 0;
     for (auto at = std::sregex_iterator(rows.begin(), rows.end(), row); at != std::sregex_iterator(); ++at, ++count)
@@ -251,8 +239,8 @@ TEST(Section, DxfIsReadByOgr) {
     buildHouse(folder.path());
     runSvtWell(folder.path(), {"section", "house.svt", "-o", "plan.dxf", "-o", "plan.geojson", "--hide",
                                "class=BuildingFurniture", "--hide", "class=ClosureSurface"});
-    if (!hasProgram("ogrinfo")) GTEST_SKIP() << "no ogrinfo here";
-    outputOf(folder.path(), "ogr2ogr -f GeoJSON dxf.json plan.dxf");
+    if (!hasProgram("ogrinfo --version")) GTEST_SKIP() << "no ogrinfo here";
+    runShellWell(folder.path(), "ogr2ogr -f GeoJSON dxf.json plan.dxf");
     const auto dxf = nlohmann::json::parse(readText(folder / "dxf.json"));
     const auto drawing = nlohmann::json::parse(readText(folder / "plan.geojson"));
     std::size_t rings = 0;
@@ -324,8 +312,8 @@ TEST(Section, PlansOfTheHouseShowWhatIsBelowAndAbove) {
     runSvtWell(folder.path(), {"section", "house.svt", "-o", "q.svg", "--plane", "z=1.5", "--beyond", "--hidden",
                                "--above", "--threads", "1"});
     EXPECT_EQ(svg, readText(folder / "q.svg"));
-    if (!hasProgram("ogrinfo")) GTEST_SKIP() << "no ogrinfo";
-    const std::string seen = outputOf(folder.path(), "ogrinfo -q -al p.dxf");
+    if (!hasProgram("ogrinfo --version")) GTEST_SKIP() << "no ogrinfo";
+    const std::string seen = runShellWell(folder.path(), "ogrinfo -q -al p.dxf");
     EXPECT_NE(seen.find("BEYOND_HIDDEN"), std::string::npos);
     EXPECT_EQ(seen.find("ERROR"), std::string::npos);
 }
@@ -333,7 +321,7 @@ TEST(Section, PlansOfTheHouseShowWhatIsBelowAndAbove) {
 TEST(Section, WithoutMeshesNothingIsBeyond) {
     const TemporaryFolder folder;
     writeText(folder / "boxes.gml", twoBoxes());
-    runSvtWell(folder.path(), {"build", "boxes.gml", "-o", "v.svt", "--spacing", "0.1", "--vectors", "none"});
+    prepare(folder.path(), {"build", "boxes.gml", "-o", "v.svt", "--spacing", "0.1", "--vectors", "none"});
     const CommandResult result = runSvt(folder.path(), {"section", "v.svt", "-o", "d.svg", "--beyond"});
     EXPECT_EQ(result.exitCode, 0) << result.toString();
     EXPECT_NE(result.err.find("E509 NoMeshes"), std::string::npos) << result.toString();

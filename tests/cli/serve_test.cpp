@@ -88,8 +88,7 @@ private:
 struct ServeTest : testing::Test {
     ServeTest() {
         makePage(folder.path());
-        runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
-        runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.2", "--vectors", "edges"});
+        prepareHouse(folder.path(), "0.2", {"--vectors", "edges"});
     }
     const TemporaryFolder folder;
 };
@@ -176,7 +175,7 @@ TEST_F(ServeTest, ConversionsKeepToTheirLimits) {
     if (kIsSanitized) GTEST_SKIP() << "a sanitizer needs more address space than a conversion may have";
     Serving serving(folder.path(),
                     {"serve", "--viewer", "page", "--port", "0", "--allow-uploads", "--convert-memory", "64"});
-    runSvtWell(folder.path(), {"sample", "district", "--columns", "4", "--rows", "4", "-o", "houses.gml"});
+    prepare(folder.path(), {"sample", "district", "--columns", "4", "--rows", "4", "-o", "houses.gml"});
     const auto answer = serving.ask("POST /api/convert?name=houses.gml", readText(folder / "houses.gml"));
     EXPECT_EQ(answer.status, 422);
     EXPECT_EQ(answer.body.substr(0, 14), "{\"code\":\"E104\"") << answer.body;

@@ -3,7 +3,6 @@
 #include "small_model.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <regex>
 #include <sstream>
 #include <utility>
@@ -14,29 +13,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool hasPoppler() { return std::system("pdfinfo -v > /dev/null 2>&1 && pdftotext -v > /dev/null 2>&1") == 0; }
-
-std::string outputOf(const fs::path& folder, const std::string& command) {
-    const int status = std::system(("cd '" + folder.string() + "' && " + command + " > output.txt 2>&1").c_str());
-    EXPECT_EQ(status, 0) << command;
-    return readText(folder / "output.txt");
-}
+bool hasPoppler() { return hasProgram("pdfinfo -v") && hasProgram("pdftotext -v"); }
 
 TEST(Sheets, TheHouseHasPlansSectionsAndElevations) {
     const TemporaryFolder folder;
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
-    runSvtWell(folder.path(), {"build", "house.gml", "-o", "house.svt", "--spacing", "0.1"});
+    prepareHouse(folder.path(), "0.1");
     runSvtWell(folder.path(), {"sheets", "house.svt", "-o", "house.pdf", "--svg", "sheets"});
     runSvtWell(folder.path(), {"sheets", "house.svt", "-o", "again.pdf", "--threads", "1"});
     EXPECT_EQ(readText(folder / "house.pdf"), readText(folder / "again.pdf"));
     for (int n = 1; n <= 7; ++n) EXPECT_TRUE(fs::exists(folder / "sheets" / ("sheet-" + std::to_string(n) + ".svg")));
     EXPECT_FALSE(fs::exists(folder / "sheets" / "sheet-8.svg"));
     if (!hasPoppler()) GTEST_SKIP() << "no poppler";
-    const std::string info = outputOf(folder.path(), "pdfinfo house.pdf");
+    const std::string info = runShellWell(folder.path(), "pdfinfo house.pdf");
     EXPECT_TRUE(std::regex_search(info, std::regex("Pages: +7"))) << info;
     EXPECT_TRUE(std::regex_search(info, std::regex("Title: +Sample house"))) << info;
     EXPECT_TRUE(std::regex_search(info, std::regex("1190\\.55 x 841\\.89 pts \\(A3\\)"))) << info;
-    const std::string text = outputOf(folder.path(), "pdftotext house.pdf -");
+    const std::string text = runShellWell(folder.path(), "pdftotext house.pdf -");
     for (const char* part : {"Living room", "Plan Ground floor, level \u00B10.00", "Section A\u2013A",
                              "Elevation from the west", "1:100", "7 of 7", "Floor areas after DIN 277-1", "36\u2075"})
         EXPECT_NE(text.find(part), std::string::npos) << part;
@@ -44,7 +36,7 @@ TEST(Sheets, TheHouseHasPlansSectionsAndElevations) {
 
 // How many pixels of the first page are darker than light fills; by poppler, which follows the layers that are shown at first.
 std::size_t darkPixels(const fs::path& folder, const std::string& pdf) {
-    outputOf(folder, "pdftoppm -r 50 -gray -f 1 -l 1 -singlefile " + pdf + " page");
+    runShellWell(folder, "pdftoppm -r 50 -gray -f 1 -l 1 -singlefile " + pdf + " page");
     const std::string picture = readText(folder / "page.pgm");
     std::istringstream head(picture);
     std::string kind;
@@ -57,16 +49,16 @@ std::size_t darkPixels(const fs::path& folder, const std::string& pdf) {
 
 // Each layer alone and none of them: the parts of the picture add up, nothing is outside of layers.
 TEST(Sheets, PdfHasLayersThatAViewerSwitches) {
-    if (!hasPoppler() || std::system("qpdf --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no poppler or qpdf";
+    if (!hasPoppler() || !hasProgram("qpdf --version")) GTEST_SKIP() << "no poppler or qpdf";
     const TemporaryFolder folder;
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    prepare(folder.path(), {"sample", "house", "-o", "house.gml"});
     const std::vector<std::string> section{"section",  "house.gml", "-o",       "plan.pdf", "-o",
                                            "plan.svg", "--beyond",  "--hidden", "--above",  "--dimensions"};
     const auto drawn = runSvt(folder.path(), section);
     ASSERT_EQ(drawn.exitCode, 0) << drawn.toString();
     if (drawn.err.find("the PDF has no layers") != std::string::npos) GTEST_SKIP() << "no libqpdf";
-    outputOf(folder.path(), "qpdf --check plan.pdf");
-    outputOf(folder.path(), "qpdf --qdf --object-streams=disable plan.pdf plain.pdf");
+    runShellWell(folder.path(), "qpdf --check plan.pdf");
+    runShellWell(folder.path(), "qpdf --qdf --object-streams=disable plan.pdf plain.pdf");
     const std::string plain = readText(folder / "plain.pdf"), off = "/OFF [\n      ]";
     const std::size_t at = plain.find(off);
     ASSERT_NE(at, std::string::npos);
@@ -84,9 +76,7 @@ TEST(Sheets, PdfHasLayersThatAViewerSwitches) {
             if (isOff(name)) listed += " " + reference;
         std::string changed = plain;
         writeText(folder / "changed.pdf", changed.replace(at, off.size(), listed + " ]"));
-        const int fixed =
-            std::system(("cd '" + folder.path().string() + "' && fix-qdf changed.pdf > fixed.pdf 2> fix.txt").c_str());
-        EXPECT_EQ(fixed, 0) << readText(folder / "fix.txt");
+        runShellWell(folder.path(), "fix-qdf changed.pdf > fixed.pdf");
         return darkPixels(folder.path(), "fixed.pdf");
     };
     const std::size_t all = darkWithout([](const std::string&) { return false; });
@@ -96,7 +86,7 @@ TEST(Sheets, PdfHasLayersThatAViewerSwitches) {
         EXPECT_LT(darkWithout([&](const std::string& other) { return other == name; }), all) << name;
         EXPECT_GT(darkWithout([&](const std::string& other) { return other != name; }), 0u) << name;
     }
-    const std::string text = outputOf(folder.path(), "pdftotext plan.pdf -");
+    const std::string text = runShellWell(folder.path(), "pdftotext plan.pdf -");
     EXPECT_NE(text.find("Living room"), std::string::npos) << text;
 }
 
@@ -153,7 +143,7 @@ TEST(Sheets, BoxesWithoutStoreysHaveOnePlan) {
 
 TEST(Sheets, OfAnOpenShellAreDrawnAndSaySo) {
     const TemporaryFolder folder;
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    prepare(folder.path(), {"sample", "house", "-o", "house.gml"});
     std::string model = readText(folder / "house.gml");
     const std::string name = "gml:id=\"house_wall_south_0_p";
     for (int polygon = 0; polygon < 10; ++polygon) {

@@ -14,8 +14,8 @@ using nlohmann::json;
 class Shell : public ::testing::Test {
 protected:
     Shell() {
-        runSvtWell(folder.path(), {"sample", "tower", "-o", "tower.gml"});
-        runSvtWell(folder.path(), {"build", "tower.gml", "-o", "tower.svt", "--spacing", "0.25"});
+        prepare(folder.path(), {"sample", "tower", "-o", "tower.gml"});
+        prepare(folder.path(), {"build", "tower.gml", "-o", "tower.svt", "--spacing", "0.25"});
     }
     json shell(const std::string& output, std::vector<std::string> options) {
         std::vector<std::string> arguments{"shell", "tower.svt", "-o", output, "--json"};
@@ -147,7 +147,7 @@ TEST_F(Shell, BadArgumentsAreRefused) {
     refused({"-o", "s.svt", "--of", "class=Windw"}, 2, "Window");
     refused({"-o", "no/s.svt"}, 5, "E404");
     refused({"-o", "no/s.glb"}, 5, "E404");
-    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    prepare(folder.path(), {"sample", "house", "-o", "house.gml"});
     const CommandResult house =
         runSvt(folder.path(), {"shell", "house.gml", "--spacing", "0.25", "-o", "s.svt", "--level", "unit"});
     EXPECT_EQ(house.exitCode, 2);
