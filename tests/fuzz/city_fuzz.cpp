@@ -14,6 +14,7 @@
 
 namespace {
 
+using namespace svt;
 using namespace svt::city;
 
 void require(bool condition) {
