@@ -135,6 +135,8 @@ describe("keeping", () => {
 
   it("takes back and repeats what changed the picture", async () => {
     await open();
+    // The first view is fitted once more when the picture has its size.
+    await settled();
     assert.ok(await visit.page.locator("#undo").isDisabled());
     await inPage("s.selection.select(['house_hidden_beam'])");
     assert.ok(await visit.page.locator("#undo").isDisabled(), "a selection is no step");
