@@ -2,7 +2,7 @@
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/illustrate/section_plane.hpp>
 #include <svt/volume/svt_file.hpp>
-#include <svt/writers/svg_drawing.hpp>
+#include <svt/writers/drawing_formats.hpp>
 
 #include <cstdio>
 
@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
     if (!plane) return fail(plane.error());
     const auto drawing = svt::illustrate::drawSection(*volume, *plane);
     if (!drawing) return fail(drawing.error());
-    const auto written = svt::writers::writeSvg(*drawing, *volume, argv[3], {.scale = 50});
+    const auto written = svt::writers::writeDrawing(*drawing, *volume, argv[3], {.scale = 50});
     if (!written) return fail(written.error());
     for (const auto& total : drawing->classes)
         std::printf("%-30s %4zu %10.3f m2\n", total.className.c_str(), total.components, total.area);

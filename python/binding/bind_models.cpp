@@ -5,6 +5,7 @@
 #include "volume_object.hpp"
 
 #include <svt/pipeline/build_volume.hpp>
+#include <svt/readers/model_joiner.hpp>
 #include <svt/samples/sample.hpp>
 
 #include <pybind11/stl.h>
@@ -27,7 +28,7 @@ std::shared_ptr<ModelObject> readModel(const Paths& paths, const py::dict& given
     auto options = fromKeywords<readers::ReadOptions>(given);
     read->model = longCall(report, [&](const Progress* progress) {
         options.progress = progress;
-        return pipeline::readModels(paths, options, &read->findings);
+        return readers::readModels(paths, options, &read->findings);
     });
     return read;
 }

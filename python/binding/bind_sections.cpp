@@ -6,10 +6,7 @@
 
 #include <svt/core/file.hpp>
 #include <svt/illustrate/section_drawing.hpp>
-#include <svt/writers/dxf_drawing.hpp>
-#include <svt/writers/geojson_drawing.hpp>
-#include <svt/writers/section_table.hpp>
-#include <svt/writers/svg_drawing.hpp>
+#include <svt/writers/drawing_formats.hpp>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -79,24 +76,12 @@ py::list linesOf(const py::object& self) {
     return lines;
 }
 
-Result<std::string> writtenAs(const SectionObject& section, const std::string& format, double scale) {
-    const auto& volume = section.volume->volume();
-    writers::SvgOptions options;
-    options.scale = scale;
-    if (format == "svg") return writers::makeSvg(section.drawing, volume, options);
-    if (format == "dxf") return writers::makeDxf(section.drawing, volume);
-    if (format == "geojson") return writers::makeGeojson(section.drawing, volume);
-    if (format == "csv") return writers::makeSectionCsv(section.drawing, volume);
-    return writers::makeSectionJson(section.drawing, volume);
-}
-
 /// The drawing in a format; also written to `path`, all or nothing, unless that is None. Bytes, since DXF has a code page.
 py::bytes writeAs(const SectionObject& section, const std::string& format, double scale,
                   const std::optional<std::filesystem::path>& path) {
     const std::string text = longCall(py::none(), [&](const Progress*) -> Result<std::string> {
-        auto made = writtenAs(section, format, scale);
-        if (made && path)
-            if (const auto written = writeFileAtomically(*path, *made); !written) return written.error();
+        auto made = writers::makeDrawing(section.drawing, section.volume->volume(), format, {scale});
+        if (made && path) SVT_DO(writeFileAtomically(*path, *made));
         return made;
     });
     return py::bytes(text);

@@ -308,17 +308,24 @@ class Command(unittest.TestCase):
                 self.assertTrue(a.read() == b.read(), options)
 
     def test_a_city_is_drawn_alike(self):
-        command("sample", "district", "--columns", "3", "--rows", "2", "-o", path("town.gml"))
+        command("sample", "district", "--columns", "24", "--rows", "3", "-o", path("town.gml"))
         command("city", "plan", path("town.gml"), "-o", path("town"), "--spacing", "0.4", "--quiet")
         command("city", "run", path("town"), "--quiet")
         city = svt.City(path("town"))
-        self.assertEqual(city.buildings, 7, "six houses, and the ground")
-        command(
-            "render", path("town"), "-o", path("command.png"), "--size", "200x150", "--look", "dark", "--zoom", "1.5"
-        )
-        city.frame(size="200x150", look="dark", zoom=1.5).save(path("python.png"))
-        with open(path("command.png"), "rb") as a, open(path("python.png"), "rb") as b:
-            self.assertTrue(a.read() == b.read())
+        self.assertEqual(city.buildings, 73, "72 houses, and the ground")
+        # Near, and so far away that styles by class are those of mixtures.
+        pairs: list[tuple[dict, list[str]]] = [
+            ({"look": "dark", "zoom": 6}, ["--look", "dark", "--zoom", "6"]),
+            (
+                {"zoom": 0.1, "color": {"class=Building": "#c04030"}},
+                ["--zoom", "0.1", "--color", "class=Building:#c04030"],
+            ),
+        ]
+        for options, arguments in pairs:
+            command("render", path("town"), "-o", path("command.png"), "--size", "200x150", *arguments)
+            city.frame(size="200x150", **options).save(path("python.png"))
+            with open(path("command.png"), "rb") as a, open(path("python.png"), "rb") as b:
+                self.assertTrue(a.read() == b.read(), options)
         with self.assertRaisesRegex(svt.Error, "for one volume only"):
             city.render(explode=2)
         with self.assertRaises(svt.Error):

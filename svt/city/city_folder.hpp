@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,6 +32,11 @@ struct IndexEntry {
     std::array<std::int32_t, 4> rectangle{};
     [[nodiscard]] bool hasRectangle() const noexcept { return rectangle[0] < rectangle[2]; }
 };
+
+/// West, south, east and north without bounds: City::find() then finds all tiles.
+inline constexpr std::array<double, 4> kEverywhere{
+    -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+    std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
 /// What is done of a plan.
 struct CityStatus {
@@ -102,7 +108,7 @@ public:
     };
     [[nodiscard]] const std::vector<Class>& classes() const noexcept { return classes_; }
 
-    /// Entries of a level of detail whose tiles meet [west, south, east, north] (metres); all for an infinite rectangle.
+    /// Entries of a level of detail whose tiles meet [west, south, east, north] (metres); all for kEverywhere.
     /// Reads only the pages of the index that meet it.
     [[nodiscard]] Result<std::vector<IndexEntry>> find(int detail, const std::array<double, 4>& rectangle) const;
     /// Where buildings with an id stand: tile and label of detail 0. Reads the fence and one or two pages of ids.bin.
@@ -155,5 +161,9 @@ struct Extract {
 /// sample, the first along the Morton curve has it.
 /// \return the volume, or NothingSelected, BadArgument, GridTooLarge, BadPack, BadCity
 [[nodiscard]] Result<volume::SemanticVolume> extractVolume(const City& city, const Extract& extract);
+
+/// The whole city at the finest detail with at most so many bytes of members, and samples along its longer side; else the
+/// coarsest one. \return the volume, or an error of City::find(), extractVolume()
+[[nodiscard]] Result<volume::SemanticVolume> wholeVolume(const City& city, std::uint64_t mostBytes, double mostSamples);
 
 }  // namespace svt::city

@@ -31,6 +31,11 @@ struct JoinedTiles {
 [[nodiscard]] Result<JoinedTiles> joinTiles(const City& city, const volume::SemanticVolume& frame,
                                             const ChosenTiles& chosen, std::vector<volume::SemanticVolume> parts);
 
+/// What the camera of a scene sees of a city, for chooseTiles().
+/// \param frame  frameVolume() of the city
+/// \return the view, or an error of makeFrameSpec()
+[[nodiscard]] Result<CameraView> viewOf(const illustrate::Scene& scene, const volume::SemanticVolume& frame);
+
 /// Whether a scene can be drawn of a city, whose parts are read tile by tile.
 /// \return success, or BadArgument for a member that needs a whole model: explode, insets, or lines or meshes of a pass
 [[nodiscard]] Result<void> checkCityScene(const illustrate::Scene& scene);

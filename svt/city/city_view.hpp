@@ -77,7 +77,4 @@ struct SeenDepths {
 /// "Building/RoofSurface": what mixtures of coarse details are made of (coverageOf()).
 [[nodiscard]] volume::LabelTable classTable(const City& city);
 
-/// All entries of a detail, to be read one after the other.
-[[nodiscard]] Result<std::vector<IndexEntry>> allTiles(const City& city, int detail);
-
 }  // namespace svt::city

@@ -26,10 +26,7 @@ record::Members<VolumePart> membersOf(const VolumePart*) noexcept {
 
 Result<volume::SemanticVolume> VolumePart::of(volume::SemanticVolume volume, int threads) const {
     if (!box.empty()) {
-        const auto samples = volume::samplesIn(volume.grid, {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}});
-        if (!samples) return samples.error();
-        auto cropped = volume::croppedVolume(volume, *samples);
-        if (!cropped) return cropped;
+        SVT_TRY(cropped, volume::volumeIn(volume, {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}}));
         volume = std::move(*cropped);
     }
     if (!select.empty()) {

@@ -83,10 +83,6 @@ struct BuildOutput {
 [[nodiscard]] Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions& options = {},
                                               Diagnostics* log = nullptr);
 
-/// Reads all files into one model. What a later file has in degrees or feet is brought to the CRS of the first.
-[[nodiscard]] Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files,
-                                                      readers::ReadOptions options, Diagnostics* log);
-
 /// The grid requested by `options` for the meshes.
 /// \param choice  receives the spacing where none was requested; may be null
 [[nodiscard]] Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions& options,

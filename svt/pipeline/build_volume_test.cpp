@@ -2,6 +2,7 @@
 #include <svt/image/color_text.hpp>
 #include <svt/mesh/models_test.hpp>
 #include <svt/pipeline/build_volume.hpp>
+#include <svt/readers/model_joiner.hpp>
 #include <svt/samples/sample.hpp>
 #include <svt/volume/volume_json.hpp>
 
@@ -328,8 +329,8 @@ protected:
 
 TEST_F(TwoFiles, EqualIdsAreToldApart) {
     Diagnostics log;
-    const auto one = readModels(std::span(files_).first(1), {}, nullptr);
-    const auto both = readModels(files_, {}, &log);
+    const auto one = readers::readModels(std::span(files_).first(1), {}, nullptr);
+    const auto both = readers::readModels(files_, {}, &log);
     ASSERT_TRUE(one && both);
     const std::size_t count = one->features.size();
     ASSERT_EQ(both->features.size(), 2 * count);
@@ -373,7 +374,7 @@ TEST_F(TwoFiles, FromFilesAsFromAModelInMemory) {
     options.usePatterns = true;
     Diagnostics ofFiles, ofModel;
     const auto fromFiles = buildVolume(files_, options, &ofFiles);
-    auto model = readModels(files_, {}, &ofModel);
+    auto model = readers::readModels(files_, {}, &ofModel);
     ASSERT_TRUE(fromFiles && model);
     const std::size_t polygons = model->polygons.size();
     const auto fromModel = buildVolume(*model, options, &ofModel);
@@ -390,7 +391,7 @@ TEST_F(TwoFiles, FromFilesAsFromAModelInMemory) {
 
 TEST_F(TwoFiles, ThreeEqualFilesStayApart) {
     files_.push_back(files_[0]);
-    const auto all = readModels(files_, {}, nullptr);
+    const auto all = readers::readModels(files_, {}, nullptr);
     ASSERT_TRUE(all);
     std::set<std::string> ids;
     for (const model::Feature& feature : all->features) ids.insert(feature.id);
@@ -399,7 +400,7 @@ TEST_F(TwoFiles, ThreeEqualFilesStayApart) {
 
 TEST_F(TwoFiles, MissingFileIsAnError) {
     files_.push_back(folder_ / "missing.gml");
-    const auto all = readModels(files_, {}, nullptr);
+    const auto all = readers::readModels(files_, {}, nullptr);
     ASSERT_FALSE(all);
     EXPECT_EQ(all.error().code(), Code::CannotOpen);
 }

@@ -4,6 +4,7 @@
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/pipeline/build_volume.hpp>
+#include <svt/readers/model_joiner.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/samples/sample.hpp>
 
@@ -121,7 +122,7 @@ const std::vector<illustrate::SectionPlane> kPlanes{
 
 TEST(SectionOracle, FzkHausAgreesWithItsMeshes) {
     SVT_NEEDS_DATA(file, "fzk_haus_citygml3.gml");
-    auto model = readModels(std::span(&file, 1), {}, nullptr);
+    auto model = readers::readModels(std::span(&file, 1), {}, nullptr);
     ASSERT_TRUE(model);
     BuildOptions options;
     options.dimension = Vec3i{400, 350, 200};

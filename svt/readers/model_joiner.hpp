@@ -1,15 +1,34 @@
 #pragma once
 /// \file
-/// Joins the models of several files into one.
+/// The models of several files as one.
 
 #include <svt/core/diagnostics.hpp>
+#include <svt/core/result.hpp>
 #include <svt/model/building_model.hpp>
+#include <svt/readers/read_options.hpp>
 
 #include <cstddef>
+#include <filesystem>
+#include <span>
 #include <string>
 #include <unordered_set>
 
 namespace svt::readers {
+
+/// A file in memory.
+struct NamedBytes {
+    std::string name;  ///< for messages
+    std::span<const std::byte> bytes;
+};
+
+/// Reads all files into one model, as ModelJoiner does. Coordinates in degrees or feet in a later file are projected to the
+/// CRS of the first.
+/// \param log  receives the findings; may be null
+/// \return the model, or an error of readModel(); BadArgument if there is no file
+[[nodiscard]] Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, ReadOptions options,
+                                                      Diagnostics* log);
+[[nodiscard]] Result<model::BuildingModel> readModels(std::span<const NamedBytes> files, ReadOptions options,
+                                                      Diagnostics* log);
 
 /// Takes models one after the other. An id that an earlier model has gets `@` and the number of the model (1-based) as
 /// suffix. That, and CRSs that differ, are warnings.

@@ -444,8 +444,7 @@ Result<std::uint64_t> writeSite(const Site& site, const fs::path& folder, bool m
             total += *written;
         }
         for (const auto& [path, resource] : site.resources())
-            if (path != "/index.html")
-                if (auto moved = moveInto(staging.path, folder, path); !moved) return moved;
+            if (path != "/index.html") SVT_DO(moveInto(staging.path, folder, path));
         return site.find("/") == nullptr ? Result<void>() : moveInto(staging.path, folder, "/index.html");
     };
     if (auto done = write(); !done) {

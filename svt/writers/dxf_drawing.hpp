@@ -9,7 +9,6 @@
 /// 1252; other characters are written as \U+XXXX. Version 2000 is the oldest that states its unit, and all programs
 /// read it.
 
-#include <svt/core/result.hpp>
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/record/members.hpp>
 

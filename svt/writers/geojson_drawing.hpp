@@ -11,7 +11,6 @@
 /// GDAL and QGIS read. It is omitted if the name of the model's CRS contains no EPSG code. Coordinates have six
 /// decimals.
 
-#include <svt/core/result.hpp>
 #include <svt/illustrate/section_drawing.hpp>
 
 #include <string>

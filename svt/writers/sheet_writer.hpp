@@ -9,10 +9,12 @@
 ///     |  |  scale bar       | title block  |    180 mm wide, after ISO 7200; frame after ISO 5457
 ///     +--+------------------+--------------+
 
+#include <svt/core/names.hpp>
 #include <svt/core/result.hpp>
 #include <svt/illustrate/floor_areas.hpp>
 #include <svt/illustrate/sheet_views.hpp>
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -35,6 +37,9 @@ struct SheetGroup {
 };
 
 enum class SheetLanguage : std::uint8_t { English, German };
+constexpr auto namesOf(SheetLanguage) {
+    return std::to_array<Name<SheetLanguage>>({{SheetLanguage::English, "en"}, {SheetLanguage::German, "de"}});
+}
 
 /// A table on sheets of its own.
 struct SheetTable {

@@ -207,6 +207,42 @@ test("errors have their codes, and leave what was open as it was", () => {
   assert.equal(ask("select", "all").length, before.features.length);
 });
 
+/** What a scene shows of a city: each range of bytes that the module needs is read from the folder. */
+function look(city, scene, isOther) {
+  for (let first = isOther; ; first = false) {
+    const reply = ask("cityLook", first, scene, ...scene.size, { pixels: 1, memory: 1e9, shown: "" });
+    if (!reply.needs) return reply;
+    const given = reply.needs.map(([name, offset, size]) => {
+      const all = readFileSync(join(city, name));
+      return { row: [name, offset, size], bytes: all.subarray(offset, offset + size), total: all.length };
+    });
+    const rows = given.map(({ row, bytes, total }) => [...row, bytes.length, total, null]);
+    svt.call("cityGive", [rows], Buffer.concat(given.map(({ bytes }) => bytes)));
+  }
+}
+
+test("a city is drawn as by the command, near and far, with styles by class and shadows", () => {
+  run("sample", "district", "--columns", "24", "--rows", "3", "-o", at("town.gml"));
+  run("city", "plan", at("town.gml"), "-o", at("town"), "--spacing", "0.4", "--quiet");
+  run("city", "run", at("town"), "--quiet");
+  const styles = [{ styles: [{ select: "class=Building", color: "#c04030" }] }];
+  const scenes = {
+    near: { camera: { zoom: 6 } },
+    far: { camera: { zoom: 0.1 }, passes: styles },
+    cut: { camera: { preset: "iso-sw" }, passes: [{ ...styles[0], cut: "y<20" }] },
+    street: { camera: { eye: [-20, -20, 5], target: [40, 30, 2] }, sun: { time: "2026-06-21 17:00Z", place: [52.5, 13.4] } },
+  };
+  const details = Object.entries(scenes).map(([name, members], n) => {
+    const scene = { size: [320, 200], ...members };
+    writeFileSync(at("s.scene.json"), JSON.stringify({ format: "svt-scene", version: 1, ...scene }));
+    run("render", at("town"), "-o", at("p.png"), "--scene", at("s.scene.json"));
+    const { coarsest } = look(at("town"), scene, n === 0);
+    assert.ok(bytes("picture", scene).equals(readFileSync(at("p.png"))), `picture of '${name}'`);
+    return coarsest;
+  });
+  assert.equal(details[1], 3, "a mixture of classes");
+});
+
 const real = join(process.env.SVT_DATA_DIR ?? "../shared/data", "fzk_haus_citygml3.gml");
 test("a real house is the same", { skip: !existsSync(real) && `no ${real}` }, () => {
   run("build", real, "-o", at("real.svt"));

@@ -1,6 +1,6 @@
 #include "city.hpp"
 
-#include <svt/city/city_levels.hpp>
+#include <svt/city/city_painter.hpp>
 #include <svt/illustrate/view.hpp>
 
 #include <fmt/format.h>
@@ -32,15 +32,9 @@ Result<void> CityPage::open() {
 
 Result<city::ChosenTiles> CityPage::choose(const CityWish& wish) {
     if (!wish.scene) return city::ChosenTiles{{city_->top()}, std::size_t(city_->top().size), 1};
-    // The camera alone: queries and planes find nothing in the frame.
-    illustrate::Scene seen;
-    seen.camera = wish.scene->camera;
-    seen.width = wish.scene->width;
-    seen.height = wish.scene->height;
-    SVT_TRY(spec, illustrate::makeFrameSpec(seen, frame_));
-    city::CameraView view = city::cameraViewOf(*spec, frame_.grid);
-    view.pixel *= std::max(1.0, wish.pixels);
-    return city::chooseTiles(*city_, view, wish.memoryBytes);
+    SVT_TRY(view, city::viewOf(*wish.scene, frame_));
+    view->pixel *= std::max(1.0, wish.pixels);
+    return city::chooseTiles(*city_, *view, wish.memoryBytes);
 }
 
 Result<CityPage::Look> CityPage::look(const CityWish& wish) {
@@ -81,23 +75,13 @@ Result<CityPage::Look> CityPage::look(const CityWish& wish) {
 Result<illustrate::SceneCamera> CityPage::find(const std::string& id, const illustrate::SceneCamera& now,
                                                double aspect) {
     SVT_DO(open());
-    SVT_TRY(places, city_->find(id));
-    for (const city::City::Place& place : *places) {
-        const double side = city::tileSide(place.tile, 0, city_->spacing());
-        SVT_TRY(entries, city_->find(0, {place.tile.x * side, place.tile.y * side, (place.tile.x + 1) * side,
-                                         (place.tile.y + 1) * side}));
-        for (const city::IndexEntry& entry : *entries) {
-            if (!(entry.tile == place.tile)) continue;
-            SVT_TRY(tile, city_->read(entry));
-            auto camera = illustrate::makeView("id=" + id, "", now, aspect, *tile);
-            if (!camera) continue;  // another id of the same hash
-            const Vec3d by = tile->grid.origin() - frame_.grid.origin();
-            if (camera->eye) camera->eye = *camera->eye + by;
-            if (camera->target) camera->target = *camera->target + by;
-            return camera;
-        }
-    }
-    return Error(Code::NothingSelected, fmt::format("the city has no building with the id '{}'", id));
+    city::Extract building;
+    building.ids.push_back(id);
+    SVT_TRY(part, city::extractVolume(*city_, building));
+    // All of the part: a building may have voxels only by what is below it.
+    SVT_TRY(camera, illustrate::makeView("", "", now, aspect, *part, &frame_.grid));
+    camera->around = "id=" + id;
+    return camera;
 }
 
 }  // namespace svt::web

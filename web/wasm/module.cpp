@@ -9,13 +9,9 @@
 #include <svt/illustrate/color_by.hpp>
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/illustrate/section_plane.hpp>
-#include <svt/illustrate/sheet_set.hpp>
 #include <svt/illustrate/view.hpp>
-#include <svt/writers/dxf_drawing.hpp>
-#include <svt/writers/geojson_drawing.hpp>
-#include <svt/writers/section_table.hpp>
-#include <svt/writers/sheet_writer.hpp>
-#include <svt/writers/svg_drawing.hpp>
+#include <svt/writers/draw_sheets.hpp>
+#include <svt/writers/drawing_formats.hpp>
 
 #include <emscripten.h>
 #include <fmt/format.h>
@@ -90,11 +86,10 @@ private:
     std::span<const std::byte> bytes_;
 };
 
+// "ghost" where the page names none.
 illustrate::Context contextOf(const Json& value) {
-    if (value == "shell") return illustrate::Context::Shell;
-    if (value == "solid") return illustrate::Context::Solid;
-    if (value == "none") return illustrate::Context::None;
-    return illustrate::Context::Ghost;
+    const auto known = fromName<illustrate::Context>(value.is_string() ? value.get<std::string>() : std::string());
+    return known.value_or(illustrate::Context::Ghost);
 }
 
 // (name, or names) and, for several, (sizes in bytes); {draft, memory}; the files' bytes one after the other -> VolumeInfo
@@ -244,10 +239,8 @@ Result<Reply> findInAttributes(const Arguments& arguments) {
 }
 Result<Reply> properties(const Arguments& arguments) { return replyOf(propertiesOf(*session, arguments.text(0))); }
 
-Json sceneCameraJson(illustrate::SceneCamera camera) {
-    illustrate::Scene scene;
-    scene.camera = std::move(camera);
-    return Json::parse(illustrate::writeScene(scene)).value("camera", Json::object());
+std::string cameraText(const illustrate::SceneCamera& camera) {
+    return Json::parse(illustrate::cameraJson(camera)).at("camera").dump();
 }
 
 // (query, preset or null, camera) -> camera
@@ -255,7 +248,7 @@ Result<Reply> view(const Arguments& arguments) {
     const auto now = illustrate::parseScene(Json{{"camera", arguments.at(2)}}.dump(), "camera");
     if (!now) return now.error();
     SVT_TRY(camera, session->view(arguments.text(0), arguments.text(1), now->camera));
-    return Reply(sceneCameraJson(std::move(*camera)).dump());
+    return Reply(cameraText(*camera));
 }
 
 // Bytes that are needed first, as {needs: [[file, offset, size], ...]}; null: none are.
@@ -330,7 +323,7 @@ Result<Reply> cityFind(const Arguments& arguments) {
     auto camera = cityPage->find(arguments.text(0), now->camera, std::max(0.01, arguments.number(2)));
     const Json needs = needsJson();
     if (!camera) return needs.is_null() ? Result<Reply>(camera.error()) : Reply(needs.dump());
-    return Reply(sceneCameraJson(std::move(*camera)).dump());
+    return Reply(cameraText(*camera));
 }
 
 // (scene) -> PNG
@@ -360,41 +353,17 @@ Result<Reply> drawing(const Arguments& arguments) {
     if (drawn->components.empty() && drawn->beyond.empty())
         return Error(Code::BadSection,
                      fmt::format("the plane '{}' cuts nothing that is shown; move it", arguments.text(0)));
-    const std::string format = arguments.text(1);
-    if (format == "svg") return replyOf(writers::makeSvg(*drawn, volume));
-    if (format == "dxf") return Reply(writers::makeDxf(*drawn, volume));
-    if (format == "geojson") return Reply(writers::makeGeojson(*drawn, volume));
-    if (format == "csv") return Reply(writers::makeSectionCsv(*drawn, volume));
-    return Error(Code::BadArgument,
-                 fmt::format("there is no drawing as '{}'; possible are svg, dxf, geojson, csv", format));
+    return replyOf(writers::makeDrawing(*drawn, volume, arguments.text(1)));
 }
 
 // ("en" or "de") -> the sheets as `svt sheets --svg` writes them: SVG documents. Needs the font.
 Result<Reply> sheets(const Arguments& arguments) {
     if (!hasFont()) return Error(Code::BadArgument, "sheets cannot be drawn without their font; give it first");
     const volume::SemanticVolume& volume = session->volume();
-    SVT_TRY(chosen, illustrate::chooseSheetViews(volume));
-    const auto language = arguments.text(0) == "de" ? writers::SheetLanguage::German : writers::SheetLanguage::English;
-    writers::SheetContent content;
-    content.levels = std::move(chosen->levels);
-    const illustrate::SheetSet set = illustrate::sheetSetOf(*chosen, volume);
-    std::vector<int> groups;  // by view
-    for (const illustrate::SetSheet& sheet : set.sheets) {
-        groups.insert(groups.end(), sheet.views.size(), static_cast<int>(content.groups.size()));
-        content.groups.push_back({sheet.title, sheet.scale});
-    }
-    for (illustrate::SheetView& view : chosen->views) {
-        illustrate::SectionOptions options;
-        options.smallestArea = 1e-4;
-        options.beyond = view.beyond;
-        options.dimensions = view.kind == illustrate::ViewKind::Plan;
-        SVT_TRY(drawn, illustrate::drawSection(volume, view.plane, options));
-        content.views.push_back({std::move(view), std::move(*drawn), groups[content.views.size()]});
-    }
-    SVT_TRY(areas, illustrate::measureFloorAreas(volume, content.levels));
-    content.tables = writers::makeAreaTables(*areas, content.levels, language);
-    const auto made = writers::makeSvgSheets(content, volume, {0, "A3", language, {}});
-    if (!made) return made.error();
+    illustrate::SheetSet set;
+    set.language = arguments.text(0);
+    SVT_TRY(content, writers::drawSheets(set, volume));
+    SVT_TRY(made, writers::makeSvgSheets(*content, volume, writers::sheetOptionsOf(set)));
     return Reply(Json(*made).dump());
 }
 

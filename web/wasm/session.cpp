@@ -7,8 +7,6 @@
 #include <svt/image/png.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/pipeline/build_volume.hpp>
-#include <svt/readers/model_joiner.hpp>
-#include <svt/readers/read_model.hpp>
 #include <svt/render/frame_buffers.hpp>
 #include <svt/render/view_ray.hpp>
 #include <svt/volume/svt_file.hpp>
@@ -35,11 +33,7 @@ Result<void> build(std::span<const NamedBytes> files, const OpenOptions& options
                    Diagnostics& findings, Loaded& into) {
     readers::ReadOptions reading;
     reading.progress = progress;
-    readers::ModelJoiner joiner(&findings);
-    for (const NamedBytes& file : files) {
-        SVT_TRY(model, readers::readModel(file.bytes, file.name, reading, &findings));
-        joiner.add(std::move(*model));
-    }
+    SVT_TRY(model, readers::readModels(files, reading, &findings));
     pipeline::BuildOptions building;
     if (!options.isDraft) building.vectors = {.edges = true, .meshes = true, .isRequired = false};
     if (options.isDraft)
@@ -47,7 +41,7 @@ Result<void> build(std::span<const NamedBytes> files, const OpenOptions& options
     else if (options.memoryBytes != 0)
         building.memoryBytes = std::min(building.memoryBytes, options.memoryBytes);
     building.progress = progress;
-    SVT_TRY(output, pipeline::buildVolume(joiner.joined(), building, &findings));
+    SVT_TRY(output, pipeline::buildVolume(*model, building, &findings));
     if (output->report.spacing) into.spacingReason = output->report.spacing->reason;
     into.volumes.push_back(std::move(output->volume));
     return {};
@@ -89,18 +83,18 @@ Session::Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findin
       findings_(std::move(findings)),
       painter_(volume_) {
     for (const volume::SemanticVolume& detail : details_) painter_.addDetail(detail);
+    labelOfScalar_ = volume_.labels.labelOfScalar();
 }
 
 Session::Session(city::JoinedTiles tiles) : volume_(std::move(tiles.frame)), isOfParts_(true), painter_(volume_) {
     painter_.tolerateNothing(&nothing_);
     tiles.addTo(painter_);
     details_ = std::move(tiles.parts);  // the parts themselves, which the painter refers to, stay where they are
+    labelOfScalar_ = volume_.labels.labelOfScalar();
 }
 
 std::unique_ptr<Session> Session::ofTiles(city::JoinedTiles tiles) {
-    std::unique_ptr<Session> session(new Session(std::move(tiles)));
-    session->labelOfScalar_ = session->volume_.labels.labelOfScalar();
-    return session;
+    return std::unique_ptr<Session>(new Session(std::move(tiles)));
 }
 
 const volume::SemanticVolume& Session::volumeOf(std::uint32_t label) const {
@@ -121,13 +115,7 @@ Result<illustrate::SceneCamera> Session::view(const std::string& query, const st
     SVT_TRY(selected, analyze::selectLabels(volume_.labels, query));
     for (const std::uint32_t label : *selected) {
         const volume::SemanticVolume& part = volumeOf(label);
-        if (&part == &volume_) continue;
-        auto camera = illustrate::makeView(query, preset, now, aspect(), part);
-        if (!camera) return camera;
-        const Vec3d by = part.grid.origin() - volume_.grid.origin();
-        if (camera->eye) camera->eye = *camera->eye + by;
-        if (camera->target) camera->target = *camera->target + by;
-        return camera;
+        if (&part != &volume_) return illustrate::makeView(query, preset, now, aspect(), part, &volume_.grid);
     }
     return Error(Code::NothingSelected, "what is selected is not among what is seen here");
 }
@@ -136,31 +124,12 @@ std::unique_ptr<Session> Session::around(std::uint32_t label) const {
     const volume::SemanticVolume& part = volumeOf(label);
     if (&part == &volume_) return nullptr;
     const volume::Label& own = volume_.labels.labels[label];
-    const Vec3i n = part.columns.dimension();
-    volume::IndexBox box{n, {0, 0, 0}};
-    for (std::int32_t j = 0; j < n.y; ++j)
-        for (std::int32_t i = 0; i < n.x; ++i) {
-            std::int32_t low = 0;
-            for (const auto& run : part.columns.column(i, j)) {
-                const auto high = static_cast<std::int32_t>(run.end);
-                if (run.scalar >= own.first && run.scalar < own.first + own.count) {
-                    box.begin = {std::min(box.begin.x, i), std::min(box.begin.y, j), std::min(box.begin.z, low)};
-                    box.end = {std::max(box.end.x, i + 1), std::max(box.end.y, j + 1), std::max(box.end.z, high)};
-                }
-                low = high;
-            }
-        }
-    for (int axis = 0; axis < 3; ++axis) {
-        box.begin[axis] = std::max(0, box.begin[axis] - 1);
-        box.end[axis] = std::min(n[axis], box.end[axis] + 1);
-    }
-    auto cropped = volume::croppedVolume(part, box);
+    auto cropped =
+        volume::croppedVolume(part, volume::samplesAround(part.columns, own.first, own.first + own.count - 1));
     if (!cropped) return nullptr;
     std::vector<volume::SemanticVolume> volumes;
     volumes.push_back(std::move(*cropped));
-    std::unique_ptr<Session> session(new Session(std::move(volumes), {}));
-    session->labelOfScalar_ = session->volume_.labels.labelOfScalar();
-    return session;
+    return std::unique_ptr<Session>(new Session(std::move(volumes), {}));
 }
 
 Result<std::unique_ptr<Session>> Session::open(std::span<const NamedBytes> files, const OpenOptions& options,
@@ -169,7 +138,6 @@ Result<std::unique_ptr<Session>> Session::open(std::span<const NamedBytes> files
     SVT_TRY(loaded, load(files, options, progress, findings));
     std::unique_ptr<Session> session(new Session(std::move(loaded->volumes), std::move(findings)));
     session->spacingReason_ = std::move(loaded->spacingReason);
-    session->labelOfScalar_ = session->volume_.labels.labelOfScalar();
     return session;
 }
 
@@ -213,9 +181,8 @@ bool Session::isAir(Vec3d point) const {
 
 Result<const render::Frame*> Session::draw(const illustrate::Scene& scene, bool isDraft) {
     // Parts are not drawn in drafts.
-    auto painting =
-        isDraft && !isOfParts_ ? painter_.paintDraft(scene, castOptions()) : painter_.paint(scene, castOptions());
-    if (!painting) return painting.error();
+    SVT_TRY(painting,
+            isDraft && !isOfParts_ ? painter_.paintDraft(scene, castOptions()) : painter_.paint(scene, castOptions()));
     lastSpec_ = std::move(painting->spec);
     lastForms_ = illustrate::volumeForms(scene);
     lastApart_ = scene.explode;

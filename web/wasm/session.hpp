@@ -8,6 +8,7 @@
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/progress.hpp>
 #include <svt/illustrate/scene_painter.hpp>
+#include <svt/readers/model_joiner.hpp>
 #include <svt/render/ray_labels.hpp>
 #include <svt/render/view_ray.hpp>
 #include <svt/render_gl/gl_renderer.hpp>
@@ -29,11 +30,7 @@ struct Picked {
     Vec3d point{};  ///< metres from the grid's lower corner
 };
 
-/// A file of the user.
-struct NamedBytes {
-    std::string name;  ///< for messages
-    std::span<const std::byte> bytes;
-};
+using readers::NamedBytes;
 
 /// How models become volumes.
 struct OpenOptions {

@@ -2,21 +2,20 @@
 
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/city/city_levels.hpp>
+#include <svt/city/city_walk.hpp>
 #include <svt/core/machine.hpp>
-#include <svt/core/parallel.hpp>
 
 #include <fmt/format.h>
 
-#include <limits>
-#include <optional>
+#include <algorithm>
 
 namespace svt::cli {
 
-int printCity(const std::filesystem::path& folder, bool json) {
-    const auto city = city::City::open(folder);
-    if (!city) return fail(city.error());
+Result<int> printCity(const std::filesystem::path& folder, bool json) {
+    SVT_TRY(city, city::City::open(folder));
     const Box3d& box = city->box();
     if (json) {
         print({{"buildings", city->buildings()},
@@ -52,31 +51,19 @@ std::uint64_t tileMemory() {
     return memory.limitedBy == "--memory" && memory.limitBytes ? *memory.limitBytes / 2 : kTileMemory;
 }
 
-Result<void> forEachTile(const city::City& city, const std::vector<double>& box, int threads, const Progress* progress,
-                         const std::function<Result<void>(const volume::SemanticVolume&)>& work,
-                         const std::function<bool(const city::IndexEntry&)>& isWanted) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    std::array<double, 4> rectangle{-kInfinity, -kInfinity, kInfinity, kInfinity};
-    if (!box.empty()) rectangle = {box[0], box[1], box[3], box[4]};
-    SVT_TRY(entries, city.find(0, rectangle));
-    if (isWanted) std::erase_if(*entries, [&](const city::IndexEntry& entry) { return !isWanted(entry); });
-    const std::size_t batch = 2 * static_cast<std::size_t>(threads > 0 ? threads : hardwareThreads());
-    ProgressCounter counter(progress, "tiles", entries->size());
-    for (std::size_t begin = 0; begin < entries->size(); begin += batch) {
-        const std::size_t count = std::min(batch, entries->size() - begin);
-        std::vector<std::optional<Result<volume::SemanticVolume>>> read(count);
-        parallelFor(count, 1, threads, [&](std::size_t from, std::size_t to) {
-            for (std::size_t n = from; n < to; ++n) read[n].emplace(city.read((*entries)[begin + n]));
-        });
-        if (Progress::isCancelled(progress)) return Error(Code::Cancelled, "stopped between tiles");
-        for (auto& volume : read) {
-            if (!*volume) return volume->error();
-            SVT_DO(work(**volume));
-            volume.reset();
-            counter.add();
-        }
-    }
-    return {};
+Result<int> checkCity(const std::filesystem::path& folder) {
+    SVT_TRY(city, city::City::open(folder));
+    Diagnostics findings;
+    SVT_TRY(counted, city::checkTiles(*city, TerminalProgress().get(), findings));
+    fmt::print("{} tiles, of which {} are damaged; {} buildings, {} solids, of which {} had holes\n", counted->tiles,
+               counted->damaged, counted->buildings, counted->solids, counted->open);
+    printDiagnostics(findings, true);
+    return findings.count(Severity::Warning) + findings.count(Severity::Error) != 0 ? kInvalid : kDone;
+}
+
+std::array<double, 4> rectangleOf(const std::vector<double>& box) {
+    if (box.empty()) return city::kEverywhere;
+    return {box[0], box[1], box[3], box[4]};
 }
 
 }  // namespace svt::cli

@@ -1,12 +1,14 @@
 #include <apps/cli/city/feature_query.hpp>
 
 #include <apps/cli/city/city_input.hpp>
-#include <apps/cli/city/feature_rows.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/table.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/analyze/selection.hpp>
+#include <svt/city/city_view.hpp>
+#include <svt/city/city_walk.hpp>
+#include <svt/city/feature_rows.hpp>
 #include <svt/core/attribute.hpp>
 #include <svt/core/text.hpp>
 #include <svt/volume/svt_file.hpp>
@@ -38,7 +40,7 @@ const std::vector<Column>& ownColumns() {
     return kColumns;
 }
 
-Row cellsOf(const FeatureRow& row, const volume::Label& label) {
+Row cellsOf(const city::FeatureRow& row, const volume::Label& label) {
     return {label.id,          label.className,
             label.name,        row.volume,
             row.area,          row.highest - row.lowest,
@@ -57,8 +59,7 @@ class Source {
 public:
     explicit Source(const FeatureQuery& query) : query_(query) {}
 
-    Result<void> open(Diagnostics& diagnostics) {
-        const TerminalProgress progress;
+    Result<void> open() {
         if (isCity(query_.input)) {
             SVT_TRY(opened, city::City::open(query_.input));
             city_.emplace(std::move(*opened));
@@ -66,7 +67,7 @@ public:
             frame_ = std::move(*frame);
             return {};
         }
-        SVT_TRY(loaded, loadVolume(query_.input, query_.build, progress.get(), diagnostics));
+        SVT_TRY(loaded, loadVolume(query_.input, query_.build, TerminalProgress().get(), false));
         frame_ = std::move(*loaded);
         return {};
     }
@@ -76,15 +77,12 @@ public:
     Result<void> forEach(const std::function<Result<void>(const volume::SemanticVolume&)>& work) const {
         if (!city_) return work(frame_);
         const TerminalProgress progress;
-        return forEachTile(*city_, query_.box, query_.build.threads, progress.get(), work);
+        return city::forEachTile(*city_, rectangleOf(query_.box), query_.build.threads, progress.get(), work);
     }
     // The same of label tables alone, without their columns.
     Result<void> forEachTable(const std::function<Result<void>(const volume::LabelTable&)>& work) const {
         if (!city_) return work(frame_.labels);
-        std::array<double, 4> rectangle{-1e300, -1e300, 1e300, 1e300};
-        const std::vector<double>& box = query_.box;
-        if (!box.empty()) rectangle = {box[0], box[1], box[3], box[4]};
-        SVT_TRY(entries, city_->find(0, rectangle));
+        SVT_TRY(entries, city_->find(0, rectangleOf(query_.box)));
         for (const city::IndexEntry& entry : *entries) {
             SVT_TRY(bytes, city_->readBytes(entry));
             SVT_TRY(tile, volume::openSvt(std::as_bytes(std::span(*bytes)), entry.tile.toString()));
@@ -104,10 +102,7 @@ public:
     explicit Answer(const FeatureQuery& query) : query_(query), source_(query) {}
 
     Result<void> run() {
-        Diagnostics diagnostics;
-        auto opened = source_.open(diagnostics);
-        printDiagnostics(diagnostics, false);
-        if (!opened) return opened;
+        SVT_DO(source_.open());
         if (!query_.cut.empty()) {
             SVT_TRY(plane, illustrate::parseSectionPlane(query_.cut, source_.frame()));
             plane_ = *plane;
@@ -117,8 +112,7 @@ public:
             keys_.push_back(query_.by.substr(at, comma - at));
             at = comma + 1;
         }
-        if (!query_.output.empty())
-            if (auto begun = beginFile(); !begun) return begun;
+        if (!query_.output.empty()) SVT_DO(beginFile());
         if (auto asked = source_.forEach([&](const volume::SemanticVolume& volume) { return ask(volume); }); !asked)
             return asked;
         return finish();
@@ -139,7 +133,7 @@ private:
         std::vector<std::string> nothing;
         auto selected = analyze::selectLabels(analyze::LabelRows(labels, &nothing), query_.query);
         if (selected && query_.leaks)
-            std::erase_if(*selected, [&](std::uint32_t l) { return !isOpenShell(labels.labels[l]); });
+            std::erase_if(*selected, [&](std::uint32_t l) { return !city::isOpenShell(labels.labels[l]); });
         return selected;
     }
 
@@ -178,7 +172,7 @@ private:
         return {};
     }
 
-    [[nodiscard]] bool isInBox(const FeatureRow& row) const {
+    [[nodiscard]] bool isInBox(const city::FeatureRow& row) const {
         const std::vector<double>& box = query_.box;
         if (box.empty()) return true;
         if (row.voxels == 0 || row.outline.empty() || row.highest < box[2] || row.lowest > box[5]) return false;
@@ -191,7 +185,7 @@ private:
     Result<void> ask(const volume::SemanticVolume& volume) {
         SVT_TRY(selected, select(volume.labels));
         if (selected->empty()) return {};
-        for (FeatureRow& row : featureRows(volume, *selected, plane_ ? &*plane_ : nullptr)) {
+        for (city::FeatureRow& row : city::featureRows(volume, *selected, plane_ ? &*plane_ : nullptr)) {
             if ((plane_ && !row.isCut) || !isInBox(row)) continue;
             ++count_;
             const volume::Label& label = volume.labels.labels[row.label];
@@ -201,7 +195,7 @@ private:
         return {};
     }
 
-    void addToSum(const FeatureRow& row, const volume::Label& label) {
+    void addToSum(const city::FeatureRow& row, const volume::Label& label) {
         std::vector<std::string> values;
         for (const std::string& key : keys_) {
             std::string value = equalsIgnoringCase(key, "class") ? label.className : std::string();
@@ -215,7 +209,7 @@ private:
         sum.area += row.area;
     }
 
-    Result<void> take(FeatureRow row, const volume::Label& label) {
+    Result<void> take(city::FeatureRow row, const volume::Label& label) {
         Kept kept{0, cellsOf(row, label), std::move(row.outline)};
         if (layer_) {
             kept.cells.resize(columns_.size());
@@ -321,9 +315,9 @@ private:
 
 }  // namespace
 
-int runFeatureQuery(const FeatureQuery& query) {
-    const auto answered = Answer(query).run();
-    return answered ? static_cast<int>(kDone) : fail(answered.error());
+Result<int> runFeatureQuery(const FeatureQuery& query) {
+    SVT_DO(Answer(query).run());
+    return kDone;
 }
 
 }  // namespace svt::cli

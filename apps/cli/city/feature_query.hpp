@@ -29,6 +29,6 @@ struct FeatureQuery {
 };
 
 /// \return the exit code
-int runFeatureQuery(const FeatureQuery& query);
+[[nodiscard]] Result<int> runFeatureQuery(const FeatureQuery& query);
 
 }  // namespace svt::cli

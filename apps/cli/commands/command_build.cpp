@@ -114,22 +114,15 @@ Result<pipeline::BuildOutput> builtOf(const BuildArguments& arguments, const pip
 Result<void> takePart(const BuildArguments& arguments, volume::SemanticVolume& volume) {
     if (arguments.box.size() == 6) {
         const auto& b = arguments.box;
-        const auto samples = volume::samplesIn(volume.grid, Box3d{{b[0], b[1], b[2]}, {b[3], b[4], b[5]}});
-        if (!samples) return samples.error();
-        SVT_TRY(cropped, volume::croppedVolume(volume, *samples));
+        SVT_TRY(cropped, volume::volumeIn(volume, {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}}));
         volume = std::move(*cropped);
     }
     if (arguments.only.empty()) return {};
     SVT_TRY(labels, analyze::selectLabels(volume.labels, arguments.only));
-    SVT_TRY(box, analyze::boxAround(*labels, volume, fmt::format("what --only '{}' selects", arguments.only)));
+    SVT_DO(analyze::boxAround(*labels, volume, fmt::format("what --only '{}' selects", arguments.only)));
     SVT_TRY(selected, volume::selectedVolume(volume, *labels));
-    volume::IndexBox samples{box->min, box->max + Vec3i{1, 1, 1}};
-    // One more sample on each side, as a build has it; at least two along each axis.
-    for (int axis = 0; axis < 3; ++axis) {
-        samples.begin[axis] = std::max(0, samples.begin[axis] - 1);
-        samples.end[axis] = std::min(volume.grid.dimension()[axis], samples.end[axis] + 1);
-    }
-    SVT_TRY(cropped, volume::croppedVolume(*selected, samples));
+    // One more sample on each side, as a build has it.
+    SVT_TRY(cropped, volume::croppedVolume(*selected, volume::samplesAround(selected->columns)));
     volume = std::move(*cropped);
     return {};
 }

@@ -1,6 +1,5 @@
 #include <apps/cli/check/check_reports.hpp>
 #include <apps/cli/check/feature_batches.hpp>
-#include <apps/cli/city/city_check.hpp>
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/catalog.hpp>
@@ -11,6 +10,7 @@
 
 #include <svt/core/file.hpp>
 #include <svt/mesh/mesh_set.hpp>
+#include <svt/readers/model_joiner.hpp>
 
 #include <fmt/format.h>
 
@@ -246,14 +246,14 @@ Result<void> report(const CheckArguments& arguments, const Checked& checked, con
     return {};
 }
 
-int runCheck(const CheckArguments& arguments) {
+Result<int> runCheck(const CheckArguments& arguments) {
     if (arguments.inputs.size() == 1 && isCity(arguments.inputs[0])) return checkCity(arguments.inputs[0]);
     Diagnostics diagnostics;
     std::optional<TerminalProgress> progress(std::in_place);
     const auto stop = [&](const Error& error) {
         progress.reset();
         printDiagnostics(diagnostics, arguments.verbose);
-        return fail(error);
+        return error;
     };
     readers::ReadOptions reading = arguments.build.read;
     reading.progress = progress->get();
@@ -267,7 +267,7 @@ int runCheck(const CheckArguments& arguments) {
             return exitCodeFor(diagnostics);
         }
     }
-    const auto model = pipeline::readModels(arguments.inputs, reading, &diagnostics);
+    const auto model = readers::readModels(arguments.inputs, reading, &diagnostics);
     if (!model) return stop(model.error());
     const auto checked = checkModel(*model, arguments, progress->get(), diagnostics, [&](const Checked& whole) {
         progress.reset();

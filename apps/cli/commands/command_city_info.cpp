@@ -28,31 +28,27 @@ struct CityExtractArguments {
     int detail = 0;
 };
 
-int runCityExtract(const CityExtractArguments& arguments) {
+Result<int> runCityExtract(const CityExtractArguments& arguments) {
     city::Extract extract;
     extract.ids = arguments.ids;
     extract.detail = arguments.detail;
     for (const std::string& text : arguments.tiles) {
-        const auto tile = city::TileKey::fromString(
-            text, arguments.detail < city::kFirstClassDetail ? city::Plan::kTopLevel : city::kMaxLevel);
-        if (!tile) return fail(tile.error());
+        SVT_TRY(tile, city::TileKey::fromString(
+                          text, arguments.detail < city::kFirstClassDetail ? city::Plan::kTopLevel : city::kMaxLevel));
         extract.tiles.push_back(*tile);
     }
     extract.hasBox = !arguments.box.empty();
     std::copy(arguments.box.begin(), arguments.box.end(), extract.box.begin());
     for (std::size_t axis = 0; extract.hasBox && axis < 3; ++axis)
         if (!(extract.box[axis] <= extract.box[axis + 3]))
-            return fail(Error(Code::BadArgument,
-                              "--box: the first three numbers are the lower corner, the last three the "
-                              "upper one"));
+            return Error(Code::BadArgument,
+                         "--box: the first three numbers are the lower corner, the last three the "
+                         "upper one");
     if (extract.tiles.empty() && extract.ids.empty() && !extract.hasBox)
-        return fail(Error(Code::BadArgument, "say what to extract: --tile, --box or --id"));
-    const auto city = city::City::open(arguments.folder);
-    if (!city) return fail(city.error());
-    const auto volume = city::extractVolume(*city, extract);
-    if (!volume) return fail(volume.error());
-    const auto bytes = volume::writeSvt(*volume, arguments.output);
-    if (!bytes) return fail(bytes.error());
+        return Error(Code::BadArgument, "say what to extract: --tile, --box or --id");
+    SVT_TRY(city, city::City::open(arguments.folder));
+    SVT_TRY(volume, city::extractVolume(*city, extract));
+    SVT_TRY(bytes, volume::writeSvt(*volume, arguments.output));
     const Vec3i n = volume->grid.dimension();
     if (!isQuiet())
         fmt::print("{}: {} labels, {} x {} x {} samples of {:g} m, {:.1f} kB\n", arguments.output.string(),
@@ -86,7 +82,7 @@ Members<CityExtractArguments> membersOf(const CityExtractArguments*) noexcept {
     return kMembers;
 }
 
-int runCityInfo(const CityInfoArguments& arguments) { return printCity(arguments.folder, arguments.json); }
+Result<int> runCityInfo(const CityInfoArguments& arguments) { return printCity(arguments.folder, arguments.json); }
 
 }  // namespace
 

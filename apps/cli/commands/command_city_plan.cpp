@@ -21,14 +21,13 @@ struct CityPlanArguments {
     bool verbose = false, isUpdate = false;
 };
 
-int runCityPlan(CityPlanArguments& arguments) {
+Result<int> runCityPlan(CityPlanArguments& arguments) {
     city::PlanOptions& options = arguments.options;
     options.city.crs = arguments.build.read.crs;
     options.city.lod = arguments.build.lod.lod;
     options.allowTruncated = arguments.build.read.allowTruncated;
     options.program = programOfCity();
-    const auto files = city::cityInputs(arguments.inputs);
-    if (!files) return fail(files.error());
+    SVT_TRY(files, city::cityInputs(arguments.inputs));
     Diagnostics diagnostics;
     std::optional<TerminalProgress> progress(std::in_place);
     options.progress = progress->get();
@@ -37,7 +36,7 @@ int runCityPlan(CityPlanArguments& arguments) {
                                          : city::makePlan(*files, arguments.output, options, diagnostics);
     progress.reset();
     printDiagnostics(diagnostics, arguments.verbose);
-    if (!plan) return fail(plan.error());
+    if (!plan) return plan.error();
     if (!isQuiet())
         fmt::print("{}: {} features of {} files in {} tiles and {} packs; {} replicas, {} left out; {}\n",
                    arguments.output.string(), plan->features, plan->files.size(), plan->tiles.size(), plan->packs,

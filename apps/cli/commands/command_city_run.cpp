@@ -68,12 +68,12 @@ void tellFailed(const std::vector<FailedPack>& failed) {
     if (failed.size() > kShown) note(fmt::format("{} more packs failed", failed.size() - kShown));
 }
 
-int tellMissing(const std::filesystem::path& folder, const city::CityStatus& status) {
+Result<int> tellMissing(const std::filesystem::path& folder, const city::CityStatus& status) {
     if (status.missing.empty()) return kDone;
-    return fail(Error(Code::CityIncomplete,
-                      fmt::format("{} of {} packs are not done: {}; 'svt city run {}' builds them",
-                                  status.missing.size(), status.packs, rangesOf(status.missing), folder.string()),
-                      {folder.string(), 0, 0, {}}));
+    return Error(Code::CityIncomplete,
+                 fmt::format("{} of {} packs are not done: {}; 'svt city run {}' builds them", status.missing.size(),
+                             status.packs, rangesOf(status.missing), folder.string()),
+                 {folder.string(), 0, 0, {}});
 }
 
 void printCall(const std::vector<std::string>& call) {
@@ -81,7 +81,7 @@ void printCall(const std::vector<std::string>& call) {
     fmt::print("\n");
 }
 
-int runSlurm(const CityRunArguments& arguments, const EngineJob& job, const city::Plan& plan) {
+Result<int> runSlurm(const CityRunArguments& arguments, const EngineJob& job, const city::Plan& plan) {
     const city::CityStatus status = city::cityStatus(arguments.folder, plan, false);
     const std::uint32_t tasks = slurmTasks(plan);
     const std::vector<std::uint32_t> open = openTasks(plan, status.missing, tasks);
@@ -94,44 +94,41 @@ int runSlurm(const CityRunArguments& arguments, const EngineJob& job, const city
         note("all packs are done; 'svt city merge' makes their index");
         return kDone;
     }
-    const auto jobs = submitToSlurm(job, open, tasks);
-    if (!jobs) return fail(jobs.error());
-    if (const auto kept = keepOptions(job, *jobs); !kept) return fail(kept.error());
+    SVT_TRY(jobs, submitToSlurm(job, open, tasks));
+    SVT_DO(keepOptions(job, *jobs));
     if (!isQuiet())
         fmt::print("{} of {} tasks as job {}, their merge as job {}; logs in {}\n", open.size(), tasks, jobs->array,
                    jobs->merge, (job.folder / "logs").string());
     return kDone;
 }
 
-int runEngine(const CityRunArguments& arguments, const city::Plan& plan) {
+Result<int> runEngine(const CityRunArguments& arguments, const city::Plan& plan) {
     std::error_code failed;
     const EngineJob job{std::filesystem::absolute(arguments.folder, failed).lexically_normal(), arguments.options,
                         arguments.packs};
     if (arguments.engine == Engine::Slurm) return runSlurm(arguments, job, plan);
     if (!arguments.isPrinted)
-        return fail(Error(Code::BadArgument,
-                          "--engine kubernetes needs --print: the job is printed as YAML for 'kubectl apply -f -'"));
-    const auto yaml = kubernetesJobs(job, plan);
-    if (!yaml) return fail(yaml.error());
+        return Error(Code::BadArgument,
+                     "--engine kubernetes needs --print: the job is printed as YAML for 'kubectl apply -f -'");
+    SVT_TRY(yaml, kubernetesJobs(job, plan));
     fmt::print("{}", *yaml);
     return kDone;
 }
 
-int runCityRun(const CityRunArguments& arguments) {
-    const auto plan = city::readPlan(arguments.folder, programOfCity());
-    if (!plan) return fail(plan.error());
+Result<int> runCityRun(const CityRunArguments& arguments) {
+    SVT_TRY(plan, city::readPlan(arguments.folder, programOfCity()));
     if (arguments.engine != Engine::Local) return runEngine(arguments, *plan);
     if (!arguments.options.empty() || arguments.isPrinted)
-        return fail(Error(Code::BadArgument, "--print and options after -- need --engine slurm or kubernetes"));
+        return Error(Code::BadArgument, "--print and options after -- need --engine slurm or kubernetes");
     std::optional<TerminalProgress> progress(std::in_place);
     const auto failed = runPacks(arguments.folder, *plan, arguments.jobs, arguments.packs, progress->get());
     if (Progress::isCancelled(progress->get()))
-        return fail(Error(Code::Cancelled, "stopped; what is done stays, and the same command goes on from there"));
+        return Error(Code::Cancelled, "stopped; what is done stays, and the same command goes on from there");
     // Whatever happened, so that what is done can be used.
     const auto merged = city::mergeCity(arguments.folder, *plan, arguments.jobs, progress->get());
     progress.reset();
     tellFailed(failed);
-    if (!merged) return fail(merged.error());
+    if (!merged) return merged.error();
     tellSkipped(merged->skipped);
     if (!isQuiet())
         fmt::print("{}: {} buildings in {} of {} packs, {:.1f} MB; {} features left out\n", arguments.folder.string(),
@@ -140,13 +137,11 @@ int runCityRun(const CityRunArguments& arguments) {
     return tellMissing(arguments.folder, *merged);
 }
 
-int runCityTask(const CityTaskArguments& arguments) {
-    const auto plan = city::readPlan(arguments.folder, programOfCity());
-    if (!plan) return fail(plan.error());
+Result<int> runCityTask(const CityTaskArguments& arguments) {
+    SVT_TRY(plan, city::readPlan(arguments.folder, programOfCity()));
     const std::uint32_t tasks = arguments.tasks == 0 ? plan->tasks : arguments.tasks;
     if (arguments.task >= tasks)
-        return fail(
-            Error(Code::BadArgument, fmt::format("task {}: there are {}, numbered from 0", arguments.task, tasks)));
+        return Error(Code::BadArgument, fmt::format("task {}: there are {}, numbered from 0", arguments.task, tasks));
     int worst = kDone;
     const auto [first, last] = plan->packsOf(arguments.task, tasks);
     for (std::uint32_t pack = first; pack < last; ++pack) {
@@ -162,20 +157,17 @@ int runCityTask(const CityTaskArguments& arguments) {
     return worst;
 }
 
-int runCityMerge(const CityMergeArguments& arguments) {
-    const auto plan = city::readPlan(arguments.folder, programOfCity());
-    if (!plan) return fail(plan.error());
-    const auto merged = city::mergeCity(arguments.folder, *plan);
-    if (!merged) return fail(merged.error());
+Result<int> runCityMerge(const CityMergeArguments& arguments) {
+    SVT_TRY(plan, city::readPlan(arguments.folder, programOfCity()));
+    SVT_TRY(merged, city::mergeCity(arguments.folder, *plan));
     if (!isQuiet())
         fmt::print("{}: {} buildings in {} of {} packs\n", arguments.folder.string(), merged->buildings,
                    merged->packs - merged->missing.size(), merged->packs);
     return tellMissing(arguments.folder, *merged);
 }
 
-int runCityStatus(const CityStatusArguments& arguments) {
-    const auto plan = city::readPlan(arguments.folder, {});
-    if (!plan) return fail(plan.error());
+Result<int> runCityStatus(const CityStatusArguments& arguments) {
+    SVT_TRY(plan, city::readPlan(arguments.folder, {}));
     const city::CityStatus status = city::cityStatus(arguments.folder, *plan, arguments.isProven);
     if (arguments.json) {
         Json json{{"packs", status.packs},      {"tasks", plan->tasks},          {"missing", status.missing},

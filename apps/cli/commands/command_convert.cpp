@@ -1,5 +1,4 @@
 #include <apps/cli/city/city_input.hpp>
-#include <apps/cli/city/city_tiles.hpp>
 #include <apps/cli/city/feature_query.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/catalog.hpp>
@@ -9,9 +8,9 @@
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
+#include <svt/city/city_tiles3d.hpp>
 #include <svt/core/text.hpp>
 #include <svt/frontend/volume_part.hpp>
-#include <svt/volume/svt_file.hpp>
 #include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
@@ -31,7 +30,7 @@ struct ConvertArguments {
 };
 
 // A row a feature, of all or of those that are selected.
-int convertToTable(const ConvertArguments& arguments) {
+Result<int> convertToTable(const ConvertArguments& arguments) {
     FeatureQuery query;
     query.input = arguments.input;
     query.output = arguments.output;
@@ -43,49 +42,45 @@ int convertToTable(const ConvertArguments& arguments) {
     return runFeatureQuery(query);
 }
 
-int convertCity(const ConvertArguments& arguments) {
+Result<int> convertCity(const ConvertArguments& arguments) {
     const writers::VolumeFormat* format = writers::volumeFormatOf(arguments.output);
     const std::string_view name = format == nullptr ? "" : format->name;
     if (name == "objects" || name == "objectparquet") return convertToTable(arguments);
     if (name != "tileset")
-        return fail(Error(Code::BadArgument,
-                          "a city becomes 3D Tiles (.3dtiles) or a table of its buildings (.csv, .geojson, .gpkg, "
-                          ".parquet) here; svt city extract takes a part, which becomes any format"));
+        return Error(Code::BadArgument,
+                     "a city becomes 3D Tiles (.3dtiles) or a table of its buildings (.csv, .geojson, .gpkg, "
+                     ".parquet) here; svt city extract takes a part, which becomes any format");
     const bool isPart = !arguments.part.select.empty() || !arguments.part.box.empty() || arguments.part.level > 1;
     if (isPart || arguments.write.hasVoxels)
-        return fail(Error(Code::BadArgument,
-                          "--select, --box, --voxels and a --level over 1 are for the volume of a part; take it by svt "
-                          "city extract, and convert that"));
-    const auto city = city::City::open(arguments.input);
-    if (!city) return fail(city.error());
+        return Error(Code::BadArgument,
+                     "--select, --box, --voxels and a --level over 1 are for the volume of a part; take it by svt "
+                     "city extract, and convert that");
+    SVT_TRY(city, city::City::open(arguments.input));
     const TerminalProgress progress;
-    const auto bytes = writeCityTiles(*city, arguments.output, arguments.write, arguments.part.level,
-                                      arguments.build.threads, progress.get());
-    return bytes ? static_cast<int>(kDone) : fail(bytes.error());
+    SVT_DO(city::writeCityTiles(*city, arguments.output, arguments.write, arguments.part.level, arguments.build.threads,
+                                progress.get()));
+    return kDone;
 }
 
-int runConvert(const ConvertArguments& arguments) {
+Result<int> runConvert(const ConvertArguments& arguments) {
     const std::string ending = endingOf(arguments.output);
     if (ending == ".geojson" || ending == ".gpkg") return convertToTable(arguments);
     if (isCity(arguments.input)) return convertCity(arguments);
-    Diagnostics diagnostics;
     const TerminalProgress progress;
     pipeline::BuildOptions build = arguments.build;
     // Of rooms, the bodies as the model has them.
     const writers::VolumeFormat* format = writers::volumeFormatOf(arguments.output);
     if (format != nullptr && format->name == "indoorgml") build.vectors = {.meshes = true, .isRequired = false};
-    auto volume = loadVolume(arguments.input, build, progress.get(), diagnostics);
-    printDiagnostics(diagnostics, false);
-    if (!volume) return fail(volume.error());
+    SVT_TRY(volume, loadVolume(arguments.input, build, progress.get(), false));
     volume = arguments.part.of(std::move(*volume), build.threads);
-    if (!volume) return fail(volume.error());
+    if (!volume) return volume.error();
     Progress::tell(progress.get(), "write", 0);
     writers::VolumeWriteOptions options = arguments.write;
     if (options.model.empty() && contentOf(arguments.input) == FileContent::CityGml) options.model = arguments.input;
     options.threads = build.threads;
     options.progress = progress.get();
-    const auto bytes = writers::writeVolume(*volume, arguments.output, options);
-    return bytes ? static_cast<int>(kDone) : fail(bytes.error());
+    SVT_DO(writers::writeVolume(*volume, arguments.output, options));
+    return kDone;
 }
 
 // All that a volume can become: writers::volumeFormats(), and features one by one (writers::FeatureLayer).

@@ -95,7 +95,7 @@ Json describedJson() {
     return json;
 }
 
-int runDescribe(const DescribeArguments& arguments) {
+Result<int> runDescribe(const DescribeArguments& arguments) {
     if (arguments.what == What::Json) {
         print(describedJson());
         return kDone;
@@ -106,8 +106,7 @@ int runDescribe(const DescribeArguments& arguments) {
     }
     const auto page = manPage(arguments.command);
     if (!page)
-        return fail(
-            Error(Code::BadArgument, fmt::format("there is no command '{}'; see 'svt --help'", arguments.command)));
+        return Error(Code::BadArgument, fmt::format("there is no command '{}'; see 'svt --help'", arguments.command));
     fmt::print("{}", *page);
     return kDone;
 }

@@ -56,25 +56,17 @@ void printFigures(const volume::SemanticVolume& volume) {
     fmt::print("overlaps   {} pairs\n", volume.labels.overlaps.size());
 }
 
-int runInfo(const InfoArguments& arguments) {
+Result<int> runInfo(const InfoArguments& arguments) {
     if (isCity(arguments.input)) {
         if (!arguments.tree) return printCity(arguments.input, arguments.json);
-        return fail(
-            Error(Code::BadArgument, "--tree: a city has too many features to be listed; svt query lists them"));
+        return Error(Code::BadArgument, "--tree: a city has too many features to be listed; svt query lists them");
     }
-    Diagnostics diagnostics;
-    Result<volume::SemanticVolume> loaded = [&] {
-        const TerminalProgress progress;
-        return loadVolume(arguments.input, arguments.build, progress.get(), diagnostics);
-    }();
-    printDiagnostics(diagnostics, false);
-    if (!loaded) return fail(loaded.error());
-    const volume::SemanticVolume& volume = *loaded;
+    SVT_TRY(volume, loadVolume(arguments.input, arguments.build, TerminalProgress().get(), false));
     if (arguments.json) {
-        print(infoJson(volume));
+        print(infoJson(*volume));
     } else {
-        printFigures(volume);
-        if (arguments.tree) printTree(volume);
+        printFigures(*volume);
+        if (arguments.tree) printTree(*volume);
     }
     return kDone;
 }

@@ -18,25 +18,19 @@ struct PublishArguments {
     bool mayReplace = false;
 };
 
-int runPublish(const PublishArguments& arguments) {
-    const auto viewer = arguments.site.viewerFolder();
-    if (!viewer) return fail(viewer.error());
+Result<int> runPublish(const PublishArguments& arguments) {
+    SVT_TRY(viewer, arguments.site.viewerFolder());
     const std::string& address = arguments.address;
     if (!address.empty() && address.rfind("https://", 0) != 0 && address.rfind("http://", 0) != 0)
-        return fail(Error(
+        return Error(
             Code::BadArgument,
-            fmt::format("--url '{}': expected the address of the page, such as https://example.org/house/", address)));
-    if (auto checked = serve::checkSiteFolder(arguments.output, arguments.mayReplace); !checked)
-        return fail(checked.error());
-    const auto models = arguments.site.load(arguments.inputs);
-    if (!models) return fail(models.error());
-    auto site = serve::viewerSite(*viewer, *models);
-    if (!site) return fail(site.error());
-    auto preview = pagePreview(*models, arguments.address, arguments.site.build.threads);
-    if (!preview) return fail(preview.error());
-    if (auto added = serve::addPageHead(*site, std::move(*preview)); !added) return fail(added.error());
-    const auto bytes = serve::writeSite(*site, arguments.output, arguments.mayReplace);
-    if (!bytes) return fail(bytes.error());
+            fmt::format("--url '{}': expected the address of the page, such as https://example.org/house/", address));
+    SVT_DO(serve::checkSiteFolder(arguments.output, arguments.mayReplace));
+    SVT_TRY(models, arguments.site.load(arguments.inputs));
+    SVT_TRY(site, serve::viewerSite(*viewer, *models));
+    SVT_TRY(preview, pagePreview(*models, arguments.address, arguments.site.build.threads));
+    SVT_DO(serve::addPageHead(*site, std::move(*preview)));
+    SVT_TRY(bytes, serve::writeSite(*site, arguments.output, arguments.mayReplace));
     const bool hasCity =
         std::any_of(models->begin(), models->end(), [](const serve::SiteModel& model) { return !model.city.empty(); });
     if (!isQuiet())

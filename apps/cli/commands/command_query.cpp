@@ -1,5 +1,4 @@
 #include <apps/cli/city/city_input.hpp>
-#include <apps/cli/city/city_overlaps.hpp>
 #include <apps/cli/city/feature_query.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/catalog.hpp>
@@ -10,9 +9,12 @@
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/analyze/selection.hpp>
+#include <svt/city/city_walk.hpp>
 #include <svt/core/file.hpp>
 
 #include <fmt/format.h>
+
+#include <optional>
 
 namespace svt::cli {
 namespace {
@@ -43,11 +45,11 @@ void printFeatures(const volume::LabelTable& table, const Labels& selected) {
     }
 }
 
-int printFeatures(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
+Result<int> printFeatures(const volume::SemanticVolume& volume, const Labels& selected,
+                          const QueryArguments& arguments) {
     With with;
     if (!arguments.with.empty()) {
-        const auto parsed = parseWith(arguments.with);
-        if (!parsed) return fail(parsed.error());
+        SVT_TRY(parsed, parseWith(arguments.with));
         with = *parsed;
     }
     const int threads = arguments.build.threads;
@@ -71,32 +73,24 @@ Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& sel
         SVT_TRY(ray, illustrate::parsePickRay(arguments.along, volume.grid));
         return rayTable(volume, selected, *ray, threads);
     }
-    Diagnostics diagnostics;
-    const auto parcels = loadVolume(arguments.parcels, arguments.build, progress, diagnostics, &volume.grid);
-    printDiagnostics(diagnostics, false);
-    if (!parcels) return parcels.error();
+    SVT_TRY(parcels, loadVolume(arguments.parcels, arguments.build, progress, false, &volume.grid));
     return parcelTable(volume, selected, *parcels, threads);
 }
 
-int printReport(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
-    const auto table = [&]() -> Result<Table> {
-        const TerminalProgress progress;
-        Progress::tell(progress.get(), "report", 0);
-        auto made = makeReport(volume, selected, arguments, progress.get());
-        if (Progress::isCancelled(progress.get())) return Error(Code::Cancelled, "the report was stopped");
-        return made;
-    }();
-    if (!table) return fail(table.error());
+Result<int> printReport(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
+    std::optional<TerminalProgress> progress(std::in_place);
+    Progress::tell(progress->get(), "report", 0);
+    SVT_TRY(table, makeReport(volume, selected, arguments, progress->get()));
+    if (Progress::isCancelled(progress->get())) return Error(Code::Cancelled, "the report was stopped");
+    progress.reset();
     if (table->rows.empty() && !selected.empty()) note("the report is empty: it has nothing of what the query selects");
     print(*table, arguments.form());
     return kDone;
 }
 
-int printOwners(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
-    const auto file = FileBytes::read(arguments.owners);
-    if (!file) return fail(file.error());
-    const auto owners = analyze::parseOwners(file->text(), arguments.owners.string(), volume.labels);
-    if (!owners) return fail(owners.error());
+Result<int> printOwners(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
+    SVT_TRY(file, FileBytes::read(arguments.owners));
+    SVT_TRY(owners, analyze::parseOwners(file->text(), arguments.owners.string(), volume.labels));
     const OwnerReport report = ownerReport(volume, selected, *owners, arguments.build.threads);
     if (arguments.json) {
         print(report.json);
@@ -110,28 +104,30 @@ int printOwners(const volume::SemanticVolume& volume, const Labels& selected, co
     return kDone;
 }
 
-int runCityOverlaps(const QueryArguments& arguments) {
-    const auto table = [&] {
-        const TerminalProgress progress;
-        return cityOverlaps(arguments.input, arguments.query, progress.get());
-    }();
-    if (!table) return fail(table.error());
-    if (table->rows.empty()) note("no two buildings of what the query selects claim the same space");
-    print(*table, arguments.form());
+Result<int> runCityOverlaps(const QueryArguments& arguments) {
+    SVT_TRY(city, city::City::open(arguments.input));
+    SVT_TRY(overlaps, city::cityOverlaps(*city, arguments.query, TerminalProgress().get()));
+    Table table;
+    table.columns = {{"a", "a"},     {"aName", "name"}, {"b", "b"},           {"bName", "name"},
+                     {"voxels", ""}, {"volume", "m3"},  {"tiles", "in tiles"}};
+    for (const auto& [a, b, voxels, volume, tiles] : *overlaps)
+        table.rows.push_back({a.id, a.name, b.id, b.name, voxels, volume, tiles});
+    if (table.rows.empty()) note("no two buildings of what the query selects claim the same space");
+    print(table, arguments.form());
     return kDone;
 }
 
 // Of a city, or with options that are answered feature by feature.
-int runFeatures(const QueryArguments& arguments) {
+Result<int> runFeatures(const QueryArguments& arguments) {
     if (isCity(arguments.input) && arguments.overlaps && !arguments.features.isAsked())
         return runCityOverlaps(arguments);
     if (arguments.reportCount() > 0)
-        return fail(Error(Code::BadArgument,
-                          isCity(arguments.input)
-                              ? "reports are of one volume; take a part of the city (svt city extract), or leave out "
-                                "--with, --neighbours, --along, --gaps, --areas, --owners and --parcels"
-                              : "-o, --box, --by, --cut, --sort, --first and --leaks go without reports; leave out "
-                                "--with, --neighbours, --along, --overlaps, --gaps, --areas, --owners and --parcels"));
+        return Error(Code::BadArgument,
+                     isCity(arguments.input)
+                         ? "reports are of one volume; take a part of the city (svt city extract), or leave out "
+                           "--with, --neighbours, --along, --gaps, --areas, --owners and --parcels"
+                         : "-o, --box, --by, --cut, --sort, --first and --leaks go without reports; leave out "
+                           "--with, --neighbours, --along, --overlaps, --gaps, --areas, --owners and --parcels");
     FeatureQuery query = arguments.features;
     query.input = arguments.input;
     query.query = arguments.query;
@@ -140,30 +136,24 @@ int runFeatures(const QueryArguments& arguments) {
     return runFeatureQuery(query);
 }
 
-int runQuery(const QueryArguments& arguments) {
-    if (auto parsed = model::Query::parse(arguments.query); !parsed) return fail(parsed.error());
+Result<int> runQuery(const QueryArguments& arguments) {
+    SVT_DO(model::Query::parse(arguments.query));
     if (arguments.reportCount() > 1)
-        return fail(Error(
+        return Error(
             Code::BadArgument,
             "--with, --neighbours, --along, --overlaps, --gaps, --areas, --owners and --parcels exclude each other; "
-            "give one of them"));
+            "give one of them");
     if (isCity(arguments.input) || arguments.features.isAsked()) return runFeatures(arguments);
-    Diagnostics diagnostics;
-    Result<volume::SemanticVolume> volume = [&] {
-        const TerminalProgress progress;
-        pipeline::BuildOptions build = arguments.build;
-        if (arguments.areas || arguments.overlaps) build.vectors.meshes = true;
-        return loadVolume(arguments.input, build, progress.get(), diagnostics);
-    }();
-    printDiagnostics(diagnostics, false);
-    if (!volume) return fail(volume.error());
+    pipeline::BuildOptions build = arguments.build;
+    if (arguments.areas || arguments.overlaps) build.vectors.meshes = true;
+    SVT_TRY(volume, loadVolume(arguments.input, build, TerminalProgress().get(), false));
     auto selected = analyze::selectLabels(volume->labels, arguments.query);
     if (!selected && selected.error().code() == Code::NothingSelected) {
         // An answer, not an error: the query is well formed, and there is no such feature.
         note(selected.error().message());
         selected = Labels();
     }
-    if (!selected) return fail(selected.error());
+    if (!selected) return selected.error();
     if (!arguments.owners.empty()) return printOwners(*volume, *selected, arguments);
     if (arguments.reportCount() == 0 || !arguments.with.empty()) return printFeatures(*volume, *selected, arguments);
     return printReport(*volume, *selected, arguments);

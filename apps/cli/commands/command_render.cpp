@@ -30,6 +30,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -253,38 +254,57 @@ Result<void> checkForLines(const RenderArguments& arguments, const illustrate::S
                  fmt::format("line drawings do not have {}; leave it out, or write a .png", fmt::join(found, ", ")));
 }
 
+// Draws and writes the picture of a scene.
+using DrawPicture = std::function<Result<void>(illustrate::Scene& scene, int number)>;
+
+// Draws and writes all pictures of a series, then the scene itself.
+// \param frame  what cameras, planes and regions refer to
+Result<int> drawSeries(const RenderArguments& arguments, Series& series, const illustrate::Scene& moving,
+                       const volume::SemanticVolume& frame, TerminalProgress& progress, const DrawPicture& draw) {
+    for (int number = 0; number < series.count; ++number) {
+        progress.beginPart(number, series.count);
+        SVT_TRY(scene, illustrate::sceneAt(moving, number * series.seconds, frame));
+        SVT_DO(draw(*scene, number));
+    }
+    if (series.film) SVT_DO(series.film->finish(progress.get()));
+    if (!arguments.sceneOutput.empty())
+        SVT_DO(writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(moving)));
+    return kDone;
+}
+
+render::CastOptions castOptions(const RenderArguments& arguments, const TerminalProgress& progress) {
+    render::CastOptions options;
+    options.threads = arguments.build.threads;
+    options.progress = progress.get();
+    options.isAdaptive = true;
+    return options;
+}
+
+Result<void> writePicture(const RenderArguments& arguments, Series& series, const render::Frame& frame, int number) {
+    return series.film ? series.film->add(frame.color) : writeBuffers(frame, arguments, number);
+}
+
 // Lines instead of pixels: the scene's camera, what it shows, and the plane that cuts it.
-int runLineDrawing(const RenderArguments& arguments, const Series& series, const illustrate::Scene& moving) {
+Result<int> runLineDrawing(const RenderArguments& arguments, Series& series, const illustrate::Scene& moving) {
     if (arguments.gl || !arguments.labelOutput.empty() || !arguments.depthOutput.empty())
-        return fail(Error(Code::BadArgument, "--gl, --labels and --depth are for PNG, not for line drawings"));
-    if (auto checked = checkForLines(arguments, moving); !checked) return fail(checked.error());
-    Diagnostics diagnostics;
+        return Error(Code::BadArgument, "--gl, --labels and --depth are for PNG, not for line drawings");
+    SVT_DO(checkForLines(arguments, moving));
     TerminalProgress progress;
     pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
-    const auto volume = loadVolume(arguments.input, build, progress.get(), diagnostics);
-    printDiagnostics(diagnostics, arguments.verbose);
-    if (!volume) return fail(volume.error());
+    SVT_TRY(volume, loadVolume(arguments.input, build, progress.get(), arguments.verbose));
     illustrate::LineViewOptions options;
     options.hidden = arguments.scene.hiddenLines == render::HiddenLines::Dashed;
     options.threads = arguments.build.threads;
-    for (int frame = 0; frame < arguments.frames; ++frame) {
-        progress.beginPart(frame, arguments.frames);
+    const auto draw = [&](const illustrate::Scene& scene, int number) -> Result<void> {
         Progress::tell(progress.get(), "lines", 0);
-        const auto scene = illustrate::sceneAt(moving, frame * series.seconds, *volume);
-        if (!scene) return fail(scene.error());
-        const auto spec = illustrate::makeFrameSpec(*scene, *volume);
-        if (!spec) return fail(spec.error());
-        const auto view = illustrate::drawLineView(*volume, *spec, options);
-        if (!view) return fail(view.error());
-        if (auto written = writeLineView(arguments, *view, *volume, scene->width, frame); !written)
-            return fail(written.error());
+        SVT_TRY(spec, illustrate::makeFrameSpec(scene, *volume));
+        SVT_TRY(view, illustrate::drawLineView(*volume, *spec, options));
+        SVT_DO(writeLineView(arguments, *view, *volume, scene.width, number));
         if (view->drawing.beyond.empty() && view->drawing.components.empty()) note("nothing is visible");
-        if (frame == 0 && !arguments.sceneOutput.empty())
-            if (auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(moving)); !written)
-                return fail(written.error());
-    }
-    return kDone;
+        return {};
+    };
+    return drawSeries(arguments, series, moving, *volume, progress, draw);
 }
 
 // Refuses what needs all of a model at once.
@@ -302,65 +322,39 @@ Result<void> checkForCity(const RenderArguments& arguments, const illustrate::Sc
 }
 
 // Pictures of a city: for each of them, its tiles are chosen and read.
-int runCityRender(const RenderArguments& arguments, Series& series, const illustrate::Scene& moving) {
-    if (auto checked = checkForCity(arguments, moving); !checked) return fail(checked.error());
+Result<int> runCityRender(const RenderArguments& arguments, Series& series, const illustrate::Scene& moving) {
+    SVT_DO(checkForCity(arguments, moving));
     TerminalProgress progress;
-    auto opened = city::City::open(arguments.input);
-    if (!opened) return fail(opened.error());
-    auto picture = city::CityPainter::make(std::move(*opened), {tileMemory(), arguments.build.threads, progress.get()});
-    if (!picture) return fail(picture.error());
-    render::CastOptions options;
-    options.threads = arguments.build.threads;
-    options.progress = progress.get();
-    options.isAdaptive = true;
-    for (int frame = 0; frame < series.count; ++frame) {
-        progress.beginPart(frame, series.count);
-        const auto scene = illustrate::sceneAt(moving, frame * series.seconds, picture->frame());
-        if (!scene) return fail(scene.error());
-        const auto painting = picture->paint(*scene, options);
-        if (!painting) return fail(painting.error());
-        if (frame == 0) {
+    SVT_TRY(opened, city::City::open(arguments.input));
+    SVT_TRY(painter,
+            city::CityPainter::make(std::move(*opened), {tileMemory(), arguments.build.threads, progress.get()}));
+    const auto draw = [&](const illustrate::Scene& scene, int number) -> Result<void> {
+        SVT_TRY(painting, painter->paint(scene, castOptions(arguments, progress)));
+        if (number == 0) {
             noteNames(painting->names);
-            noteSun(*scene, picture->frame());
-            for (const std::string& message : picture->nothing()) note(message);
-            if (const city::ChosenTiles& chosen = picture->chosen(); chosen.pixels > 1)
-                note(fmt::format("memory: voxels are up to {:.1f} pixels wide; more --memory makes them finer",
-                                 chosen.pixels));
+            noteSun(scene, painter->frame());
+            for (const std::string& message : painter->nothing()) note(message);
+            if (const double pixels = painter->chosen().pixels; pixels > 1)
+                note(
+                    fmt::format("memory: voxels are up to {:.1f} pixels wide; more --memory makes them finer", pixels));
         }
         if (isEmpty(painting->frame)) note("nothing is visible");
-        const auto written =
-            series.film ? series.film->add(painting->frame.color) : writeBuffers(painting->frame, arguments, frame);
-        if (!written) return fail(written.error());
-    }
-    if (series.film)
-        if (auto written = series.film->finish(progress.get()); !written) return fail(written.error());
-    if (arguments.sceneOutput.empty()) return kDone;
-    const auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(moving));
-    return written ? static_cast<int>(kDone) : fail(written.error());
+        return writePicture(arguments, series, painting->frame, number);
+    };
+    return drawSeries(arguments, series, moving, painter->frame(), progress, draw);
 }
 
-int runRender(const RenderArguments& arguments) {
-    // Validate the request before any long work.
-    const auto moving =
-        arguments.scene.toScene(isFilm(arguments.output) ? std::nullopt : std::optional(arguments.frames));
-    if (!moving) return fail(moving.error());
-    auto series = seriesOf(arguments, *moving);
-    if (!series) return fail(series.error());
-    if (isCity(arguments.input)) return runCityRender(arguments, *series, *moving);
-    if (isLineDrawing(arguments.output)) return runLineDrawing(arguments, *series, *moving);
+// Pictures of one volume, with others that are drawn in place of its parts.
+Result<int> runVolumeRender(const RenderArguments& arguments, Series& series, const illustrate::Scene& moving) {
     Diagnostics diagnostics;
     TerminalProgress progress;
-    auto volume = loadVolume(arguments.input, withVectors(arguments.build, *moving), progress.get(), diagnostics);
+    auto volume = loadVolume(arguments.input, withVectors(arguments.build, moving), progress.get(), diagnostics);
     if (!volume) printDiagnostics(diagnostics, arguments.verbose);
-    if (!volume) return fail(volume.error());
+    if (!volume) return volume.error();
     const auto details = addInputs(arguments, progress.get(), diagnostics, *volume);
     printDiagnostics(diagnostics, arguments.verbose);
-    if (!details) return fail(details.error());
+    if (!details) return details.error();
 
-    render::CastOptions options;
-    options.threads = arguments.build.threads;
-    options.progress = progress.get();
-    options.isAdaptive = true;
     illustrate::ScenePainter painter(*volume, arguments.build.threads);
     // An answer, not an error, as for `svt query`: the query is well formed, and there is no such feature.
     std::vector<std::string> nothing;
@@ -372,33 +366,34 @@ int runRender(const RenderArguments& arguments) {
         return gl.draw(volumes, spec);
     };
     int empty = 0;
-    for (int frame = 0; frame < series->count; ++frame) {
-        progress.beginPart(frame, series->count);
-        auto scene = illustrate::sceneAt(*moving, frame * series->seconds, *volume);
-        if (!scene) return fail(scene.error());
-        if (arguments.gl) takeFinest(*scene);
-        const auto painting = arguments.gl ? painter.paint(*scene, drawByGl) : painter.paint(*scene, options);
-        if (!painting) return fail(painting.error());
+    const auto draw = [&](illustrate::Scene& scene, int number) -> Result<void> {
+        if (arguments.gl) takeFinest(scene);
+        SVT_TRY(painting,
+                arguments.gl ? painter.paint(scene, drawByGl) : painter.paint(scene, castOptions(arguments, progress)));
         empty += isEmpty(painting->frame);
-        if (frame == 0) noteNames(painting->names);
-        if (frame == 0) noteSun(*scene, *volume);
-        if (frame == 0) noteMovedPlanes(*scene, *volume);
-        if (frame == 0) noteCutaway(arguments.scene.cutaway, *volume, painting->frame);
-        const auto written =
-            series->film ? series->film->add(painting->frame.color) : writeBuffers(painting->frame, arguments, frame);
-        if (!written) return fail(written.error());
-    }
-    if (series->film)
-        if (auto written = series->film->finish(progress.get()); !written) return fail(written.error());
-    if (!arguments.sceneOutput.empty()) {
-        const auto written = writeFileAtomically(arguments.sceneOutput, illustrate::writeScene(*moving));
-        if (!written) return fail(written.error());
-    }
+        if (number == 0) {
+            noteNames(painting->names);
+            noteSun(scene, *volume);
+            noteMovedPlanes(scene, *volume);
+            noteCutaway(arguments.scene.cutaway, *volume, painting->frame);
+        }
+        return writePicture(arguments, series, painting->frame, number);
+    };
+    SVT_TRY(code, drawSeries(arguments, series, moving, *volume, progress, draw));
     for (const std::string& message : nothing) note(message);
     if (empty != 0)
         note(fmt::format("nothing is visible{}: all is hidden, cut away, fully transparent or outside of the view",
-                         series->count == 1 ? "" : fmt::format(" in {} of {} pictures", empty, series->count)));
-    return kDone;
+                         series.count == 1 ? "" : fmt::format(" in {} of {} pictures", empty, series.count)));
+    return code;
+}
+
+Result<int> runRender(const RenderArguments& arguments) {
+    // Validate the request before any long work.
+    SVT_TRY(moving, arguments.scene.toScene(isFilm(arguments.output) ? std::nullopt : std::optional(arguments.frames)));
+    SVT_TRY(series, seriesOf(arguments, *moving));
+    if (isCity(arguments.input)) return runCityRender(arguments, *series, *moving);
+    if (isLineDrawing(arguments.output)) return runLineDrawing(arguments, *series, *moving);
+    return runVolumeRender(arguments, *series, *moving);
 }
 
 Members<RenderArguments> membersOf(const RenderArguments*) noexcept {

@@ -29,9 +29,8 @@ samples::SampleFormat formatOf(const SampleArguments& arguments) {
     return ending == ".ifc" ? Ifc4 : ending == ".jsonl" ? CityJsonSeq2 : ending == ".json" ? CityJson2 : CityGml3;
 }
 
-int runSample(const SampleArguments& arguments) {
-    auto file = AtomicFile::create(arguments.output);
-    if (!file) return fail(file.error());
+Result<int> runSample(const SampleArguments& arguments) {
+    SVT_TRY(file, AtomicFile::create(arguments.output));
     std::optional<Error> writeError;
     const TerminalProgress progress;
     Progress::tell(progress.get(), "write", 0);
@@ -43,9 +42,9 @@ int runSample(const SampleArguments& arguments) {
             if (!done) writeError = done.error();
             return done.hasValue();
         });
-    if (writeError) return fail(*writeError);
-    if (!written) return fail(written.error());
-    if (auto committed = file->commit(); !committed) return fail(committed.error());
+    if (writeError) return *writeError;
+    if (!written) return written.error();
+    SVT_DO(file->commit());
     return kDone;
 }
 

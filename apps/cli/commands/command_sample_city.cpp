@@ -35,7 +35,7 @@ Result<samples::CitySampleCount> writeFile(const SampleCityArguments& arguments,
     return *count;
 }
 
-int runSampleCity(const SampleCityArguments& arguments) {
+Result<int> runSampleCity(const SampleCityArguments& arguments) {
     std::error_code ignored;
     std::filesystem::create_directories(arguments.output, ignored);
     const TerminalProgress progress;
@@ -59,7 +59,7 @@ int runSampleCity(const SampleCityArguments& arguments) {
                         all.vertices += count->vertices;
                     }
                 });
-    if (failed) return fail(*failed);
+    if (failed) return *failed;
     if (!isQuiet())
         fmt::print(
             "{}: {} files, {} buildings, of them {} replicas; {} shells lack a face; {:.1f} vertices a building\n",

@@ -1,5 +1,4 @@
 #include <apps/cli/city/city_input.hpp>
-#include <apps/cli/city/city_section.hpp>
 #include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/paper_scale.hpp>
@@ -8,14 +7,11 @@
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
-#include <svt/core/file.hpp>
+#include <svt/city/city_walk.hpp>
 #include <svt/illustrate/section_drawing.hpp>
-#include <svt/writers/dxf_drawing.hpp>
-#include <svt/writers/geojson_drawing.hpp>
+#include <svt/writers/drawing_formats.hpp>
 #include <svt/writers/section_table.hpp>
 #include <svt/writers/sheet_writer.hpp>
-#include <svt/writers/svg_drawing.hpp>
-#include <svt/writers/view_drawing.hpp>
 
 #include <fmt/format.h>
 
@@ -37,20 +33,6 @@ struct SectionArguments {
     SectionArguments() { section.smallestArea = 1e-4; }
 };
 
-Result<std::uint64_t> writeDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                                   const std::filesystem::path& path, double scale, const writers::DxfOptions& dxf) {
-    const std::string ending = endingOf(path);
-    if (ending == ".dxf") return writeFileAtomically(path, writers::makeDxf(drawing, volume, dxf));
-    if (ending == ".geojson") return writeFileAtomically(path, writers::makeGeojson(drawing, volume));
-    if (ending == ".pdf") {
-        SVT_TRY(pdf, writers::makeSectionPdf(drawing, volume, scale));
-        if (!writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
-        return writeFileAtomically(path, *pdf);
-    }
-    SVT_TRY(svg, writers::makeSvg(drawing, volume, {.scale = scale}));
-    return writeFileAtomically(path, *svg);
-}
-
 Result<illustrate::SectionPlane> planeOf(const SectionArguments& arguments, const volume::SemanticVolume& volume) {
     if (!arguments.elevation.empty()) return illustrate::elevationPlane(arguments.elevation, volume);
     if (arguments.plane.empty()) return illustrate::defaultSectionPlane(volume);
@@ -66,8 +48,8 @@ illustrate::SectionOptions optionsOf(const SectionArguments& arguments, std::vec
 }
 
 // Tells what was drawn and what was not, and writes it.
-int writeSection(const SectionArguments& arguments, const illustrate::SectionDrawing& drawing,
-                 const volume::SemanticVolume& volume, const std::vector<std::string>& nothing, double scale) {
+Result<int> writeSection(const SectionArguments& arguments, const illustrate::SectionDrawing& drawing,
+                         const volume::SemanticVolume& volume, const std::vector<std::string>& nothing, double scale) {
     Diagnostics findings;
     illustrate::reportSection(drawing, volume, findings);
     printDiagnostics(findings, true);
@@ -75,37 +57,34 @@ int writeSection(const SectionArguments& arguments, const illustrate::SectionDra
     const bool isEmpty = drawing.components.empty() && drawing.beyond.empty();
     if (isEmpty && !nothing.empty()) note("nothing is drawn");
     if (isEmpty && nothing.empty())
-        return fail(Error(Code::BadSection,
-                          fmt::format("the plane '{}' cuts nothing that is shown; move it, or see --show, --hide, "
-                                      "--no-rooms and --min-area",
-                                      arguments.plane.empty() ? "1.1 m above the lowest floor" : arguments.plane)));
-    for (const std::filesystem::path& path : arguments.outputs)
-        if (auto written = writeDrawing(drawing, volume, path, scale, arguments.dxf); !written)
-            return fail(written.error());
-    for (const std::filesystem::path& path : arguments.tables) {
-        const std::string text = endingOf(path) == ".csv" ? writers::makeSectionCsv(drawing, volume)
-                                                          : writers::makeSectionJson(drawing, volume);
-        if (auto written = writeFileAtomically(path, text); !written) return fail(written.error());
-    }
+        return Error(Code::BadSection,
+                     fmt::format("the plane '{}' cuts nothing that is shown; move it, or see --show, --hide, "
+                                 "--no-rooms and --min-area",
+                                 arguments.plane.empty() ? "1.1 m above the lowest floor" : arguments.plane));
+    for (const auto& paths : {arguments.outputs, arguments.tables})
+        for (const std::filesystem::path& path : paths) {
+            SVT_DO(writers::writeDrawing(drawing, volume, path, {scale, arguments.dxf}));
+            if (endingOf(path) == ".pdf" && !writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
+        }
     TerminalProgress::hide();
     if (arguments.json) fmt::print("{}", writers::makeSectionJson(drawing, volume));
     return kDone;
 }
 
 // Of a city: its tiles, one after the other, in one drawing.
-int runCitySection(const SectionArguments& arguments, double scale) {
+Result<int> runCitySection(const SectionArguments& arguments, double scale) {
     if (arguments.plane.empty())
-        return fail(Error(Code::BadArgument,
-                          "a city is cut by a plane that --plane gives, such as 'z=abs(50)'; elevations are drawn of a "
-                          "part (svt city extract)"));
+        return Error(Code::BadArgument,
+                     "a city is cut by a plane that --plane gives, such as 'z=abs(50)'; elevations are drawn of a "
+                     "part (svt city extract)");
     if (arguments.section.beyond.isAny() || arguments.section.dimensions)
-        return fail(Error(Code::BadArgument,
-                          "--beyond, --hidden, --above and --dimensions need the meshes of a model, which a city does "
-                          "not keep; leave them out"));
+        return Error(Code::BadArgument,
+                     "--beyond, --hidden, --above and --dimensions need the meshes of a model, which a city does "
+                     "not keep; leave them out");
     const TerminalProgress progress;
     std::vector<std::string> nothing;
-    const auto section = cutCity(arguments.input, arguments.plane, optionsOf(arguments, nothing), progress.get());
-    if (!section) return fail(section.error());
+    SVT_TRY(city, city::City::open(arguments.input));
+    SVT_TRY(section, city::cutCity(*city, arguments.plane, optionsOf(arguments, nothing), progress.get()));
     // Queries that find nothing in one tile may find something in others.
     if (!section->drawing.components.empty()) nothing.clear();
     std::sort(nothing.begin(), nothing.end());
@@ -113,19 +92,15 @@ int runCitySection(const SectionArguments& arguments, double scale) {
     return writeSection(arguments, section->drawing, section->volume, nothing, scale);
 }
 
-int runSection(const SectionArguments& arguments) {
+Result<int> runSection(const SectionArguments& arguments) {
     if (arguments.outputs.empty() && arguments.tables.empty() && !arguments.json)
-        return fail(Error(Code::BadArgument, "nothing to write; give -o D.svg, --table T.csv or --json"));
+        return Error(Code::BadArgument, "nothing to write; give -o D.svg, --table T.csv or --json");
     if (isCity(arguments.input)) return runCitySection(arguments, arguments.scale);
-    Diagnostics diagnostics;
     const TerminalProgress progress;
     pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
-    const auto volume = loadVolume(arguments.input, build, progress.get(), diagnostics);
-    printDiagnostics(diagnostics, arguments.verbose);
-    if (!volume) return fail(volume.error());
-    const auto plane = planeOf(arguments, *volume);
-    if (!plane) return fail(plane.error());
+    SVT_TRY(volume, loadVolume(arguments.input, build, progress.get(), arguments.verbose));
+    SVT_TRY(plane, planeOf(arguments, *volume));
     if (plane->bound > 0)
         note(
             fmt::format("the floor under the plane comes from voxels and may be off by {:g} m; give the model itself, "
@@ -133,8 +108,7 @@ int runSection(const SectionArguments& arguments) {
                         plane->bound));
     std::vector<std::string> nothing;
     Progress::tell(progress.get(), "section", 0);
-    const auto drawing = illustrate::drawSection(*volume, *plane, optionsOf(arguments, nothing));
-    if (!drawing) return fail(drawing.error());
+    SVT_TRY(drawing, illustrate::drawSection(*volume, *plane, optionsOf(arguments, nothing)));
     return writeSection(arguments, *drawing, *volume, nothing, arguments.scale);
 }
 

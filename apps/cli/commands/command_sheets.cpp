@@ -7,24 +7,17 @@
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/core/file.hpp>
-#include <svt/illustrate/sheet_set.hpp>
-#include <svt/volume/brick_volume.hpp>
-#include <svt/writers/dxf_drawing.hpp>
+#include <svt/writers/draw_sheets.hpp>
+#include <svt/writers/drawing_formats.hpp>
 #include <svt/writers/sheet_geopackage.hpp>
-#include <svt/writers/sheet_writer.hpp>
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 #include <system_error>
 
 namespace svt::cli {
 namespace {
-
-writers::SheetLanguage languageOf(const std::string& name) {
-    return name == "de" ? writers::SheetLanguage::German : writers::SheetLanguage::English;
-}
 
 struct SheetsArguments {
     std::filesystem::path input, output, folder, dxfFolder, setFile, setOutput;
@@ -52,56 +45,6 @@ Result<illustrate::SheetSet> readSet(const SheetsArguments& arguments) {
     set.tables = set.tables && !arguments.noTables;
     set.scale = arguments.scale.value_or(set.scale);
     return set;
-}
-
-// Fills in the sheets that the program chooses.
-Result<illustrate::SheetViews> chooseViews(illustrate::SheetSet& set, const volume::SemanticVolume& volume,
-                                           int threads) {
-    if (!set.sheets.empty()) return illustrate::viewsOfSet(set, volume);
-    SVT_TRY(chosen, illustrate::chooseSheetViews(volume, threads));
-    set.sheets = illustrate::sheetSetOf(*chosen, volume).sheets;
-    for (illustrate::SheetView& view : chosen->views) view.beyond.above = view.beyond.above && set.above;
-    return chosen;
-}
-
-Result<writers::SheetContent> drawViews(illustrate::SheetSet& set, const SheetsArguments& arguments,
-                                        const volume::SemanticVolume& volume) {
-    SVT_TRY(chosen, chooseViews(set, volume, arguments.build.threads));
-    writers::SheetContent content;
-    content.levels = std::move(chosen->levels);
-    std::vector<std::string> nothing;
-    std::vector<int> groups;  // by view
-    std::optional<volume::BrickVolume> bricks;
-    for (const illustrate::SetSheet& sheet : set.sheets) {
-        groups.insert(groups.end(), sheet.views.size(), static_cast<int>(content.groups.size()));
-        content.groups.push_back({sheet.title, sheet.scale});
-    }
-    for (illustrate::SheetView& view : chosen->views) {
-        illustrate::SectionOptions options;
-        options.hide = set.hide;
-        options.smallestArea = 1e-4;
-        options.threads = arguments.build.threads;
-        options.beyond = view.beyond;
-        options.dimensions = view.kind == illustrate::ViewKind::Plan && set.dimensions;
-        if (content.views.empty()) options.nothing = &nothing;
-        SVT_TRY(drawing, bricks ? illustrate::drawSection(volume, *bricks, view.plane, options)
-                                : illustrate::drawSection(volume, view.plane, options));
-        // Where one view needs bricks, so do the others: they are made once more and kept.
-        if (!bricks && std::ranges::any_of(drawing->components, [](const auto& c) { return !c.isExact; })) {
-            SVT_TRY(made, volume::BrickVolume::fromColumns(
-                              volume.columns, {.planes = volume.planes, .threads = arguments.build.threads}));
-            bricks = std::move(*made);
-        }
-        content.views.push_back({std::move(view), std::move(*drawing), groups[content.views.size()]});
-    }
-    if (set.tables) {
-        const auto areas =
-            illustrate::measureFloorAreas(volume, content.levels, arguments.build.threads, bricks ? &*bricks : nullptr);
-        if (!areas) return areas.error();
-        content.tables = writers::makeAreaTables(*areas, content.levels, languageOf(set.language));
-    }
-    for (const std::string& message : nothing) note(message);
-    return content;
 }
 
 // What is not exact, once for all views.
@@ -134,7 +77,7 @@ Result<void> writeDxfFolder(const writers::SheetContent& content, const volume::
     SVT_DO(makeFolder(folder));
     for (std::size_t n = 0; n < content.views.size(); ++n) {
         const auto path = folder / (fileNameOf(content, n) + ".dxf");
-        SVT_DO(writeFileAtomically(path, writers::makeDxf(content.views[n].drawing, volume, options)));
+        SVT_DO(writers::writeDrawing(content.views[n].drawing, volume, path, {.dxf = options}));
     }
     return {};
 }
@@ -153,43 +96,32 @@ const std::filesystem::path& writtenName(const SheetsArguments& arguments) {
     return arguments.setOutput;
 }
 
-int runSheets(const SheetsArguments& arguments) {
+Result<int> runSheets(const SheetsArguments& arguments) {
     if (arguments.output.empty() && arguments.folder.empty() && arguments.dxfFolder.empty() &&
         arguments.setOutput.empty())
-        return fail(
-            Error(Code::BadArgument, "nothing to write; give -o P.pdf, --svg DIR, --dxf DIR or --write-sheets FILE"));
-    auto set = readSet(arguments);
-    if (!set) return fail(set.error());
-    const writers::SheetOptions options{set->scale, set->paper, languageOf(set->language), set->title};
-    Diagnostics diagnostics;
+        return Error(Code::BadArgument, "nothing to write; give -o P.pdf, --svg DIR, --dxf DIR or --write-sheets FILE");
+    SVT_TRY(set, readSet(arguments));
+    const writers::SheetOptions options = writers::sheetOptionsOf(*set);
     const TerminalProgress progress;
     pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
-    const auto volume = loadVolume(arguments.input, build, progress.get(), diagnostics);
-    printDiagnostics(diagnostics, arguments.verbose);
-    if (!volume) return fail(volume.error());
+    SVT_TRY(volume, loadVolume(arguments.input, build, progress.get(), arguments.verbose));
     Progress::tell(progress.get(), "sheets", 0);
-    const auto content = drawViews(*set, arguments, *volume);
-    if (!content) return fail(content.error());
+    std::vector<std::string> nothing;
+    SVT_TRY(content, writers::drawSheets(*set, *volume, arguments.build.threads, &nothing));
+    for (const std::string& message : nothing) note(message);
     printFindings(*content, *volume);
-    const auto sheets = writers::makeSvgSheets(*content, *volume, options);
-    if (!sheets) return fail(sheets.error());
+    SVT_TRY(sheets, writers::makeSvgSheets(*content, *volume, options));
     if (!arguments.output.empty()) {
         const bool isPdf = endingOf(arguments.output) != ".gpkg";
-        const auto bytes = isPdf ? writers::makePdfSheets(*content, *volume, options)
-                                 : writers::makeSheetGeoPackage(*content, *volume);
-        if (!bytes) return fail(bytes.error());
+        SVT_TRY(bytes, isPdf ? writers::makePdfSheets(*content, *volume, options)
+                             : writers::makeSheetGeoPackage(*content, *volume));
         if (isPdf && !writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
-        if (auto written = writeFileAtomically(arguments.output, *bytes); !written) return fail(written.error());
+        SVT_DO(writeFileAtomically(arguments.output, *bytes));
     }
-    if (!arguments.folder.empty())
-        if (auto written = writeSvgFolder(*sheets, arguments.folder); !written) return fail(written.error());
-    if (!arguments.dxfFolder.empty())
-        if (auto written = writeDxfFolder(*content, *volume, arguments.dxfFolder, arguments.dxf); !written)
-            return fail(written.error());
-    if (!arguments.setOutput.empty())
-        if (auto written = writeFileAtomically(arguments.setOutput, illustrate::writeSheetSet(*set)); !written)
-            return fail(written.error());
+    if (!arguments.folder.empty()) SVT_DO(writeSvgFolder(*sheets, arguments.folder));
+    if (!arguments.dxfFolder.empty()) SVT_DO(writeDxfFolder(*content, *volume, arguments.dxfFolder, arguments.dxf));
+    if (!arguments.setOutput.empty()) SVT_DO(writeFileAtomically(arguments.setOutput, illustrate::writeSheetSet(*set)));
     TerminalProgress::hide();
     if (!isQuiet())
         fmt::print("{}: {} sheets with {} views\n", writtenName(arguments).string(), sheets->size(),

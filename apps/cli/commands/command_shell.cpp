@@ -100,20 +100,17 @@ Result<void> check(const ShellArguments& arguments) {
     return {};
 }
 
-int runShell(const ShellArguments& arguments) {
-    if (auto checked = check(arguments); !checked) return fail(checked.error());
-    Diagnostics diagnostics;
+Result<int> runShell(const ShellArguments& arguments) {
+    SVT_DO(check(arguments));
     auto progress = std::make_unique<TerminalProgress>();
-    const auto volume = loadVolume(arguments.input, arguments.build, progress->get(), diagnostics);
-    printDiagnostics(diagnostics, false);
-    if (!volume) return fail(volume.error());
+    SVT_TRY(volume, loadVolume(arguments.input, arguments.build, progress->get(), false));
     if (arguments.levels) {
         progress.reset();
         return printLevels(*volume, arguments.json);
     }
     const auto json = makeShell(*volume, arguments, progress->get());
     progress.reset();
-    if (!json) return fail(json.error());
+    if (!json) return json.error();
     if (arguments.json) {
         print(*json);
         return kDone;

@@ -31,6 +31,6 @@ struct ServeArguments {
 
 /// Serves until a signal ends it. Defined once for each platform.
 /// \return the exit code
-int runServe(const ServeArguments& arguments);
+[[nodiscard]] Result<int> runServe(const ServeArguments& arguments);
 
 }  // namespace svt::cli

@@ -78,23 +78,19 @@ void announce(const ServeArguments& arguments, const serve::ServerOptions& optio
 
 }  // namespace
 
-int runServe(const ServeArguments& arguments) {
+Result<int> runServe(const ServeArguments& arguments) {
     if (arguments.inputs.empty() && !arguments.allowUploads)
-        return fail(Error(Code::BadArgument, "nothing to show; give a .svt or a model file, or --allow-uploads"));
-    const auto viewer = arguments.site.viewerFolder();
-    if (!viewer) return fail(viewer.error());
-    const auto models = arguments.site.load(arguments.inputs);
-    if (!models) return fail(models.error());
-    auto site = serve::viewerSite(*viewer, *models);
-    if (!site) return fail(site.error());
+        return Error(Code::BadArgument, "nothing to show; give a .svt or a model file, or --allow-uploads");
+    SVT_TRY(viewer, arguments.site.viewerFolder());
+    SVT_TRY(models, arguments.site.load(arguments.inputs));
+    SVT_TRY(site, serve::viewerSite(*viewer, *models));
     site->add("/api", serve::Bytes::of(abilities(arguments)));
 
     const PrivateFolder folder;
     std::vector<serve::Route> routes{pictureRoute(*models, arguments.site.build.threads)};
     if (arguments.allowUploads) routes.push_back(serve::convertRoute(convertOptions(arguments)));
     const serve::ServerOptions options = serverOptions(arguments, folder);
-    auto server = serve::HttpServer::listen(std::move(*site), std::move(routes), options);
-    if (!server) return fail(server.error());
+    SVT_TRY(server, serve::HttpServer::listen(std::move(*site), std::move(routes), options));
     signalTarget = &*server;
     auto* const formerInterrupt = std::signal(SIGINT, onSignal);
     auto* const formerTerm = std::signal(SIGTERM, onSignal);

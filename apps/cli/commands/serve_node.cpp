@@ -14,23 +14,19 @@ EM_JS(void, svtHostServe, (const char* orders), { Module["host"]["serve"](JSON.p
 // clang-format on
 
 namespace svt::cli {
-int runServe(const ServeArguments& arguments) {
+Result<int> runServe(const ServeArguments& arguments) {
     if (arguments.allowUploads)
-        return fail(
-            Error(Code::BadArgument, "--allow-uploads is not possible under Node.js; use the program for Linux"));
-    if (arguments.inputs.empty()) return fail(Error(Code::BadArgument, "nothing to show; give a .svt or a model file"));
-    const auto viewer = arguments.site.viewerFolder();
-    if (!viewer) return fail(viewer.error());
-    const auto models = arguments.site.load(arguments.inputs);
-    if (!models) return fail(models.error());
-    const auto site = serve::viewerSite(*viewer, *models);
-    if (!site) return fail(site.error());
+        return Error(Code::BadArgument, "--allow-uploads is not possible under Node.js; use the program for Linux");
+    if (arguments.inputs.empty()) return Error(Code::BadArgument, "nothing to show; give a .svt or a model file");
+    SVT_TRY(viewer, arguments.site.viewerFolder());
+    SVT_TRY(models, arguments.site.load(arguments.inputs));
+    SVT_TRY(site, serve::viewerSite(*viewer, *models));
 
     // Outlives main(); Node.js removes it when the server stops.
     static const PrivateFolder folder;
     if (folder.path().empty())
-        return fail(Error(Code::CannotWrite, "there is no folder for temporary files; set TMPDIR to one"));
-    if (const auto written = serve::writeSite(*site, folder.path(), true); !written) return fail(written.error());
+        return Error(Code::CannotWrite, "there is no folder for temporary files; set TMPDIR to one");
+    SVT_DO(serve::writeSite(*site, folder.path(), true));
     Json orders;
     orders["folder"] = folder.path().string();
     orders["host"] = arguments.host;

@@ -24,4 +24,12 @@ Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input, co
     return std::move(output->volume);
 }
 
+Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input, const pipeline::BuildOptions& build,
+                                          const Progress* progress, bool isVerbose, const volume::Grid* grid) {
+    Diagnostics diagnostics;
+    auto volume = loadVolume(input, build, progress, diagnostics, grid);
+    printDiagnostics(diagnostics, isVerbose);
+    return volume;
+}
+
 }  // namespace svt::cli

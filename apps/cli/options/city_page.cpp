@@ -1,7 +1,6 @@
 #include <apps/cli/options/city_page.hpp>
 
-#include <svt/city/city_levels.hpp>
-#include <svt/city/city_view.hpp>
+#include <svt/city/city_folder.hpp>
 #include <svt/core/file.hpp>
 
 #include <algorithm>
@@ -44,18 +43,7 @@ Result<volume::SemanticVolume> pageVolume(const std::filesystem::path& folder) {
     constexpr std::uint64_t kMostBytes = 6'000'000;
     constexpr double kMostSamples = 8192;
     SVT_TRY(city, city::City::open(folder));
-    const Box3d& box = city->box();
-    const double extent = std::max(box.max.x - box.min.x, box.max.y - box.min.y);
-    city::Extract extract;
-    extract.box = {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z};
-    extract.hasBox = true;
-    for (extract.detail = 0; extract.detail < city->topDetail(); ++extract.detail) {
-        SVT_TRY(entries, city::allTiles(*city, extract.detail));
-        std::uint64_t bytes = 0;
-        for (const city::IndexEntry& entry : *entries) bytes += entry.size;
-        if (bytes <= kMostBytes && extent / city::spacingOf(extract.detail, city->spacing()).x <= kMostSamples) break;
-    }
-    return city::extractVolume(*city, extract);
+    return city::wholeVolume(*city, kMostBytes, kMostSamples);
 }
 
 }  // namespace svt::cli

@@ -2,6 +2,7 @@
 
 #include <apps/cli/output/output_files.hpp>
 
+#include <svt/core/machine.hpp>
 #include <svt/image/png.hpp>
 #include <svt/serve/child_process.hpp>
 
@@ -9,8 +10,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -43,20 +42,6 @@ const Encoding* encodingOf(const fs::path& file) {
     return found == kEncodings.end() ? nullptr : &*found;
 }
 
-// A program in one of the folders of PATH; empty if there is none.
-fs::path programNamed(const std::string& name) {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path == nullptr ? "" : path);
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        std::error_code failed;
-        fs::path file = fs::path(folder) / name;
-        const fs::perms rights = fs::status(file, failed).permissions();
-        if (!failed && fs::is_regular_file(file, failed) && (rights & fs::perms::others_exec) != fs::perms::none)
-            return file;
-    }
-    return {};
-}
-
 }  // namespace
 
 bool isFilm(const fs::path& file) { return encodingOf(file) != nullptr; }
@@ -65,7 +50,7 @@ Film::Film(fs::path output, fs::path encoder, int rate)
     : output_(std::move(output)), encoder_(std::move(encoder)), rate_(rate) {}
 
 Result<Film> Film::begin(const fs::path& output, int rate) {
-    fs::path encoder = programNamed("ffmpeg");
+    fs::path encoder = findProgram("ffmpeg");
     if (encoder.empty())
         return Error(
             Code::CannotWrite,

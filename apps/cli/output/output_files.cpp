@@ -264,8 +264,7 @@ Result<void> checkFiles(std::span<const GivenOption> given) {
     const bool mayChooseFormat = std::ranges::any_of(
         given, [](const GivenOption& g) { return g.option->formats.find("citygml") != std::string_view::npos; });
     for (const OutputFile& output : outputs)
-        if (output.isFirst)
-            if (auto checked = checkEnding(output, mayChooseFormat); !checked) return checked;
+        if (output.isFirst) SVT_DO(checkEnding(output, mayChooseFormat));
     SVT_DO(checkMeaning(given, inputs));
     SVT_DO(checkMeetings(inputs, outputs));
     std::error_code ignored;
@@ -273,8 +272,7 @@ Result<void> checkFiles(std::span<const GivenOption> given) {
         SVT_DO(checkContent(output));
         // Of numbered files in one folder one is tried, and what is there already.
         if (!output.isFirst && !fs::exists(output.path, ignored)) continue;
-        auto checked = output.formats.empty() ? checkFolder(output.path) : checkWritable(output.path);
-        if (!checked) return checked;
+        SVT_TRY(checked, output.formats.empty() ? checkFolder(output.path) : checkWritable(output.path));
     }
     return {};
 }

@@ -125,8 +125,7 @@ Result<void> LevelBuilder::giveInOrder(const std::function<Result<void>(LevelMem
             continue;
         }
         open_.erase(first);
-        if (!at->second.bytes.empty())
-            if (auto given = give(std::move(at->second)); !given) return given;
+        if (!at->second.bytes.empty()) SVT_DO(give(std::move(at->second)));
         at = waiting_.erase(at);
     }
     return {};

@@ -2,22 +2,18 @@
 
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/city_levels.hpp>
-#include <svt/city/join/join_volumes.hpp>
 #include <svt/city/merge/city_proof.hpp>
 #include <svt/city/merge/index_file.hpp>
 #include <svt/city/store/store.hpp>
 #include <svt/core/bytes.hpp>
 #include <svt/core/file.hpp>
 #include <svt/volume/svt_file.hpp>
-#include <svt/volume/volume_part.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 
 namespace svt::city {
 namespace {
@@ -258,8 +254,7 @@ Result<std::vector<City::Place>> City::find(const std::string& id) const {
 
 Result<std::string> City::readBytes(const IndexEntry& entry) const {
     const std::string name = packName(entry.pack);
-    auto bytes = store_->read(name, entry.offset, entry.size);
-    if (!bytes) return bytes;
+    SVT_TRY(bytes, store_->read(name, entry.offset, entry.size));
     SVT_TRY(size, store_->size(name));
     if (entry.pack < packSizes_.size() && *size != packSizes_[entry.pack])
         return badMember(store_->place(name), entry, "the pack is not as long as when the city was merged");
@@ -276,123 +271,6 @@ Result<volume::SemanticVolume> City::read(const IndexEntry& entry) const {
     // A pack of other content has other tiles there.
     if (!isOf(volume->grid, entry, spacing_, box_)) return badMember(place, entry, "another tile stands there");
     return volume;
-}
-
-namespace {
-
-// The chosen labels alone, in a table without the others. \param kept  ascending; whole subtrees
-volume::SemanticVolume withLabels(const volume::SemanticVolume& volume, const std::vector<std::uint32_t>& kept) {
-    const std::vector<volume::Label>& labels = volume.labels.labels;
-    volume::SemanticVolume result;
-    result.grid = volume.grid;
-    result.crsName = volume.crsName;
-    result.modelName = volume.modelName;
-    result.planes = volume.planes;
-    std::vector<std::uint32_t> newOf(labels.size(), volume::kNoLabel);
-    for (std::uint32_t n = 0; n < kept.size(); ++n) newOf[kept[n]] = n;
-    std::vector<volume::Scalar> scalarOf(volume.labels.scalarCount(), 0);
-    volume::Scalar next = 1;
-    for (const std::uint32_t l : kept) {
-        volume::Label label = labels[l];
-        // The end of a subtree is behind its last label, which is kept, too.
-        label.subtreeEnd = newOf[label.subtreeEnd - 1] + 1;
-        label.parent = label.parent == volume::kNoLabel ? volume::kNoLabel : newOf[label.parent];
-        std::vector<std::uint32_t> groups;
-        for (const std::uint32_t group : label.groups)
-            if (newOf[group] != volume::kNoLabel) groups.push_back(newOf[group]);
-        label.groups = std::move(groups);
-        for (volume::Scalar s = 0; s < label.count; ++s) scalarOf[label.first + s] = next + s;
-        if (label.count > 0) label.first = next;
-        next += label.count;
-        result.labels.labels.push_back(std::move(label));
-    }
-    result.columns = volume::replaceScalars(volume.columns, scalarOf);
-    return result;
-}
-
-// The filled samples with one more at each side; empty where none is filled.
-volume::IndexBox filledSamples(const volume::ColumnVolume& columns) {
-    const Vec3i n = columns.dimension();
-    volume::IndexBox box{n, {0, 0, 0}};
-    for (std::int32_t j = 0; j < n.y; ++j)
-        for (std::int32_t i = 0; i < n.x; ++i) {
-            const auto runs = columns.column(i, j);
-            if (runs.size() == 1 && runs[0].scalar == 0) continue;
-            const auto low = runs[0].scalar == 0 ? static_cast<std::int32_t>(runs[0].end) : 0;
-            const auto high = runs.back().scalar != 0 ? n.z : static_cast<std::int32_t>(runs[runs.size() - 2].end);
-            box.begin = {std::min(box.begin.x, i), std::min(box.begin.y, j), std::min(box.begin.z, low)};
-            box.end = {std::max(box.end.x, i + 1), std::max(box.end.y, j + 1), std::max(box.end.z, high)};
-        }
-    for (int axis = 0; axis < 3; ++axis) {
-        box.begin[axis] = std::max(0, box.begin[axis] - 1);
-        box.end[axis] = std::min(n[axis], box.end[axis] + 1);
-    }
-    return box;
-}
-
-// The labels of buildings by id, with all below them.
-std::vector<std::uint32_t> labelsOf(const volume::LabelTable& table, const std::vector<std::string>& ids) {
-    std::vector<std::uint32_t> kept;
-    for (std::uint32_t l = 0; l < table.labels.size(); ++l)
-        if (std::find(ids.begin(), ids.end(), table.labels[l].id) != ids.end())
-            for (std::uint32_t below = l; below < table.labels[l].subtreeEnd; ++below) kept.push_back(below);
-    std::sort(kept.begin(), kept.end());
-    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-    return kept;
-}
-
-Result<std::vector<IndexEntry>> entriesOf(const City& city, const Extract& extract) {
-    constexpr double kAll = 1e300;
-    std::array<double, 4> rectangle{-kAll, -kAll, kAll, kAll};
-    if (extract.hasBox) rectangle = {extract.box[0], extract.box[1], extract.box[3], extract.box[4]};
-    std::vector<TileKey> tiles = extract.tiles;
-    for (const std::string& id : extract.ids) {
-        SVT_TRY(places, city.find(id));
-        if (places->empty())
-            return Error(Code::NothingSelected, fmt::format("the city has no building with the id '{}'", id));
-        for (const City::Place& place : *places) tiles.push_back(place.tile);
-    }
-    auto entries = city.find(extract.detail, rectangle);
-    if (!entries) return entries;
-    if (!tiles.empty())
-        std::erase_if(*entries, [&](const IndexEntry& entry) {
-            return std::find(tiles.begin(), tiles.end(), entry.tile) == tiles.end();
-        });
-    if (entries->empty()) return Error(Code::NothingSelected, "no tile of the city lies there, or its pack is missing");
-    return entries;
-}
-
-}  // namespace
-
-Result<volume::SemanticVolume> extractVolume(const City& city, const Extract& extract) {
-    if (extract.detail > city.topDetail())
-        return Error(Code::BadArgument,
-                     fmt::format("detail {}: the coarsest of this city is {}", extract.detail, city.topDetail()));
-    if (extract.detail >= kFirstClassDetail && !extract.ids.empty())
-        return Error(Code::BadArgument, "details 2 and up have classes, no buildings; choose by --box or --tile");
-    SVT_TRY(entries, entriesOf(city, extract));
-    std::vector<volume::SemanticVolume> parts;
-    for (const IndexEntry& entry : *entries) {
-        SVT_TRY(volume, city.read(entry));
-        if (!extract.ids.empty()) {
-            const std::vector<std::uint32_t> kept = labelsOf(volume->labels, extract.ids);
-            if (kept.empty()) continue;
-            volume = withLabels(*volume, kept);
-        }
-        parts.push_back(std::move(*volume));
-    }
-    if (parts.empty()) return Error(Code::NothingSelected, "no building of the city has such an id");
-    auto joined = parts.size() == 1 ? Result<volume::SemanticVolume>(std::move(parts.front()))
-                                    : joinVolumes(parts, extract.detail >= kFirstClassDetail);
-    if (joined && !extract.ids.empty() && !extract.hasBox) {
-        const volume::IndexBox box = filledSamples(joined->columns);
-        return box.begin.x < box.end.x ? volume::croppedVolume(*joined, box) : std::move(joined);
-    }
-    if (!joined || !extract.hasBox) return joined;
-    const auto samples = volume::samplesIn(joined->grid, {{extract.box[0], extract.box[1], extract.box[2]},
-                                                          {extract.box[3], extract.box[4], extract.box[5]}});
-    if (!samples) return samples.error();
-    return volume::croppedVolume(*joined, *samples);
 }
 
 }  // namespace svt::city

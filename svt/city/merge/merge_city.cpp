@@ -92,8 +92,7 @@ public:
             if (Progress::isCancelled(progress)) return Error(Code::Cancelled, "stopped while merging");
             SVT_DO(addPack(packs[n], threads, builder));
         }
-        for (std::size_t detail = 0; detail < writers_.size(); ++detail)
-            if (auto done = finish(static_cast<int>(detail)); !done) return done;
+        for (std::size_t detail = 0; detail < writers_.size(); ++detail) SVT_DO(finish(static_cast<int>(detail)));
         merged_.classes = builder.classes();
         putDigests();
         return {};
@@ -136,8 +135,7 @@ private:
     Result<void> write(LevelMember member) {
         const int detail = member.member.detail;
         Writing& to = writers_[static_cast<std::size_t>(detail)];
-        if (to.writer && to.writer->size() + member.bytes.size() > kMaxPackBytes)
-            if (auto done = finish(detail); !done) return done;
+        if (to.writer && to.writer->size() + member.bytes.size() > kMaxPackBytes) SVT_DO(finish(detail));
         if (!to.writer) {
             const auto details = static_cast<std::uint32_t>(merged_.top - kFirstClassDetail + 1);
             to.number = plan_.packs + to.series++ * details + static_cast<std::uint32_t>(merged_.top - detail);
@@ -305,7 +303,7 @@ Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& pl
     for (const auto& [name, text] : {std::pair<const char*, const std::string*>{"packs.bin", &merged.packs},
                                      {"index.bin", &index},
                                      {"ids.bin", &ids}})
-        if (const auto written = writeFileAtomically(folder / name, *text); !written) return written.error();
+        SVT_DO(writeFileAtomically(folder / name, *text));
     // Last: while it is the one before, it names other files, and the city is merged again.
     SVT_TRY(written, writeFileAtomically(folder / "city.json", cityJson(plan, status, merged, index, ids)));
     return status;

@@ -178,8 +178,7 @@ Result<PackReport> readReport(const std::filesystem::path& path) {
 
 Result<PackReport> provenReport(const std::filesystem::path& folder, const Plan& plan, std::uint32_t pack,
                                 bool isProven) {
-    auto report = readReport(reportPath(folder, pack));
-    if (!report) return report;
+    SVT_TRY(report, readReport(reportPath(folder, pack)));
     const std::filesystem::path path = packPath(folder, pack);
     const auto open = [&](std::string_view what) {
         return Error(Code::CityIncomplete, fmt::format("{}; run its task again", what), {path.string(), 0, 0, {}});

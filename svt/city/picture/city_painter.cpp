@@ -27,6 +27,15 @@ Result<void> checkCityScene(const illustrate::Scene& scene) {
     return {};
 }
 
+Result<CameraView> viewOf(const illustrate::Scene& scene, const volume::SemanticVolume& frame) {
+    // Only the camera and the light matter: queries find nothing in the frame.
+    std::vector<std::string> ignored;
+    illustrate::Scene plain = scene;
+    plain.colorBy.clear();
+    SVT_TRY(spec, illustrate::makeFrameSpec(plain, frame, analyze::LabelRows(frame.labels, &ignored)));
+    return cameraViewOf(*spec, frame.grid);
+}
+
 Result<CityPainter> CityPainter::make(City city, const CityPaintOptions& options) {
     SVT_TRY(frame, frameVolume(city));
     return CityPainter(std::move(city), std::move(*frame), options);
@@ -42,10 +51,7 @@ Result<void> CityPainter::lookAround(illustrate::Scene& scene) const {
     SVT_TRY(part, extractVolume(city_, extract));
     illustrate::SceneCamera now = scene.camera;
     now.around.clear();
-    SVT_TRY(camera, illustrate::makeView("", now.preset, now, double(scene.width) / scene.height, *part));
-    const Vec3d by = part->grid.origin() - frame_.grid.origin();
-    if (camera->eye) camera->eye = *camera->eye + by;
-    if (camera->target) camera->target = *camera->target + by;
+    SVT_TRY(camera, illustrate::makeView("", now.preset, now, double(scene.width) / scene.height, *part, &frame_.grid));
     scene.camera = *camera;
     return {};
 }
@@ -143,18 +149,13 @@ bool CityPainter::takeBack(const CameraView& view, const illustrate::Painting& p
 Result<illustrate::Painting> CityPainter::paint(illustrate::Scene scene, const render::CastOptions& options) {
     SVT_DO(checkCityScene(scene));
     SVT_DO(lookAround(scene));
-    // Only the camera matters: queries find nothing in the frame.
-    std::vector<std::string> ignored;
-    illustrate::Scene plain = scene;
-    plain.colorBy.clear();
-    SVT_TRY(spec, illustrate::makeFrameSpec(plain, frame_, analyze::LabelRows(frame_.labels, &ignored)));
-    const CameraView view = cameraViewOf(*spec, frame_.grid);
-    SVT_TRY(chosen, chooseTiles(city_, view, options_.memoryBytes));
+    SVT_TRY(view, viewOf(scene, frame_));
+    SVT_TRY(chosen, chooseTiles(city_, *view, options_.memoryBytes));
     chosen_ = std::move(*chosen);
-    SVT_DO(leaveOutHidden(scene, view, options));
+    SVT_DO(leaveOutHidden(scene, *view, options));
     for (;;) {
         auto painting = draw(scene, options);
-        if (!painting || leftOut_.empty() || !takeBack(view, *painting)) return painting;
+        if (!painting || leftOut_.empty() || !takeBack(*view, *painting)) return painting;
     }
 }
 

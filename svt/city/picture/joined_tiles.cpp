@@ -54,7 +54,7 @@ Result<JoinedTiles> joinTiles(const City& city, const volume::SemanticVolume& fr
     JoinedTiles joined{frame, std::move(parts), chosen.near > 0, {}};
     joined.frame.labels = classTable(city);
     const auto coverage = coverages(city, joined.parts);  // by the ids that the labels have before they are joined
-    if (auto done = illustrate::joinLabels(joined.frame, joined.parts); !done) return done.error();
+    SVT_DO(illustrate::joinLabels(joined.frame, joined.parts));
     std::map<std::string, volume::Scalar> scalarOf;
     for (const volume::Label& label : joined.frame.labels.labels)
         if (label.count > 0) scalarOf.emplace(label.id, label.first);

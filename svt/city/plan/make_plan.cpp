@@ -257,8 +257,7 @@ Result<Plan> makePlan(std::span<const std::filesystem::path> files, const std::f
                      fmt::format("spacing: {} is out of range; 0.001 to 100 m are possible", options.city.spacing));
     Survey survey;
     survey.crs = options.city.crs;
-    for (const std::filesystem::path& file : files)
-        if (auto surveyed = surveyFile(file, options, survey, diagnostics); !surveyed) return surveyed.error();
+    for (const std::filesystem::path& file : files) SVT_DO(surveyFile(file, options, survey, diagnostics));
     return planSurveyed(survey, folder, options, diagnostics);
 }
 

@@ -106,8 +106,7 @@ private:
     }
 
     Result<void> takeBatch(const readers::FeatureFile& file, const Batch& batch) {
-        if (!isDecided_)
-            if (auto decided = decide(file, batch); !decided) return decided;
+        if (!isDecided_) SVT_DO(decide(file, batch));
         Diagnostics findings;
         std::vector<std::uint32_t> featureOf;
         const std::vector<std::string_view> views = viewsOf(batch);

@@ -127,8 +127,7 @@ private:
                       std::max(around[3], box.max.y)};
         }
         const int detail = entries.front().detail;
-        auto finer = city_.find(detail - 1, around);
-        if (!finer) return finer;
+        SVT_TRY(finer, city_.find(detail - 1, around));
         for (const IndexEntry& entry : *finer) {
             const TileKey above = tileAbove(entry.tile, entry.detail, city_.spacing());
             const bool isBelow = detail == city_.topDetail() || tiles.contains({above.level, above.x, above.y});
@@ -325,10 +324,6 @@ volume::LabelTable classTable(const City& city) {
         table.labels[root].subtreeEnd = static_cast<std::uint32_t>(table.labels.size());
     }
     return table;
-}
-
-Result<std::vector<IndexEntry>> allTiles(const City& city, int detail) {
-    return city.find(detail, {-kInfinity, -kInfinity, kInfinity, kInfinity});
 }
 
 }  // namespace svt::city

@@ -36,11 +36,11 @@ Result<Box3d> boxOf(const std::string& query, const volume::SemanticVolume& volu
 }  // namespace
 
 Result<SceneCamera> makeView(const std::string& query, const std::string& preset, const SceneCamera& now, double aspect,
-                             const volume::SemanticVolume& volume) {
+                             const volume::SemanticVolume& volume, const volume::Grid* frame) {
     if (!(aspect > 0.01 && aspect < 100))
         return Error(Code::BadCamera, fmt::format("an aspect of {} is out of range; 0.01 to 100 are possible", aspect));
     const analyze::LabelRows rows(volume.labels);
-    const Vec3d origin = volume.grid.origin();
+    const Vec3d origin = (frame != nullptr ? *frame : volume.grid).origin();
     SceneCamera view = now;
     view.around = query;
     view.zoom = 1;

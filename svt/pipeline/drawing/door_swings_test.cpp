@@ -4,6 +4,7 @@
 #include <svt/core/test_data_test.hpp>
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/pipeline/build_volume.hpp>
+#include <svt/readers/model_joiner.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/samples/sample.hpp>
 #include <svt/volume/svt_file.hpp>
@@ -135,7 +136,7 @@ TEST(DoorSwings, OfFilesAreTakenFromDoorsTypesAndStyles) {
     for (const auto& [name, doors] :
          std::map<std::string, std::size_t>{{"fzk_haus.ifc", 4}, {"largebuilding.ifc", 18}}) {
         SVT_NEEDS_DATA(file, name.c_str());
-        auto model = readModels(std::span(&file, 1), {}, nullptr);
+        auto model = readers::readModels(std::span(&file, 1), {}, nullptr);
         ASSERT_TRUE(model);
         const auto volume = volumeOf(std::move(*model));
         const auto drawing = illustrate::drawSection(volume, illustrate::defaultSectionPlane(volume));

@@ -7,6 +7,7 @@
 #include <svt/model/classes.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/pipeline/drawing/section_planes_test.hpp>
+#include <svt/readers/model_joiner.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/samples/sample.hpp>
 
@@ -281,7 +282,7 @@ class ExactSectionOfFile : public testing::TestWithParam<const char*> {};
 
 TEST_P(ExactSectionOfFile, AgreesWithTheTriangles) {
     SVT_NEEDS_DATA(file, GetParam());
-    auto model = readModels(std::span(&file, 1), {}, nullptr);
+    auto model = readers::readModels(std::span(&file, 1), {}, nullptr);
     ASSERT_TRUE(model);
     expectExact(GetParam(), compareModel(std::move(*model)));
 }
@@ -298,7 +299,7 @@ TEST(ExactSectionOfFiles, AgreeWithTheirTriangles) {
     std::stringstream list(files);
     for (std::string name; std::getline(list, name, ':');) {
         const std::filesystem::path file = name;
-        auto model = readModels(std::span(&file, 1), {}, nullptr);
+        auto model = readers::readModels(std::span(&file, 1), {}, nullptr);
         ASSERT_TRUE(model) << name;
         expectExact(file.filename().string(), compareModel(std::move(*model)));
     }

@@ -3,6 +3,7 @@
 #include <svt/core/test_data_test.hpp>
 #include <svt/illustrate/floor_areas.hpp>
 #include <svt/pipeline/build_volume.hpp>
+#include <svt/readers/model_joiner.hpp>
 #include <svt/readers/read_model.hpp>
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ namespace {
 // The IFC file of the FZK-Haus has the area of each room as its author program measured it.
 TEST(FloorAreasOfFile, RoomsOfTheFzkHausHaveTheAreasThatItsAuthorMeasured) {
     SVT_NEEDS_DATA(file, "fzk_haus.ifc");
-    auto model = readModels(std::span(&file, 1), {}, nullptr);
+    auto model = readers::readModels(std::span(&file, 1), {}, nullptr);
     ASSERT_TRUE(model);
     BuildOptions options;
     options.vectors.meshes = true;

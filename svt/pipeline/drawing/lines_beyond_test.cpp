@@ -6,6 +6,7 @@
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/pipeline/build_volume.hpp>
+#include <svt/readers/model_joiner.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/samples/sample.hpp>
 
@@ -266,7 +267,7 @@ class LinesBeyondOfFile : public testing::TestWithParam<const char*> {};
 
 TEST_P(LinesBeyondOfFile, AreWhatRaysSee) {
     SVT_NEEDS_DATA(file, GetParam());
-    auto model = readModels(std::span(&file, 1), {}, nullptr);
+    auto model = readers::readModels(std::span(&file, 1), {}, nullptr);
     ASSERT_TRUE(model);
     expectSeen(GetParam(), castBeside(std::move(*model)));
 }

@@ -5,6 +5,7 @@
 #include <svt/illustrate/section_drawing.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/pipeline/drawing/section_planes_test.hpp>
+#include <svt/readers/model_joiner.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/samples/sample.hpp>
 
@@ -95,7 +96,7 @@ void expectNear(const AreaErrors& errors, double worst = 0.05) {
 TEST(VoxelSection, OfFilesIsNearTheirMeshes) {
     for (const char* const file : {"fzk_haus_citygml3.gml", "fzk_haus.ifc", "largebuilding.ifc"}) {
         SVT_NEEDS_DATA(path, file);
-        const auto model = readModels(std::span(&path, 1), {}, nullptr);
+        const auto model = readers::readModels(std::span(&path, 1), {}, nullptr);
         ASSERT_TRUE(model);
         expectNear(compareWithMeshes(*model, file, {0.05, 0.05, 0.05}));
     }
@@ -122,7 +123,7 @@ TEST(VoxelSection, OfFurtherFiles) {
     std::stringstream list(files);
     for (std::string name; std::getline(list, name, ':');) {
         const std::filesystem::path file = name;
-        const auto model = readModels(std::span(&file, 1), {}, nullptr);
+        const auto model = readers::readModels(std::span(&file, 1), {}, nullptr);
         ASSERT_TRUE(model) << name;
         (void)compareWithMeshes(*model, file.filename().string(), {0.05, 0.05, 0.05});
     }

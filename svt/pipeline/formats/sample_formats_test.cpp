@@ -1,6 +1,7 @@
 // One generated building in several formats: the same volumes and the same labels.
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/pipeline/build_volume.hpp>
+#include <svt/readers/model_joiner.hpp>
 #include <svt/samples/sample.hpp>
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ volume::SemanticVolume built(SampleKind kind, SampleFormat format, const SampleO
     const auto text = samples::writeSample(kind, format, sample);
     EXPECT_TRUE(text);
     if (text) test::writeText(file, *text);
-    auto model = readModels(std::span(&file, 1), {}, &log);
+    auto model = readers::readModels(std::span(&file, 1), {}, &log);
     EXPECT_TRUE(model) << model.error().toString();
     if (!model) return {};
     for (model::Feature& feature : model->features) {

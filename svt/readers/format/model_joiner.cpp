@@ -1,4 +1,5 @@
 #include <svt/readers/model_joiner.hpp>
+#include <svt/readers/read_model.hpp>
 
 #include <svt/model/surface_uses.hpp>
 
@@ -66,6 +67,37 @@ void ModelJoiner::append(model::BuildingModel from) {
         all_.memberships.push_back(
             {membership.group + firstFeature, membership.member + firstFeature, std::move(membership.role)});
     all_.materials.insert(all_.materials.end(), from.materials.begin(), from.materials.end());
+}
+
+namespace {
+
+Result<model::BuildingModel> readOne(const std::filesystem::path& file, const ReadOptions& options, Diagnostics* log) {
+    return readModel(file, options, log);
+}
+Result<model::BuildingModel> readOne(const NamedBytes& file, const ReadOptions& options, Diagnostics* log) {
+    return readModel(file.bytes, file.name, options, log);
+}
+
+template <class File>
+Result<model::BuildingModel> readAll(std::span<const File> files, ReadOptions options, Diagnostics* log) {
+    if (files.empty()) return Error(Code::BadArgument, "no input file");
+    ModelJoiner joiner(log);
+    for (const File& file : files) {
+        SVT_TRY(model, readOne(file, options, log));
+        joiner.add(std::move(*model));
+        options.likelyCrs = joiner.joined().crs.epsg;
+    }
+    return std::move(joiner.joined());
+}
+
+}  // namespace
+
+Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, ReadOptions options,
+                                        Diagnostics* log) {
+    return readAll(files, options, log);
+}
+Result<model::BuildingModel> readModels(std::span<const NamedBytes> files, ReadOptions options, Diagnostics* log) {
+    return readAll(files, options, log);
 }
 
 }  // namespace svt::readers

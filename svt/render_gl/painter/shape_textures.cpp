@@ -99,9 +99,8 @@ Result<void> ShapeTextures::update(const render::Pass& pass, const render::Frame
     if (pass.lines.empty() && pass.triangles.empty()) return {};
     const render::CameraRays rays(spec, grid);
     lineSamples_ = std::round(std::sqrt(spec.samplesPerPixel));
-    const auto shapes =
-        PassShapes::make(pass, spec, rays, grid, render::Clipper(pass.clips, grid), lineSamples_, 0, threads);
-    if (!shapes) return shapes.error();
+    SVT_TRY(shapes,
+            PassShapes::make(pass, spec, rays, grid, render::Clipper(pass.clips, grid), lineSamples_, 0, threads));
     if (shapes->isEmpty()) return {};
     const Vec3d spacing = grid.spacing();
     voxelSize_ = std::max({spacing.x, spacing.y, spacing.z});

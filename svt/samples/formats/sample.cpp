@@ -76,8 +76,7 @@ bool SampleComponent::contains(Vec3d point) const {
 }
 
 Result<void> writeSample(SampleKind kind, SampleFormat format, const SampleOptions& options, const SampleSink& sink) {
-    Result<SampleSource> source = SampleSource::make(kind, options);
-    if (!source) return source.error();
+    SVT_TRY(source, SampleSource::make(kind, options));
     TextSink out(sink);
     switch (format) {
         case SampleFormat::CityGml3: writeCityGml3(*source, out); break;
@@ -102,8 +101,7 @@ Result<std::string> writeSample(SampleKind kind, SampleFormat format, const Samp
 }
 
 Result<std::vector<SampleComponent>> describeSample(SampleKind kind, const SampleOptions& options) {
-    Result<SampleSource> source = SampleSource::make(kind, options);
-    if (!source) return source.error();
+    SVT_TRY(source, SampleSource::make(kind, options));
     if (source->buildingCount() > kMaxDescribed)
         return Error(Code::BadArgument, fmt::format("columns x rows is {}, at most {} houses can be described",
                                                     source->buildingCount(), kMaxDescribed));

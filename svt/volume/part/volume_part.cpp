@@ -175,6 +175,28 @@ Result<IndexBox> samplesIn(const Grid& grid, const Box3d& world) {
     return box;
 }
 
+IndexBox samplesAround(const ColumnVolume& columns, Scalar first, Scalar last) {
+    const Vec3i n = columns.dimension();
+    IndexBox box{n, {0, 0, 0}};
+    for (std::int32_t j = 0; j < n.y; ++j)
+        for (std::int32_t i = 0; i < n.x; ++i) {
+            std::int32_t low = 0;
+            for (const Run& run : columns.column(i, j)) {
+                const auto high = static_cast<std::int32_t>(run.end);
+                if (run.scalar >= first && run.scalar <= last) {
+                    box.begin = {std::min(box.begin.x, i), std::min(box.begin.y, j), std::min(box.begin.z, low)};
+                    box.end = {std::max(box.end.x, i + 1), std::max(box.end.y, j + 1), std::max(box.end.z, high)};
+                }
+                low = high;
+            }
+        }
+    for (int axis = 0; axis < 3; ++axis) {
+        box.begin[axis] = std::max(0, box.begin[axis] - 1);
+        box.end[axis] = std::min(n[axis], box.end[axis] + 1);
+    }
+    return box;
+}
+
 ColumnVolume replaceScalars(const ColumnVolume& columns, std::span<const Scalar> newOf) {
     std::vector<ColumnTileData> tiles;
     tiles.reserve(columns.tiles().size());
@@ -207,6 +229,11 @@ Result<SemanticVolume> croppedVolume(const SemanticVolume& volume, const IndexBo
     part.labels.overlaps.clear();
     recount(part);
     return part;
+}
+
+Result<SemanticVolume> volumeIn(const SemanticVolume& volume, const Box3d& world) {
+    SVT_TRY(samples, samplesIn(volume.grid, world));
+    return croppedVolume(volume, *samples);
 }
 
 Result<SemanticVolume> selectedVolume(const SemanticVolume& volume, std::span<const std::uint32_t> kept) {

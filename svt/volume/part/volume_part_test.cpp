@@ -57,6 +57,18 @@ TEST(VolumePart, BoxOfTheWorldTakesTheSamplesInIt) {
     EXPECT_EQ(samplesIn(*grid, {{101, 201, 301}, {100, 200, 300}}).error().code(), Code::NothingSelected);
 }
 
+TEST(VolumePart, SamplesAroundScalarsAreOneWiderWithinTheGrid) {
+    std::vector<Scalar> dense(6 * 5 * 4, 0);
+    const auto at = [&](int i, int j, int k) -> Scalar& { return dense[std::size_t(i + 6 * (j + 5 * k))]; };
+    at(2, 3, 1) = 7, at(3, 3, 2) = 8, at(0, 4, 3) = 9;
+    const auto columns = ColumnVolume::fromDense({6, 5, 4}, dense);
+    EXPECT_EQ(samplesAround(columns), (IndexBox{{0, 2, 0}, {5, 5, 4}}));
+    EXPECT_EQ(samplesAround(columns, 7, 8), (IndexBox{{1, 2, 0}, {5, 5, 4}}));
+    EXPECT_EQ(samplesAround(columns, 7, 7), (IndexBox{{1, 2, 0}, {4, 5, 3}}));
+    const IndexBox none = samplesAround(columns, 1, 6);
+    EXPECT_FALSE(none.begin.x < none.end.x);
+}
+
 TEST(VolumePart, SelectionKeepsScalarsAndTableAndCountsAgain) {
     const SemanticVolume whole = sampleVolume({70, 66, 9});
     const std::vector<std::uint32_t> kept{2};

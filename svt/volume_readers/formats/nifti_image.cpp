@@ -158,8 +158,7 @@ Result<LabelImage> openNifti(const SharedFile& file, bool isGzip) {
         ReadSamples read = gzipSamples(file, file->bytes(), Code::BadImage);
         SVT_DO(read(std::as_writable_bytes(std::span(unpacked).first(544))));
         std::uint64_t offset = 0;
-        auto image = readNiftiHead(std::string_view(unpacked).substr(0, 544), offset);
-        if (!image) return image;
+        SVT_TRY(image, readNiftiHead(std::string_view(unpacked).substr(0, 544), offset));
         if (offset / 1032 > file->bytes().size()) return badNifti("the samples begin at an impossible place");
         if (offset < 544) {
             // NIfTI-1 without extensions: what was read beyond is samples.
@@ -177,8 +176,7 @@ Result<LabelImage> openNifti(const SharedFile& file, bool isGzip) {
         return image;
     }
     std::uint64_t offset = 0;
-    auto image = readNiftiHead(text, offset);
-    if (!image) return image;
+    SVT_TRY(image, readNiftiHead(text, offset));
     if (offset > text.size()) return badNifti("the samples begin behind the end of the file: it is cut short");
     const std::size_t size = text.starts_with(std::string_view("\x1c\2", 2)) ? 540 : 348;
     readExtensions(text.substr(size, static_cast<std::size_t>(offset) - size), *image);

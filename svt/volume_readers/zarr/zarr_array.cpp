@@ -315,10 +315,9 @@ std::uint64_t ZarrArray::chunksOfFile() const noexcept {
 
 Result<ZarrArray> readZarrArray(const ZarrJson& json) {
     const ZarrJson& version = member(json, "zarr_format");
-    auto array = version == 2   ? readVersion2(json)
-                 : version == 3 ? readVersion3(json)
-                                : Result<ZarrArray>(badZarr("the version of Zarr is neither 2 nor 3"));
-    if (!array) return array;
+    SVT_TRY(array, version == 2   ? readVersion2(json)
+                   : version == 3 ? readVersion3(json)
+                                  : Result<ZarrArray>(badZarr("the version of Zarr is neither 2 nor 3")));
     SVT_DO(checkSizes(*array));
     return array;
 }

@@ -23,15 +23,15 @@ constexpr DxfHatchLine kSteel[] = {{45, 0, 0, 0.18, 0, 0}, {45, 0.032, -0.032, 0
 constexpr DxfHatchLine kGlass[] = {{45, 0, 0, 0.28, 0.1, 0.3}};
 constexpr DxfHatchLine kGeneral[] = {{45, 0, 0, 0.28, 0, 0}};
 
-constexpr DxfHatch kHatches[] = {{Hatch::Masonry, "SVT_MASONRY", kMasonry},
-                                 {Hatch::Concrete, "SVT_CONCRETE", kConcrete},
-                                 {Hatch::ReinforcedConcrete, "SVT_REINFORCED", kReinforced},
-                                 {Hatch::Timber, "SVT_TIMBER", kTimber},
-                                 {Hatch::Insulation, "SVT_INSULATION", kInsulation},
-                                 {Hatch::Earth, "SVT_EARTH", kEarth},
-                                 {Hatch::Steel, "SVT_STEEL", kSteel},
-                                 {Hatch::Glass, "SVT_GLASS", kGlass},
-                                 {Hatch::General, "SVT_GENERAL", kGeneral}};
+constexpr DxfHatch kDxfHatches[] = {{Hatch::Masonry, "SVT_MASONRY", kMasonry},
+                                    {Hatch::Concrete, "SVT_CONCRETE", kConcrete},
+                                    {Hatch::ReinforcedConcrete, "SVT_REINFORCED", kReinforced},
+                                    {Hatch::Timber, "SVT_TIMBER", kTimber},
+                                    {Hatch::Insulation, "SVT_INSULATION", kInsulation},
+                                    {Hatch::Earth, "SVT_EARTH", kEarth},
+                                    {Hatch::Steel, "SVT_STEEL", kSteel},
+                                    {Hatch::Glass, "SVT_GLASS", kGlass},
+                                    {Hatch::General, "SVT_GENERAL", kGeneral}};
 
 std::string attributeOf(const volume::Label& label, std::string_view name) {
     for (const Attribute& attribute : label.attributes)
@@ -63,7 +63,7 @@ std::string padded(std::string text, std::size_t size) {
 }  // namespace
 
 const DxfHatch* dxfHatchOf(Hatch hatch) noexcept {
-    for (const DxfHatch& known : kHatches)
+    for (const DxfHatch& known : kDxfHatches)
         if (known.hatch == hatch) return &known;
     return nullptr;
 }

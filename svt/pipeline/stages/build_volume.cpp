@@ -1,19 +1,17 @@
+#include <svt/pipeline/build_volume.hpp>
+
 #include <svt/analyze/solid_overlaps.hpp>
 #include <svt/core/machine.hpp>
 #include <svt/mesh/thickness.hpp>
-#include <svt/pipeline/build_volume.hpp>
-
 #include <svt/model/classes.hpp>
-#include <svt/pipeline/labels.hpp>
+#include <svt/pipeline/stages/build_checks.hpp>
 #include <svt/readers/model_joiner.hpp>
-#include <svt/readers/read_model.hpp>
 #include <svt/voxelize/bodies.hpp>
 #include <svt/voxelize/face_planes.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
+#include <tuple>
 
 namespace svt::pipeline {
 namespace {
@@ -60,52 +58,6 @@ void fillOverlaps(const LabelledObjects& labelled, const std::vector<voxelize::C
     });
 }
 
-// Whether the bounding box of an object, along the grid's axes, intersects the grid.
-bool meetsGrid(const mesh::ObjectMesh& object, const mesh::MeshSet& meshes, const volume::Grid& grid) {
-    Box3d box;
-    for (const Vec3d& vertex : object.vertices) box.add(grid.indexFromWorld(vertex + meshes.origin));
-    const Vec3i n = grid.dimension();
-    return box.overlaps({{-0.5, -0.5, -0.5}, {n.x - 0.5, n.y - 0.5, n.z - 0.5}});
-}
-
-// Whether an object lies in the grid as a whole.
-bool liesInGrid(const mesh::ObjectMesh& object, const mesh::MeshSet& meshes, const volume::Grid& grid) {
-    const Vec3i n = grid.dimension();
-    const Box3d box{{-0.5, -0.5, -0.5}, {n.x - 0.5, n.y - 0.5, n.z - 0.5}};
-    return std::all_of(object.vertices.begin(), object.vertices.end(),
-                       [&](const Vec3d& vertex) { return box.contains(grid.indexFromWorld(vertex + meshes.origin)); });
-}
-
-// Reports objects outside a grid that was made for another model; an error if all are outside.
-Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshSet& meshes, const volume::Grid& grid,
-                            Diagnostics* log) {
-    std::size_t outside = 0;
-    for (const mesh::ObjectMesh& object : meshes.objects) {
-        if (meetsGrid(object, meshes, grid)) continue;
-        ++outside;
-        const model::Feature& feature = model.features[object.feature];
-        if (log != nullptr)
-            log->add(Severity::Warning, Code::NoGeometry, "no part of it lies in the given grid",
-                     {model.source, feature.line, 0, feature.id});
-    }
-    if (outside < meshes.objects.size()) return {};
-    const Vec3d low = meshes.bounds.min + meshes.origin, high = meshes.bounds.max + meshes.origin;
-    return Error(
-        Code::EmptyModel,
-        fmt::format("no part of the model lies in the given grid: the model reaches from ({:.3f}, {:.3f}, "
-                    "{:.3f}) to ({:.3f}, {:.3f}, {:.3f}), the grid begins at ({:.3f}, {:.3f}, {:.3f}); both "
-                    "must be of one place and CRS",
-                    low.x, low.y, low.z, high.x, high.y, high.z, grid.origin().x, grid.origin().y, grid.origin().z));
-}
-
-// What there is of a model before its voxels.
-struct Prepared {
-    mesh::MeshSet meshes;
-    volume::Grid grid;
-    std::optional<SpacingChoice> choice;  // of its spacing, where none was asked for
-    LabelledObjects labelled;
-};
-
 Result<Prepared> prepare(model::BuildingModel& model, const BuildOptions& options, Diagnostics* log) {
     mesh::MeshOptions meshOptions;
     meshOptions.lod = options.lod;
@@ -115,8 +67,7 @@ Result<Prepared> prepare(model::BuildingModel& model, const BuildOptions& option
     SVT_TRY(meshes, mesh::buildMeshes(model, meshOptions, log));
     std::optional<SpacingChoice> choice;
     SVT_TRY(grid, chooseGrid(*meshes, options, &choice));
-    if (options.grid)
-        if (const auto checked = checkGivenGrid(model, *meshes, *grid, log); !checked) return checked.error();
+    if (options.grid) SVT_DO(checkGivenGrid(model, *meshes, *grid, log));
     const Vec3d spacing = grid->spacing();
     constexpr double kRounding = 1 + 1e-6;  // thickness is of single precision
     mesh::measureThickness(*meshes, std::max({spacing.x, spacing.y, spacing.z}) * kRounding, options.threads);
@@ -137,8 +88,7 @@ Result<voxelize::VoxelizeResult> makeVoxels(const Prepared& prepared, const std:
     voxelizeOptions.threads = options.threads;
     voxelizeOptions.progress = options.progress;
     const auto& [meshes, grid, choice, labelled] = prepared;
-    auto voxels = voxelize::voxelize(meshes, grid, labelled.claims, voxelizeOptions);
-    if (!voxels) return voxels;
+    SVT_TRY(voxels, voxelize::voxelize(meshes, grid, labelled.claims, voxelizeOptions));
     if (!groups.empty())
         voxels->columns =
             voxelize::assignThematicBodies(voxels->columns, grid, meshes, groups, options.threads, options.progress);
@@ -171,71 +121,6 @@ void fillLabels(const voxelize::VoxelizeResult& voxels, const std::vector<voxeli
         }
 }
 
-// Voxels of a label, and those that others took which can stand in it: finer solids that claim the same voxels, the
-// surfaces, bodies and open shells below it, whose overlaps are not counted, and all that is below an open shell. An upper
-// bound: what three claim is counted twice.
-std::uint64_t mostVoxels(const volume::LabelTable& table, std::uint32_t label, std::uint64_t lostByPriority) {
-    const bool isOpen = table.labels[label].filling == volume::Filling::Winding;
-    std::uint64_t sum = table.labels[label].voxels + lostByPriority;
-    for (std::uint32_t below = label + 1; below < table.labels[label].subtreeEnd; ++below) {
-        const volume::Filling filling = table.labels[below].filling;
-        if (isOpen || filling == volume::Filling::Surface || filling == volume::Filling::Body ||
-            filling == volume::Filling::Winding)
-            sum += table.labels[below].voxels;
-    }
-    return sum;
-}
-
-// Warns of objects whose voxels are too many or too few for what their shells enclose. A face that is up to half a voxel
-// off shifts the volume by half a voxel times its area, so area * spacing / 2 is allowed beside 2 %, and the one voxel that
-// every object gets; small objects need no rule of their own by that.
-void checkVolumes(const model::BuildingModel& model, const Prepared& prepared, const voxelize::VoxelizeResult& voxels,
-                  Diagnostics& log) {
-    constexpr double kPart = 0.02;
-    const auto& [meshes, grid, choice, labelled] = prepared;
-    const Vec3d spacing = grid.spacing();
-    const double halfVoxel = std::max({spacing.x, spacing.y, spacing.z}) / 2;
-    std::vector<std::uint64_t> lost(meshes.objects.size(), 0);
-    for (const voxelize::ClaimPair& pair : voxels.overlaps) lost[pair.b] += pair.voxels;
-    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
-        const mesh::ObjectMesh& object = meshes.objects[o];
-        if (object.closure == mesh::Closure::Surface || !liesInGrid(object, meshes, grid)) continue;
-        const std::uint32_t l = labelled.labelOfObject[o];
-        const volume::Label& label = labelled.table.labels[l];
-        const double allowed = kPart * std::abs(object.enclosedVolume) + object.area * halfVoxel + grid.voxelVolume();
-        const double most = double(mostVoxels(labelled.table, l, lost[o])) * grid.voxelVolume();
-        const double least = double(label.voxels - std::min(label.voxels, label.thinVoxels)) * grid.voxelVolume();
-        if (most >= object.enclosedVolume - allowed && least <= object.enclosedVolume + allowed) continue;
-        const model::Feature& feature = model.features[object.feature];
-        log.add(
-            Severity::Warning, Code::VolumeDiffers,
-            fmt::format("its voxels are {:.1f} m3, its shell encloses {:.1f} m3{}; expected at most {:.1f} m3 between "
-                        "them; look at the object and correct its faces",
-                        most < object.enclosedVolume ? most : least, object.enclosedVolume,
-                        object.isSolid() ? "" : " if its holes are closed straight", allowed),
-            {model.source, feature.line, 0, feature.id});
-    }
-}
-
-// Where a bound on work made the answer coarser than it is elsewhere.
-void tellBounds(const model::BuildingModel& model, const mesh::MeshSet& meshes, const voxelize::VoxelizeResult& voxels,
-                Diagnostics& log) {
-    for (const std::uint32_t o : voxels.unfilled) {
-        const model::Feature& feature = model.features[meshes.objects[o].feature];
-        log.add(
-            Severity::Warning, Code::WindingFilled,
-            fmt::format("its {} open edges are too many for winding numbers; it is kept as a surface without inside",
-                        meshes.objects[o].openEdges.size()),
-            {model.source, feature.line, 0, feature.id});
-    }
-    if (voxels.crowdedVoxels != 0)
-        log.add(Severity::Warning, Code::Overlap,
-                fmt::format("{} voxels are claimed by more than 16 solids each; of these only overlaps with the first "
-                            "16 are counted",
-                            voxels.crowdedVoxels),
-                {model.source, 0, 0, {}});
-}
-
 void countObjects(const mesh::MeshSet& meshes, BuildReport& report) {
     report.objects = meshes.objects.size();
     report.triangles = meshes.triangleCount();
@@ -247,55 +132,6 @@ void countObjects(const mesh::MeshSet& meshes, BuildReport& report) {
 }
 
 }  // namespace
-
-Result<model::BuildingModel> readModels(std::span<const std::filesystem::path> files, readers::ReadOptions options,
-                                        Diagnostics* log) {
-    if (files.empty()) return Error(Code::BadArgument, "no input file");
-    readers::ModelJoiner joiner(log);
-    for (const std::filesystem::path& file : files) {
-        SVT_TRY(model, readers::readModel(file, options, log));
-        joiner.add(std::move(*model));
-        options.likelyCrs = joiner.joined().crs.epsg;
-    }
-    return std::move(joiner.joined());
-}
-
-Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions& options,
-                                std::optional<SpacingChoice>* choice) {
-    if (options.grid) return *options.grid;
-    Box3d box;
-    std::array<Vec3d, 3> axes{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
-    if (options.axes == AxesKind::Building) {
-        // All objects together, to find their dominant direction.
-        mesh::ObjectMesh all;
-        for (const mesh::ObjectMesh& object : meshes.objects) {
-            const auto first = static_cast<std::uint32_t>(all.vertices.size());
-            all.vertices.insert(all.vertices.end(), object.vertices.begin(), object.vertices.end());
-            for (mesh::Triangle triangle : object.triangles) {
-                for (std::uint32_t& corner : triangle.corners) corner += first;
-                all.triangles.push_back(triangle);
-            }
-        }
-        axes = voxelize::dominantAxes(all).directions;
-        for (const Vec3d& vertex : all.vertices)
-            box.add(Vec3d{dot(vertex, axes[0]), dot(vertex, axes[1]), dot(vertex, axes[2])});
-    } else {
-        box.min = meshes.bounds.min + meshes.origin;
-        box.max = meshes.bounds.max + meshes.origin;
-    }
-    Vec3d spacing = options.spacing.value_or(Vec3d{});
-    if (!options.dimension && !options.spacing) {
-        double area = 0;
-        for (const mesh::ObjectMesh& object : meshes.objects) area += object.area;
-        SpacingChoice chosen = chooseSpacing(box.size(), area, options.memoryBytes);
-        spacing = {chosen.spacing, chosen.spacing, chosen.spacing};
-        if (choice != nullptr) *choice = std::move(chosen);
-    }
-    auto grid = options.dimension ? volume::Grid::fromDimension(box, *options.dimension)
-                                  : volume::Grid::fromSpacing(box, spacing);
-    if (grid && options.axes == AxesKind::Building) return grid->turned(axes, meshes.origin);
-    return grid;
-}
 
 namespace {
 
@@ -333,7 +169,7 @@ Result<BuildOutput> buildFrom(model::BuildingModel& model, const BuildOptions& o
     Progress::tell(options.progress, "pack", 0.3);
     if (log != nullptr) {
         checkVolumes(model, *prepared, *voxels, *log);
-        tellBounds(model, meshes, *voxels, *log);
+        reportBounds(model, meshes, *voxels, *log);
     }
     countObjects(meshes, report);
     report.spacing = choice;
@@ -380,7 +216,7 @@ Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files, co
     readers::ReadOptions reading = options->read;
     reading.threads = options->threads;
     reading.progress = options->progress;
-    SVT_TRY(model, readModels(files, reading, log));
+    SVT_TRY(model, readers::readModels(files, reading, log));
     const double readSeconds = secondsSince(start);
     SVT_TRY(output, buildFrom(*model, *options, false, log));
     output->report.seconds.read = readSeconds;

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace svt::cli {
+namespace svt::city {
 
 /// A feature and all below it.
 struct FeatureRow {
@@ -35,4 +35,4 @@ struct FeatureRow {
                                                   std::span<const std::uint32_t> selected,
                                                   const illustrate::SectionPlane* plane);
 
-}  // namespace svt::cli
+}  // namespace svt::city

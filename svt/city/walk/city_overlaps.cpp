@@ -1,15 +1,13 @@
-#include <apps/cli/city/city_overlaps.hpp>
+#include <svt/city/city_walk.hpp>
 
 #include <svt/analyze/selection.hpp>
-#include <svt/city/city_folder.hpp>
-#include <svt/city/city_view.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
 
-namespace svt::cli {
+namespace svt::city {
 namespace {
 
 // A tile with what is asked of its labels.
@@ -52,13 +50,10 @@ Pairs commonSamples(const Tile& a, const Tile& b) {
 
 class Overlaps {
 public:
-    Overlaps(const city::City& city, const std::string& query) : city_(city), query_(query) {
-        table_.columns = {{"a", "a"},     {"aName", "name"}, {"b", "b"},           {"bName", "name"},
-                          {"voxels", ""}, {"volume", "m3"},  {"tiles", "in tiles"}};
-    }
+    Overlaps(const City& city, const std::string& query) : city_(city), query_(query) {}
 
-    Result<Table> run(const Progress* progress) {
-        SVT_TRY(entries, city::allTiles(city_, 0));
+    Result<std::vector<CityOverlap>> run(const Progress* progress) {
+        SVT_TRY(entries, city_.find(0, kEverywhere));
         entries_ = std::move(*entries);
         ProgressCounter counter(progress, "tiles", entries_.size());
         for (std::size_t n = 0; n < entries_.size(); ++n) {
@@ -67,7 +62,7 @@ public:
             tiles_.erase(n);
             counter.add();
         }
-        return std::move(table_);
+        return std::move(found_);
     }
 
 private:
@@ -110,7 +105,7 @@ private:
     }
 
     // Whether samples of both may lie at one place.
-    [[nodiscard]] bool meet(const city::IndexEntry& a, const city::IndexEntry& b) const {
+    [[nodiscard]] bool meet(const IndexEntry& a, const IndexEntry& b) const {
         if (!a.hasRectangle() || !b.hasRectangle()) {
             // Cities of version 1: neighbours.
             const double s = std::ldexp(1.0, a.tile.level), t = std::ldexp(1.0, b.tile.level);
@@ -127,23 +122,25 @@ private:
             const auto& [first, second] = pair;
             if (!a.isSelected[first] && !b.isSelected[second]) continue;
             const volume::Label &one = a.volume.labels.labels[first], &other = b.volume.labels.labels[second];
-            table_.rows.push_back(
-                {one.id, one.name, other.id, other.name, voxels, double(voxels) * a.volume.grid.voxelVolume(), tiles});
+            found_.push_back({{one.id, one.name},
+                              {other.id, other.name},
+                              voxels,
+                              double(voxels) * a.volume.grid.voxelVolume(),
+                              tiles});
         }
     }
 
-    const city::City& city_;
+    const City& city_;
     const std::string& query_;
-    std::vector<city::IndexEntry> entries_;
+    std::vector<IndexEntry> entries_;
     std::map<std::size_t, std::shared_ptr<const Tile>> tiles_;
-    Table table_;
+    std::vector<CityOverlap> found_;
 };
 
 }  // namespace
 
-Result<Table> cityOverlaps(const std::filesystem::path& folder, const std::string& query, const Progress* progress) {
-    SVT_TRY(city, city::City::open(folder));
-    return Overlaps(*city, query).run(progress);
+Result<std::vector<CityOverlap>> cityOverlaps(const City& city, const std::string& query, const Progress* progress) {
+    return Overlaps(city, query).run(progress);
 }
 
-}  // namespace svt::cli
+}  // namespace svt::city

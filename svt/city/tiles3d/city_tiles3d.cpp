@@ -1,7 +1,6 @@
-#include <apps/cli/city/city_tiles.hpp>
+#include <svt/city/city_tiles3d.hpp>
 
 #include <svt/city/city_levels.hpp>
-#include <svt/city/city_view.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/writers/city_tileset.hpp>
 
@@ -12,10 +11,9 @@
 #include <utility>
 #include <vector>
 
-namespace svt::cli {
+namespace svt::city {
 namespace {
 
-using city::IndexEntry;
 using writers::TileContent;
 
 /// What a square of the quadtree is made of: tiles of detail 0 or 1, or the columns of a coarser one.
@@ -29,11 +27,11 @@ struct Square {
 /// The quadtree: its root is the least one of 1024 m or more whose quarters are the tiles of the city.
 class CitySquares {
 public:
-    CitySquares(const city::City& city, int finest) : city_(city), finestDetail_(finest) {}
+    CitySquares(const City& city, int finest) : city_(city), finestDetail_(finest) {}
 
     Result<void> find() {
-        SVT_TRY(entries, city::allTiles(city_, 0));
-        SVT_TRY(coarse, city::allTiles(city_, 1));
+        SVT_TRY(entries, city_.find(0, kEverywhere));
+        SVT_TRY(coarse, city_.find(1, kEverywhere));
         if (entries->empty()) return Error(Code::NothingSelected, "the city has no tiles");
         layOut(*entries);
         for (const IndexEntry& entry : finestDetail_ == 0 ? *entries : *coarse) add(entry, true);
@@ -68,7 +66,7 @@ private:
             north = std::max(north, (entry.tile.y + 1) * side);
             finest_ = std::min(finest_, entry.tile.level);
         }
-        constexpr std::int64_t kLargest = std::int64_t{1} << city::Plan::kTopLevel;
+        constexpr std::int64_t kLargest = std::int64_t{1} << Plan::kTopLevel;
         west_ = floorTo(west_, kLargest);
         south_ = floorTo(south_, kLargest);
         while (std::int64_t{1} << rootLevel_ < std::max(east - west_, north - south_)) ++rootLevel_;
@@ -81,8 +79,7 @@ private:
     // The finest detail, 1 at least, with at most 256 columns along a side of 2^level metres.
     [[nodiscard]] int detailOf(int level) const {
         int detail = 1;
-        while (detail < city_.topDetail() &&
-               std::ldexp(1, level) > city::kLevelCells * city::spacingOf(detail, city_.spacing()).x)
+        while (detail < city_.topDetail() && std::ldexp(1, level) > kLevelCells * spacingOf(detail, city_.spacing()).x)
             ++detail;
         return detail;
     }
@@ -101,30 +98,30 @@ private:
             const double size = std::ldexp(1, level);
             const double west = double(west_) + node.x * size, south = double(south_) + node.y * size;
             square.rectangle = {west, south, west + size, south + size};
-            if (square.detail < city::kFirstClassDetail) square.tiles.push_back(entry);
+            if (square.detail < kFirstClassDetail) square.tiles.push_back(entry);
         }
     }
 
-    const city::City& city_;
+    const City& city_;
     int finestDetail_;
     std::int64_t west_ = 0, south_ = 0;
-    int rootLevel_ = city::Plan::kTopLevel, finest_ = city::Plan::kTopLevel;
+    int rootLevel_ = Plan::kTopLevel, finest_ = Plan::kTopLevel;
     std::map<std::array<std::int64_t, 3>, Square> squares_;
 };
 
-Result<std::vector<volume::SemanticVolume>> volumesOf(const city::City& city, const Square& square) {
+Result<std::vector<volume::SemanticVolume>> volumesOf(const City& city, const Square& square) {
     std::vector<volume::SemanticVolume> volumes;
     for (const IndexEntry& entry : square.tiles) {
         SVT_TRY(volume, city.read(entry));
         volumes.push_back(std::move(*volume));
     }
-    if (square.detail < city::kFirstClassDetail) return volumes;
-    city::Extract extract;
+    if (square.detail < kFirstClassDetail) return volumes;
+    Extract extract;
     extract.detail = square.detail;
     extract.hasBox = true;
     const auto& [west, south, east, north] = square.rectangle;
     extract.box = {west, south, city.box().min.z - 1000, east, north, city.box().max.z + 1000};
-    auto volume = city::extractVolume(city, extract);
+    auto volume = extractVolume(city, extract);
     // A building may stand over the border of its tile, so that no column has its middle here.
     if (!volume && volume.error().code() == Code::NothingSelected) return volumes;
     if (!volume) return volume.error();
@@ -134,7 +131,7 @@ Result<std::vector<volume::SemanticVolume>> volumesOf(const city::City& city, co
 
 }  // namespace
 
-Result<std::uint64_t> writeCityTiles(const city::City& city, const std::filesystem::path& path,
+Result<std::uint64_t> writeCityTiles(const City& city, const std::filesystem::path& path,
                                      const writers::VolumeWriteOptions& options, int finest, int threads,
                                      const Progress* progress) {
     CitySquares found(city, finest);
@@ -153,7 +150,7 @@ Result<std::uint64_t> writeCityTiles(const city::City& city, const std::filesyst
         parallelFor(count, 1, threads, [&](std::size_t from, std::size_t to) {
             for (std::size_t n = from; n < to; ++n) {
                 const Square& square = squares[begin + n];
-                const double error = square.detail == finest ? 0 : city::spacingOf(square.detail, city.spacing()).x;
+                const double error = square.detail == finest ? 0 : spacingOf(square.detail, city.spacing()).x;
                 const auto volumes = volumesOf(city, square);
                 made[n].emplace(volumes ? (*tileset)->make(*volumes, error) : Result<TileContent>(volumes.error()));
             }
@@ -169,4 +166,4 @@ Result<std::uint64_t> writeCityTiles(const city::City& city, const std::filesyst
     return (*tileset)->finish();
 }
 
-}  // namespace svt::cli
+}  // namespace svt::city

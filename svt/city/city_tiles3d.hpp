@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-namespace svt::cli {
+namespace svt::city {
 
 /// Writes a city as 3D Tiles 1.1 with implicit tiling (svt/writers/city_tileset.hpp).
 ///
@@ -18,8 +18,8 @@ namespace svt::cli {
 /// \param finest  0; 1: tiles have detail 1, of which all are smaller
 /// \return bytes of all files, or an error of City::find(), City::read(), writers::CityTileset
 /// Memory: that of some tiles at a time.
-[[nodiscard]] Result<std::uint64_t> writeCityTiles(const city::City& city, const std::filesystem::path& path,
+[[nodiscard]] Result<std::uint64_t> writeCityTiles(const City& city, const std::filesystem::path& path,
                                                    const writers::VolumeWriteOptions& options, int finest, int threads,
                                                    const Progress* progress);
 
-}  // namespace svt::cli
+}  // namespace svt::city

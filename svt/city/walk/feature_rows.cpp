@@ -1,4 +1,4 @@
-#include <apps/cli/city/feature_rows.hpp>
+#include <svt/city/feature_rows.hpp>
 
 #include <svt/analyze/label_measures.hpp>
 #include <svt/plane/hull.hpp>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-namespace svt::cli {
+namespace svt::city {
 namespace {
 
 using volume::kNoLabel;
@@ -138,4 +138,4 @@ std::vector<FeatureRow> featureRows(const volume::SemanticVolume& volume, std::s
     return rows;
 }
 
-}  // namespace svt::cli
+}  // namespace svt::city

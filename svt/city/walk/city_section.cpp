@@ -1,12 +1,12 @@
-#include <apps/cli/city/city_section.hpp>
-
-#include <apps/cli/city/city_input.hpp>
+#include <svt/city/city_view.hpp>
+#include <svt/city/city_walk.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
-namespace svt::cli {
+namespace svt::city {
 namespace {
 
 using illustrate::PlanePoint;
@@ -92,42 +92,41 @@ private:
     std::map<std::string, illustrate::ClassArea> classes_;
 };
 
-// Whether a plane may cut what a tile has. \param reach  of buildings over the border of their tile, metres
-bool mayCut(const illustrate::SectionPlane& plane, const city::IndexEntry& entry, double reach) {
-    const double side = std::ldexp(1.0, entry.tile.level);
+// Distances from a plane of the nearest and the farthest corner of a box. \param world  of a corner
+template <class World>
+std::pair<double, double> distances(const illustrate::SectionPlane& plane, Vec3d low, Vec3d high, const World& world) {
     double nearest = INFINITY, farthest = -INFINITY;
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3d at{(entry.tile.x + (corner & 1)) * side + ((corner & 1) != 0 ? reach : -reach),
-                       (entry.tile.y + ((corner >> 1) & 1)) * side + ((corner & 2) != 0 ? reach : -reach),
-                       (corner & 4) != 0 ? double(entry.highest) : double(entry.lowest)};
-        const double distance = dot(at - plane.point, plane.normal);
+    for (int n = 0; n < 8; ++n) {
+        const Vec3d corner{(n & 1) != 0 ? high.x : low.x, (n & 2) != 0 ? high.y : low.y, (n & 4) != 0 ? high.z : low.z};
+        const double distance = dot(world(corner) - plane.point, plane.normal);
         nearest = std::min(nearest, distance);
         farthest = std::max(farthest, distance);
     }
+    return {nearest, farthest};
+}
+
+// Whether a plane may cut what a tile has. \param reach  of buildings over the border of their tile, metres
+bool mayCut(const illustrate::SectionPlane& plane, const IndexEntry& entry, double reach) {
+    const double side = std::ldexp(1.0, entry.tile.level);
+    const Vec3d low{entry.tile.x * side - reach, entry.tile.y * side - reach, double(entry.lowest)};
+    const Vec3d high{(entry.tile.x + 1) * side + reach, (entry.tile.y + 1) * side + reach, double(entry.highest)};
+    const auto [nearest, farthest] = distances(plane, low, high, [](Vec3d corner) { return corner; });
     return nearest <= 0 && farthest >= 0;
 }
 
 // Whether a plane cuts the samples of a volume.
 bool cuts(const illustrate::SectionPlane& plane, const volume::Grid& grid) {
-    double nearest = INFINITY, farthest = -INFINITY;
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3i n = grid.dimension();
-        const Vec3d at =
-            grid.worldFromIndex({(corner & 1) != 0 ? n.x - 0.5 : -0.5, (corner & 2) != 0 ? n.y - 0.5 : -0.5,
-                                 (corner & 4) != 0 ? n.z - 0.5 : -0.5});
-        const double distance = dot(at - plane.point, plane.normal);
-        nearest = std::min(nearest, distance);
-        farthest = std::max(farthest, distance);
-    }
+    const Vec3d half{0.5, 0.5, 0.5};
+    const auto world = [&](Vec3d index) { return grid.worldFromIndex(index); };
+    const auto [nearest, farthest] = distances(plane, -half, toDouble(grid.dimension()) - half, world);
     return nearest < 0 && farthest > 0;
 }
 
 }  // namespace
 
-Result<CitySection> cutCity(const std::filesystem::path& folder, const std::string& text,
-                            const illustrate::SectionOptions& options, const Progress* progress) {
-    SVT_TRY(city, city::City::open(folder));
-    SVT_TRY(frame, city::frameVolume(*city));
+Result<CitySection> cutCity(const City& city, const std::string& text, const illustrate::SectionOptions& options,
+                            const Progress* progress) {
+    SVT_TRY(frame, frameVolume(city));
     SVT_TRY(plane, illustrate::parseSectionPlane(text, *frame));
     Collector collector(*plane, std::move(*frame));
     const auto cut = [&](const volume::SemanticVolume& tile) -> Result<void> {
@@ -138,9 +137,9 @@ Result<CitySection> cutCity(const std::filesystem::path& folder, const std::stri
     };
     // Of a building its middle is in the tile: it reaches out by half of its length at most.
     constexpr double kReach = 500;
-    const auto isWanted = [&](const city::IndexEntry& entry) { return mayCut(*plane, entry, kReach); };
-    SVT_DO(forEachTile(*city, {}, options.threads, progress, cut, isWanted));
+    const auto isWanted = [&](const IndexEntry& entry) { return mayCut(*plane, entry, kReach); };
+    SVT_DO(forEachTile(city, kEverywhere, options.threads, progress, cut, isWanted));
     return collector.finish();
 }
 
-}  // namespace svt::cli
+}  // namespace svt::city

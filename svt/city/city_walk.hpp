@@ -1,0 +1,71 @@
+#pragma once
+/// \file
+/// All tiles of a city, read one after the other: whether they are whole, what a plane cuts of them, and which buildings
+/// claim the same space.
+
+#include <svt/city/city_folder.hpp>
+#include <svt/core/diagnostics.hpp>
+#include <svt/core/progress.hpp>
+#include <svt/illustrate/section_drawing.hpp>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace svt::city {
+
+/// Reads the tiles of detail 0, so that memory is that of one tile for each thread.
+/// \param rectangle  west, south, east, north in metres
+/// \param threads    0: all cores
+/// \param work       called in the order of tiles, never twice at once; an error ends it
+/// \param isWanted   tiles that are read; null: all
+/// \return nothing, or an error of City::find(), City::read() or `work`; Cancelled
+[[nodiscard]] Result<void> forEachTile(const City& city, const std::array<double, 4>& rectangle, int threads,
+                                       const Progress* progress,
+                                       const std::function<Result<void>(const volume::SemanticVolume&)>& work,
+                                       const std::function<bool(const IndexEntry&)>& isWanted = {});
+
+/// What the tiles of a city are.
+struct TileCheck {
+    std::uint64_t tiles = 0, damaged = 0;
+    std::uint64_t buildings = 0, solids = 0, open = 0;  ///< of detail 0; open: solids whose shell had holes
+};
+/// Reads all tiles of all details. Tiles that are damaged, shells that had holes, missing packs, features that were left
+/// out and a wrong number of buildings are findings.
+/// \return the counts, or an error of City::find(); Cancelled
+[[nodiscard]] Result<TileCheck> checkTiles(const City& city, const Progress* progress, Diagnostics& findings);
+
+/// A drawing, and a volume with the labels that it names and the grid that its coordinates refer to.
+struct CitySection {
+    illustrate::SectionDrawing drawing;
+    volume::SemanticVolume volume;
+};
+
+/// Cuts the tiles of a city that a plane meets, one after the other. A building is whole in its tile, so nothing has a seam.
+/// \param plane  see parseSectionPlane(); positions refer to the box of the city
+/// \return the section, or an error of forEachTile(), frameVolume(), parseSectionPlane(), drawSection()
+/// Memory: that of one tile for each thread, and the drawing.
+[[nodiscard]] Result<CitySection> cutCity(const City& city, const std::string& plane,
+                                          const illustrate::SectionOptions& options, const Progress* progress);
+
+struct CityOverlap {
+    struct Building {
+        std::string id, name;
+    };
+    Building a, b;
+    std::uint64_t voxels = 0;
+    double volume = 0;  ///< m3, of these voxels
+    std::string tiles;  ///< one, or two with a blank between them
+};
+
+/// Pairs of different buildings (labels without parent) that claim a sample of detail 0, of which the query selects one at
+/// least or something below it. Within a tile they were counted when it was built; of two tiles all samples that both
+/// fill are.
+/// \return the pairs, or an error of City::find(), City::read() or the query; Cancelled
+/// Cost: each tile is read once, and again for each neighbour that it reaches over to and that is not in memory.
+[[nodiscard]] Result<std::vector<CityOverlap>> cityOverlaps(const City& city, const std::string& query,
+                                                            const Progress* progress);
+
+}  // namespace svt::city

@@ -1,0 +1,112 @@
+#include <svt/pipeline/stages/build_checks.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace svt::pipeline {
+namespace {
+
+// Whether the bounding box of an object, along the grid's axes, intersects the grid.
+bool meetsGrid(const mesh::ObjectMesh& object, const mesh::MeshSet& meshes, const volume::Grid& grid) {
+    Box3d box;
+    for (const Vec3d& vertex : object.vertices) box.add(grid.indexFromWorld(vertex + meshes.origin));
+    const Vec3i n = grid.dimension();
+    return box.overlaps({{-0.5, -0.5, -0.5}, {n.x - 0.5, n.y - 0.5, n.z - 0.5}});
+}
+
+// Whether an object lies in the grid as a whole.
+bool liesInGrid(const mesh::ObjectMesh& object, const mesh::MeshSet& meshes, const volume::Grid& grid) {
+    const Vec3i n = grid.dimension();
+    const Box3d box{{-0.5, -0.5, -0.5}, {n.x - 0.5, n.y - 0.5, n.z - 0.5}};
+    return std::all_of(object.vertices.begin(), object.vertices.end(),
+                       [&](const Vec3d& vertex) { return box.contains(grid.indexFromWorld(vertex + meshes.origin)); });
+}
+
+// Voxels of a label, and those that others took which can stand in it: finer solids that claim the same voxels, the
+// surfaces, bodies and open shells below it, whose overlaps are not counted, and all that is below an open shell. An upper
+// bound: what three claim is counted twice.
+std::uint64_t mostVoxels(const volume::LabelTable& table, std::uint32_t label, std::uint64_t lostByPriority) {
+    const bool isOpen = table.labels[label].filling == volume::Filling::Winding;
+    std::uint64_t sum = table.labels[label].voxels + lostByPriority;
+    for (std::uint32_t below = label + 1; below < table.labels[label].subtreeEnd; ++below) {
+        const volume::Filling filling = table.labels[below].filling;
+        if (isOpen || filling == volume::Filling::Surface || filling == volume::Filling::Body ||
+            filling == volume::Filling::Winding)
+            sum += table.labels[below].voxels;
+    }
+    return sum;
+}
+
+}  // namespace
+
+Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshSet& meshes, const volume::Grid& grid,
+                            Diagnostics* log) {
+    std::size_t outside = 0;
+    for (const mesh::ObjectMesh& object : meshes.objects) {
+        if (meetsGrid(object, meshes, grid)) continue;
+        ++outside;
+        const model::Feature& feature = model.features[object.feature];
+        if (log != nullptr)
+            log->add(Severity::Warning, Code::NoGeometry, "no part of it lies in the given grid",
+                     {model.source, feature.line, 0, feature.id});
+    }
+    if (outside < meshes.objects.size()) return {};
+    const Vec3d low = meshes.bounds.min + meshes.origin, high = meshes.bounds.max + meshes.origin;
+    return Error(
+        Code::EmptyModel,
+        fmt::format("no part of the model lies in the given grid: the model reaches from ({:.3f}, {:.3f}, "
+                    "{:.3f}) to ({:.3f}, {:.3f}, {:.3f}), the grid begins at ({:.3f}, {:.3f}, {:.3f}); both "
+                    "must be of one place and CRS",
+                    low.x, low.y, low.z, high.x, high.y, high.z, grid.origin().x, grid.origin().y, grid.origin().z));
+}
+
+void checkVolumes(const model::BuildingModel& model, const Prepared& prepared, const voxelize::VoxelizeResult& voxels,
+                  Diagnostics& log) {
+    constexpr double kPart = 0.02;
+    const auto& [meshes, grid, choice, labelled] = prepared;
+    const Vec3d spacing = grid.spacing();
+    const double halfVoxel = std::max({spacing.x, spacing.y, spacing.z}) / 2;
+    std::vector<std::uint64_t> lost(meshes.objects.size(), 0);
+    for (const voxelize::ClaimPair& pair : voxels.overlaps) lost[pair.b] += pair.voxels;
+    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
+        const mesh::ObjectMesh& object = meshes.objects[o];
+        if (object.closure == mesh::Closure::Surface || !liesInGrid(object, meshes, grid)) continue;
+        const std::uint32_t l = labelled.labelOfObject[o];
+        const volume::Label& label = labelled.table.labels[l];
+        const double allowed = kPart * std::abs(object.enclosedVolume) + object.area * halfVoxel + grid.voxelVolume();
+        const double most = double(mostVoxels(labelled.table, l, lost[o])) * grid.voxelVolume();
+        const double least = double(label.voxels - std::min(label.voxels, label.thinVoxels)) * grid.voxelVolume();
+        if (most >= object.enclosedVolume - allowed && least <= object.enclosedVolume + allowed) continue;
+        const model::Feature& feature = model.features[object.feature];
+        log.add(
+            Severity::Warning, Code::VolumeDiffers,
+            fmt::format("its voxels are {:.1f} m3, its shell encloses {:.1f} m3{}; expected at most {:.1f} m3 between "
+                        "them; look at the object and correct its faces",
+                        most < object.enclosedVolume ? most : least, object.enclosedVolume,
+                        object.isSolid() ? "" : " if its holes are closed straight", allowed),
+            {model.source, feature.line, 0, feature.id});
+    }
+}
+
+void reportBounds(const model::BuildingModel& model, const mesh::MeshSet& meshes,
+                  const voxelize::VoxelizeResult& voxels, Diagnostics& log) {
+    for (const std::uint32_t o : voxels.unfilled) {
+        const model::Feature& feature = model.features[meshes.objects[o].feature];
+        log.add(
+            Severity::Warning, Code::WindingFilled,
+            fmt::format("its {} open edges are too many for winding numbers; it is kept as a surface without inside",
+                        meshes.objects[o].openEdges.size()),
+            {model.source, feature.line, 0, feature.id});
+    }
+    if (voxels.crowdedVoxels != 0)
+        log.add(Severity::Warning, Code::Overlap,
+                fmt::format("{} voxels are claimed by more than 16 solids each; of these only overlaps with the first "
+                            "16 are counted",
+                            voxels.crowdedVoxels),
+                {model.source, 0, 0, {}});
+}
+
+}  // namespace svt::pipeline

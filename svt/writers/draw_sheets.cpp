@@ -1,0 +1,63 @@
+#include <svt/writers/draw_sheets.hpp>
+
+#include <svt/volume/brick_volume.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace svt::writers {
+namespace {
+
+// Fills in the sheets that the program chooses.
+Result<illustrate::SheetViews> chooseViews(illustrate::SheetSet& set, const volume::SemanticVolume& volume,
+                                           int threads) {
+    if (!set.sheets.empty()) return illustrate::viewsOfSet(set, volume);
+    SVT_TRY(chosen, illustrate::chooseSheetViews(volume, threads));
+    set.sheets = illustrate::sheetSetOf(*chosen, volume).sheets;
+    for (illustrate::SheetView& view : chosen->views) view.beyond.above = view.beyond.above && set.above;
+    return chosen;
+}
+
+}  // namespace
+
+SheetOptions sheetOptionsOf(const illustrate::SheetSet& set) {
+    return {set.scale, set.paper, fromName<SheetLanguage>(set.language).value_or(SheetLanguage::English), set.title};
+}
+
+Result<SheetContent> drawSheets(illustrate::SheetSet& set, const volume::SemanticVolume& volume, int threads,
+                                std::vector<std::string>* nothing) {
+    SVT_TRY(chosen, chooseViews(set, volume, threads));
+    SheetContent content;
+    content.levels = std::move(chosen->levels);
+    std::vector<int> groups;  // by view
+    std::optional<volume::BrickVolume> bricks;
+    for (const illustrate::SetSheet& sheet : set.sheets) {
+        groups.insert(groups.end(), sheet.views.size(), static_cast<int>(content.groups.size()));
+        content.groups.push_back({sheet.title, sheet.scale});
+    }
+    for (illustrate::SheetView& view : chosen->views) {
+        illustrate::SectionOptions options;
+        options.hide = set.hide;
+        options.smallestArea = 1e-4;
+        options.threads = threads;
+        options.beyond = view.beyond;
+        options.dimensions = view.kind == illustrate::ViewKind::Plan && set.dimensions;
+        if (content.views.empty()) options.nothing = nothing;
+        SVT_TRY(drawing, bricks ? illustrate::drawSection(volume, *bricks, view.plane, options)
+                                : illustrate::drawSection(volume, view.plane, options));
+        // Where one view needs bricks, so do the others: they are made once more and kept.
+        if (!bricks && std::ranges::any_of(drawing->components, [](const auto& c) { return !c.isExact; })) {
+            SVT_TRY(made,
+                    volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes, .threads = threads}));
+            bricks = std::move(*made);
+        }
+        content.views.push_back({std::move(view), std::move(*drawing), groups[content.views.size()]});
+    }
+    if (!set.tables) return content;
+    SVT_TRY(areas, illustrate::measureFloorAreas(volume, content.levels, threads, bricks ? &*bricks : nullptr));
+    content.tables = makeAreaTables(*areas, content.levels, sheetOptionsOf(set).language);
+    return content;
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,33 @@
+#include <svt/writers/drawing_formats.hpp>
+
+#include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
+#include <svt/writers/geojson_drawing.hpp>
+#include <svt/writers/section_table.hpp>
+#include <svt/writers/svg_drawing.hpp>
+#include <svt/writers/view_drawing.hpp>
+
+#include <fmt/format.h>
+
+namespace svt::writers {
+
+Result<std::string> makeDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                                std::string_view format, const DrawingOptions& options) {
+    if (format == "svg") return makeSvg(drawing, volume, {options.scale});
+    if (format == "dxf") return makeDxf(drawing, volume, options.dxf);
+    if (format == "geojson") return makeGeojson(drawing, volume);
+    if (format == "csv") return makeSectionCsv(drawing, volume);
+    if (format == "json") return makeSectionJson(drawing, volume);
+    return Error(Code::BadArgument,
+                 fmt::format("there is no drawing as '{}'; possible are svg, dxf, geojson, csv, json", format));
+}
+
+Result<std::uint64_t> writeDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                                   const std::filesystem::path& path, const DrawingOptions& options) {
+    const std::string ending = lowerAscii(path.extension().string());
+    SVT_TRY(text, ending == ".pdf" ? makeSectionPdf(drawing, volume, options.scale)
+                                   : makeDrawing(drawing, volume, ending.substr(ending.empty() ? 0 : 1), options));
+    return writeFileAtomically(path, *text);
+}
+
+}  // namespace svt::writers
