@@ -24,7 +24,7 @@ struct UnitSize : record::PlainCodec<UnitSize, Vec3d> {
     static void read(Faults& faults, const Json& json, const std::string& path, const Option&, Vec3d& to) {
         const auto isNumber = [](const Json& value) { return value.is_number(); };
         if (isNumber(json)) return void(to = {json.get<double>(), json.get<double>(), json.get<double>()});
-        if (!json.is_array() || json.size() != 3 || !std::ranges::all_of(json, isNumber))
+        if (!json.is_array() || json.size() != 3 || !std::all_of(json.begin(), json.end(), isNumber))
             return faults.add(path, "expected a number or [length, width, height] in metres");
         to = {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
     }
@@ -112,7 +112,7 @@ std::string pathText(std::string_view pointer) {
     std::string text;
     while (pointer.size() > 1) {
         const auto [step, rest] = record::firstStep(pointer);
-        const bool isIndex = !step.empty() && std::ranges::all_of(step, isDigit);
+        const bool isIndex = !step.empty() && std::all_of(step.begin(), step.end(), isDigit);
         text += isIndex ? fmt::format("[{}]", step) : fmt::format("{}{}", text.empty() ? "" : ".", step);
         pointer = rest;
     }

@@ -1021,7 +1021,7 @@ const std::vector<BadStyle> kStyles{
     {"BadColor", "a colour that does not exist", R"({"rules":[{"select":"all","color":"redd"}]})",
      "E305 BadStyle.*rules\\[0\\]\\.color.*redd"},
     {"BadOpacity", "an opacity over 1", R"({"rules":[{"select":"all","opacity":1.5}]})",
-     "E305 BadStyle.*rules\\[0\\]\\.opacity.*1\\.5.*0 to 1"},
+     "E305 BadStyle.*rules\\[0\\]\\.opacity.*0 to 1.*1\\.5"},
     {"UnknownPattern", "a pattern that does not exist", patternRule(R"({"type":"bricks"})"),
      "E305 BadStyle.*rules\\[0\\]\\.pattern\\.type.*brick"},
     {"NegativeSize", "a pattern of negative size", patternRule(R"({"type":"brick","size":-1})"), "E304 BadPattern"},

@@ -49,7 +49,7 @@ Members<ViewArguments> membersOf(const ViewArguments*) noexcept {
     return kMembers;
 }
 
-int runView(const ViewArguments& arguments) { return runServe(arguments.serve); }
+Result<int> runView(const ViewArguments& arguments) { return runServe(arguments.serve); }
 
 }  // namespace
 
