@@ -49,7 +49,7 @@ void addOptions(std::span<const Option> members, std::string_view of, std::vecto
         const std::string_view name = optionName(member);
         const std::string_view group = member.member.empty() ? member.group : kSceneMembers;
         const auto isWanted = [&](std::string_view known) { return known == name || known == group; };
-        if (name.empty() || (!wanted.empty() && std::ranges::none_of(wanted, isWanted))) continue;
+        if (name.empty() || (!wanted.empty() && !std::ranges::any_of(wanted, isWanted))) continue;
         Option option = member;
         option.name = name;
         option.option = {};

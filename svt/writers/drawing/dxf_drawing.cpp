@@ -323,7 +323,7 @@ private:
     void addDimension(const DimensionMark& mark) {
         const std::string name = fmt::format("*D{}", file_.blockCount() + 1), content = dxfText(mark.text.text);
         const auto placed = [&](PlanePoint p) { return place_.placed(inMetres(p)); };
-        const auto& [from, to] = mark.line;
+        const PlanePoint from = mark.line.from, to = mark.line.to;
         const PlanePoint at = content.empty() ? PlanePoint{0.5 * (from.u + to.u), 0.5 * (from.v + to.v)} : mark.text.at;
         addBlock(file_.newBlock(name, true), [&] {
             addLine(placed(from), placed(to), dimensionLayer());
