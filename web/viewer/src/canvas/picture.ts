@@ -15,6 +15,7 @@ import { compass, handleOf, measure, place, planes, selectionBox, type View } fr
 const kHoverEvery = 80;
 /** Corners and edges so near to a click are meant by it. */
 const kSnapPixels = 9;
+const kFramesToSettle = 6;
 
 export class PictureView extends Part {
   static override properties = { ...Part.properties, canvas: { attribute: false }, hover: { state: true }, size: { state: true } };
@@ -28,6 +29,8 @@ export class PictureView extends Part {
     this.sizing = requestAnimationFrame(() => this.measureSize());
   });
   private sizing = 0;
+  /** Frames in which no size is taken. */
+  private framesToSettle = 0;
   private hoverTimer = 0;
   private hoverAt: { x: number; y: number } | null = null;
   private drag: { n: number; x: number; y: number; at: number } | null = null;
@@ -75,6 +78,7 @@ export class PictureView extends Part {
   override connectedCallback(): void {
     super.connectedCallback();
     this.watched.observe(this);
+    void this.waitForSplitters();
   }
   override disconnectedCallback(): void {
     this.watched.disconnect();
@@ -102,7 +106,19 @@ export class PictureView extends Part {
     this.stage.focus();
   }
 
+  /** Splitters that arrive after the first picture pass through other sizes for a few frames. */
+  private async waitForSplitters(): Promise<void> {
+    if (customElements.get("wa-split-panel")) return;
+    await customElements.whenDefined("wa-split-panel");
+    this.framesToSettle = kFramesToSettle;
+  }
+
   private measureSize(): void {
+    if (this.framesToSettle > 0) {
+      --this.framesToSettle;
+      this.sizing = requestAnimationFrame(() => this.measureSize());
+      return;
+    }
     const { clientWidth: w, clientHeight: h } = this;
     if (!w || !h) return;
     this.size = [w, h];
