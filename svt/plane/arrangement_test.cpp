@@ -42,8 +42,25 @@ TEST(Arrangement, BordersThatNearlyMeetAreOne) {
         if (side.left != kNothing && side.right != kNothing) ++shared;
     // From (1000, 0) over (1002, 300) and the crossing at (1000, 500) to (998, 700).
     EXPECT_EQ(shared, 3);
-    // Each edge is once there, and no region is a sliver.
+    // No region is a sliver.
     EXPECT_EQ(areasOf(segments, 8).size(), 2u);
+}
+
+TEST(Arrangement, LinesAreCutAndHaveNoInside) {
+    std::vector<ClaimSegment> segments;
+    addRing({{0, 0}, {100, 0}, {100, 100}, {0, 100}}, 0, segments);
+    segments.push_back({{50, -50}, {50, 150}, 1, 0});
+    const auto arranged = arrangeSegments(segments, 2);
+    ASSERT_TRUE(arranged);
+    std::vector<std::pair<Point, Point>> parts;
+    for (const ArrangementEdge& edge : arranged->edges)
+        for (std::uint32_t m = edge.firstMark; m < edge.endMark; ++m) {
+            EXPECT_EQ(arranged->marks[m].winding == 0, arranged->marks[m].claim == 1);
+            if (arranged->marks[m].claim == 1) parts.emplace_back(edge.from, edge.to);
+        }
+    EXPECT_EQ(parts, (std::vector<std::pair<Point, Point>>{
+                         {{50, -50}, {50, 0}}, {{50, 0}, {50, 100}}, {{50, 100}, {50, 150}}}));
+    EXPECT_EQ(areasOf(segments, 2), (std::map<std::uint32_t, double>{{0, 10000}}));
 }
 
 TEST(Arrangement, RandomPolygonsHaveTheAreasOfClipper) {
@@ -95,7 +112,7 @@ TEST(Arrangement, ClosedRingsStayClosedWhateverMeets) {
     }
     const auto arranged = arrangeSegments(segments, 6);
     ASSERT_TRUE(arranged);
-    std::map<std::tuple<std::uint32_t, Point>, int> ends;  // of each claim: what leaves a node minus what arrives
+    std::map<std::tuple<std::uint32_t, Point>, int> ends;  // of each claim: leaving minus arriving windings
     for (const ArrangementEdge& edge : arranged->edges)
         for (std::uint32_t m = edge.firstMark; m < edge.endMark; ++m) {
             ends[{arranged->marks[m].claim, edge.from}] += arranged->marks[m].winding;

@@ -50,7 +50,7 @@ BoxTree::Slab BoxTree::slabOf(const Node& node, Vec3d normal, const std::vector<
             slab.low = std::min(slab.low, at);
             slab.high = std::max(slab.high, at);
         }
-    // A step on both sides is more than rounding does.
+    // A step on both sides is more than the rounding error.
     slab.low -= 1;
     slab.high += 1;
     return slab;
@@ -66,7 +66,7 @@ void BoxTree::addSlabs(const std::vector<SpaceTriangle>& triangles) {
     slabs_.clear();
     slabs_.reserve(nodes_.size());
     for (const Node& node : nodes_) {
-        // Without a triangle to take the normal from: a slab that all reach.
+        // Without a normal, the slab is one that all triangles reach.
         Slab thinnest{{}, 0, 0};
         for (std::uint32_t i = 0; i < kTried; ++i) {
             const SpaceTriangle& t = triangles[order_[node.begin + (node.end - node.begin) * i / kTried]];

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A bounding volume hierarchy over boxes in space, to find the few of very many that are near something.
+/// A bounding volume hierarchy over boxes in space, to find the boxes near something.
 
 #include <svt/plane/point.hpp>
 
@@ -30,9 +30,10 @@ public:
     explicit BoxTree(std::vector<Box3d> boxes, Halving halving);
     explicit BoxTree(std::vector<Box3d> boxes) : BoxTree(std::move(boxes), Halving{}) {}
 
-    /// Gives each node a slab beside its box: between two parallel planes along a normal of one of its triangles. Boxes of
-    /// slanted long triangles side by side all meet, their slabs do not (Gottschalk 1996, "OBBTree").
-    /// \param triangles  of which the boxes are those, in the same order; coordinates are whole numbers of up to 40 bits
+    /// Gives each node a slab besides its box: the space between two parallel planes across a normal of one of its
+    /// triangles. The boxes of slanted long triangles side by side all meet, but their slabs do not (Gottschalk 1996,
+    /// "OBBTree").
+    /// \param triangles  one in each box, in the same order; coordinates are whole numbers of up to 40 bits
     /// Cost: O(n log n).
     void addSlabs(const std::vector<SpaceTriangle>& triangles);
 
@@ -54,7 +55,7 @@ public:
     void forEach(const Box3d& box, const Body& body) const {
         forEach([&](const Box3d& other) { return other.overlaps(box); }, body);
     }
-    /// As forEach(box, body), without boxes that lie in slabs which `triangle` does not reach. Needs addSlabs().
+    /// As forEach(box, body), without boxes in slabs that `triangle` does not reach. Needs addSlabs().
     template <class Body>
     void forEachBeside(const Box3d& box, const SpaceTriangle& triangle, const Body& body) const {
         const auto isNear = [&](const Box3d& other) { return other.overlaps(box); };
@@ -66,7 +67,7 @@ public:
     [[nodiscard]] std::vector<std::uint32_t> findAll(const Box3d& box) const;
 
     [[nodiscard]] const std::vector<Box3d>& boxes() const noexcept { return boxes_; }
-    /// The box around all; empty without boxes.
+    /// The box around all boxes; empty if there is none.
     [[nodiscard]] Box3d bounds() const noexcept { return nodes_.empty() ? Box3d{} : nodes_.front().box; }
 
 private:

@@ -290,7 +290,7 @@ bool meetBeyondEnds(std::span<const std::pair<Point, Point>> edges) {
     std::vector<std::uint8_t> uses(graph.vertices.size(), 0);
     for (const Edge& edge : graph.edges)
         if (++uses[edge.left] > 2 || ++uses[edge.right] > 2) return true;
-    graph.isTouching = false;  // tells of joined ends until here
+    graph.isTouching = false;  // true for joined ends until here
     return !cutCrossings(graph, 0, {}) || graph.isTouching;
 }
 

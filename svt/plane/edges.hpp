@@ -12,7 +12,7 @@
 
 namespace svt::plane {
 
-/// An edge between two vertices, by their indices; the left one comes first in the order of Point.
+/// An edge between two vertices, by their indices. The left vertex comes first in the order of Point.
 struct Edge {
     std::uint32_t left = 0, right = 0;
     friend bool operator==(const Edge&, const Edge&) = default;

@@ -9,11 +9,11 @@
 
 namespace svt::plane {
 
-/// The chain of the convex hull from the first to the last point of a sorted list (Andrew 1979, "Another efficient algorithm
-/// for convex hulls in two dimensions"). The lower and the upper chain are the whole hull; either is also the other one of
-/// the list in descending order.
+/// The lower or upper chain of a convex hull, from the first to the last point of a sorted list. Both chains are the
+/// whole hull. Source: A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions, 1979.
 /// \param sorted  items with points that ascend or descend by x, then y
-/// \param turns   1: all turns of the chain are counter-clockwise; -1: clockwise
+/// \param turns   1: all turns of the chain are counter-clockwise (the lower chain of an ascending list, the upper one of
+///                a descending list); -1: clockwise, the other chain
 /// \param at      the point of an item, Vec3d; z is ignored
 /// Cost: O(n).
 template <class Items, class At>

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Points of a plane on a grid of whole numbers, and the questions about them. Each has one exact answer: double precision
-/// is not enough, since a point beside a line must lie beside it for each edge that is tested.
+/// Points of a plane on a grid of whole numbers, and the tests of their positions. Each test has one exact answer. Double
+/// precision is not enough: a point beside a line must lie beside it in all tests.
 
 #include <svt/core/vec.hpp>
 
@@ -12,14 +12,13 @@
 
 namespace svt::plane {
 
-/// Products of coordinates. Not of standard C++, but of each compiler that SVT is built with.
+/// Products of coordinates. The type is not part of standard C++, but each compiler that builds SVT has it.
 __extension__ using Wide = __int128;
 
-/// No number of a point, edge or box.
+/// Stands for a missing number of a point, edge or box.
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-/// A point, or a difference of points; each coordinate at most 2^60 from 0. Points are ordered as a line meets them that
-/// sweeps along u and leans a little: of points with the same u the one with the lower v comes first.
+/// A point, or a difference of points; each coordinate at most 2^60 from 0. Points are ordered by u, then by v.
 struct Point {
     std::int64_t u = 0, v = 0;
     friend constexpr bool operator==(const Point&, const Point&) = default;
@@ -37,8 +36,8 @@ struct Point {
     return (twiceArea > 0) - (twiceArea < 0);
 }
 
-/// Twice the signed area of the triangle a, b, c in x and y, positive if counter-clockwise; rounded. For points that are
-/// on no grid.
+/// Twice the signed area of the triangle a, b, c in x and y, positive if counter-clockwise; rounded. For points that
+/// are not on the grid.
 [[nodiscard]] constexpr double twiceArea(Vec3d a, Vec3d b, Vec3d c) noexcept {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }

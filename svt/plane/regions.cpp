@@ -30,7 +30,7 @@ public:
 private:
     using Counts = std::vector<ClaimCount>;
 
-    // What encloses the place above an edge.
+    // The claims that enclose the place above an edge.
     [[nodiscard]] Counts crossed(const Counts& below, std::uint32_t edge) const {
         Counts above;
         auto old = below.begin();

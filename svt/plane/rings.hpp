@@ -21,7 +21,8 @@ namespace svt::plane {
 }
 
 /// Splits a closed walk at the points that it visits again into rings that touch there, and calls take(ring) for each.
-/// \param pointOf  of a step of the walk; anything with an order
+/// \param pointOf  returns the point of a step of the walk, of any type with an order
+/// \param take     receives each ring as a std::vector<Step>; for an empty walk, an empty one
 /// Cost: O(n log n).
 template <class Step, class PointOf, class Take>
 void splitAtRepeats(const std::vector<Step>& walk, const PointOf& pointOf, const Take& take) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Equal squares over a part of the plane, to find the few of many points and segments that are near something.
+/// Equal squares over a part of the plane, to find points and segments near something.
 
 #include <svt/plane/point.hpp>
 
@@ -9,8 +9,8 @@
 
 namespace svt::plane {
 
-/// Says which squares something meets; the caller keeps lists of their content. Each `body` gets the number of a square and
-/// returns whether to go on.
+/// Finds the squares that something meets; the caller keeps lists of their content. Functions call body(square) with the
+/// number of each square until one call returns false, and return whether none did.
 class SquareGrid {
 public:
     /// \param box        the part of the plane, not empty; at most 2^50 from 0
@@ -29,8 +29,8 @@ public:
     [[nodiscard]] double side() const noexcept { return side_; }
     [[nodiscard]] std::size_t squareOf(Point p) const noexcept { return at(columnOf(double(p.u)), rowOf(double(p.v))); }
 
-    /// For each square that comes within `reach` of the segment a-b, some of them further away.
-    /// \param reach  at least 1, which is more than rounding does
+    /// For each square within `reach` of the segment a-b, and for some squares further away; each once.
+    /// \param reach  at least 1, which is more than the rounding error
     template <class Body>
     bool forSegment(Point a, Point b, double reach, const Body& body) const {
         const auto [left, right] = std::minmax(a, b);
@@ -66,8 +66,8 @@ public:
                double(rowOf(double(box.high.v)) - rowOf(double(box.low.v)) + 1);
     }
 
-    /// For each square that lies `ring` squares away from that of `p`, whatever the body returns.
-    /// \return false if neither such squares are left nor others further away
+    /// For each square that lies `ring` squares away from that of `p`. Ignores the result of body(square).
+    /// \return false if all squares are nearer to `p`
     template <class Body>
     bool forRing(Point p, std::int64_t ring, const Body& body) const {
         const std::int64_t u = columnOf(double(p.u)), v = rowOf(double(p.v));

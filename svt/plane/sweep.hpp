@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A sweep over edges that meet in their ends only: from the first point to the last, with the edges around each in order.
+/// A sweep over edges that meet at their ends only, from the first point to the last, with the edges at each in order.
 
 #include <svt/plane/point.hpp>
 
@@ -12,8 +12,8 @@
 
 namespace svt::plane {
 
-/// The order of edges that the sweeping line meets, from below; and of points among them. Of two edges, the one that begins
-/// earlier decides on which side the other begins, or else goes on. Edges must not cross.
+/// The order from below of the edges that the sweeping line meets, and of points among them. Of two edges, the one that
+/// begins later is on the side of the other on which it begins, or, if it begins on the other, ends. Edges must not cross.
 /// \tparam EndsOf  the ends of an edge by its number: a pair of Points, the lesser first
 template <class EndsOf>
 struct BelowEdge {
@@ -39,9 +39,9 @@ struct BelowEdge {
     bool operator()(Point p, std::uint32_t edge) const { return side(edge, p) < 0; }
 };
 
-/// Calls visit(point, ending, starting, below) for each end of edges, in ascending order: the numbers of the edges that end
-/// and that start there, both from below, and of the edge below the point, or kNone.
-/// \param count   of edges, numbered in ascending order of their lesser ends
+/// Calls visit(point, ending, starting, below) for each end of an edge, in ascending order. `ending` and `starting` are
+/// the numbers of the edges that end and start there, from below; `below` is that of the edge below the point, or kNone.
+/// \param count   number of edges; they are numbered in ascending order of their lesser ends
 /// \param endsOf  as for BelowEdge
 /// Cost: O(n log n). Source: M. I. Shamos, D. Hoey, Geometric intersection problems, FOCS 1976.
 template <class EndsOf, class Visit>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points by the cells of a grid; one number for all points that are near to each other.
+/// Points by the cells of a grid; one number for all points near to each other.
 
 #include <svt/core/hash.hpp>
 #include <svt/plane/point.hpp>
@@ -23,8 +23,8 @@ public:
         last = static_cast<std::uint32_t>(before_.size() - 1);
     }
 
-    /// Calls visit(number) for all numbers in the cells from `low` to `high`, both included, and for few others: cell by
-    /// cell with z fastest, in each the last one first.
+    /// Calls visit(number) for all numbers in the cells from `low` to `high`, both included: cell by cell with z fastest,
+    /// in each the last one first. Cells that share a hash add a few other numbers, or a number again.
     /// Cost: O(1) for each cell and number.
     template <class Visit>
     void forEach(const Cell& low, const Cell& high, const Visit& visit) const {
@@ -48,16 +48,16 @@ private:
     std::unordered_map<std::uint64_t, std::uint32_t> last_;  // cell -> its last number
 };
 
-/// Numbers points so that one which is near to an earlier one gets its number. The rule for that is the caller's.
-/// \tparam P  of a plane or of space
+/// Numbers points so that a point near an earlier one gets its number. The caller decides which points are near.
+/// \tparam P  a point of a plane or of space
 template <class P>
 class Welder {
 public:
     /// The number of `p`: that of an earlier point, or else a new one.
     /// \param home       the cell of p
     /// \param low, high  the cells in which a point near p can lie, both included
-    /// \param takes      takes(number, best): whether an earlier point is near p, and to stand for it rather than `best`,
-    ///                   which is kNone at first. It is called in the order of CellIndex::forEach().
+    /// \param takes      takes(number, best): whether an earlier point is near p and replaces `best`, the choice so far
+    ///                   or kNone. Calls are in the order of CellIndex::forEach().
     /// Cost: O(1) for a few cells, unless many points crowd in them.
     template <class Takes>
     std::uint32_t add(const P& p, const Cell& home, const Cell& low, const Cell& high, const Takes& takes) {

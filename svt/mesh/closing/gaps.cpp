@@ -5,7 +5,6 @@
 #include <svt/plane/welder.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>

@@ -37,7 +37,7 @@ struct PointSet {
     [[nodiscard]] std::array<Point, 3> corners(const Corners& t) const { return {at(t[0]), at(t[1]), at(t[2])}; }
 };
 
-/// The tree of boxes of triangles or of bodies; which piece of a surface comes first rests on its order.
+/// The tree of boxes of triangles or of bodies. Its order decides which piece of a surface is found first.
 [[nodiscard]] inline plane::BoxTree treeOf(std::vector<Box3d> boxes) {
     return plane::BoxTree(std::move(boxes), {.leafSize = 6, .usesCenters = false});
 }

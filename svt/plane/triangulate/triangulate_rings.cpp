@@ -196,7 +196,7 @@ private:
                     candidates.emplace(u * u + v * v, i);
                 }
             });
-            // What is nearer than the squares of the next ring comes in order.
+            // Candidates nearer than the squares of the next ring come in order.
             const double reach = double(ring) * grid_.side() * (double(ring) * grid_.side());
             while (!candidates.empty() && (!isMore || candidates.top().first <= reach)) {
                 if (!nearest) nearest = candidates.top();
