@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Numbers as bytes of files: appended to a buffer, loaded at an offset, taken off the front with every bound checked.
+/// Numbers as bytes of files: appends them to a buffer, loads them at an offset, takes them from the front with bounds
+/// checked.
 
 #include <algorithm>
 #include <array>
@@ -9,12 +10,14 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
 namespace svt {
 
-static_assert(std::endian::native == std::endian::little, "numbers stand in files as they do in memory");
+static_assert(std::endian::native == std::endian::little,
+              "numbers of files are little-endian, and are copied unchanged");
 
 /// Appends plain values as they stand in memory: numbers little-endian.
 /// \param to  a string or a vector of bytes
@@ -29,7 +32,7 @@ void appendBytes(Buffer& to, const Values&... values) {
     (append(values), ...);
 }
 
-/// The same of numbers of type T, which take the lower bits of the values.
+/// Appends the values as numbers of type T. Bits beyond T are dropped.
 template <class T, class Buffer, class... Values>
 void appendAs(Buffer& to, const Values&... values) {
     appendBytes(to, static_cast<T>(values)...);
@@ -51,7 +54,7 @@ void appendVarint(Buffer& to, std::uint64_t value) {
     return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
 }
 
-/// The number of type T at `at`, where the caller knows sizeof(T) bytes to be.
+/// The number of type T at `at`. The caller makes sure that sizeof(T) bytes are there.
 template <class T>
 [[nodiscard]] T loadBytes(const std::byte* at, std::endian order = std::endian::little) noexcept {
     std::array<std::byte, sizeof(T)> bytes{};
@@ -64,7 +67,7 @@ template <class T>
     return loadBytes<T>(bytes.data() + at);
 }
 
-/// The unsigned number of 1 to 8 bytes at `at`, where the caller knows them to be.
+/// The unsigned number of 1 to 8 bytes at `at`. The caller makes sure that they are there.
 [[nodiscard]] inline std::uint64_t loadNumber(std::span<const std::byte> bytes, std::size_t at, std::size_t size,
                                               std::endian order = std::endian::little) noexcept {
     std::uint64_t value = 0;
@@ -73,7 +76,17 @@ template <class T>
     return value;
 }
 
-/// Takes values off the front of bytes. After one that is not there all are 0, and isGood() is false.
+/// Bits as bytes, the lowest of each byte first.
+/// \param isSet  takes the number of a bit, below `count`
+template <class IsSet>
+[[nodiscard]] std::string packedBits(std::size_t count, const IsSet& isSet) {
+    std::string bytes((count + 7) / 8, '\0');
+    for (std::size_t n = 0; n < count; ++n)
+        if (isSet(n)) bytes[n / 8] = static_cast<char>(bytes[n / 8] | 1 << n % 8);
+    return bytes;
+}
+
+/// Takes values from the front of bytes. Once too few bytes are left, isGood() is false and all further values are 0.
 class ByteReader {
 public:
     explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
@@ -98,17 +111,19 @@ public:
         }
         if constexpr (sizeof...(Rest) > 0) take(rest...);
     }
-    /// A number that appendVarint() wrote.
+    /// A number that appendVarint() wrote. One of more than ten bytes counts as missing.
     [[nodiscard]] std::uint64_t takeVarint() {
         std::uint64_t value = 0;
         for (int shift = 0; shift < 64; shift += 7) {
             const auto byte = take<std::uint8_t>();
             value |= std::uint64_t{byte & 0x7Fu} << shift;
-            if (byte < 0x80) break;
+            if (byte < 0x80) return value;
         }
-        return value;
+        isGood_ = false;
+        rest_ = {};
+        return 0;
     }
-    /// The next `size` bytes; fewer, with isGood() false, where the bytes end.
+    /// The next `size` bytes. If fewer are left, it returns those, and isGood() is false.
     [[nodiscard]] std::string_view text(std::size_t size) {
         isGood_ = isGood_ && size <= rest_.size();
         const std::string_view taken = rest_.substr(0, size);

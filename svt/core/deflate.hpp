@@ -14,9 +14,9 @@ namespace svt {
 
 enum class DeflateFormat : std::uint8_t {
     Raw,        ///< one stream without header
-    Zlib,       ///< one stream with its checksum
+    Zlib,       ///< one stream with header and checksum
     Gzip,       ///< one or more gzip members, concatenated
-    ZlibOrGzip  ///< one stream of either, told by its first bytes
+    ZlibOrGzip  ///< one zlib stream or one gzip member; its first bytes decide
 };
 
 enum class InflateStatus : std::uint8_t {
@@ -34,7 +34,7 @@ struct Inflated {
 
 /// CRC-32 as ZIP and gzip have it. \param before  that of the bytes before these
 [[nodiscard]] std::uint32_t zipChecksum(std::span<const std::byte> bytes, std::uint32_t before = 0) noexcept;
-/// That of bytes whose checksum is `first` and of `size` bytes behind them whose checksum is `second`.
+/// The CRC-32 of two sequences of bytes as one. \param first, second  their checksums \param size  bytes of the second
 [[nodiscard]] std::uint32_t joinedChecksum(std::uint32_t first, std::uint32_t second, std::uint64_t size) noexcept;
 
 /// Unpacks `packed`. Each gzip member is checked against the checksum and the size at its end.
@@ -44,14 +44,14 @@ struct Inflated {
 [[nodiscard]] Inflated inflateBytes(std::span<const std::byte> packed, DeflateFormat format,
                                     std::uint64_t expectedBytes, std::uint64_t maxBytes);
 
-/// Unpacks one stream that has as many bytes as there is room for.
-/// \return whether it is one, and undamaged. Bytes behind it are left alone
+/// Unpacks one stream, which must have out.size() bytes. Bytes behind the stream are ignored.
+/// \return false for a damaged stream, or one of another size
 [[nodiscard]] bool inflateInto(std::span<const std::byte> packed, DeflateFormat format, std::span<std::byte> out);
 
 enum class InflateStep : std::uint8_t {
-    End,    ///< the stream, or member of gzip, ends here
+    End,    ///< end of the stream or gzip member
     More,   ///< there is more to unpack
-    Stuck,  ///< nothing more without more input or room
+    Stuck,  ///< it needs more input or room to go on
     Damaged
 };
 
@@ -63,7 +63,7 @@ public:
     InflateStream& operator=(InflateStream&&) noexcept;
     ~InflateStream();
 
-    /// Unpacks from the front of `packed` to the front of `out`; both shrink by what was used up.
+    /// Unpacks from the front of `packed` to the front of `out`. Both shrink by the bytes that were used.
     InflateStep step(std::span<const std::byte>& packed, std::span<std::byte>& out);
     /// Begins the next stream or member.
     void restart() noexcept;
@@ -97,7 +97,7 @@ private:
 /// \param bytes  less than 2 GiB
 [[nodiscard]] std::vector<std::byte> gzipBytes(std::span<const std::byte> bytes);
 
-/// Packs pieces into zlib streams, one each, with one state: setting that up takes longer than to pack a small piece.
+/// Packs pieces, each into a zlib stream of its own. It keeps one state: a new one costs more than a small piece.
 class ZlibPacker {
 public:
     /// \param windowBits, memoryLevel  of deflateInit2() of zlib
@@ -106,8 +106,8 @@ public:
     ZlibPacker& operator=(ZlibPacker&&) noexcept;
     ~ZlibPacker();
 
-    /// The packed bytes, until the next call.
     /// \param bytes  less than 2 GiB
+    /// \return the packed bytes, valid until the next call
     [[nodiscard]] std::span<const std::byte> pack(std::span<const std::byte> bytes);
 
 private:

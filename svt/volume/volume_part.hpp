@@ -24,8 +24,8 @@ struct IndexBox {
 /// \return the samples, or NothingSelected if there are none
 [[nodiscard]] Result<IndexBox> samplesIn(const Grid& grid, const Box3d& world);
 
-/// The samples that have a scalar of [first, last], with one more on each side where the grid goes on.
-/// \return the box around them, empty (no end beyond its begin) where there are none. Cost: O(runs of all columns)
+/// The box around all samples with a scalar of `first` to `last`, one sample wider on each side within the grid.
+/// \return the box; IndexBox() if there is no such sample. Cost: O(runs of all columns)
 [[nodiscard]] IndexBox samplesAround(const ColumnVolume& columns, Scalar first = 1, Scalar last = kMaxScalarCount - 1);
 
 /// `columns` with scalar s replaced by newOf[s], in canonical form.
@@ -39,7 +39,7 @@ struct IndexBox {
 /// \return the part, or BadArgument for another box
 [[nodiscard]] Result<SemanticVolume> croppedVolume(const SemanticVolume& volume, const IndexBox& box);
 
-/// The same of the samples in a box of world coordinates. \return the part, or an error of samplesIn()
+/// The part in a box of world coordinates, metres: croppedVolume() of samplesIn(). \return the part, or their errors
 [[nodiscard]] Result<SemanticVolume> volumeIn(const SemanticVolume& volume, const Box3d& world);
 
 /// The volume with background in place of all labels but `kept` (indices, any order). Counts as for croppedVolume().

@@ -97,7 +97,7 @@ InflateStep InflateStream::step(std::span<const std::byte>& packed, std::span<st
     const std::size_t input = std::min(packed.size(), kStep), room = std::min(out.size(), kStep);
     stream.next_in = zlibBytes(packed);
     stream.avail_in = static_cast<uInt>(input);
-    std::byte none{};  // zlib wants an address, though there is no room
+    std::byte none{};  // zlib refuses a null address, even without room
     stream.next_out = zlibBytes(out.empty() ? std::span(&none, 1) : out);
     stream.avail_out = static_cast<uInt>(room);
     const int state = inflate(&stream, Z_NO_FLUSH);

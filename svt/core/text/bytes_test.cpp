@@ -41,6 +41,20 @@ TEST(Bytes, VarintsComeBack) {
     EXPECT_EQ(zigzag(-1), 1u);
 }
 
+TEST(Bytes, BitsFillBytesFromTheLowest) {
+    const std::vector<bool> bits{true, false, false, false, false, false, false, true, false, true};
+    EXPECT_EQ(packedBits(bits.size(), [&](std::size_t n) { return bits[n]; }), "\x81\2"sv);
+    EXPECT_EQ(packedBits(0, [](std::size_t) { return true; }), "");
+}
+
+TEST(Bytes, VarintsOfMoreThanTenBytesAreMissing) {
+    const std::string text(12, '\xFF');
+    ByteReader from(text);
+    EXPECT_EQ(from.takeVarint(), 0u);
+    EXPECT_FALSE(from.isGood());
+    EXPECT_EQ(from.left(), 0u);
+}
+
 TEST(Bytes, ReaderStopsAtTheEnd) {
     ByteReader from("\1\2\3abc\4"sv);
     std::uint8_t first = 0;

@@ -1,3 +1,4 @@
+#include <svt/core/bytes.hpp>
 #include <svt/volume/columns/column_codec.hpp>
 #include <svt/volume/columns/column_dictionary.hpp>
 
@@ -7,10 +8,6 @@
 
 namespace svt::volume {
 namespace {
-
-std::int64_t fromZigzag(std::uint32_t value) noexcept {
-    return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
-}
 
 /// Reads a stream. After a read beyond the end, or of a number over 32 bits, isGood() is false and all further reads
 /// return 0.

@@ -1,3 +1,4 @@
+#include <svt/core/bytes.hpp>
 #include <svt/volume/columns/column_codec.hpp>
 #include <svt/volume/columns/column_dictionary.hpp>
 
@@ -10,19 +11,6 @@ namespace {
 /// How many segments ahead to search for a column in the row above, and for an upper column in the current row.
 constexpr std::size_t kLookAhead = 3;
 static_assert(kLookAhead + 1 == kReplace, "kinds 0 to 3 leave out 0 to 3 segments");
-
-void appendNumber(std::vector<std::uint8_t>& stream, std::uint32_t value) {
-    while (value >= 0x80) {
-        stream.push_back(static_cast<std::uint8_t>(value | 0x80));
-        value >>= 7;
-    }
-    stream.push_back(static_cast<std::uint8_t>(value));
-}
-
-/// Zigzag code: maps 0, -1, 1, -2, 2 ... to 0, 1, 2, 3, 4 ...
-std::uint32_t zigzag(std::int32_t value) noexcept {
-    return (static_cast<std::uint32_t>(value) << 1) ^ static_cast<std::uint32_t>(value >> 31);
-}
 
 class BlockEncoder {
 public:
@@ -43,7 +31,7 @@ public:
                 continue;
             }
             if (y == 0) readRow(y);
-            appendNumber(stream(BlockStream::Repeats), repeats);
+            appendVarint(stream(BlockStream::Repeats), repeats);
             repeats = 0;
             encodeRow();
             std::swap(row_, above_);
@@ -107,14 +95,14 @@ private:
             }
             std::uint32_t movement = 0;
             if (kind == kInsert) {
-                appendNumber(stream(BlockStream::Widths), segment.end - begin - 1);
+                appendVarint(stream(BlockStream::Widths), segment.end - begin - 1);
             } else {
                 const auto shift =
                     static_cast<std::int32_t>(segment.end) - static_cast<std::int32_t>(above_[upper++].end);
                 if (std::abs(shift) <= kMaxShift)
                     movement = static_cast<std::uint32_t>(shift + kMaxShift + 1);
                 else
-                    appendNumber(stream(BlockStream::Shifts), zigzag(shift));
+                    appendVarint(stream(BlockStream::Shifts), zigzag(shift));
             }
             stream(BlockStream::Operations).push_back(static_cast<std::uint8_t>(kind + kOperationKinds * movement));
             begin = segment.end;
@@ -174,14 +162,14 @@ private:
                 .push_back(static_cast<std::uint8_t>(near + static_cast<std::uint32_t>(index)));
         } else {
             stream(BlockStream::Commands).push_back(static_cast<std::uint8_t>(far));
-            appendNumber(stream(BlockStream::Moves), zigzag(moved));
+            appendVarint(stream(BlockStream::Moves), zigzag(moved));
         }
     }
 
     void encodeNewRun(const Run& run, std::uint32_t height) {
         stream(BlockStream::Commands).push_back(static_cast<std::uint8_t>(kNewRun));
-        appendNumber(stream(BlockStream::Scalars), run.scalar);
-        appendNumber(stream(BlockStream::Heights), run.end - height - 1);
+        appendVarint(stream(BlockStream::Scalars), run.scalar);
+        appendVarint(stream(BlockStream::Heights), run.end - height - 1);
     }
 
     std::span<const ColumnTile> tiles_;

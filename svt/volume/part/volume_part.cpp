@@ -190,6 +190,7 @@ IndexBox samplesAround(const ColumnVolume& columns, Scalar first, Scalar last) {
                 low = high;
             }
         }
+    if (box.end.x == 0) return {};
     for (int axis = 0; axis < 3; ++axis) {
         box.begin[axis] = std::max(0, box.begin[axis] - 1);
         box.end[axis] = std::min(n[axis], box.end[axis] + 1);

@@ -78,7 +78,7 @@ private:
 
     SharedFile file_;
     std::span<const std::byte> rest_;   // of the file, behind the piece
-    std::span<const std::byte> piece_;  // what is not unpacked
+    std::span<const std::byte> piece_;  // not unpacked yet
     std::string buffer_;
     Code code_;
     InflateStream stream_{DeflateFormat::Gzip};

@@ -1,5 +1,6 @@
 #include <svt/volume_readers/zarr/zarr_folder.hpp>
 
+#include <svt/core/bytes.hpp>
 #include <svt/core/machine.hpp>
 #include <svt/volume/volume_json.hpp>
 #include <svt/volume_readers/zarr/zarr_array.hpp>
@@ -87,7 +88,7 @@ private:
         const std::uint64_t depth = std::min(chunk_[0], shape_[0] - z_);
         band_.resize(static_cast<std::size_t>(sliceBytes_ * depth));
         at_ = 0;
-        SVT_TRY(filled, fillBand());
+        SVT_DO(fillBand());
         for (std::uint64_t y = 0; y < shape_[1]; y += file_[1])
             for (std::uint64_t x = 0; x < shape_[2]; x += file_[2])
                 SVT_DO(readFile({z_ / file_[0], y / file_[1], x / file_[2]}));
