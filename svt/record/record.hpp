@@ -24,6 +24,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -46,7 +47,7 @@ class Faults {
 public:
     /// \param path  of the member, a JSON pointer; "" is the whole text
     void add(const std::string& path, std::string text) { add(path, Error(Code::Internal, std::move(text))); }
-    /// A fault with a code and a place of its own; Internal stands for the code of the text.
+    /// A fault with its own code and place; Internal means that it has no code of its own.
     void add(const std::string& path, Error fault) {
         if (isFine()) path_ = path.empty() ? "/" : path, fault_ = std::move(fault);
     }
@@ -162,10 +163,10 @@ void setMember(Faults& faults, std::string_view pointer, const Json& value, cons
 }
 
 /// Sets one member to the values of an option, as faultOf() allows them. Those of a member that may repeat are appended.
-/// \param pointer  of the member; * is the first element of a list
+/// \param pointer  of the member; each * is the first element of a list
 template <Recorded T>
 void setTexts(Faults& faults, std::string pointer, const Option& option, std::span<const std::string> texts, T& to) {
-    if (const std::size_t any = pointer.find('*'); any != std::string::npos) pointer[any] = '0';
+    std::ranges::replace(pointer, '*', '0');
     if (!option.mayRepeat) return setMember(faults, pointer, valueOfTexts(option, texts), "", to);
     for (const std::string& text : texts) setMember(faults, pointer + "/-", valueOfTexts(option, {&text, 1}), "", to);
 }
@@ -299,7 +300,7 @@ struct Choice : PlainCodec<Choice, std::string> {
     static Json write(const Option&, const std::string& from) { return from; }
 };
 
-/// A whole number of which only some are possible: the choice that begins with it, such as 2 of "2.0|3.0".
+/// A whole number, written as the choice that begins with it: 2 is "2.0" of "2.0|3.0".
 struct NumberChoice : PlainCodec<NumberChoice, int> {
     static void read(Faults& faults, const Json& json, const std::string& path, const Option& option, int& to);
     static Json write(const Option& option, int from);
@@ -364,7 +365,7 @@ struct Codec<Vec3d> : PlainCodec<Codec<Vec3d>, Vec3d> {
     }
 };
 
-/// A value that texts stand for.
+/// A value that is written as a text.
 /// \param Parse  text to Result<T>
 /// \param Text   T to text
 template <class T, auto Parse, auto Text>
@@ -380,7 +381,7 @@ struct TextOf : PlainCodec<TextOf<T, Parse, Text>, T> {
     static Json write(const Option&, const T& from) { return Text(from); }
 };
 
-/// A member without a field: any value, which is not kept.
+/// A member without a field: any value is allowed, and none is kept.
 template <class Owner>
 struct Ignored : PlainCodec<Ignored<Owner>, Owner> {
     static constexpr bool kHasDefault = false;

@@ -1,5 +1,7 @@
 #include <svt/record/record.hpp>
 
+#include <fmt/format.h>
+
 #include <gtest/gtest.h>
 
 namespace svt::record {
@@ -107,6 +109,35 @@ TEST(Record, FaultsNamePlaceAndRange) {
               "cart.json: /spare: unknown member 'kinds'; possible are kind, radius");
 }
 
+struct Edition {
+    int number = 0;
+};
+Members<Edition> membersOf(const Edition*) noexcept {
+    static constexpr Member<Edition> kMembers[] = {memberAs<NumberChoice, &Edition::number>(
+        "edition", "edition", {.choices = "2.0|12.5", .otherwise = "that of the model"})};
+    return kMembers;
+}
+
+TEST(Record, ChosenTextsBecomeTheNumbersThatTheyBeginWith) {
+    const auto read = parseRecord<Edition>(R"({"edition": "12.5"})", "cart.json", Code::BadScene);
+    ASSERT_TRUE(read) << read.error().message();
+    EXPECT_EQ(read->number, 12);
+    EXPECT_EQ(writeRecord(*read).dump(), R"({"edition":"12.5"})");
+    EXPECT_EQ(writeRecord(Edition{2}).dump(), R"({"edition":"2.0"})");
+    const auto other = parseRecord<Edition>(R"({"edition": "3.0"})", "cart.json", Code::BadScene);
+    ASSERT_FALSE(other);
+    EXPECT_EQ(other.error().message(), "cart.json: /edition: '3.0' is not possible; possible are 2.0, 12.5");
+}
+
+TEST(Record, ListsMayBeAsLongAsDeclared) {
+    constexpr std::string_view kWheel = R"({"kind": "oak"})";
+    EXPECT_EQ(faultOfText(fmt::format(R"({{"wheels": [{0}, {0}, {0}, {0}]}})", kWheel)), "");
+    EXPECT_EQ(faultOfText(fmt::format(R"({{"wheels": [{0}, {0}, {0}, {0}, {0}]}})", kWheel)).substr(0, 63),
+              "cart.json: /wheels: expected an array of 1 to 4 elements, found");
+    EXPECT_EQ(faultOfText(R"({"wheels": {"kind": "oak"}})").substr(0, 63),
+              "cart.json: /wheels: expected an array of 1 to 4 elements, found");
+}
+
 TEST(Record, SetsMembersByPointer) {
     Cart cart;
     const auto set = [&](std::string_view pointer, const Json& value) {
@@ -158,6 +189,8 @@ TEST(Record, TextsBecomeValuesByTheirDeclaration) {
     EXPECT_EQ(valueOfTexts({.name = "a", .kind = OptionKind::Number, .count = 2}, numbers).dump(), "[1.0,2.5]");
     EXPECT_EQ(valueOfTexts({.name = "a", .kind = OptionKind::Number}, text).dump(), "7.0");
     EXPECT_EQ(valueOfTexts({.name = "a"}, text).dump(), "\"7\"");
+    EXPECT_EQ(valueOfTexts({.name = "a"}, {}).dump(), "\"\"");
+    EXPECT_EQ(valueOfTexts({.name = "a", .count = 2}, {}).dump(), "[]");
     EXPECT_EQ(valueOfTexts({.name = "a", .kind = OptionKind::Flag}, {}).dump(), "true");
     EXPECT_EQ(valueOfTexts({.name = "a", .kind = OptionKind::Flag}, flag).dump(), "false");
 }
