@@ -152,7 +152,7 @@ struct SectionDrawing {
     /// on the kept side.
     std::size_t edgesInPlane = 0;
     bool isFromMeshes = false;  ///< meshes were cut; else all is drawn from voxels
-    /// Meshes were to be cut, but their edges did not settle in whole numbers (see exact/arrangement.hpp).
+    /// Meshes were to be cut, but their edges did not settle in whole numbers (see plane/arrangement.hpp).
     bool isUnsettled = false;
     bool lacksMeshes = false;  ///< lines beyond the cut were asked for, but the volume keeps no meshes
     double planeShift = 0;     ///< metres; `plane` was moved so far to the kept side, to be clear of such edges
@@ -184,7 +184,7 @@ struct SectionOptions {
     std::vector<std::string>* nothing = nullptr;
 };
 
-/// Those that a user may give.
+/// The options that a user can set.
 record::Members<SectionOptions> membersOf(const SectionOptions*) noexcept;
 
 /// Cuts `volume` with `plane`. Labels that are left out become gaps, like background. Where the plane coincides with

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Draws a set of sheets: from the views that are chosen, or that a set names, to the content of the sheets.
+/// Draws a set of sheets: its views, or those that the program chooses, and its tables.
 
 #include <svt/illustrate/sheet_set.hpp>
 #include <svt/writers/sheet_writer.hpp>

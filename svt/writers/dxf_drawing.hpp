@@ -22,7 +22,7 @@ struct DxfOptions {
     bool world = false;
 };
 
-/// Those that a user may give.
+/// The options that a user can set.
 record::Members<DxfOptions> membersOf(const DxfOptions*) noexcept;
 
 /// The drawing as DXF text. `volume` is the volume the drawing was made from. Equal drawings give equal bytes.

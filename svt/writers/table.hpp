@@ -62,7 +62,7 @@ struct Column {
 struct Table {
     std::vector<Column> columns;
     std::vector<Row> rows;                                     ///< a cell for each column
-    std::vector<std::pair<std::string, std::string>> notes{};  ///< of the whole, where the format has a place for them
+    std::vector<std::pair<std::string, std::string>> notes{};  ///< of the whole table, for formats that can hold them
 };
 
 /// The cell as text: numbers in shortest round-trip form, lists joined by blanks; empty for nothing and blobs.

@@ -66,7 +66,7 @@ struct VolumeWriteOptions {
     const Progress* progress = nullptr;  ///< stages by format
 };
 
-/// Those that a user may give.
+/// The options that a user can set.
 record::Members<VolumeWriteOptions> membersOf(const VolumeWriteOptions*) noexcept;
 
 /// A format, declared beside its code.

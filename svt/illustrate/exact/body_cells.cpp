@@ -94,7 +94,7 @@ public:
         }
         const plane::Point low = box.low, high = box.high;
         const std::int64_t extent = std::max(high.u - low.u, high.v - low.v) + 4 * margin_;
-        // Squares of at most 2^28, so that corners stay within 32 bits; each is halved down to the leaves.
+        // Squares of at most 2^27; each is halved down to the leaves.
         std::int32_t side = leafSize_;
         while (side < extent && side < (1 << 27)) side *= 2;
         std::vector<std::uint32_t> all(faces_.size()), edges(material_.size());

@@ -47,7 +47,7 @@ void put(Json& scene, const std::string& pointer, const Json& value) { scene[Poi
 
 Result<Scene> parsed(const Json& scene, const std::string& name) { return parseScene(scene.dump(), name); }
 
-// The default of a member, if a scene that leaves the member out has it: a width of lines is none where there are no lines.
+// The default of a member, unless it adds something to the scene: the default width of a line would add a line.
 std::optional<Json> defaultIn(const Json& base, const std::string& pointer) {
     const Option* member = findSceneMember(pointer);
     if (member == nullptr || member->byDefault.empty() || member->count != 1) return {};

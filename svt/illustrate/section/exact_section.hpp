@@ -34,7 +34,7 @@ struct ExactSection {
 /// Cuts `volume` with the plane through `axes`.
 /// \param bricks   those of the volume, or null: made where open shells are cut
 /// \param isDrawn  by label; others are gaps
-/// \return the section, or nothing where the arrangement could not be made (see plane::arrangeSegments()); or the error of
+/// \return the section, or nothing where plane::arrangeSegments() returns nothing; or the error of
 ///         BrickVolume::fromColumns()
 [[nodiscard]] Result<std::optional<ExactSection>> cutExactly(const volume::SemanticVolume& volume,
                                                              const volume::BrickVolume* bricks,

@@ -11,7 +11,7 @@
 
 namespace svt::illustrate {
 
-/// A directed edge of a piece, in drawing units of at most 2^29 from 0; `label` is on its left.
+/// A directed edge of a piece; coordinates in drawing units, at most 2^29 from 0. `label` is on its left.
 struct PieceEdge {
     plane::Point from, to;
     std::uint32_t label = 0;

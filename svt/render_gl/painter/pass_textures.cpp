@@ -49,9 +49,9 @@ Result<void> PassTextures::update(const render::Pass& pass, const render::FrameS
                                   const volume::BrickVolume& volume, const volume::Grid& grid, Vec3i middle,
                                   const GlLimits& limits, int threads) {
     // Objects drawn as triangles are not drawn as voxels.
-    SVT_TRY(styles, pass.triangles.empty() ? updateStyles(pass, spec, volume.scalarCount(), limits)
-                                           : updateStyles(render::makeVoxelPass(pass, spec.objectOfScalar), spec,
-                                                          volume.scalarCount(), limits));
+    SVT_DO(pass.triangles.empty()
+               ? updateStyles(pass, spec, volume.scalarCount(), limits)
+               : updateStyles(render::makeVoxelPass(pass, spec.objectOfScalar), spec, volume.scalarCount(), limits));
     SVT_DO(updateClips(pass, grid, middle, limits));
     SVT_DO(shapes_.update(pass, spec, grid, middle, limits, threads));
     if (spec.light.ambientOcclusion > 0 && hasOpaque_) return updateOcclusion(volume, grid, limits, threads);

@@ -27,7 +27,7 @@ struct StreamOptions {
     double begin = 0, end = 1;           ///< shares of the stage that the stream goes from and to
 };
 
-/// The stage "write" of a format.
+/// The options of a stream that is the whole stage "write" of a format.
 [[nodiscard]] inline StreamOptions writeStream(const VolumeWriteOptions& options) noexcept {
     return {.stage = "write", .threads = options.threads, .progress = options.progress};
 }
@@ -35,7 +35,8 @@ struct StreamOptions {
 /// \return nothing, or BadArgument if grid and columns differ in dimension
 [[nodiscard]] Result<void> checkDimension(const volume::Grid& grid, const volume::ColumnVolume& columns);
 
-/// \return nothing, or Cancelled, which tells that there is nothing of what was begun: no file, or nothing of a folder
+/// \param left  what the message says was left: "no file", or "nothing" of a folder
+/// \return nothing, or Cancelled if the caller stopped the call
 [[nodiscard]] Result<void> checkNotStopped(const Progress* progress, std::string_view left = "no file");
 
 /// Bits of a sample: 8, 16 or 32.

@@ -35,7 +35,7 @@ private:
     pugi::xml_document document_;
 };
 
-/// What begins with a pair of code 0: an entity, a block, a row of a table.
+/// A part begins with a pair of code 0: an entity, a block, a row of a table.
 struct DxfPart {
     std::string section, kind;
     std::vector<std::pair<int, std::string>> pairs;  ///< code and value, without that of code 0

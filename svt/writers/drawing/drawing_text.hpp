@@ -37,10 +37,10 @@ namespace svt::writers {
 /// True if the section plane is horizontal.
 [[nodiscard]] bool isPlan(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) noexcept;
 
-/// The member `crs` of the GeoJSON of 2008, which GDAL and QGIS read, after a comma; empty for a CRS without a code of EPSG.
+/// The member `crs` of GeoJSON 2008, which GDAL and QGIS read, with a comma before it. Empty without an EPSG code.
 [[nodiscard]] std::string geoJsonCrs(std::string_view crsName);
 
-/// A hatch as a pattern of SVG. \param isTurned  whether its turn is written
+/// A hatch as a pattern of SVG. \param isTurned  whether the pattern has its rotation
 [[nodiscard]] std::string svgPattern(const HatchTile& tile, bool isTurned);
 
 using crs::epsgCodeOf;

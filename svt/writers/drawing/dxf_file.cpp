@@ -1,7 +1,5 @@
 #include <svt/writers/drawing/dxf_file.hpp>
 
-#include <svt/core/text.hpp>
-
 #include <algorithm>
 #include <cmath>
 
@@ -21,29 +19,6 @@ constexpr const char* kObjects =
     "  0\nENDSEC\n";
 
 }  // namespace
-
-std::string dxfText(std::string_view text) {
-    std::string safe;
-    for (std::size_t at = 0; at < text.size();) {
-        const auto [c, size] = firstCharacter(text.substr(at));
-        if (size == 0) {
-            safe += '?';
-            do ++at;
-            while (at < text.size() && (text[at] & 0xC0) == 0x80);
-            continue;
-        }
-        if (c < 0x80)
-            safe += c < 0x20 || c == 0x7F ? ' ' : static_cast<char>(c);
-        else if (c >= 0xA0 && c <= 0xFF)
-            safe += static_cast<char>(c);
-        else if (c < 0x10000)
-            safe += fmt::format("\\U+{:04X}", static_cast<std::uint32_t>(c));
-        else
-            safe += '?';
-        at += size;
-    }
-    return safe;
-}
 
 DxfBlock DxfFile::newBlock(std::string name, bool isAnonymous) {
     return {newHandle(), newHandle(), newHandle(), std::move(name), {}, isAnonymous};

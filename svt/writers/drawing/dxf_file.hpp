@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A DXF around its entities: header, tables of layers, line types and styles, and blocks.
+/// The parts of a DXF around its entities: header, tables of layers, line types and styles, and blocks.
 
 #include <svt/writers/drawing/dxf_text.hpp>
 
@@ -16,7 +16,7 @@ struct DxfLineType {
     std::vector<double> dashes;  ///< metres; gaps are below zero
 };
 
-/// What a program shows first.
+/// The view that a program shows first.
 struct DxfView {
     Vec3d low, high, center;
     double width = 0, height = 0;  ///< metres
@@ -31,7 +31,7 @@ struct DxfBlock {
 
 class DxfFile {
 public:
-    static constexpr const char* kModelSpace = "1A";  ///< handle of the block that holds what is in no other
+    static constexpr const char* kModelSpace = "1A";  ///< handle of the block of all entities that are in no other
 
     /// Handles below 0x100 are reserved for the fixed parts.
     [[nodiscard]] std::string newHandle() { return fmt::format("{:X}", nextHandle_++); }

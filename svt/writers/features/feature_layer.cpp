@@ -4,12 +4,15 @@
 #include <svt/core/text.hpp>
 #include <svt/crs/crs_name.hpp>
 #include <svt/crs/projection.hpp>
+#include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/geopackage/geopackage.hpp>
 #include <svt/writers/tables/cell_json.hpp>
 #include <svt/writers/tables/parquet_stream.hpp>
 
 #include <fmt/format.h>
+
+#include <utility>
 
 namespace svt::writers {
 namespace {

@@ -1,5 +1,6 @@
 #include <svt/writers/volume_formats.hpp>
 
+#include <svt/analyze/selection.hpp>
 #include <svt/core/text.hpp>
 
 #include <fmt/format.h>
@@ -48,6 +49,9 @@ Result<std::uint64_t> writeVolume(const volume::SemanticVolume& volume, const st
     if (format == nullptr)
         return Error(Code::BadArgument, fmt::format("'{}' ends as none of the formats that a volume can be written in",
                                                     path.filename().string()));
+    // A faulty query is an error whatever the format, even one that does not use it.
+    for (const std::string* query : {&options.holes, &options.vents})
+        if (!query->empty()) SVT_DO(analyze::selectLabels(volume.labels, *query));
     return format->write(volume, path, options);
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Geometries as well-known binary (OGC 06-103r4), little-endian, alone or with the header of a GeoPackage.
+/// Geometries as well-known binary (OGC 06-103r4), little-endian, with or without the header of a GeoPackage.
 
-#include <svt/writers/dense/piece_writer.hpp>
+#include <svt/core/bytes.hpp>
 #include <svt/writers/table.hpp>
 
 #include <algorithm>
@@ -28,6 +28,7 @@ struct MapBounds {
         }
     }
     void add(const MapBounds& other) noexcept {
+        if (other.isEmpty()) return;
         const MapPoint corners[] = {{other.minX, other.minY}, {other.maxX, other.maxY}};
         add(corners);
     }

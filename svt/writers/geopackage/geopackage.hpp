@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A GeoPackage (OGC 12-128r19) while it is made: its reference systems, tables of features, and their contents.
+/// Builds a GeoPackage (OGC 12-128r19): reference systems, tables of features, their rows and their contents.
 
 #include <svt/core/result.hpp>
 #include <svt/writers/geopackage/geometry_blob.hpp>
@@ -24,14 +24,14 @@ public:
 
     /// Creates a table with a key `fid`, a geometry `geom` of that type, and columns in SQL.
     void createFeatures(const std::string& name, const char* geometryType, const std::string& columns);
-    /// The same without a geometry.
+    /// Creates the same table without a geometry.
     void createTable(const std::string& name, const std::string& columns);
     /// Adds a row; its first cell is the key, empty for the next number. Errors are returned by finish().
     void insert(std::string_view table, std::span<const Cell> row) { database_->insert(table, row); }
-    /// Lists a table of features with its extent in the package's contents. \param bounds  empty: no extent
+    /// Adds a table of features to the package's contents. \param bounds  its extent; empty: none
     void describeFeatures(const std::string& name, const char* geometryType, std::int64_t reference,
                           const MapBounds& bounds);
-    /// The same of a table without geometry.
+    /// Adds a table without geometries to the package's contents.
     void describeAttributes(const std::string& name);
 
     /// \return the file's bytes, or CannotWrite. Equal calls give equal bytes with the same release of SQLite.

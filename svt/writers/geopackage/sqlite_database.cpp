@@ -92,6 +92,8 @@ private:
             keep(sqlite_.bindInteger(statement, number, *whole), kSqliteOk);
         else if (const auto* real = std::get_if<double>(&cell.value))
             keep(sqlite_.bindNumber(statement, number, *real), kSqliteOk);
+        else if (const auto* small = std::get_if<float>(&cell.value))
+            keep(sqlite_.bindNumber(statement, number, double(*small)), kSqliteOk);
         else if (const auto* text = std::get_if<std::string>(&cell.value))
             bindBytes(sqlite_.bindText, *text);
         else if (const auto* blob = std::get_if<Blob>(&cell.value))

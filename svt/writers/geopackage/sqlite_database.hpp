@@ -19,7 +19,7 @@ public:
     virtual ~SqliteDatabase() = default;
     /// Runs statements without results.
     virtual void run(const std::string& statements) = 0;
-    /// Adds a row to a table: a cell for each column. Truth values become 0 and 1.
+    /// Adds a row to a table: a cell for each column. Truth values become 0 and 1. Lists of texts are not stored (null).
     virtual void insert(std::string_view table, std::span<const Cell> row) = 0;
     /// The database as a file, or CannotWrite. Equal statements give equal bytes with the same release of SQLite.
     [[nodiscard]] virtual Result<std::string> bytes() = 0;

@@ -16,7 +16,7 @@ namespace svt::writers {
 /// Metres from the grid's lower corner, the outer corner of sample (0, 0, 0), along the grid's axes.
 using Positions = std::vector<Vec3f>;
 
-/// Least and greatest coordinates.
+/// The least and the greatest coordinates of positions, of which there is at least one.
 struct Extent {
     Vec3f min, max;
 };

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How formats show labels and models: names and colours.
+/// How formats show labels and models: names, colours, and the corner of the grid.
 
 #include <svt/volume/semantic_volume.hpp>
 
@@ -36,7 +36,7 @@ namespace svt::writers {
     return static_cast<std::uint8_t>(std::clamp(channel, 0.0f, 1.0f) * 255 + 0.5f);
 }
 
-/// The look of a scalar, 0xRRGGBBAA. Nothing that is there is quite invisible.
+/// The look of a scalar, 0xRRGGBBAA. Its opacity is at least 1, so that no label is invisible.
 [[nodiscard]] inline std::uint32_t lookOf(const volume::LabelTable& labels, const volume::Label& label,
                                           volume::Scalar scalar) noexcept {
     const Vec3f color = colorOf(labels, label, scalar);
@@ -45,11 +45,11 @@ namespace svt::writers {
     return look << 8 | std::max<std::uint32_t>(colorByte(label.opacity), 1);
 }
 
-/// A channel of sRGB as glTF and USD have it: linear.
+/// A channel of sRGB, 0 to 1, as glTF and USD store it: linear.
 [[nodiscard]] inline double linearChannel(float value) noexcept {
     return value <= 0.04045f ? value / 12.92 : std::pow((double(value) + 0.055) / 1.055, 2.4);
 }
-/// The same in four digits, so that math libraries that differ in the last bit give the same file.
+/// The same, rounded to four decimals: files are equal even where math libraries differ in the last bit.
 [[nodiscard]] inline double roundedLinearChannel(float value) noexcept {
     return std::round(linearChannel(value) * 1e4) / 1e4;
 }

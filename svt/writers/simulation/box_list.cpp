@@ -1,5 +1,6 @@
 #include <svt/core/file.hpp>
 #include <svt/volume/volume_json.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/simulation/box_list.hpp>
 #include <svt/writers/simulation/solid_boxes.hpp>
 #include <svt/writers/table.hpp>

@@ -112,6 +112,20 @@ TEST(Fds, HolesStandBehindAllObstaclesAndVentsOnBothSides) {
     }
 }
 
+TEST(Fds, FaultyQueriesAreErrorsInEveryFormat) {
+    const SemanticVolume volume = roomWithADoor();
+    const std::filesystem::path folder = std::filesystem::temp_directory_path();
+    for (const auto query : {&VolumeWriteOptions::holes, &VolumeWriteOptions::vents})
+        for (const char* name : {"faulty_query.fds", "faulty_query.nrrd"}) {
+            VolumeWriteOptions options;
+            options.*query = "class=";
+            const auto written = writeVolume(volume, folder / name, options);
+            ASSERT_FALSE(written) << name;
+            EXPECT_EQ(written.error().code(), Code::BadQuery) << written.error().message();
+            EXPECT_FALSE(std::filesystem::exists(folder / name));
+        }
+}
+
 TEST(Fds, HolesStayApartWhereComponentsAreMerged) {
     const SemanticVolume volume = roomWithADoor();
     VolumeWriteOptions options;

@@ -4,7 +4,6 @@
 
 #include <svt/analyze/merged_boxes.hpp>
 #include <svt/volume/semantic_volume.hpp>
-#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/volume_formats.hpp>
 
 #include <cstdint>
@@ -22,14 +21,14 @@ struct SolidGroup {
     friend bool operator==(const SolidGroup&, const SolidGroup&) = default;
 };
 
-/// What is a hole or has vents is never in one group with what is not.
+/// Holes, and components with vents, have groups of their own.
 struct SolidBoxes {
     std::vector<SolidGroup> groups;        ///< in the order of their first labels
     std::vector<analyze::GroupBox> boxes;  ///< GroupBox::group: index into groups
 };
 
 /// Spaces (rooms, and what bounds them as a surface) are air and are left out, unless nothing but spaces has voxels.
-/// \return the boxes, or BadArgument if there would be more than options.maxBoxes; or an error of the queries
+/// \return the boxes, or BadArgument for more than options.maxBoxes; BadQuery or NothingSelected of the two queries
 /// Cost: that of analyze::mergeBoxes().
 [[nodiscard]] Result<SolidBoxes> solidBoxes(const volume::SemanticVolume& volume, const VolumeWriteOptions& options);
 

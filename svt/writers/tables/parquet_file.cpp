@@ -19,7 +19,8 @@ CellType typeOf(std::span<const Row> rows, std::size_t column) {
     bool hasText = false, hasWhole = false, hasReal = false, hasSmall = false, hasTruth = false;
     for (const Row& row : rows) {
         const auto& value = row[column].value;
-        hasText = hasText || std::holds_alternative<std::string>(value);
+        hasText = hasText || std::holds_alternative<std::string>(value) ||
+                  std::holds_alternative<std::vector<std::string>>(value);
         hasWhole = hasWhole || std::holds_alternative<std::int64_t>(value);
         hasReal = hasReal || std::holds_alternative<double>(value);
         hasSmall = hasSmall || std::holds_alternative<float>(value);
@@ -33,7 +34,7 @@ CellType typeOf(std::span<const Row> rows, std::size_t column) {
     return hasWhole ? CellType::Whole : CellType::Text;
 }
 
-/// The physical type's number of parquet.thrift.
+/// The physical type, as parquet.thrift numbers it.
 std::int32_t numberOf(CellType type) {
     switch (type) {
         case CellType::Truth: return 0;
@@ -52,20 +53,10 @@ double realOf(const Cell& cell) {
     return std::get<double>(cell.value);
 }
 
-/// Bits, the lowest of each byte first.
-template <class IsSet>
-std::string packedBits(std::size_t count, const IsSet& isSet) {
-    std::string bytes((count + 7) / 8, '\0');
-    for (std::size_t n = 0; n < count; ++n)
-        if (isSet(n)) bytes[n / 8] = static_cast<char>(bytes[n / 8] | 1 << n % 8);
-    return bytes;
-}
-
 /// Which cells have a value, as one bit-packed run.
 std::string definitionLevels(std::span<const Row> rows, std::size_t column) {
     std::string run;
-    for (std::uint64_t header = (rows.size() + 7) / 8 << 1 | 1; header != 0 || run.empty(); header >>= 7)
-        run += static_cast<char>(header > 127 ? (header & 127) | 128 : header);
+    appendVarint(run, (rows.size() + 7) / 8 << 1 | 1);
     run += packedBits(rows.size(), [&](std::size_t n) { return !rows[n][column].isEmpty(); });
     std::string bytes;
     appendBytes(bytes, static_cast<std::uint32_t>(run.size()));

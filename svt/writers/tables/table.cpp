@@ -1,5 +1,7 @@
 #include <svt/writers/tables/cell_json.hpp>
 
+#include <svt/core/text.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,17 +25,13 @@ struct TextOfValue {
 std::string alignedText(const Cell& cell, int decimals) {
     if (cell.isEmpty()) return "-";
     if (const auto* number = std::get_if<double>(&cell.value)) return fmt::format("{:.{}f}", *number, decimals);
+    if (const auto* small = std::get_if<float>(&cell.value)) return fmt::format("{:.{}f}", *small, decimals);
     return cellText(cell);
 }
 
 bool isNumberOrEmpty(const Cell& cell) {
     return cell.isEmpty() || std::holds_alternative<std::int64_t>(cell.value) ||
-           std::holds_alternative<double>(cell.value);
-}
-
-// Counts letters, not bytes.
-std::size_t letterCount(const std::string& text) {
-    return std::size_t(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+           std::holds_alternative<double>(cell.value) || std::holds_alternative<float>(cell.value);
 }
 
 }  // namespace
@@ -54,13 +52,13 @@ std::string makeText(const Table& table) {
     std::vector<bool> isNumber(table.columns.size(), true);
     for (const Column& column : table.columns) {
         lines[0].push_back(column.title);
-        width.push_back(letterCount(column.title));
+        width.push_back(characterCount(column.title));
     }
     for (const Row& row : table.rows) {
         lines.emplace_back();
         for (std::size_t c = 0; c < row.size(); ++c) {
             lines.back().push_back(alignedText(row[c], table.columns[c].decimals));
-            width[c] = std::max(width[c], letterCount(lines.back().back()));
+            width[c] = std::max(width[c], characterCount(lines.back().back()));
             isNumber[c] = isNumber[c] && isNumberOrEmpty(row[c]);
         }
     }
@@ -69,7 +67,7 @@ std::string makeText(const Table& table) {
         std::string text;
         for (std::size_t c = 0; c < line.size(); ++c) {
             if (table.columns[c].title.empty()) continue;
-            const std::string pad(width[c] - letterCount(line[c]), ' ');
+            const std::string pad(width[c] - characterCount(line[c]), ' ');
             text += (text.empty() ? "" : "  ") + (isNumber[c] ? pad + line[c] : line[c] + pad);
         }
         text.erase(text.find_last_not_of(' ') + 1);

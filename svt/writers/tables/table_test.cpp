@@ -20,6 +20,11 @@ TEST(Table, TextHasAlignedColumnsAndDashesForEmptyCells) {
               "Tür \"b\"    -  true\n");
 }
 
+TEST(Table, TextAlignsSmallNumbersAsNumbers) {
+    const Table table{{{"a", "a", 1}}, {{0.5f}, {12.0}}};
+    EXPECT_EQ(makeText(table), "   a\n 0.5\n12.0\n");
+}
+
 TEST(Table, JsonKeepsTypesAndListsColumnsWithoutTitles) {
     Table table = sampleTable();
     table.rows.pop_back();

@@ -1,6 +1,6 @@
 /// \file
-/// What is known of the objects of a volume, and their contacts, as tables, which become CSV or Parquet for spreadsheets,
-/// pandas and databases. Metres.
+/// Writes the objects of a volume, and their contacts, as tables: CSV or Parquet for spreadsheets, pandas and databases.
+/// Metres.
 
 #include <svt/analyze/label_measures.hpp>
 #include <svt/core/file.hpp>
@@ -101,47 +101,40 @@ Table makeContactTable(const volume::SemanticVolume& volume, int threads) {
     return table;
 }
 
-template <Table (*makeTable)(const volume::SemanticVolume&, int)>
-Result<std::uint64_t> writeCsv(const volume::SemanticVolume& volume, const std::filesystem::path& path,
-                               const VolumeWriteOptions& options) {
-    return writeFileAtomically(path, makeCsv(makeTable(volume, options.threads)));
+template <auto makeTable>
+constexpr VolumeFormat csvFormat(std::string_view name, std::string_view endings, std::string_view holds) {
+    return {.name = name,
+            .endings = endings,
+            .holds = holds,
+            .readers = "spreadsheets, pandas, databases",
+            .content = FileContent::Text,
+            .write = [](const auto& volume, const auto& path, const auto& options) {
+                return writeFileAtomically(path, makeCsv(makeTable(volume, options.threads)));
+            }};
 }
 
-template <Table (*makeTable)(const volume::SemanticVolume&, int)>
-Result<std::uint64_t> writeParquet(const volume::SemanticVolume& volume, const std::filesystem::path& path,
-                                   const VolumeWriteOptions& options) {
-    SVT_TRY(bytes, makeParquet(makeTable(volume, options.threads)));
-    return writeFileAtomically(path, *bytes);
+template <auto makeTable>
+constexpr VolumeFormat parquetFormat(std::string_view name, std::string_view endings, std::string_view holds) {
+    return {.name = name,
+            .endings = endings,
+            .holds = holds,
+            .readers = "pandas, DuckDB, Spark, GDAL, R",
+            .content = FileContent::Parquet,
+            .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
+                SVT_TRY(bytes, makeParquet(makeTable(volume, options.threads)));
+                return writeFileAtomically(path, *bytes);
+            }};
 }
 
 }  // namespace
 
-extern const VolumeFormat kObjects{.name = "objects",
-                                   .endings = ".csv",
-                                   .holds = "a line per object: class, name, parent, volume, surface, box, attributes",
-                                   .readers = "spreadsheets, pandas, databases",
-                                   .content = FileContent::Text,
-                                   .write = writeCsv<makeObjectTable>};
-
-extern const VolumeFormat kContacts{.name = "contacts",
-                                    .endings = ".contacts.csv",
-                                    .holds = "a line per pair of objects that touch: area, faces",
-                                    .readers = "spreadsheets, pandas, databases",
-                                    .content = FileContent::Text,
-                                    .write = writeCsv<makeContactTable>};
-
-extern const VolumeFormat kObjectParquet{.name = "objectparquet",
-                                         .endings = ".parquet",
-                                         .holds = "the table of objects as Apache Parquet",
-                                         .readers = "pandas, DuckDB, Spark, GDAL, R",
-                                         .content = FileContent::Parquet,
-                                         .write = writeParquet<makeObjectTable>};
-
-extern const VolumeFormat kContactParquet{.name = "contactparquet",
-                                          .endings = ".contacts.parquet",
-                                          .holds = "the table of contacts as Apache Parquet",
-                                          .readers = "pandas, DuckDB, Spark, GDAL, R",
-                                          .content = FileContent::Parquet,
-                                          .write = writeParquet<makeContactTable>};
+extern const VolumeFormat kObjects = csvFormat<makeObjectTable>(
+    "objects", ".csv", "a line per object: class, name, parent, volume, surface, box, attributes");
+extern const VolumeFormat kContacts =
+    csvFormat<makeContactTable>("contacts", ".contacts.csv", "a line per pair of objects that touch: area, faces");
+extern const VolumeFormat kObjectParquet =
+    parquetFormat<makeObjectTable>("objectparquet", ".parquet", "the table of objects as Apache Parquet");
+extern const VolumeFormat kContactParquet =
+    parquetFormat<makeContactTable>("contactparquet", ".contacts.parquet", "the table of contacts as Apache Parquet");
 
 }  // namespace svt::writers

@@ -2,6 +2,8 @@
 /// \file
 /// Structs of the compact protocol of Thrift, as the metadata of Parquet are written.
 
+#include <svt/core/bytes.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -16,7 +18,8 @@ public:
     ThriftStruct& number32(int id, std::int32_t value) { return begin(id, 5).zigzag(value); }
     ThriftStruct& number64(int id, std::int64_t value) { return begin(id, 6).zigzag(value); }
     ThriftStruct& text(int id, std::string_view value) {
-        begin(id, 8).varint(value.size());
+        begin(id, 8);
+        appendVarint(bytes_, value.size());
         bytes_ += value;
         return *this;
     }
@@ -38,7 +41,7 @@ public:
     ThriftStruct& list(int id, const std::vector<std::string>& values) {
         beginList(id, values.size(), 8);
         for (const std::string& value : values) {
-            varint(value.size());
+            appendVarint(bytes_, value.size());
             bytes_ += value;
         }
         return *this;
@@ -55,15 +58,11 @@ private:
     void beginList(int id, std::size_t size, int type) {
         begin(id, 9);
         bytes_ += static_cast<char>((size < 15 ? static_cast<int>(size) : 15) << 4 | type);
-        if (size >= 15) varint(size);
+        if (size >= 15) appendVarint(bytes_, size);
     }
     ThriftStruct& zigzag(std::int64_t value) {
-        varint(static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63));
+        appendVarint(bytes_, svt::zigzag(value));
         return *this;
-    }
-    void varint(std::uint64_t value) {
-        for (; value > 127; value >>= 7) bytes_ += static_cast<char>(value | 128);
-        bytes_ += static_cast<char>(value);
     }
 
     std::string bytes_;

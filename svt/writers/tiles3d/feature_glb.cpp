@@ -166,7 +166,7 @@ Vec3f withYUp(Vec3d v) noexcept {
 
 void FlatMesh::append(const LabelSurface& surface, std::span<const Vec3d> places, float feature,
                       const std::function<VertexColor(Vec3d)>& colorOf) {
-    // Vertices that are one: the same corner, and the same normal in a few bits.
+    // Faces share a vertex where corner and normal are equal, the normal to 10 bits for each axis.
     std::unordered_map<std::uint64_t, std::uint32_t> known;
     known.reserve(places.size() * 2);
     for (const auto& triangle : surface.triangles) {

@@ -1,6 +1,6 @@
 #include <svt/writers/tiles3d/quadtree_index.hpp>
 
-#include <svt/writers/dense/piece_writer.hpp>
+#include <svt/core/bytes.hpp>
 #include <svt/writers/tiles3d/property_table.hpp>
 
 #include <algorithm>
@@ -11,22 +11,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A constant where all are equal.
+// Which tiles exist: a constant for none, else a bit for each.
 Json availability(const std::vector<bool>& bits, GltfBuffer& buffer) {
     const auto count = std::count(bits.begin(), bits.end(), true);
     if (count == 0) return {{"constant", 0}};
-    const std::string bytes = packedBits(bits);
+    const std::string bytes = packedBits(bits.size(), [&](std::size_t n) { return bits[n]; });
     return {{"bitstream", buffer.add(std::as_bytes(std::span(bytes)))}, {"availableCount", count}};
 }
 
 }  // namespace
-
-std::string packedBits(const std::vector<bool>& bits) {
-    std::string bytes((bits.size() + 7) / 8, '\0');
-    for (std::size_t n = 0; n < bits.size(); ++n)
-        if (bits[n]) bytes[n / 8] = static_cast<char>(static_cast<unsigned char>(bytes[n / 8]) | 1u << (n % 8));
-    return bytes;
-}
 
 std::string makeSubtreeFile(nlohmann::ordered_json json, std::string binary) {
     binary.resize((binary.size() + 7) / 8 * 8, '\0');

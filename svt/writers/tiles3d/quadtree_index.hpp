@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The squares of a quadtree that there are, and the files that say so: subtrees of 3D Tiles 1.1 (implicit tiling), each of
+/// The squares of a quadtree that exist, and the files that list them: subtrees of 3D Tiles 1.1 (implicit tiling), each of
 /// some levels.
 
 #include <svt/core/vec.hpp>
@@ -48,10 +48,7 @@ private:
 /// Bit n of x is bit 2n, of y bit 2n + 1: the order of squares in subtrees.
 [[nodiscard]] std::uint64_t mortonOf(QuadtreeNode node) noexcept;
 
-/// Bits, the lowest of a byte first.
-[[nodiscard]] std::string packedBits(const std::vector<bool>& bits);
-
-/// A `.subtree` of a document and its one buffer, each padded to a multiple of 8 bytes; adds `buffers` to the document.
+/// A `.subtree` of its JSON and its only buffer, each padded to a multiple of 8 bytes. Sets `buffers` of the JSON.
 [[nodiscard]] std::string makeSubtreeFile(nlohmann::ordered_json json, std::string binary);
 
 }  // namespace svt::writers

@@ -28,8 +28,8 @@ constexpr std::uint64_t kTileTriangles = 300'000;
 
 /// Writes a folder that appears when all of it is written; one that is there is not replaced. Equal volumes give equal
 /// bytes. Memory: that of labelSurfaces(), and one tile.
-/// \return bytes of all files, or CannotProject (a volume without a CRS and no place, or a CRS that leads to none),
-///         BadArgument for a place that is none, NothingSelected, GridTooLarge, WouldDestroy, CannotWrite, Cancelled
+/// \return bytes of all files, or CannotProject (a volume without a CRS and no place, or a CRS that PROJ cannot convert),
+///         BadArgument for an invalid place, NothingSelected, GridTooLarge, WouldDestroy, CannotWrite, Cancelled
 Result<std::uint64_t> writeTileset(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                    const VolumeWriteOptions& options) {
     if (options.hasVoxels) return writeVoxelTileset(volume, path, options);

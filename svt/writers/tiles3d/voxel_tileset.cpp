@@ -123,8 +123,9 @@ std::string tileGlb(const std::string& bytes, Vec3i tile, Vec3d size, Vec3d cent
 
 /// The one subtree: which tiles there are.
 std::string subtreeOf(const std::vector<bool>& isThere) {
-    const std::string bits = packedBits(isThere);
+    const std::string bits = packedBits(isThere.size(), [&](std::size_t n) { return isThere[n]; });
     const TilesetJson available{{"bitstream", 0}, {"availableCount", std::count(isThere.begin(), isThere.end(), true)}};
+    // makeSubtreeFile() sets `buffers`, which comes first here.
     return makeSubtreeFile({{"buffers", nullptr},
                             {"bufferViews", {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", bits.size()}}}},
                             {"tileAvailability", available},

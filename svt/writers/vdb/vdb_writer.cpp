@@ -2,14 +2,14 @@
 /// Writes a volume as OpenVDB (.vdb, version 224 of the file format), which Blender, Houdini, Maya, Unreal and the OpenVDB
 /// library open.
 ///
-/// Grid `label`: the scalar of each voxel, active where it is not background; a float, which all programs read, also
-/// those without grids of whole numbers. Then for each class of features that
-/// has voxels a grid of its name (Float, a fog volume): 1 in its voxels, 0 elsewhere. Uniform cubes of 8 and 128 samples are
-/// tiles. A voxel's centre is at its whole index, and the transform leads to world coordinates in metres, also of a turned
-/// grid. The metadata of the file have `svt.json` and `labels.json` of a `.svt`, and `crs`.
+/// Grid `label`: the scalar of each voxel, active where it is not background; a float, since some programs read no
+/// grids of whole numbers. Then a grid for each class of features with voxels, named by the class (Float, a fog
+/// volume): 1 in its voxels, 0 elsewhere. Uniform cubes of 8 and 128 samples are tiles. A voxel's centre is at its
+/// whole index, and the transform leads to world coordinates in metres, also of a turned grid. The metadata of the file
+/// have `svt.json` and `labels.json` of a `.svt`, and `crs`.
 ///
 /// Or each class is a level set: signed distances in metres to the surface of its voxels, negative inside, within three
-/// samples of it; of voxels that are cubes alone. Programs make meshes of these, offset them and combine them.
+/// samples of it; only for voxels that are cubes. Programs make meshes of these, offset them and combine them.
 ///
 /// Written from the format as the OpenVDB library reads it (openvdb/io, openvdb/tree, version 10), without the library.
 
@@ -159,10 +159,10 @@ Result<void> checkCubes(const volume::Grid& grid) {
 }
 
 /// Writes one file, all or nothing. Equal volumes give equal bytes. Memory: some blocks of 128^3 samples. Cost: the samples
-/// of each block are unrolled once, and once more for each grid that has something in it, thrice where the grid has
-/// more than 64 MB.
+/// of each block are unrolled once, and once more for each grid with active voxels there; three times if the grid has more
+/// than 64 MB.
 /// \return bytes, or NothingSelected if no label has voxels, CannotWrite, DiskFull, Cancelled; BadArgument as
-///         checkedSampleBits(), for more than 2^24 scalars, and for level sets where voxels are no cubes
+///         checkedSampleBits(), for more than 2^24 scalars, and for level sets of voxels that are not cubes
 Result<std::uint64_t> writeVdb(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const VolumeWriteOptions& options) {
     SVT_DO(checkedSampleBits(volume));

@@ -1,11 +1,11 @@
 /// \file
 /// Writes a volume for MagicaVoxel (.vox, version 150 with the scene graph), which voxel editors and game engines open.
 ///
-/// A group for each label with voxels, named by its name or id, with its voxels in models of at most 256 x 256 x 256, the
-/// format's limit; a model is cut to what the label has there. z is up; a voxel is a voxel, its size in metres is told by
-/// the root's attributes `svt_spacing`, and `svt_origin` is where the first sample is (world coordinates), `svt_crs` what
-/// they are in. The palette has the colours of the labels with their opacity; of more than 255 the most frequent ones, the
-/// others become the nearest of them.
+/// A group for each label with voxels, named by its name or id, with its voxels in models of at most 256 x 256 x 256,
+/// the format's limit; a model is cut to what the label has there. z is up. The root has the attributes `svt_spacing`
+/// (size of a voxel, metres), `svt_origin` (world coordinates of the first sample) and `svt_crs` (their CRS). The
+/// palette has the colours of the labels with their opacity; of more than 255 the most frequent ones, the others become
+/// the nearest of them.
 
 #include <svt/analyze/scalar_boxes.hpp>
 #include <svt/volume/dense.hpp>

@@ -242,10 +242,8 @@ Result<std::string> writeBesideScene(const volume::SemanticVolume& volume, int b
     return text + fmt::format("{}</ComposedTexture3D>\n", kNearest);
 }
 
-/// What is written beside the document: `<stem>.labels.nrrd`, or `<stem>_slices/0000.png` and so on, or
-/// `<stem>.atlas.png`.
-/// Equal volumes give equal bytes; the document appears when all is written.
-/// \param maxVoxels  limit of samples as numbers in the document
+/// Beside the document it writes `<stem>.labels.nrrd`, or `<stem>_slices/0000.png` and so on, or `<stem>.atlas.png`.
+/// Equal volumes give equal bytes. The document appears when all is written.
 /// \return bytes of the document, or BadArgument (too many scalars or voxels), CannotWrite, DiskFull, WouldDestroy,
 ///         Cancelled
 Result<std::uint64_t> writeX3d(const volume::SemanticVolume& volume, const std::filesystem::path& path,

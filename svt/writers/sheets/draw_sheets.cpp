@@ -46,7 +46,7 @@ Result<SheetContent> drawSheets(illustrate::SheetSet& set, const volume::Semanti
         if (content.views.empty()) options.nothing = nothing;
         SVT_TRY(drawing, bricks ? illustrate::drawSection(volume, *bricks, view.plane, options)
                                 : illustrate::drawSection(volume, view.plane, options));
-        // Where one view needs bricks, so do the others: they are made once more and kept.
+        // If one view needs bricks, the others do too. So they are made here and kept.
         if (!bricks && std::ranges::any_of(drawing->components, [](const auto& c) { return !c.isExact; })) {
             SVT_TRY(made,
                     volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes, .threads = threads}));
