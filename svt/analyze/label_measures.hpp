@@ -29,7 +29,7 @@ struct LabelMeasure {
 /// rooms. 0 for sheets.
 [[nodiscard]] std::vector<double> ownVolumes(const volume::LabelTable& labels, const volume::Grid& grid);
 
-/// Volume of a label's solid, m3; where it has none, of the solids below it in the tree.
+/// Volume of a label's solid, m3. A label without a solid has the sum of those below it in the tree; 0: there are none.
 [[nodiscard]] double solidVolume(const volume::LabelTable& labels, std::uint32_t label) noexcept;
 
 /// The box around the voxels of `box`, along world axes, metres; empty if `box` is.

@@ -33,10 +33,13 @@ struct IndexEntry {
     [[nodiscard]] bool hasRectangle() const noexcept { return rectangle[0] < rectangle[2]; }
 };
 
-/// West, south, east and north without bounds: City::find() then finds all tiles.
+/// A rectangle (west, south, east, north) without bounds, for which City::find() finds all tiles.
 inline constexpr std::array<double, 4> kEverywhere{
     -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
     std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+
+/// How far a building may reach over the square of its tile, in metres: its middle is inside.
+inline constexpr double kMostReach = 500;
 
 /// What is done of a plan.
 struct CityStatus {
@@ -162,8 +165,10 @@ struct Extract {
 /// \return the volume, or NothingSelected, BadArgument, GridTooLarge, BadPack, BadCity
 [[nodiscard]] Result<volume::SemanticVolume> extractVolume(const City& city, const Extract& extract);
 
-/// The whole city at the finest detail with at most so many bytes of members, and samples along its longer side; else the
-/// coarsest one. \return the volume, or an error of City::find(), extractVolume()
+/// The whole city at the finest detail that keeps both limits; at the coarsest one if none does.
+/// \param mostBytes    of all members of the detail
+/// \param mostSamples  along the longer side of the city
+/// \return the volume, or an error of City::find() or extractVolume()
 [[nodiscard]] Result<volume::SemanticVolume> wholeVolume(const City& city, std::uint64_t mostBytes, double mostSamples);
 
 }  // namespace svt::city

@@ -31,7 +31,7 @@ struct JoinedTiles {
 [[nodiscard]] Result<JoinedTiles> joinTiles(const City& city, const volume::SemanticVolume& frame,
                                             const ChosenTiles& chosen, std::vector<volume::SemanticVolume> parts);
 
-/// What the camera of a scene sees of a city, for chooseTiles().
+/// The view of a scene's camera on a city, for chooseTiles().
 /// \param frame  frameVolume() of the city
 /// \return the view, or an error of makeFrameSpec()
 [[nodiscard]] Result<CameraView> viewOf(const illustrate::Scene& scene, const volume::SemanticVolume& frame);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// All tiles of a city, read one after the other: whether they are whole, what a plane cuts of them, and which buildings
-/// claim the same space.
+/// All tiles of a city, read one after the other: damaged tiles, sections, and pairs of buildings that claim the same
+/// space.
 
 #include <svt/city/city_folder.hpp>
 #include <svt/core/diagnostics.hpp>
@@ -27,7 +27,7 @@ namespace svt::city {
                                        const std::function<Result<void>(const volume::SemanticVolume&)>& work,
                                        const std::function<bool(const IndexEntry&)>& isWanted = {});
 
-/// What the tiles of a city are.
+/// Counts of the tiles of a city.
 struct TileCheck {
     std::uint64_t tiles = 0, damaged = 0;
     std::uint64_t buildings = 0, solids = 0, open = 0;  ///< of detail 0; open: solids whose shell had holes
@@ -60,9 +60,9 @@ struct CityOverlap {
     std::string tiles;  ///< one, or two with a blank between them
 };
 
-/// Pairs of different buildings (labels without parent) that claim a sample of detail 0, of which the query selects one at
-/// least or something below it. Within a tile they were counted when it was built; of two tiles all samples that both
-/// fill are.
+/// Pairs of different buildings (labels without parent) that claim a sample of detail 0. The query selects at least one of
+/// the two, or something below it. The build of a tile counted the samples of its pairs; for pairs of two tiles, all
+/// samples that both fill count.
 /// \return the pairs, or an error of City::find(), City::read() or the query; Cancelled
 /// Cost: each tile is read once, and again for each neighbour that it reaches over to and that is not in memory.
 [[nodiscard]] Result<std::vector<CityOverlap>> cityOverlaps(const City& city, const std::string& query,

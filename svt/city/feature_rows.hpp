@@ -1,13 +1,12 @@
 #pragma once
 /// \file
-/// What is measured of features of one volume, with all below them: the rows of `svt query` on cities.
+/// Measures of features of one volume, each with all features below it: the rows of `svt query` on cities.
 
 #include <svt/illustrate/section_plane.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 

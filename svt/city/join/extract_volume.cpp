@@ -11,7 +11,7 @@
 namespace svt::city {
 namespace {
 
-// The chosen labels alone, in a table without the others. \param kept  ascending; whole subtrees
+// The volume with only the chosen labels, and a table of these. \param kept  ascending; whole subtrees
 volume::SemanticVolume withLabels(const volume::SemanticVolume& volume, const std::vector<std::uint32_t>& kept) {
     const std::vector<volume::Label>& labels = volume.labels.labels;
     volume::SemanticVolume result;
@@ -63,12 +63,15 @@ Result<std::vector<IndexEntry>> entriesOf(const City& city, const Extract& extra
         for (const City::Place& place : *places) tiles.push_back(place.tile);
     }
     if (!tiles.empty() && !extract.hasBox && extract.detail < kFirstClassDetail) {
-        // Only the pages of the index that have these tiles are read: the samples of a tile meet its square.
+        // Reads only the pages of the index around these tiles. The survey counts geometry that a tile may lack, such as
+        // another level of detail, so samples may also lie beside the square.
         rectangle = {rectangle[2], rectangle[3], rectangle[0], rectangle[1]};
         for (const TileKey& tile : tiles) {
             const double side = tileSide(tile, extract.detail, city.spacing());
-            rectangle = {std::min(rectangle[0], tile.x * side), std::min(rectangle[1], tile.y * side),
-                         std::max(rectangle[2], (tile.x + 1) * side), std::max(rectangle[3], (tile.y + 1) * side)};
+            rectangle = {std::min(rectangle[0], tile.x * side - kMostReach),
+                         std::min(rectangle[1], tile.y * side - kMostReach),
+                         std::max(rectangle[2], (tile.x + 1) * side + kMostReach),
+                         std::max(rectangle[3], (tile.y + 1) * side + kMostReach)};
         }
     }
     SVT_TRY(entries, city.find(extract.detail, rectangle));

@@ -16,7 +16,7 @@ namespace {
 
 using writers::TileContent;
 
-/// What a square of the quadtree is made of: tiles of detail 0 or 1, or the columns of a coarser one.
+/// The content of a square of the quadtree: tiles of detail 0 or 1, or the columns of a coarser one.
 struct Square {
     writers::QuadtreeNode node;
     int detail = 0;

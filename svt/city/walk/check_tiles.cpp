@@ -5,7 +5,7 @@
 namespace svt::city {
 namespace {
 
-// The findings of the labels of a tile: what the program that built it could not close, or closed itself.
+// Adds a finding for each shell of a tile that was open in the model.
 void addShells(const volume::SemanticVolume& tile, TileCheck& counted, Diagnostics& findings) {
     for (const volume::Label& label : tile.labels.labels) {
         counted.solids += label.volume > 0;

@@ -10,7 +10,7 @@
 namespace svt::city {
 namespace {
 
-// A tile with what is asked of its labels.
+// A tile, and facts of its labels.
 struct Tile {
     volume::SemanticVolume volume;
     std::vector<std::uint32_t> rootOf;   // by label
@@ -104,7 +104,7 @@ private:
         return {};
     }
 
-    // Whether samples of both may lie at one place.
+    // Whether samples of both may lie at the same place.
     [[nodiscard]] bool meet(const IndexEntry& a, const IndexEntry& b) const {
         if (!a.hasRectangle() || !b.hasRectangle()) {
             // Cities of version 1: neighbours.

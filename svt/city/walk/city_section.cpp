@@ -12,7 +12,7 @@ namespace {
 using illustrate::PlanePoint;
 using illustrate::SectionDrawing;
 
-// Collects the drawings of tiles in the coordinates of one of them.
+// Collects the drawings of tiles in the coordinates of the city.
 class Collector {
 public:
     Collector(const illustrate::SectionPlane& plane, volume::SemanticVolume frame) {
@@ -105,11 +105,12 @@ std::pair<double, double> distances(const illustrate::SectionPlane& plane, Vec3d
     return {nearest, farthest};
 }
 
-// Whether a plane may cut what a tile has. \param reach  of buildings over the border of their tile, metres
-bool mayCut(const illustrate::SectionPlane& plane, const IndexEntry& entry, double reach) {
+// Whether a plane may cut a building of a tile.
+bool mayCut(const illustrate::SectionPlane& plane, const IndexEntry& entry) {
     const double side = std::ldexp(1.0, entry.tile.level);
-    const Vec3d low{entry.tile.x * side - reach, entry.tile.y * side - reach, double(entry.lowest)};
-    const Vec3d high{(entry.tile.x + 1) * side + reach, (entry.tile.y + 1) * side + reach, double(entry.highest)};
+    const Vec3d low{entry.tile.x * side - kMostReach, entry.tile.y * side - kMostReach, double(entry.lowest)};
+    const Vec3d high{(entry.tile.x + 1) * side + kMostReach, (entry.tile.y + 1) * side + kMostReach,
+                     double(entry.highest)};
     const auto [nearest, farthest] = distances(plane, low, high, [](Vec3d corner) { return corner; });
     return nearest <= 0 && farthest >= 0;
 }
@@ -135,9 +136,7 @@ Result<CitySection> cutCity(const City& city, const std::string& text, const ill
         collector.add(std::move(*drawing), tile);
         return {};
     };
-    // Of a building its middle is in the tile: it reaches out by half of its length at most.
-    constexpr double kReach = 500;
-    const auto isWanted = [&](const IndexEntry& entry) { return mayCut(*plane, entry, kReach); };
+    const auto isWanted = [&](const IndexEntry& entry) { return mayCut(*plane, entry); };
     SVT_DO(forEachTile(city, kEverywhere, options.threads, progress, cut, isWanted));
     return collector.finish();
 }

@@ -29,7 +29,7 @@ std::vector<Point> hullOf(std::vector<Point> points) {
     return hull;
 }
 
-// What is gathered of a row while columns are read.
+// Sums of a row while columns are read.
 struct Gathered {
     std::int32_t low = INT32_MAX, high = -1;          // samples [low, high)
     double nearest = INFINITY, farthest = -INFINITY;  // of corners of voxels from the plane
