@@ -67,13 +67,15 @@ std::string stampOf(const fs::path& file) {
            std::to_string(fs::last_write_time(file).time_since_epoch().count());
 }
 
-// Outputs of prepare() by the command of this build; those of an earlier command are removed.
+// Outputs of prepare() by the command of this build. Those of earlier commands are removed, one folder at a time: other tests
+// that start now may already write into the folder of this command.
 const fs::path& preparedFolder() {
     static const fs::path folder = [] {
         const fs::path parent = buildFolder() / "tests/prepared", own = parent / stampOf(commandPath());
-        std::error_code ignored;
-        if (!fs::exists(own)) fs::remove_all(parent, ignored);
         fs::create_directories(own);
+        std::error_code ignored;
+        for (const fs::directory_entry& entry : fs::directory_iterator(parent))
+            if (entry.path() != own) fs::remove_all(entry.path(), ignored);
         return own;
     }();
     return folder;
@@ -86,7 +88,7 @@ std::string keyOf(const fs::path& folder, const std::vector<std::string>& argume
         key += argument + '\0';
         const fs::path file = folder / argument;
         if (argument == output || !fs::exists(file)) continue;
-        EXPECT_FALSE(fs::is_directory(file)) << "the content of a folder is not looked at: " << file;
+        EXPECT_FALSE(fs::is_directory(file)) << "the key has no content of folders: " << file;
         key += (fs::path(argument).is_absolute() ? stampOf(file) : readText(file)) + '\0';
     }
     return std::to_string(std::hash<std::string>()(key));

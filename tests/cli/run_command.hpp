@@ -57,9 +57,8 @@ std::string runSvtWell(const std::filesystem::path& folder, const std::vector<st
 /// Runs `svt`, expects exit code 0, and returns stdout as JSON.
 nlohmann::json runSvtForJson(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
-/// Runs `svt sample`, `svt build` or `svt convert` for the set-up of a test and expects exit code 0. The output is kept in the
-/// build folder, so that the same command with the same arguments and inputs runs once for all tests. Not for commands that
-/// the test itself is about.
+/// Runs `svt sample`, `svt build` or `svt convert` to set a test up and expects exit code 0. The output is kept in the build
+/// folder: the same command with the same arguments and inputs runs once for all tests. Not for the commands under test.
 void prepare(const std::filesystem::path& folder, const std::vector<std::string>& arguments);
 
 /// Prepares the generated house as house.gml and its volume as house.svt; `more`: options of `svt build`.
@@ -84,8 +83,8 @@ struct ShellResult {
 /// Runs a shell command, expects exit code 0, and returns its output.
 std::string runShellWell(const std::filesystem::path& folder, const std::string& command);
 
-/// Runs a shell command and expects exit code 0, unless its program is missing. Returns whether it is there; `said` receives
-/// the output.
+/// Runs a shell command and expects exit code 0, unless its program is missing; `said` receives the output.
+/// \return whether the program is there
 [[nodiscard]] bool isRun(const std::filesystem::path& folder, const std::string& command, std::string& said);
 
 /// Whether a program is installed, by a command that prints its version.

@@ -44,7 +44,7 @@ inline void checkModel(const model::BuildingModel& model) {
     require(model.treeOrder().size() == model.features.size());
 }
 
-/// Ends the program if a feature has no id. Not for CityJSON, where "" is an id as good as others.
+/// Ends the program if a feature has no id. Not for CityJSON, which allows "" as an id.
 inline void checkIds(const model::BuildingModel& model) {
     for (const model::Feature& feature : model.features) require(!feature.id.empty());
 }

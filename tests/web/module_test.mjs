@@ -207,7 +207,7 @@ test("errors have their codes, and leave what was open as it was", () => {
   assert.equal(ask("select", "all").length, before.features.length);
 });
 
-/** What a scene shows of a city: each range of bytes that the module needs is read from the folder. */
+/** Answers the module with ranges of bytes of the city's folder until it has all that the scene shows. */
 function look(city, scene, isOther) {
   for (let first = isOther; ; first = false) {
     const reply = ask("cityLook", first, scene, ...scene.size, { pixels: 1, memory: 1e9, shown: "" });

@@ -12,6 +12,7 @@
 
 namespace svt::samples::city {
 
+/// The random numbers of a building.
 class Draw : public Random {
 public:
     using Random::Random;

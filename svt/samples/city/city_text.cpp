@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -21,6 +22,11 @@ std::string_view elementOf(FaceKind kind) {
         case FaceKind::Wall: break;
     }
     return "WallSurface";
+}
+
+// The version of CityGML. New York's twenty files are of two versions.
+std::string_view versionOf(CityProfile profile, int file) {
+    return profile == CityProfile::Berlin || (profile == CityProfile::NewYork && file % 2 == 0) ? "1.0" : "2.0";
 }
 
 std::string heightText(const Building& building) {
@@ -47,14 +53,8 @@ Point mapPoint(CityProfile profile, Point point) {
             35'500'000'000 + std::llround(y / kMillimetresPerDegreeNorth * 1e9), point.z};
 }
 
-// New York's twenty files are of two versions.
 CityText::CityText(const CitySampleOptions& options, int file, const SampleSink& sink)
-    : options_(options),
-      sink_(sink),
-      gml_(sink_,
-           options.profile == CityProfile::Berlin || (options.profile == CityProfile::NewYork && file % 2 == 0) ? "1.0"
-                                                                                                                : "2.0",
-           true) {
+    : options_(options), sink_(sink), gml_(sink_, versionOf(options.profile, file), true) {
     if (options.profile == CityProfile::Dutch)
         jsonHead();
     else
@@ -94,17 +94,17 @@ void CityText::coordinates(const Point& point) {
 }
 
 void CityText::gmlMember(const Face& face, const std::string& id) {
-    gml_.member(id + "_P", face.rings, [&](const Point& point) { coordinates(point); });
+    gml_.member(id, face.rings, [&](const Point& point) { coordinates(point); });
 }
 
 void CityText::gmlSurface(const Face& face, const std::string& id, int lod) {
     const bool isWindow = face.kind == FaceKind::Window;
     const GmlElement property(sink_, isWindow ? "bldg:opening" : "bldg:boundedBy", {}, "\n");
     const GmlElement surface(sink_, fmt::format("bldg:{}", elementOf(face.kind)), id);
-    gml_.multiSurface(fmt::format("bldg:lod{}MultiSurface", lod), "", [&] { gmlMember(face, id); });
+    gml_.multiSurface(fmt::format("bldg:lod{}MultiSurface", lod), "", [&] { gmlMember(face, id + "_P"); });
 }
 
-// A solid of the faces' polygons, which are written elsewhere.
+// A solid that refers to the polygons of its faces.
 void CityText::gmlLinkedSolid(const std::string& property, const Body& body, const std::string& id) {
     const GmlElement element(sink_, property, {}, "\n");
     gml_.solid(id + "_S", [&] {
@@ -118,8 +118,7 @@ void CityText::gmlBody(const Body& body, const std::string& id, const Building& 
     if (building.lod == 1) {
         const GmlElement element(sink_, "bldg:lod1Solid", {}, "\n");
         gml_.solid(id + "_S", [&] {
-            for (std::size_t f = 0; f < body.faces.size(); ++f)
-                gml_.member(faceId(f), body.faces[f].rings, [&](const Point& point) { coordinates(point); });
+            for (std::size_t f = 0; f < body.faces.size(); ++f) gmlMember(body.faces[f], faceId(f));
         });
         return;
     }

@@ -6,7 +6,6 @@
 #include <svt/samples/formats/gml_text.hpp>
 
 #include <string>
-#include <string_view>
 
 namespace svt::samples::city {
 

@@ -4,6 +4,7 @@
 #include <svt/samples/formats/writers.hpp>
 
 #include <string>
+#include <utility>
 
 namespace svt::samples {
 namespace {

@@ -10,7 +10,7 @@
 namespace svt::samples {
 namespace {
 
-/// Coloured materials of a building with the ids of the polygons that have them.
+// Coloured materials of a building with the ids of the polygons that have them.
 std::map<Material, std::vector<std::string>> coloredPolygons(const Document& document, bool isThematic) {
     std::map<Material, std::vector<std::string>> polygons;
     document.forEach([&](const PlacedPlan& placed, int c, const Component& component) {

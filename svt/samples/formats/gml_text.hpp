@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The elements of CityGML that all generated models share, whatever its version. Ids, names and values of generated
+/// The elements of CityGML that all generated models share, in versions 1.0 to 3.0. Ids, names and values of generated
 /// models need no escaping.
 
 #include <svt/core/attribute.hpp>
@@ -14,11 +14,11 @@
 
 namespace svt::samples {
 
-/// An element that ends where its scope does.
+/// An XML element: the constructor writes its start tag, the destructor its end tag.
 class GmlElement {
 public:
     /// \param id     gml:id; empty: none
-    /// \param after  text behind the end tag
+    /// \param after  text after the end tag
     GmlElement(TextSink& out, std::string_view name, std::string_view id = {}, std::string_view after = {});
     GmlElement(GmlElement&& other) noexcept
         : out_(std::exchange(other.out_, nullptr)), name_(std::move(other.name_)), after_(std::move(other.after_)) {}
@@ -109,14 +109,15 @@ private:
     bool isCompact_;
 };
 
-/// What the writers of CityGML 2.0 and 3.0 share.
+/// The base of the writers of CityGML 2.0 and 3.0.
 class CityGmlWriter {
 protected:
     CityGmlWriter(SampleSource& source, TextSink& out, std::string_view version)
         : source_(source), out_(out), gml_(out, version) {}
 
-    /// Writes the model; writeBuilding() writes the content of the building in document_, writeAfter() what follows it.
-    /// \param isThematic  colours are those of outer faces alone
+    /// Writes the model. For each building, in document_, writeBuilding() writes its content and writeAfter() the features
+    /// that follow it.
+    /// \param isThematic  only outer faces have colours
     template <class WriteBuilding, class WriteAfter>
     void writeModel(std::initializer_list<std::string_view> prefixes, bool isThematic,
                     const WriteBuilding& writeBuilding, const WriteAfter& writeAfter) {
@@ -131,7 +132,8 @@ protected:
         out_ << "</core:CityModel>\n";
     }
 
-    /// A feature with its name and attributes.
+    /// The start of a feature, with its name and attributes.
+    /// \return the element, which ends the feature
     [[nodiscard]] GmlElement feature(const PlacedPlan& placed, int component, std::string_view name);
     void function(const Component& component);
     /// A gml:Solid, or a gml:CompositeSolid for touching solids. In CityGML 3.0 only polygons with a colour have an id.

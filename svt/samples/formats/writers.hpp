@@ -5,6 +5,9 @@
 #include <svt/samples/designs/source.hpp>
 #include <svt/samples/formats/sample_text.hpp>
 
+#include <string>
+#include <string_view>
+
 namespace svt::samples {
 
 void writeCityGml3(SampleSource& source, TextSink& out);
@@ -13,7 +16,8 @@ void writeCityJson(SampleSource& source, TextSink& out);
 void writeCityJsonSeq(SampleSource& source, TextSink& out);
 void writeIfc(SampleSource& source, TextSink& out);  ///< ifc/ifc_writer.cpp
 
-/// The 16 numbers of an instance's transformation: quarter turns, then the turn of the placement.
+/// The 16 numbers of an instance's transformation matrix, row by row, with `separator` between them: quarter turns, then
+/// the turn of the placement.
 [[nodiscard]] std::string matrixText(const PlacedPlan& placed, const Instance& instance, std::string_view separator);
 
 }  // namespace svt::samples

@@ -1,7 +1,6 @@
 #include <svt/samples/ifc/ifc_bodies.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace svt::samples {
 namespace {

@@ -5,7 +5,8 @@
 #include <svt/samples/ifc/ifc_records.hpp>
 #include <svt/samples/parts/plan.hpp>
 
-#include <string>
+#include <array>
+#include <string_view>
 #include <vector>
 
 namespace svt::samples {

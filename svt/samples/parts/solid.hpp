@@ -15,7 +15,7 @@ namespace svt::samples {
 
 using Length = std::int64_t;  ///< millimetres
 
-using Point = Vec3<Length>;  ///< of a model, in the model's own axes (x east, y north, z up)
+using Point = Vec3<Length>;  ///< millimetres in the model's own axes (x east, y north, z up)
 
 /// All (v, z) with across * v + up * z <= limit; v is y for Axis::X and x for Axis::Y.
 struct HalfPlane {
