@@ -51,7 +51,7 @@ struct BuildOptions {
     const Progress* progress = nullptr;
 };
 
-/// Those that a user may give.
+/// The options that a user can set.
 record::Members<BuildOptions> membersOf(const BuildOptions*) noexcept;
 
 /// Figures of a build, printed by `svt build --json`.
@@ -75,7 +75,8 @@ struct BuildOutput {
 
 /// Reads all files into one model (ids made unique), meshes, voxelizes, labels.
 /// \param log  receives all findings; may be null
-/// \return the volume and its figures, or the first error of a stage or of readStyleSheet(); EmptyModel if the model is outside a given grid
+/// \return the volume and its figures, or the first error of a stage or of readStyleSheet(); EmptyModel if the model is
+///         outside a given grid
 [[nodiscard]] Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files,
                                               const BuildOptions& options = {}, Diagnostics* log = nullptr);
 

@@ -49,8 +49,10 @@ struct SheetText {
     std::vector<RuleText> rules;
 };
 
+// Cells along u, v and w: three whole numbers, or one for all.
 struct RawSize : record::PlainCodec<RawSize, Vec3i> {
     static void read(Faults& faults, const Json& json, const std::string& path, const Option& option, Vec3i& to) {
+        if (json.is_number()) return read(faults, Json::array({json, json, json}), path, option, to);
         std::array<std::int32_t, 3> size{};
         record::Codec<std::array<std::int32_t, 3>>::read(faults, json, path, option, size);
         to = {size[0], size[1], size[2]};

@@ -174,6 +174,10 @@ TEST(ParseStyleSheet, FilesAreFoundBesideTheSheet) {
     const auto sheet = readStyleSheet(folder / "style.json");
     ASSERT_TRUE(sheet) << sheet.error().toString();
     EXPECT_EQ(sheet->rules[0].pattern->phaseCount(), 5u);
+    const auto cube = parseStyleSheet(ruleWith(R"(, "pattern": {"type": "raw", "file": "grain.raw", "dimension": 2})"),
+                                      folder.path());
+    ASSERT_TRUE(cube) << cube.error().toString();
+    EXPECT_EQ(cube->rules[0].pattern->phaseCount(), 5u);
     const auto missing = readStyleSheet(folder / "other.json");
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().code(), Code::CannotOpen);

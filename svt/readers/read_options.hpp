@@ -28,7 +28,7 @@ struct ReadOptions {
     bool splitLayers = false;        ///< IFC: walls and slabs become the layers of their material
 };
 
-/// Those that a user may give.
+/// The options that a user can set.
 record::Members<ReadOptions> membersOf(const ReadOptions*) noexcept;
 
 }  // namespace svt::readers

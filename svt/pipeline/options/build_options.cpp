@@ -68,17 +68,19 @@ struct Distances : PlainCodec<Distances, Vec3d> {
     static Json write(const Option&, Vec3d from) { return fmt::format("{},{},{}", from.x, from.y, from.z); }
 };
 
-// The memory of all the work. Half of it remains for the volume, since reading and meshing come before. What the machine
-// has does not count, so that the same options give the same volume everywhere.
+// The memory of all the work, in MB. Half of it remains for the volume, since reading and meshing come before. The memory
+// of the machine does not count, so that the same options give the same volume everywhere.
 struct WorkMemory : PlainCodec<WorkMemory, std::uint64_t> {
+    static constexpr std::uint64_t kBytesOfMegabyte = 500000;
+
+    static constexpr void describe(Option& option) { option.kind = OptionKind::Whole; }
     static void read(Faults& faults, const Json& json, const std::string& path, const Option& option,
                      std::uint64_t& to) {
         std::uint64_t megabytes = 0;
         Codec<std::uint64_t>::read(faults, json, path, option, megabytes);
-        to = std::min(to, megabytes * 500000);
+        to = std::min(to, megabytes * kBytesOfMegabyte);
     }
-    static constexpr void describe(Option& option) { option.kind = OptionKind::Whole; }
-    static Json write(const Option&, std::uint64_t from) { return from / 500000; }
+    static Json write(const Option&, std::uint64_t from) { return from / kBytesOfMegabyte; }
 };
 
 }  // namespace
@@ -110,9 +112,8 @@ record::Members<BuildOptions> membersOf(const BuildOptions*) noexcept {
         member<&BuildOptions::read>("read", "how files are read"),
         memberAs<WorkMemory, &BuildOptions::memoryBytes>(
             "memory",
-            "memory that the work may take; where it needs more, it ends with a message. Pictures of cities give half "
-            "of "
-            "it to tiles (1 GB without the option), and become coarser",
+            "memory that the work may take; where it needs more, it ends with a message. Pictures of cities give "
+            "half of it to tiles (1 GB without the option), and become coarser",
             {.unit = "MB",
              .least = 64,
              .most = 16777216,

@@ -27,7 +27,7 @@ bool liesInGrid(const mesh::ObjectMesh& object, const mesh::MeshSet& meshes, con
 
 // Voxels of a label, and those that others took which can stand in it: finer solids that claim the same voxels, the
 // surfaces, bodies and open shells below it, whose overlaps are not counted, and all that is below an open shell. An upper
-// bound: what three claim is counted twice.
+// bound: voxels that three claim count twice.
 std::uint64_t mostVoxels(const volume::LabelTable& table, std::uint32_t label, std::uint64_t lostByPriority) {
     const bool isOpen = table.labels[label].filling == volume::Filling::Winding;
     std::uint64_t sum = table.labels[label].voxels + lostByPriority;

@@ -99,7 +99,7 @@ Result<voxelize::VoxelizeResult> makeVoxels(const Prepared& prepared, const std:
     return voxels;
 }
 
-// Enters into the label table what only the voxels tell.
+// Enters the figures of the voxels into the label table.
 void fillLabels(const voxelize::VoxelizeResult& voxels, const std::vector<voxelize::BodyGroup>& groups,
                 Prepared& prepared) {
     LabelledObjects& labelled = prepared.labelled;
@@ -131,11 +131,7 @@ void countObjects(const mesh::MeshSet& meshes, BuildReport& report) {
     }
 }
 
-}  // namespace
-
-namespace {
-
-// What only meshes and labels are made of. Ids, lines in the file and polylines stay.
+// Frees the content that has become meshes and labels. Ids, lines in the file and polylines stay.
 void dropContent(model::BuildingModel& model) {
     model.polygons = {};
     for (model::Feature& feature : model.features) {

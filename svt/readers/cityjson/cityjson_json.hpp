@@ -72,7 +72,7 @@ using OptionalElement = std::optional<json::element>;
 [[nodiscard]] std::optional<double> asNumber(const OptionalElement& value) noexcept;
 /// An integer, also if written as 3.0.
 [[nodiscard]] std::optional<std::int64_t> asInteger(const OptionalElement& value) noexcept;
-/// The first member `key` of `object`.
+/// The first member `key` of `object`; absent for an absent object or member.
 [[nodiscard]] OptionalElement findMember(std::optional<json::object> object, std::string_view key) noexcept;
 
 }  // namespace svt::readers::cityjson

@@ -1,7 +1,7 @@
 #include <svt/readers/model_joiner.hpp>
-#include <svt/readers/read_model.hpp>
 
 #include <svt/model/surface_uses.hpp>
+#include <svt/readers/read_model.hpp>
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 ///
 /// | in IFC                                       | in the model                                                          |
 /// |----------------------------------------------|-----------------------------------------------------------------------|
-/// | site, building, storey, space, element       | a feature of a class (ifc_schema/product_classes.cpp); `ifcType`       |
+/// | site, building, storey, space, element       | a feature; its class by ifc_schema/product_classes.cpp; `ifcType`     |
 /// | GlobalId, Name                               | id, name                                                              |
 /// | property sets, quantities, also of the type  | attributes `Pset_WallCommon.IsExternal`, `BaseQuantities.NetVolume`   |
 /// | materials, classifications                   | attributes `material`, `materialLayers`, `classification`             |

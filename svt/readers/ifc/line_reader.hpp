@@ -12,7 +12,7 @@ namespace svt::readers::ifc {
 /// The curves of all representations, of curve sets and geometric sets, borders of filled areas, edges, and those of mapped
 /// items.
 /// \param definition  IfcProductDefinitionShape
-/// \param leftOut     receives items that are not lines (texts, points) or unreadable; each once
+/// \param leftOut     receives items that are unreadable or not lines (texts, points); each once
 /// \return lines of at least two points, in the axes of the product, metres
 [[nodiscard]] std::vector<std::vector<Vec3d>> readLines(const IfcFile& file, RecordIndex definition,
                                                         std::vector<std::string>& leftOut);

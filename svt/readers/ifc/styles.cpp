@@ -72,7 +72,7 @@ private:
         return -1;
     }
 
-    // A number between 0 and 1.
+    // The number of a value, clamped to 0 to 1; `otherwise` if there is none.
     static float share(Value value, double otherwise) {
         return static_cast<float>(std::clamp(value.number().value_or(otherwise), 0.0, 1.0));
     }

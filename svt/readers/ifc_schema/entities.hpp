@@ -56,7 +56,7 @@ namespace svt::readers::ifc {
     E(ParameterizedProfileDef, ProfileDef, Position) E(Conic, None, Position) \
     E(Property, None, Name, Description) E(PhysicalSimpleQuantity, None, Name, Description, Unit)
 
-// Entities that the reader tells apart.
+// Entities that the reader distinguishes.
 #define SVT_IFC_ENTITIES(E) \
     E(Project, Object, LongName, Phase, RepresentationContexts, UnitsInContext) E(UnitAssignment, None, Units) \
     E(SIUnit, NamedUnit, Prefix, Name) E(ConversionBasedUnit, NamedUnit, Name, ConversionFactor) \
@@ -213,7 +213,7 @@ SVT_IFC_ENTITIES(E)
 /// The position of an attribute: a name of `at`, never a bare number.
 struct AttributePosition {
     template <class Attribute>
-    requires std::is_enum_v<Attribute>
+    requires std::is_enum_v<Attribute> && std::is_convertible_v<Attribute, int>  // no enum class, such as Entity
     constexpr AttributePosition(Attribute attribute) noexcept : number(static_cast<std::size_t>(attribute)) {}
     std::size_t number;
 };

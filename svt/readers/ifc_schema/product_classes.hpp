@@ -26,8 +26,9 @@ struct ProductClass {
 /// The class of a type name of a STEP file, whatever its case. Unknown ones have an empty `ifcType`.
 [[nodiscard]] ProductClass productClassOf(std::string_view typeName) noexcept;
 
-/// Where a class has its PredefinedType. IFC2x3 has the same words there under the names ShapeType (roofs, ramps, stairs),
-/// OperationType (transport) and CompositionType (proxies). \param ifcType  "IfcDoor"
+/// Position of the attribute PredefinedType of a class. At this position, IFC2x3 has the same values under other names:
+/// ShapeType (roofs, ramps, stairs), OperationType (transport) and CompositionType (proxies).
+/// \param ifcType  "IfcDoor"
 [[nodiscard]] AttributePosition predefinedTypeOf(std::string_view ifcType) noexcept;
 
 }  // namespace svt::readers::ifc
