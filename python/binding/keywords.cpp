@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace svt::python {
@@ -65,14 +66,10 @@ std::vector<std::string> valuesFor(const Option& option, const std::string& keyw
         throw badValue(keyword,
                        fmt::format("{} values, and it takes one; for several numbers give a tuple", texts.size()));
     for (const std::string& text : texts) {
-        const std::vector<std::string> parts = frontend::valuesOf(option, text);
-        const auto count = static_cast<int>(parts.size());
-        if (option.count > 1 && (count < option.leastCount || count > option.count))
-            throw badValue(keyword, fmt::format("'{}': expected {} values", text, option.count));
-        for (const std::string& part : parts) {
-            if (const std::string fault = faultOf(option, part); !fault.empty()) throw badValue(keyword, fault);
-            values.push_back(part);
-        }
+        // True stands for an option without a value; an empty text is a fault.
+        const std::string fault = text.empty() ? faultOf(option, text) : frontend::faultOfValues(option, text);
+        if (!fault.empty()) throw badValue(keyword, fault);
+        for (std::string& part : frontend::valuesOf(option, text)) values.push_back(std::move(part));
     }
     return values;
 }

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Keyword arguments of Python as options of a struct (svt/frontend/option_set.hpp): each is a keyword of the same name with
-/// '_' for '-', is held against the same declaration, and sets the same member. So names, ranges and defaults are those of
-/// the command.
+/// Keyword arguments of Python as options of a struct (svt/frontend/option_set.hpp). A keyword has the name of its option
+/// with '_' for '-'. The same declaration checks it, and it sets the same member. So names, ranges and defaults are those
+/// of the command.
 ///
 ///     v.render(section="y<4", opacity={"class=BuildingRoom": 0.2}, scale_bar=True)
 ///       --section 'y<4' --opacity 'class=BuildingRoom:0.2' --scale-bar
@@ -25,12 +25,13 @@ namespace svt::python {
 
 /// A struct with the members that keywords set. Throws as givenOptions(), and Failure of setOptions().
 template <record::Recorded T>
-[[nodiscard]] T fromKeywords(const py::dict& keywords, T to = {}) {
+[[nodiscard]] T fromKeywords(const py::dict& keywords) {
+    T to{};
     valueOf(frontend::setOptions(to, givenOptions(keywords, frontend::optionsOf<T>())));
     return to;
 }
 
-/// One line for each keyword: name, value and what it does; for docstrings.
+/// The name, value and help of each keyword; for docstrings.
 [[nodiscard]] std::string describeKeywords(std::span<const frontend::BoundOption> options);
 
 }  // namespace svt::python

@@ -1,14 +1,16 @@
 #pragma once
 /// \file
-/// The options that the members of a struct declare (svt/record): what a command line or a keyword may give, and what
-/// sets them. A member is an option if its declaration has Option::option, if its name begins with a dash, or if it is
-/// an argument of the struct itself.
+/// The options that the members of a struct declare (svt/record). A command line or keywords give their values, and
+/// setOptions() sets the members. A member is an option if its declaration has Option::option, if its name begins with a
+/// dash, or if it is an argument of the struct itself.
 ///
 ///     record::Members<Wash> membersOf(const Wash*) noexcept {
 ///         static constexpr record::Member<Wash> kMembers[] = {
 ///             member<&Wash::input>("input", "what is washed", {.isRequired = true}),
 ///             member<&Wash::heat>("--heat", "of the water", {.unit = "degrees", .least = 0, .most = 95}),
 ///             part<&Wash::drying>("drying", "Drum|--fan")};  // options of another struct, by group or name
+///         return kMembers;
+///     }
 
 #include <svt/core/option.hpp>
 #include <svt/record/record.hpp>
@@ -26,7 +28,7 @@ struct BoundOption : Option {
     std::string_view pointer;  ///< of the member: "/drying/heat"
 };
 
-/// An option with the values that are given for it; a flag has none.
+/// An option with its given values; a flag has none.
 struct GivenOption {
     const BoundOption* option = nullptr;
     std::vector<std::string> values;
@@ -61,10 +63,10 @@ template <auto... Fields>
 /// The placeholder of an option's value in help: "QUERY", "NUMBER", "thin|conservative"; empty for flags.
 [[nodiscard]] std::string valueText(const Option& option);
 
-/// The values of an option that takes several: "a,b,c". Of others the text as it is.
+/// The values of "a,b,c" for an option that takes several; for others the whole text is one value.
 [[nodiscard]] std::vector<std::string> valuesOf(const Option& option, const std::string& text);
 
-/// The fault of a text that is given for an option, value by value; empty: it has none.
+/// The first fault among the values of a text for an option; empty: none.
 [[nodiscard]] std::string faultOfValues(const Option& option, const std::string& text);
 
 // ---------------------------------------------------------------------------------------------------------------------

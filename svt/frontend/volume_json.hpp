@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Volumes as JSON, as commands print it and Python has it. Stable; described in docs/user/json.md.
+/// The JSON of volumes that commands print and Python returns. Stable; described in docs/user/json.md.
 
 #include <svt/record/record.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -12,12 +12,13 @@ using record::Json;
 [[nodiscard]] Json toJson(const AttributeValue& value);
 [[nodiscard]] Json toJson(Vec3d v);
 [[nodiscard]] Json toJson(Vec3i v);
-/// dimension, spacing, origin, axes.
+/// dimension, spacing, origin, and the axes as frame.
 [[nodiscard]] Json gridJson(const volume::Grid& grid);
 /// One feature: id, class, name, parent, first, count, voxels, volume, closed, filling, ...
 [[nodiscard]] Json labelJson(const volume::LabelTable& table, std::uint32_t label, const volume::Grid& grid);
+/// Pairs of labels that claim the same voxels: a, b, voxels, nested.
 [[nodiscard]] Json overlapsJson(const volume::LabelTable& table);
-/// What `svt info --json` prints.
+/// All of a volume, as `svt info --json` prints it.
 [[nodiscard]] Json infoJson(const volume::SemanticVolume& volume);
 
 }  // namespace svt::frontend

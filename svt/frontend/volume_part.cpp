@@ -31,8 +31,7 @@ Result<volume::SemanticVolume> VolumePart::of(volume::SemanticVolume volume, int
     }
     if (!select.empty()) {
         SVT_TRY(labels, analyze::selectLabels(volume.labels, select));
-        auto selected = volume::selectedVolume(volume, *labels);
-        if (!selected) return selected;
+        SVT_TRY(selected, volume::selectedVolume(volume, *labels));
         volume = std::move(*selected);
     }
     return volume::coarseVolume(volume, level, threads);

@@ -20,7 +20,7 @@ struct VolumePart {
     [[nodiscard]] bool isPart() const noexcept { return !box.empty() || !select.empty() || level > 0; }
     /// The box of the volume, then the labels of the selection, then the level.
     /// \param threads  maximum; 0: all cores
-    /// \return the part, or BadQuery, NothingSelected and what volume::croppedVolume() and coarseVolume() return
+    /// \return the part, or BadQuery, NothingSelected, or an error of volume::volumeIn() or coarseVolume()
     [[nodiscard]] Result<volume::SemanticVolume> of(volume::SemanticVolume volume, int threads) const;
 };
 

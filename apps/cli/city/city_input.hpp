@@ -2,7 +2,6 @@
 /// \file
 /// Cities as inputs of commands that work on volumes.
 
-#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/city_page.hpp>
 
 #include <svt/city/city_folder.hpp>
@@ -20,11 +19,10 @@ namespace svt::cli {
 /// Memory that tiles may take: half of --memory, or 1 GB.
 [[nodiscard]] std::uint64_t tileMemory();
 
-/// Reads all tiles, prints what was counted, and findings, for `svt check`. \return the exit code: that of findings, as of
-/// models
+/// Reads all tiles, and prints counts and findings, for `svt check`. \return the exit code, as for findings of models
 [[nodiscard]] Result<int> checkCity(const std::filesystem::path& folder);
 
-/// A box of west, south, lowest, east, north, highest in plan; everything where it is empty.
+/// The rectangle in plan of a box (west, south, lowest, east, north, highest); kEverywhere for an empty box.
 [[nodiscard]] std::array<double, 4> rectangleOf(const std::vector<double>& box);
 
 }  // namespace svt::cli

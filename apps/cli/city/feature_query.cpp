@@ -1,6 +1,7 @@
 #include <apps/cli/city/feature_query.hpp>
 
 #include <apps/cli/city/city_input.hpp>
+#include <apps/cli/options/load_volume.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/table.hpp>
 #include <apps/cli/output/terminal_progress.hpp>

@@ -3,8 +3,9 @@
 /// Questions of many features, answered tile by tile: rows into a file, sums by attribute, the largest. Of a city, or of
 /// one volume.
 
-#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/table.hpp>
+
+#include <svt/pipeline/build_volume.hpp>
 
 #include <filesystem>
 #include <string>

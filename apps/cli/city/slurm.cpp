@@ -132,8 +132,8 @@ Result<void> keepOptions(const EngineJob& job, const SlurmJobs& jobs) {
     std::filesystem::create_directories(job.folder / "reports", ignored);
     const Json json{
         {"format", "svt-city-slurm"}, {"options", job.options}, {"array", jobs.array}, {"merge", jobs.merge}};
-    SVT_TRY(written, writeFileAtomically(optionsFile(job.folder),
-                                         json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"));
+    SVT_DO(
+        writeFileAtomically(optionsFile(job.folder), json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"));
     return {};
 }
 

@@ -1,4 +1,3 @@
-#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
@@ -7,6 +6,7 @@
 
 #include <svt/analyze/selection.hpp>
 #include <svt/mesh/mesh_set.hpp>
+#include <svt/pipeline/build_volume.hpp>
 #include <svt/volume/svt_file.hpp>
 #include <svt/volume/volume_part.hpp>
 #include <svt/volume_readers/read_label_volume.hpp>
@@ -184,7 +184,7 @@ int runBuild(const BuildArguments& arguments) {
     return kDone;
 }
 
-// Which vector parts are kept: a list of names.
+// The kept vector parts, as a list of names.
 struct VectorNames : record::PlainCodec<VectorNames, pipeline::VectorChoice> {
     static void read(record::Faults&, const Json& json, const std::string&, const Option&, pipeline::VectorChoice& to) {
         const auto has = [&](const char* kind) { return std::ranges::find(json, kind) != json.end(); };
@@ -217,8 +217,7 @@ Members<BuildArguments> membersOf(const BuildArguments*) noexcept {
         memberAs<VectorNames, &All::build, &pipeline::BuildOptions::vectors>(
             "--vectors",
             "edges: keep the feature edges beside the meshes, to be drawn inside the volume; none: no meshes either, "
-            "so "
-            "that sections are cut from voxels",
+            "so that sections are cut from voxels",
             {.choices = "edges|meshes|none", .byDefault = "meshes", .group = "Output", .count = 2}),
         jsonOption<&All::json>("print figures as JSON on stdout"),
         member<&All::strict>("--strict", "exit 4 where the model has defects; the volume is written all the same",

@@ -1,7 +1,6 @@
 #include <apps/cli/check/check_reports.hpp>
 #include <apps/cli/check/feature_batches.hpp>
 #include <apps/cli/city/city_input.hpp>
-#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
@@ -10,6 +9,7 @@
 
 #include <svt/core/file.hpp>
 #include <svt/mesh/mesh_set.hpp>
+#include <svt/pipeline/build_volume.hpp>
 #include <svt/readers/model_joiner.hpp>
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ struct CheckArguments {
     std::filesystem::path report;
     ReportFormat format = ReportFormat::Text;
     validate::ValidateOptions validation;
-    pipeline::BuildOptions build;  // of these, those that say what is read, and the level of detail
+    pipeline::BuildOptions build;  // only its options of reading, and the level of detail
     bool json = false, verbose = false;
 };
 

@@ -1,5 +1,4 @@
 #include <apps/cli/city/city_input.hpp>
-#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>

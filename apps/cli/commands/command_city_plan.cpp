@@ -1,4 +1,3 @@
-#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -6,6 +5,7 @@
 #include <apps/cli/output/version.hpp>
 
 #include <svt/city/city_plan.hpp>
+#include <svt/pipeline/build_volume.hpp>
 #include <svt/readers/read_model.hpp>
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ struct CityPlanArguments {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path output;
     city::PlanOptions options;
-    pipeline::BuildOptions build;  // of these, those that say what is read, and the level of detail
+    pipeline::BuildOptions build;  // only its options of reading, and the level of detail
     bool verbose = false, isUpdate = false;
 };
 

@@ -206,8 +206,7 @@ Members<CityRunArguments> membersOf(const CityRunArguments*) noexcept {
         cityFolder<&All::folder>(),
         member<&All::options>("options",
                               "after --: with slurm, options of sbatch, such as --partition=batch; with kubernetes, "
-                              "image=, claim=, mount=, "
-                              "namespace=, cpu=, memory=, parallelism=",
+                              "image=, claim=, mount=, namespace=, cpu=, memory=, parallelism=",
                               {.value = "OPTION"}),
         member<&All::engine>(
             "--engine",

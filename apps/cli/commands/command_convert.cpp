@@ -1,7 +1,7 @@
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/city/feature_query.hpp>
-#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/catalog.hpp>
+#include <apps/cli/options/load_volume.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/file_content.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -83,7 +83,7 @@ Result<int> runConvert(const ConvertArguments& arguments) {
     return kDone;
 }
 
-// All that a volume can become: writers::volumeFormats(), and features one by one (writers::FeatureLayer).
+// The formats of the output: writers::volumeFormats(), and tables with a row a feature (writers::FeatureLayer).
 struct Outputs {
     std::string names, help;
 

@@ -1,6 +1,5 @@
 #include <apps/cli/describe/completions.hpp>
 #include <apps/cli/describe/man_pages.hpp>
-#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
@@ -106,7 +105,7 @@ Result<int> runDescribe(const DescribeArguments& arguments) {
     }
     const auto page = manPage(arguments.command);
     if (!page)
-        return Error(Code::BadArgument, fmt::format("there is no command '{}'; see 'svt --help'", arguments.command));
+        return Error(Code::BadArgument, fmt::format("unknown command '{}'; see 'svt --help'", arguments.command));
     fmt::print("{}", *page);
     return kDone;
 }

@@ -1,7 +1,7 @@
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/city/feature_query.hpp>
-#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/catalog.hpp>
+#include <apps/cli/options/load_volume.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -189,9 +189,8 @@ Members<QueryArguments> membersOf(const QueryArguments*) noexcept {
              .group = "Features",
              .file = FileUse::Output,
              .formats = "csv|geojson|gpkg|objectparquet"}),
-        memberAs<record::Numbers<6>, &All::features, &FeatureQuery::box>(
-            "--box", "only features whose box meets this box of world coordinates",
-            {.value = "X0,Y0,Z0,X1,Y1,Z1", .unit = "metres", .group = "Features"}),
+        worldBox<&All::features, &FeatureQuery::box>("only features whose box meets this box of world coordinates",
+                                                     "Features"),
         member<&All::features, &FeatureQuery::by>("--by",
                                                   "sums of m3 and m2 by attributes or class, such as function,district",
                                                   {.value = "KEYS", .group = "Features"}),

@@ -1,5 +1,5 @@
-#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/options/catalog.hpp>
+#include <apps/cli/options/load_volume.hpp>
 #include <apps/cli/options/paper_scale.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>

@@ -18,7 +18,7 @@ struct CommandText {
     std::string_view help;
     /// Its options, arguments first, in the order in which help lists them.
     std::span<const frontend::BoundOption> (*options)();
-    /// Makes the arguments of what is given, and runs the command. \return the exit code
+    /// Sets the arguments from the given options, then runs the command. \return the exit code, or an error
     Result<int> (*run)(std::span<const frontend::GivenOption> given);
 };
 

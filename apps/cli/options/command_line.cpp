@@ -4,7 +4,6 @@
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/version.hpp>
 
-#include <svt/core/check.hpp>
 #include <svt/core/edit_distance.hpp>
 #include <svt/core/machine.hpp>
 #include <svt/core/text.hpp>
@@ -157,7 +156,7 @@ int reportUsage(const CLI::App& app, const CLI::ParseError& error) {
     return kUsage;
 }
 
-// Heeds the options of the process.
+// Applies the options of the whole process.
 void setProcess(std::span<const frontend::BoundOption> options, std::span<const frontend::GivenOption> given) {
     if (std::ranges::any_of(options, [](const Option& option) { return option.name == "--memory"; }))
         limitMemoryToMachine();

@@ -8,7 +8,7 @@
 
 namespace svt::cli {
 
-/// The number N of "1:N", or of "N" alone; 0.01 to 10000000.
+/// The number N of "1:N" or "N"; 0.01 to 10000000.
 struct PaperScale : record::PlainCodec<PaperScale, double> {
     static void read(record::Faults& faults, const record::Json& json, const std::string& path, const Option& option,
                      double& to);

@@ -9,7 +9,7 @@ namespace svt::cli {
 using frontend::part;
 using record::Member, record::member, record::memberAs, record::Members;
 
-/// An option of the process, which runCommandLine() heeds for all commands: no member of the arguments.
+/// An option of the whole process: runCommandLine() applies it, and the arguments have no field for it.
 template <class Arguments>
 struct OfProcess : record::Ignored<Arguments> {
     static constexpr void describe(Option& option) { option.kind = OptionKind::Flag; }
@@ -48,11 +48,11 @@ template <auto Field>
     return member<Field>("folder", "the folder of the city",
                          {.value = "DIR", .isRequired = true, .file = FileUse::InputFolder});
 }
-/// A box of world coordinates: vector of six numbers.
-template <auto Field>
+/// A box of world coordinates, bound to a vector of six numbers.
+template <auto... Fields>
 [[nodiscard]] constexpr auto worldBox(std::string_view help, std::string_view group,
                                       std::string_view value = "X0,Y0,Z0,X1,Y1,Z1") {
-    return memberAs<record::Numbers<6>, Field>("--box", help, {.value = value, .unit = "metres", .group = group});
+    return memberAs<record::Numbers<6>, Fields...>("--box", help, {.value = value, .unit = "metres", .group = group});
 }
 
 }  // namespace svt::cli

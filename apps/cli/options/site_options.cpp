@@ -1,6 +1,7 @@
 #include <apps/cli/options/site_options.hpp>
 
 #include <apps/cli/options/city_page.hpp>
+#include <apps/cli/options/load_volume.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/options/viewer_folder.hpp>
 #include <apps/cli/output/json_output.hpp>

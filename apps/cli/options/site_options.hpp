@@ -2,9 +2,9 @@
 /// \file
 /// Shared by serve and publish: the page, its models, and server-side pictures for browsers that cannot draw.
 
-#include <apps/cli/options/build_options.hpp>
 #include <apps/cli/output/messages.hpp>
 
+#include <svt/pipeline/build_volume.hpp>
 #include <svt/serve/http_server.hpp>
 #include <svt/serve/site.hpp>
 

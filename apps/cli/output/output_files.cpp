@@ -272,7 +272,7 @@ Result<void> checkFiles(std::span<const GivenOption> given) {
         SVT_DO(checkContent(output));
         // Of numbered files in one folder one is tried, and what is there already.
         if (!output.isFirst && !fs::exists(output.path, ignored)) continue;
-        SVT_TRY(checked, output.formats.empty() ? checkFolder(output.path) : checkWritable(output.path));
+        SVT_DO(output.formats.empty() ? checkFolder(output.path) : checkWritable(output.path));
     }
     return {};
 }

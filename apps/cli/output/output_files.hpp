@@ -1,8 +1,7 @@
 #pragma once
 /// \file
-/// What a command reads and writes, checked for all commands at once before any of them begins: nothing that exists is
-/// destroyed, and what cannot be written is told before the work, not after it. The declarations say which options
-/// name files.
+/// Files that a command reads and writes, checked before its work begins. No existing file is destroyed. A file that
+/// cannot be read or written is an error before the work, not after it. The declarations say which options name files.
 
 #include <svt/core/result.hpp>
 #include <svt/frontend/option_set.hpp>

@@ -1,4 +1,4 @@
-#include <apps/cli/options/build_options.hpp>
+#include <apps/cli/options/load_volume.hpp>
 
 #include <apps/cli/output/messages.hpp>
 

@@ -16,7 +16,7 @@ namespace svt::cli {
 [[nodiscard]] Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input,
                                                         const pipeline::BuildOptions& build, const Progress* progress,
                                                         Diagnostics& diagnostics, const volume::Grid* grid = nullptr);
-/// The same, and prints the findings. \param isVerbose  whether all of them
+/// The same; also prints the findings. \param isVerbose  prints all of them
 [[nodiscard]] Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input,
                                                         const pipeline::BuildOptions& build, const Progress* progress,
                                                         bool isVerbose, const volume::Grid* grid = nullptr);
