@@ -78,7 +78,7 @@ Result<illustrate::SceneCamera> CityPage::find(const std::string& id, const illu
     city::Extract building;
     building.ids.push_back(id);
     SVT_TRY(part, city::extractVolume(*city_, building));
-    // All of the part: a building may have voxels only by what is below it.
+    // The whole part: all voxels of a building may belong to features below it.
     SVT_TRY(camera, illustrate::makeView("", "", now, aspect, *part, &frame_.grid));
     camera->around = "id=" + id;
     return camera;

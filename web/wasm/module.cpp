@@ -86,7 +86,7 @@ private:
     std::span<const std::byte> bytes_;
 };
 
-// "ghost" where the page names none.
+// Ghost if the page gives none.
 illustrate::Context contextOf(const Json& value) {
     const auto known = fromName<illustrate::Context>(value.is_string() ? value.get<std::string>() : std::string());
     return known.value_or(illustrate::Context::Ghost);

@@ -100,8 +100,7 @@ describe("A city on the page", () => {
     await complete();
     const { requests, bytes } = await inPage("s.model.city.files.traffic");
     assert.equal(requests, asked.length);
-    // Four where the page has its final size from the start; a picture of another size on the way may need more.
-    assert.ok(requests <= 20, `${requests} requests`);
+    assert.ok(requests <= 12, `${requests} requests`);
     assert.ok(bytes < 400_000, `${bytes} bytes`);
     const seen = await inPage(
       "({ look: { ...s.model.city.look, info: null }, buildings: s.volume.info.buildings, drawn: s.picture.report.width })",

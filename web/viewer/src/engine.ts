@@ -210,8 +210,8 @@ export interface ColorScale {
 const call = <Signature extends (...args: never[]) => unknown>() => undefined as unknown as Signature;
 
 /**
- * The calls of the library (`web/wasm/module.cpp`) that are passed on as they are, by name. One more needs a row here and there, and
- * nothing in between. A buffer among the arguments is handed over.
+ * The calls that the page passes to the worker as they are, by name. Those of the library are rows of `web/wasm/module.cpp`: a new
+ * call needs a row in each of the two tables. The worker becomes the owner of a buffer among the arguments.
  */
 export const kCalls = {
   /** The scene with effects, as `svt render --lens/--highlight/--cutaway` make it. */
@@ -249,17 +249,17 @@ export const kCalls = {
   movedPlanes: call<(scene: Scene) => MovedPlane[]>(),
   /** Plans, sections, elevations and tables on sheets, as SVG documents; as by `svt sheets`. */
   sheets: call<(language: "en" | "de") => string[]>(),
-  /** What followCity() has opened, with its features; null where nothing is open. */
+  /** The volume that followCity() has opened, with its features; null: nothing is open. The worker answers without the library. */
   cityInfo: call<() => VolumeInfo | null>(),
 };
 
 type CallsOfLibrary = typeof kCalls;
-/** The same, answered by a worker. */
+/** The same calls with their answers as promises. */
 export type LibraryCalls = {
   [Name in keyof CallsOfLibrary]: (...args: Parameters<CallsOfLibrary[Name]>) => Promise<ReturnType<CallsOfLibrary[Name]>>;
 };
 
-/** Makes all the calls by one function. */
+/** All the calls, each made by one function. */
 export function callsBy(make: (name: keyof LibraryCalls, args: unknown[]) => Promise<unknown>): LibraryCalls {
   const names = Object.keys(kCalls) as (keyof LibraryCalls)[];
   return Object.fromEntries(names.map((name) => [name, (...args: unknown[]) => make(name, args)])) as unknown as LibraryCalls;

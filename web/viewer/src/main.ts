@@ -14,7 +14,7 @@ import { startTheme, theme } from "./ui/theme";
 import { createServerEngine } from "./engine_server";
 import type { Engine, EngineError } from "./engine";
 
-/** Milliseconds after which nothing waits for a first picture. */
+/** Milliseconds after which the components load even without a first picture. */
 const kComponentsAfter = 1500;
 
 const session = new Session();

@@ -1,10 +1,10 @@
-/** Observable state, by signals: who reads a value in an effect, or in the rendering of a part, is run again when it changes. */
+/** Observable state, by signals: an effect, or the rendering of a part, runs again when a value changes that it read. */
 
 import { batch, computed, effect, signal, untracked, type Signal } from "@preact/signals-core";
 
-export { batch, computed, effect, untracked };
+export { batch, computed, effect, signal, untracked };
 
-/** An object all of whose fields are observable, so that none can be forgotten; getters are by what they read. */
+/** An object with fields that are all observable, so that nobody can forget one. A getter depends on the fields that it reads. */
 export abstract class Observable {
   constructor() {
     const fields = new Map<PropertyKey, Signal<unknown>>();
@@ -23,7 +23,7 @@ export abstract class Observable {
   }
 }
 
-/** The members of an object that is replaced as a whole, each observable by itself. It always has the same members. */
+/** The members of an object that is replaced as a whole, each observable on its own. Each object must have the members of the first. */
 export function membersOf<T extends object>(whole: () => T): Readonly<T> {
   const members = {} as T;
   for (const key of Object.keys(untracked(whole)) as (keyof T)[]) {

@@ -58,6 +58,7 @@ export async function openModel(
   const listed = volume.models.find((m) => m.name === name);
   if (!listed) return;
   const title = listed.title || listed.name;
+  const fileName = listed.file.split("/").pop()!.split("?")[0]!;
   const fetched = async (signal: AbortSignal) => {
     const response = await (coming ?? fetch(listed.file, { signal }));
     if (!response.ok) throw { message: t("notLoaded", { name: listed.file, status: response.status }) };
@@ -67,7 +68,6 @@ export async function openModel(
     });
     return [{ name: fileName, bytes }];
   };
-  const fileName = listed.file.split("/").pop()!.split("?")[0]!;
   const again = async () => [{ name: fileName, bytes: await (await fetch(listed.file)).arrayBuffer() }];
   const isOpen =
     listed.city && !volume.isServerOnly

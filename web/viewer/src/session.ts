@@ -1,4 +1,4 @@
-/** The state of the page in parts, each of which knows only those above it. */
+/** The state of the page in parts. They are made in this order: a part knows only parts above it. */
 
 import type { Engine } from "./engine";
 import { Languages } from "./languages";
@@ -15,10 +15,10 @@ export class Session {
   readonly languages = new Languages(this.messages);
   readonly volume = new OpenVolume();
   readonly view = new View(this.volume, this.messages);
-  readonly selection = new Selection(this.volume, this.view, this.messages);
-  readonly picture = new ShownPicture(this.volume, this.view, this.messages);
+  readonly selection = new Selection(this);
+  readonly picture = new ShownPicture(this);
   readonly address = new Address(this.volume, this.view);
-  readonly model = new Model(this.volume, this.view, this.selection, this.picture, this.messages);
+  readonly model = new Model(this);
 
   start(engine: Engine): void {
     this.volume.engine = engine;

@@ -3,8 +3,8 @@
  * same keys, see languages.ts.
  */
 
-import { signal } from "@preact/signals-core";
 import { kSceneMembers, type SceneMember, type Unit } from "./generated/scene_members";
+import { signal } from "./observable";
 
 const kTexts = {
   appName: ["Viewer", "Betrachter"],
@@ -450,7 +450,7 @@ export interface LanguageTexts {
   classes?: Record<string, string>;
 }
 
-/** Observable: what renders a text is rendered again in another language. */
+/** Observable: a part that renders a text renders again when the language changes. */
 const spoken = signal<{ language: Language; other: LanguageTexts | null }>({ language: "en", other: null });
 
 export function language(): Language {

@@ -15,7 +15,9 @@ import { compass, handleOf, measure, place, planes, selectionBox, type View } fr
 const kHoverEvery = 80;
 /** Corners and edges so near to a click are meant by it. */
 const kSnapPixels = 9;
-const kFramesToSettle = 6;
+/** The splitters load after the first picture. Then panels pass through other sizes for some frames. */
+const kFramesToSettle = 8;
+const kSplitter = "wa-split-panel";
 
 export class PictureView extends Part {
   static override properties = { ...Part.properties, canvas: { attribute: false }, hover: { state: true }, size: { state: true } };
@@ -23,14 +25,9 @@ export class PictureView extends Part {
   declare hover: { pick: Pick; x: number; y: number } | null;
   /** CSS pixels. */
   declare size: [width: number, height: number];
-  /** In the next frame: when the splitters come, they change the size for a moment and back within one. */
-  private readonly watched = new ResizeObserver(() => {
-    cancelAnimationFrame(this.sizing);
-    this.sizing = requestAnimationFrame(() => this.measureSize());
-  });
-  private sizing = 0;
-  /** Frames in which no size is taken. */
-  private framesToSettle = 0;
+  private readonly watched = new ResizeObserver(() => this.measureAfter(1));
+  /** Frames until the size is measured; 0: no measurement is due. */
+  private framesToMeasure = 0;
   private hoverTimer = 0;
   private hoverAt: { x: number; y: number } | null = null;
   private drag: { n: number; x: number; y: number; at: number } | null = null;
@@ -78,7 +75,7 @@ export class PictureView extends Part {
   override connectedCallback(): void {
     super.connectedCallback();
     this.watched.observe(this);
-    void this.waitForSplitters();
+    if (!customElements.get(kSplitter)) void customElements.whenDefined(kSplitter).then(() => this.measureAfter(kFramesToSettle));
   }
   override disconnectedCallback(): void {
     this.watched.disconnect();
@@ -106,19 +103,21 @@ export class PictureView extends Part {
     this.stage.focus();
   }
 
-  /** Splitters that arrive after the first picture pass through other sizes for a few frames. */
-  private async waitForSplitters(): Promise<void> {
-    if (customElements.get("wa-split-panel")) return;
-    await customElements.whenDefined("wa-split-panel");
-    this.framesToSettle = kFramesToSettle;
+  /** Measures the size after some frames, and not before: a size may last only for a moment. */
+  private measureAfter(frames: number): void {
+    const isWaiting = this.framesToMeasure > 0;
+    this.framesToMeasure = Math.max(this.framesToMeasure, frames);
+    if (!isWaiting) this.awaitFrame();
+  }
+
+  private awaitFrame(): void {
+    requestAnimationFrame(() => {
+      if (--this.framesToMeasure > 0) this.awaitFrame();
+      else this.measureSize();
+    });
   }
 
   private measureSize(): void {
-    if (this.framesToSettle > 0) {
-      --this.framesToSettle;
-      this.sizing = requestAnimationFrame(() => this.measureSize());
-      return;
-    }
     const { clientWidth: w, clientHeight: h } = this;
     if (!w || !h) return;
     this.size = [w, h];

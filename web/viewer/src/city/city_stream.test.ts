@@ -35,8 +35,9 @@ function started(answer: (options: CityOptions) => Partial<CityLook> | Error = (
   const volume = new OpenVolume(),
     messages = new Messages();
   const view = new View(volume, messages);
-  const selection = new Selection(volume, view, messages),
-    picture = new ShownPicture(volume, view, messages);
+  const parts = { volume, view, messages };
+  const selection = new Selection(parts),
+    picture = new ShownPicture(parts);
   const asked: number[] = [];
   const look = async (options: CityOptions) => {
     asked.push(options.pixels);
@@ -49,7 +50,7 @@ function started(answer: (options: CityOptions) => Partial<CityLook> | Error = (
     followCity: (_files: unknown, _scene: unknown, _size: unknown, options: CityOptions) => look(options),
     cityInfo: () => Promise.resolve(kInfo),
   } as unknown as Engine;
-  const city = new CityStream({} as CityFiles, { volume, view, selection, picture, messages });
+  const city = new CityStream({} as CityFiles, { ...parts, selection, picture });
   city.show(kInfo);
   view.state = { ...view.state, camera: cameraAt(1) };
   city.begin();

@@ -5,11 +5,9 @@
 
 import type { CityLook, Engine, VolumeInfo } from "../engine";
 import { batch, effect, Observable, untracked } from "../observable";
-import type { Messages } from "../session/messages";
-import type { OpenVolume } from "../session/open_volume";
 import type { Selection } from "../session/selection";
 import type { ShownPicture } from "../session/shown_picture";
-import type { View } from "../session/view";
+import type { ViewParts } from "../session/view_part";
 import type { Camera } from "../state/view_state";
 import { t } from "../texts";
 import type { CityFiles } from "./city_files";
@@ -30,24 +28,21 @@ const kTileShare = 0.35;
 /**
  * waiting    for the first picture
  * following  tiles are being fetched, coarser ones while the camera moves
- * resting    nothing finer is to come while the camera stays: all is there, or cannot be had
+ * resting    the picture stays while the camera stays: all tiles are there, or cannot be fetched
  * ended      another model is open
  */
 type Phase = "waiting" | "following" | "resting" | "ended";
 
-/** From where the city is seen, and since when. */
+/** The camera and the size of the picture, and since when, in milliseconds of performance.now(). */
 interface Place {
   camera: Camera | null;
   size: [number, number];
   since: number;
 }
 
-export interface CityHost {
-  volume: OpenVolume;
-  view: View;
+export interface CityHost extends ViewParts {
   selection: Selection;
   picture: ShownPicture;
-  messages: Messages;
 }
 
 export class CityStream extends Observable {
@@ -55,9 +50,9 @@ export class CityStream extends Observable {
   look: CityLook | null = null;
   private phase: Phase = "waiting";
   private place: Place | null = null;
-  /** Nothing but the coarsest tile has been seen yet. */
+  /** The page shows only the coarsest tile yet. */
   private isFirst = true;
-  /** What is seen was opened while the camera moved, without its features. */
+  /** The tiles on the page were opened while the camera moved, without their features. */
   private lacksFeatures = false;
   private unwatch: () => void = () => {};
   private wake: () => void = () => {};
@@ -103,7 +98,7 @@ export class CityStream extends Observable {
     this.wake();
   }
 
-  /** Shows what has been opened in the place of other tiles; the view stays. */
+  /** Shows tiles that have taken the place of others; the view stays. */
   show(info: VolumeInfo): void {
     const { volume, view } = this.host;
     batch(() => {
@@ -142,7 +137,7 @@ export class CityStream extends Observable {
     this.phase = "resting";
   }
 
-  /** One look from a place; resolves to whether nothing finer is to come from there. */
+  /** Looks once from a place. Resolves to true if no finer look from there will follow. */
   private async step(place: Place): Promise<boolean> {
     const isStill = performance.now() - place.since >= kStillAfter;
     const pixels = this.isFirst ? kFirstPixels : isStill ? kStillPixels : kMovingPixels;

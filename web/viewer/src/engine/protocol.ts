@@ -10,13 +10,13 @@ import type {
   Scene,
   SceneCamera,
   VolumeInfo,
+  kCalls,
 } from "../engine";
-import type { kCalls } from "../engine";
 
 /** The name of a worker that is to use no threads. */
 export const kWithoutThreads = "svt without threads";
 
-/** Calls of which the worker, or the page's side, makes more than a call of the library. */
+/** Calls for which the worker or the client does more than one call of the library. */
 interface OwnCalls {
   start(wanted: EngineKind | null): { kind: EngineKind; threads: number };
   open(files: FileBytes[], options: OpenOptions): VolumeInfo;

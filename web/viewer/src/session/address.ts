@@ -1,4 +1,4 @@
-/** Keeps the address of the page at the current view. */
+/** Keeps a link to the current view in the address of the page. */
 
 import { effect, untracked } from "../observable";
 import { hashOf } from "../state/link";
@@ -39,7 +39,7 @@ export class Address {
     }
   }
 
-  /** That of the open model, if there are several; of a local file only its name. */
+  /** The address without the view: with the open model if there are several, or with the name of a local file. */
   private plain(): string {
     const { name, models, isLocal, file } = this.volume;
     const url = new URL(location.href);

@@ -1,4 +1,4 @@
-/** What the page tells: one message at a time, the progress of what it waits for, and words for a live region. */
+/** Messages to the user: one at a time, the progress of a long task, and words for a live region. */
 
 import { kCancelled, type EngineError } from "../engine";
 import { Observable } from "../observable";
@@ -19,7 +19,7 @@ export interface Progress {
 export class Messages extends Observable {
   message: Message | null = null;
   progress: Progress | null = null;
-  /** What is read out to those who do not see the page. */
+  /** Text for screen readers. */
   said = "";
 
   fail(error: unknown, title?: string): void {

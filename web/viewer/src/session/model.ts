@@ -1,20 +1,16 @@
-/** Opens models and cities, and brings back what the library has lost. */
+/** Opens models and cities, and opens a model again that the library has lost. */
 
-import { CityStream } from "../city/city_stream";
+import { CityStream, type CityHost } from "../city/city_stream";
 import type { CityFiles } from "../city/city_files";
 import { kCancelled } from "../engine";
 import type { EngineError, FileBytes, OpenOptions, Point, VolumeInfo } from "../engine";
 import { sub } from "../camera/vec";
-import { batch, Observable, until } from "../observable";
+import { batch, until } from "../observable";
 import { initialState, shifted, type ViewState } from "../state/view_state";
 import { stageText, t } from "../texts";
-import type { Messages } from "./messages";
-import type { OpenVolume } from "./open_volume";
 import { Owners } from "./owners";
 import { memoryOfPage, Refining, wantsDraft, type Source } from "./refining";
-import type { Selection } from "./selection";
-import type { ShownPicture } from "./shown_picture";
-import type { View } from "./view";
+import { ViewPart } from "./view_part";
 
 export type Status = "starting" | "empty" | "loading" | "ready";
 
@@ -28,11 +24,11 @@ export interface Opening {
 /** Milliseconds in which the library is not reopened twice. */
 const kReopenAfter = 20_000;
 
-export class Model extends Observable {
+export class Model extends ViewPart {
   status: Status = "starting";
   /** null: nothing is being opened. */
   opening: Opening | null = null;
-  /** null: what is open is no city. */
+  /** null: no city is open. */
   city: CityStream | null = null;
   /** A view whose model is a file that is not here yet. */
   awaited: { file: string; state: ViewState | null } | null = null;
@@ -47,17 +43,11 @@ export class Model extends Observable {
   /** The library is reading the model that is being opened. */
   private isReading = false;
 
-  constructor(
-    private readonly volume: OpenVolume,
-    private readonly view: View,
-    private readonly selection: Selection,
-    private readonly picture: ShownPicture,
-    private readonly messages: Messages,
-  ) {
-    super();
-    this.owners = new Owners(volume, view, messages);
-    this.refining = new Refining(volume, messages, {
-      firstPicture: () => until(() => picture.report !== null),
+  constructor(private readonly parts: CityHost) {
+    super(parts);
+    this.owners = new Owners(parts);
+    this.refining = new Refining(parts.volume, parts.messages, {
+      firstPicture: () => until(() => parts.picture.report !== null),
       take: (info, memory) => this.takeFiner(info, memory),
     });
   }
@@ -67,7 +57,7 @@ export class Model extends Observable {
     return (await this.source?.().catch(() => null)) ?? null;
   }
 
-  /** Gives up what is being opened; what was open before stays. */
+  /** Gives up the opening that is under way; the model before stays open. */
   cancelOpening(): void {
     const { opening } = this;
     if (!opening) return;
@@ -87,8 +77,8 @@ export class Model extends Observable {
   }
 
   /**
-   * Fetches and opens a model; on failure, or when it is cancelled, the previous one stays open. One that is still coming is given up.
-   * @param fetched  fetches the files, and tells of its progress
+   * Fetches and opens a model, and gives up one that is still being opened. On failure, or when cancelled, the previous one stays open.
+   * @param fetched  fetches the files, and reports its progress
    * @param again  fetches them again
    * @param state  null: the view begins anew
    */
@@ -106,9 +96,9 @@ export class Model extends Observable {
     });
   }
 
-  /** Opens a city with its coarsest tile; then it follows the camera. As open(). */
+  /** Opens a city with its coarsest tile; then the city follows the camera. Failures are as for open(). */
   openCity(name: string, files: CityFiles, state: ViewState | null): Promise<boolean> {
-    const city = this.newCity(files);
+    const city = new CityStream(files, this.parts);
     return this.attempt(
       name,
       async () => {
@@ -116,6 +106,8 @@ export class Model extends Observable {
       },
       async () => {
         this.city?.end();
+        // The library has one city at a time: if this one fails, the one before must be opened again.
+        this.hasLostVolume ||= this.city !== null;
         const info = await city.open();
         this.city = city;
         this.openedWith = {};
@@ -149,7 +141,7 @@ export class Model extends Observable {
       return false;
     } finally {
       if (this.opening === opening) this.endOpening();
-      // Unless another opening was begun meanwhile, which replaces the volume.
+      // If another opening has begun meanwhile, that one replaces the volume.
       if (this.hasLostVolume && !this.opening) await this.bringBack();
     }
   }
@@ -168,8 +160,8 @@ export class Model extends Observable {
     const { volume, view } = this;
     batch(() => {
       volume.take(info);
-      this.selection.forget();
-      this.picture.forget();
+      this.parts.selection.forget();
+      this.parts.picture.forget();
       // Of a city, what is selected may not be seen yet.
       view.begin({ ...state, selection: state.selection.filter((id) => volume.isCity || volume.index.byId.has(id)) });
       this.status = "ready";
@@ -178,22 +170,17 @@ export class Model extends Observable {
     if (!view.state.camera) void view.fit(0);
   }
 
-  /** A finer volume of the same model has taken the place of the coarse one: what was chosen meanwhile stays. */
+  /** A finer volume of the same model has taken the place of the coarse one: the view and the selection stay. */
   private async takeFiner(info: VolumeInfo, memory: number): Promise<void> {
     const { volume } = this;
     const by = volume.info ? sub(volume.info.origin, info.origin) : ([0, 0, 0] as Point);
     this.openedWith = { draft: false, memory };
     batch(() => {
       volume.take(info);
-      this.selection.properties = null;
+      this.parts.selection.properties = null;
       this.view.shift((state) => shifted(state, by, volume.box));
     });
     await this.owners.giveAgain();
-  }
-
-  private newCity(files: CityFiles): CityStream {
-    const { volume, view, selection, picture, messages } = this;
-    return new CityStream(files, { volume, view, selection, picture, messages });
   }
 
   /** The library has crashed and lost the volume: reopens it, unless that just failed. */
@@ -225,7 +212,7 @@ export class Model extends Observable {
 
   private async reopenCity(before: CityStream): Promise<void> {
     before.end();
-    const city = (this.city = this.newCity(before.files));
+    const city = (this.city = new CityStream(before.files, this.parts));
     city.show(await city.open());
     city.begin();
   }

@@ -1,4 +1,4 @@
-/** The library and the model that it has open: data, which Model changes and the others read. */
+/** The library and its open model: only data, which Model and CityStream change and other parts read. */
 
 import { boxOf, type Box } from "../camera/camera";
 import type { Engine, VolumeInfo } from "../engine";
@@ -28,9 +28,9 @@ export class OpenVolume extends Observable {
   engine: Engine | null = null;
   /** Pictures only, from the server. */
   isServerOnly = false;
-  /** Those of the site. */
+  /** The models of the site. */
   models: ListedModel[] = [];
-  /** The open one of `models`; empty: it is none of them. */
+  /** Name of the open model in `models`; empty: it is not among them. */
   name = "";
   /** File name for generated commands. */
   file = "model.svt";
@@ -40,7 +40,7 @@ export class OpenVolume extends Observable {
   isLocal = false;
   /** null: nothing is open. */
   info: VolumeInfo | null = null;
-  /** Of a city, that of its first tile: others change nothing of it. */
+  /** The box of a city is that of its first tile; other tiles do not change it. */
   box: Box = kUnitBox;
 
   private readonly indexed = computed(() => indexFeatures(this.info?.features ?? []));

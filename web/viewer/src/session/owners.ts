@@ -1,23 +1,12 @@
 /** A table of owners or parcels (CSV) that was dropped on the page: features have owners by it, for colours and queries. */
 
-import { Observable } from "../observable";
 import { t } from "../texts";
-import type { Messages } from "./messages";
-import type { OpenVolume } from "./open_volume";
-import type { View } from "./view";
+import { ViewPart } from "./view_part";
 
-export class Owners extends Observable {
+export class Owners extends ViewPart {
   /** Its name; empty: none. */
   file = "";
   private table: ArrayBuffer | null = null;
-
-  constructor(
-    private readonly volume: OpenVolume,
-    private readonly view: View,
-    private readonly messages: Messages,
-  ) {
-    super();
-  }
 
   /** Colours by it at once. Rejects with an error of the library that names the line. */
   async give(table: ArrayBuffer, file: string): Promise<void> {

@@ -1,6 +1,6 @@
 /**
  * Large models: a coarse volume is the first picture; a finer one is made in a second worker meanwhile, and takes its place
- * at the end. Whoever stops that, or has no memory for it, keeps the coarse one and is told.
+ * at the end. If the user stops that, or the memory is too small for it, the coarse one stays, with a message.
  */
 
 import { kCancelled } from "../engine";
@@ -13,9 +13,9 @@ import type { OpenVolume } from "./open_volume";
 /** Fetches the files of a model again. */
 export type Source = () => Promise<FileBytes[]>;
 
-/** Smaller models are built finely about as soon as coarsely. */
+/** The fine volume of a smaller model takes about as long as its draft. */
 const kLargeBytes = 8e6;
-/** What gzip makes of models, about. */
+/** Ratio by which gzip compresses models, about. */
 const kPacked = 10;
 
 export function wantsDraft(files: FileBytes[]): boolean {
@@ -24,7 +24,7 @@ export function wantsDraft(files: FileBytes[]): boolean {
   return bytes >= kLargeBytes;
 }
 
-/** `?memory=MB` or else a quarter of the device's memory, at most 1 GB: what a volume may take that is built here. */
+/** Bytes that a volume built here may take: `?memory=MB`, or else a quarter of the device's memory, at most 1 GB. */
 export function memoryOfPage(): number {
   const asked = Number(new URLSearchParams(location.search).get("memory"));
   if (asked > 0) return Math.max(16, asked) * 1e6;
@@ -33,7 +33,7 @@ export function memoryOfPage(): number {
 }
 
 export interface RefiningHost {
-  /** Resolves when the coarse volume is seen: both at once would take each other's time. */
+  /** Resolves when the page shows the coarse volume. Before, the second worker would slow down that picture. */
   firstPicture(): Promise<void>;
   /** The finer volume has taken the place of the coarse one. */
   take(info: VolumeInfo, memory: number): Promise<void>;
@@ -42,7 +42,7 @@ export interface RefiningHost {
 export class Refining extends Observable {
   /** null: nothing is being made finer. */
   progress: Progress | null = null;
-  /** null: what is open is fine, or coarse for good. */
+  /** null: the open volume is fine, or no finer one is possible. */
   private wanted: { source: Source; memory: number } | null = null;
   private token = {};
 
@@ -54,12 +54,12 @@ export class Refining extends Observable {
     super();
   }
 
-  /** What is open is a draft, and stays so unless it is begun again. */
+  /** The open volume is a draft. */
   get isCoarse(): boolean {
     return this.wanted !== null;
   }
 
-  /** Samples are so far apart, metres. */
+  /** Distance between samples, metres. */
   get spacing(): number {
     return this.volume.info?.spacing[0] ?? 0;
   }

@@ -1,12 +1,10 @@
 /** What is selected, its properties, and what lies along a ray. */
 
 import type { Feature, FeatureProperties, Pick, Stretch } from "../engine";
-import { effect, Observable } from "../observable";
+import { effect } from "../observable";
 import { labelOf } from "../state/feature_index";
 import { t } from "../texts";
-import type { Messages } from "./messages";
-import type { OpenVolume } from "./open_volume";
-import type { View } from "./view";
+import { ViewPart, type ViewParts } from "./view_part";
 
 export interface AlongList {
   x: number;
@@ -14,20 +12,16 @@ export interface AlongList {
   stretches: Stretch[];
 }
 
-export class Selection extends Observable {
+export class Selection extends ViewPart {
   /** Of the selected feature, if there is exactly one, once they have come. */
   properties: FeatureProperties | null = null;
   along: AlongList | null = null;
 
-  constructor(
-    private readonly volume: OpenVolume,
-    private readonly view: View,
-    private readonly messages: Messages,
-  ) {
-    super();
+  constructor(parts: ViewParts) {
+    super(parts);
     effect(() => {
-      // The picture is asked for first, in the same turn.
-      if (view.now.selection && volume.info) queueMicrotask(() => void this.read());
+      // After this turn, in which the page asks for the picture.
+      if (this.view.now.selection && this.volume.info) queueMicrotask(() => void this.read());
     });
   }
 

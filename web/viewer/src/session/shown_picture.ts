@@ -1,16 +1,14 @@
-/** The picture that stands on the page, which lags the view by a frame, and what it tells. */
+/** The picture on the page, which lags the view by a frame, and facts about it: its quality, planes and colours. */
 
 import { PictureLoop, type Quality } from "../canvas/picture_loop";
 import type { ColorScale, Engine, EngineError, FrameReport, MovedPlane } from "../engine";
-import { effect, Observable, untracked } from "../observable";
+import { effect, untracked } from "../observable";
 import { cutOf } from "../state/scene_of";
 import type { Camera, ViewState } from "../state/view_state";
 import { movedText } from "../texts";
-import type { Messages } from "./messages";
-import type { OpenVolume } from "./open_volume";
-import type { View } from "./view";
+import { ViewPart, type ViewParts } from "./view_part";
 
-export class ShownPicture extends Observable {
+export class ShownPicture extends ViewPart {
   /** null: the open model has none yet. */
   report: FrameReport | null = null;
   /** null: another one is coming. */
@@ -18,19 +16,15 @@ export class ShownPicture extends Observable {
   camera: Camera | null = null;
   /** Section planes that are drawn beside faces of the model in which they lie. */
   moved: MovedPlane[] = [];
-  /** What the colours mean, for those who cannot see the legend; null: they are no legend's. */
+  /** The meaning of the colours, for readers who cannot see the legend; null: the picture has no legend. */
   scale: ColorScale | null = null;
   private loop: PictureLoop | null = null;
   private seenSections: unknown = null;
 
-  constructor(
-    private readonly volume: OpenVolume,
-    private readonly view: View,
-    private readonly messages: Messages,
-  ) {
-    super();
+  constructor(parts: ViewParts) {
+    super(parts);
     effect(() => {
-      if (view.revision) untracked(() => this.redraw());
+      if (this.view.revision) untracked(() => this.redraw());
     });
   }
 

@@ -1,4 +1,4 @@
-/** The view of what is open: its state, the steps to it, the flight of its camera, and the scene of it. */
+/** The view of the open model: its state, the steps to it, the flight of its camera, and its scene. */
 
 import { between, withProjection } from "../camera/camera";
 import type { CameraPreset, Samples, Scene, SceneCamera } from "../engine";
@@ -19,9 +19,9 @@ const kFlight = 350;
 
 export class View extends Observable {
   state: ViewState = initialState();
-  /** The members of `state`, each observable by itself: what shows the look is not drawn again as the camera moves. */
+  /** The members of `state`, each observable on its own: a part that shows the look does not render again as the camera moves. */
   readonly now = membersOf(() => this.state);
-  /** That of the camera, which does not change as it moves. */
+  /** The projection of the camera, which does not change as the camera moves. */
   readonly projection = membersOf(() => {
     const { parallel = kSceneMembers["/camera/parallel"].default, fieldOfView = null } = this.state.camera ?? {};
     return { parallel, fieldOfView };
@@ -33,7 +33,7 @@ export class View extends Observable {
   tool: Tool | null = null;
   isWalking = false;
   isLegendShown = false;
-  /** Grows when the picture is to be drawn again. */
+  /** Grows with each change after which the page draws the picture again. */
   revision = 0;
   private flight = 0;
   /** The view fitted to the whole building, and its aspect ratio; it is recomputed for another aspect ratio. */
@@ -182,9 +182,9 @@ export class View extends Observable {
     if (this.state.camera) this.fitted = { camera: this.state.camera, aspect };
   }
 
-  /** Fits again if the picture that stands now has another aspect ratio, and nobody has moved since. */
+  /** Fits again if the picture has another aspect ratio and the camera has not moved since. */
   refit(aspect: number): void {
-    // A picture of a size that is past: one of the new size is coming.
+    // This picture still has the old size; one of the new size follows.
     if (!isSameAspect(aspect, this.aspect)) return;
     if (!this.fitted || this.fitted.camera !== this.state.camera || isSameAspect(this.fitted.aspect, aspect)) return;
     this.fitted = null;

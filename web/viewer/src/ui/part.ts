@@ -1,4 +1,4 @@
-/** A part of the page. It is rendered again when something observable changes that its rendering read. */
+/** A part of the page. It renders again when an observable value changes that its last rendering read. */
 
 import { css, LitElement } from "lit";
 import { effect } from "../observable";
@@ -18,6 +18,8 @@ export abstract class Part extends LitElement {
       isRendered = true;
       super.performUpdate();
     });
+    // A part that was removed before its rendering observes nothing.
+    if (!this.isConnected) this.unwatch();
   }
 
   override connectedCallback(): void {
