@@ -19,8 +19,8 @@ from typing import Optional
 
 MAX_FILES = 25
 PARTS = ("svt", "apps", "web/wasm", "python", "bench", "tests")
-# Templates over JSON. Public headers may not include it, so that users of the library need no JSON library; but for those
-# of the folder that only programs use.
+# Templates over JSON. Public headers may not include it, so that users of the library need no JSON library. Those of the
+# folder that only programs use may.
 RECORD = "svt/record/record.hpp"
 OF_PROGRAMS = "frontend"
 THIRD_PARTY = (

@@ -35,10 +35,10 @@ TABLE_BEGIN, TABLE_END = "<!-- checks: begin -->\n", "<!-- checks: end -->\n"
 
 # The folders of the address sanitizer's parts: each part fits into one turn from an empty cache.
 FOLDERS = {
-    "data": "core plane image model crs readers mesh validate",
+    "data": "core plane record image model crs readers mesh validate",
     "volumes": "volume volume_readers voxelize analyze samples serve",
     "pictures": "render render_gl illustrate writers",
-    "chains": "pipeline city",
+    "chains": "pipeline city frontend",
     "command": "cli",
 }
 
@@ -64,8 +64,9 @@ CHECKS = {
     **{
         f"analyzer/{part}": Check(f"scripts/setup.sh checks && scripts/tidy.py --analyzer --only '{pattern}'", 20)
         for part, pattern in {
-            "library": "/svt/(core|plane|image|model|crs|readers|mesh|validate|volume|volume_readers|voxelize|analyze|render)/",
-            "programs": "/svt/(render_gl|illustrate|writers|samples|serve|pipeline|city)/|/(apps|python)/",
+            "library": "/svt/(core|plane|record|image|model|crs|readers|mesh|validate"
+            "|volume|volume_readers|voxelize|analyze|render)/",
+            "programs": "/svt/(render_gl|illustrate|writers|samples|serve|pipeline|city|frontend)/|/(apps|python)/",
         }.items()
     },
     "gcc": Check("scripts/setup.sh && SVT_KEEP_GOING=1 scripts/build.sh gcc", 15),
