@@ -16,10 +16,11 @@
 
 namespace svt::readers {
 
-/// One format. readModel() tries formats() in order and uses the first that matches.
+/// A format, declared beside its reader. readModel() tries formats() in order and uses the first that matches.
 struct Format {
-    std::string_view name;     ///< "CityGML"
+    std::string_view name;     ///< "citygml"; unique
     std::string_view endings;  ///< of its files, lower case, '|' between them: ".gml|.xml". Detection ignores them.
+    std::string_view holds;    ///< content, for messages and the manual: "CityGML 1.0 to 3.0"
     /// Whether a file with these first bytes (up to 1 MiB) has this format.
     bool (*looksLike)(std::span<const std::byte> head) noexcept;
     Result<model::BuildingModel> (*read)(std::span<const std::byte> bytes, std::string_view name,

@@ -24,9 +24,31 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
+#include <string_view>
 
 namespace svt::volume_readers {
+
+class LabelFile;
+struct LabelImage;
+
+/// A format, declared beside its reader.
+struct LabelFormat {
+    std::string_view name;        ///< "nrrd"; unique
+    std::string_view endings;     ///< of its files, lower case, '|' between them: ".tif|.tiff". Detection ignores them.
+    std::string_view holds;       ///< content, for messages and the manual
+    bool isFolder = false;        ///< else a file
+    Code fault = Code::BadImage;  ///< of damaged samples
+    /// Whether the input has this format. \param file  null for a folder
+    bool (*looksLike)(const std::shared_ptr<const LabelFile>& file, const std::filesystem::path& path);
+    /// Checks the header and leaves the samples to be read. \param maxBytes  memory that reading may take
+    Result<LabelImage> (*open)(const std::shared_ptr<const LabelFile>& file, const std::filesystem::path& path,
+                               std::uint64_t maxBytes);
+};
+
+/// All readable formats, in the order in which they are tried.
+[[nodiscard]] std::span<const LabelFormat> labelFormats() noexcept;
 
 struct LabelReadOptions {
     std::filesystem::path labels;        ///< table of labels (JSON); empty: that of the file, or a label per value

@@ -395,6 +395,30 @@ TEST_F(Convert, PartsOfAVolumeAreWrittenAlone) {
     EXPECT_FALSE(fs::exists(folder / "x.nrrd"));
 }
 
+TEST(Formats, AreListedWithEndingsAndCommands) {
+    const TemporaryFolder folder;
+    using nlohmann::json;
+    const json rows = json::parse(runSvtWell(folder.path(), {"--formats=json"}));
+    std::map<std::string, json> byName;
+    for (const json& row : rows) {
+        EXPECT_TRUE(byName.emplace(row["name"], row).second) << row;
+        EXPECT_FALSE(row["endings"].empty() || row["content"].get<std::string>().empty()) << row;
+        EXPECT_FALSE(row["readAs"].is_null() && row["writtenBy"].is_null()) << row;
+    }
+    for (const writers::VolumeFormat& format : writers::volumeFormats()) {
+        const json& commands = byName.at(std::string(format.name))["writtenBy"];
+        EXPECT_NE(std::ranges::find(commands, "convert"), commands.end()) << format.name;
+    }
+    for (const char* name : {"citygml", "cityjson", "ifc", "indoorgml"}) EXPECT_EQ(byName.at(name)["readAs"], "model");
+    for (const char* name : {"svt", "nrrd", "vti", "nifti", "tiff", "zarr", "ade"})
+        EXPECT_EQ(byName.at(name)["readAs"], "volume") << name;
+    EXPECT_EQ(byName.at("ifc")["endings"], json({".ifc", ".ifczip"}));
+    EXPECT_EQ(byName.at("svt")["writtenBy"], json({"build", "shell", "city-extract"}));
+    const std::string text = runSvtWell(folder.path(), {"--formats"});
+    for (const auto& [name, row] : byName) EXPECT_NE(text.find(row["content"]), std::string::npos) << name;
+    EXPECT_EQ(runSvt(folder.path(), {"--formats=xml"}).exitCode, 2);
+}
+
 TEST_F(Convert, EveryFormatIsWrittenAndTheSameForAnyThreads) {
     // Boxes have no rooms, of which IndoorGML is made.
     prepareHouse(folder.path(), "0.4");

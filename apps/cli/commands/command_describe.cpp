@@ -90,7 +90,7 @@ Json describedJson() {
                                          {"holds", format.holds},
                                          {"readers", format.readers}});
     for (const readers::Format& format : readers::formats())
-        json["modelFormats"].push_back({{"name", format.name}, {"endings", splitChoices(format.endings)}});
+        json["modelFormats"].push_back({{"name", format.holds}, {"endings", splitChoices(format.endings)}});
     return json;
 }
 

@@ -56,7 +56,7 @@ std::string bashScript() {
 _svt() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} words=
   if [ "$COMP_CWORD" -eq 1 ]; then
-    COMPREPLY=($(compgen -W "{}--help --version" -- "$word"))
+    COMPREPLY=($(compgen -W "{}--formats --help --version" -- "$word"))
     return
   fi
   case ${{COMP_WORDS[1]}} in

@@ -1,7 +1,9 @@
 // The only file that knows the parser of command lines (CLI11).
 #include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/format_table.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
+#include <apps/cli/output/table.hpp>
 #include <apps/cli/output/version.hpp>
 
 #include <svt/core/edit_distance.hpp>
@@ -119,10 +121,15 @@ std::string commandsBelow(std::string_view word) {
 struct Parser {
     CLI::App app{"Semantic volume textures of building models: build, query and draw them", "svt"};
     std::map<std::string_view, Given> given;
+    std::string formats = "text";  // form of the table of formats
 
     Parser() {
         app.require_subcommand(0, 1);
         app.set_version_flag("--version", versionText());
+        app.add_option("--formats", formats, "Print the formats that are read and written")
+            ->expected(0, 1)
+            ->type_name("[text|json]")
+            ->check(CLI::Validator(CLI::IsMember({"text", "json"}), "", ""));
         app.failure_message(CLI::FailureMessage::simple);
         for (const CommandText& text : commandTexts())
             addOptions(*app.add_subcommand(std::string(text.name), std::string(text.help)), text.options(),
@@ -212,6 +219,10 @@ int runCommandLine(int argc, char** argv) {
     } catch (const CLI::ExcludesError&) {  // reported by runCommand()
     } catch (const CLI::ParseError& error) {
         return reportUsage(parser.app, error);
+    }
+    if (parser.app.get_option("--formats")->count() > 0) {
+        print(formatTable(), parser.formats == "json" ? TableForm::JsonRows : TableForm::Text);
+        return flushed(kDone);
     }
     for (const CommandText& text : commandTexts()) {
         const std::string name(text.name);

@@ -16,32 +16,32 @@ namespace {
 constexpr std::size_t kHeadBytes = 4096;
 
 constexpr FileFormat kFormats[] = {
-    {"png", ".png", FileContent::Png},
-    {"svt", ".svt", FileContent::Volume},
-    {"svg", ".svg", FileContent::Svg},
-    {"pdf", ".pdf", FileContent::Pdf},
-    {"gpkg", ".gpkg", FileContent::GeoPackage},
-    {"webm", ".webm", FileContent::Webm},
-    {"mp4", ".mp4", FileContent::Mp4},
-    {"gif", ".gif", FileContent::Gif},
-    {"webp", ".webp", FileContent::Webp},
-    {"dxf", ".dxf", FileContent::Dxf},
-    {"geojson", ".geojson", FileContent::GeoJson},
-    {"scene", ".json", FileContent::PlainJson},
-    {"sheets", ".json", FileContent::PlainJson},
-    {"json", ".json", FileContent::PlainJson},
-    {"html", ".html", FileContent::Html},
-    {"csv", ".csv", FileContent::Text},
-    {"citygml", ".gml|.xml", FileContent::CityGml},
-    {"cityjson", ".json", FileContent::CityJson},
-    {"cityjsonseq", ".jsonl", FileContent::CityJson},
-    {"ifc", ".ifc", FileContent::Ifc},
+    {"png", ".png", FileContent::Png, "a picture", {}},
+    {"svt", ".svt", FileContent::Volume, "a semantic volume texture", "svt"},
+    {"svg", ".svg", FileContent::Svg, "a vector drawing", "browsers, Inkscape, Illustrator"},
+    {"pdf", ".pdf", FileContent::Pdf, "drawings or sheets to scale", {}},
+    {"gpkg", ".gpkg", FileContent::GeoPackage, "features or areas as GeoPackage", "QGIS, ArcGIS, GDAL"},
+    {"webm", ".webm", FileContent::Webm, "a film", {}},
+    {"mp4", ".mp4", FileContent::Mp4, "a film", {}},
+    {"gif", ".gif", FileContent::Gif, "a moving picture", {}},
+    {"webp", ".webp", FileContent::Webp, "a moving picture", {}},
+    {"dxf", ".dxf", FileContent::Dxf, "a drawing for CAD", "AutoCAD, LibreCAD, QGIS"},
+    {"geojson", ".geojson", FileContent::GeoJson, "a drawing, or features with their outlines", "QGIS, web maps, GDAL"},
+    {"scene", ".json", FileContent::PlainJson, "a scene file", "svt"},
+    {"sheets", ".json", FileContent::PlainJson, "a set of sheets", "svt"},
+    {"json", ".json", FileContent::PlainJson, "a table as JSON", {}},
+    {"html", ".html", FileContent::Html, "the report of a check", "browsers"},
+    {"csv", ".csv", FileContent::Text, "a table", "spreadsheets"},
+    {"citygml", ".gml|.xml", FileContent::CityGml, "a CityGML model", {}},
+    {"cityjson", ".json", FileContent::CityJson, "a CityJSON model", {}},
+    {"cityjsonseq", ".jsonl", FileContent::CityJson, "a CityJSONSeq model", {}},
+    {"ifc", ".ifc", FileContent::Ifc, "an IFC model", {}},
 };
 
 std::vector<FileFormat> volumeFileFormats() {
     std::vector<FileFormat> formats;
     for (const writers::VolumeFormat& format : writers::volumeFormats())
-        formats.push_back({format.name, format.endings, format.content});
+        formats.push_back({format.name, format.endings, format.content, format.holds, format.readers});
     return formats;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a file holds, told by its first bytes, and the formats that commands write.
+/// The kind of a file by its first bytes, and the formats that commands write.
 
 #include <svt/core/file_content.hpp>
 
@@ -19,10 +19,12 @@ namespace svt::cli {
 struct FileFormat {
     std::string_view name;     ///< as Option::formats has it
     std::string_view endings;  ///< ".gml|.xml"
-    FileContent content;       ///< what it may take the place of, besides nothing
+    FileContent content;       ///< kind of files that it may replace
+    std::string_view holds;    ///< content, for people
+    std::string_view readers;  ///< programs that read it; may be empty
 };
 
-/// The format of that name; null: there is none.
+/// The format of that name; null: none has it.
 [[nodiscard]] const FileFormat* formatOfName(std::string_view name);
 
 }  // namespace svt::cli

@@ -4,6 +4,7 @@
 #include <svt/core/text.hpp>
 #include <svt/readers/citygml/citygml_assembly.hpp>
 #include <svt/readers/citygml/citygml_chunk.hpp>
+#include <svt/readers/read_model.hpp>
 #include <svt/readers/xml/xml_encoding.hpp>
 #include <svt/readers/xml/xml_names.hpp>
 #include <svt/readers/xml/xml_scanner.hpp>
@@ -213,5 +214,11 @@ Result<model::BuildingModel> readCityGml(std::span<const std::byte> bytes, strin
     Diagnostics ignored;
     return Reading(text->view(), std::move(fileName), options, diagnostics != nullptr ? *diagnostics : ignored).run();
 }
+
+extern const Format kCityGml{.name = "citygml",
+                             .endings = ".gml|.xml|.citygml",
+                             .holds = "CityGML 1.0 to 3.0",
+                             .looksLike = looksLikeCityGml,
+                             .read = readCityGml};
 
 }  // namespace svt::readers

@@ -6,6 +6,7 @@
 #include <svt/readers/cityjson/cityjson_geometry.hpp>
 #include <svt/readers/cityjson/cityjson_link.hpp>
 #include <svt/readers/cityjson/cityjson_objects.hpp>
+#include <svt/readers/read_model.hpp>
 
 #include <fmt/format.h>
 
@@ -439,5 +440,11 @@ Result<model::BuildingModel> readCityJson(std::span<const std::byte> bytes, std:
     if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     return CityJsonReader(text, name, options, diagnostics != nullptr ? *diagnostics : ignored).read();
 }
+
+extern const Format kCityJson{.name = "cityjson",
+                              .endings = ".json|.jsonl|.cityjson",
+                              .holds = "CityJSON and CityJSONSeq",
+                              .looksLike = looksLikeCityJson,
+                              .read = readCityJson};
 
 }  // namespace svt::readers

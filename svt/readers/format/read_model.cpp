@@ -3,12 +3,8 @@
 #include <svt/core/machine.hpp>
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
-#include <svt/readers/citygml/citygml_reader.hpp>
-#include <svt/readers/cityjson/cityjson_reader.hpp>
 #include <svt/readers/format/extrude_footprints.hpp>
 #include <svt/readers/format/zip_member.hpp>
-#include <svt/readers/ifc/ifc_reader.hpp>
-#include <svt/readers/indoorgml/indoorgml_reader.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/readers/xml/xml_names.hpp>
 #include <svt/readers/xml/xml_scanner.hpp>
@@ -23,19 +19,21 @@
 #include <vector>
 
 namespace svt::readers {
+
+// Each is declared beside its reader.
+extern const Format kCityGml, kCityJson, kIfc, kIndoorGml;
+
+std::span<const Format> formats() noexcept {
+    static const Format kAll[] = {kCityGml, kCityJson, kIfc, kIndoorGml};
+    return kAll;
+}
+
 namespace {
 
 using std::string_view;
 using Bytes = std::span<const std::byte>;
 
 constexpr std::size_t kHeadBytes = 1 << 20;
-
-constexpr Format kFormats[] = {
-    {"CityGML 1.0 to 3.0", ".gml|.xml|.citygml", looksLikeCityGml, readCityGml},
-    {"CityJSON and CityJSONSeq", ".json|.jsonl|.cityjson", looksLikeCityJson, readCityJson},
-    {"IFC 2x3 to 4.3 (STEP)", ".ifc|.ifczip", looksLikeIfc, readIfc},
-    {"IndoorGML", ".gml|.xml", looksLikeIndoorGml, readIndoorGml},
-};
 
 string_view asText(Bytes bytes) noexcept { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
@@ -144,7 +142,7 @@ std::string describeUnknown(string_view text) {
 
 Error unknownFormat(Bytes bytes, string_view name) {
     std::string known;
-    for (const Format& format : kFormats) known += fmt::format("{}{}", known.empty() ? "" : ", ", format.name);
+    for (const Format& format : formats()) known += fmt::format("{}{}", known.empty() ? "" : ", ", format.holds);
     return {Code::UnknownFormat,
             fmt::format("{}. Can be read: {}, also compressed with gzip", describeUnknown(asText(bytes)), known),
             {std::string(name), 0, 0, {}}};
@@ -153,7 +151,7 @@ Error unknownFormat(Bytes bytes, string_view name) {
 Result<model::BuildingModel> readPlain(Bytes bytes, string_view name, const ReadOptions& options,
                                        Diagnostics* diagnostics) {
     const Bytes head = bytes.first(std::min(bytes.size(), kHeadBytes));
-    for (const Format& format : kFormats)
+    for (const Format& format : formats())
         if (format.looksLike(head)) return format.read(bytes, name, options, diagnostics);
     return unknownFormat(bytes, name);
 }
@@ -224,11 +222,9 @@ Result<model::BuildingModel> readAny(Bytes bytes, string_view name, const ReadOp
 
 }  // namespace
 
-std::span<const Format> formats() noexcept { return kFormats; }
-
 std::vector<string_view> modelEndings() {
     std::vector<string_view> endings;
-    for (const Format& format : kFormats)
+    for (const Format& format : formats())
         for (const string_view ending : splitChoices(format.endings))
             if (std::ranges::find(endings, ending) == endings.end()) endings.push_back(ending);
     return endings;

@@ -10,6 +10,7 @@
 #include <svt/readers/ifc/styles.hpp>
 #include <svt/readers/ifc/units.hpp>
 #include <svt/readers/ifc_shape/shape_reader.hpp>
+#include <svt/readers/read_model.hpp>
 
 #include <fmt/format.h>
 
@@ -590,5 +591,11 @@ Result<model::BuildingModel> readIfc(std::span<const std::byte> bytes, string_vi
     SVT_TRY(step, step::StepFile::scan(text, name, log));
     return IfcReader(*step, name, options, log).read();
 }
+
+extern const Format kIfc{.name = "ifc",
+                         .endings = ".ifc|.ifczip",
+                         .holds = "IFC 2x3 to 4.3 (STEP)",
+                         .looksLike = looksLikeIfc,
+                         .read = readIfc};
 
 }  // namespace svt::readers

@@ -6,6 +6,7 @@
 #include <svt/readers/gml/gml_numbers.hpp>
 #include <svt/readers/indoorgml/indoor_graph.hpp>
 #include <svt/readers/indoorgml/indoor_xml.hpp>
+#include <svt/readers/read_model.hpp>
 #include <svt/readers/xml/xml_encoding.hpp>
 #include <svt/readers/xml/xml_names.hpp>
 #include <svt/readers/xml/xml_scanner.hpp>
@@ -290,5 +291,11 @@ Result<model::BuildingModel> readIndoorGml(std::span<const std::byte> bytes, str
     Diagnostics ignored;
     return IndoorReader(text->view(), name, options, diagnostics != nullptr ? *diagnostics : ignored).run();
 }
+
+extern const Format kIndoorGml{.name = "indoorgml",
+                               .endings = ".gml|.xml",
+                               .holds = "IndoorGML",
+                               .looksLike = looksLikeIndoorGml,
+                               .read = readIndoorGml};
 
 }  // namespace svt::readers

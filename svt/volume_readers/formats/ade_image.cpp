@@ -239,8 +239,7 @@ Result<LabelImage> withSlices(LabelImage image, const fs::path& path, const pugi
     return image;
 }
 
-}  // namespace
-
+// The start tag of the texture of the volume in a document; npos: it has none.
 std::size_t findAdeTexture(std::string_view document) noexcept {
     for (std::size_t at = document.find("urn:svt:citygml:ade:");
          at != std::string_view::npos && at < document.size();) {
@@ -286,5 +285,18 @@ Result<LabelImage> openAde(const SharedFile& file, const fs::path& path) {
     }
     return withSlices(std::move(image), path, texture);
 }
+
+}  // namespace
+
+extern const LabelFormat kAde{
+    .name = "ade",
+    .endings = ".ade.gml",
+    .holds = "CityGML with a volume by the extension of svt",
+    .looksLike =
+        [](const auto& file, const auto&) {
+            return file->text().substr(0, 65536).find("CityModel") != std::string_view::npos &&
+                   findAdeTexture(file->text()) != std::string_view::npos;
+        },
+    .open = [](const auto& file, const auto& path, std::uint64_t) { return openAde(file, path); }};
 
 }  // namespace svt::volume_readers

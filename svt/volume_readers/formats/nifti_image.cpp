@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -148,12 +149,27 @@ Result<LabelImage> readNiftiHead(std::string_view text, std::uint64_t& dataOffse
     return image;
 }
 
-}  // namespace
+bool isGzip(std::string_view text) noexcept { return text.starts_with("\x1f\x8b"); }
 
-Result<LabelImage> openNifti(const SharedFile& file, bool isGzip) {
+// Whether a file begins with the header of NIfTI-1 or -2.
+bool beginsAsNifti(std::string_view head) noexcept {
+    return head.size() >= 348 && ((head.starts_with(std::string_view("\x5c\1\0\0", 4)) && head[344] == 'n') ||
+                                  head.starts_with(std::string_view("\x1c\2\0\0n", 5)));
+}
+
+bool looksLikeNifti(const SharedFile& file) {
+    if (!isGzip(file->text())) return beginsAsNifti(file->text());
+    std::array<char, 348> head{};
+    const ReadSamples read = gzipSamples(file, file->bytes(), Code::BadImage);
+    const bool isRead = static_cast<bool>(read(std::as_writable_bytes(std::span(head))));
+    return isRead && beginsAsNifti({head.data(), head.size()});
+}
+
+// NIfTI-1 and -2 in one file, as it is or in gzip.
+Result<LabelImage> openNifti(const SharedFile& file) {
     std::string_view text = file->text();
     std::string unpacked(1024, '\0');
-    if (isGzip) {
+    if (isGzip(text)) {
         // The header, then all in front of the samples, then the samples: a stream that is read on.
         ReadSamples read = gzipSamples(file, file->bytes(), Code::BadImage);
         SVT_DO(read(std::as_writable_bytes(std::span(unpacked).first(544))));
@@ -185,5 +201,13 @@ Result<LabelImage> openNifti(const SharedFile& file, bool isGzip) {
     image->read = plainSamples(file, stored, Code::BadImage);
     return image;
 }
+
+}  // namespace
+
+extern const LabelFormat kNifti{.name = "nifti",
+                                .endings = ".nii|.nii.gz",
+                                .holds = "NIfTI-1 and -2",
+                                .looksLike = [](const auto& file, const auto&) { return looksLikeNifti(file); },
+                                .open = [](const auto& file, const auto&, std::uint64_t) { return openNifti(file); }};
 
 }  // namespace svt::volume_readers

@@ -223,4 +223,12 @@ Result<LabelImage> openNrrd(const SharedFile& file) {
     return image;
 }
 
+extern const LabelFormat kNrrd{
+    .name = "nrrd",
+    .endings = ".nrrd",
+    .holds = "NRRD in one file, raw or gzip",
+    .fault = Code::BadNrrd,
+    .looksLike = [](const auto& file, const auto&) { return file->text().starts_with("NRRD000"); },
+    .open = [](const auto& file, const auto&, std::uint64_t) { return openNrrd(file); }};
+
 }  // namespace svt::volume_readers

@@ -2,71 +2,73 @@
 #include <svt/volume_readers/formats/label_formats.hpp>
 #include <svt/volume_readers/read_label_volume.hpp>
 #include <svt/volume_readers/table/label_tables.hpp>
-#include <svt/volume_readers/zarr/zarr_folder.hpp>
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <optional>
+#include <system_error>
+#include <utility>
 
 namespace svt::volume_readers {
+
+// Each is declared beside its reader.
+extern const LabelFormat kNrrd, kTiff, kNifti, kVti, kAde, kZarr;
+
+std::span<const LabelFormat> labelFormats() noexcept {
+    static const LabelFormat kAll[] = {kNrrd, kTiff, kNifti, kVti, kAde, kZarr};
+    return kAll;
+}
+
 namespace {
 
 using namespace std::string_view_literals;
 
-enum class LabelFormat : std::uint8_t { None, Nrrd, Vti, Nifti, GzipNifti, Tiff, Ade, ZarrZip };
+// An input that may be a label volume.
+struct Candidate {
+    SharedFile file;  // null for a folder
+    const LabelFormat* format = nullptr;
+    bool isZippedZarr = false;
+};
 
-LabelFormat formatOf(const SharedFile& file) {
-    const std::string_view text = file->text();
-    if (text.starts_with("NRRD000"sv)) return LabelFormat::Nrrd;
-    if (text.starts_with("II*\0"sv) || text.starts_with("II+\0"sv) || text.starts_with("MM\0*"sv) ||
-        text.starts_with("MM\0+"sv))
-        return LabelFormat::Tiff;
-    const auto isNifti = [](std::string_view head) {
-        return head.size() >= 348 &&
-               ((head.starts_with("\x5c\1\0\0"sv) && head.substr(344, 1) == "n") || head.starts_with("\x1c\2\0\0n"sv));
-    };
-    if (isNifti(text)) return LabelFormat::Nifti;
-    if (text.starts_with("\x1f\x8b"sv)) {
-        std::array<char, 348> head{};
-        const ReadSamples read = gzipSamples(file, file->bytes(), Code::BadImage);
-        const bool isRead = static_cast<bool>(read(std::as_writable_bytes(std::span(head))));
-        return isRead && isNifti({head.data(), head.size()}) ? LabelFormat::GzipNifti : LabelFormat::None;
-    }
-    const std::string_view begin = text.substr(0, 4096);
-    if (text.starts_with("PK\3\4"sv))
-        for (const std::string_view name : {".zarray"sv, ".zgroup"sv, ".zattrs"sv, "zarr.json"sv})
-            if (begin.find(name) != std::string_view::npos) return LabelFormat::ZarrZip;
-    if (begin.find("<VTKFile") != std::string_view::npos) return LabelFormat::Vti;
-    if (text.substr(0, 65536).find("CityModel") != std::string_view::npos &&
-        findAdeTexture(text) != std::string_view::npos)
-        return LabelFormat::Ade;
-    return LabelFormat::None;
+bool isZippedZarr(const SharedFile& file) {
+    if (file == nullptr || !file->text().starts_with("PK\3\4"sv)) return false;
+    const std::string_view head = file->text().substr(0, 4096);
+    const auto names = {".zarray"sv, ".zgroup"sv, ".zattrs"sv, "zarr.json"sv};
+    return std::ranges::any_of(names, [&](std::string_view name) { return head.find(name) != std::string_view::npos; });
 }
 
-Result<LabelImage> openImage(const SharedFile& file, const std::filesystem::path& path) {
-    switch (formatOf(file)) {
-        case LabelFormat::Nrrd: return openNrrd(file);
-        case LabelFormat::Vti: return openVti(file);
-        case LabelFormat::Nifti: return openNifti(file, false);
-        case LabelFormat::GzipNifti: return openNifti(file, true);
-        case LabelFormat::Tiff: return openTiff(file);
-        case LabelFormat::Ade: return openAde(file, path);
-        case LabelFormat::ZarrZip:
-            return Error(Code::BadImage, "the file is a ZIP archive of Zarr; unpack it, and give the folder");
-        case LabelFormat::None: break;
+Result<Candidate> candidateAt(const std::filesystem::path& path) {
+    Candidate candidate;
+    std::error_code ignored;
+    const bool isFolder = std::filesystem::is_directory(path, ignored);
+    if (!isFolder) {
+        SVT_TRY(file, LabelFile::open(path));
+        candidate.file = std::move(*file);
     }
-    return Error(
-        Code::UnknownFormat,
-        "the file is no label volume that can be read: NRRD, VTI, NIfTI, TIFF, a folder of Zarr, or CityGML with one");
+    for (const LabelFormat& format : labelFormats())
+        if (format.isFolder == isFolder && format.looksLike(candidate.file, path)) {
+            candidate.format = &format;
+            break;
+        }
+    candidate.isZippedZarr = isZippedZarr(candidate.file);
+    return candidate;
+}
+
+Error unknownFormat(const Candidate& candidate) {
+    if (candidate.isZippedZarr)
+        return {Code::BadImage, "the file is a ZIP archive of Zarr; unpack it, and give the folder"};
+    std::string known;
+    for (const LabelFormat& format : labelFormats())
+        known += fmt::format("{}{}", known.empty() ? "" : "; ", format.holds);
+    return {Code::UnknownFormat, fmt::format("this is no label volume of a known format. Can be read: {}", known)};
 }
 
 }  // namespace
 
 bool looksLikeLabelVolume(const std::filesystem::path& path) {
-    if (looksLikeZarr(path)) return true;
-    const auto file = LabelFile::open(path);
-    return file && formatOf(*file) != LabelFormat::None;
+    const auto candidate = candidateAt(path);
+    return candidate && (candidate->format != nullptr || candidate->isZippedZarr);
 }
 
 Result<volume::SemanticVolume> readLabelVolume(const std::filesystem::path& path, const LabelReadOptions& options) {
@@ -85,14 +87,11 @@ Result<volume::SemanticVolume> readLabelVolume(const std::filesystem::path& path
         SVT_TRY(read, readUserTable(options.labels));
         table = std::move(*read);
     }
-    Code code = Code::BadImage;
-    const auto opened = [&]() -> Result<LabelImage> {
-        if (looksLikeZarr(path)) return openZarr(path, maxBytes);
-        SVT_TRY(file, LabelFile::open(path));
-        if ((*file)->text().starts_with("NRRD")) code = Code::BadNrrd;
-        return openImage(*file, path);
-    };
-    const auto image = opened();
+    const auto candidate = candidateAt(path);
+    if (!candidate) return at(candidate.error());
+    if (candidate->format == nullptr) return at(unknownFormat(*candidate));
+    const Code code = candidate->format->fault;
+    const auto image = candidate->format->open(candidate->file, path, maxBytes);
     if (!image) return at(image.error());
     const auto warn = [&](const std::string& message) {
         if (options.diagnostics != nullptr)

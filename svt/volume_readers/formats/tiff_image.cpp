@@ -171,8 +171,12 @@ Result<void> readStrips(TiffBytes& bytes, const TiffPage& page, TiffStack& stack
     return {};
 }
 
-}  // namespace
+bool looksLikeTiff(std::string_view text) noexcept {
+    constexpr std::string_view kMarks[] = {{"II*\0", 4}, {"II+\0", 4}, {"MM\0*", 4}, {"MM\0+", 4}};
+    return std::ranges::any_of(kMarks, [&](std::string_view mark) { return text.starts_with(mark); });
+}
 
+// TIFF and BigTIFF, a page for each slice.
 Result<LabelImage> openTiff(const SharedFile& file) {
     const std::string_view text = file->text();
     const bool isBigEndian = text.starts_with("MM");
@@ -196,5 +200,13 @@ Result<LabelImage> openTiff(const SharedFile& file) {
     stack.image.read = zlibSamples(file, std::move(stack.strips), stack.isCompressed, Code::BadImage);
     return std::move(stack.image);
 }
+
+}  // namespace
+
+extern const LabelFormat kTiff{.name = "tiff",
+                               .endings = ".tif|.tiff",
+                               .holds = "TIFF and BigTIFF, a page for each slice, raw or Deflate",
+                               .looksLike = [](const auto& file, const auto&) { return looksLikeTiff(file->text()); },
+                               .open = [](const auto& file, const auto&, std::uint64_t) { return openTiff(file); }};
 
 }  // namespace svt::volume_readers

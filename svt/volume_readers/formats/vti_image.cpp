@@ -137,8 +137,6 @@ Result<void> readVtiPlace(pugi::xml_node image, pugi::xml_node piece, bool isCel
     return {};
 }
 
-}  // namespace
-
 Result<LabelImage> openVti(const SharedFile& file) {
     const std::string_view text = file->text();
     const std::size_t appended = text.find("<AppendedData");
@@ -190,5 +188,15 @@ Result<LabelImage> openVti(const SharedFile& file) {
         return done.error();
     return image;
 }
+
+}  // namespace
+
+extern const LabelFormat kVti{
+    .name = "vti",
+    .endings = ".vti",
+    .holds = "image data of VTK, appended raw or zlib",
+    .looksLike = [](const auto& file,
+                    const auto&) { return file->text().substr(0, 4096).find("<VTKFile") != std::string_view::npos; },
+    .open = [](const auto& file, const auto&, std::uint64_t) { return openVti(file); }};
 
 }  // namespace svt::volume_readers

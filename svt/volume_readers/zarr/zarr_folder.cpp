@@ -1,8 +1,8 @@
-#include <svt/volume_readers/zarr/zarr_folder.hpp>
-
 #include <svt/core/bytes.hpp>
 #include <svt/core/machine.hpp>
 #include <svt/volume/volume_json.hpp>
+#include <svt/volume_readers/read_label_volume.hpp>
+#include <svt/volume_readers/samples/label_image.hpp>
 #include <svt/volume_readers/zarr/zarr_array.hpp>
 
 #include <fmt/format.h>
@@ -315,8 +315,7 @@ Result<ZarrJson> arrayJson(const fs::path& root, const fs::path& folder) {
     return readJsonInside(root, folder / ".zarray");
 }
 
-}  // namespace
-
+// Whether a folder has metadata of Zarr.
 bool looksLikeZarr(const fs::path& folder) {
     std::error_code failed;
     if (!fs::is_directory(folder, failed)) return false;
@@ -325,6 +324,8 @@ bool looksLikeZarr(const fs::path& folder) {
     return false;
 }
 
+// Reads the metadata. Samples come by bands of chunks, which are unpacked on the way. A name or a link that leads out of the
+// folder is an error. \param maxBytes  of memory; a band of chunks may take half of it
 Result<LabelImage> openZarr(const fs::path& folder, std::uint64_t maxBytes) {
     std::error_code failed;
     const fs::path root = fs::canonical(folder, failed);
@@ -370,5 +371,15 @@ Result<LabelImage> openZarr(const fs::path& folder, std::uint64_t maxBytes) {
     image.read = [source](std::span<std::byte> out) { return source->read(out); };
     return image;
 }
+
+}  // namespace
+
+extern const LabelFormat kZarr{
+    .name = "zarr",
+    .endings = ".zarr",
+    .holds = "a folder of Zarr 2 or 3, or OME-NGFF",
+    .isFolder = true,
+    .looksLike = [](const auto&, const auto& folder) { return looksLikeZarr(folder); },
+    .open = [](const auto&, const auto& folder, std::uint64_t maxBytes) { return openZarr(folder, maxBytes); }};
 
 }  // namespace svt::volume_readers

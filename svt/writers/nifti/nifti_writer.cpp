@@ -179,7 +179,7 @@ extern const VolumeFormat kNifti{.name = "nifti",
 
 extern const VolumeFormat kNiftiGzip{.name = "niftigz",
                                      .endings = ".nii.gz",
-                                     .holds = "the same, compressed",
+                                     .holds = "NIfTI, compressed",
                                      .readers = "nibabel, ITK, 3D Slicer, FSL, SPM",
                                      .content = FileContent::Gzip,
                                      .isDense = true,

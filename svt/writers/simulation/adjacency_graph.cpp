@@ -159,7 +159,7 @@ extern const VolumeFormat kAdjacency{
 
 extern const VolumeFormat kGraphMl{.name = "graphml",
                                    .endings = ".graphml",
-                                   .holds = "the same as a graph",
+                                   .holds = "the adjacency of components as a graph",
                                    .readers = "NetworkX, Gephi, yEd",
                                    .content = FileContent::Xml,
                                    .write = [](const auto& volume, const auto& path, const auto& options) {

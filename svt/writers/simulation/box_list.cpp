@@ -71,7 +71,7 @@ Result<std::string> makeBoxJson(const volume::SemanticVolume& volume, const Volu
 extern const VolumeFormat kBoxTable{
     .name = "boxes",
     .endings = ".boxes.csv",
-    .holds = "the same boxes as a table",
+    .holds = "boxes of the components, as a table",
     .readers = "other solvers, spreadsheets",
     .content = FileContent::Text,
     .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
@@ -82,7 +82,7 @@ extern const VolumeFormat kBoxTable{
 extern const VolumeFormat kBoxJson{
     .name = "boxesjson",
     .endings = ".boxes.json",
-    .holds = "the same as JSON, with the grid's place",
+    .holds = "boxes of the components, with the place of the grid",
     .readers = "other solvers",
     .content = FileContent::PlainJson,
     .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
