@@ -8,7 +8,7 @@ preset=${1:?usage: $0 asan|tsan [FOLDER...]}
 shift
 folders=("$@")
 # The programs whose tests start threads.
-[ "$preset" = tsan ] && folders=(core readers volume voxelize render analyze illustrate serve pipeline city)
+[ "$preset" = tsan ] && folders=(core readers volume voxelize render analyze drawing illustrate serve pipeline city)
 targets=()
 for folder in "${folders[@]}"; do
   targets+=("svt_${folder}_test")

@@ -49,7 +49,7 @@ int main() {
     return now && now->haze == 0.25 ? 0 : 1;
 }
 CPP
-libraries=$(for name in illustrate plane render analyze record image volume model crs core; do echo "build/release/libsvt_$name.a"; done)
+libraries=$(for name in illustrate drawing plane render analyze record image volume model crs core; do echo "build/release/libsvt_$name.a"; done)
 # shellcheck disable=SC2086
 c++ -std=c++20 -D_GLIBCXX_ASSERTIONS -I. between_test.cpp -Wl,--start-group $libraries -Wl,--end-group -lfmt -ltbb -lz -lzstd \
   -lpng -lfreetype -lhwy -ldl -o between

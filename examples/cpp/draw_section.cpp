@@ -1,6 +1,6 @@
 // Draws what a plane cuts of a volume, as SVG at 1:50, and prints the areas.
-#include <svt/illustrate/section_drawing.hpp>
-#include <svt/illustrate/section_plane.hpp>
+#include <svt/drawing/section_drawing.hpp>
+#include <svt/drawing/section_plane.hpp>
 #include <svt/volume/svt_file.hpp>
 #include <svt/writers/drawing_formats.hpp>
 
@@ -24,9 +24,9 @@ int main(int argc, char** argv) {
     if (argc != 4) return usage("draw_section house.svt z=1.2 plan.svg");
     const auto volume = svt::volume::readSvt(argv[1]);
     if (!volume) return fail(volume.error());
-    const auto plane = svt::illustrate::parseSectionPlane(argv[2], *volume);
+    const auto plane = svt::drawing::parseSectionPlane(argv[2], *volume);
     if (!plane) return fail(plane.error());
-    const auto drawing = svt::illustrate::drawSection(*volume, *plane);
+    const auto drawing = svt::drawing::drawSection(*volume, *plane);
     if (!drawing) return fail(drawing.error());
     const auto written = svt::writers::writeDrawing(*drawing, *volume, argv[3], {.scale = 50});
     if (!written) return fail(written.error());

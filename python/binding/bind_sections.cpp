@@ -5,7 +5,7 @@
 #include "volume_object.hpp"
 
 #include <svt/core/file.hpp>
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 #include <svt/writers/drawing_formats.hpp>
 
 #include <pybind11/stl.h>
@@ -14,12 +14,12 @@
 namespace svt::python {
 namespace {
 
-using illustrate::PlanePoint;
-using illustrate::SectionComponent;
+using drawing::PlanePoint;
+using drawing::SectionComponent;
 
 struct SectionObject {
     SharedVolume volume;
-    illustrate::SectionDrawing drawing;
+    drawing::SectionDrawing drawing;
     Diagnostics findings;
 
     [[nodiscard]] const SectionComponent& component(std::size_t c) const {
@@ -34,19 +34,19 @@ SharedSection drawSection(const SharedVolume& volume, const std::string& plane, 
                           bool useMeshes, const py::object& report) {
     auto section = std::make_shared<SectionObject>();
     section->volume = volume;
-    section->drawing = longCall(report, [&](const Progress*) -> Result<illustrate::SectionDrawing> {
+    section->drawing = longCall(report, [&](const Progress*) -> Result<drawing::SectionDrawing> {
         const auto& v = volume->volume();
-        SVT_TRY(cut, plane.empty() ? illustrate::defaultSectionPlane(v) : illustrate::parseSectionPlane(plane, v));
+        SVT_TRY(cut, plane.empty() ? drawing::defaultSectionPlane(v) : drawing::parseSectionPlane(plane, v));
         std::vector<std::string> nothing;
-        illustrate::SectionOptions options{.show = show,
-                                           .hide = hide,
-                                           .spaces = spaces,
-                                           .smallestArea = smallestArea,
-                                           .tolerance = tolerance,
-                                           .useMeshes = useMeshes,
-                                           .nothing = &nothing};
-        auto drawing = illustrate::drawSection(v, *cut, options);
-        if (drawing) illustrate::reportSection(*drawing, v, section->findings);
+        drawing::SectionOptions options{.show = show,
+                                        .hide = hide,
+                                        .spaces = spaces,
+                                        .smallestArea = smallestArea,
+                                        .tolerance = tolerance,
+                                        .useMeshes = useMeshes,
+                                        .nothing = &nothing};
+        auto drawing = drawing::drawSection(v, *cut, options);
+        if (drawing) drawing::reportSection(*drawing, v, section->findings);
         return drawing;
     });
     return section;
@@ -61,9 +61,9 @@ py::array_t<double> ringOf(const std::vector<PlanePoint>& ring, const py::object
 /// [(area, outer, [hole, ...]), ...]; rings are views of the drawing.
 py::list polygonsOf(const py::object& self, std::size_t c) {
     py::list polygons;
-    for (const illustrate::SectionPolygon& polygon : self.cast<SharedSection>()->component(c).polygons) {
+    for (const drawing::SectionPolygon& polygon : self.cast<SharedSection>()->component(c).polygons) {
         py::list holes;
-        for (const illustrate::Ring& hole : polygon.holes) holes.append(ringOf(hole, self));
+        for (const drawing::Ring& hole : polygon.holes) holes.append(ringOf(hole, self));
         polygons.append(py::make_tuple(polygon.area, ringOf(polygon.outer, self), holes));
     }
     return polygons;
@@ -71,7 +71,7 @@ py::list polygonsOf(const py::object& self, std::size_t c) {
 
 py::list linesOf(const py::object& self) {
     py::list lines;
-    for (const illustrate::SectionLine& line : self.cast<SharedSection>()->drawing.lines)
+    for (const drawing::SectionLine& line : self.cast<SharedSection>()->drawing.lines)
         lines.append(py::make_tuple(line.label, ringOf(line.points, self)));
     return lines;
 }

@@ -6,7 +6,7 @@
 #include <svt/city/city_folder.hpp>
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/progress.hpp>
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 
 #include <array>
 #include <cstdint>
@@ -39,7 +39,7 @@ struct TileCheck {
 
 /// A drawing, and a volume with the labels that it names and the grid that its coordinates refer to.
 struct CitySection {
-    illustrate::SectionDrawing drawing;
+    drawing::SectionDrawing drawing;
     volume::SemanticVolume volume;
 };
 
@@ -48,7 +48,7 @@ struct CitySection {
 /// \return the section, or an error of forEachTile(), frameVolume(), parseSectionPlane(), drawSection()
 /// Memory: that of one tile for each thread, and the drawing.
 [[nodiscard]] Result<CitySection> cutCity(const City& city, const std::string& plane,
-                                          const illustrate::SectionOptions& options, const Progress* progress);
+                                          const drawing::SectionOptions& options, const Progress* progress);
 
 struct CityOverlap {
     struct Building {

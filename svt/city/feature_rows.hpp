@@ -2,7 +2,7 @@
 /// \file
 /// Measures of features of one volume, each with all features below it: the rows of `svt query` on cities.
 
-#include <svt/illustrate/section_plane.hpp>
+#include <svt/drawing/section_plane.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
 #include <array>
@@ -32,6 +32,6 @@ struct FeatureRow {
 /// Cost: O(columns + runs * depth of the tree)
 [[nodiscard]] std::vector<FeatureRow> featureRows(const volume::SemanticVolume& volume,
                                                   std::span<const std::uint32_t> selected,
-                                                  const illustrate::SectionPlane* plane);
+                                                  const drawing::SectionPlane* plane);
 
 }  // namespace svt::city

@@ -229,4 +229,12 @@ void addCutaway(Scene& scene, const std::string& query, double margin);
 /// The JSON of a scene that has this camera and nothing else.
 [[nodiscard]] std::string cameraJson(const SceneCamera& camera);
 
+/// A plane of a scene's regions that is drawn elsewhere than it is written.
+struct MovedPlane {
+    std::string text;  ///< as written: "y<5.5"
+    double by = 0;     ///< metres to the side that is kept
+};
+/// Those planes of a scene's cuts that lie in faces of the model, each once.
+[[nodiscard]] std::vector<MovedPlane> planesInFaces(const Scene& scene, const volume::SemanticVolume& volume);
+
 }  // namespace svt::illustrate

@@ -1,7 +1,7 @@
 /// Section drawings against a second implementation: the intersection polygons of the plane and the triangle meshes.
 
 #include <svt/core/test_data_test.hpp>
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/readers/model_joiner.hpp>
@@ -24,7 +24,7 @@ struct MeshSection {
     double bound = 0;  ///< m2; error bound from half a voxel's extent across each triangle in the plane
 };
 
-MeshSection cutMesh(const mesh::ObjectMesh& object, Vec3d meshOrigin, const illustrate::PlaneAxes& axes,
+MeshSection cutMesh(const mesh::ObjectMesh& object, Vec3d meshOrigin, const drawing::PlaneAxes& axes,
                     const volume::Grid& grid) {
     MeshSection section;
     const auto heightOf = [&](std::uint32_t v) {
@@ -67,7 +67,7 @@ struct Tally {
 
 /// Compares all solids that lose no voxels to others; sums up their areas.
 Tally compare(model::BuildingModel& model, const BuildOptions& options,
-              const std::vector<illustrate::SectionPlane>& planes) {
+              const std::vector<drawing::SectionPlane>& planes) {
     Tally tally;
     model::BuildingModel copy = model;
     const auto meshes = mesh::buildMeshes(copy);
@@ -79,10 +79,10 @@ Tally compare(model::BuildingModel& model, const BuildOptions& options,
     for (const volume::Overlap& overlap : volume.labels.overlaps) losers.insert(overlap.b);
     const bool hasSheets = !std::ranges::all_of(meshes->objects, &mesh::ObjectMesh::isSolid);
     const auto bricks = *volume::BrickVolume::fromColumns(volume.columns);
-    for (const illustrate::SectionPlane& relative : planes) {
+    for (const drawing::SectionPlane& relative : planes) {
         const Vec3d corner = meshes->bounds.min + meshes->origin;
-        const illustrate::SectionPlane plane{normalized(relative.normal), corner + relative.point};
-        const auto drawing = illustrate::drawSection(volume, bricks, plane);
+        const drawing::SectionPlane plane{normalized(relative.normal), corner + relative.point};
+        const auto drawing = drawing::drawSection(volume, bricks, plane);
         EXPECT_TRUE(drawing);
         if (!drawing) return tally;
         for (const mesh::ObjectMesh& object : meshes->objects) {
@@ -97,7 +97,7 @@ Tally compare(model::BuildingModel& model, const BuildOptions& options,
             // Parts thinner than a voxel are drawn one voxel thick.
             if (losers.contains(number) || volume.labels.labels[number].thinVoxels != 0) continue;
             const MeshSection exact = cutMesh(object, meshes->origin, drawing->axes, volume.grid);
-            const auto found = std::ranges::find(drawing->components, number, &illustrate::SectionComponent::label);
+            const auto found = std::ranges::find(drawing->components, number, &drawing::SectionComponent::label);
             const double area = found == drawing->components.end() ? 0 : found->area;
             if (exact.area == 0 && area == 0) continue;
             // Drawn outlines are slightly longer, and simplified within a hundredth of a voxel.
@@ -115,7 +115,7 @@ Tally compare(model::BuildingModel& model, const BuildOptions& options,
     return tally;
 }
 
-const std::vector<illustrate::SectionPlane> kPlanes{
+const std::vector<drawing::SectionPlane> kPlanes{
     {{0, 0, 1}, {0, 0, 1.33}},      {{0, 0, 1}, {0, 0, 3.71}},       {{0, 0, 1}, {0, 0, 4.6}},
     {{1, 0, 0}, {3.97, 0, 0}},      {{0, -1, 0}, {0, 4.23, 0}},      {{0.6, 0.8, 0}, {5, 5, 0}},
     {{0.5, 0.6, 0.4}, {6, 5, 2.7}}, {{-0.2, 0.5, 0.9}, {6, 5, 2.6}}, {{0.7, -0.1, -0.3}, {6, 5, 2.1}}};
@@ -144,7 +144,7 @@ TEST(SectionOracle, SampleHouseAgreesWithItsMeshes) {
     ASSERT_TRUE(model);
     BuildOptions options;
     options.spacing = Vec3d{0.04, 0.04, 0.04};
-    std::vector<illustrate::SectionPlane> planes = kPlanes;
+    std::vector<drawing::SectionPlane> planes = kPlanes;
     planes[3].point.x = 4.07;  // 3.97 lies between a face of a beam and the nearest samples
     const Tally tally = compare(*model, options, planes);
     EXPECT_GT(tally.compared, 60);

@@ -2,7 +2,7 @@
 /// \file
 /// Draws a set of sheets: its views, or those that the program chooses, and its tables.
 
-#include <svt/illustrate/sheet_set.hpp>
+#include <svt/drawing/sheet_set.hpp>
 #include <svt/writers/sheet_writer.hpp>
 
 #include <string>
@@ -11,14 +11,14 @@
 namespace svt::writers {
 
 /// Scale, paper, language and title of a set.
-[[nodiscard]] SheetOptions sheetOptionsOf(const illustrate::SheetSet& set);
+[[nodiscard]] SheetOptions sheetOptionsOf(const drawing::SheetSet& set);
 
 /// Draws all views of a set, and its tables of areas. Bricks are made once, with the first view that needs them.
 /// \param set      its sheets are filled in by chooseSheetViews() where it has none
 /// \param threads  0: all cores; the result does not depend on it
 /// \param nothing  if given, receives the queries of the set that select nothing
 /// \return the content of the sheets, or an error of viewsOfSet(), chooseSheetViews(), drawSection() or measureFloorAreas()
-[[nodiscard]] Result<SheetContent> drawSheets(illustrate::SheetSet& set, const volume::SemanticVolume& volume,
+[[nodiscard]] Result<SheetContent> drawSheets(drawing::SheetSet& set, const volume::SemanticVolume& volume,
                                               int threads = 0, std::vector<std::string>* nothing = nullptr);
 
 }  // namespace svt::writers

@@ -3,7 +3,7 @@
 /// Section drawings in any of their formats: one call for the command, the page and Python.
 
 #include <svt/core/result.hpp>
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 #include <svt/writers/dxf_drawing.hpp>
 
 #include <cstdint>
@@ -21,13 +21,13 @@ struct DrawingOptions {
 /// The drawing as text. `volume` is the volume the drawing was made from. Equal drawings give equal bytes.
 /// \param format  svg, dxf or geojson; csv or json: the table of its areas
 /// \return the text, or BadArgument for another format, or a scale out of range
-[[nodiscard]] Result<std::string> makeDrawing(const illustrate::SectionDrawing& drawing,
+[[nodiscard]] Result<std::string> makeDrawing(const drawing::SectionDrawing& drawing,
                                               const volume::SemanticVolume& volume, std::string_view format,
                                               const DrawingOptions& options = {});
 
 /// Writes the drawing as a file, all or nothing, in the format of its ending: those of makeDrawing(), and `.pdf`.
 /// \return bytes written, or the errors of makeDrawing() and makeSectionPdf(), CannotWrite or DiskFull
-[[nodiscard]] Result<std::uint64_t> writeDrawing(const illustrate::SectionDrawing& drawing,
+[[nodiscard]] Result<std::uint64_t> writeDrawing(const drawing::SectionDrawing& drawing,
                                                  const volume::SemanticVolume& volume,
                                                  const std::filesystem::path& path, const DrawingOptions& options = {});
 

@@ -9,7 +9,7 @@
 /// 1252; other characters are written as \U+XXXX. Version 2000 is the oldest that states its unit, and all programs
 /// read it.
 
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 #include <svt/record/members.hpp>
 
 #include <string>
@@ -26,7 +26,7 @@ struct DxfOptions {
 record::Members<DxfOptions> membersOf(const DxfOptions*) noexcept;
 
 /// The drawing as DXF text. `volume` is the volume the drawing was made from. Equal drawings give equal bytes.
-[[nodiscard]] std::string makeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+[[nodiscard]] std::string makeDxf(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                   const DxfOptions& options = {});
 
 }  // namespace svt::writers

@@ -11,7 +11,7 @@
 /// GDAL and QGIS read. It is omitted if the name of the model's CRS contains no EPSG code. Coordinates have six
 /// decimals.
 
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 
 #include <string>
 
@@ -19,6 +19,6 @@ namespace svt::writers {
 
 /// The drawing as GeoJSON text, one feature per line. `volume` is the volume the drawing was made from. `area` is in m2
 /// in the section plane. Exterior rings of plans are counter-clockwise as seen from above.
-[[nodiscard]] std::string makeGeojson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume);
+[[nodiscard]] std::string makeGeojson(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume);
 
 }  // namespace svt::writers

@@ -11,8 +11,8 @@
 
 #include <svt/core/names.hpp>
 #include <svt/core/result.hpp>
-#include <svt/illustrate/floor_areas.hpp>
-#include <svt/illustrate/sheet_views.hpp>
+#include <svt/drawing/floor_areas.hpp>
+#include <svt/drawing/sheet_views.hpp>
 
 #include <array>
 #include <cstdint>
@@ -25,8 +25,8 @@ namespace svt::writers {
 
 /// A view and what it shows.
 struct DrawnView {
-    illustrate::SheetView view;
-    illustrate::SectionDrawing drawing;
+    drawing::SheetView view;
+    drawing::SectionDrawing drawing;
     int group = -1;  ///< of SheetContent::groups: these share sheets; -1: with others of its kind
 };
 
@@ -54,7 +54,7 @@ struct SheetTable {
 };
 
 struct SheetContent {
-    std::vector<illustrate::BuildingLevel> levels;  ///< marks of heights are above the lowest
+    std::vector<drawing::BuildingLevel> levels;  ///< marks of heights are above the lowest
     std::vector<DrawnView> views;
     std::vector<SheetGroup> groups;
     std::vector<SheetTable> tables;  ///< after the views; those that fit share sheets
@@ -68,8 +68,8 @@ struct SheetOptions {
 };
 
 /// The tables of rooms, floor areas and components; without rooms that of components alone.
-[[nodiscard]] std::vector<SheetTable> makeAreaTables(const illustrate::FloorAreas& areas,
-                                                     const std::vector<illustrate::BuildingLevel>& levels,
+[[nodiscard]] std::vector<SheetTable> makeAreaTables(const drawing::FloorAreas& areas,
+                                                     const std::vector<drawing::BuildingLevel>& levels,
                                                      SheetLanguage language);
 
 /// The sheets as SVG documents, in order. `volume` is the volume the drawings were made from. Equal drawings give equal

@@ -11,7 +11,7 @@
 ///     <g class="title">                                model, plane, scale, scale bar
 
 #include <svt/core/result.hpp>
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 
 #include <string>
 
@@ -23,7 +23,7 @@ struct SvgOptions {
 
 /// The drawing as SVG text. `volume` is the volume the drawing was made from. Equal drawings give equal bytes.
 /// \return the text, or BadArgument if the scale is out of range
-[[nodiscard]] Result<std::string> makeSvg(const illustrate::SectionDrawing& drawing,
-                                          const volume::SemanticVolume& volume, const SvgOptions& options = {});
+[[nodiscard]] Result<std::string> makeSvg(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                                          const SvgOptions& options = {});
 
 }  // namespace svt::writers

@@ -4,7 +4,7 @@
 /// bold outlines, edges are narrow lines, hidden ones dashed (ISO 128-2); sections as PDF.
 
 #include <svt/core/result.hpp>
-#include <svt/illustrate/line_view.hpp>
+#include <svt/drawing/line_view.hpp>
 
 #include <string>
 
@@ -12,18 +12,18 @@ namespace svt::writers {
 
 /// \param width  of the page, millimetres; its height follows from the picture. What is beyond the page is cut off
 /// \return the document. Equal views give equal bytes
-[[nodiscard]] std::string makeViewSvg(const illustrate::LineView& view, const volume::SemanticVolume& volume,
+[[nodiscard]] std::string makeViewSvg(const drawing::LineView& view, const volume::SemanticVolume& volume,
                                       double width);
 
 /// \return the bytes, or NoCairo or CannotWrite
-[[nodiscard]] Result<std::string> makeViewPdf(const illustrate::LineView& view, const volume::SemanticVolume& volume,
+[[nodiscard]] Result<std::string> makeViewPdf(const drawing::LineView& view, const volume::SemanticVolume& volume,
                                               double width);
 
 /// A section on the page of makeSvg(), with layers as makePdfSheets().
 /// \param scale  100 draws 1 m as 10 mm; 0.01 to 10^7
 /// \return the bytes, or BadArgument: a scale out of range, or a page over the 5.08 m that PDF allows; NoCairo or
 ///         CannotWrite
-[[nodiscard]] Result<std::string> makeSectionPdf(const illustrate::SectionDrawing& drawing,
+[[nodiscard]] Result<std::string> makeSectionPdf(const drawing::SectionDrawing& drawing,
                                                  const volume::SemanticVolume& volume, double scale);
 
 }  // namespace svt::writers

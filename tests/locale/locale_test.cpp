@@ -3,14 +3,14 @@
 
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/core/test_data_test.hpp>
+#include <svt/drawing/section_drawing.hpp>
+#include <svt/drawing/section_plane.hpp>
+#include <svt/drawing/sheet_set.hpp>
+#include <svt/drawing/sheet_views.hpp>
 #include <svt/illustrate/motion.hpp>
 #include <svt/illustrate/pick_ray.hpp>
 #include <svt/illustrate/scene.hpp>
 #include <svt/illustrate/scene_painter.hpp>
-#include <svt/illustrate/section_drawing.hpp>
-#include <svt/illustrate/section_plane.hpp>
-#include <svt/illustrate/sheet_set.hpp>
-#include <svt/illustrate/sheet_views.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/samples/sample.hpp>
@@ -39,7 +39,7 @@ namespace svt::test {
 namespace {
 
 namespace fs = std::filesystem;
-using illustrate::SheetView;
+using drawing::SheetView;
 
 /// Numbers of C++ streams, which have a locale of their own.
 struct CommaNumbers : std::numpunct<char> {
@@ -56,7 +56,8 @@ public:
         const fs::path source = fs::path(kSourceRoot) / "tests/locale/comma.locale";
         const std::string command = fmt::format("localedef -c --no-archive -i '{}' '{}' >'{}' 2>&1", source.string(),
                                                 (folder / "comma").string(), (folder / "log").string());
-        static_cast<void>(std::system(command.c_str()));  // warns of the categories that are missing
+        // It warns of the categories that are missing.
+        [[maybe_unused]] const int status = std::system(command.c_str());
         ::setenv("LOCPATH", folder.c_str(), 1);
         std::locale::global(std::locale(std::locale::classic(), new CommaNumbers));
         EXPECT_NE(std::setlocale(LC_NUMERIC, "comma"), nullptr) << command;
@@ -148,7 +149,7 @@ private:
     void addPlanes(const volume::SemanticVolume& volume) {
         for (const std::string text : {"z=1.25", "x<2.5", "z=abs(101.5)", "0.5,0.25,1.5,-3.25", "0.5, 0.25, 1.5, -3.25",
                                        "storey='Ground floor'+1.1"}) {
-            const auto plane = illustrate::parseSectionPlane(text, volume);
+            const auto plane = drawing::parseSectionPlane(text, volume);
             const auto show = [](Vec3d v) { return fmt::format("{} {} {}", v.x, v.y, v.z); };
             add("plane " + text, plane ? show(plane->normal) + " at " + show(plane->point) : plane.error().toString());
         }
@@ -186,9 +187,9 @@ private:
     }
 
     void addDrawings(const volume::SemanticVolume& volume) {
-        const auto plane = illustrate::parseSectionPlane("z=1.2", volume);
+        const auto plane = drawing::parseSectionPlane("z=1.2", volume);
         if (!isGood("plane of the drawing", plane)) return;
-        const auto drawing = illustrate::drawSection(volume, *plane);
+        const auto drawing = drawing::drawSection(volume, *plane);
         if (!isGood("drawing", drawing)) return;
         add("dxf", writers::makeDxf(*drawing, volume));
         add("geojson", writers::makeGeojson(*drawing, volume));
@@ -199,19 +200,19 @@ private:
     }
 
     void addSheets(const volume::SemanticVolume& volume) {
-        const auto set = illustrate::parseSheetSet(
+        const auto set = drawing::parseSheetSet(
             R"({"format": "svt-sheets", "version": 1, "scale": 112.5, "sheets": [{"views": [{"plan": "z=1.25"},
                 {"section": "x=3.125"}, {"elevation": "north"}]}]})");
         if (!isGood("sheets", set)) return;
-        add("sheet set", illustrate::writeSheetSet(*set));
-        const auto views = illustrate::viewsOfSet(*set, volume);
+        add("sheet set", drawing::writeSheetSet(*set));
+        const auto views = drawing::viewsOfSet(*set, volume);
         if (!isGood("views", views)) return;
         writers::SheetContent content;
         content.levels = views->levels;
         for (const SheetView& view : views->views) {
-            illustrate::SectionOptions options;
+            drawing::SectionOptions options;
             options.beyond = view.beyond;
-            const auto drawing = illustrate::drawSection(volume, view.plane, options);
+            const auto drawing = drawing::drawSection(volume, view.plane, options);
             if (isGood("view " + view.name, drawing)) content.views.push_back({view, *drawing});
         }
         const auto sheets = writers::makeSvgSheets(content, volume, {.scale = set->scale});

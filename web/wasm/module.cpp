@@ -6,9 +6,9 @@
 #include "walk.hpp"
 
 #include <svt/core/parallel.hpp>
+#include <svt/drawing/section_drawing.hpp>
+#include <svt/drawing/section_plane.hpp>
 #include <svt/illustrate/color_by.hpp>
-#include <svt/illustrate/section_drawing.hpp>
-#include <svt/illustrate/section_plane.hpp>
 #include <svt/illustrate/view.hpp>
 #include <svt/writers/draw_sheets.hpp>
 #include <svt/writers/drawing_formats.hpp>
@@ -343,13 +343,13 @@ Result<Reply> labels(const Arguments& arguments) {
 // (plane, format, {beyond, above, dimensions}) -> the file's bytes
 Result<Reply> drawing(const Arguments& arguments) {
     const volume::SemanticVolume& volume = session->volume();
-    SVT_TRY(plane, illustrate::parseSectionPlane(arguments.text(0), volume));
+    SVT_TRY(plane, drawing::parseSectionPlane(arguments.text(0), volume));
     const Json& wanted = arguments.at(2);
-    illustrate::SectionOptions options;
+    drawing::SectionOptions options;
     options.beyond.visible = wanted.is_object() && wanted.value("beyond", false);
     options.beyond.above = wanted.is_object() && wanted.value("above", false);
     options.dimensions = wanted.is_object() && wanted.value("dimensions", false);
-    SVT_TRY(drawn, illustrate::drawSection(volume, *plane, options));
+    SVT_TRY(drawn, drawing::drawSection(volume, *plane, options));
     if (drawn->components.empty() && drawn->beyond.empty())
         return Error(Code::BadSection,
                      fmt::format("the plane '{}' cuts nothing that is shown; move it", arguments.text(0)));
@@ -360,7 +360,7 @@ Result<Reply> drawing(const Arguments& arguments) {
 Result<Reply> sheets(const Arguments& arguments) {
     if (!hasFont()) return Error(Code::BadArgument, "sheets cannot be drawn without their font; give it first");
     const volume::SemanticVolume& volume = session->volume();
-    illustrate::SheetSet set;
+    drawing::SheetSet set;
     set.language = arguments.text(0);
     SVT_TRY(content, writers::drawSheets(set, volume));
     SVT_TRY(made, writers::makeSvgSheets(*content, volume, writers::sheetOptionsOf(set)));

@@ -2,9 +2,9 @@
 
 #include <svt/analyze/selection.hpp>
 #include <svt/core/text.hpp>
-#include <svt/illustrate/section_plane.hpp>
-#include <svt/illustrate/sheet_views.hpp>
-#include <svt/illustrate/storey_floors.hpp>
+#include <svt/drawing/section_plane.hpp>
+#include <svt/drawing/sheet_views.hpp>
+#include <svt/drawing/storey_floors.hpp>
 #include <svt/image/color_text.hpp>
 
 #include <fmt/format.h>
@@ -36,13 +36,13 @@ Json namesOf(const volume::Label& label) {
 
 Json storeysJson(const volume::SemanticVolume& volume) {
     Json list = Json::array();
-    for (const illustrate::StoreyHeights& storey : illustrate::findStoreys(volume)) {
+    for (const drawing::StoreyHeights& storey : drawing::findStoreys(volume)) {
         const volume::Label& label = volume.labels.labels[storey.label];
         list.push_back({{"id", label.id}, {"name", label.name}, {"floor", storey.floor}, {"top", storey.top}});
     }
     if (!list.empty()) return list;
     // Without storeys, what rooms and slabs tell.
-    const auto levels = illustrate::findLevels(volume);
+    const auto levels = drawing::findLevels(volume);
     const double top = (volume.grid.dimension().z - 1) * volume.grid.spacing().z;
     for (std::size_t n = 0; n < levels.size(); ++n)
         list.push_back({{"id", ""},

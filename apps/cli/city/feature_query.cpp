@@ -105,7 +105,7 @@ public:
     Result<void> run() {
         SVT_DO(source_.open());
         if (!query_.cut.empty()) {
-            SVT_TRY(plane, illustrate::parseSectionPlane(query_.cut, source_.frame()));
+            SVT_TRY(plane, drawing::parseSectionPlane(query_.cut, source_.frame()));
             plane_ = *plane;
         }
         for (std::size_t at = 0; at < query_.by.size();) {
@@ -301,7 +301,7 @@ private:
 
     const FeatureQuery& query_;
     Source source_;
-    std::optional<illustrate::SectionPlane> plane_;
+    std::optional<drawing::SectionPlane> plane_;
     std::vector<std::string> keys_;
     std::vector<Column> columns_;
     std::map<std::string, std::size_t> placeOf_;

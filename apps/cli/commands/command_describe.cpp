@@ -7,8 +7,8 @@
 #include <apps/cli/output/version.hpp>
 
 #include <svt/core/text.hpp>
+#include <svt/drawing/sheet_set.hpp>
 #include <svt/illustrate/scene_members.hpp>
-#include <svt/illustrate/sheet_set.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/writers/volume_formats.hpp>
 
@@ -83,7 +83,7 @@ Json describedJson() {
         json["commands"].push_back(std::move(described));
     }
     for (const Option& member : illustrate::sceneMembers()) json["sceneMembers"].push_back(optionJson(member));
-    for (const Option& member : illustrate::sheetMembers()) json["sheetMembers"].push_back(optionJson(member));
+    for (const Option& member : drawing::sheetMembers()) json["sheetMembers"].push_back(optionJson(member));
     for (const writers::VolumeFormat& format : writers::volumeFormats())
         json["volumeFormats"].push_back({{"name", format.name},
                                          {"endings", splitChoices(format.endings)},

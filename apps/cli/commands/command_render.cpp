@@ -11,13 +11,13 @@
 #include <svt/city/city_painter.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/machine.hpp>
+#include <svt/drawing/line_view.hpp>
+#include <svt/drawing/section_plane.hpp>
 #include <svt/frontend/scene_options.hpp>
 #include <svt/illustrate/color_by.hpp>
 #include <svt/illustrate/details.hpp>
-#include <svt/illustrate/line_view.hpp>
 #include <svt/illustrate/motion.hpp>
 #include <svt/illustrate/scene_painter.hpp>
-#include <svt/illustrate/section_plane.hpp>
 #include <svt/illustrate/sun.hpp>
 #include <svt/image/png.hpp>
 #include <svt/render/frame_buffers.hpp>
@@ -223,7 +223,7 @@ bool isLineDrawing(const std::filesystem::path& output) {
     return ending == ".svg" || ending == ".pdf";
 }
 
-Result<void> writeLineView(const RenderArguments& arguments, const illustrate::LineView& view,
+Result<void> writeLineView(const RenderArguments& arguments, const drawing::LineView& view,
                            const volume::SemanticVolume& volume, int pixels, int number) {
     const int dpi = arguments.scene.printedDpi() > 0 ? arguments.scene.printedDpi() : 96;
     const double width = 25.4 * pixels / dpi;
@@ -293,13 +293,13 @@ Result<int> runLineDrawing(const RenderArguments& arguments, Series& series, con
     pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
     SVT_TRY(volume, loadVolume(arguments.input, build, progress.get(), arguments.verbose));
-    illustrate::LineViewOptions options;
+    drawing::LineViewOptions options;
     options.hidden = arguments.scene.hiddenLines == render::HiddenLines::Dashed;
     options.threads = arguments.build.threads;
     const auto draw = [&](const illustrate::Scene& scene, int number) -> Result<void> {
         Progress::tell(progress.get(), "lines", 0);
         SVT_TRY(spec, illustrate::makeFrameSpec(scene, *volume));
-        SVT_TRY(view, illustrate::drawLineView(*volume, *spec, options));
+        SVT_TRY(view, drawing::drawLineView(*volume, *spec, options));
         SVT_DO(writeLineView(arguments, *view, *volume, scene.width, number));
         if (view->drawing.beyond.empty() && view->drawing.components.empty()) note("nothing is visible");
         return {};

@@ -8,7 +8,7 @@
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/city/city_walk.hpp>
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 #include <svt/writers/drawing_formats.hpp>
 #include <svt/writers/section_table.hpp>
 #include <svt/writers/sheet_writer.hpp>
@@ -25,7 +25,7 @@ struct SectionArguments {
     std::vector<std::filesystem::path> outputs, tables;
     std::string plane, elevation;
     double scale = 100;
-    illustrate::SectionOptions section;
+    drawing::SectionOptions section;
     writers::DxfOptions dxf;
     bool json = false, verbose = false;
     pipeline::BuildOptions build;
@@ -33,14 +33,14 @@ struct SectionArguments {
     SectionArguments() { section.smallestArea = 1e-4; }
 };
 
-Result<illustrate::SectionPlane> planeOf(const SectionArguments& arguments, const volume::SemanticVolume& volume) {
-    if (!arguments.elevation.empty()) return illustrate::elevationPlane(arguments.elevation, volume);
-    if (arguments.plane.empty()) return illustrate::defaultSectionPlane(volume);
-    return illustrate::parseSectionPlane(arguments.plane, volume);
+Result<drawing::SectionPlane> planeOf(const SectionArguments& arguments, const volume::SemanticVolume& volume) {
+    if (!arguments.elevation.empty()) return drawing::elevationPlane(arguments.elevation, volume);
+    if (arguments.plane.empty()) return drawing::defaultSectionPlane(volume);
+    return drawing::parseSectionPlane(arguments.plane, volume);
 }
 
-illustrate::SectionOptions optionsOf(const SectionArguments& arguments, std::vector<std::string>& nothing) {
-    illustrate::SectionOptions options = arguments.section;
+drawing::SectionOptions optionsOf(const SectionArguments& arguments, std::vector<std::string>& nothing) {
+    drawing::SectionOptions options = arguments.section;
     if (!arguments.elevation.empty()) options.beyond.visible = true;
     options.threads = arguments.build.threads;
     options.nothing = &nothing;
@@ -48,10 +48,10 @@ illustrate::SectionOptions optionsOf(const SectionArguments& arguments, std::vec
 }
 
 // Tells what was drawn and what was not, and writes it.
-Result<int> writeSection(const SectionArguments& arguments, const illustrate::SectionDrawing& drawing,
+Result<int> writeSection(const SectionArguments& arguments, const drawing::SectionDrawing& drawing,
                          const volume::SemanticVolume& volume, const std::vector<std::string>& nothing, double scale) {
     Diagnostics findings;
-    illustrate::reportSection(drawing, volume, findings);
+    drawing::reportSection(drawing, volume, findings);
     printDiagnostics(findings, true);
     for (const std::string& message : nothing) note(message);
     const bool isEmpty = drawing.components.empty() && drawing.beyond.empty();
@@ -108,7 +108,7 @@ Result<int> runSection(const SectionArguments& arguments) {
                         plane->bound));
     std::vector<std::string> nothing;
     Progress::tell(progress.get(), "section", 0);
-    SVT_TRY(drawing, illustrate::drawSection(*volume, *plane, optionsOf(arguments, nothing)));
+    SVT_TRY(drawing, drawing::drawSection(*volume, *plane, optionsOf(arguments, nothing)));
     return writeSection(arguments, *drawing, *volume, nothing, arguments.scale);
 }
 
@@ -134,7 +134,7 @@ Members<SectionArguments> membersOf(const SectionArguments*) noexcept {
         memberAs<PaperScale, &All::scale>("--scale", "scale of the SVG: 1:50 draws 1 m as 20 mm",
                                           {.value = "1:N", .group = "Drawing"}),
         part<&All::section>("section", "--hide|--show|--no-rooms"),
-        member<&All::section, &illustrate::SectionOptions::smallestArea>(
+        member<&All::section, &drawing::SectionOptions::smallestArea>(
             "--min-area", "leave out polygons smaller than this",
             {.unit = "m2", .least = 0, .most = 1e9, .group = "Drawing"}),
         member<&All::tables>("--table", "areas per component and class: .json or .csv",

@@ -30,11 +30,11 @@ struct SheetsArguments {
 };
 
 // The set of the file, if one is given, changed by the options; its sheets are empty where the program is to choose.
-Result<illustrate::SheetSet> readSet(const SheetsArguments& arguments) {
-    illustrate::SheetSet set;
+Result<drawing::SheetSet> readSet(const SheetsArguments& arguments) {
+    drawing::SheetSet set;
     if (!arguments.setFile.empty()) {
         SVT_TRY(file, FileBytes::read(arguments.setFile));
-        SVT_TRY(parsed, illustrate::parseSheetSet(file->text(), arguments.setFile.string()));
+        SVT_TRY(parsed, drawing::parseSheetSet(file->text(), arguments.setFile.string()));
         set = std::move(*parsed);
     }
     if (arguments.paper) set.paper = *arguments.paper;
@@ -49,10 +49,10 @@ Result<illustrate::SheetSet> readSet(const SheetsArguments& arguments) {
 
 // What is not exact, once for all views.
 void printFindings(const writers::SheetContent& content, const volume::SemanticVolume& volume) {
-    std::vector<const illustrate::SectionDrawing*> drawings;
+    std::vector<const drawing::SectionDrawing*> drawings;
     for (const writers::DrawnView& view : content.views) drawings.push_back(&view.drawing);
     Diagnostics findings;
-    illustrate::reportSections(drawings, volume, findings);
+    drawing::reportSections(drawings, volume, findings);
     printDiagnostics(findings, true);
 }
 
@@ -65,11 +65,11 @@ Result<void> makeFolder(const std::filesystem::path& folder) {
 
 // "plan-1", "section-A", "elevation-north"; names of storeys may hold anything.
 std::string fileNameOf(const writers::SheetContent& content, std::size_t number) {
-    const illustrate::SheetView& view = content.views[number].view;
-    if (view.kind == illustrate::ViewKind::Elevation) return "elevation-" + view.name;
+    const drawing::SheetView& view = content.views[number].view;
+    if (view.kind == drawing::ViewKind::Elevation) return "elevation-" + view.name;
     std::size_t ofKind = 0;
     for (std::size_t n = 0; n <= number; ++n) ofKind += content.views[n].view.kind == view.kind ? 1 : 0;
-    return fmt::format("{}-{}", view.kind == illustrate::ViewKind::Plan ? "plan" : "section", ofKind);
+    return fmt::format("{}-{}", view.kind == drawing::ViewKind::Plan ? "plan" : "section", ofKind);
 }
 
 Result<void> writeDxfFolder(const writers::SheetContent& content, const volume::SemanticVolume& volume,
@@ -121,7 +121,7 @@ Result<int> runSheets(const SheetsArguments& arguments) {
     }
     if (!arguments.folder.empty()) SVT_DO(writeSvgFolder(*sheets, arguments.folder));
     if (!arguments.dxfFolder.empty()) SVT_DO(writeDxfFolder(*content, *volume, arguments.dxfFolder, arguments.dxf));
-    if (!arguments.setOutput.empty()) SVT_DO(writeFileAtomically(arguments.setOutput, illustrate::writeSheetSet(*set)));
+    if (!arguments.setOutput.empty()) SVT_DO(writeFileAtomically(arguments.setOutput, drawing::writeSheetSet(*set)));
     TerminalProgress::hide();
     if (!isQuiet())
         fmt::print("{}: {} sheets with {} views\n", writtenName(arguments).string(), sheets->size(),

@@ -95,7 +95,8 @@ std::string mainPage() {
         "COMMANDS\n";
     for (const CommandText& command : commandTexts())
         page += fmt::format(".TP\n.BR svt\\-{} (1)\n{}\n", command.name, roff(command.help));
-    page += ".SH OPTIONS\n.TP\n\\fB\\-\\-formats\\fR [\\fItext|json\\fR]\nPrint the formats that are read and written.\n";
+    page +=
+        ".SH OPTIONS\n.TP\n\\fB\\-\\-formats\\fR [\\fItext|json\\fR]\nPrint the formats that are read and written.\n";
     page += ".TP\n\\fB\\-\\-version\\fR\nPrint the version.\n";
     page += exitStatus();
     page += ".SH SEE ALSO\n";

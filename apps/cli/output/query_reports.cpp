@@ -5,7 +5,7 @@
 #include <svt/analyze/gaps.hpp>
 #include <svt/analyze/label_measures.hpp>
 #include <svt/analyze/solid_overlaps.hpp>
-#include <svt/illustrate/floor_areas.hpp>
+#include <svt/drawing/floor_areas.hpp>
 #include <svt/render/ray_labels.hpp>
 
 #include <fmt/format.h>
@@ -221,8 +221,8 @@ Table gapTable(const volume::SemanticVolume& volume, const Labels& selected) {
 }
 
 Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& selected, int threads) {
-    const auto levels = illustrate::findLevels(volume);
-    SVT_TRY(areas, illustrate::measureFloorAreas(volume, levels, threads));
+    const auto levels = drawing::findLevels(volume);
+    SVT_TRY(areas, drawing::measureFloorAreas(volume, levels, threads));
     Table table{{{"kind", "kind"},
                  {"id", "id"},
                  {"number", "number"},
@@ -245,9 +245,9 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
                  {"exact", "exact"}},
                 {}};
     const double datum = dot(volume.grid.origin(), volume.grid.axes()[2]);
-    for (const illustrate::RoomArea& room : areas->rooms) {
+    for (const drawing::RoomArea& room : areas->rooms) {
         if (!isIn(selected, room.label)) continue;
-        const auto use = illustrate::roomUseName(room.use);
+        const auto use = drawing::roomUseName(room.use);
         Row row{"room",
                 volume.labels.labels[room.label].id,
                 room.number.empty() ? Cell() : Cell(room.number),
@@ -264,8 +264,7 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
         row.push_back(room.isExact);
         table.rows.push_back(std::move(row));
     }
-    const auto addSums = [&](const char* kind, const illustrate::LevelArea& sums,
-                             const illustrate::BuildingLevel* level) {
+    const auto addSums = [&](const char* kind, const drawing::LevelArea& sums, const drawing::BuildingLevel* level) {
         Row row{kind, nullptr, nullptr, nullptr};
         if (level != nullptr)
             row.insert(row.end(), {level->name, level->floor, level->bound, datum + level->floor});

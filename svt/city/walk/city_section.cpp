@@ -9,16 +9,16 @@
 namespace svt::city {
 namespace {
 
-using illustrate::PlanePoint;
-using illustrate::SectionDrawing;
+using drawing::PlanePoint;
+using drawing::SectionDrawing;
 
 // Collects the drawings of tiles in the coordinates of the city.
 class Collector {
 public:
-    Collector(const illustrate::SectionPlane& plane, volume::SemanticVolume frame) {
+    Collector(const drawing::SectionPlane& plane, volume::SemanticVolume frame) {
         section_.volume = std::move(frame);
         section_.drawing.plane = plane;
-        section_.drawing.axes = illustrate::makePlaneAxes(plane, section_.volume.grid);
+        section_.drawing.axes = drawing::makePlaneAxes(plane, section_.volume.grid);
     }
 
     void add(SectionDrawing drawing, const volume::SemanticVolume& tile) {
@@ -27,28 +27,28 @@ public:
         to.tolerance = std::max(to.tolerance, drawing.tolerance);
         by_ = to.axes.planeFromWorld(drawing.axes.origin);
         numberOf_.clear();
-        for (illustrate::SectionComponent& component : drawing.components) {
+        for (drawing::SectionComponent& component : drawing.components) {
             component.label = numberOf(component.label, tile);
-            for (illustrate::SectionPolygon& polygon : component.polygons) {
+            for (drawing::SectionPolygon& polygon : component.polygons) {
                 move(polygon.outer);
-                for (illustrate::Ring& hole : polygon.holes) move(hole);
+                for (drawing::Ring& hole : polygon.holes) move(hole);
             }
             to.area += component.area;
             to.components.push_back(std::move(component));
         }
-        for (illustrate::SectionBorder& border : drawing.borders) {
+        for (drawing::SectionBorder& border : drawing.borders) {
             border.left = numberOf(border.left, tile);
             border.right = numberOf(border.right, tile);
             move(border.points);
             to.borders.push_back(std::move(border));
         }
-        for (illustrate::SectionLine& line : drawing.lines) {
+        for (drawing::SectionLine& line : drawing.lines) {
             line.label = numberOf(line.label, tile);
             move(line.points);
             to.lines.push_back(std::move(line));
         }
-        for (const illustrate::ClassArea& own : drawing.classes) {
-            illustrate::ClassArea& sum = classes_[own.className];
+        for (const drawing::ClassArea& own : drawing.classes) {
+            drawing::ClassArea& sum = classes_[own.className];
             sum.className = own.className;
             sum.components += own.components;
             sum.area += own.area;
@@ -89,12 +89,12 @@ private:
     CitySection section_;
     PlanePoint by_;
     std::map<std::uint32_t, std::uint32_t> numberOf_;
-    std::map<std::string, illustrate::ClassArea> classes_;
+    std::map<std::string, drawing::ClassArea> classes_;
 };
 
 // Distances from a plane of the nearest and the farthest corner of a box. \param world  of a corner
 template <class World>
-std::pair<double, double> distances(const illustrate::SectionPlane& plane, Vec3d low, Vec3d high, const World& world) {
+std::pair<double, double> distances(const drawing::SectionPlane& plane, Vec3d low, Vec3d high, const World& world) {
     double nearest = INFINITY, farthest = -INFINITY;
     for (int n = 0; n < 8; ++n) {
         const Vec3d corner{(n & 1) != 0 ? high.x : low.x, (n & 2) != 0 ? high.y : low.y, (n & 4) != 0 ? high.z : low.z};
@@ -106,7 +106,7 @@ std::pair<double, double> distances(const illustrate::SectionPlane& plane, Vec3d
 }
 
 // Whether a plane may cut a building of a tile.
-bool mayCut(const illustrate::SectionPlane& plane, const IndexEntry& entry) {
+bool mayCut(const drawing::SectionPlane& plane, const IndexEntry& entry) {
     const double side = std::ldexp(1.0, entry.tile.level);
     const Vec3d low{entry.tile.x * side - kMostReach, entry.tile.y * side - kMostReach, double(entry.lowest)};
     const Vec3d high{(entry.tile.x + 1) * side + kMostReach, (entry.tile.y + 1) * side + kMostReach,
@@ -116,7 +116,7 @@ bool mayCut(const illustrate::SectionPlane& plane, const IndexEntry& entry) {
 }
 
 // Whether a plane cuts the samples of a volume.
-bool cuts(const illustrate::SectionPlane& plane, const volume::Grid& grid) {
+bool cuts(const drawing::SectionPlane& plane, const volume::Grid& grid) {
     const Vec3d half{0.5, 0.5, 0.5};
     const auto world = [&](Vec3d index) { return grid.worldFromIndex(index); };
     const auto [nearest, farthest] = distances(plane, -half, toDouble(grid.dimension()) - half, world);
@@ -125,14 +125,14 @@ bool cuts(const illustrate::SectionPlane& plane, const volume::Grid& grid) {
 
 }  // namespace
 
-Result<CitySection> cutCity(const City& city, const std::string& text, const illustrate::SectionOptions& options,
+Result<CitySection> cutCity(const City& city, const std::string& text, const drawing::SectionOptions& options,
                             const Progress* progress) {
     SVT_TRY(frame, frameVolume(city));
-    SVT_TRY(plane, illustrate::parseSectionPlane(text, *frame));
+    SVT_TRY(plane, drawing::parseSectionPlane(text, *frame));
     Collector collector(*plane, std::move(*frame));
     const auto cut = [&](const volume::SemanticVolume& tile) -> Result<void> {
         if (!cuts(*plane, tile.grid)) return {};
-        SVT_TRY(drawing, illustrate::drawSection(tile, *plane, options));
+        SVT_TRY(drawing, drawing::drawSection(tile, *plane, options));
         collector.add(std::move(*drawing), tile);
         return {};
     };

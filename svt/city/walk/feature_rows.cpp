@@ -41,7 +41,7 @@ struct Gathered {
 class Gatherer {
 public:
     Gatherer(const volume::SemanticVolume& volume, std::span<const std::uint32_t> selected,
-             const illustrate::SectionPlane* plane)
+             const drawing::SectionPlane* plane)
         : volume_(volume), plane_(plane), rowOf_(volume.labels.labels.size(), kNoLabel), gathered_(selected.size()) {
         for (std::uint32_t n = 0; n < selected.size(); ++n) rowOf_[selected[n]] = n;
         if (plane == nullptr) return;
@@ -89,7 +89,7 @@ private:
     }
 
     const volume::SemanticVolume& volume_;
-    const illustrate::SectionPlane* plane_;
+    const drawing::SectionPlane* plane_;
     std::vector<std::uint32_t> rowOf_;
     std::vector<Gathered> gathered_;
     double halfVoxel_ = 0;
@@ -115,7 +115,7 @@ bool isOpenShell(const volume::Label& label) noexcept {
 }
 
 std::vector<FeatureRow> featureRows(const volume::SemanticVolume& volume, std::span<const std::uint32_t> selected,
-                                    const illustrate::SectionPlane* plane) {
+                                    const drawing::SectionPlane* plane) {
     const std::vector<volume::Label>& labels = volume.labels.labels;
     const std::vector<Gathered> gathered = Gatherer(volume, selected, plane).run();
     const Vec3d spacing = volume.grid.spacing();

@@ -3,17 +3,17 @@
 #include <svt/analyze/contacts.hpp>
 #include <svt/analyze/owners.hpp>
 #include <svt/core/text.hpp>
-#include <svt/illustrate/floor_areas.hpp>
-#include <svt/illustrate/sheet_views.hpp>
+#include <svt/drawing/floor_areas.hpp>
+#include <svt/drawing/sheet_views.hpp>
 
 namespace svt::illustrate {
 
 Result<std::vector<double>> areasFor(std::string_view key, const volume::SemanticVolume& volume) {
     std::vector<double> areas;
     if (!equalsIgnoringCase(key, "area")) return areas;
-    SVT_TRY(measured, measureFloorAreas(volume, findLevels(volume)));
+    SVT_TRY(measured, drawing::measureFloorAreas(volume, drawing::findLevels(volume)));
     areas.resize(volume.labels.labels.size(), 0);
-    for (const RoomArea& room : measured->rooms) areas[room.label] = room.area;
+    for (const drawing::RoomArea& room : measured->rooms) areas[room.label] = room.area;
     return areas;
 }
 

@@ -2,7 +2,7 @@
 
 #include <svt/analyze/scalar_boxes.hpp>
 #include <svt/analyze/selection.hpp>
-#include <svt/illustrate/sheet_views.hpp>
+#include <svt/drawing/sheet_views.hpp>
 #include <svt/model/classes.hpp>
 
 #include <algorithm>
@@ -110,7 +110,7 @@ private:
     void findLevelsInstead() {
         const double spacing = volume_.grid.spacing().z;
         Building building;
-        for (const BuildingLevel& level : findLevels(volume_)) {
+        for (const drawing::BuildingLevel& level : drawing::findLevels(volume_)) {
             Storey& storey = building.storeys.emplace_back();
             storey.floor = level.floor / spacing;
         }

@@ -2,10 +2,10 @@
 
 #include <svt/analyze/selection.hpp>
 #include <svt/core/text.hpp>
+#include <svt/drawing/section_plane.hpp>
+#include <svt/drawing/storey_floors.hpp>
 #include <svt/illustrate/scene.hpp>
 #include <svt/illustrate/scene/cutaway.hpp>
-#include <svt/illustrate/section_plane.hpp>
-#include <svt/illustrate/storey_floors.hpp>
 #include <svt/plane/point.hpp>
 
 #include <fmt/format.h>
@@ -218,8 +218,8 @@ private:
             }
         }
         if (begin == at_) return wrong("expected a region such as z>1.2 or box(0,0,0,1,1,1)");
-        SVT_TRY(parsed, parseSectionPlane(plane, context_.volume, context_.rows));
-        const double hair = hairOffFaces(*parsed, context_.volume);
+        SVT_TRY(parsed, drawing::parseSectionPlane(plane, context_.volume, context_.rows));
+        const double hair = drawing::hairOffFaces(*parsed, context_.volume);
         if (hair != 0 && context_.moved != nullptr) context_.moved->push_back({plane, hair});
         return Parts{{{{parsed->normal, hair - dot(parsed->normal, parsed->point)}}, {}}};
     }
@@ -328,7 +328,7 @@ private:
         std::string name = text;
         if (name.size() >= 2 && (name.front() == '"' || name.front() == '\'') && name.back() == name.front())
             name = name.substr(1, name.size() - 2);
-        SVT_TRY(heights, storeyVoxels(name, context_.volume, context_.rows));
+        SVT_TRY(heights, drawing::storeyVoxels(name, context_.volume, context_.rows));
         const Vec3d spacing = grid().spacing();
         const auto reach = [&](int axis) { return grid().dimension()[axis] * spacing[axis]; };
         return boxOf({-reach(0), -reach(1), heights->first}, {2 * reach(0), 2 * reach(1), heights->second});

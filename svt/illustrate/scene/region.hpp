@@ -23,7 +23,7 @@
 
 #include <svt/analyze/selection.hpp>
 #include <svt/core/result.hpp>
-#include <svt/illustrate/section_plane.hpp>
+#include <svt/drawing/section_plane.hpp>
 #include <svt/render/frame_spec.hpp>
 #include <svt/volume/semantic_volume.hpp>
 

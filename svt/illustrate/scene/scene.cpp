@@ -1,9 +1,9 @@
 #include <svt/core/rounding.hpp>
 #include <svt/illustrate/scene.hpp>
 
+#include <svt/drawing/hatches.hpp>
 #include <svt/illustrate/annotate/legend.hpp>
 #include <svt/illustrate/annotate/name_tags.hpp>
-#include <svt/illustrate/hatches.hpp>
 #include <svt/illustrate/inset/inset_frame.hpp>
 #include <svt/illustrate/scene/region.hpp>
 #include <svt/illustrate/scene/vector_shapes.hpp>
@@ -216,7 +216,7 @@ Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass
     std::vector<LabelLook> looks;
     const bool hasHatches = scene.hatches.show.value_or(scene.look == Look::Paper || scene.look == Look::Blueprint);
     std::vector<render::Hatch> hatches(table.labels.size(), render::Hatch::None);
-    if (hasHatches) hatches = labelHatches(rows);
+    if (hasHatches) hatches = drawing::labelHatches(rows);
     for (std::size_t l = 0; l < table.labels.size(); ++l)
         looks.push_back({shown(table.labels[l].color, scene.look), table.labels[l].opacity,
                          table.labels[l].count > 1 ? render::Hatch::None : hatches[l]});

@@ -259,7 +259,7 @@ TEST(Shell, CavityOfOneGroupHasNoInnerWalls) {
 //        |-----+-------|    Labels: walls in flats (x = 8, 9), walls between flats, the slab between the storeys,
 //        |  r  |  r    |    and the outer walls.
 //      0 +-------------+
-SemanticVolume house() {
+SemanticVolume shellHouse() {
     const auto cell = [](std::int32_t x) { return x < 2 || x >= 16 ? -1 : x < 8 ? 0 : x < 10 ? 2 : 1; };
     std::vector<volume::Label> labels;
     labels.push_back(label("building", "Building", kNoLabel, 0, 0));
@@ -291,7 +291,7 @@ SemanticVolume house() {
 }
 
 TEST(Shell, HouseOfEightRoomsHasItsSteps) {
-    const auto steps = shellLevels(house());
+    const auto steps = shellLevels(shellHouse());
     ASSERT_EQ(steps.size(), 5u);
     EXPECT_EQ(steps[0], (ShellStep{ShellLevel::Component, 16, 16}));
     EXPECT_EQ(steps[1], (ShellStep{ShellLevel::Room, 8, 16}));   // all walls touch more than one room
@@ -301,7 +301,7 @@ TEST(Shell, HouseOfEightRoomsHasItsSteps) {
 }
 
 TEST(Shell, HouseOfEightRoomsHasKnownHulls) {
-    const auto volume = house();
+    const auto volume = shellHouse();
     const auto sum = [&](ShellLevel level, std::uint32_t from, std::uint32_t to) {
         const auto shell = extractShell(volume, level, thin());
         EXPECT_TRUE(shell);
@@ -323,7 +323,7 @@ TEST(Shell, HouseOfEightRoomsHasKnownHulls) {
 }
 
 TEST(Shell, GroupsAreUnionsOfTheStepBelow) {
-    const auto hierarchy = ShellHierarchy::ofVolume(house());
+    const auto hierarchy = ShellHierarchy::ofVolume(shellHouse());
     for (std::size_t step = 1; step < kNames<ShellLevel>.size(); ++step) {
         const auto below = hierarchy.groups(kNames<ShellLevel>[step - 1].value),
                    above = hierarchy.groups(kNames<ShellLevel>[step].value);
@@ -335,7 +335,7 @@ TEST(Shell, GroupsAreUnionsOfTheStepBelow) {
 }
 
 TEST(Shell, MembersStayWhereTheModelHasThem) {
-    auto volume = house();
+    auto volume = shellHouse();
     // The slab is a member of the upper storey: it stays there, though it touches both.
     volume.labels.labels[21].groups = {4};
     EXPECT_EQ(ShellHierarchy::ofVolume(volume).groups(ShellLevel::Storey)[21], 4u);
@@ -372,7 +372,7 @@ TEST(Shell, LevelsThatAreNotThereAreNamed) {
 }
 
 TEST(Shell, CyclesOfGroupsAndParentsEnd) {
-    auto volume = house();
+    auto volume = shellHouse();
     volume.labels.labels[1].groups = {5};
     volume.labels.labels[5].groups = {2, 1, 99};
     volume.labels.labels[0].parent = 3;
@@ -380,7 +380,7 @@ TEST(Shell, CyclesOfGroupsAndParentsEnd) {
 }
 
 TEST(Shell, OfSelectsGroups) {
-    const auto volume = house();
+    const auto volume = shellHouse();
     ShellOptions options = thin();
     options.of = {8};  // a room; its flat stays
     const auto shell = extractShell(volume, ShellLevel::Unit, options);
@@ -391,7 +391,7 @@ TEST(Shell, OfSelectsGroups) {
 }
 
 TEST(Shell, GroupsHaveOneScalarEach) {
-    const auto volume = house();
+    const auto volume = shellHouse();
     ShellOptions options = thin();
     options.labels = ShellLabels::Groups;
     const auto shell = extractShell(volume, ShellLevel::Storey, options);
@@ -405,7 +405,7 @@ TEST(Shell, GroupsHaveOneScalarEach) {
 }
 
 TEST(Shell, BadInputIsRefused) {
-    const auto volume = house();
+    const auto volume = shellHouse();
     const std::vector<std::uint32_t> groups(volume.labels.labels.size(), 0);
     for (const double thickness : {-1.0, std::nan(""), HUGE_VAL}) {
         ShellOptions options;

@@ -2,7 +2,7 @@
 
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/core/test_data_test.hpp>
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/readers/model_joiner.hpp>
 #include <svt/readers/read_model.hpp>
@@ -19,7 +19,7 @@
 namespace svt::pipeline {
 namespace {
 
-using illustrate::DoorSwing;
+using drawing::DoorSwing;
 
 volume::SemanticVolume volumeOf(model::BuildingModel model) {
     BuildOptions options;
@@ -41,11 +41,11 @@ volume::SemanticVolume houseVolume(const std::string& operation = "SINGLE_SWING_
     return volumeOf(*readers::readModel(std::as_bytes(std::span(text)), "house.ifc"));
 }
 
-illustrate::SectionDrawing planOf(const volume::SemanticVolume& volume) {
-    return *illustrate::drawSection(volume, *illustrate::parseSectionPlane("z=abs(101.1)", volume));
+drawing::SectionDrawing planOf(const volume::SemanticVolume& volume) {
+    return *drawing::drawSection(volume, *drawing::parseSectionPlane("z=abs(101.1)", volume));
 }
 
-const DoorSwing* doorOf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+const DoorSwing* doorOf(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                         const std::string& name) {
     for (const DoorSwing& door : drawing.doors)
         if (volume.labels.labels[door.label].name == name) return &door;
@@ -62,7 +62,7 @@ TEST(DoorSwings, OfTheHouseOpenToTheSideOfTheirLeaf) {
     ASSERT_NE(entrance, nullptr);
     ASSERT_EQ(entrance->arcs.size(), 1u);
     ASSERT_EQ(entrance->lines.size(), 1u);
-    const auto world = [&](illustrate::PlanePoint p) {
+    const auto world = [&](drawing::PlanePoint p) {
         return drawing.axes.worldFromPlane(p) - Vec3d{500000, 5400000, 0};
     };
     const Vec3d hinge = world(entrance->arcs[0].center), closed = world(entrance->arcs[0].from),
@@ -75,9 +75,9 @@ TEST(DoorSwings, OfTheHouseOpenToTheSideOfTheirLeaf) {
     EXPECT_NEAR(open.y, 10.11, 1e-3);
     EXPECT_NEAR(world(entrance->lines[0].back()).y, 10.11, 1e-3);
     // Counter-clockwise, on a circle.
-    const auto points = illustrate::pointsOf(entrance->arcs[0]);
+    const auto points = drawing::pointsOf(entrance->arcs[0]);
     EXPECT_EQ(points.size(), 13u);
-    for (const illustrate::PlanePoint p : points)
+    for (const drawing::PlanePoint p : points)
         EXPECT_NEAR(std::hypot(p.u - entrance->arcs[0].center.u, p.v - entrance->arcs[0].center.v), 1.11, 1e-3);
 }
 
@@ -126,7 +126,7 @@ TEST(DoorSwings, SurviveInAFileAndStandOnlyInPlans) {
     const auto again = volume::readSvt(folder.path() / "house.svt");
     ASSERT_TRUE(again);
     EXPECT_EQ(planOf(*again).doors.size(), 6u);
-    const auto upright = illustrate::drawSection(volume, *illustrate::parseSectionPlane("y<5", volume));
+    const auto upright = drawing::drawSection(volume, *drawing::parseSectionPlane("y<5", volume));
     ASSERT_TRUE(upright);
     EXPECT_TRUE(upright->doors.empty());
 }
@@ -139,7 +139,7 @@ TEST(DoorSwings, OfFilesAreTakenFromDoorsTypesAndStyles) {
         auto model = readers::readModels(std::span(&file, 1), {}, nullptr);
         ASSERT_TRUE(model);
         const auto volume = volumeOf(std::move(*model));
-        const auto drawing = illustrate::drawSection(volume, illustrate::defaultSectionPlane(volume));
+        const auto drawing = drawing::drawSection(volume, drawing::defaultSectionPlane(volume));
         ASSERT_TRUE(drawing);
         EXPECT_EQ(drawing->doors.size(), doors) << name;
     }

@@ -5,9 +5,9 @@
 
 #include <svt/analyze/contacts.hpp>
 #include <svt/analyze/solid_overlaps.hpp>
-#include <svt/illustrate/floor_areas.hpp>
-#include <svt/illustrate/section_drawing.hpp>
-#include <svt/illustrate/storey_floors.hpp>
+#include <svt/drawing/floor_areas.hpp>
+#include <svt/drawing/section_drawing.hpp>
+#include <svt/drawing/storey_floors.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/pipeline/split_faces_test.hpp>
 #include <svt/readers/read_model.hpp>
@@ -92,7 +92,7 @@ public:
         addExtents();
         addFloors();
         for (const char* plane : {"storey=Ground floor+1.1", "storey=Upper floor+1.1", "storey=Attic+1.1"})
-            if (const auto parsed = illustrate::parseSectionPlane(plane, volume_))
+            if (const auto parsed = drawing::parseSectionPlane(plane, volume_))
                 addSection(plane, *parsed);
             else
                 ADD_FAILURE() << parsed.error().message();
@@ -118,8 +118,8 @@ private:
     void add(const std::string& name, double value, double bound) { figures_[name] = {value, bound}; }
 
     void addExtents() {
-        const auto extents = illustrate::labelExtents(volume_);
-        for (const illustrate::LabelExtent& extent : extents) ground_ = std::min(ground_, extent.box.min.z);
+        const auto extents = drawing::labelExtents(volume_);
+        for (const drawing::LabelExtent& extent : extents) ground_ = std::min(ground_, extent.box.min.z);
         for (std::size_t l = 0; l < labels_.size(); ++l) {
             const std::string& id = labels_[l].id;
             if (extents[l].box.isEmpty()) continue;
@@ -134,18 +134,18 @@ private:
     }
 
     void addFloors() {
-        for (const illustrate::StoreyHeights& storey : illustrate::findStoreys(volume_)) {
+        for (const drawing::StoreyHeights& storey : drawing::findStoreys(volume_)) {
             const std::string& name = labels_[storey.label].name;
             EXPECT_EQ(storey.bound, 0) << name;
             add("floor of " + name, storey.floor - ground_, rounding_);
             add("low of " + name, storey.low - ground_, rounding_);
             add("top of " + name, storey.top - ground_, rounding_);
         }
-        const auto levels = illustrate::findLevels(volume_);
-        const auto areas = illustrate::measureFloorAreas(volume_, levels);
+        const auto levels = drawing::findLevels(volume_);
+        const auto areas = drawing::measureFloorAreas(volume_, levels);
         ASSERT_TRUE(areas);
         for (std::size_t n = 0; n < levels.size(); ++n) {
-            const illustrate::LevelArea& area = areas->levels[n];
+            const drawing::LevelArea& area = areas->levels[n];
             EXPECT_TRUE(area.isExact) << levels[n].name;
             add("level " + levels[n].name, levels[n].floor - ground_, rounding_);
             add("gross of " + levels[n].name, area.gross, area.grossBound);
@@ -154,18 +154,18 @@ private:
             if (variant_.format != samples::SampleFormat::Ifc4)
                 add("use of " + levels[n].name, area.use, rounding_ * kOutline * double(area.rooms));
         }
-        for (const illustrate::RoomArea& room : areas->rooms) {
+        for (const drawing::RoomArea& room : areas->rooms) {
             EXPECT_TRUE(room.isExact) << room.name;
             add("area of " + labels_[room.label].id, room.area, rounding_ * kOutline);
         }
     }
 
-    void addSection(const std::string& name, const illustrate::SectionPlane& plane) {
+    void addSection(const std::string& name, const drawing::SectionPlane& plane) {
         EXPECT_EQ(plane.bound, 0) << name;
-        const auto drawing = illustrate::drawSection(volume_, plane);
+        const auto drawing = drawing::drawSection(volume_, plane);
         ASSERT_TRUE(drawing) << name;
         double sum = 0, bound = 0;
-        for (const illustrate::SectionComponent& component : drawing->components) {
+        for (const drawing::SectionComponent& component : drawing->components) {
             EXPECT_TRUE(component.isExact) << name << " " << labels_[component.label].id;
             add(name + " through " + labels_[component.label].id, component.area, component.areaBound);
             sum += component.area;
@@ -252,7 +252,7 @@ struct Touch {
 std::map<std::pair<std::string, std::string>, Touch> contactsOf(const Variant& variant) {
     const volume::SemanticVolume volume = volumeOf(variant);
     const auto& labels = volume.labels.labels;
-    const auto extents = illustrate::labelExtents(volume);
+    const auto extents = drawing::labelExtents(volume);
     std::map<std::pair<std::string, std::string>, Touch> contacts;
     for (const analyze::Contact& contact : analyze::findContacts(volume.columns, volume.grid, volume.labels)) {
         if (contact.b == volume::kNoLabel) continue;

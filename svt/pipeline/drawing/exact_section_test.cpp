@@ -3,7 +3,7 @@
 /// come from its own triangles in double precision, and the priority decides between them.
 
 #include <svt/core/test_data_test.hpp>
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/pipeline/drawing/section_planes_test.hpp>
@@ -90,11 +90,11 @@ Workpiece prepareWork(model::BuildingModel model) {
 }
 
 /// Segments of the closed meshes in the plane, by label, in its coordinates; the inside is to the left.
-using Segments = std::map<std::uint32_t, std::vector<std::array<illustrate::PlanePoint, 2>>>;
+using Segments = std::map<std::uint32_t, std::vector<std::array<drawing::PlanePoint, 2>>>;
 
-Segments cutTriangles(const Workpiece& work, const illustrate::SectionDrawing& drawing) {
+Segments cutTriangles(const Workpiece& work, const drawing::SectionDrawing& drawing) {
     Segments segments;
-    const illustrate::PlaneAxes& axes = drawing.axes;
+    const drawing::PlaneAxes& axes = drawing.axes;
     // A hair to the kept side: faces in the plane are not cut.
     const double raise = dot(drawing.plane.normal, axes.normal) > 0 ? -1e-7 : 1e-7;
     for (std::size_t o = 0; o < work.meshes.objects.size(); ++o) {
@@ -103,7 +103,7 @@ Segments cutTriangles(const Workpiece& work, const illustrate::SectionDrawing& d
         auto& list = segments[work.labelOfObject[o]];
         const auto place = [&](std::uint32_t v) { return object.vertices[v] + (work.meshes.origin - axes.origin); };
         for (const mesh::Triangle& triangle : object.triangles) {
-            std::array<illustrate::PlanePoint, 2> ends{};
+            std::array<drawing::PlanePoint, 2> ends{};
             int count = 0;
             for (std::size_t n = 0; n < 3; ++n) {
                 const Vec3d a = place(triangle.corners[n]), b = place(triangle.corners[(n + 1) % 3]);
@@ -119,7 +119,7 @@ Segments cutTriangles(const Workpiece& work, const illustrate::SectionDrawing& d
     return segments;
 }
 
-void addCrossing(illustrate::PlanePoint a, illustrate::PlanePoint b, double v, std::vector<LineEnd>& ends) {
+void addCrossing(drawing::PlanePoint a, drawing::PlanePoint b, double v, std::vector<LineEnd>& ends) {
     if ((a.v > v) == (b.v > v)) return;
     // The inside is to the left: going up it lies towards smaller u.
     ends.push_back({a.u + (v - a.v) / (b.v - a.v) * (b.u - a.u), b.v > a.v ? -1 : 1,
@@ -169,17 +169,17 @@ struct Tally {
     double worstArea = 0;
 };
 
-illustrate::PlanePoint turned(illustrate::PlanePoint p, bool isTurned) {
-    return isTurned ? illustrate::PlanePoint{p.v, -p.u} : p;
+drawing::PlanePoint turned(drawing::PlanePoint p, bool isTurned) {
+    return isTurned ? drawing::PlanePoint{p.v, -p.u} : p;
 }
 
 /// Compares drawing and triangles on `count` lines along u, or, if `isTurned`, along v.
-void compareLines(const Workpiece& work, const illustrate::SectionDrawing& drawing, const Segments& segments, int count,
+void compareLines(const Workpiece& work, const drawing::SectionDrawing& drawing, const Segments& segments, int count,
                   bool isTurned, std::map<std::uint32_t, std::pair<double, double>>& lengths, Tally& tally) {
     double low = 1e300, high = -1e300;
     for (const auto& [label, list] : segments)
         for (const auto& ends : list)
-            for (const illustrate::PlanePoint p : ends) {
+            for (const drawing::PlanePoint p : ends) {
                 low = std::min(low, turned(p, isTurned).v);
                 high = std::max(high, turned(p, isTurned).v);
             }
@@ -190,15 +190,15 @@ void compareLines(const Workpiece& work, const illustrate::SectionDrawing& drawi
         for (const auto& [label, list] : segments)
             for (const auto& ends : list)
                 addCrossing(turned(ends[0], isTurned), turned(ends[1], isTurned), v, fromMesh[label]);
-        for (const illustrate::SectionComponent& component : drawing.components)
-            for (const illustrate::SectionPolygon& polygon : component.polygons) {
+        for (const drawing::SectionComponent& component : drawing.components)
+            for (const drawing::SectionPolygon& polygon : component.polygons) {
                 auto& ends = fromDrawing[component.label];
-                const auto add = [&](const illustrate::Ring& ring) {
+                const auto add = [&](const drawing::Ring& ring) {
                     for (std::size_t i = 0; i < ring.size(); ++i)
                         addCrossing(turned(ring[i], isTurned), turned(ring[(i + 1) % ring.size()], isTurned), v, ends);
                 };
                 add(polygon.outer);
-                for (const illustrate::Ring& hole : polygon.holes) add(hole);
+                for (const drawing::Ring& hole : polygon.holes) add(hole);
                 // What is drawn by voxels takes its place from the others in both.
                 if (!component.isExact) fromMesh[component.label] = ends;
             }
@@ -227,9 +227,9 @@ void compareLines(const Workpiece& work, const illustrate::SectionDrawing& drawi
 }
 
 /// Nine planes parallel to the axes and four oblique ones through the middle.
-std::vector<illustrate::SectionPlane> planesThrough(const volume::Grid& grid) {
+std::vector<drawing::SectionPlane> planesThrough(const volume::Grid& grid) {
     const Vec3d size = scaled(toDouble(grid.dimension() - Vec3i{1, 1, 1}), grid.spacing());
-    std::vector<illustrate::SectionPlane> planes = test::axisPlanesThrough(grid);
+    std::vector<drawing::SectionPlane> planes = test::axisPlanesThrough(grid);
     for (const Vec3d normal : {Vec3d{0.6, 0.8, 0}, Vec3d{0.5, 0.6, 0.4}, Vec3d{-0.2, 0.5, 0.9}, Vec3d{0.7, -0.1, -0.3}})
         planes.push_back({normalized(normal), grid.origin() + size * 0.4637});
     return planes;
@@ -238,8 +238,8 @@ std::vector<illustrate::SectionPlane> planesThrough(const volume::Grid& grid) {
 Tally compareModel(model::BuildingModel model) {
     const Workpiece work = prepareWork(std::move(model));
     Tally tally;
-    for (const illustrate::SectionPlane& plane : planesThrough(work.volume.grid)) {
-        const auto drawing = illustrate::drawSection(work.volume, plane);
+    for (const drawing::SectionPlane& plane : planesThrough(work.volume.grid)) {
+        const auto drawing = drawing::drawSection(work.volume, plane);
         EXPECT_TRUE(drawing);
         if (!drawing || drawing->components.empty()) continue;
         ++tally.planes;
@@ -248,7 +248,7 @@ Tally compareModel(model::BuildingModel model) {
         std::map<std::uint32_t, std::pair<double, double>> lengths;
         for (const bool isTurned : {false, true}) compareLines(work, *drawing, segments, 200, isTurned, lengths, tally);
         std::set<std::uint32_t> exact;
-        for (const illustrate::SectionComponent& component : drawing->components) {
+        for (const drawing::SectionComponent& component : drawing->components) {
             if (component.area > 0) ++(component.isExact ? tally.components : tally.byVoxels);
             if (component.isExact) exact.insert(work.buildingOf[component.label]);
         }

@@ -1,7 +1,7 @@
 /// Floor areas against those that the program that wrote a model measured itself.
 
 #include <svt/core/test_data_test.hpp>
-#include <svt/illustrate/floor_areas.hpp>
+#include <svt/drawing/floor_areas.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/readers/model_joiner.hpp>
 #include <svt/readers/read_model.hpp>
@@ -21,17 +21,17 @@ TEST(FloorAreasOfFile, RoomsOfTheFzkHausHaveTheAreasThatItsAuthorMeasured) {
     const auto built = buildVolume(*model, options);
     ASSERT_TRUE(built);
     const volume::SemanticVolume& volume = built->volume;
-    const auto levels = illustrate::findLevels(volume);
+    const auto levels = drawing::findLevels(volume);
     ASSERT_EQ(levels.size(), 2u);
-    const auto areas = illustrate::measureFloorAreas(volume, levels);
+    const auto areas = drawing::measureFloorAreas(volume, levels);
     ASSERT_TRUE(areas);
     ASSERT_EQ(areas->rooms.size(), 7u);
-    for (const illustrate::RoomArea& room : areas->rooms) {
+    for (const drawing::RoomArea& room : areas->rooms) {
         double measured = 0;
         for (const Attribute& attribute : volume.labels.labels[room.label].attributes)
             if (attribute.name == "BaseQuantities.GrossFloorArea") measured = std::get<double>(attribute.value);
         EXPECT_NEAR(room.area, measured, 2e-5) << room.name;
-        EXPECT_EQ(room.use, room.name == "Flur" ? illustrate::RoomUse::Traffic : illustrate::RoomUse::Use);
+        EXPECT_EQ(room.use, room.name == "Flur" ? drawing::RoomUse::Traffic : drawing::RoomUse::Use);
         EXPECT_FALSE(room.number.empty());
     }
     EXPECT_NEAR(areas->levels[1].gross, 120, 0.01);

@@ -3,7 +3,7 @@
 /// drawn they must differ.
 
 #include <svt/core/test_data_test.hpp>
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/readers/model_joiner.hpp>
@@ -22,7 +22,7 @@
 namespace svt::pipeline {
 namespace {
 
-using illustrate::PlanePoint;
+using drawing::PlanePoint;
 
 constexpr double kBeside = 1.5e-3;  // metres: rays to the left and right of an edge
 
@@ -45,8 +45,8 @@ struct Hit {
 class Rays {
 public:
     Rays(const mesh::MeshSet& meshes, const std::vector<std::uint32_t>& labelOfObject, const volume::LabelTable& table,
-         const illustrate::SectionDrawing& drawing) {
-        const illustrate::PlaneAxes& axes = drawing.axes;
+         const drawing::SectionDrawing& drawing) {
+        const drawing::PlaneAxes& axes = drawing.axes;
         isSolid_.resize(table.labels.size());
         for (std::size_t o = 0; o < meshes.objects.size(); ++o) {
             const mesh::ObjectMesh& object = meshes.objects[o];
@@ -128,11 +128,11 @@ bool differAtAll(const Hit& a, const Hit& b) {
 /// Distances from points to what is drawn, found by cells of 50 mm.
 class Drawn {
 public:
-    explicit Drawn(const illustrate::SectionDrawing& drawing) {
-        for (const illustrate::BeyondLine& line : drawing.beyond) add(line.from, line.to);
-        for (const illustrate::SectionBorder& border : drawing.borders)
+    explicit Drawn(const drawing::SectionDrawing& drawing) {
+        for (const drawing::BeyondLine& line : drawing.beyond) add(line.from, line.to);
+        for (const drawing::SectionBorder& border : drawing.borders)
             for (std::size_t n = 0; n + 1 < border.points.size(); ++n) add(border.points[n], border.points[n + 1]);
-        for (const illustrate::SectionLine& line : drawing.lines)
+        for (const drawing::SectionLine& line : drawing.lines)
             for (std::size_t n = 0; n + 1 < line.points.size(); ++n) add(line.points[n], line.points[n + 1]);
     }
     [[nodiscard]] double distance(PlanePoint p) const {
@@ -157,9 +157,9 @@ private:
     std::map<long, std::vector<std::pair<PlanePoint, PlanePoint>>> rows_;
 };
 
-std::pair<PlanePoint, PlanePoint> boxOf(const illustrate::SectionDrawing& drawing) {
+std::pair<PlanePoint, PlanePoint> boxOf(const drawing::SectionDrawing& drawing) {
     PlanePoint low = drawing.beyond.front().from, high = low;
-    for (const illustrate::BeyondLine& line : drawing.beyond)
+    for (const drawing::BeyondLine& line : drawing.beyond)
         for (const PlanePoint p : {line.from, line.to}) {
             low = {std::min(low.u, p.u), std::min(low.v, p.v)};
             high = {std::max(high.u, p.u), std::max(high.v, p.v)};
@@ -172,10 +172,10 @@ struct LinesSeen {
 };
 
 void compareView(const mesh::MeshSet& meshes, const std::vector<std::uint32_t>& labelOfObject,
-                 const volume::SemanticVolume& volume, const illustrate::SectionPlane& plane, LinesSeen& tally) {
-    illustrate::SectionOptions options;
+                 const volume::SemanticVolume& volume, const drawing::SectionPlane& plane, LinesSeen& tally) {
+    drawing::SectionOptions options;
     options.beyond.visible = true;
-    const auto drawing = illustrate::drawSection(volume, plane, options);
+    const auto drawing = drawing::drawSection(volume, plane, options);
     ASSERT_TRUE(drawing);
     if (drawing->beyond.empty()) return;
     ++tally.views;
@@ -220,7 +220,7 @@ void compareView(const mesh::MeshSet& meshes, const std::vector<std::uint32_t>& 
         ++tally.needed;
         if (!(drawn.distance(a) <= 2.5 * kBeside)) ++tally.missing;
     }
-    for (const illustrate::BeyondLine& line : drawing->beyond) {
+    for (const drawing::BeyondLine& line : drawing->beyond) {
         if (std::hypot(line.to.u - line.from.u, line.to.v - line.from.v) < 0.02) continue;
         PlanePoint p;
         const auto [left, right] = cast(line.from, line.to, 0.1 + 0.8 * fraction(), p);
@@ -242,13 +242,13 @@ LinesSeen castBeside(model::BuildingModel model) {
     std::vector<std::uint32_t> labelOfObject;
     for (const std::string& id : ids) labelOfObject.push_back(labelOfId.at(id));
     const Vec3d middle = volume.grid.worldFromIndex(toDouble(volume.grid.dimension()) * 0.4637);
-    std::vector<illustrate::SectionPlane> planes;
+    std::vector<drawing::SectionPlane> planes;
     for (const char* side : {"north", "east", "south", "west"})
-        planes.push_back(*illustrate::elevationPlane(side, volume));
+        planes.push_back(*drawing::elevationPlane(side, volume));
     for (const Vec3d normal :
          {Vec3d{0, 0, 1}, Vec3d{0, -1, 0}, Vec3d{1, 0, 0}, Vec3d{0.6, 0.8, 0}, Vec3d{0.5, -0.6, 0.4}})
         planes.push_back({normalized(normal), middle});
-    for (const illustrate::SectionPlane& plane : planes) compareView(meshes, labelOfObject, volume, plane, tally);
+    for (const drawing::SectionPlane& plane : planes) compareView(meshes, labelOfObject, volume, plane, tally);
     return tally;
 }
 

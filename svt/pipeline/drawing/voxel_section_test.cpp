@@ -2,7 +2,7 @@
 /// the model's faces are left. exact_section_test.cpp compares the latter with the triangles.
 
 #include <svt/core/test_data_test.hpp>
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/pipeline/drawing/section_planes_test.hpp>
 #include <svt/readers/model_joiner.hpp>
@@ -31,7 +31,7 @@ struct AreaErrors {
     }
 };
 
-double lengthOf(const illustrate::Ring& ring) {
+double lengthOf(const drawing::Ring& ring) {
     double sum = 0;
     for (std::size_t n = 0; n < ring.size(); ++n) {
         const auto a = ring[n], b = ring[(n + 1) % ring.size()];
@@ -41,11 +41,11 @@ double lengthOf(const illustrate::Ring& ring) {
 }
 
 // A strip of width w has twice its area over its border; so this is about the width of the narrowest part.
-double thicknessOf(const illustrate::SectionComponent& component) {
+double thicknessOf(const drawing::SectionComponent& component) {
     double border = 0;
-    for (const illustrate::SectionPolygon& polygon : component.polygons) {
+    for (const drawing::SectionPolygon& polygon : component.polygons) {
         border += lengthOf(polygon.outer);
-        for (const illustrate::Ring& hole : polygon.holes) border += lengthOf(hole);
+        for (const drawing::Ring& hole : polygon.holes) border += lengthOf(hole);
     }
     return 2 * component.area / border;
 }
@@ -60,17 +60,17 @@ AreaErrors compareWithMeshes(model::BuildingModel model, const std::string& name
     if (!built) return errors;
     const volume::SemanticVolume& volume = built->volume;
     const auto bricks = volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes});
-    for (const illustrate::SectionPlane& plane : test::axisPlanesThrough(volume.grid)) {
-        illustrate::SectionOptions byVoxels;
+    for (const drawing::SectionPlane& plane : test::axisPlanesThrough(volume.grid)) {
+        drawing::SectionOptions byVoxels;
         byVoxels.useMeshes = false;
-        const auto exact = illustrate::drawSection(volume, plane);
-        const auto drawn = illustrate::drawSection(volume, *bricks, plane, byVoxels);
+        const auto exact = drawing::drawSection(volume, plane);
+        const auto drawn = drawing::drawSection(volume, *bricks, plane, byVoxels);
         EXPECT_TRUE(exact && drawn);
         if (!exact || !drawn) continue;
         ++errors.planes;
         std::map<std::uint32_t, double> areas;
-        for (const illustrate::SectionComponent& component : drawn->components) areas[component.label] = component.area;
-        for (const illustrate::SectionComponent& component : exact->components)
+        for (const drawing::SectionComponent& component : drawn->components) areas[component.label] = component.area;
+        for (const drawing::SectionComponent& component : exact->components)
             if (component.isExact && component.area > 0 && thicknessOf(component) >= 2 * spacing.x) {
                 errors.relative.push_back(std::abs(areas[component.label] - component.area) / component.area);
                 if (std::getenv("SVT_TELL") != nullptr && errors.relative.back() > 0.02)

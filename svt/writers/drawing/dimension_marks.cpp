@@ -11,9 +11,9 @@
 namespace svt::writers {
 namespace {
 
-using illustrate::DimensionChain;
-using illustrate::DimensionSide;
-using illustrate::PlanePoint;
+using drawing::DimensionChain;
+using drawing::DimensionSide;
+using drawing::PlanePoint;
 
 // Millimetres on paper.
 constexpr double kFirst = 7, kPitch = 9, kFoot = 1.5, kTick = 1.1, kBeyondLast = 3;
@@ -52,7 +52,7 @@ bool isHorizontal(DimensionSide side) noexcept { return side == DimensionSide::B
 
 }  // namespace
 
-double dimensionReach(const illustrate::SectionDrawing& drawing, DimensionSide side) noexcept {
+double dimensionReach(const drawing::SectionDrawing& drawing, DimensionSide side) noexcept {
     int rows = 0;
     for (const DimensionChain& chain : drawing.dimensions)
         if (chain.side == side) rows = std::max(rows, chain.row + 1);
@@ -69,7 +69,7 @@ std::string dimensionText(double metres) {
     return fmt::format("{}.{:02}{}", centimetres / 100, centimetres % 100, rest);
 }
 
-DimensionMarks placeDimensions(const illustrate::SectionDrawing& drawing, const std::pair<PlanePoint, PlanePoint>& box,
+DimensionMarks placeDimensions(const drawing::SectionDrawing& drawing, const std::pair<PlanePoint, PlanePoint>& box,
                                double millimetres) {
     DimensionMarks placed;
     for (const DimensionChain& chain : drawing.dimensions) {

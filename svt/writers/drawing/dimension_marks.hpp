@@ -2,7 +2,7 @@
 /// \file
 /// How chains of dimensions are drawn: lines, ticks and numbers on paper, no number over another.
 
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 
 #include <string>
 #include <utility>
@@ -12,13 +12,13 @@ namespace svt::writers {
 
 /// Millimetres on paper from the drawing's zero, y upwards.
 struct MarkLine {
-    illustrate::PlanePoint from, to;
+    drawing::PlanePoint from, to;
 };
 struct MarkText {
-    illustrate::PlanePoint at;  ///< middle of the baseline
-    double size = 2;            ///< font size, millimetres
-    std::string text;           ///< UTF-8
-    bool isUpright = false;     ///< read from the right
+    drawing::PlanePoint at;  ///< middle of the baseline
+    double size = 2;         ///< font size, millimetres
+    std::string text;        ///< UTF-8
+    bool isUpright = false;  ///< read from the right
 };
 
 /// One dimension of a chain.
@@ -36,12 +36,12 @@ struct DimensionMarks {
 };
 
 /// How far chains reach beyond the drawing on a side, millimetres; 0: there are none.
-[[nodiscard]] double dimensionReach(const illustrate::SectionDrawing& drawing, illustrate::DimensionSide side) noexcept;
+[[nodiscard]] double dimensionReach(const drawing::SectionDrawing& drawing, drawing::DimensionSide side) noexcept;
 
 /// Places the chains around `box` (of drawnBox()).
 /// \param millimetres  on paper per metre
-[[nodiscard]] DimensionMarks placeDimensions(const illustrate::SectionDrawing& drawing,
-                                             const std::pair<illustrate::PlanePoint, illustrate::PlanePoint>& box,
+[[nodiscard]] DimensionMarks placeDimensions(const drawing::SectionDrawing& drawing,
+                                             const std::pair<drawing::PlanePoint, drawing::PlanePoint>& box,
                                              double millimetres);
 
 /// A length as architects write it (DIN 1356-1): metres with two decimals from 1 m on, else centimetres; what is left of

@@ -11,7 +11,7 @@
 
 namespace svt::writers {
 
-Result<std::string> makeDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+Result<std::string> makeDrawing(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                 std::string_view format, const DrawingOptions& options) {
     if (format == "svg") return makeSvg(drawing, volume, {options.scale});
     if (format == "dxf") return makeDxf(drawing, volume, options.dxf);
@@ -22,7 +22,7 @@ Result<std::string> makeDrawing(const illustrate::SectionDrawing& drawing, const
                  fmt::format("there is no drawing as '{}'; possible are svg, dxf, geojson, csv, json", format));
 }
 
-Result<std::uint64_t> writeDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+Result<std::uint64_t> writeDrawing(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                    const std::filesystem::path& path, const DrawingOptions& options) {
     const std::string ending = lowerAscii(path.extension().string());
     SVT_TRY(text, ending == ".pdf" ? makeSectionPdf(drawing, volume, options.scale)

@@ -11,8 +11,8 @@
 
 namespace svt::writers {
 
-Result<DrawingPage> makeDrawingPage(const illustrate::SectionDrawing& drawing, double scale) {
-    using illustrate::DimensionSide;
+Result<DrawingPage> makeDrawingPage(const drawing::SectionDrawing& drawing, double scale) {
+    using drawing::DimensionSide;
     constexpr double kMinWidth = 90;
     if (!(scale >= 0.01 && scale <= 1e7))
         return Error(Code::BadArgument,

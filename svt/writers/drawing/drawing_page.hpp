@@ -3,14 +3,14 @@
 /// The page of a section drawing that stands alone: the drawing with its dimensions, margins, and a title below it.
 
 #include <svt/core/result.hpp>
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 
 namespace svt::writers {
 
 /// Millimetres on paper, from the upper left corner.
 struct DrawingPage {
     static constexpr double kMargin = 10, kTitleHeight = 24;
-    illustrate::PlanePoint low, high;      ///< corners of what is drawn, in the drawing
+    drawing::PlanePoint low, high;         ///< corners of what is drawn, in the drawing
     double scale = 100, millimetres = 10;  ///< 100 draws 1 m as 10 mm; the latter on paper per metre
     double width = 0, height = 0;          ///< of the page
     double left = 0, top = 0;              ///< of the drawing without dimensions
@@ -20,6 +20,6 @@ struct DrawingPage {
 };
 
 /// \return the page, or BadArgument: a scale out of 1:0.01 to 1:10000000
-[[nodiscard]] Result<DrawingPage> makeDrawingPage(const illustrate::SectionDrawing& drawing, double scale);
+[[nodiscard]] Result<DrawingPage> makeDrawingPage(const drawing::SectionDrawing& drawing, double scale);
 
 }  // namespace svt::writers

@@ -9,8 +9,8 @@
 namespace svt::writers {
 namespace {
 
-using illustrate::PlanePoint;
-using illustrate::SectionComponent;
+using drawing::PlanePoint;
+using drawing::SectionComponent;
 using render::Hatch;
 using volume::kNoLabel;
 
@@ -38,7 +38,7 @@ constexpr HatchTile kHatches[] = {
 
 std::span<const HatchTile> hatchTiles() noexcept { return kHatches; }
 
-std::pair<PlanePoint, PlanePoint> drawnBox(const illustrate::SectionDrawing& drawing) {
+std::pair<PlanePoint, PlanePoint> drawnBox(const drawing::SectionDrawing& drawing) {
     PlanePoint low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     PlanePoint high{-low.u, -low.v};
     const auto add = [&](PlanePoint p) {
@@ -48,13 +48,13 @@ std::pair<PlanePoint, PlanePoint> drawnBox(const illustrate::SectionDrawing& dra
     for (const SectionComponent& component : drawing.components)
         for (const auto& polygon : component.polygons)
             for (const PlanePoint p : polygon.outer) add(p);
-    for (const illustrate::SectionLine& line : drawing.lines)
+    for (const drawing::SectionLine& line : drawing.lines)
         for (const PlanePoint p : line.points) add(p);
-    for (const illustrate::BeyondLine& line : drawing.beyond) {
+    for (const drawing::BeyondLine& line : drawing.beyond) {
         add(line.from);
         add(line.to);
     }
-    for (const illustrate::DoorSwing& door : drawing.doors) {
+    for (const drawing::DoorSwing& door : drawing.doors) {
         for (const auto& line : door.lines)
             for (const PlanePoint p : line) add(p);
         for (const auto& arc : door.arcs)
@@ -64,9 +64,9 @@ std::pair<PlanePoint, PlanePoint> drawnBox(const illustrate::SectionDrawing& dra
     return {low, high};
 }
 
-DrawingStyle::DrawingStyle(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+DrawingStyle::DrawingStyle(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                            double millimetres)
-    : volume_(volume), hatches_(illustrate::labelHatches(volume.labels)), isSlim_(volume.labels.labels.size(), 0) {
+    : volume_(volume), hatches_(drawing::labelHatches(volume.labels)), isSlim_(volume.labels.labels.size(), 0) {
     for (const SectionComponent& component : drawing.components)
         isSlim_[component.label] = isSlim(component, millimetres) ? 1 : 0;
 }
@@ -93,7 +93,7 @@ bool DrawingStyle::isBoldBetween(std::uint32_t left, std::uint32_t right) const 
 bool DrawingStyle::isSlim(const SectionComponent& component, double millimetres) const noexcept {
     if (isSheet(component.label) || component.polygons.empty()) return false;
     double length = 0;
-    const auto add = [&](const illustrate::Ring& ring) {
+    const auto add = [&](const drawing::Ring& ring) {
         for (std::size_t n = 0; n < ring.size(); ++n) {
             const PlanePoint a = ring[n], b = ring[(n + 1) % ring.size()];
             length += std::hypot(b.u - a.u, b.v - a.v);

@@ -2,8 +2,8 @@
 /// \file
 /// How a section drawing looks on paper, whatever it is written to: which lines are bold, which hatch fills what.
 
-#include <svt/illustrate/hatches.hpp>
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/hatches.hpp>
+#include <svt/drawing/section_drawing.hpp>
 
 #include <cstdint>
 #include <span>
@@ -24,13 +24,12 @@ struct HatchTile {
 [[nodiscard]] std::span<const HatchTile> hatchTiles() noexcept;
 
 /// Lower left and upper right corner of all that is drawn; both zero where nothing is.
-[[nodiscard]] std::pair<illustrate::PlanePoint, illustrate::PlanePoint> drawnBox(
-    const illustrate::SectionDrawing& drawing);
+[[nodiscard]] std::pair<drawing::PlanePoint, drawing::PlanePoint> drawnBox(const drawing::SectionDrawing& drawing);
 
 class DrawingStyle {
 public:
     /// \param millimetres  on paper per metre
-    DrawingStyle(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume, double millimetres);
+    DrawingStyle(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume, double millimetres);
 
     [[nodiscard]] render::Hatch hatchOf(std::uint32_t label) const noexcept { return hatches_[label]; }
     /// Rooms, units, storeys, and what is not drawn.
@@ -43,7 +42,7 @@ public:
 
 private:
     [[nodiscard]] bool isSheet(std::uint32_t label) const noexcept;
-    [[nodiscard]] bool isSlim(const illustrate::SectionComponent& component, double millimetres) const noexcept;
+    [[nodiscard]] bool isSlim(const drawing::SectionComponent& component, double millimetres) const noexcept;
 
     const volume::SemanticVolume& volume_;
     std::vector<render::Hatch> hatches_;  // by label

@@ -34,8 +34,8 @@ volume::SemanticVolume roomInWalls() {
     return volume;
 }
 
-illustrate::SectionDrawing planOf(const volume::SemanticVolume& volume) {
-    return *illustrate::drawSection(volume, {{0, 0, 1}, volume.grid.origin() + Vec3d{0, 0, 1.03}});
+drawing::SectionDrawing planOf(const volume::SemanticVolume& volume) {
+    return *drawing::drawSection(volume, {{0, 0, 1}, volume.grid.origin() + Vec3d{0, 0, 1.03}});
 }
 
 TEST(DrawingText, EpsgCodesAreFoundInTheUsualNames) {
@@ -63,7 +63,7 @@ TEST(DrawingText, NumbersAreShort) {
 TEST(DrawingText, PlanesAreNamed) {
     const auto volume = roomInWalls();
     const auto textOf = [&](Vec3d normal, Vec3d point) {
-        return planeText(*illustrate::drawSection(volume, {normal, volume.grid.origin() + point}), volume.grid);
+        return planeText(*drawing::drawSection(volume, {normal, volume.grid.origin() + point}), volume.grid);
     };
     EXPECT_EQ(textOf({0, 0, 1}, {0, 0, 1.2}), "Plan at z = 1.2 m");
     EXPECT_EQ(textOf({0, 0, -1}, {0, 0, 1.2}), "Plan at z = 1.2 m");
@@ -108,7 +108,7 @@ TEST(SvgDrawing, RefusesScalesAndDrawsNothingAsNothing) {
         options.scale = scale;
         EXPECT_EQ(makeSvg(planOf(volume), volume, options).error().code(), Code::BadArgument);
     }
-    const auto empty = *illustrate::drawSection(volume, {{0, 0, 1}, volume.grid.origin() + Vec3d{0, 0, 50}});
+    const auto empty = *drawing::drawSection(volume, {{0, 0, 1}, volume.grid.origin() + Vec3d{0, 0, 50}});
     const auto svg = makeSvg(empty, volume);
     ASSERT_TRUE(svg);
     const SvgFile read(*svg);
@@ -161,7 +161,7 @@ TEST(DxfDrawing, StandsInTheWorldWhereAsked) {
         EXPECT_TRUE(p[1] >= 5399999.9 && p[1] <= 5400003) << p[1];
     }
     // Upright: seen from the south, x is east, y is up; the plane lies 1.5 m from the corner.
-    const auto section = *illustrate::drawSection(volume, {{0, -1, 0}, volume.grid.origin() + Vec3d{0, 1.5, 0}});
+    const auto section = *drawing::drawSection(volume, {{0, -1, 0}, volume.grid.origin() + Vec3d{0, 1.5, 0}});
     const DxfFile dxf(makeDxf(section, volume, world));
     for (const auto& p : dxf.points("LWPOLYLINE")) {
         EXPECT_TRUE(p[0] >= 499999.9 && p[0] <= 500004) << p[0];

@@ -31,15 +31,15 @@ std::string plainName(std::string_view name, std::string_view fallback) {
     return plain;
 }
 
-bool isPlan(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) noexcept {
+bool isPlan(const drawing::SectionDrawing& drawing, const volume::Grid& grid) noexcept {
     return std::abs(dot(drawing.axes.normal, grid.axes()[2])) > 1 - 1e-12;
 }
 
-std::string_view beyondName(illustrate::BeyondKind kind) noexcept {
+std::string_view beyondName(drawing::BeyondKind kind) noexcept {
     switch (kind) {
-        case illustrate::BeyondKind::Hidden: return "hidden";
-        case illustrate::BeyondKind::Above: return "above";
-        case illustrate::BeyondKind::Visible: break;
+        case drawing::BeyondKind::Hidden: return "hidden";
+        case drawing::BeyondKind::Above: return "above";
+        case drawing::BeyondKind::Visible: break;
     }
     return "visible";
 }
@@ -64,7 +64,7 @@ std::string svgPattern(const HatchTile& tile, bool isTurned) {
     return text + "</pattern>\n";
 }
 
-bool isElevation(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) noexcept {
+bool isElevation(const drawing::SectionDrawing& drawing, const volume::Grid& grid) noexcept {
     const bool isUpright = std::abs(dot(drawing.plane.normal, grid.axes()[2])) < 1e-9;
     return isUpright && !drawing.beyond.empty() && drawing.components.empty();
 }
@@ -76,7 +76,7 @@ std::string_view compassName(Vec3d direction) noexcept {
     return kNames[static_cast<std::size_t>(std::lround(eighth) + 8) % 8];
 }
 
-std::string planeText(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) {
+std::string planeText(const drawing::SectionDrawing& drawing, const volume::Grid& grid) {
     if (isElevation(drawing, grid)) return fmt::format("Elevation from the {}", compassName(drawing.plane.normal));
     const Vec3d normal = drawing.plane.normal;
     const double offset = dot(normal, drawing.plane.point - grid.origin());

@@ -3,7 +3,7 @@
 /// Text helpers shared by the drawing writers: numbers, names and a description of the plane.
 
 #include <svt/crs/crs_name.hpp>
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 #include <svt/writers/drawing/drawing_style.hpp>
 #include <svt/writers/labels/label_looks.hpp>
 
@@ -23,19 +23,19 @@ namespace svt::writers {
 [[nodiscard]] std::string plainName(std::string_view name, std::string_view fallback = "none");
 
 /// "visible", "hidden" or "above".
-[[nodiscard]] std::string_view beyondName(illustrate::BeyondKind kind) noexcept;
+[[nodiscard]] std::string_view beyondName(drawing::BeyondKind kind) noexcept;
 
 /// Whether a drawing shows the model from outside: an upright plane that cuts nothing, and lines behind it.
-[[nodiscard]] bool isElevation(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) noexcept;
+[[nodiscard]] bool isElevation(const drawing::SectionDrawing& drawing, const volume::Grid& grid) noexcept;
 
 /// The nearest of eight directions: "north" for y of world space, "north-east", ...
 [[nodiscard]] std::string_view compassName(Vec3d direction) noexcept;
 
 /// "Elevation from the south", "Plan at z = 1.2 m", "Section at y = 5 m", "Section 0.6, 0.8, 0, -3": metres from the grid's lower corner.
-[[nodiscard]] std::string planeText(const illustrate::SectionDrawing& drawing, const volume::Grid& grid);
+[[nodiscard]] std::string planeText(const drawing::SectionDrawing& drawing, const volume::Grid& grid);
 
 /// True if the section plane is horizontal.
-[[nodiscard]] bool isPlan(const illustrate::SectionDrawing& drawing, const volume::Grid& grid) noexcept;
+[[nodiscard]] bool isPlan(const drawing::SectionDrawing& drawing, const volume::Grid& grid) noexcept;
 
 /// The member `crs` of GeoJSON 2008, which GDAL and QGIS read, with a comma before it. Empty without an EPSG code.
 [[nodiscard]] std::string geoJsonCrs(std::string_view crsName);

@@ -13,7 +13,7 @@
 namespace svt::writers {
 namespace {
 
-using illustrate::PlanePoint;
+using drawing::PlanePoint;
 
 // AutoCAD color index by class.
 int colorOf(const std::string& className) noexcept {
@@ -38,7 +38,7 @@ struct BeyondStyle {
     int color;
     std::vector<double> dashes;
 };
-const BeyondStyle& beyondStyle(illustrate::BeyondKind kind) {
+const BeyondStyle& beyondStyle(drawing::BeyondKind kind) {
     static const BeyondStyle kStyles[] = {
         {"BEYOND_VISIBLE", "Continuous", "", 7, {}},
         {"BEYOND_HIDDEN", "ACAD_ISO02W100", "ISO dash", 8, {12, -3}},
@@ -56,7 +56,7 @@ double degreesOf(double radians) { return radians * 180 / std::numbers::pi; }
 // Where points of a drawing are in the file: in the drawing's plane, or in the world.
 class DxfPlace {
 public:
-    DxfPlace(const illustrate::PlaneAxes& axes, bool isWorld) : axes_(axes), isWorld_(isWorld) {
+    DxfPlace(const drawing::PlaneAxes& axes, bool isWorld) : axes_(axes), isWorld_(isWorld) {
         if (!isWorld) return;
         normal_ = axes.normal;
         const bool isUpright = std::abs(normal_.x) < 1.0 / 64 && std::abs(normal_.y) < 1.0 / 64;
@@ -83,7 +83,7 @@ public:
     [[nodiscard]] double turnDegrees() const noexcept { return turnDegrees_; }
 
 private:
-    const illustrate::PlaneAxes& axes_;
+    const drawing::PlaneAxes& axes_;
     bool isWorld_;
     Vec3d normal_{0, 0, 1}, objectX_{1, 0, 0}, objectY_{0, 1, 0};
     double elevation_ = 0, turnDegrees_ = 0;
@@ -91,8 +91,7 @@ private:
 
 class DxfWriter {
 public:
-    DxfWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-              const DxfOptions& options)
+    DxfWriter(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume, const DxfOptions& options)
         : drawing_(drawing),
           volume_(volume),
           hasIsoLayers_(options.isoLayers),
@@ -105,10 +104,10 @@ public:
     std::string write() {
         addEntities();
         for (const auto kind :
-             {illustrate::BeyondKind::Visible, illustrate::BeyondKind::Hidden, illustrate::BeyondKind::Above}) {
+             {drawing::BeyondKind::Visible, drawing::BeyondKind::Hidden, drawing::BeyondKind::Above}) {
             const BeyondStyle& style = beyondStyle(kind);
-            const bool isUsed = std::ranges::any_of(
-                drawing_.beyond, [&](const illustrate::BeyondLine& line) { return line.kind == kind; });
+            const bool isUsed = std::ranges::any_of(drawing_.beyond,
+                                                    [&](const drawing::BeyondLine& line) { return line.kind == kind; });
             if (style.dashes.empty() || !isUsed) continue;
             DxfLineType type{style.lineType, style.words, style.dashes};
             for (double& dash : type.dashes) dash *= kDashUnit;
@@ -126,7 +125,7 @@ private:
     };
 
     [[nodiscard]] std::vector<std::string> comments() const {
-        const illustrate::PlaneAxes& axes = drawing_.axes;
+        const drawing::PlaneAxes& axes = drawing_.axes;
         return {dxfText(shownName(volume_)) + ", " + planeText(drawing_, volume_.grid),
                 (place_.isWorld() ? "coordinates of the world; the drawing lies at origin + u * x + v * y, metres"
                                   : "world = origin + u * x + v * y, metres") +
@@ -146,19 +145,19 @@ private:
     }
 
     void addEntities() {
-        for (const illustrate::SectionComponent& component : drawing_.components)
-            for (const illustrate::SectionPolygon& polygon : component.polygons) addHatch(component.label, polygon);
-        for (const illustrate::SectionComponent& component : drawing_.components) {
+        for (const drawing::SectionComponent& component : drawing_.components)
+            for (const drawing::SectionPolygon& polygon : component.polygons) addHatch(component.label, polygon);
+        for (const drawing::SectionComponent& component : drawing_.components) {
             const std::string layer = layerOf(component.label, DxfContent::Element);
-            for (const illustrate::SectionPolygon& polygon : component.polygons) {
+            for (const drawing::SectionPolygon& polygon : component.polygons) {
                 addPolyline(polygon.outer, true, layer, component);
-                for (const illustrate::Ring& hole : polygon.holes) addPolyline(hole, true, layer, component);
+                for (const drawing::Ring& hole : polygon.holes) addPolyline(hole, true, layer, component);
             }
             if (component.lineLength > 0) addLines(component, layer);
             if (!component.polygons.empty() && model::isSpace(labelOf(component.label).className)) addName(component);
         }
-        for (const illustrate::BeyondLine& line : drawing_.beyond) addBeyond(line);
-        for (const illustrate::DoorSwing& swing : drawing_.doors) addDoor(swing);
+        for (const drawing::BeyondLine& line : drawing_.beyond) addBeyond(line);
+        for (const drawing::DoorSwing& swing : drawing_.doors) addDoor(swing);
         for (const DimensionMark& mark : dimensions_.marks) addDimension(mark);
     }
 
@@ -204,7 +203,7 @@ private:
 
     // With id, area and its bound (m2), and whether it is exact (1) or drawn by voxels (0).
     void addPolyline(const std::vector<PlanePoint>& points, bool isClosed, std::string_view layer,
-                     const illustrate::SectionComponent& component) {
+                     const drawing::SectionComponent& component) {
         begin("LWPOLYLINE", layer, "AcDbPolyline");
         out_.add({{90, static_cast<int>(points.size())}, {70, isClosed ? 1 : 0}, {43, 0}});
         if (place_.isWorld()) out_.add({{38, place_.elevation()}});
@@ -214,8 +213,8 @@ private:
         out_.add({{1040, component.area}, {1040, component.areaBound}, {1070, component.isExact ? 1 : 0}});
     }
 
-    void addLines(const illustrate::SectionComponent& component, std::string_view layer) {
-        for (const illustrate::SectionLine& line : drawing_.lines) {
+    void addLines(const drawing::SectionComponent& component, std::string_view layer) {
+        for (const drawing::SectionLine& line : drawing_.lines) {
             if (line.label != component.label) continue;
             const bool isClosed = line.points.size() > 3 && line.points.front() == line.points.back();
             std::vector<PlanePoint> points = line.points;
@@ -224,7 +223,7 @@ private:
         }
     }
 
-    void addBeyond(const illustrate::BeyondLine& line) {
+    void addBeyond(const drawing::BeyondLine& line) {
         const BeyondStyle& style = beyondStyle(line.kind);
         addLine(place_.placed(line.from), place_.placed(line.to),
                 file_.layer(style.layer, style.color, style.lineType, kBeyondWidth));
@@ -243,10 +242,10 @@ private:
         out_.add({{100, "AcDbText"}, {73, letters.isOnBaseline ? 0 : 2}});
     }
 
-    void addName(const illustrate::SectionComponent& component) {
+    void addName(const drawing::SectionComponent& component) {
         const std::string& shown = shownName(labelOf(component.label));
-        const auto& largest = *std::ranges::max_element(component.polygons, {}, &illustrate::SectionPolygon::area);
-        const illustrate::TextPlace place = illustrate::findTextPlace(largest);
+        const auto& largest = *std::ranges::max_element(component.polygons, {}, &drawing::SectionPolygon::area);
+        const drawing::TextPlace place = drawing::findTextPlace(largest);
         const double height =
             std::min({0.25, place.height / 3, place.width / (0.8 * double(std::max<std::size_t>(shown.size(), 6)))});
         if (!(height > 0)) return;
@@ -258,7 +257,7 @@ private:
         addText({u, v - 0.8 * height}, dxfText(fmt::format("{:.2f} m\u00B2", component.area)), layer, letters);
     }
 
-    void addHatch(std::uint32_t label, const illustrate::SectionPolygon& polygon) {
+    void addHatch(std::uint32_t label, const drawing::SectionPolygon& polygon) {
         const DxfHatch* const pattern = dxfHatchOf(style_.hatchOf(label));
         if (pattern == nullptr) return;
         begin("HATCH", layerOf(label, DxfContent::Hatch), "AcDbHatch");
@@ -266,13 +265,13 @@ private:
         out_.point(210, place_.normal());
         // A pattern; then how many rings follow.
         out_.add({{2, pattern->name}, {70, 0}, {71, 0}, {91, static_cast<int>(1 + polygon.holes.size())}});
-        const auto addRing = [&](const illustrate::Ring& ring, int kind) {
+        const auto addRing = [&](const drawing::Ring& ring, int kind) {
             out_.add({{92, kind}, {72, 0}, {73, 1}, {93, static_cast<int>(ring.size())}});
             for (const PlanePoint p : ring) out_.point(10, place_.flat(p));
             out_.add({{97, 0}});
         };
         addRing(polygon.outer, 1 + 2);  // external, a polyline
-        for (const illustrate::Ring& hole : polygon.holes) addRing(hole, 16 + 2);
+        for (const drawing::Ring& hole : polygon.holes) addRing(hole, 16 + 2);
         // Its own lines, not turned and not scaled.
         out_.add({{75, 0}, {76, 0}, {52, 0}, {41, 1}, {77, 0}, {78, static_cast<int>(pattern->lines.size())}});
         for (const DxfHatchLine& line : pattern->lines) {
@@ -286,7 +285,7 @@ private:
     }
 
     // A block with leaves and arcs about the first hinge, and where it is inserted.
-    void addDoor(const illustrate::DoorSwing& swing) {
+    void addDoor(const drawing::DoorSwing& swing) {
         const std::string layer = layerOf(swing.label, DxfContent::Element);
         const std::string name = fmt::format("DOOR_{}", ++doorCount_);
         const PlanePoint base = place_.flat(swing.lines.front().front());
@@ -298,7 +297,7 @@ private:
             for (const auto& points : swing.lines)
                 for (std::size_t n = 0; n + 1 < points.size(); ++n)
                     addLine(local(points[n]), local(points[n + 1]), layer);
-            for (const illustrate::DoorSwing::Arc& arc : swing.arcs) {
+            for (const drawing::DoorSwing::Arc& arc : swing.arcs) {
                 const Vec3d center = local(arc.center), from = local(arc.from) - center, to = local(arc.to) - center;
                 const auto degrees = [](Vec3d v) {
                     const double turn = degreesOf(std::atan2(v.y, v.x));
@@ -347,7 +346,7 @@ private:
         out_.add({{50, (from.u == to.u ? 90 : 0) + place_.turnDegrees()}, {100, "AcDbRotatedDimension"}});
     }
 
-    const illustrate::SectionDrawing& drawing_;
+    const drawing::SectionDrawing& drawing_;
     const volume::SemanticVolume& volume_;
     bool hasIsoLayers_;
     DrawingStyle style_;
@@ -361,7 +360,7 @@ private:
 
 }  // namespace
 
-std::string makeDxf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+std::string makeDxf(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                     const DxfOptions& options) {
     return DxfWriter(drawing, volume, options).write();
 }

@@ -6,7 +6,7 @@
 namespace svt::writers {
 namespace {
 
-using illustrate::PlanePoint;
+using drawing::PlanePoint;
 
 constexpr const char* kObjects =
     "  0\nSECTION\n  2\nOBJECTS\n"

@@ -2,7 +2,7 @@
 /// \file
 /// Names of layers and patterns of hatches in DXF drawings.
 
-#include <svt/illustrate/hatches.hpp>
+#include <svt/drawing/hatches.hpp>
 #include <svt/volume/label_table.hpp>
 
 #include <span>

@@ -2,7 +2,7 @@
 /// \file
 /// The text of a DXF: groups of a code and a value, each on a line.
 
-#include <svt/illustrate/section_drawing.hpp>
+#include <svt/drawing/section_drawing.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ public:
     void add(std::initializer_list<DxfGroup> groups) {
         for (const DxfGroup& group : groups) text_ += fmt::format("{:>3}\n{}\n", group.code, group.value);
     }
-    void point(int code, illustrate::PlanePoint p) { add({{code, p.u}, {code + 10, p.v}}); }
+    void point(int code, drawing::PlanePoint p) { add({{code, p.u}, {code + 10, p.v}}); }
     void point(int code, Vec3d p) { add({{code, p.x}, {code + 10, p.y}, {code + 20, p.z}}); }
     void append(std::string_view text) { text_ += text; }
     [[nodiscard]] std::string take() { return std::exchange(text_, {}); }

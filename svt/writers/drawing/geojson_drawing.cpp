@@ -7,7 +7,7 @@
 namespace svt::writers {
 namespace {
 
-using PlaneLine = std::vector<illustrate::PlanePoint>;
+using PlaneLine = std::vector<drawing::PlanePoint>;
 
 std::string jsonMember(std::string_view key, std::string_view text) {
     std::string json = fmt::format("\"{}\":", key);
@@ -27,27 +27,27 @@ std::string jsonList(const Items& items, const TextOf& textOf) {
 
 class GeojsonWriter {
 public:
-    GeojsonWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume)
+    GeojsonWriter(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume)
         : drawing_(drawing), volume_(volume) {}
 
     std::string write() {
-        const illustrate::PlaneAxes& axes = drawing_.axes;
+        const drawing::PlaneAxes& axes = drawing_.axes;
         json_ = "{\"type\":\"FeatureCollection\",\n" + jsonMember("name", planeText(drawing_, volume_.grid));
         json_ += geoJsonCrs(volume_.crsName) + ",\n\"plane\":{\"origin\":" + jsonVector(axes.origin, 6);
         for (const auto& [key, axis] :
              {std::pair("u", axes.u), std::pair("v", axes.v), std::pair("normal", axes.normal)})
             json_ += fmt::format(",\"{}\":{}", key, jsonVector(axis, 15));
         json_ += "},\n\"features\":[";
-        for (const illustrate::SectionComponent& component : drawing_.components)
+        for (const drawing::SectionComponent& component : drawing_.components)
             addFeature(component.label, jsonMember("id", labelOf(component.label).id) + ",",
                        fmt::format("\"area\":{},\"areaBound\":{},\"exact\":{}", shortNumber(component.area, 6),
                                    shortNumber(component.areaBound, 6), component.isExact),
                        geometryOf(component));
         addBeyond();
         // How doors open: a feature per door.
-        for (const illustrate::DoorSwing& door : drawing_.doors) {
+        for (const drawing::DoorSwing& door : drawing_.doors) {
             std::vector<PlaneLine> lines = door.lines;
-            for (const illustrate::DoorSwing::Arc& arc : door.arcs) lines.push_back(illustrate::pointsOf(arc));
+            for (const drawing::DoorSwing::Arc& arc : door.arcs) lines.push_back(drawing::pointsOf(arc));
             addFeature(door.label, "", "\"swing\":true", multiLine(lines));
         }
         return std::move(json_ += "\n]}\n");
@@ -66,8 +66,7 @@ private:
     }
 
     [[nodiscard]] std::string lineText(const PlaneLine& points) const {
-        return jsonList(points,
-                        [&](illustrate::PlanePoint p) { return jsonVector(drawing_.axes.worldFromPlane(p), 6); });
+        return jsonList(points, [&](drawing::PlanePoint p) { return jsonVector(drawing_.axes.worldFromPlane(p), 6); });
     }
     [[nodiscard]] std::string ringText(PlaneLine ring) const {
         ring.push_back(ring.front());
@@ -77,10 +76,10 @@ private:
         return "{\"type\":\"MultiLineString\",\"coordinates\":" +
                jsonList(lines, [&](const PlaneLine& line) { return lineText(line); }) + "}";
     }
-    [[nodiscard]] std::string multiPolygon(const std::vector<illustrate::SectionPolygon>& polygons) const {
+    [[nodiscard]] std::string multiPolygon(const std::vector<drawing::SectionPolygon>& polygons) const {
         return "{\"type\":\"MultiPolygon\",\"coordinates\":" +
                jsonList(polygons,
-                        [&](const illustrate::SectionPolygon& polygon) {
+                        [&](const drawing::SectionPolygon& polygon) {
                             std::vector<PlaneLine> rings{polygon.outer};
                             rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
                             return jsonList(rings, [&](const PlaneLine& ring) { return ringText(ring); });
@@ -89,10 +88,10 @@ private:
     }
 
     // Polygons, lines, or a collection of both.
-    [[nodiscard]] std::string geometryOf(const illustrate::SectionComponent& component) const {
+    [[nodiscard]] std::string geometryOf(const drawing::SectionComponent& component) const {
         if (!(component.lineLength > 0)) return multiPolygon(component.polygons);
         std::vector<PlaneLine> lines;
-        for (const illustrate::SectionLine& line : drawing_.lines)
+        for (const drawing::SectionLine& line : drawing_.lines)
             if (line.label == component.label) lines.push_back(line.points);
         if (component.polygons.empty()) return multiLine(lines);
         return "{\"type\":\"GeometryCollection\",\"geometries\":[" + multiPolygon(component.polygons) + "," +
@@ -101,9 +100,9 @@ private:
 
     // What stands beyond the cut: a feature per component and kind of line.
     void addBeyond() {
-        const std::vector<illustrate::BeyondLine>& all = drawing_.beyond;
+        const std::vector<drawing::BeyondLine>& all = drawing_.beyond;
         for (std::size_t n = 0; n < all.size();) {
-            const illustrate::BeyondLine first = all[n];
+            const drawing::BeyondLine first = all[n];
             std::vector<PlaneLine> lines;
             for (; n < all.size() && all[n].kind == first.kind && all[n].label == first.label; ++n)
                 lines.push_back({all[n].from, all[n].to});
@@ -111,14 +110,14 @@ private:
         }
     }
 
-    const illustrate::SectionDrawing& drawing_;
+    const drawing::SectionDrawing& drawing_;
     const volume::SemanticVolume& volume_;
     std::string json_;
 };
 
 }  // namespace
 
-std::string makeGeojson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+std::string makeGeojson(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
     return GeojsonWriter(drawing, volume).write();
 }
 

@@ -7,7 +7,7 @@
 namespace svt::writers {
 namespace {
 
-using illustrate::PlanePoint;
+using drawing::PlanePoint;
 
 constexpr double kTextSize = 2.5, kLeastTextSize = 1.2;  // millimetres
 
@@ -31,7 +31,7 @@ bool meets(const Segment& s, const Rectangle& r) noexcept {
     return clip(s.from.u, s.to.u - s.from.u, r.low.u, r.high.u) && clip(s.from.v, s.to.v - s.from.v, r.low.v, r.high.v);
 }
 
-void addRing(const illustrate::Ring& ring, std::vector<Segment>& segments) {
+void addRing(const drawing::Ring& ring, std::vector<Segment>& segments) {
     for (std::size_t n = 0; n < ring.size(); ++n) segments.push_back({ring[n], ring[(n + 1) % ring.size()]});
 }
 
@@ -44,12 +44,11 @@ bool isInside(PlanePoint p, const std::vector<Segment>& borders) noexcept {
 
 }  // namespace
 
-std::optional<NamePlace> placeName(const illustrate::SectionComponent& component,
-                                   const illustrate::SectionDrawing& drawing, double millimetres, double width,
-                                   double lines) {
+std::optional<NamePlace> placeName(const drawing::SectionComponent& component, const drawing::SectionDrawing& drawing,
+                                   double millimetres, double width, double lines) {
     const auto& largest = *std::max_element(component.polygons.begin(), component.polygons.end(),
                                             [](const auto& a, const auto& b) { return a.area < b.area; });
-    const illustrate::TextPlace place = illustrate::findTextPlace(largest);
+    const drawing::TextPlace place = drawing::findTextPlace(largest);
     const double size =
         std::min({kTextSize, 0.9 * place.width * millimetres / width, 0.8 * place.height * millimetres / lines});
     if (!(size >= kLeastTextSize)) return std::nullopt;
@@ -61,11 +60,11 @@ std::optional<NamePlace> placeName(const illustrate::SectionComponent& component
         all.low = {std::min(all.low.u, p.u), std::min(all.low.v, p.v)};
         all.high = {std::max(all.high.u, p.u), std::max(all.high.v, p.v)};
     }
-    for (const illustrate::BeyondLine& line : drawing.beyond)
+    for (const drawing::BeyondLine& line : drawing.beyond)
         if (meets({line.from, line.to}, all)) crossing.push_back({line.from, line.to});
-    for (const illustrate::DoorSwing& door : drawing.doors) {
+    for (const drawing::DoorSwing& door : drawing.doors) {
         std::vector<std::vector<PlanePoint>> parts = door.lines;
-        for (const auto& arc : door.arcs) parts.push_back(illustrate::pointsOf(arc));
+        for (const auto& arc : door.arcs) parts.push_back(drawing::pointsOf(arc));
         for (const auto& line : parts)
             for (std::size_t n = 0; n + 1 < line.size(); ++n)
                 if (meets({line[n], line[n + 1]}, all)) crossing.push_back({line[n], line[n + 1]});

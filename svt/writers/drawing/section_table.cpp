@@ -16,8 +16,8 @@ std::string jsonText(std::string_view text) {
 
 }  // namespace
 
-std::string makeSectionJson(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
-    const illustrate::PlaneAxes& axes = drawing.axes;
+std::string makeSectionJson(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+    const drawing::PlaneAxes& axes = drawing.axes;
     std::string json = fmt::format(
         "{{\n  \"plane\": {{\"origin\": [{}], \"u\": [{}], \"v\": [{}], \"normal\": [{}], \"edgesInPlane\": {}, "
         "\"shift\": "
@@ -26,7 +26,7 @@ std::string makeSectionJson(const illustrate::SectionDrawing& drawing, const vol
         vectorText(axes.origin, 6, ", "), vectorText(axes.u, 15, ", "), vectorText(axes.v, 15, ", "),
         vectorText(axes.normal, 15, ", "), drawing.edgesInPlane, shortNumber(drawing.planeShift, 6),
         shortNumber(drawing.plane.bound, 6));
-    for (const illustrate::SectionComponent& component : drawing.components) {
+    for (const drawing::SectionComponent& component : drawing.components) {
         const volume::Label& label = volume.labels.labels[component.label];
         json += fmt::format(
             "{}\n    {{\"id\": {}, \"class\": {}, \"name\": {}, \"polygons\": {}, \"area\": {}, \"areaBound\": {}, "
@@ -36,24 +36,24 @@ std::string makeSectionJson(const illustrate::SectionDrawing& drawing, const vol
             shortNumber(component.areaBound, 6), component.isExact, shortNumber(component.lineLength, 6));
     }
     json += "\n  ],\n  \"classes\": [";
-    for (const illustrate::ClassArea& total : drawing.classes)
+    for (const drawing::ClassArea& total : drawing.classes)
         json += fmt::format("{}\n    {{\"class\": {}, \"components\": {}, \"area\": {}}}",
                             &total == &drawing.classes.front() ? "" : ",", jsonText(total.className), total.components,
                             shortNumber(total.area, 6));
     return json + fmt::format("\n  ],\n  \"area\": {}\n}}\n", shortNumber(drawing.area, 6));
 }
 
-std::string makeSectionCsv(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+std::string makeSectionCsv(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
     std::string csv = "kind,id,class,name,polygons,area_m2,area_bound_m2,exact,line_length_m\r\n";
     std::size_t polygons = 0;
-    for (const illustrate::SectionComponent& component : drawing.components) {
+    for (const drawing::SectionComponent& component : drawing.components) {
         const volume::Label& label = volume.labels.labels[component.label];
         polygons += component.polygons.size();
         csv += csvLine(Row{"component", label.id, label.className, label.name, component.polygons.size(),
                            shortNumber(component.area, 6), shortNumber(component.areaBound, 6),
                            component.isExact ? "yes" : "no", shortNumber(component.lineLength, 6)});
     }
-    for (const illustrate::ClassArea& total : drawing.classes)
+    for (const drawing::ClassArea& total : drawing.classes)
         csv += csvLine(Row{"class", {}, total.className, {}, {}, shortNumber(total.area, 6), {}, {}, {}});
     return csv + csvLine(Row{"total", {}, {}, {}, polygons, shortNumber(drawing.area, 6), {}, {}, {}});
 }

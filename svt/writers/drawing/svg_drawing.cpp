@@ -16,9 +16,9 @@
 namespace svt::writers {
 namespace {
 
-using illustrate::PlanePoint;
-using illustrate::SectionBorder;
-using illustrate::SectionComponent;
+using drawing::PlanePoint;
+using drawing::SectionBorder;
+using drawing::SectionComponent;
 using render::Hatch;
 
 // Millimetres on paper.
@@ -27,7 +27,7 @@ constexpr double kTextWidth = 0.56;  // width of a character relative to the fon
 
 class SvgWriter {
 public:
-    SvgWriter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume, const DrawingPage& page)
+    SvgWriter(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume, const DrawingPage& page)
         : drawing_(drawing), volume_(volume), style_(drawing, volume, page.millimetres), page_(page) {}
 
     std::string write() {
@@ -107,7 +107,7 @@ private:
 
     // Where the drawing lies in the world: world = origin + u * metres to the right + v * metres up.
     void addMetadata() {
-        const illustrate::PlaneAxes& axes = drawing_.axes;
+        const drawing::PlaneAxes& axes = drawing_.axes;
         const PlanePoint corner{page_.low.u - page_.left / page_.millimetres,
                                 page_.high.v + page_.top / page_.millimetres};
         svg_ += fmt::format(
@@ -132,7 +132,7 @@ private:
     }
 
     void addComponents() {
-        for (const illustrate::ClassArea& group : drawing_.classes) {
+        for (const drawing::ClassArea& group : drawing_.classes) {
             const std::string name = plainName(group.className);
             svg_ += layer(name, group.className,
                           fmt::format(" data-class=\"{}\" data-area=\"{}\"", xmlAttribute(group.className),
@@ -181,9 +181,9 @@ private:
 
     // What stands behind the plane, and above it: one group per kind, one path per component.
     void addBeyond() {
-        const std::vector<illustrate::BeyondLine>& lines = drawing_.beyond;
+        const std::vector<drawing::BeyondLine>& lines = drawing_.beyond;
         for (std::size_t n = 0; n < lines.size();) {
-            const illustrate::BeyondKind kind = lines[n].kind;
+            const drawing::BeyondKind kind = lines[n].kind;
             svg_ += layer(fmt::format("beyond {}", beyondName(kind)), fmt::format("Beyond: {}", beyondName(kind)));
             while (n < lines.size() && lines[n].kind == kind) {
                 const std::uint32_t label = lines[n].label;
@@ -201,7 +201,7 @@ private:
     void addLines() {
         if (drawing_.lines.empty()) return;
         svg_ += layer("lines", "Lines");
-        for (const illustrate::SectionLine& line : drawing_.lines) {
+        for (const drawing::SectionLine& line : drawing_.lines) {
             const volume::Label& label = labelOf(line.label);
             const bool isVirtual = label.className == "ClosureSurface";
             svg_ +=
@@ -220,13 +220,13 @@ private:
     void addDoors() {
         if (drawing_.doors.empty()) return;
         svg_ += layer("doors", "Doors");
-        for (const illustrate::DoorSwing& door : drawing_.doors) {
+        for (const drawing::DoorSwing& door : drawing_.doors) {
             svg_ += fmt::format("<path class=\"swing\" data-id=\"{}\" d=\"", xmlAttribute(labelOf(door.label).id));
             for (const auto& line : door.lines) addLine(line);
             svg_ += "\"/>\n";
             if (door.arcs.empty()) continue;
             svg_ += fmt::format("<path class=\"thin\" data-id=\"{}\" d=\"", xmlAttribute(labelOf(door.label).id));
-            for (const illustrate::DoorSwing::Arc& arc : door.arcs) {
+            for (const drawing::DoorSwing::Arc& arc : door.arcs) {
                 const double radius =
                     page_.millimetres * std::hypot(arc.from.u - arc.center.u, arc.from.v - arc.center.v);
                 svg_ += fmt::format("M{}A{} {} 0 0 0 {}", pointText(arc.from), shortNumber(radius, 3),
@@ -322,7 +322,7 @@ private:
         svg_ += "</g>\n";
     }
 
-    const illustrate::SectionDrawing& drawing_;
+    const drawing::SectionDrawing& drawing_;
     const volume::SemanticVolume& volume_;
     DrawingStyle style_;
     const DrawingPage& page_;
@@ -332,7 +332,7 @@ private:
 
 }  // namespace
 
-Result<std::string> makeSvg(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+Result<std::string> makeSvg(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                             const SvgOptions& options) {
     SVT_TRY(page, makeDrawingPage(drawing, options.scale));
     return SvgWriter(drawing, volume, *page).write();

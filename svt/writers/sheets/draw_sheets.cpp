@@ -10,42 +10,41 @@ namespace svt::writers {
 namespace {
 
 // Fills in the sheets that the program chooses.
-Result<illustrate::SheetViews> chooseViews(illustrate::SheetSet& set, const volume::SemanticVolume& volume,
-                                           int threads) {
-    if (!set.sheets.empty()) return illustrate::viewsOfSet(set, volume);
-    SVT_TRY(chosen, illustrate::chooseSheetViews(volume, threads));
-    set.sheets = illustrate::sheetSetOf(*chosen, volume).sheets;
-    for (illustrate::SheetView& view : chosen->views) view.beyond.above = view.beyond.above && set.above;
+Result<drawing::SheetViews> chooseViews(drawing::SheetSet& set, const volume::SemanticVolume& volume, int threads) {
+    if (!set.sheets.empty()) return drawing::viewsOfSet(set, volume);
+    SVT_TRY(chosen, drawing::chooseSheetViews(volume, threads));
+    set.sheets = drawing::sheetSetOf(*chosen, volume).sheets;
+    for (drawing::SheetView& view : chosen->views) view.beyond.above = view.beyond.above && set.above;
     return chosen;
 }
 
 }  // namespace
 
-SheetOptions sheetOptionsOf(const illustrate::SheetSet& set) {
+SheetOptions sheetOptionsOf(const drawing::SheetSet& set) {
     return {set.scale, set.paper, fromName<SheetLanguage>(set.language).value_or(SheetLanguage::English), set.title};
 }
 
-Result<SheetContent> drawSheets(illustrate::SheetSet& set, const volume::SemanticVolume& volume, int threads,
+Result<SheetContent> drawSheets(drawing::SheetSet& set, const volume::SemanticVolume& volume, int threads,
                                 std::vector<std::string>* nothing) {
     SVT_TRY(chosen, chooseViews(set, volume, threads));
     SheetContent content;
     content.levels = std::move(chosen->levels);
     std::vector<int> groups;  // by view
     std::optional<volume::BrickVolume> bricks;
-    for (const illustrate::SetSheet& sheet : set.sheets) {
+    for (const drawing::SetSheet& sheet : set.sheets) {
         groups.insert(groups.end(), sheet.views.size(), static_cast<int>(content.groups.size()));
         content.groups.push_back({sheet.title, sheet.scale});
     }
-    for (illustrate::SheetView& view : chosen->views) {
-        illustrate::SectionOptions options;
+    for (drawing::SheetView& view : chosen->views) {
+        drawing::SectionOptions options;
         options.hide = set.hide;
         options.smallestArea = 1e-4;
         options.threads = threads;
         options.beyond = view.beyond;
-        options.dimensions = view.kind == illustrate::ViewKind::Plan && set.dimensions;
+        options.dimensions = view.kind == drawing::ViewKind::Plan && set.dimensions;
         if (content.views.empty()) options.nothing = nothing;
-        SVT_TRY(drawing, bricks ? illustrate::drawSection(volume, *bricks, view.plane, options)
-                                : illustrate::drawSection(volume, view.plane, options));
+        SVT_TRY(drawing, bricks ? drawing::drawSection(volume, *bricks, view.plane, options)
+                                : drawing::drawSection(volume, view.plane, options));
         // If one view needs bricks, the others do too. So they are made here and kept.
         if (!bricks && std::ranges::any_of(drawing->components, [](const auto& c) { return !c.isExact; })) {
             SVT_TRY(made,
@@ -55,7 +54,7 @@ Result<SheetContent> drawSheets(illustrate::SheetSet& set, const volume::Semanti
         content.views.push_back({std::move(view), std::move(*drawing), groups[content.views.size()]});
     }
     if (!set.tables) return content;
-    SVT_TRY(areas, illustrate::measureFloorAreas(volume, content.levels, threads, bricks ? &*bricks : nullptr));
+    SVT_TRY(areas, drawing::measureFloorAreas(volume, content.levels, threads, bricks ? &*bricks : nullptr));
     content.tables = makeAreaTables(*areas, content.levels, sheetOptionsOf(set).language);
     return content;
 }

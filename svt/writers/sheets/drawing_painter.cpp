@@ -11,7 +11,7 @@
 namespace svt::writers {
 namespace {
 
-using illustrate::PlanePoint;
+using drawing::PlanePoint;
 using render::Hatch;
 
 constexpr double kBold = 0.5, kThin = 0.13, kBeyond = 0.18, kTick = 0.35,
@@ -19,7 +19,7 @@ constexpr double kBold = 0.5, kThin = 0.13, kBeyond = 0.18, kTick = 0.35,
 
 class DrawingPainter {
 public:
-    DrawingPainter(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+    DrawingPainter(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                    const DrawingPlace& place, SheetCanvas& canvas)
         : drawing_(drawing),
           volume_(volume),
@@ -29,8 +29,7 @@ public:
 
     void paint() {
         inLayer("Cut", [&] { addComponents(); });
-        for (const auto kind :
-             {illustrate::BeyondKind::Visible, illustrate::BeyondKind::Hidden, illustrate::BeyondKind::Above})
+        for (const auto kind : {drawing::BeyondKind::Visible, drawing::BeyondKind::Hidden, drawing::BeyondKind::Above})
             addBeyond(kind);
         inLayer("Outlines", [&] { addBorders(); });
         if (!drawing_.doors.empty()) inLayer("Doors", [&] { addDoors(); });
@@ -54,7 +53,7 @@ private:
     }
 
     void addComponents() {
-        for (const illustrate::SectionComponent& component : drawing_.components) {
+        for (const drawing::SectionComponent& component : drawing_.components) {
             if (component.polygons.empty()) continue;
             std::vector<PaperPath> rings;
             for (const auto& polygon : component.polygons) {
@@ -73,21 +72,21 @@ private:
         }
     }
 
-    void addBeyond(illustrate::BeyondKind kind) {
+    void addBeyond(drawing::BeyondKind kind) {
         std::vector<PaperPath> paths;
-        for (const illustrate::BeyondLine& line : drawing_.beyond)
+        for (const drawing::BeyondLine& line : drawing_.beyond)
             if (line.kind == kind) paths.push_back({place_.onPaper(line.from), place_.onPaper(line.to)});
         if (paths.empty()) return;
-        const LineType type = kind == illustrate::BeyondKind::Visible  ? LineType::Continuous
-                              : kind == illustrate::BeyondKind::Hidden ? LineType::Dashed
-                                                                       : LineType::LongDashDoubleDots;
+        const LineType type = kind == drawing::BeyondKind::Visible  ? LineType::Continuous
+                              : kind == drawing::BeyondKind::Hidden ? LineType::Dashed
+                                                                    : LineType::LongDashDoubleDots;
         inLayer(fmt::format("Beyond: {}", beyondName(kind)), [&] { canvas_.stroke(paths, {kBeyond, type}); });
     }
 
     void addBorders() {
         for (const bool bold : {false, true}) {
             std::vector<PaperPath> paths;
-            for (const illustrate::SectionBorder& border : drawing_.borders) {
+            for (const drawing::SectionBorder& border : drawing_.borders) {
                 if (style_.isSpace(border.left) && style_.isSpace(border.right)) continue;
                 if (bold == style_.isBoldBetween(border.left, border.right))
                     paths.push_back(pathOf(border.points, false));
@@ -95,7 +94,7 @@ private:
             canvas_.stroke(paths, {bold ? kBold : kThin});
         }
         std::vector<PaperPath> bold, thin, dashed;
-        for (const illustrate::SectionLine& line : drawing_.lines) {
+        for (const drawing::SectionLine& line : drawing_.lines) {
             const bool isVirtual = volume_.labels.labels[line.label].className == "ClosureSurface";
             (isVirtual ? dashed : style_.isBold(line.label) ? bold : thin).push_back(pathOf(line.points, false));
         }
@@ -106,16 +105,16 @@ private:
 
     void addDoors() {
         std::vector<PaperPath> leaves, arcs;
-        for (const illustrate::DoorSwing& door : drawing_.doors) {
+        for (const drawing::DoorSwing& door : drawing_.doors) {
             for (const auto& line : door.lines) leaves.push_back(pathOf(line, false));
-            for (const auto& arc : door.arcs) arcs.push_back(pathOf(illustrate::pointsOf(arc), false));
+            for (const auto& arc : door.arcs) arcs.push_back(pathOf(drawing::pointsOf(arc), false));
         }
         canvas_.stroke(leaves, {kLeaf});
         canvas_.stroke(arcs, {kThin});
     }
 
     void addNames() {
-        for (const illustrate::SectionComponent& component : drawing_.components) {
+        for (const drawing::SectionComponent& component : drawing_.components) {
             if (!style_.isSpace(component.label) || component.polygons.empty()) continue;
             const std::string name = shortened(shownName(volume_.labels.labels[component.label]), 2.5, 40);
             const std::string area =
@@ -149,7 +148,7 @@ private:
                     {at(mark.text.at), mark.text.size, mark.text.text, TextAnchor::Middle, false, mark.text.isUpright});
     }
 
-    const illustrate::SectionDrawing& drawing_;
+    const drawing::SectionDrawing& drawing_;
     const volume::SemanticVolume& volume_;
     const DrawingPlace& place_;
     SheetCanvas& canvas_;
@@ -158,7 +157,7 @@ private:
 
 }  // namespace
 
-void paintDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+void paintDrawing(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                   const DrawingPlace& place, SheetCanvas& canvas) {
     DrawingPainter(drawing, volume, place, canvas).paint();
 }

@@ -8,16 +8,16 @@ namespace svt::writers {
 
 /// Where a drawing stands on its sheet.
 struct DrawingPlace {
-    PaperPoint corner;           ///< of the drawing's lower left corner
-    illustrate::PlanePoint low;  ///< that corner, in the drawing
-    double millimetres = 10;     ///< on paper per metre
+    PaperPoint corner;        ///< of the drawing's lower left corner
+    drawing::PlanePoint low;  ///< that corner, in the drawing
+    double millimetres = 10;  ///< on paper per metre
 
-    [[nodiscard]] PaperPoint onPaper(illustrate::PlanePoint p) const noexcept {
+    [[nodiscard]] PaperPoint onPaper(drawing::PlanePoint p) const noexcept {
         return {corner.x + (p.u - low.u) * millimetres, corner.y - (p.v - low.v) * millimetres};
     }
 };
 
-void paintDrawing(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+void paintDrawing(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                   const DrawingPlace& place, SheetCanvas& canvas);
 
 }  // namespace svt::writers

@@ -10,7 +10,7 @@
 namespace svt::writers {
 namespace {
 
-using illustrate::PlanePoint;
+using drawing::PlanePoint;
 using MapLine = std::vector<MapPoint>;
 
 constexpr const char* kViewColumns = "name TEXT,kind TEXT,height DOUBLE,origin TEXT,u TEXT,v TEXT,\n normal TEXT";
@@ -39,36 +39,33 @@ public:
     }
 
 private:
-    [[nodiscard]] static std::string_view kindName(illustrate::ViewKind kind) noexcept {
-        return kind == illustrate::ViewKind::Plan      ? "plan"
-               : kind == illustrate::ViewKind::Section ? "section"
-                                                       : "elevation";
+    [[nodiscard]] static std::string_view kindName(drawing::ViewKind kind) noexcept {
+        return kind == drawing::ViewKind::Plan ? "plan" : kind == drawing::ViewKind::Section ? "section" : "elevation";
     }
 
     void addView(std::size_t number) {
         const DrawnView& drawn = content_.views[number];
-        const illustrate::PlaneAxes& axes = drawn.drawing.axes;
-        const bool isPlan = drawn.view.kind == illustrate::ViewKind::Plan;
+        const drawing::PlaneAxes& axes = drawn.drawing.axes;
+        const bool isPlan = drawn.view.kind == drawing::ViewKind::Plan;
         view_ = static_cast<std::int64_t>(number) + 1;
         package_.insert("views", Row{view_, drawn.view.name, kindName(drawn.view.kind),
                                      isPlan ? Cell(drawn.drawing.plane.point.z) : Cell(), vectorText(axes.origin, 6),
                                      vectorText(axes.u, 15), vectorText(axes.v, 15), vectorText(axes.normal, 15)});
         drawing_ = &drawn.drawing;
         isPlan_ = isPlan;
-        for (const illustrate::SectionComponent& component : drawn.drawing.components)
+        for (const drawing::SectionComponent& component : drawn.drawing.components)
             if (!component.polygons.empty()) addPolygons(component);
         std::map<std::uint32_t, std::vector<MapLine>> sheets;
-        for (const illustrate::SectionLine& line : drawn.drawing.lines)
-            sheets[line.label].push_back(placed(line.points));
+        for (const drawing::SectionLine& line : drawn.drawing.lines) sheets[line.label].push_back(placed(line.points));
         for (const auto& [label, lines] : sheets) addLines(label, "sheet", lines);
-        std::map<std::pair<illustrate::BeyondKind, std::uint32_t>, std::vector<MapLine>> beyond;
-        for (const illustrate::BeyondLine& line : drawn.drawing.beyond)
+        std::map<std::pair<drawing::BeyondKind, std::uint32_t>, std::vector<MapLine>> beyond;
+        for (const drawing::BeyondLine& line : drawn.drawing.beyond)
             beyond[{line.kind, line.label}].push_back(placed({line.from, line.to}));
         for (const auto& [key, lines] : beyond) addLines(key.second, beyondName(key.first), lines);
-        for (const illustrate::DoorSwing& door : drawn.drawing.doors) {
+        for (const drawing::DoorSwing& door : drawn.drawing.doors) {
             std::vector<MapLine> lines;
             for (const auto& line : door.lines) lines.push_back(placed(line));
-            for (const auto& arc : door.arcs) lines.push_back(placed(illustrate::pointsOf(arc)));
+            for (const auto& arc : door.arcs) lines.push_back(placed(drawing::pointsOf(arc)));
             addLines(door.label, "swing", lines);
         }
     }
@@ -96,7 +93,7 @@ private:
         package_.insert(name, row);
     }
 
-    void addPolygons(const illustrate::SectionComponent& component) {
+    void addPolygons(const drawing::SectionComponent& component) {
         MapBounds bounds;
         for (const auto& polygon : component.polygons) bounds.add(placed(polygon.outer));
         const auto addParts = [&](GeometryBlob& blob) {
@@ -104,7 +101,7 @@ private:
             for (const auto& polygon : component.polygons) {
                 blob.begin(WkbType::Polygon, 1 + polygon.holes.size());
                 blob.addRing(placed(polygon.outer));
-                for (const illustrate::Ring& hole : polygon.holes) blob.addRing(placed(hole));
+                for (const drawing::Ring& hole : polygon.holes) blob.addRing(placed(hole));
             }
         };
         addFeature(component.label, "cut", "polygons", bounds, addParts,
@@ -125,7 +122,7 @@ private:
     GeoPackage& package_;
     std::int64_t view_ = 0;
     bool isPlan_ = false;
-    const illustrate::SectionDrawing* drawing_ = nullptr;
+    const drawing::SectionDrawing* drawing_ = nullptr;
     std::map<std::string, MapBounds> extents_;
 };
 

@@ -13,7 +13,7 @@
 namespace svt::writers {
 namespace {
 
-using illustrate::PlanePoint;
+using drawing::PlanePoint;
 
 // Millimetres: room around a drawing for marks of sections and heights, and below it for its title.
 constexpr double kBeside = 14, kAbove = 12, kBelow = 22;
@@ -36,8 +36,8 @@ struct ViewSize {
     ViewMargins margins;
 };
 
-ViewMargins marginsOf(const illustrate::SectionDrawing& drawing) {
-    using illustrate::DimensionSide;
+ViewMargins marginsOf(const drawing::SectionDrawing& drawing) {
+    using drawing::DimensionSide;
     return {dimensionReach(drawing, DimensionSide::Left), dimensionReach(drawing, DimensionSide::Right),
             dimensionReach(drawing, DimensionSide::Above), dimensionReach(drawing, DimensionSide::Below)};
 }
@@ -242,7 +242,7 @@ void layOutTables(const SheetContent& content, SheetLayout& layout) {
             const std::size_t left = table.rows.size() - first;
             if (!isOpen || x + width > paper.right - 5 || rowsFit() < std::min<std::size_t>(3, left))
                 toNextColumn(width);
-            if (!isOpen) layout.sheets.push_back({illustrate::ViewKind::Plan, -1, 0, {}, {}});
+            if (!isOpen) layout.sheets.push_back({drawing::ViewKind::Plan, -1, 0, {}, {}});
             isOpen = true;
             placed.left = x;
             placed.top = y;

@@ -42,7 +42,7 @@ struct PlacedTable {
 };
 
 struct Sheet {
-    illustrate::ViewKind kind = illustrate::ViewKind::Plan;
+    drawing::ViewKind kind = drawing::ViewKind::Plan;
     int group = -1;  ///< see DrawnView
     double scale = 100;
     std::vector<PlacedView> views;

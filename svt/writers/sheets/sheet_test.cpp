@@ -19,7 +19,7 @@
 namespace svt::writers {
 namespace {
 
-using illustrate::ViewKind;
+using drawing::ViewKind;
 
 /// A volume of one wall label; drawings refer to it.
 volume::SemanticVolume wallVolume() {
@@ -35,12 +35,12 @@ volume::SemanticVolume wallVolume() {
 DrawnView wallView(ViewKind kind, const std::string& name, double width, double height) {
     DrawnView view;
     view.view = {kind, name, {{0, 0, 1}, {500000, 5400000, 101}}, 0, {}};
-    illustrate::SectionDrawing& drawing = view.drawing;
+    drawing::SectionDrawing& drawing = view.drawing;
     drawing.plane = view.view.plane;
     drawing.axes.origin = {500000, 5400000, 101};
-    const illustrate::Ring ring{{0, 0}, {width, 0}, {width, height}, {0, height}};
+    const drawing::Ring ring{{0, 0}, {width, 0}, {width, height}, {0, height}};
     drawing.components.push_back({0, {{ring, {}, width * height}}, width * height, 0, true, 0});
-    std::vector<illustrate::PlanePoint> border = ring;
+    std::vector<drawing::PlanePoint> border = ring;
     border.push_back(ring.front());
     drawing.borders.push_back({border, 0, volume::kNoLabel});
     drawing.classes.push_back({"WallSurface", 1, width * height});
@@ -196,12 +196,12 @@ TEST(DimensionText, IsThatOfArchitects) {
 
 // Numbers of any chain stand apart from each other, and inside of the room that the chains take.
 TEST(DimensionMarks, NoNumberStandsOnAnother) {
-    illustrate::SectionDrawing drawing;
+    drawing::SectionDrawing drawing;
     unsigned state = 7;
     const auto next = [&] { return (state = state * 1664525u + 1013904223u) >> 16; };
-    for (const auto side : {illustrate::DimensionSide::Below, illustrate::DimensionSide::Left})
+    for (const auto side : {drawing::DimensionSide::Below, drawing::DimensionSide::Left})
         for (int row = 0; row < 3; ++row) {
-            illustrate::DimensionChain chain{side, row, {0}};
+            drawing::DimensionChain chain{side, row, {0}};
             while (chain.stops.back() < 20) chain.stops.push_back(chain.stops.back() + 0.02 + 0.001 * (next() % 1500));
             drawing.dimensions.push_back(chain);
         }
@@ -220,7 +220,7 @@ TEST(DimensionMarks, NoNumberStandsOnAnother) {
                             box[4] <= other[2])
                     << millimetres << " " << mark.text.text;
             boxes.push_back(box);
-            const double reach = dimensionReach(drawing, illustrate::DimensionSide::Below);
+            const double reach = dimensionReach(drawing, drawing::DimensionSide::Below);
             EXPECT_GT(mark.text.isUpright ? box[1] : box[2], -reach - 1.5);
         }
         EXPECT_GT(boxes.size(), 20u);

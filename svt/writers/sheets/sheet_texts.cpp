@@ -55,7 +55,7 @@ constexpr Words kWords[] = {
     {W::Tables, "Tables", "Tabellen"},
 };
 
-std::string levelName(const illustrate::BuildingLevel& level, double datum, SheetLanguage language) {
+std::string levelName(const drawing::BuildingLevel& level, double datum, SheetLanguage language) {
     if (!level.name.empty()) return level.name;
     const double height = level.floor - datum;
     return fmt::format("{} {}", sheetWord(W::Level, language), numberText(height, 2, language));
@@ -83,8 +83,8 @@ std::string numberText(double value, int decimals, SheetLanguage language) {
     return text;
 }
 
-std::vector<SheetTable> makeAreaTables(const illustrate::FloorAreas& areas,
-                                       const std::vector<illustrate::BuildingLevel>& levels, SheetLanguage language) {
+std::vector<SheetTable> makeAreaTables(const drawing::FloorAreas& areas,
+                                       const std::vector<drawing::BuildingLevel>& levels, SheetLanguage language) {
     const auto word = [&](SheetWord w) { return std::string(sheetWord(w, language)); };
     const auto number = [&](double value, int decimals = 2) { return numberText(value, decimals, language); };
     const double datum = levels.empty() ? 0 : levels.front().floor;
@@ -101,10 +101,10 @@ std::vector<SheetTable> makeAreaTables(const illustrate::FloorAreas& areas,
                          {},
                          1};
         double area = 0, volume = 0;
-        for (const illustrate::RoomArea& room : areas.rooms) {
+        for (const drawing::RoomArea& room : areas.rooms) {
             rooms.rows.push_back({room.number, room.name, levelName(levels[room.level], datum, language),
-                                  std::string(illustrate::roomUseName(room.use)), number(room.area),
-                                  number(room.height), number(room.volume)});
+                                  std::string(drawing::roomUseName(room.use)), number(room.area), number(room.height),
+                                  number(room.volume)});
             area += room.area;
             volume += room.volume;
         }
@@ -121,7 +121,7 @@ std::vector<SheetTable> makeAreaTables(const illustrate::FloorAreas& areas,
                            {"BGF", true}},
                           {},
                           1};
-        const auto add = [&](const std::string& name, const illustrate::LevelArea& level) {
+        const auto add = [&](const std::string& name, const drawing::LevelArea& level) {
             floors.rows.push_back({name, number(level.use), number(level.technical), number(level.traffic),
                                    number(level.unknown), number(level.net), number(level.construction),
                                    number(level.gross)});
@@ -136,7 +136,7 @@ std::vector<SheetTable> makeAreaTables(const illustrate::FloorAreas& areas,
             {{word(W::Class)}, {word(W::Type)}, {word(W::Count), true}, {word(W::Area), true}, {word(W::Volume), true}},
             {},
             0};
-        for (const illustrate::ComponentSum& sum : areas.components)
+        for (const drawing::ComponentSum& sum : areas.components)
             components.rows.push_back({sum.className, sum.type, fmt::format("{}", sum.count),
                                        sum.area > 0 ? number(sum.area) : "\u2013",
                                        sum.volume > 0 ? number(sum.volume) : "\u2013"});

@@ -16,8 +16,8 @@
 namespace svt::writers {
 namespace {
 
-using illustrate::PlanePoint;
-using illustrate::ViewKind;
+using drawing::PlanePoint;
+using drawing::ViewKind;
 
 constexpr LineStyle kFrame{0.7}, kBox{0.35}, kFine{0.18};
 
@@ -147,7 +147,7 @@ private:
         const double x = placed.place.corner.x;
         for (const DrawnView& plan : content_.views) {
             if (plan.view.kind != ViewKind::Plan) continue;
-            const illustrate::PlaneAxes& axes = section.drawing.axes;
+            const drawing::PlaneAxes& axes = section.drawing.axes;
             if (std::abs(dot(axes.v, up)) < 0.999) continue;
             const Vec3d corner = volume_.grid.origin();
             const double height = dot(plan.view.plane.point - corner, up);
@@ -166,7 +166,7 @@ private:
                          high{corner.x + placed.width + margins.right, corner.y - placed.height - margins.above};
         for (const DrawnView& view : content_.views) {
             if (view.view.kind != ViewKind::Section) continue;
-            const illustrate::PlaneAxes& axes = plan.drawing.axes;
+            const drawing::PlaneAxes& axes = plan.drawing.axes;
             const PaperPoint at = placed.place.onPaper(axes.planeFromWorld(view.view.plane.point));
             const double u = -dot(view.view.plane.normal, axes.u), v = dot(view.view.plane.normal, axes.v);  // on paper
             if (std::abs(u) < 0.999 && std::abs(v) < 0.999) continue;
@@ -205,7 +205,7 @@ private:
             canvas_.stroke({{{x + 3, y}, {x + 2, y - 1.6}, {x + 4, y - 1.6}, {x + 3, y}}}, kFine);
             canvas_.text({{x + 4.8, y - 0.8}, 2.2, heightText(height, options_.language)});
         };
-        for (const illustrate::BuildingLevel& level : content_.levels) {
+        for (const drawing::BuildingLevel& level : content_.levels) {
             const PlanePoint p = view.drawing.axes.planeFromWorld(origin + up * level.floor);
             mark(level.floor - datum(), placed.place.onPaper({0, p.v}).y);
         }
@@ -274,7 +274,7 @@ private:
     }
 
     void addNorth(const Sheet& sheet, PaperPoint at) {
-        const illustrate::PlaneAxes& axes = content_.views[sheet.views.front().view].drawing.axes;
+        const drawing::PlaneAxes& axes = content_.views[sheet.views.front().view].drawing.axes;
         const Vec3d north{0, 1, 0};
         const double u = dot(north, axes.u), v = -dot(north, axes.v), length = std::hypot(u, v);
         if (!(length > 0.5)) return;

@@ -2,7 +2,7 @@
 /// \file
 /// Sheets as SVG, one document each, with layers that Inkscape knows.
 
-#include <svt/illustrate/hatches.hpp>
+#include <svt/drawing/hatches.hpp>
 #include <svt/writers/sheets/sheet_canvas.hpp>
 
 #include <set>

@@ -10,8 +10,7 @@
 namespace svt::writers {
 namespace {
 
-void paintView(const illustrate::LineView& view, const volume::SemanticVolume& volume, double width,
-               SheetCanvas& canvas) {
+void paintView(const drawing::LineView& view, const volume::SemanticVolume& volume, double width, SheetCanvas& canvas) {
     const double millimetres = width / view.width, height = view.height * millimetres;
     canvas.beginSheet(width, height, shownName(volume));
     paintDrawing(view.drawing, volume, {{0.5 * width, 0.5 * height}, {0, 0}, millimetres}, canvas);
@@ -19,7 +18,7 @@ void paintView(const illustrate::LineView& view, const volume::SemanticVolume& v
 }
 
 // Model, plane and scale, and the scale bar.
-void addTitle(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume, const DrawingPage& page,
+void addTitle(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume, const DrawingPage& page,
               SheetCanvas& canvas) {
     constexpr double left = DrawingPage::kMargin;
     const double top = page.titleTop(), y = top + 17, size = page.field * page.millimetres;
@@ -42,7 +41,7 @@ void addTitle(const illustrate::SectionDrawing& drawing, const volume::SemanticV
 
 }  // namespace
 
-Result<std::string> makeSectionPdf(const illustrate::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+Result<std::string> makeSectionPdf(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                    double scale) {
     constexpr double kLongest = 5080;  // 14,400 points: ISO 32000-1, annex C
     SVT_TRY(page, makeDrawingPage(drawing, scale));
@@ -61,13 +60,13 @@ Result<std::string> makeSectionPdf(const illustrate::SectionDrawing& drawing, co
     return (*canvas)->finish();
 }
 
-std::string makeViewSvg(const illustrate::LineView& view, const volume::SemanticVolume& volume, double width) {
+std::string makeViewSvg(const drawing::LineView& view, const volume::SemanticVolume& volume, double width) {
     SvgCanvas canvas;
     paintView(view, volume, width, canvas);
     return canvas.takeDocuments().front();
 }
 
-Result<std::string> makeViewPdf(const illustrate::LineView& view, const volume::SemanticVolume& volume, double width) {
+Result<std::string> makeViewPdf(const drawing::LineView& view, const volume::SemanticVolume& volume, double width) {
     SVT_TRY(canvas, makePdfCanvas(shownName(volume)));
     paintView(view, volume, width, **canvas);
     return (*canvas)->finish();

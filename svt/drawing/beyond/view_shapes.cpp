@@ -1,0 +1,328 @@
+#include <svt/drawing/beyond/view_shapes.hpp>
+
+#include <svt/model/classes.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace svt::drawing {
+namespace {
+
+using volume::Filling;
+using volume::kNoLabel;
+
+constexpr double kOnViewPlane = 1e-5;         // metres, as for the cut
+constexpr double kCosineOfCrease = 0.939693;  // of 20 degrees: facets of round things are not drawn
+constexpr double kSeen = 1e-3;                // cosine: faces of outlines
+constexpr double kFromTheSide = 1e-7;         // cosine below which a face is seen from the side
+constexpr double kSliver = 5e-6;              // metres: lower triangles have no direction
+
+bool isClosedFilling(Filling filling) noexcept { return filling >= Filling::Solid && filling <= Filling::Capped; }
+
+// How the faces of a label are looked at.
+struct LabelView {
+    bool isShown = false;
+    bool isClosed = false;  // faces that look away need not be asked
+    double turn = 1;        // -1: seen from within
+};
+
+std::vector<LabelView> viewsOf(const volume::LabelTable& table, std::span<const std::uint8_t> isDrawn) {
+    std::vector<LabelView> views(table.labels.size());
+    std::vector<std::uint8_t> hasSurfaces(table.labels.size(), 0);
+    for (const volume::Label& label : table.labels)
+        if (label.parent != kNoLabel && label.count > 0 && model::isBoundarySurface(label.className))
+            hasSurfaces[label.parent] = 1;
+    for (std::uint32_t l = 0; l < views.size(); ++l) {
+        const volume::Label& label = table.labels[l];
+        LabelView& view = views[l];
+        view.isClosed = isClosedFilling(label.filling);
+        if (!model::isSpace(label.className)) {
+            view.isShown = isDrawn[l] != 0 && label.className != "ClosureSurface";
+            continue;
+        }
+        if (!view.isClosed || hasSurfaces[l] != 0) continue;
+        std::uint32_t building = label.parent;
+        while (building != kNoLabel && model::classRank(table.labels[building].className) != model::ClassRank::Building)
+            building = table.labels[building].parent;
+        view.isShown =
+            building != kNoLabel && isDrawn[building] != 0 && isClosedFilling(table.labels[building].filling);
+        view.turn = -1;
+    }
+    return views;
+}
+
+class MeshProjector {
+public:
+    MeshProjector(const volume::SemanticVolume& volume, const SectionPlane& plane, const PlaneAxes& axes,
+                  std::span<const std::uint8_t> isDrawn, const ViewOptions& options)
+        : parts_(volume.vectors), options_(options), views_(viewsOf(volume.labels, isDrawn)) {
+        const Vec3d away = plane.normal * (options.looksAtCut ? 1.0 : -1.0);
+        handedness_ = dot(axes.normal, away) > 0 ? 1 : -1;
+        const Vec3d base = volume.grid.origin() - axes.origin;
+        points_.reserve(parts_.points.size());
+        for (const Vec3i& point : parts_.points) {
+            const Vec3d p = base + toDouble(point) * parts_.unit;
+            const double depth = dot(p, away);
+            points_.push_back({dot(p, axes.u), dot(p, axes.v), std::abs(depth) <= kOnViewPlane ? 0 : depth});
+            heights_.push_back(points_.back().z);
+        }
+    }
+
+    MeshProjector(const volume::SemanticVolume& volume, const EyeView& eye, std::span<const std::uint8_t> isDrawn,
+                  const ViewOptions& options)
+        : parts_(volume.vectors), options_(options), views_(viewsOf(volume.labels, isDrawn)), eye_(&eye) {
+        handedness_ = dot(cross(eye.axes.u, eye.axes.v), eye.away) > 0 ? 1 : -1;
+        for (const Vec3i& point : parts_.points) {
+            const Vec3d world = volume.grid.origin() + toDouble(point) * parts_.unit;
+            points_.push_back(eye.viewed(world));
+            const double height = eye.hasCut ? dot(eye.cut.point - world, eye.cut.normal) : 1;
+            heights_.push_back(std::abs(height) <= kOnViewPlane ? 0 : height);
+        }
+    }
+
+    ViewShapes run() {
+        for (std::size_t first = 0; first < parts_.triangles.size();) {
+            std::size_t end = first;
+            while (end < parts_.triangles.size() && parts_.triangles[end].label == parts_.triangles[first].label) ++end;
+            if (views_[parts_.triangles[first].label].isShown) addLabel(first, end);
+            first = end;
+        }
+        sortFaces();
+        return std::move(shapes_);
+    }
+
+private:
+    struct TriangleView {
+        Vec3d normal;
+        double facing = 0;  // see facingOf()
+        std::uint32_t triangle = 0;
+    };
+    struct HalfEdge {
+        std::uint32_t low = 0, high = 0;  // points
+        std::uint32_t triangle = 0;       // of normals_
+    };
+
+    // The normal of a triangle in view space, pointing out of the shell; zero for slivers.
+    [[nodiscard]] Vec3d normalOf(const volume::VectorParts::Triangle& triangle, double turn) const noexcept {
+        const Vec3d a = points_[triangle.corners[0]], b = points_[triangle.corners[1]],
+                    c = points_[triangle.corners[2]];
+        const Vec3d normal = cross(b - a, c - a) * (handedness_ * turn);
+        const double longest = std::max({length(b - a), length(c - b), length(a - c)});
+        return length(normal) > kSliver * longest ? normalized(normal) : Vec3d{};
+    }
+
+    void addLabel(std::size_t first, std::size_t end) {
+        const LabelView& view = views_[parts_.triangles[first].label];
+        normals_.clear();
+        halfEdges_.clear();
+        for (std::size_t t = first; t < end; ++t) {
+            const auto& triangle = parts_.triangles[t];
+            const auto& c = triangle.corners;
+            const bool isBehind = heights_[c[0]] > 0 || heights_[c[1]] > 0 || heights_[c[2]] > 0;
+            if (!isBehind) continue;
+            const Vec3d normal = normalOf(triangle, view.turn);
+            normals_.push_back({normal, facingOf(triangle, normal), static_cast<std::uint32_t>(t)});
+            addFace(triangle, normals_.back(), view);
+            for (std::size_t n = 0; n < 3; ++n) {
+                const std::uint32_t a = c[n], b = c[(n + 1) % 3];
+                halfEdges_.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(normals_.size() - 1)});
+            }
+        }
+        std::sort(halfEdges_.begin(), halfEdges_.end(), [](const HalfEdge& a, const HalfEdge& b) {
+            return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
+        });
+        for (std::size_t from = 0; from < halfEdges_.size();) {
+            std::size_t to = from;
+            while (to < halfEdges_.size() && halfEdges_[to].low == halfEdges_[from].low &&
+                   halfEdges_[to].high == halfEdges_[from].high)
+                ++to;
+            addEdge(std::span(halfEdges_).subspan(from, to - from), parts_.triangles[first].label, view);
+            from = to;
+        }
+    }
+
+    // The cosine between a normal and the line of sight: that of a perspective eye goes to the middle of the face.
+    [[nodiscard]] double facingOf(const volume::VectorParts::Triangle& triangle, Vec3d normal) const noexcept {
+        if (!isPerspective()) return normal.z;
+        const auto& c = triangle.corners;
+        const Vec3d middle = (points_[c[0]] + points_[c[1]] + points_[c[2]]) * (1.0 / 3);
+        return dot(normal, normalized(middle + Vec3d{0, 0, eye_->distance}));
+    }
+    [[nodiscard]] bool isPerspective() const noexcept { return eye_ != nullptr && eye_->distance > 0; }
+    [[nodiscard]] Vec3d pictured(Vec3d p) const noexcept { return eye_ != nullptr ? eye_->pictured(p) : p; }
+    // The normal of a face in the picture, from one of its points; pointing away from the eye.
+    [[nodiscard]] Vec3d picturedNormal(Vec3d normal, double facing, Vec3d point) const noexcept {
+        Vec3d n = facing > 0 ? normal : -normal;
+        if (isPerspective()) n = normalized(n + Vec3d{0, 0, dot(n, point) / eye_->distance});
+        return n;
+    }
+
+    struct ClippedPoint {
+        Vec3d at;
+        double height = 0;  // over the plane that clips
+    };
+    // What lies behind the plane of a triangle that is not seen from the side.
+    void addFace(const volume::VectorParts::Triangle& triangle, const TriangleView& seen, const LabelView& view) {
+        if (std::abs(seen.facing) < kFromTheSide || (view.isClosed && seen.facing > 0)) return;
+        std::array<ClippedPoint, 8> corners{}, clipped{};
+        std::uint32_t count = 0;
+        for (const std::uint32_t c : triangle.corners) corners[count++] = {points_[c], heights_[c]};
+        count = clipCorners(corners, count, clipped);
+        if (eye_ != nullptr) {
+            for (std::uint32_t n = 0; n < count; ++n) clipped[n].height = clipped[n].at.z - eye_->nearest;
+            count = clipCorners(clipped, count, corners);
+            clipped = corners;
+        }
+        if (count < 3) return;
+        ViewFace face;
+        face.label = triangle.label;
+        face.normal = picturedNormal(seen.normal, seen.facing, points_[triangle.corners[0]]);
+        face.leastDepth = 1e300;
+        for (std::uint32_t n = 0; n < count; ++n) {
+            const Vec3d p = pictured(clipped[n].at);
+            face.corners[face.cornerCount++] = p;
+            face.leastDepth = std::min(face.leastDepth, p.z);
+        }
+        if (areaOf(face) < 0) std::reverse(face.corners.begin(), face.corners.begin() + face.cornerCount);
+        shapes_.faces.push_back(face);
+    }
+    // The part of a convex polygon with heights from zero up.
+    std::uint32_t clipCorners(const std::array<ClippedPoint, 8>& from, std::uint32_t count,
+                              std::array<ClippedPoint, 8>& to) const noexcept {
+        std::uint32_t kept = 0;
+        for (std::uint32_t n = 0; n < count; ++n) {
+            const ClippedPoint &a = from[n], &b = from[n + 1 < count ? n + 1 : 0];
+            if (a.height >= 0) to[kept++] = a;
+            if ((a.height < 0) != (b.height < 0) && a.height != 0 && b.height != 0) to[kept++] = {crossing(a, b), 0};
+        }
+        return kept;
+    }
+    // The same bits from both sides.
+    [[nodiscard]] Vec3d crossing(ClippedPoint a, ClippedPoint b) const noexcept {
+        if (b.at < a.at) std::swap(a, b);
+        Vec3d p = a.at + (b.at - a.at) * (a.height / (a.height - b.height));
+        if (eye_ == nullptr) p.z = 0;
+        return p;
+    }
+    static double areaOf(const ViewFace& face) noexcept {
+        double area = 0;
+        for (std::uint32_t n = 2; n < face.cornerCount; ++n) {
+            const Vec3d a = face.corners[n - 1] - face.corners[0], b = face.corners[n] - face.corners[0];
+            area += 0.5 * (a.x * b.y - a.y * b.x);
+        }
+        return area;
+    }
+
+    void addEdge(std::span<const HalfEdge> around, std::uint32_t label, const LabelView& view) {
+        Vec3d first{};
+        double nearest = 1, farthest = -1;  // of the normals' components away from the eye
+        bool isCrease = false;
+        int count = 0;
+        for (const HalfEdge& half : around) {
+            const auto& [normal, facing, t] = normals_[half.triangle];
+            if (dot(normal, normal) == 0) continue;
+            if (count++ == 0) first = normal;
+            const double cosine = dot(first, normal);
+            isCrease = isCrease || (view.isClosed ? cosine : std::abs(cosine)) < kCosineOfCrease;
+            nearest = std::min(nearest, facing);
+            farthest = std::max(farthest, facing);
+        }
+        if (count == 0) return;
+        // Where a round surface turns away from the eye: beside a face that is seen there is one that is not.
+        const bool isOutline = view.isClosed ? nearest < -kSeen && farthest > -kSeen : count == 2 && isFold(around);
+        if (count > 1 && !isCrease && !isOutline) return;
+        if (view.isClosed && !options_.everyEdge && nearest > kFromTheSide) return;
+        ClippedPoint from{points_[around[0].low], heights_[around[0].low]},
+            to{points_[around[0].high], heights_[around[0].high]};
+        if (!clipEdge(from, to)) return;
+        if (eye_ != nullptr) {
+            from.height = from.at.z - eye_->nearest;
+            to.height = to.at.z - eye_->nearest;
+            if (!clipEdge(from, to)) return;
+        }
+        ViewEdge edge{pictured(from.at), pictured(to.at), label, {}, 0, false};
+        findFace(around, view, edge);
+        shapes_.edges.push_back(edge);
+    }
+
+    // Whether an edge has a part above zero, and that part.
+    bool clipEdge(ClippedPoint& from, ClippedPoint& to) const noexcept {
+        if (!(from.height > 0) && !(to.height > 0)) return false;
+        if (from.height < 0) from = {crossing(from, to), 0};
+        if (to.height < 0) to = {crossing(from, to), 0};
+        return true;
+    }
+
+    // Whether the two faces of a sheet lie on one side of their edge, or one is seen from the side.
+    [[nodiscard]] bool isFold(std::span<const HalfEdge> around) const noexcept {
+        int sides = 0;
+        for (const HalfEdge& half : around) {
+            const auto& [normal, facing, t] = normals_[half.triangle];
+            if (std::abs(facing) > kSeen) sides += sideOf(half, t);
+        }
+        return sides != 0;
+    }
+    // On which side of an edge a triangle lies in the drawing: 1 for the left from the lower point to the higher one.
+    [[nodiscard]] int sideOf(const HalfEdge& half, std::uint32_t triangle) const noexcept {
+        Vec3d third{};
+        for (const std::uint32_t corner : parts_.triangles[triangle].corners)
+            if (corner != half.low && corner != half.high) third = points_[corner];
+        const Vec3d along = points_[half.high] - points_[half.low], across = third - points_[half.low];
+        if (isPerspective())
+            return dot(points_[half.low] + Vec3d{0, 0, eye_->distance}, cross(along, across)) > 0 ? 1 : -1;
+        return along.x * across.y - along.y * across.x > 0 ? 1 : -1;
+    }
+
+    // The face that looks to the eye, where it is the only one.
+    void findFace(std::span<const HalfEdge> around, const LabelView& view, ViewEdge& edge) const {
+        for (const HalfEdge& half : around) {
+            const auto& [normal, facing, t] = normals_[half.triangle];
+            if (std::abs(facing) < kFromTheSide || (view.isClosed && facing > 0)) continue;
+            if (edge.faceSide != 0) {
+                edge.faceSide = 0;
+                return;
+            }
+            edge.faceSide = sideOf(half, t);
+            edge.normal = picturedNormal(normal, facing, points_[half.low]);
+        }
+    }
+
+    // The largest hide most, so they are asked first.
+    void sortFaces() {
+        std::vector<std::pair<double, std::uint32_t>> order;
+        order.reserve(shapes_.faces.size());
+        for (std::uint32_t f = 0; f < shapes_.faces.size(); ++f) order.emplace_back(-areaOf(shapes_.faces[f]), f);
+        std::sort(order.begin(), order.end());
+        std::vector<ViewFace> sorted;
+        sorted.reserve(order.size());
+        for (const auto& [area, f] : order) sorted.push_back(shapes_.faces[f]);
+        shapes_.faces = std::move(sorted);
+    }
+
+    const volume::VectorParts& parts_;
+    const ViewOptions& options_;
+    std::vector<LabelView> views_;
+    double handedness_ = 1;              // of u, v and depth
+    const EyeView* eye_ = nullptr;       // or the plane's
+    std::vector<Vec3d> points_;          // view space
+    std::vector<double> heights_;        // of points behind the plane that cuts; below zero is cut away
+    std::vector<TriangleView> normals_;  // of the label's triangles behind the plane
+    std::vector<HalfEdge> halfEdges_;
+    ViewShapes shapes_;
+};
+
+}  // namespace
+
+ViewShapes projectMeshes(const volume::SemanticVolume& volume, const SectionPlane& plane, const PlaneAxes& axes,
+                         std::span<const std::uint8_t> isDrawn, const ViewOptions& options) {
+    return MeshProjector(volume, plane, axes, isDrawn, options).run();
+}
+
+ViewShapes projectMeshes(const volume::SemanticVolume& volume, const EyeView& eye,
+                         std::span<const std::uint8_t> isDrawn, bool everyEdge) {
+    const ViewOptions options{false, everyEdge};
+    return MeshProjector(volume, eye, isDrawn, options).run();
+}
+
+}  // namespace svt::drawing

@@ -1,0 +1,90 @@
+#pragma once
+/// \file
+/// What is seen of a volume's meshes from a plane: faces that hide, and edges to draw, in the coordinates of the view.
+///
+///     view space: u and v of the drawing, d the depth behind the plane; the eye is infinitely far away at d < 0
+///
+///     eye -->  |plane    +------+       faces that look to the eye hide what is behind them; of closed shells
+///              |         | box  |       the others need not be asked, for they are behind the former, or behind
+///              |         +------+       what is cut
+///              d = 0
+
+#include <svt/drawing/section_drawing.hpp>
+#include <svt/volume/semantic_volume.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace svt::drawing {
+
+/// A triangle, or what the plane leaves of it: convex, in view space.
+struct ViewFace {
+    std::array<Vec3d, 5> corners;  ///< counter-clockwise in u and v
+    std::uint32_t cornerCount = 0;
+    Vec3d normal;  ///< unit vector that points away from the eye
+    double leastDepth = 0;
+    std::uint32_t label = 0;
+};
+
+/// An edge to draw, in view space; not behind the plane's other side.
+struct ViewEdge {
+    Vec3d from, to;
+    std::uint32_t label = 0;
+    /// Of an edge with one face that looks to the eye: its unit normal (pointing away from the eye), and the side of
+    /// the edge where it lies, 1 for the left. 0: any other edge.
+    Vec3d normal;
+    int faceSide = 0;
+    bool isPiercing = false;  ///< no edge of a mesh, but where two of them cross, see piercing.hpp
+};
+
+struct ViewShapes {
+    std::vector<ViewFace> faces;  ///< largest first
+    std::vector<ViewEdge> edges;  ///< by label
+};
+
+struct ViewOptions {
+    bool looksAtCut = false;  ///< looks at what is cut away instead: the depth grows to the other side
+    bool everyEdge = false;   ///< also edges of closed shells between faces that look away
+};
+
+/// An eye anywhere, for pictures. Points of view space are (u, v, d) of `axes`, d being the depth behind its origin. A
+/// perspective eye is `distance` before that; its view space is that of the picture, with the same u and v, and the depth
+///
+///     u' = u D / (D + d)    v' = v D / (D + d)    d' = d D / (D + d)
+///
+/// so that lines are lines, planes are planes, what is nearer has less depth, and nothing changes where d is zero.
+struct EyeView {
+    PlaneAxes axes;
+    Vec3d away{0, 1, 0};      ///< unit vector from the eye along the view
+    double distance = 0;      ///< of a perspective eye, metres; 0: parallel
+    double nearest = -1e300;  ///< d of the near plane; above -distance
+    bool hasCut = false;
+    SectionPlane cut;  ///< what is cut away, if any
+
+    /// View space of the picture from that of the model; the point is behind the near plane.
+    [[nodiscard]] Vec3d pictured(Vec3d p) const noexcept {
+        return distance > 0 ? p * (distance / (distance + p.z)) : p;
+    }
+    /// (u, v, d) of a point in world space.
+    [[nodiscard]] Vec3d viewed(Vec3d world) const noexcept {
+        const Vec3d p = world - axes.origin;
+        return {dot(p, axes.u), dot(p, axes.v), dot(p, away)};
+    }
+};
+
+/// Projects the meshes of `volume`. Faces that are seen from the side, and what is in front of the plane, are left out.
+/// What hides: objects that are drawn, but spaces and closure surfaces. A room that is a hole in a closed building and
+/// has no surfaces of its own shows its shell from within.
+/// Edges: where a face ends, creases over 20 degrees, and where a round surface turns away from the eye.
+/// \param isDrawn  by label
+[[nodiscard]] ViewShapes projectMeshes(const volume::SemanticVolume& volume, const SectionPlane& plane,
+                                       const PlaneAxes& axes, std::span<const std::uint8_t> isDrawn,
+                                       const ViewOptions& options);
+
+/// The same as an eye sees them, from which a cut takes away what is before its plane.
+[[nodiscard]] ViewShapes projectMeshes(const volume::SemanticVolume& volume, const EyeView& eye,
+                                       std::span<const std::uint8_t> isDrawn, bool everyEdge);
+
+}  // namespace svt::drawing

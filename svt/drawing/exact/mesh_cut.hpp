@@ -1,0 +1,35 @@
+#pragma once
+/// \file
+/// Where a plane cuts the triangles of a volume's meshes.
+///
+/// A corner on the plane counts as on the side that is cut away, so that faces and edges in the plane never come and go
+/// with rounding: what is drawn is what stands just before the plane. Where edges lie nearly in the plane, but not to
+/// rounding, the plane is moved by a hair to the side that is kept.
+
+#include <svt/drawing/section_drawing.hpp>
+#include <svt/volume/vector_parts.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace svt::drawing {
+
+/// A segment that one triangle gives; for a closed mesh the inside is to the left.
+struct CutSegment {
+    PlanePoint from, to;
+    std::uint32_t label = 0;
+};
+
+struct MeshCut {
+    std::vector<CutSegment> segments;  ///< labels ascend; a closed mesh gives closed rings, point by point
+    std::size_t edgesInPlane = 0;      ///< edges of triangles that lie in the plane as given
+    double shift = 0;                  ///< how far the plane was moved to the kept side, metres
+};
+
+/// Cuts all triangles with the plane through `axes`.
+/// \param origin       Grid::origin()
+/// \param keepsAbove   the side to which axes.normal points is kept, not cut away
+[[nodiscard]] MeshCut cutMeshes(const volume::VectorParts& parts, Vec3d origin, const PlaneAxes& axes, bool keepsAbove);
+
+}  // namespace svt::drawing

@@ -1,0 +1,17 @@
+#pragma once
+/// \file
+/// Hatches of components, for their caps (cut faces).
+
+#include <svt/analyze/selection.hpp>
+#include <svt/render/hatch.hpp>
+
+#include <vector>
+
+namespace svt::drawing {
+
+/// Hatch of each label, by its material if the model has one, else by class, kind and name: walls are masonry, slabs
+/// and beams reinforced concrete, rafters timber, ground earth. Spaces have none.
+/// \return entry l is label l
+[[nodiscard]] std::vector<render::Hatch> labelHatches(const analyze::LabelRows& labels);
+
+}  // namespace svt::drawing

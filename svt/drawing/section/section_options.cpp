@@ -1,0 +1,30 @@
+#include <svt/drawing/section_drawing.hpp>
+#include <svt/record/record.hpp>
+
+namespace svt::drawing {
+
+record::Members<SectionOptions> membersOf(const SectionOptions*) noexcept {
+    using All = SectionOptions;
+    using record::member;
+    static constexpr record::Member<All> kMembers[] = {
+        member<&All::beyond, &BeyondOptions::visible>("beyond", "also draw what is seen behind the plane",
+                                                      {.group = "Drawing", .option = "--beyond"}),
+        member<&All::beyond, &BeyondOptions::hidden>("hidden", "also draw the edges behind it that are hidden, dashed",
+                                                     {.group = "Drawing", .option = "--hidden"}),
+        member<&All::beyond, &BeyondOptions::above>(
+            "above", "also draw what is cut away, as seen from the plane, dashed and dotted",
+            {.group = "Drawing", .option = "--above"}),
+        member<&All::dimensions>("dimensions",
+                                 "plans: chains of dimensions around the building: openings, rooms, overall",
+                                 {.group = "Drawing", .option = "--dimensions"}),
+        member<&All::hide>("hide", "leave out what the query selects",
+                           {.value = "QUERY", .group = "Drawing", .option = "--hide"}),
+        member<&All::show>("show", "draw only what the query selects",
+                           {.value = "QUERY", .group = "Drawing", .option = "--show"}),
+        record::memberAs<record::Not, &All::spaces>("noRooms", "leave out rooms, units and storeys",
+                                                    {.group = "Drawing", .option = "--no-rooms"}),
+    };
+    return kMembers;
+}
+
+}  // namespace svt::drawing
