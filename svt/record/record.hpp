@@ -166,7 +166,7 @@ void setMember(Faults& faults, std::string_view pointer, const Json& value, cons
 /// \param pointer  of the member; each * is the first element of a list
 template <Recorded T>
 void setTexts(Faults& faults, std::string pointer, const Option& option, std::span<const std::string> texts, T& to) {
-    std::ranges::replace(pointer, '*', '0');
+    std::replace(pointer.begin(), pointer.end(), '*', '0');
     if (!option.mayRepeat) return setMember(faults, pointer, valueOfTexts(option, texts), "", to);
     for (const std::string& text : texts) setMember(faults, pointer + "/-", valueOfTexts(option, {&text, 1}), "", to);
 }
