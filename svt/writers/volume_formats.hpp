@@ -43,25 +43,53 @@ constexpr auto namesOf(MergeBy) {
     return std::to_array<Name<MergeBy>>({{Label, "label"}, {Class, "class"}, {Material, "material"}});
 }
 
+/// Options of one format each, declared beside its writer.
+struct CityGmlWriteOptions {
+    std::filesystem::path model;  ///< the model that the volume was built from, which is kept; empty: none
+    int version = 0;              ///< 2 or 3; 0: that of the model, 3 without one
+};
+struct ZarrWriteOptions {
+    int version = 2;  ///< 2 (OME-NGFF 0.4) or 3 (0.5)
+};
+/// Of neuroglancer.
+struct PrecomputedWriteOptions {
+    bool hasMeshes = false;  ///< also the surface of each label
+    bool isSharded = false;  ///< chunks in shards, many in a file
+};
+/// Of 3D Tiles.
+struct TilesetWriteOptions {
+    /// Latitude, longitude (degrees) and height over the ellipsoid (metres) of the lower corner; none: by the CRS.
+    std::optional<Vec3d> place;
+    double lift = 0;         ///< metres that are added to heights
+    bool hasVoxels = false;  ///< voxels by the draft extensions, not surfaces
+};
+struct VdbWriteOptions {
+    bool hasLevelSets = false;  ///< each class as signed distances, not as a fog volume
+};
+/// Of FDS and of lists of boxes.
+struct BoxWriteOptions {
+    MergeBy mergeBy = MergeBy::Label;
+    std::size_t maxBoxes = 1'000'000;  ///< more are refused
+    std::string holes, vents;          ///< of FDS: queries of open components, and of those with vents on both sides
+};
+record::Members<CityGmlWriteOptions> membersOf(const CityGmlWriteOptions*) noexcept;
+record::Members<ZarrWriteOptions> membersOf(const ZarrWriteOptions*) noexcept;
+record::Members<PrecomputedWriteOptions> membersOf(const PrecomputedWriteOptions*) noexcept;
+record::Members<TilesetWriteOptions> membersOf(const TilesetWriteOptions*) noexcept;
+record::Members<VdbWriteOptions> membersOf(const VdbWriteOptions*) noexcept;
+record::Members<BoxWriteOptions> membersOf(const BoxWriteOptions*) noexcept;
+
 struct VolumeWriteOptions {
     bool isCompressed = true;           ///< of dense formats that leave the choice: gzip, zlib; else raw
     GlbFaces faces = GlbFaces::Planes;  ///< of triangles
     TextureKind texture = TextureKind::Pixel;
     std::uint64_t maxVoxels = std::uint64_t{1} << 24;  ///< of samples as numbers in a document
-    std::filesystem::path model;  ///< of CityGML: the model that the volume was built from, which is kept; empty: none
-    int cityGmlVersion = 0;       ///< 2 or 3; 0: that of the model, 3 without one
-    int zarrVersion = 2;          ///< 2 (OME-NGFF 0.4) or 3 (0.5)
-    MergeBy mergeBy = MergeBy::Label;  ///< of boxes (FDS, lists of boxes)
-    std::size_t maxBoxes = 1'000'000;  ///< of boxes: more are refused
-    bool hasMeshes = false;            ///< of neuroglancer: also the surface of each label
-    bool isSharded = false;            ///< of neuroglancer: chunks in shards, many in a file
-    std::optional<Vec3d>
-        place;               ///< of 3D Tiles: latitude, longitude (degrees) and height over the ellipsoid (metres) of
-                             ///< the lower corner; none: by the CRS of the volume
-    double lift = 0;         ///< of 3D Tiles: metres that are added to heights
-    bool hasVoxels = false;  ///< of 3D Tiles: voxels by the draft extensions, not surfaces
-    bool hasLevelSets = false;           ///< of OpenVDB: each class as signed distances, not as a fog volume
-    std::string holes, vents;            ///< of FDS: queries of what is open, and of what has vents on both sides
+    CityGmlWriteOptions cityGml;
+    ZarrWriteOptions zarr;
+    PrecomputedWriteOptions precomputed;
+    TilesetWriteOptions tileset;
+    VdbWriteOptions vdb;
+    BoxWriteOptions boxes;
     int threads = 0;                     ///< maximum; 0: all cores. The bytes do not depend on it.
     const Progress* progress = nullptr;  ///< stages by format
 };

@@ -221,8 +221,8 @@ private:
 
     void addFiles(const volume::SemanticVolume& volume) {
         writers::VolumeWriteOptions options;
-        options.place = Vec3d{48.5, 11.25, 500.5};
-        options.model = folder_ / "house.gml";
+        options.tileset.place = Vec3d{48.5, 11.25, 500.5};
+        options.cityGml.model = folder_ / "house.gml";
         for (const writers::VolumeFormat& format : writers::volumeFormats()) {
             const fs::path path =
                 folder_ / ("volume" + std::string(format.endings.substr(0, format.endings.find('|'))));

@@ -76,7 +76,8 @@ Result<int> runConvert(const ConvertArguments& arguments) {
     if (!volume) return volume.error();
     Progress::tell(progress.get(), "write", 0);
     writers::VolumeWriteOptions options = arguments.write;
-    if (options.model.empty() && contentOf(arguments.input) == FileContent::CityGml) options.model = arguments.input;
+    std::filesystem::path& model = options.cityGml.model;
+    if (model.empty() && contentOf(arguments.input) == FileContent::CityGml) model = arguments.input;
     options.threads = build.threads;
     options.progress = progress.get();
     SVT_DO(writers::writeVolume(*volume, arguments.output, options));

@@ -146,7 +146,7 @@ TEST(Damage, OfAZarrFolderIsNeverReadInSilence) {
     for (const int version : {2, 3}) {
         const TemporaryFolder folder;
         writers::VolumeWriteOptions options;
-        options.zarrVersion = version;
+        options.zarr.version = version;
         ASSERT_TRUE(writers::writeVolume(plainVolume({40, 34, 66}), folder / "v.zarr", options));
         const Answer whole = ask(folder / "v.zarr");
         ASSERT_TRUE(whole.volume && whole.told.empty()) << whole.told;

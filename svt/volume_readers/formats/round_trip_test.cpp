@@ -71,7 +71,7 @@ TEST(RoundTrip, ZarrGivesTheSameVolumeBackInBothVersions) {
                 SCOPED_TRACE(testing::Message() << version << ", " << bits << " bits, plain " << isPlain);
                 const SemanticVolume volume = volumeOf(bits, isPlain, {150, 70, 133});
                 writers::VolumeWriteOptions options;
-                options.zarrVersion = version;
+                options.zarr.version = version;
                 const std::string name =
                     std::to_string(version) + std::to_string(bits) + (isPlain ? "p" : "t") + ".zarr";
                 ASSERT_TRUE(writers::writeVolume(volume, folder / name, options));
@@ -92,7 +92,7 @@ TEST(RoundTrip, CityGmlGivesTheSameVolumeBackFromAllThreeTextures) {
                 const SemanticVolume volume = volumeOf(bits, true);
                 writers::VolumeWriteOptions options;
                 options.texture = texture;
-                options.cityGmlVersion = version;
+                options.cityGml.version = version;
                 const auto bytes = writers::writeVolume(volume, folder / "v w.ade.gml", options);
                 ASSERT_TRUE(bytes) << bytes.error().toString();
                 EXPECT_TRUE(looksLikeLabelVolume(folder / "v w.ade.gml"));
@@ -361,7 +361,7 @@ TEST(OtherVolumes, DamagedZarrIsAnErrorOrAVolumeAndNeverACrash) {
     const SemanticVolume volume = volumeOf(8, true, {40, 34, 36});
     for (const int version : {2, 3}) {
         writers::VolumeWriteOptions options;
-        options.zarrVersion = version;
+        options.zarr.version = version;
         const fs::path whole = folder / ("v" + std::to_string(version) + ".zarr");
         ASSERT_TRUE(writers::writeVolume(volume, whole, options));
         std::vector<fs::path> files;

@@ -9,6 +9,7 @@
 /// metadata hold `svt.json` and `labels.json` of a `.svt`, so that the document can become the same volume again.
 
 #include <svt/core/text.hpp>
+#include <svt/record/record.hpp>
 #include <svt/volume/volume_json.hpp>
 #include <svt/writers/ade/model_document.hpp>
 #include <svt/writers/nrrd_writer.hpp>
@@ -147,17 +148,17 @@ Result<void> writePixelImage(const volume::SemanticVolume& volume, int bits, con
 }
 
 Result<ModelDocument> documentFor(const volume::SemanticVolume& volume, const VolumeWriteOptions& options) {
-    if (options.model.empty())
-        return ModelDocument::plain(volume, options.cityGmlVersion == 2 ? CityGmlVersion::V2 : CityGmlVersion::V3);
-    auto document = ModelDocument::open(options.model);
+    if (options.cityGml.model.empty())
+        return ModelDocument::plain(volume, options.cityGml.version == 2 ? CityGmlVersion::V2 : CityGmlVersion::V3);
+    auto document = ModelDocument::open(options.cityGml.model);
     if (!document) return document;
     const int version = document->version() == CityGmlVersion::V2 ? 2 : 3;
-    if (options.cityGmlVersion != 0 && options.cityGmlVersion != version)
+    if (options.cityGml.version != 0 && options.cityGml.version != version)
         return Error(
             Code::BadArgument,
             fmt::format("--citygml {}.0: the model is CityGML {}.0, and it is kept as it is; leave --citygml out",
-                        options.cityGmlVersion, version),
-            Place{options.model.string(), 0, 0, {}});
+                        options.cityGml.version, version),
+            Place{options.cityGml.model.string(), 0, 0, {}});
     return document;
 }
 
@@ -188,7 +189,7 @@ Result<std::uint64_t> writeAde(const volume::SemanticVolume& volume, const std::
     SVT_TRY(file, AtomicFile::create(path));
     SVT_DO(document->writeBegin(*file));
     SVT_DO(file->write(beginningOfTexture(volume, *bits, *document, options.texture)));
-    SVT_DO(file->write(targets(volume.labels, *document, options.model.empty())));
+    SVT_DO(file->write(targets(volume.labels, *document, options.cityGml.model.empty())));
     SVT_DO(options.texture == TextureKind::Pixel ? writePixelImage(volume, *bits, options, *file)
                                                  : file->write(beside));
     SVT_DO(file->write(endOfTexture(*document, options.texture)));
@@ -197,6 +198,25 @@ Result<std::uint64_t> writeAde(const volume::SemanticVolume& volume, const std::
 }
 
 }  // namespace
+
+record::Members<CityGmlWriteOptions> membersOf(const CityGmlWriteOptions*) noexcept {
+    using All = CityGmlWriteOptions;
+    static constexpr record::Member<All> kMembers[] = {
+        record::member<&All::model>(
+            "model", "of an .ade.gml: the CityGML that the volume was built from, which is kept as it is",
+            {.value = "FILE",
+             .otherwise = "the input, where that is CityGML",
+             .group = "Output",
+             .option = "--model",
+             .file = FileUse::OtherInput}),
+        record::memberAs<record::NumberChoice, &All::version>("version", "of an .ade.gml: the version of CityGML",
+                                                              {.choices = "2.0|3.0",
+                                                               .otherwise = "that of the model; 3.0 without one",
+                                                               .group = "Output",
+                                                               .option = "--citygml"}),
+    };
+    return kMembers;
+}
 
 extern const VolumeFormat kAde{
     .name = "ade",

@@ -50,7 +50,7 @@ Result<std::uint64_t> writeVolume(const volume::SemanticVolume& volume, const st
         return Error(Code::BadArgument, fmt::format("'{}' ends as none of the formats that a volume can be written in",
                                                     path.filename().string()));
     // A faulty query is an error whatever the format, even one that does not use it.
-    for (const std::string* query : {&options.holes, &options.vents})
+    for (const std::string* query : {&options.boxes.holes, &options.boxes.vents})
         if (!query->empty()) SVT_DO(analyze::selectLabels(volume.labels, *query));
     return format->write(volume, path, options);
 }

@@ -175,7 +175,7 @@ TEST(Precomputed, ShardsHaveTheChunksOfTheFolder) {
         const auto volume = sampleVolume(dimension);
         VolumeWriteOptions options;
         ASSERT_TRUE(writePrecomputed(volume, folder / "v.precomputed", options));
-        options.isSharded = true;
+        options.precomputed.isSharded = true;
         ASSERT_TRUE(writePrecomputed(volume, folder / "s.precomputed", options));
         const json info = json::parse(readText(folder / "s.precomputed/info"));
         std::size_t found = 0, files = 0;

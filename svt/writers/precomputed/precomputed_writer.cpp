@@ -1,5 +1,6 @@
 #include <svt/core/parallel.hpp>
 #include <svt/image/color_text.hpp>
+#include <svt/record/record.hpp>
 #include <svt/writers/dense/coarser_levels.hpp>
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/dense/piece_writer.hpp>
@@ -73,7 +74,7 @@ std::string infoJson(const std::vector<const volume::SemanticVolume*>& levels, c
                           {"chunk_sizes", {{kSide, kSide, kSide}}},
                           {"encoding", "compressed_segmentation"},
                           {"compressed_segmentation_block_size", {kBlock, kBlock, kBlock}}});
-        if (options.isSharded) scales.back()["sharding"] = shardingOf(d);
+        if (options.precomputed.isSharded) scales.back()["sharding"] = shardingOf(d);
     }
     SceneJson info{{"@type", "neuroglancer_multiscale_volume"},
                    {"type", "segmentation"},
@@ -81,7 +82,7 @@ std::string infoJson(const std::vector<const volume::SemanticVolume*>& levels, c
                    {"num_channels", 1},
                    {"segment_properties", "properties"},
                    {"scales", scales}};
-    if (options.hasMeshes) info["mesh"] = "mesh";
+    if (options.precomputed.hasMeshes) info["mesh"] = "mesh";
     return info.dump(1) + "\n";
 }
 
@@ -228,10 +229,24 @@ Result<std::uint64_t> writePrecomputed(const volume::SemanticVolume& volume, con
     SVT_DO(folder.write("properties/info", propertiesJson(volume)));
     SVT_DO(folder.write("state.json", stateJson(volume)));
     for (std::size_t l = 0; l < levels.size(); ++l)
-        SVT_DO(options.isSharded ? writeShards(levels[l]->columns, kSide, std::to_string(l), options, folder)
-                                 : writeLevel(levels[l]->columns, std::to_string(l), options, folder));
-    if (options.hasMeshes) SVT_DO(writeMeshes(volume, options, folder));
+        SVT_DO(options.precomputed.isSharded
+                   ? writeShards(levels[l]->columns, kSide, std::to_string(l), options, folder)
+                   : writeLevel(levels[l]->columns, std::to_string(l), options, folder));
+    if (options.precomputed.hasMeshes) SVT_DO(writeMeshes(volume, options, folder));
     return folder.commit();
+}
+
+record::Members<PrecomputedWriteOptions> membersOf(const PrecomputedWriteOptions*) noexcept {
+    using All = PrecomputedWriteOptions;
+    static constexpr record::Member<All> kMembers[] = {
+        record::member<&All::hasMeshes>("meshes", "of a .precomputed: also the surface of each label, for the 3D view",
+                                        {.group = "Output", .option = "--meshes"}),
+        record::member<&All::isSharded>(
+            "sharded",
+            "of a .precomputed: up to 64 chunks in a file, packed; the web server has to answer requests for ranges",
+            {.group = "Output", .option = "--sharded"}),
+    };
+    return kMembers;
 }
 
 extern const VolumeFormat kPrecomputed{

@@ -5,9 +5,9 @@
 ///
 ///     info                      sizes, resolution in nanometres, levels
 ///     LEVEL/x0-x1_y0-y1_z0-z1   chunks of 64 x 64 x 64 voxels, compressed_segmentation of 32 bits in blocks of 8 x 8 x 8
-///     LEVEL/NUMBER.shard        of VolumeWriteOptions::isSharded: up to 64 of these chunks, instead of them
+///     LEVEL/NUMBER.shard        of PrecomputedWriteOptions::isSharded: up to 64 of these chunks, instead of them
 ///     properties/info           name, class, id and volume of each scalar
-///     mesh/NUMBER:0             of VolumeWriteOptions::hasMeshes: which file has the surface of a scalar (legacy format)
+///     mesh/NUMBER:0             of PrecomputedWriteOptions::hasMeshes: which file has the surface of a scalar (legacy format)
 ///     mesh/LABEL.mesh           the surface of a label: vertices in nanometres, triangles; phases of a pattern share it
 ///     state.json                a layer with our colours, and the matrix that leads to world coordinates in metres; put the
 ///                               address of the folder into its `source`

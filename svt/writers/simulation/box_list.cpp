@@ -22,12 +22,12 @@ Result<std::string> makeBoxTable(const volume::SemanticVolume& volume, const Vol
     SVT_TRY(solids, solidBoxes(volume, options));
     std::string csv = csvLine(Row{"group", "name", "id", "class", "beginX", "beginY", "beginZ", "endX", "endY", "endZ",
                                   "minX", "minY", "minZ", "maxX", "maxY", "maxZ"});
-    const bool isOne = options.mergeBy == MergeBy::Label;
+    const bool isOne = options.boxes.mergeBy == MergeBy::Label;
     for (const analyze::GroupBox& box : solids->boxes) {
         const SolidGroup& group = solids->groups[box.group];
         const volume::Label& label = volume.labels.labels[group.label];
         Row row{box.group, group.name, isOne ? label.id : "",
-                options.mergeBy == MergeBy::Material ? "" : label.className};
+                options.boxes.mergeBy == MergeBy::Material ? "" : label.className};
         for (const Vec3i& corner : {box.box.begin, box.box.end})
             for (int axis = 0; axis < 3; ++axis) row.emplace_back(corner[axis]);
         for (const Vec3i& corner : {box.box.begin, box.box.end})
@@ -50,7 +50,7 @@ Result<std::string> makeBoxJson(const volume::SemanticVolume& volume, const Volu
         const volume::Label& label = volume.labels.labels[solids->groups[g].label];
         json += g == 0 ? "\n{\"name\": " : ",\n{\"name\": ";
         volume::appendJsonString(json, solids->groups[g].name);
-        if (options.mergeBy == MergeBy::Label) {
+        if (options.boxes.mergeBy == MergeBy::Label) {
             json += ", \"id\": ";
             volume::appendJsonString(json, label.id);
             json += ", \"class\": ";

@@ -13,7 +13,7 @@
 namespace svt::writers {
 
 /// One MESH, grown to numbers of cells that have no prime factor over 5, which the pressure solver wants; its sides but
-/// the bottom open; one SURF and the OBSTs of each group; options.holes as OBST and HOLE, options.vents as OBST with VENTs
+/// the bottom open; one SURF and the OBSTs of each group; options.boxes.holes as OBST and HOLE, options.boxes.vents as OBST with VENTs
 /// on both sides. Metres along the grid's axes from its lower corner, for FDS takes no world coordinates.
 /// \param name  of the simulation, from which CHID is made
 /// \return the document, ASCII, or the error of solidBoxes()

@@ -88,8 +88,8 @@ TEST(Fds, ObstaclesAreTheSolidVoxelsWithoutTheRoom) {
 TEST(Fds, HolesStandBehindAllObstaclesAndVentsOnBothSides) {
     const SemanticVolume volume = roomWithADoor();
     VolumeWriteOptions options;
-    options.holes = "class=Door";
-    options.vents = "class=Door";
+    options.boxes.holes = "class=Door";
+    options.boxes.vents = "class=Door";
     const auto text = makeFds(volume, "h", options);
     ASSERT_TRUE(text);
     const auto boxes = readFds(*text);
@@ -115,10 +115,10 @@ TEST(Fds, HolesStandBehindAllObstaclesAndVentsOnBothSides) {
 TEST(Fds, FaultyQueriesAreErrorsInEveryFormat) {
     const SemanticVolume volume = roomWithADoor();
     const std::filesystem::path folder = std::filesystem::temp_directory_path();
-    for (const auto query : {&VolumeWriteOptions::holes, &VolumeWriteOptions::vents})
+    for (const auto query : {&BoxWriteOptions::holes, &BoxWriteOptions::vents})
         for (const char* name : {"faulty_query.fds", "faulty_query.nrrd"}) {
             VolumeWriteOptions options;
-            options.*query = "class=";
+            options.boxes.*query = "class=";
             const auto written = writeVolume(volume, folder / name, options);
             ASSERT_FALSE(written) << name;
             EXPECT_EQ(written.error().code(), Code::BadQuery) << written.error().message();
@@ -129,8 +129,8 @@ TEST(Fds, FaultyQueriesAreErrorsInEveryFormat) {
 TEST(Fds, HolesStayApartWhereComponentsAreMerged) {
     const SemanticVolume volume = roomWithADoor();
     VolumeWriteOptions options;
-    options.mergeBy = MergeBy::Class;
-    options.holes = "id=w2";  // the second of two walls of one class
+    options.boxes.mergeBy = MergeBy::Class;
+    options.boxes.holes = "id=w2";  // the second of two walls of one class
     const auto text = makeFds(volume, "h", options);
     ASSERT_TRUE(text);
     double holes = 0, walls = 0;
@@ -174,16 +174,16 @@ TEST(Boxes, TableAndJsonHoldEachSolidVoxelOnce) {
 TEST(Boxes, OfOneMaterialAreMergedAcrossComponents) {
     const SemanticVolume volume = roomWithADoor();
     VolumeWriteOptions options;
-    options.mergeBy = MergeBy::Material;
+    options.boxes.mergeBy = MergeBy::Material;
     const auto text = makeBoxJson(volume, options);
     ASSERT_TRUE(text);
     const json boxes = json::parse(*text);
     ASSERT_EQ(boxes["groups"].size(), 2u);
     EXPECT_EQ(boxes["groups"][0]["name"], "brick");
     EXPECT_EQ(boxes["groups"][1]["name"], "Door") << "without a material: its class";
-    options.mergeBy = MergeBy::Label;
+    options.boxes.mergeBy = MergeBy::Label;
     EXPECT_LT(boxes["boxes"].size(), json::parse(*makeBoxJson(volume, options))["boxes"].size());
-    options.maxBoxes = 3;
+    options.boxes.maxBoxes = 3;
     EXPECT_EQ(makeBoxJson(volume, options).error().code(), Code::BadArgument);
     EXPECT_EQ(makeFds(volume, "h", options).error().code(), Code::BadArgument);
 }

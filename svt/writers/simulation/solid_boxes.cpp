@@ -1,3 +1,4 @@
+#include <svt/record/record.hpp>
 #include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/simulation/solid_boxes.hpp>
 
@@ -64,24 +65,39 @@ Result<SolidBoxes> solidBoxes(const volume::SemanticVolume& volume, const Volume
     if (std::none_of(isSolid.begin(), isSolid.end(), [](bool is) { return is; }))
         for (std::size_t l = 0; l < labels.size(); ++l) isSolid[l] = labels[l].voxels > 0;
 
-    SVT_TRY(isHole, selectedBy(options.holes, volume.labels));
-    SVT_TRY(hasVents, selectedBy(options.vents, volume.labels));
+    SVT_TRY(isHole, selectedBy(options.boxes.holes, volume.labels));
+    SVT_TRY(hasVents, selectedBy(options.boxes.vents, volume.labels));
     SolidBoxes result;
     std::map<std::tuple<std::string, bool, bool>, std::uint32_t> known;
     std::vector<std::uint32_t> groupOfScalar(volume.labels.scalarCount(), volume::kNoLabel);
     for (std::uint32_t l = 0; l < labels.size(); ++l) {
         if (!isSolid[l]) continue;
-        std::string name = groupName(labels[l], options.mergeBy);
+        std::string name = groupName(labels[l], options.boxes.mergeBy);
         auto group = static_cast<std::uint32_t>(result.groups.size());
-        if (options.mergeBy != MergeBy::Label)
+        if (options.boxes.mergeBy != MergeBy::Label)
             group = known.try_emplace({name, (*isHole)[l], (*hasVents)[l]}, group).first->second;
         if (group == result.groups.size())
             result.groups.push_back({std::move(name), l, labels[l].color, (*isHole)[l], (*hasVents)[l]});
         for (volume::Scalar s = labels[l].first; s < labels[l].first + labels[l].count; ++s) groupOfScalar[s] = group;
     }
-    SVT_TRY(boxes, analyze::mergeBoxes(volume.columns, groupOfScalar, options.maxBoxes));
+    SVT_TRY(boxes, analyze::mergeBoxes(volume.columns, groupOfScalar, options.boxes.maxBoxes));
     result.boxes = std::move(*boxes);
     return result;
+}
+
+record::Members<BoxWriteOptions> membersOf(const BoxWriteOptions*) noexcept {
+    using All = BoxWriteOptions;
+    static constexpr record::Member<All> kMembers[] = {
+        record::member<&All::mergeBy>("merge", "of an .fds and of lists of boxes: what becomes boxes together",
+                                      {.group = "Output", .option = "--merge"}),
+        record::member<&All::maxBoxes>("maxBoxes", "of an .fds and of lists of boxes: more are refused",
+                                       {.least = 1, .most = 1e8, .group = "Output", .option = "--max-boxes"}),
+        record::member<&All::holes>("holes", "of an .fds: components that are open, such as doors",
+                                    {.value = "QUERY", .group = "Output", .option = "--holes"}),
+        record::member<&All::vents>("vents", "of an .fds: components with a vent on both sides, such as windows",
+                                    {.value = "QUERY", .group = "Output", .option = "--vents"}),
+    };
+    return kMembers;
 }
 
 }  // namespace svt::writers

@@ -17,7 +17,7 @@ struct SolidGroup {
     std::string name;                       ///< of the component, else its id; the class; the material
     std::uint32_t label = 0;                ///< the component; else the first of the group
     Vec3f color{};                          ///< of that label
-    bool isHole = false, hasVents = false;  ///< selected by options.holes, options.vents
+    bool isHole = false, hasVents = false;  ///< selected by options.boxes.holes, options.boxes.vents
     friend bool operator==(const SolidGroup&, const SolidGroup&) = default;
 };
 
@@ -28,7 +28,7 @@ struct SolidBoxes {
 };
 
 /// Spaces (rooms, and what bounds them as a surface) are air and are left out, unless nothing but spaces has voxels.
-/// \return the boxes, or BadArgument for more than options.maxBoxes; BadQuery or NothingSelected of the two queries
+/// \return the boxes, or BadArgument for more than options.boxes.maxBoxes; BadQuery or NothingSelected of the two queries
 /// Cost: that of analyze::mergeBoxes().
 [[nodiscard]] Result<SolidBoxes> solidBoxes(const volume::SemanticVolume& volume, const VolumeWriteOptions& options);
 

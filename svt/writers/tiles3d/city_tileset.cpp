@@ -166,8 +166,8 @@ private:
         // In plan the square of the root, so that its quarters are squares of the quadtree for readers who divide it.
         const Vec3d half{frame_.side / 2, frame_.side / 2, 0};
         Box3d own = box;
-        own.add(frame_.write.place ? Vec3d{} : half * -1.0);
-        own.add(frame_.write.place ? half * 2.0 : half);
+        own.add(frame_.write.tileset.place ? Vec3d{} : half * -1.0);
+        own.add(frame_.write.tileset.place ? half * 2.0 : half);
         own.min.z = box.min.z;
         own.max.z = box.max.z;
         const double rootError = std::max(error, length(own.size()) / 16);
@@ -218,7 +218,7 @@ Result<std::unique_ptr<CityTileset>> CityTileset::create(const std::filesystem::
                      fmt::format("a quadtree of {} levels: 1 to {} are possible", frame.levels, kMostLevels));
     // A given place is that of the corner; else the frame touches the globe in the middle.
     Vec3d reference = frame.corner;
-    if (!frame.write.place) reference = reference + Vec3d{frame.side / 2, frame.side / 2, 0};
+    if (!frame.write.tileset.place) reference = reference + Vec3d{frame.side / 2, frame.side / 2, 0};
     SVT_TRY(lattice, GlobeLattice::create(frame.crsName, reference, frame.write));
     auto tileset = std::make_unique<Tileset>(path, frame, std::move(*lattice));
     SVT_DO(tileset->begin());

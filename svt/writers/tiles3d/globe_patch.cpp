@@ -44,8 +44,8 @@ Result<std::unique_ptr<GlobeLattice>> GlobeLattice::create(const std::string& cr
     lattice->frame_ = *frame;
     lattice->inverse_ = inverseOf(frame->axes);
     lattice->reference_ = reference;
-    lattice->lift_ = options.lift;
-    lattice->epsg_ = options.place ? 0 : static_cast<int>(crs::epsgCodeOf(crsName));
+    lattice->lift_ = options.tileset.lift;
+    lattice->epsg_ = options.tileset.place ? 0 : static_cast<int>(crs::epsgCodeOf(crsName));
     return lattice;
 }
 

@@ -8,9 +8,10 @@
 /// Place: `root.transform` takes metres from the grid's lower corner (x, y, z of the world) to metres from the earth's
 /// centre (EPSG:4978). By the CRS of the volume: along the axes of the projection, with its scale, so that each point is
 /// where the projection has it. Heights count as those over the ellipsoid; where they are over the sea,
-/// VolumeWriteOptions::lift adds the height of the geoid. Or by VolumeWriteOptions::place: x is east, y is north.
+/// TilesetWriteOptions::lift adds the height of the geoid. Or by TilesetWriteOptions::place: x is east, y is north.
 /// `asset.extras` has corner and CRS.
 
+#include <svt/record/record.hpp>
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/labels/label_looks.hpp>
@@ -32,7 +33,7 @@ constexpr std::uint64_t kTileTriangles = 300'000;
 ///         BadArgument for an invalid place, NothingSelected, GridTooLarge, WouldDestroy, CannotWrite, Cancelled
 Result<std::uint64_t> writeTileset(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                    const VolumeWriteOptions& options) {
-    if (options.hasVoxels) return writeVoxelTileset(volume, path, options);
+    if (options.tileset.hasVoxels) return writeVoxelTileset(volume, path, options);
     const Vec3d corner = lowerCorner(volume.grid);
     SVT_TRY(frame, frameOfVolume(volume, corner, options));
     NewFolder folder(path);
@@ -72,6 +73,26 @@ Result<std::uint64_t> writeTileset(const volume::SemanticVolume& volume, const s
 }
 
 }  // namespace
+
+record::Members<TilesetWriteOptions> membersOf(const TilesetWriteOptions*) noexcept {
+    using All = TilesetWriteOptions;
+    static constexpr record::Member<All> kMembers[] = {
+        record::member<&All::place>("place", "of a .3dtiles: where on the globe the lower corner is",
+                                    {.value = "LAT,LON,HEIGHT",
+                                     .unit = "degrees and metres",
+                                     .otherwise = "that of the CRS",
+                                     .group = "Output",
+                                     .option = "--place"}),
+        record::member<&All::lift>(
+            "lift",
+            "of a .3dtiles: metres added to heights, such as the height of the geoid where they are over the sea",
+            {.value = "M", .group = "Output", .option = "--lift"}),
+        record::member<&All::hasVoxels>(
+            "voxels", "of a .3dtiles: voxels by draft extensions, as Cesium has them for trial, not surfaces",
+            {.group = "Output", .option = "--voxels"}),
+    };
+    return kMembers;
+}
 
 extern const VolumeFormat kTileset{
     .name = "tileset",

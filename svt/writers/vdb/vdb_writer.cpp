@@ -14,6 +14,7 @@
 /// Written from the format as the OpenVDB library reads it (openvdb/io, openvdb/tree, version 10), without the library.
 
 #include <svt/core/file.hpp>
+#include <svt/record/record.hpp>
 #include <svt/volume/volume_json.hpp>
 #include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
@@ -170,9 +171,9 @@ Result<std::uint64_t> writeVdb(const volume::SemanticVolume& volume, const std::
         return Error(Code::BadArgument,
                      fmt::format("{} scalars are more than the {} that a float of OpenVDB tells apart",
                                  volume.labels.scalarCount(), kMostScalars));
-    if (options.hasLevelSets) SVT_DO(checkCubes(volume.grid));
+    if (options.vdb.hasLevelSets) SVT_DO(checkCubes(volume.grid));
     SVT_TRY(blocks, VdbBlocks::of(volume.columns, options.threads, options.progress));
-    const std::vector<VdbGrid> grids = gridsOf(volume, *blocks, options.hasLevelSets);
+    const std::vector<VdbGrid> grids = gridsOf(volume, *blocks, options.vdb.hasLevelSets);
     if (grids.size() == 1) return Error(Code::NothingSelected, "the volume has no voxels");
     SVT_TRY(file, AtomicFile::create(path));
     std::string head;
@@ -194,6 +195,17 @@ Result<std::uint64_t> writeVdb(const volume::SemanticVolume& volume, const std::
 }
 
 }  // namespace
+
+record::Members<VdbWriteOptions> membersOf(const VdbWriteOptions*) noexcept {
+    using All = VdbWriteOptions;
+    static constexpr record::Member<All> kMembers[] = {
+        record::member<&All::hasLevelSets>(
+            "levelSets",
+            "of a .vdb: each class as signed distances to its surface, three voxels to both sides, not as a mask",
+            {.group = "Output", .option = "--level-sets"}),
+    };
+    return kMembers;
+}
 
 extern const VolumeFormat kVdb{.name = "vdb",
                                .endings = ".vdb",

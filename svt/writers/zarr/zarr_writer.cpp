@@ -11,6 +11,7 @@
 
 #include <svt/core/check.hpp>
 #include <svt/core/parallel.hpp>
+#include <svt/record/record.hpp>
 #include <svt/writers/dense/coarser_levels.hpp>
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/dense/sample_band.hpp>
@@ -108,11 +109,11 @@ Result<void> writeArray(const volume::ColumnVolume& columns, const std::string& 
 
 /// Writes a folder that appears when all of it is written; one that is there is not replaced. Equal volumes give equal
 /// bytes. Memory: besides the volume and its levels, a band of chunks: 4096 nx samples (version 2) or 16384 nx (version 3).
-/// \param options  zarrVersion is 2 or 3
+/// \param options  zarr.version is 2 or 3
 /// \return bytes of all files, or WouldDestroy, CannotWrite, Cancelled; BadArgument as checkedSampleBits()
 Result<std::uint64_t> writeZarr(const volume::SemanticVolume& volume, const fs::path& path,
                                 const VolumeWriteOptions& options) {
-    const int version = options.zarrVersion;
+    const int version = options.zarr.version;
     SVT_TRY(bits, checkedSampleBits(volume));
     SVT_CHECK(version == 2 || version == 3);
     NewFolder folder(path);
@@ -138,6 +139,16 @@ Result<std::uint64_t> writeZarr(const volume::SemanticVolume& volume, const fs::
 }
 
 }  // namespace
+
+record::Members<ZarrWriteOptions> membersOf(const ZarrWriteOptions*) noexcept {
+    using All = ZarrWriteOptions;
+    static constexpr record::Member<All> kMembers[] = {
+        record::memberAs<record::NumberChoice, &All::version>(
+            "version", "of a .zarr: 2 (OME-NGFF 0.4) or 3 (OME-NGFF 0.5, sharded)",
+            {.choices = "2|3", .group = "Output", .option = "--zarr"}),
+    };
+    return kMembers;
+}
 
 extern const VolumeFormat kZarr{.name = "zarr",
                                 .endings = ".zarr",
