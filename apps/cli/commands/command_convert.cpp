@@ -51,7 +51,7 @@ Result<int> convertCity(const ConvertArguments& arguments) {
                      "a city becomes 3D Tiles (.3dtiles) or a table of its buildings (.csv, .geojson, .gpkg, "
                      ".parquet) here; svt city extract takes a part, which becomes any format");
     const bool isPart = !arguments.part.select.empty() || !arguments.part.box.empty() || arguments.part.level > 1;
-    if (isPart || arguments.write.hasVoxels)
+    if (isPart || arguments.write.tileset.hasVoxels)
         return Error(Code::BadArgument,
                      "--select, --box, --voxels and a --level over 1 are for the volume of a part; take it by svt "
                      "city extract, and convert that");
