@@ -89,8 +89,9 @@ def nifti(path):
 
     image = nibabel.load(path)
     assert image.header.get_xyzt_units()[0] == "meter"
-    assert len(image.header.extensions) == 2
-    assert image.header.extensions[1].get_content().startswith(b'{"labels":[')
+    # Header, labels and seal of the volume.
+    header, labels, seal = (extension.get_content() for extension in image.header.extensions)
+    assert header.startswith(b"{") and labels.startswith(b'{"labels":[') and seal
     print(type(image).__name__)
     return np.asarray(image.dataobj).T, image.affine[:3]
 
