@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,10 +16,10 @@ namespace svt::city {
 /// A feature and all below it.
 struct FeatureRow {
     std::uint32_t label = 0;
-    double volume = 0;               ///< m3: of its solid; else of the solids below it
-    double area = 0;                 ///< m2 in plan: of the columns of samples that it fills
-    double lowest = 0, highest = 0;  ///< of its voxels, metres above datum; 0 where it has none
+    std::optional<double> volume;  ///< m3: of its solid; else of the solids below it; none: no solids
     std::uint64_t voxels = 0;
+    double area = 0;                             ///< m2 in plan: of the columns of samples that it fills
+    double lowest = 0, highest = 0;              ///< of its voxels, metres above datum; meaningless without voxels
     bool isOpen = false;                         ///< a shell of it or below it is not closed in the model
     bool isCut = false;                          ///< by the plane
     std::vector<std::array<double, 2>> outline;  ///< convex, around its voxels in plan; counter-clockwise

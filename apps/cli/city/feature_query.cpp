@@ -42,11 +42,17 @@ const std::vector<Column>& ownColumns() {
 }
 
 Row cellsOf(const city::FeatureRow& row, const volume::Label& label) {
-    return {label.id,          label.className,
-            label.name,        row.volume,
-            row.area,          row.highest - row.lowest,
-            row.lowest,        row.highest,
-            row.voxels,        volume::fillingName(label.filling),
+    const auto ofVoxels = [&](double value) { return row.voxels > 0 ? Cell(value) : Cell(); };
+    return {label.id,
+            label.className,
+            label.name,
+            row.volume ? Cell(*row.volume) : Cell(),
+            ofVoxels(row.area),
+            ofVoxels(row.highest - row.lowest),
+            ofVoxels(row.lowest),
+            ofVoxels(row.highest),
+            row.voxels,
+            volume::fillingName(label.filling),
             row.isOpen ? 1 : 0};
 }
 
@@ -206,8 +212,10 @@ private:
         }
         Sum& sum = sums_[values];
         ++sum.count;
-        sum.volume += row.volume;
+        sum.volume += row.volume.value_or(0);
         sum.area += row.area;
+        withoutVolume_ += !row.volume;
+        withoutVoxels_ += row.voxels == 0;
     }
 
     Result<void> take(city::FeatureRow row, const volume::Label& label) {
@@ -221,7 +229,7 @@ private:
             }
         }
         if (!query_.sort.empty()) {
-            kept.order = query_.sort == "volume" ? row.volume
+            kept.order = query_.sort == "volume" ? row.volume.value_or(0)
                          : query_.sort == "area" ? row.area
                                                  : row.highest - row.lowest;
             return keepLargest(std::move(kept));
@@ -238,11 +246,13 @@ private:
 
     Result<void> keepLargest(Kept kept) {
         largest_.push_back(std::move(kept));
-        const auto most = static_cast<std::size_t>(query_.first > 0 ? query_.first : 100);
-        if (largest_.size() < 2 * most) return {};
-        std::sort(largest_.begin(), largest_.end(), isLarger);
-        largest_.resize(most);
+        if (largest_.size() >= 2 * wanted()) dropSmaller();
         return {};
+    }
+    [[nodiscard]] std::size_t wanted() const { return static_cast<std::size_t>(query_.first > 0 ? query_.first : 100); }
+    void dropSmaller() {
+        std::sort(largest_.begin(), largest_.end(), isLarger);
+        if (largest_.size() > wanted()) largest_.resize(wanted());
     }
 
     // A row into the file, or as a line.
@@ -275,15 +285,17 @@ private:
             row.insert(row.end(), {sum.count, sum.volume, sum.area});
         }
         print(table, query_.form);
+        const auto noteMissing = [](std::uint64_t count, const char* measure, const char* basis) {
+            if (count > 0) note(fmt::format("the sums of {} lack {} features without {}", measure, count, basis));
+        };
+        noteMissing(withoutVolume_, "volume", "solids");
+        noteMissing(withoutVoxels_, "area", "voxels");
     }
 
     Result<void> finish() {
         if (!query_.sort.empty()) {
-            const auto most = largest_.size();
-            std::sort(largest_.begin(), largest_.end(), isLarger);
-            const auto wanted = static_cast<std::size_t>(query_.first > 0 ? query_.first : 100);
-            for (std::size_t n = 0; n < std::min(most, wanted); ++n)
-                if (auto given = give(largest_[n]); !given) return given;
+            dropSmaller();
+            for (const Kept& kept : largest_) SVT_DO(give(kept));
         }
         if (layer_)
             if (const auto written = layer_->finish(); !written) return written.error();
@@ -311,7 +323,7 @@ private:
     Table table_;
     bool isBegun_ = false;
     int given_ = 0;
-    std::uint64_t count_ = 0;
+    std::uint64_t count_ = 0, withoutVolume_ = 0, withoutVoxels_ = 0;
 };
 
 }  // namespace

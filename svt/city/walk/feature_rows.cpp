@@ -123,7 +123,8 @@ std::vector<FeatureRow> featureRows(const volume::SemanticVolume& volume, std::s
     for (std::size_t n = 0; n < selected.size(); ++n) {
         FeatureRow& row = rows.emplace_back();
         row.label = selected[n];
-        row.volume = analyze::solidVolume(volume.labels, row.label);
+        // 0 stands for a label without solids.
+        if (const double measured = analyze::solidVolume(volume.labels, row.label); measured > 0) row.volume = measured;
         for (std::uint32_t l = row.label; l < labels[row.label].subtreeEnd; ++l)
             row.isOpen = row.isOpen || isOpenShell(labels[l]);
         const Gathered& own = gathered[n];

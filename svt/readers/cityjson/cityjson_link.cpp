@@ -137,10 +137,21 @@ private:
         }
         object.polygons = {};
         shiftPolygons(object.feature, offset);
+        if (object.feature.id.empty()) nameObject(object);
         const std::int32_t parent = parents_[i];
         featureOf_[i] =
             model_.addFeature(std::move(object.feature), parent == kNone ? model::kNoFeature : featureOf_[parent]);
         emitSurfaces(i, offset);
+    }
+
+    // The key "" is an id that no query can name.
+    void nameObject(ParsedObject& object) {
+        std::string& id = object.feature.id;
+        for (std::size_t number = 1; id.empty() || isTaken(id); ++number)
+            id = fmt::format("{}[{}]", object.feature.className, number);
+        diagnostics_.add(Severity::Note, Code::MissingId,
+                         fmt::format("a city object has an empty id; it gets '{}'", id),
+                         {std::string(file_), object.feature.line, 0, id});
     }
 
     void emitSurfaces(std::int32_t i, model::PolygonIndex offset) {
