@@ -10,7 +10,7 @@ from pathlib import Path
 
 from findings import report
 
-SECTIONS = ["## When", "## Example", "## What to do"]
+SECTIONS = ["## Cause", "## Example", "## Remedy"]
 
 
 def example_findings(text: str, tag: str, name: str) -> list[str]:
