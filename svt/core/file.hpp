@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// File access: read so that other programs may change a file meanwhile; written so that a failure leaves the old file
+/// File access. Reading tolerates that other programs change a file meanwhile. A failed write leaves the old file
 /// untouched.
 
 #include <svt/core/result.hpp>
@@ -19,14 +19,16 @@
 
 namespace svt {
 
-/// A temporary file, a folder or a child process that a signal removes or ends with this process. A library leaves signals
-/// to its host: nothing is remembered until a program calls cleanUpOnSignals() (machine.hpp). Move-only; the destructor forgets it.
-/// Threads: any. In a copy of this process (fork) nothing is remembered of what its parent made.
+/// Remembers a temporary file, a folder or a child process, which a signal removes or ends together with this process.
+/// A library leaves signals to its host: nothing is remembered until a program calls cleanUpOnSignals() (machine.hpp).
+/// Move-only; the destructor forgets it.
+/// Threads: any. A copy of this process (fork) does not remember the files and processes of its parent.
 class Unfinished {
 public:
     Unfinished() = default;
 
-    /// Calls `make` and remembers what it makes. A signal ends the process before or after the call, never within it.
+    /// Calls `make` and remembers the returned path. A signal ends the process before or after the call, never within
+    /// it.
     /// \param make  makes a file or a folder and returns its path; an empty path is not remembered
     [[nodiscard]] static Unfinished path(const std::function<std::filesystem::path()>& make);
 
@@ -53,17 +55,18 @@ private:
 };
 
 /// The bytes of a regular file in memory, read-only. Move-only; they stay valid for the lifetime of the object.
-/// Replacing the file by rename (as AtomicFile does) leaves them as they are.
+/// Replacing the file by rename (as AtomicFile does) does not change them.
 class FileBytes {
 public:
     static constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
-    /// Reads the whole file; what other programs do to it later does not matter. An empty file gives an empty span.
-    /// \return the file, or CannotOpen that says why: missing, a folder, no permission, a pipe or device, or a size that
-    ///         changes while it is read; InputTooBig for more than `maxBytes`, or than there is memory for
+    /// Reads the whole file; later changes by other programs have no effect. An empty file gives an empty span.
+    /// \return the file; CannotOpen with the reason: missing, a folder, no permission, a pipe or device, or a size that
+    ///         changes during reading; InputTooBig if the size exceeds `maxBytes` or the memory
     [[nodiscard]] static Result<FileBytes> read(const std::filesystem::path& path, std::uint64_t maxBytes = kNoLimit);
-    /// Maps the file, for one that may be larger than memory and is read from its begin to its end. If another program
-    /// shortens it, access raises SIGBUS, as with every mapping. Cost: O(1), pages are read when touched.
+    /// Maps the file. Only for files that no other program knows: if another program shortens the file, access raises
+    /// SIGBUS, as with every mapping. For files that others may change, use read(), or PartFile if they are large.
+    /// scripts/check_banned_calls.py lists the sources that may map. Cost: O(1), pages are read when touched.
     /// \return as read()
     [[nodiscard]] static Result<FileBytes> map(const std::filesystem::path& path, std::uint64_t maxBytes = kNoLimit);
 
@@ -86,8 +89,8 @@ private:
     std::unique_ptr<std::byte[]> own_;  // null of a mapping
 };
 
-/// A regular file of which parts are read. What another program cuts off is missing, or an error, and no signal.
-/// Replacing the file by rename leaves the open one as it is. Threads: parts may be read at once.
+/// A regular file for reading parts. If another program shortens the file, the lost bytes are missing or an error, but
+/// raise no signal. Replacing the file by rename does not affect the open file. Threads: parts may be read at once.
 class PartFile {
 public:
     /// \return the file, or CannotOpen as FileBytes
@@ -101,33 +104,40 @@ public:
 
     /// When it was opened.
     [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
-    /// The bytes from `offset` on, `size` of them or as many as the file has there.
+    /// Up to `size` bytes from `offset` on; fewer if the file ends before.
     /// \return the bytes, or CannotOpen where the system fails to read
     [[nodiscard]] Result<std::string> read(std::uint64_t offset, std::size_t size) const;
+    /// The same, but it is an error if bytes are missing that the file had when it was opened.
+    [[nodiscard]] Result<std::string> readAll(std::uint64_t offset, std::size_t size) const;
+    /// Compares the size of the file and the time of its last change with those when it was opened. A change that keeps
+    /// the size is not detected within one clock tick of the file system (some milliseconds).
+    /// \return nothing, or CannotOpen where another program changed the file
+    [[nodiscard]] Result<void> checkUnchanged() const;
 
 private:
     PartFile() = default;
 
     std::filesystem::path path_;
     std::uint64_t size_ = 0;
+    std::int64_t changed_ = 0;  // nanoseconds
     int descriptor_ = -1;
 };
 
-/// Where the symbolic links at `path` lead, one after the other, also where nothing is there; `path` itself if it is no
-/// link. Links in its folders are kept. Empty if the links form a circle.
+/// The target of the symbolic link `path`, followed through further links, even if the target does not exist; `path`
+/// itself if it is not a link. Links in its folders are kept. Empty if the links form a circle.
 [[nodiscard]] std::filesystem::path withoutLinks(const std::filesystem::path& path);
 
 /// Writes to a temporary file next to `target` and renames it to `target` in commit(), so readers see either the old
-/// file or the complete new one. Without commit() the temporary file is removed and the old file stays.
-/// The temporary file is locked (flock) while the writer lives. What a process left that was killed has no lock; the
-/// first writer of a process in a folder removes it there. Signals remove it too (cleanUpOnSignals()).
-/// Symbolic links are followed and kept; so are the permissions of an existing file. A target that is not a regular
-/// file (/dev/stdout, a pipe) is written directly.
+/// file or the complete new one. Without commit() the temporary file is removed and the old file stays. The temporary
+/// file is locked (flock) while the writer lives. A file left by a killed process has no lock; the first writer of a
+/// process in a folder removes such files there. Signals (cleanUpOnSignals()) remove the temporary file, too. Symbolic
+/// links are followed and kept; so are the permissions of an existing file. A target that is not a regular file
+/// (/dev/stdout, a pipe) is written directly.
 /// Threads: one object must be used by one thread at a time.
 class AtomicFile {
 public:
     /// \return the writer, or CannotWrite where the folder is missing or not writable, or the target is a folder or
-    ///         write-protected; DiskFull. Cost: the first time in a folder, a look at all names in it
+    ///         write-protected; DiskFull. Cost: the first time in a folder, a search of its names
     [[nodiscard]] static Result<AtomicFile> create(const std::filesystem::path& target);
 
     AtomicFile(AtomicFile&& other) noexcept;
@@ -176,27 +186,31 @@ private:
                                                         std::span<const std::byte> bytes);
 [[nodiscard]] Result<std::uint64_t> writeFileAtomically(const std::filesystem::path& target, std::string_view text);
 
-/// Equal for two paths to one file, through links: its device and inode, or where nothing is there, the path that it
-/// would have. Empty for devices such as /dev/null, which may be opened by many.
+/// Equal for two paths to one file, also through links: its device and inode, or, if no file exists, the path that it
+/// would have. Empty for devices such as /dev/null, which several writers may open.
 [[nodiscard]] std::string fileIdentity(const std::filesystem::path& path);
 
-/// Whether AtomicFile could write `target` now: the folder is there, permissions and file system allow a new file in it,
-/// and some space is left. A temporary file is made and removed; a pipe or device is not opened.
-/// \return nothing, or CannotWrite or DiskFull as AtomicFile tells it
+/// Whether AtomicFile could write `target` now: the folder exists, permissions and file system allow a new file in it,
+/// and some space is left. Creates and removes a temporary file; does not open a pipe or device.
+/// \return nothing, or CannotWrite or DiskFull as from AtomicFile
 [[nodiscard]] Result<void> checkWritable(const std::filesystem::path& target);
 
-/// Whether messages to stderr are read by a person at a terminal.
+/// For a file whose name the program chooses in a folder of the user: opening a pipe there would wait for a reader.
+/// \return nothing, or CannotWrite where a pipe, a socket or a device is at `target`
+[[nodiscard]] Result<void> checkNoStream(const std::filesystem::path& target);
+
+/// Whether stderr is a terminal, so that a person reads its messages.
 [[nodiscard]] bool isErrorTerminal() noexcept;
 
-/// The file of the running program; empty where the system does not tell.
+/// The path of the running program; empty where the system does not provide it.
 [[nodiscard]] std::filesystem::path executablePath();
 
 /// A path as a user writes it on this system: on Windows, where the program runs under Node.js, '\' separates folders
 /// as '/' does.
 [[nodiscard]] std::filesystem::path userPath(std::string text);
 
-/// A temporary folder that only this user can read, removed with its contents by the destructor, and by
-/// signals (cleanUpOnSignals()).
+/// A temporary folder that only this user can read. The destructor and signals (cleanUpOnSignals()) remove it with its
+/// contents.
 class PrivateFolder {
 public:
     PrivateFolder();

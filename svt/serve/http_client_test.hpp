@@ -83,6 +83,9 @@ public:
         return answer;
     }
 
+    /// Waits for the first bytes of a reply, and keeps them. False if none come.
+    bool hasBegun() { return more(endAfter(kHangSeconds)); }
+
     /// Waits until the server closes the connection; discards what it still sends. False if it never does.
     bool isClosed() {
         const auto end = endAfter(kHangSeconds);

@@ -136,6 +136,27 @@ Bytes Bytes::of(FileBytes file) {
     return {owner->bytes(), owner};
 }
 
+Bytes Bytes::of(PartFile file) {
+    const std::uint64_t size = file.size();
+    return {{}, {}, std::make_shared<const PartFile>(std::move(file)), 0, size};
+}
+
+Bytes Bytes::part(std::uint64_t first, std::uint64_t count) const {
+    Bytes part = *this;
+    if (!file) part.data = data.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count));
+    part.fileOffset += first;
+    part.fileSize = count;
+    return part;
+}
+
+Result<std::string_view> Bytes::read(std::uint64_t first, std::size_t most, std::string& buffer) const {
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(most, size() - first));
+    if (!file) return text().substr(static_cast<std::size_t>(first), count);
+    SVT_TRY(read, file->readAll(fileOffset + first, count));
+    buffer = std::move(*read);
+    return std::string_view(buffer);
+}
+
 std::string_view Request::header(std::string_view name) const noexcept { return valueOf(headers, name); }
 std::string_view Request::parameter(std::string_view name) const noexcept { return valueOf(query, name); }
 

@@ -18,13 +18,27 @@
 
 namespace svt::serve {
 
-/// Bytes and their owner. Cheap to copy.
+/// Bytes and what holds them: memory, or a file that is read in parts. Cheap to copy.
 struct Bytes {
-    std::span<const std::byte> data;
+    std::span<const std::byte> data;  ///< empty where a file holds them
     std::shared_ptr<const void> owner;
+    std::shared_ptr<const PartFile> file = nullptr;
+    std::uint64_t fileOffset = 0, fileSize = 0;  ///< of the bytes in the file
 
     [[nodiscard]] static Bytes of(std::string text);
     [[nodiscard]] static Bytes of(FileBytes file);
+    [[nodiscard]] static Bytes of(PartFile file);
+
+    [[nodiscard]] std::uint64_t size() const noexcept { return file ? fileSize : data.size(); }
+    /// `count` bytes from `first` on; they must be there.
+    [[nodiscard]] Bytes part(std::uint64_t first, std::uint64_t count) const;
+    /// The bytes from `first` on, at most `most` of them; not all of a file at once.
+    /// \param buffer  receives those of a file; keep it as long as the result
+    /// \return the bytes, or CannotOpen where another program shortened the file
+    [[nodiscard]] Result<std::string_view> read(std::uint64_t first, std::size_t most, std::string& buffer) const;
+    /// \return nothing, or CannotOpen where another program changed the file since it was opened
+    [[nodiscard]] Result<void> checkUnchanged() const { return file ? file->checkUnchanged() : Result<void>(); }
+    /// Of bytes in memory.
     [[nodiscard]] std::string_view text() const noexcept {
         return {reinterpret_cast<const char*>(data.data()), data.size()};
     }

@@ -196,7 +196,7 @@ std::string headOf(const Reply& reply, bool isKept, const std::string& origins) 
     std::string text =
         fmt::format("HTTP/1.1 {} {}\r\nDate: {}\r\n", reply.status, reasonPhrase(reply.status), dateNow());
     if (!reply.type.empty()) text += fmt::format("Content-Type: {}\r\n", reply.type);
-    if (reply.status != 304) text += fmt::format("Content-Length: {}\r\n", reply.body.data.size() + reply.skippedBody);
+    if (reply.status != 304) text += fmt::format("Content-Length: {}\r\n", reply.body.size() + reply.skippedBody);
     for (const auto& [name, value] : reply.headers) text += fmt::format("{}: {}\r\n", name, value);
     text += safetyHeaders(origins);
     text += isKept ? "\r\n" : "Connection: close\r\n\r\n";
@@ -575,28 +575,36 @@ private:
         release(connection);
         connection.isKept = isKept && !isStopping_;
         if (connection.head.request.method == "HEAD" && reply.skippedBody == 0) {
-            reply.skippedBody = reply.body.data.size();
+            reply.skippedBody = reply.body.size();
             reply.body = {};
         }
         connection.out = headOf(reply, connection.isKept, site_.origins());
         connection.body = std::move(reply.body);
         connection.sent = 0;
-        enter(connection, State::Writing, options_.stallSeconds, connection.body.data.size());
+        enter(connection, State::Writing, options_.stallSeconds, connection.body.size());
         postpone(connection);
         write(connection);
     }
 
-    void write(Connection& connection) {
+    // What of the reply is sent next. What the socket does not take of a file is read again.
+    Result<std::string_view> nextPart(const Connection& connection) {
         constexpr std::size_t kAtOnce = std::size_t{1} << 20;  // then the other connections get their turn
-        const std::uint64_t headBytes = connection.out.size(), total = headBytes + connection.body.data.size();
+        constexpr std::size_t kOfFile = std::size_t{1} << 18;  // about as much as a socket takes
+        const std::uint64_t headBytes = connection.out.size();
+        if (connection.sent < headBytes)
+            return std::string_view(connection.out).substr(static_cast<std::size_t>(connection.sent));
+        const Bytes& body = connection.body;
+        return body.read(connection.sent - headBytes, body.file ? kOfFile : kAtOnce, fileBuffer_);
+    }
+
+    void write(Connection& connection) {
+        const std::uint64_t headBytes = connection.out.size(), total = headBytes + connection.body.size();
         const bool isHead = connection.sent < headBytes;
-        const char* from = isHead ? connection.out.data() + connection.sent
-                                  : connection.body.text().data() + (connection.sent - headBytes);
-        const std::uint64_t left = (isHead ? headBytes : total) - connection.sent;
-        if (left != 0) {
+        if (connection.sent != total) {
+            const auto part = nextPart(connection);
+            if (!part) return end(connection);
             const int more = isHead && total > headBytes ? MSG_MORE : 0;
-            const ssize_t sent =
-                ::send(connection.socket.get(), from, std::min<std::uint64_t>(left, kAtOnce), MSG_NOSIGNAL | more);
+            const ssize_t sent = ::send(connection.socket.get(), part->data(), part->size(), MSG_NOSIGNAL | more);
             if (sent < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) return end(connection);
             if (sent <= 0) return;
             connection.sent += static_cast<std::uint64_t>(sent);
@@ -631,6 +639,7 @@ private:
     std::list<Worker> workers_;
     std::list<Connection> connections_;
     std::vector<pollfd> polls_;
+    std::string fileBuffer_;  // what is sent of a file
     Time now_ = Clock::now(), acceptFrom_ = now_, stopAt_ = now_;
     std::atomic<bool> isStopAsked_{false};
     bool isStopping_ = false;

@@ -59,7 +59,8 @@ public:
     ~HttpServer();
 
     [[nodiscard]] int port() const noexcept;
-    /// Replies until stop(). Memory: 17 KiB per connection, plus the bodies of calls (`queueLength` + 1 per route).
+    /// Replies until stop(). Memory: 17 KiB per connection, plus the bodies of calls (`queueLength` + 1 per route). Files of
+    /// the site are read in parts; a connection whose file another program shortens is closed within the reply.
     void run();
     /// Ends run() within stopSeconds plus the time handlers take to react to their `stop`. May be called from any
     /// thread and from a signal handler.

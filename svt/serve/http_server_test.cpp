@@ -161,6 +161,55 @@ TEST(HttpServer, ClientIsToldToGoOnWithItsBody) {
     EXPECT_EQ(large.receive().status, 413);
 }
 
+// A site with a file of that many bytes at /a.svtp.
+Site storedSite(const std::filesystem::path& path, std::size_t size) {
+    std::string text;
+    for (int i = 0; text.size() < size; ++i) text += std::to_string(i) + ' ';
+    test::writeText(path, std::string_view(text).substr(0, size));
+    Site site = smallSite();
+    auto file = PartFile::open(path);
+    EXPECT_TRUE(file && site.addStored("/a.svtp", Bytes::of(std::move(*file))));
+    return site;
+}
+
+TEST(HttpServer, SendsStoredFilesToSlowAndFastClients) {
+    const TemporaryFolder folder;
+    const RunningServer server(storedSite(folder / "a.svtp", 5'000'000));
+    const std::string text = test::readText(folder / "a.svtp");
+    Client slow = server.client();
+    slow.send("GET /a.svtp HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    std::vector<Client> fast;
+    for (int i = 0; i < 3; ++i) {
+        fast.push_back(server.client());
+        fast.back().send("GET /a.svtp HTTP/1.1\r\nHost: localhost\r\nRange: bytes=" + std::to_string(i * 1'000'000) +
+                         "-3999999\r\n\r\n");
+    }
+    for (int i = 0; i < 3; ++i) {
+        const auto answer = fast[std::size_t(i)].receive();
+        EXPECT_EQ(answer.status, 206);
+        EXPECT_TRUE(answer.body == text.substr(std::size_t(i) * 1'000'000, 4'000'000 - std::size_t(i) * 1'000'000));
+    }
+    EXPECT_TRUE(slow.receive().body == text);
+    const auto head = server.ask("HEAD /a.svtp");
+    EXPECT_EQ(head.header("Content-Length"), "5000000");
+    EXPECT_EQ(head.body, "");
+}
+
+TEST(HttpServer, AFileThatIsShortenedWithinAReplyEndsThatConnectionAlone) {
+    const TemporaryFolder folder;
+    const RunningServer server(storedSite(folder / "a.svtp", 40'000'000));  // more than sockets hold
+    Client other = server.client();
+    Client client = server.client();
+    client.send("GET /a.svtp HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    ASSERT_TRUE(client.hasBegun()) << "the reply has begun";
+    std::filesystem::resize_file(folder / "a.svtp", 100);
+    EXPECT_TRUE(client.isClosed());
+    EXPECT_EQ(server.ask("GET /a.svtp").status, 500);
+    EXPECT_EQ(server.ask("GET /a.svtp", "Range: bytes=0-9\r\n").status, 500);
+    other.send("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    EXPECT_EQ(other.receive().status, 200);
+}
+
 // A call that runs until it is cancelled.
 struct Slow {
     std::atomic<int> begun{0}, stopped{0};

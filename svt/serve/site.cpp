@@ -44,6 +44,7 @@ constexpr std::array kTypes{
 constexpr Type kOtherType{"", "application/octet-stream", false};
 
 constexpr std::size_t kMinCompressed = 1000;
+constexpr std::size_t kFilePiece = std::size_t{1} << 20;
 
 // As the server's, see http_server.cpp, but for what only a header can say: who may embed the page.
 std::string pagePolicy(const std::string& origins) {
@@ -87,10 +88,25 @@ const Type& typeOf(std::string_view path) {
     return found == kTypes.end() ? kOtherType : *found;
 }
 
+// Hands all bytes to `take`, piece by piece; those of a file must be as they were when it was opened.
+template <class Take>
+Result<void> forEachPiece(const Bytes& bytes, const Take& take) {
+    std::string buffer;
+    for (std::uint64_t at = 0; at < bytes.size();) {
+        SVT_TRY(piece, bytes.read(at, kFilePiece, buffer));
+        SVT_DO(take(*piece));
+        at += piece->size();
+    }
+    return bytes.checkUnchanged();
+}
+
 // FNV-1a, 64 bits.
-std::uint64_t hashOf(std::span<const std::byte> bytes) noexcept {
+Result<std::uint64_t> hashOf(const Bytes& bytes) {
     std::uint64_t hash = 0xcbf29ce484222325u;
-    for (const std::byte byte : bytes) hash = (hash ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
+    SVT_DO(forEachPiece(bytes, [&](std::string_view piece) -> Result<void> {
+        for (const char c : piece) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+        return {};
+    }));
     return hash;
 }
 
@@ -199,6 +215,12 @@ std::error_code makeFolders(const fs::path& folder) {
     return error;
 }
 
+Result<std::uint64_t> writeBytes(const Bytes& bytes, const fs::path& path) {
+    SVT_TRY(file, AtomicFile::create(path));
+    SVT_DO(forEachPiece(bytes, [&](std::string_view piece) { return file->write(piece); }));
+    return file->commit();
+}
+
 Result<void> moveInto(const fs::path& staging, const fs::path& folder, const std::string& path) {
     std::error_code error;
     const fs::path target = folder / path.substr(1);
@@ -219,23 +241,25 @@ std::string originOf(const std::string& location) {
     return std::all_of(origin.begin(), origin.end(), isPlain) ? origin : std::string();
 }
 
-nlohmann::ordered_json addCity(Site& site, const SiteModel& model) {
+Result<nlohmann::ordered_json> addCity(Site& site, const SiteModel& model) {
     std::string file = model.city;
     if (const std::string origin = originOf(model.city); !origin.empty()) {
         site.allowOrigin(origin);
     } else {
         file = "models/" + model.name + "/";
-        for (const auto& [name, bytes] : model.cityFiles) site.add("/" + file + name, bytes);
+        for (const auto& [name, bytes] : model.cityFiles) SVT_DO(site.addStored("/" + file + name, bytes));
     }
-    return {{"name", model.name}, {"file", file}, {"bytes", 0}, {"title", model.title}, {"city", true}};
+    return nlohmann::ordered_json{
+        {"name", model.name}, {"file", file}, {"bytes", 0}, {"title", model.title}, {"city", true}};
 }
 
 // What a path is answered with. Cost: that of compressing.
-Resource resourceOf(const std::string& path, Bytes bytes) {
+Result<Resource> resourceOf(const std::string& path, Bytes bytes) {
     const Type& type = typeOf(path);
+    SVT_TRY(hash, hashOf(bytes));
     Resource resource;
     resource.type = type.name;
-    resource.tag = fmt::format("\"{:x}-{:016x}\"", bytes.data.size(), hashOf(bytes.data));
+    resource.tag = fmt::format("\"{:x}-{:016x}\"", bytes.size(), *hash);
     resource.isImmutable = isNamedByContent(path);
     if (type.isCompressible) resource.gzip = compressed(bytes.data);
     resource.bytes = std::move(bytes);
@@ -245,7 +269,13 @@ Resource resourceOf(const std::string& path, Bytes bytes) {
 }  // namespace
 
 void Site::add(const std::string& path, Bytes bytes) {
-    resources_.insert_or_assign(path, resourceOf(path, std::move(bytes)));
+    resources_.insert_or_assign(path, *resourceOf(path, std::move(bytes)));
+}
+
+Result<void> Site::addStored(const std::string& path, Bytes bytes) {
+    SVT_TRY(resource, resourceOf(path, std::move(bytes)));
+    resources_.insert_or_assign(path, std::move(*resource));
+    return {};
 }
 
 void Site::allowOrigin(const std::string& origin) {
@@ -267,7 +297,7 @@ Result<void> Site::addFolder(const fs::path& folder) {
     }
     std::vector<Resource> made(contents.size());
     parallelFor(contents.size(), 1, 0, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t n = begin; n < end; ++n) made[n] = resourceOf((*files)[n].path, std::move(contents[n]));
+        for (std::size_t n = begin; n < end; ++n) made[n] = *resourceOf((*files)[n].path, std::move(contents[n]));
     });
     for (std::size_t n = 0; n < made.size(); ++n) resources_.insert_or_assign((*files)[n].path, std::move(made[n]));
     return {};
@@ -287,6 +317,8 @@ Reply Site::reply(const Request& request) const {
         reply.headers.emplace_back("Allow", "GET, HEAD");
         return reply;
     }
+    if (!resource->bytes.checkUnchanged())
+        return Reply::refusal(500, "another program changed the file at this address; start the server again");
     Reply reply;
     reply.headers = {{"Cache-Control", resource->isImmutable ? "public, max-age=31536000, immutable" : "no-cache"},
                      {"ETag", resource->tag},
@@ -300,7 +332,7 @@ Reply Site::reply(const Request& request) const {
     reply.body = resource->bytes;
 
     ByteRange range;
-    const std::uint64_t size = resource->bytes.data.size();
+    const std::uint64_t size = resource->bytes.size();
     const std::string_view ifRange = request.header("if-range");
     const bool isRangeMeant = !isHead && (ifRange.empty() || ifRange == resource->tag);
     switch (isRangeMeant ? parseRange(request.header("range"), size, range) : RangeKind::Whole) {
@@ -311,7 +343,7 @@ Reply Site::reply(const Request& request) const {
         }
         case RangeKind::Part:
             reply.status = 206;
-            reply.body.data = reply.body.data.subspan(range.first, range.last - range.first + 1);
+            reply.body = reply.body.part(range.first, range.last - range.first + 1);
             reply.headers.emplace_back("Content-Range", fmt::format("bytes {}-{}/{}", range.first, range.last, size));
             break;
         case RangeKind::Whole:
@@ -323,7 +355,7 @@ Reply Site::reply(const Request& request) const {
             break;
     }
     if (isHead) {
-        reply.skippedBody = reply.body.data.size();
+        reply.skippedBody = reply.body.size();
         reply.body = {};
     }
     return reply;
@@ -338,7 +370,8 @@ Result<Site> viewerSite(const fs::path& viewer, std::span<const SiteModel> model
     nlohmann::ordered_json list = nlohmann::json::array();
     for (const SiteModel& model : models) {
         if (!model.city.empty()) {
-            list.push_back(addCity(site, model));
+            SVT_TRY(city, addCity(site, model));
+            list.push_back(std::move(*city));
             continue;
         }
         const std::string file = "models/" + model.name + ".svt";
@@ -440,7 +473,7 @@ Result<std::uint64_t> writeSite(const Site& site, const fs::path& folder, bool m
         for (const auto& [path, resource] : site.resources()) {
             const fs::path file = staging.path / path.substr(1);
             makeFolders(file.parent_path());
-            SVT_TRY(written, writeFileAtomically(file, resource.bytes.data));
+            SVT_TRY(written, writeBytes(resource.bytes, file));
             total += *written;
         }
         for (const auto& [path, resource] : site.resources())

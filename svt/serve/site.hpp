@@ -1,7 +1,8 @@
 #pragma once
 /// \file
 /// The content to serve: a table from path to bytes, complete before the first request. Request paths are only looked
-/// up in this table and never joined to a folder, so path traversal is impossible.
+/// up in this table and never joined to a folder, so path traversal is impossible. Large files stay on the disk and are
+/// read in parts: one that is replaced by rename is served as it was, one that is changed in place no longer.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -34,7 +35,11 @@ public:
 
     /// Puts `bytes` at `path` ("/models/house.svt"); replaces an existing entry. Text, scripts and WebAssembly are
     /// compressed here, once. Cost: 1 s per 50 MB of those, 1 s per GB of others.
+    /// \param bytes  in memory
     void add(const std::string& path, Bytes bytes);
+    /// The same for bytes in a file too, which are read once, in parts, and not compressed.
+    /// \return CannotOpen if another program changes the file meanwhile
+    [[nodiscard]] Result<void> addStored(const std::string& path, Bytes bytes);
 
     /// Adds all files of `folder` at their relative paths, `index.html` also at "/". The files are read into memory.
     /// Skipped: names that begin with a dot, anything but regular files, links that lead out of the folder.
@@ -43,7 +48,8 @@ public:
 
     /// Null if the path does not exist.
     [[nodiscard]] const Resource* find(std::string_view path) const noexcept;
-    /// The reply to a GET or HEAD: 200, 206 for a single range, 304, 404, 416; 405 for other methods.
+    /// The reply to a GET or HEAD: 200, 206 for a single range, 304, 404, 416; 405 for other methods; 500 if another program
+    /// changed the file of the resource, so that the tag of its content is no longer true.
     [[nodiscard]] Reply reply(const Request& request) const;
 
     [[nodiscard]] const std::map<std::string, Resource, std::less<>>& resources() const noexcept { return resources_; }
@@ -72,7 +78,7 @@ struct SiteModel {
 /// The page of `viewer` with its data: the files of that folder, `/models/NAME.svt`, and `/models.json`, which lists
 /// them in order as {"models": [{"name", "file", "bytes", "title"}]}. The files of a city stand in `/models/NAME/`, which
 /// is its `file`, with `"city": true`; a city at an address has that address, whose server the page may then ask.
-/// \return the site, or the errors of addFolder(), or CannotOpen if the folder has no index.html
+/// \return the site, or the errors of addFolder() and addStored(), or CannotOpen if the folder has no index.html
 [[nodiscard]] Result<Site> viewerSite(const std::filesystem::path& viewer, std::span<const SiteModel> models);
 
 /// What other sites and chat programs show of a link to a page (Open Graph).
@@ -103,7 +109,7 @@ struct PagePreview {
 /// it, index.html last, so that a failure leaves the existing content and no partial files. Files in `folder` that are
 /// not part of the site are kept.
 /// \param mayReplace  false: a folder that is not empty is rejected
-/// \return bytes written, or CannotWrite or DiskFull
+/// \return bytes written, or CannotWrite or DiskFull; CannotOpen if another program changed a file of the site
 [[nodiscard]] Result<std::uint64_t> writeSite(const Site& site, const std::filesystem::path& folder, bool mayReplace);
 
 }  // namespace svt::serve

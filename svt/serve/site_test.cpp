@@ -1,3 +1,4 @@
+#include <svt/core/machine.hpp>
 #include <svt/serve/http_client_test.hpp>
 #include <svt/serve/site.hpp>
 
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 
 namespace svt::serve {
 namespace {
@@ -123,6 +125,113 @@ TEST(Site, CitiesAreListedWithTheirFilesOrTheirAddress) {
     ASSERT_TRUE(addPageHead(*site, {}));
     EXPECT_NE(site->find("/index.html")->bytes.text().find("connect-src 'self' https://example.org:8080;"),
               std::string_view::npos);
+}
+
+// The file, as it is now.
+Bytes stored(const fs::path& path) {
+    auto file = PartFile::open(path);
+    EXPECT_TRUE(file) << path;
+    return Bytes::of(std::move(*file));
+}
+
+TEST(Site, AStoredFileIsAnsweredAsOneInMemory) {
+    const TemporaryFolder folder;
+    std::string text;
+    for (int i = 0; i < 400'000; ++i) text += std::to_string(i);  // of several pieces
+    for (const std::string& content : {std::string(), std::string("0123456789"), text}) {
+        writeText(folder / "a.svtp", content);
+        Site site;
+        ASSERT_TRUE(site.addStored("/a.svtp", stored(folder / "a.svtp")));
+        site.add("/b.svtp", Bytes::of(content));
+        EXPECT_EQ(site.find("/a.svtp")->tag, site.find("/b.svtp")->tag);
+        EXPECT_EQ(site.find("/a.svtp")->type, site.find("/b.svtp")->type);
+        for (const char* range : {"", "bytes=2-4", "bytes=0-0", "bytes=5-", "bytes=-3", "bytes=1500000-1500009"}) {
+            const Reply disk = site.reply(get("/a.svtp", {{"range", range}})),
+                        memory = site.reply(get("/b.svtp", {{"range", range}}));
+            EXPECT_EQ(disk.status, memory.status) << range;
+            EXPECT_EQ(headerOf(disk, "Content-Range"), headerOf(memory, "Content-Range"));
+            std::string buffer;
+            const auto body = disk.body.read(0, ~std::size_t{0}, buffer);
+            ASSERT_TRUE(body) << range;
+            EXPECT_TRUE(memory.status == 416 || *body == memory.body.text()) << range;
+        }
+        Request head = get("/a.svtp");
+        head.method = "HEAD";
+        EXPECT_EQ(site.reply(head).skippedBody, content.size());
+    }
+}
+
+TEST(Site, AStoredFileThatIsReplacedIsServedAsItWas) {
+    const TemporaryFolder folder;
+    writeText(folder / "a.svtp", "0123456789");
+    Site site;
+    ASSERT_TRUE(site.addStored("/a.svtp", stored(folder / "a.svtp")));
+    ASSERT_TRUE(writeFileAtomically(folder / "a.svtp", "new"));
+    const Reply reply = site.reply(get("/a.svtp"));
+    EXPECT_EQ(reply.status, 200);
+    std::string buffer;
+    EXPECT_EQ(*reply.body.read(0, 100, buffer), "0123456789");
+}
+
+// Its tag would promise bytes that are there no longer.
+TEST(Site, AStoredFileThatIsChangedInPlaceIsNotServed) {
+    const TemporaryFolder folder;
+    for (const char* now : {"01234", "9876543210", "0123456789more"}) {
+        writeText(folder / "a.svtp", "0123456789");
+        const auto before = fs::file_time_type::clock::now() - std::chrono::hours(1);
+        fs::last_write_time(folder / "a.svtp", before);
+        Site site;
+        ASSERT_TRUE(site.addStored("/a.svtp", stored(folder / "a.svtp")));
+        site.add("/index.html", Bytes::of("page"));
+        ASSERT_EQ(site.reply(get("/a.svtp")).status, 200);
+        const std::string tag = site.find("/a.svtp")->tag;
+        writeText(folder / "a.svtp", now);
+        for (const Fields& headers : {Fields{}, Fields{{"range", "bytes=2-4"}}, Fields{{"if-none-match", tag}}}) {
+            const Reply reply = site.reply(get("/a.svtp", headers));
+            EXPECT_EQ(reply.status, 500) << now;
+            EXPECT_EQ(headerOf(reply, "ETag"), "");
+        }
+        EXPECT_EQ(site.reply(get("/")).status, 200);
+        const auto written = writeSite(site, folder / "site", false);
+        ASSERT_FALSE(written) << now;
+        EXPECT_EQ(written.error().code(), Code::CannotOpen);
+        EXPECT_EQ(written.error().where().file, (folder / "a.svtp").string());
+        EXPECT_FALSE(fs::exists(folder / "site"));
+    }
+}
+
+TEST(Site, AStoredFileThatIsShortenedBeforeItIsAddedIsAnError) {
+    const TemporaryFolder folder;
+    for (const std::uintmax_t size : {std::uintmax_t{0}, std::uintmax_t{100}, std::uintmax_t{2'000'000}}) {
+        writeText(folder / "a.svtp", std::string(3'000'000, 'a'));
+        const Bytes bytes = stored(folder / "a.svtp");
+        fs::resize_file(folder / "a.svtp", size);
+        Site site;
+        const auto added = site.addStored("/a.svtp", bytes);
+        ASSERT_FALSE(added);
+        EXPECT_EQ(added.error().code(), Code::CannotOpen);
+        EXPECT_EQ(site.find("/a.svtp"), nullptr);
+        makeViewer(folder.path());
+        const std::vector<SiteModel> models{{"town", "Town", {}, "/town", {{"a.svtp", bytes}}}};
+        EXPECT_EQ(viewerSite(folder / "viewer", models).error().code(), Code::CannotOpen);
+    }
+}
+
+TEST(Site, StoredFilesLargerThanMemoryAreAdded) {
+    const TemporaryFolder folder;
+    writeText(folder / "a.svtp", "pack");
+    fs::resize_file(folder / "a.svtp", std::uintmax_t{250} << 20);  // its zeros take no space
+    const auto result = inOwnProcess(600, [&](const Say& say) {
+        Site site;
+        site.add("/index.html", Bytes::of("page"));
+        limitMemory(100'000'000, "the test");
+        if (!site.addStored("/a.svtp", stored(folder / "a.svtp"))) return;
+        const Reply reply = site.reply(get("/a.svtp"));
+        std::string buffer;
+        if (reply.body.size() == std::uintmax_t{250} << 20 && reply.body.read(1, 3, buffer)) say(buffer);
+    });
+    EXPECT_EQ(result.fault, "");
+    EXPECT_EQ(result.text, "ack");
 }
 
 TEST(Site, WhatTheClientHasIsNotSentAgain) {

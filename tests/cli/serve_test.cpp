@@ -2,12 +2,16 @@
 #include "run_command.hpp"
 
 #include <svt/core/machine.hpp>
+#include <svt/readers/read_model.hpp>
 #include <svt/serve/http_client_test.hpp>
 
 #include <fcntl.h>
 #include <sys/wait.h>
 
+#include <atomic>
 #include <csignal>
+#include <map>
+#include <thread>
 
 namespace svt::test {
 namespace {
@@ -214,16 +218,104 @@ TEST_F(ServeTest, PublishedFolderIsWhatIsServed) {
     runSvtWell(folder.path(), {"publish", "house.svt", "-o", "site", "--viewer", "page", "--force"});
 }
 
-TEST_F(ServeTest, AShortenedFileEndsOnlyItsReply) {
-    runSvtWell(folder.path(), {"sample", "city", "--buildings", "20", "-o", "files"});
-    runSvtWell(folder.path(), {"city", "plan", "files", "-o", "city", "--spacing", "0.5", "-q"});
-    runSvtWell(folder.path(), {"city", "run", "city", "-q"});
+struct ServedCity : ServeTest {
+    ServedCity() {
+        runSvtWell(folder.path(), {"sample", "city", "--buildings", "20", "-o", "files"});
+        runSvtWell(folder.path(), {"city", "plan", "files", "-o", "city", "--spacing", "0.5", "-q"});
+        runSvtWell(folder.path(), {"city", "run", "city", "-q"});
+    }
+};
+
+TEST_F(ServedCity, FilesThatAreShortenedAreErrorsAndTheServerGoesOn) {
     Serving serving(folder.path(), {"serve", "city", "--viewer", "page", "--port", "0"});
-    const std::string pack = "GET /models/city/packs/00000.svtp";
-    EXPECT_TRUE(serving.ask(pack).body == readText(folder / "city/packs/00000.svtp"));
-    fs::resize_file(folder / "city/packs/00000.svtp", 100);
-    EXPECT_EQ(serving.ask(pack).status, 0) << "no whole reply";
-    EXPECT_EQ(serving.ask("GET /").status, 200) << "the server goes on";
+    const std::vector<std::string> names{"packs/00000.svtp", "index.bin", "ids.bin", "packs.bin"};
+    for (const std::string& name : names) {
+        const auto whole = serving.ask("GET /models/city/" + name);
+        EXPECT_EQ(whole.status, 200) << name;
+        EXPECT_TRUE(whole.body == readText(folder / "city" / name)) << name;
+    }
+    for (const std::string& name : names) {
+        fs::resize_file(folder / "city" / name, name == "packs.bin" ? 0 : 50);
+        const auto answer = serving.ask("GET /models/city/" + name);
+        EXPECT_EQ(answer.status, 500) << name;
+        EXPECT_NE(answer.body.find("\"HTTP500\""), std::string::npos) << answer.body;
+        EXPECT_EQ(serving.ask("GET /").status, 200) << "the server goes on";
+    }
+    EXPECT_EQ(serving.ask("GET /models/city/city.json").status, 200);
+    EXPECT_EQ(serving.ask("POST /api/picture", R"({"scene":{"size":[16,16]}})").status, 422) << "it cannot be drawn";
+    EXPECT_EQ(serving.stop(SIGINT), 0) << serving.err();
+}
+
+TEST_F(ServedCity, FilesThatAreReplacedAreServedAsTheyWere) {
+    Serving serving(folder.path(), {"serve", "city", "--viewer", "page", "--port", "0"});
+    const std::string pack = readText(folder / "city/packs/00000.svtp");
+    writeText(folder / "new", "new");
+    fs::rename(folder / "new", folder / "city/packs/00000.svtp");
+    EXPECT_TRUE(serving.ask("GET /models/city/packs/00000.svtp").body == pack);
+    EXPECT_EQ(serving.stop(SIGINT), 0) << serving.err();
+}
+
+TEST_F(ServedCity, FilesThatChangeWhileTheyAreReadAreErrorsAndNoSignal) {
+    const fs::path pack = folder / "city/packs/99999.svtp", index = folder / "city/index.bin";
+    writeText(pack, "");
+    const std::string whole = readText(index);
+    std::atomic<bool> isDone{false}, isIndex{false};
+    std::thread writer([&] {
+        while (!isDone) {
+            // Zeros that take no space.
+            for (const std::uintmax_t size : {100'000'000, 60'000'000}) fs::resize_file(pack, size);
+            if (!isIndex) continue;
+            fs::resize_file(index, 100);
+            writeText(index, whole);
+        }
+    });
+    int errors = 0;
+    for (int i = 0; i < 6; ++i) {
+        isIndex = i >= 3;
+        const CommandResult result =
+            runSvt(folder.path(), {"publish", "city", "-o", "site", "--viewer", "page", "--force"});
+        EXPECT_EQ(result.signal, 0) << result.toString();
+        EXPECT_TRUE(result.exitCode == kInput || result.exitCode == kDone) << result.toString();
+        EXPECT_TRUE(result.exitCode == kDone || isIndex || result.err.find("99999.svtp") != std::string::npos)
+            << result.err;
+        errors += result.exitCode == kInput ? 1 : 0;
+    }
+    isDone = true;
+    writer.join();
+    EXPECT_GT(errors, 0);
+}
+
+// The endings are those of the readers; each is left out of the name by which the page calls a model.
+TEST_F(ServeTest, EveryEndingOfAModelIsServed) {
+    const auto made = [&](const std::string& ending) {
+        const std::map<std::string, std::string> sampled{
+            {".xml", ".gml"}, {".citygml", ".gml"}, {".cityjson", ".json"}};
+        const auto other = sampled.find(ending);
+        const std::string from = "s" + (other == sampled.end() ? ending : other->second), to = "house" + ending;
+        if (ending == ".ifczip") return runShell(folder.path(), "python3 -m zipfile -c " + to + " s.ifc").exitCode == 0;
+        prepare(folder.path(), {"sample", "house", "-o", from});
+        fs::copy_file(folder / from, folder / to, fs::copy_options::overwrite_existing);
+        return true;
+    };
+    if (!hasProgram("python3 --version")) GTEST_SKIP() << "there is no python3 to make a ZIP file";
+    std::vector<std::string> arguments{"serve"}, names;
+    for (const std::string_view ending : readers::modelEndings()) {
+        ASSERT_TRUE(made(std::string(ending))) << ending;
+        arguments.push_back("house" + std::string(ending));
+        names.push_back(names.empty() ? "house" : "house-" + std::to_string(names.size() + 1));
+    }
+    ASSERT_EQ(names.size(), 8u);
+    for (const char* more : {"--viewer", "page", "--port", "0", "--spacing", "0.5"}) arguments.emplace_back(more);
+    Serving serving(folder.path(), arguments);
+    const auto list = nlohmann::json::parse(serving.ask("GET /models.json").body);
+    ASSERT_EQ(list["models"].size(), names.size());
+    for (std::size_t n = 0; n < names.size(); ++n) {
+        EXPECT_EQ(list["models"][n]["name"], names[n]) << arguments[n + 1];
+        const auto volume = serving.ask("GET /models/" + names[n] + ".svt");
+        EXPECT_EQ(volume.status, 200) << arguments[n + 1];
+        EXPECT_EQ(list["models"][n]["bytes"], volume.body.size());
+        EXPECT_TRUE(volume.body.starts_with("PK")) << arguments[n + 1];
+    }
     EXPECT_EQ(serving.stop(SIGINT), 0) << serving.err();
 }
 

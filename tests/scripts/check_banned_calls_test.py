@@ -30,6 +30,11 @@ BANNED = [
     "while (std::isspace(static_cast<unsigned char>(*at))) ++at;",
     "c = std::tolower(c);",
     "#include <cctype>",
+    "SVT_TRY(bytes, FileBytes::map(input / file));",
+    "auto map = &svt::FileBytes :: map;",
+    "void* memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);",
+    "void* memory = mmap64(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);",
+    "#include <sys/mman.h>",
 ]
 ALLOWED = [
     "// std::strtod() depends on the locale\n/* atoi(text) */",
@@ -39,6 +44,8 @@ ALLOWED = [
     "std::istringstream lines(text);",
     'log("call atoi");',
     'text = fmt::format("{:.3f} {}", x, "L");',
+    "// FileBytes::map() maps\nconst auto file = FileBytes::read(path);",
+    "std::map<int, int> map(pairs.begin(), pairs.end());",
 ]
 
 
@@ -63,6 +70,19 @@ class CheckBannedCalls(unittest.TestCase):
 
     def test_tests_may_call_them(self):
         self.assertEqual(self.problems("svt/core/text/text_test.cpp", BANNED[0] + "\n"), [])
+
+    def test_only_files_with_a_reason_may_map(self):
+        call = "SVT_TRY(bytes, FileBytes::map(path));\n"
+        for name, reason in check_banned_calls.MAY_MAP.items():
+            self.assertTrue(reason)
+            self.assertEqual(self.problems(name, call), [], name)
+            self.assertTrue(self.problems(name, BANNED[0] + "\n"), name + " may do no more than map")
+        self.assertTrue(self.problems("apps/cli/options/city_page.cpp", call))
+
+    def test_each_file_that_may_map_does(self):
+        for name in check_banned_calls.MAY_MAP:
+            text = check_banned_calls.without_comments((ROOT / name).read_text(encoding="utf-8"))
+            self.assertRegex(text, r"FileBytes::map\(", name)
 
     def test_the_tree_passes(self):
         self.assertEqual(check_banned_calls.findings(ROOT), [])

@@ -2,6 +2,7 @@
 
 #include <svt/city/city_folder.hpp>
 #include <svt/core/file.hpp>
+#include <svt/core/machine.hpp>
 
 #include <algorithm>
 
@@ -11,8 +12,10 @@ bool isCity(const std::filesystem::path& input) {
     // As it was given: the generic form has but one slash behind "http:".
     const std::string text = input.string();
     if (text.starts_with("http://") || text.starts_with("https://")) return true;
+    // What is there and is no file is an error of who opens the city.
     std::error_code ignored;
-    return std::filesystem::is_regular_file(input / "city.json", ignored);
+    const std::filesystem::file_status status = std::filesystem::status(input / "city.json", ignored);
+    return std::filesystem::exists(status) && !std::filesystem::is_directory(status);
 }
 
 Result<serve::SiteModel> cityModel(const std::filesystem::path& input, const std::string& name) {
@@ -22,7 +25,7 @@ Result<serve::SiteModel> cityModel(const std::filesystem::path& input, const std
     serve::SiteModel model{name, folder.filename().string(), {}, location, {}};
     if (model.title.empty() || model.title == ".") model.title = name;
     if (location.starts_with("http://") || location.starts_with("https://")) return model;
-    std::vector<std::string> files{"city.json", "index.bin", "ids.bin", "packs.bin"};
+    std::vector<std::string> files{"index.bin", "ids.bin", "packs.bin"};
     std::error_code failed;
     for (const auto& entry : std::filesystem::directory_iterator(input / "packs", failed))
         if (entry.path().extension() == ".svtp") files.push_back("packs/" + entry.path().filename().string());
@@ -30,10 +33,13 @@ Result<serve::SiteModel> cityModel(const std::filesystem::path& input, const std
         return Error(Code::CannotOpen, "the packs cannot be listed: " + failed.message(),
                      {(input / "packs").string(), 0, 0, {}});
     std::sort(files.begin(), files.end());
+    SVT_TRY(head, FileBytes::read(input / "city.json"));
+    model.cityFiles.emplace_back("city.json", serve::Bytes::of(std::move(*head)));
+    // All of a city may be larger than memory: its files stay open, and are read in parts.
+    allowMoreOpenFiles(files.size());
     for (const std::string& file : files) {
-        // All of a city may be larger than memory, and whoever writes one replaces its files.
-        SVT_TRY(bytes, FileBytes::map(input / file));
-        model.cityFiles.emplace_back(file, serve::Bytes::of(std::move(*bytes)));
+        SVT_TRY(parts, PartFile::open(input / file));
+        model.cityFiles.emplace_back(file, serve::Bytes::of(std::move(*parts)));
     }
     return model;
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whether an input is a city, and what a page has of it.
+/// Cities as inputs, and as models of a page.
 
 #include <svt/core/result.hpp>
 #include <svt/serve/site.hpp>
@@ -13,11 +13,11 @@ namespace svt::cli {
 /// Whether an input is a city: the folder of one, or an address (http://, https://).
 [[nodiscard]] bool isCity(const std::filesystem::path& input);
 
-/// A city as a model of a page, which fetches it piece by piece.
+/// A city as a model of a page, which fetches it in parts.
 /// \return the model, or an error of City::open(); CannotOpen for a pack that cannot be read
 [[nodiscard]] Result<serve::SiteModel> cityModel(const std::filesystem::path& input, const std::string& name);
 
-/// All of a city as one volume of some megabytes: for previews, and for browsers that the server draws for.
+/// All of a city as one volume of some megabytes: for previews, and for server-side pictures.
 /// \return the volume, or an error of City::open(), extractVolume()
 [[nodiscard]] Result<volume::SemanticVolume> pageVolume(const std::filesystem::path& folder);
 

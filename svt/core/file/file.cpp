@@ -133,6 +133,11 @@ Result<int> openInput(const fs::path& path, std::uint64_t maxBytes, std::uint64_
     return descriptor;
 }
 
+/// The time of the last change of a file's bytes, in nanoseconds.
+std::int64_t changeTime(const struct stat& status) noexcept {
+    return std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
+}
+
 /// Fills `to` from the file at `offset` as far as the file goes; `count` bytes of it. Returns 0, or errno.
 int readAt(int descriptor, std::uint64_t offset, std::span<std::byte> to, std::size_t& count) noexcept {
     for (count = 0; count < to.size();) {
@@ -203,15 +208,22 @@ Result<PartFile> PartFile::open(const fs::path& path) {
     SVT_TRY(input, openInput(path, FileBytes::kNoLimit, file.size_));
     file.descriptor_ = *input;
     file.path_ = path;
+    struct stat status {};
+    if (::fstat(file.descriptor_, &status) != 0) return cannotOpen(path, errno);
+    file.changed_ = changeTime(status);
     return file;
 }
 
 PartFile::PartFile(PartFile&& other) noexcept
-    : path_(std::move(other.path_)), size_(other.size_), descriptor_(std::exchange(other.descriptor_, -1)) {}
+    : path_(std::move(other.path_)),
+      size_(other.size_),
+      changed_(other.changed_),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 PartFile& PartFile::operator=(PartFile&& other) noexcept {
     std::swap(path_, other.path_);
     std::swap(size_, other.size_);
+    std::swap(changed_, other.changed_);
     std::swap(descriptor_, other.descriptor_);
     return *this;
 }
@@ -228,6 +240,24 @@ Result<std::string> PartFile::read(std::uint64_t offset, std::size_t size) const
         return cannotOpen(path_, reason);
     text.resize(count);
     return text;
+}
+
+Result<std::string> PartFile::readAll(std::uint64_t offset, std::size_t size) const {
+    SVT_TRY(text, read(offset, size));
+    if (offset < size_ && text->size() < std::min<std::uint64_t>(size, size_ - offset))
+        return cannotOpen(path_,
+                          fmt::format("another program shortened the file, which had {} bytes, while it was read; "
+                                      "wait until it is done",
+                                      size_));
+    return std::move(*text);
+}
+
+Result<void> PartFile::checkUnchanged() const {
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0) return cannotOpen(path_, errno);
+    if (static_cast<std::uint64_t>(status.st_size) == size_ && changeTime(status) == changed_) return {};
+    return cannotOpen(path_,
+                      "another program changed the file while it was in use; wait until it is done, and start again");
 }
 
 fs::path withoutLinks(const fs::path& path) {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <string>
 #include <svt/core/file.hpp>
@@ -109,6 +110,50 @@ TEST(PartFile, ReadsPartsAsFarAsTheFileGoes) {
     EXPECT_EQ(*file.read(3, 4), "34") << "what is cut off is missing";
     EXPECT_FALSE(PartFile::open(folder / "b"));
     EXPECT_FALSE(PartFile::open(folder.path()));
+}
+
+TEST(PartFile, WhatIsCutOffIsAnErrorWhereAllIsAskedFor) {
+    const TemporaryFolder folder;
+    writeText(folder / "a", "0123456789");
+    const auto file = PartFile::open(folder / "a");
+    ASSERT_TRUE(file);
+    EXPECT_EQ(*file->readAll(3, 4), "3456");
+    EXPECT_EQ(*file->readAll(8, 4), "89") << "the file never had more";
+    EXPECT_EQ(*file->readAll(10, 1), "");
+    EXPECT_EQ(*file->readAll(~std::uint64_t{0}, 1), "");
+    fs::resize_file(folder / "a", 5);
+    EXPECT_EQ(*file->readAll(1, 4), "1234");
+    for (const std::uint64_t offset : {3, 5, 9}) {
+        const auto cut = file->readAll(offset, 4);
+        ASSERT_FALSE(cut) << offset;
+        EXPECT_EQ(cut.error().code(), Code::CannotOpen);
+        EXPECT_EQ(cut.error().where().file, (folder / "a").string());
+        EXPECT_TRUE(mentions(cut.error(), "shortened")) << cut.error().toString();
+    }
+}
+
+TEST(PartFile, SeesChangesInPlaceAndNoReplacement) {
+    const TemporaryFolder folder;
+    using std::chrono::hours;
+    const auto change = [&](const std::string& text, int after) {
+        writeText(folder / "a", text);
+        fs::last_write_time(folder / "a", fs::file_time_type::clock::now() + hours(after));
+    };
+    for (const std::string text : {"", "012345678", "9876543210", "01234567890"}) {
+        change("0123456789", 0);
+        const auto file = PartFile::open(folder / "a");
+        ASSERT_TRUE(file);
+        EXPECT_TRUE(file->checkUnchanged());
+        change(text, 1);
+        const auto changed = file->checkUnchanged();
+        ASSERT_FALSE(changed) << text;
+        EXPECT_EQ(changed.error().code(), Code::CannotOpen);
+        EXPECT_EQ(changed.error().where().file, (folder / "a").string());
+    }
+    const auto file = PartFile::open(folder / "a");
+    ASSERT_TRUE(file);
+    ASSERT_TRUE(writeFileAtomically(folder / "a", "second"));
+    EXPECT_TRUE(file->checkUnchanged());
 }
 
 TEST(PartFile, KeepsAFileThatIsReplaced) {
@@ -321,6 +366,20 @@ TEST(CheckWritable, DoesNotOpenAPipe) {
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
     // Without a reader, opening it would wait for ever.
     EXPECT_TRUE(checkWritable(folder / "pipe"));
+}
+
+TEST(CheckNoStream, RefusesWhatIsNoFile) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    fs::create_symlink("pipe", folder / "link");
+    writeText(folder / "file", "");
+    for (const fs::path& path : {folder / "file", folder / "absent", folder.path()}) EXPECT_TRUE(checkNoStream(path));
+    for (const fs::path& path : {folder / "pipe", folder / "link", fs::path("/dev/null")}) {
+        const auto refused = checkNoStream(path);
+        ASSERT_FALSE(refused) << path;
+        EXPECT_EQ(refused.error().code(), Code::CannotWrite);
+        EXPECT_EQ(refused.error().where().file, path);
+    }
 }
 
 TEST(WithoutLinks, LeadsToTheEnd) {

@@ -60,4 +60,11 @@ Result<void> checkWritable(const fs::path& target) {
     return {};
 }
 
+Result<void> checkNoStream(const fs::path& target) {
+    struct stat status {};
+    if (::stat(target.c_str(), &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) return {};
+    return cannotWriteTo(target, Code::CannotWrite,
+                         "this is a pipe or device in the place of a file; remove it or choose another folder");
+}
+
 }  // namespace svt

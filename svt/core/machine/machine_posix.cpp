@@ -153,6 +153,13 @@ void unlimitMemory() {
     if (ownLimit().isSet && ownLimit().by.empty()) setDataLimit(ownLimit().before);
 }
 
+void allowMoreOpenFiles(std::size_t more) noexcept {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+    limit.rlim_cur = more < limit.rlim_max - limit.rlim_cur ? limit.rlim_cur + more : limit.rlim_max;
+    static_cast<void>(::setrlimit(RLIMIT_NOFILE, &limit));
+}
+
 std::optional<int> machineCores() noexcept {
     const long cores = ::sysconf(_SC_NPROCESSORS_ONLN);
     return cores > 0 ? std::optional(static_cast<int>(cores)) : std::nullopt;

@@ -4,6 +4,7 @@
 #include <svt/core/temporary_folder_test.hpp>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <chrono>
 #include <csignal>
@@ -126,6 +127,21 @@ TEST(LimitMemory, AllocationsBeyondItFailAndThoseBelowDoNot) {
     if (result.text.find("none") == 0) GTEST_SKIP() << "this machine grants less than 900 MB";
     EXPECT_EQ(result.fault, "");
     EXPECT_EQ(result.text, std::string("before told granted little ") + (kIsSanitized ? "too much" : "no more"));
+}
+
+TEST(AllowMoreOpenFiles, RaisesTheLimitAsFarAsTheSystemAllows) {
+    const auto result = inOwnProcess(600, [](const Say& say) {
+        const rlimit before{64, 200};
+        if (::setrlimit(RLIMIT_NOFILE, &before) != 0) return;
+        for (const std::size_t more : {std::size_t{0}, std::size_t{100}, std::size_t{37}, ~std::size_t{0}}) {
+            allowMoreOpenFiles(more);
+            rlimit now{};
+            ::getrlimit(RLIMIT_NOFILE, &now);
+            say(std::to_string(now.rlim_cur) + " ");
+        }
+    });
+    EXPECT_EQ(result.fault, "");
+    EXPECT_EQ(result.text, "64 164 200 200 ");
 }
 
 TEST(InOwnProcess, TellsWhatWasSaidAndWrittenToStderr) {

@@ -8,6 +8,7 @@ MemoryFigures memoryFigures() { return {}; }
 void limitMemory(std::uint64_t, std::string_view) {}
 void limitMemoryToMachine() {}
 void unlimitMemory() {}
+void allowMoreOpenFiles(std::size_t) noexcept {}
 
 std::optional<int> machineCores() noexcept { return {}; }
 

@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <csignal>
@@ -15,6 +16,7 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <thread>
 
 namespace svt::volume {
 namespace {
@@ -293,6 +295,36 @@ TEST(SvtFile, MappedFileOutlivesItsName) {
     EXPECT_TRUE(isSame(*read, volume));
 }
 
+TEST(SvtFile, AFileThatShrinksWhileItIsOpenedIsAnErrorAndNoSignal) {
+    const TemporaryFolder folder;
+    const SemanticVolume volume = sampleVolume({96, 80, 24});
+    ASSERT_TRUE(writeSvt(volume, folder / "v.svt"));
+    const std::string whole = readText(folder / "v.svt");
+    std::atomic<bool> isDone{false};
+    std::thread writer([&] {
+        while (!isDone) {
+            for (const std::size_t size : {std::size_t{0}, std::size_t{200}, whole.size() / 2})
+                std::filesystem::resize_file(folder / "v.svt", size);
+            writeText(folder / "v.svt", whole);
+        }
+    });
+    int errors = 0;
+    for (int i = 0; i < 100'000 && (i < 200 || errors < 100); ++i) {
+        static_cast<void>(isSvtFile(folder / "v.svt"));
+        const auto read = readSvt(folder / "v.svt");
+        errors += read ? 0 : 1;
+        if (read)
+            EXPECT_TRUE(isSame(*read, volume));
+        else
+            EXPECT_TRUE(read.error().code() == Code::CannotOpen || read.error().code() == Code::BadVolume ||
+                        read.error().code() == Code::BadChecksum)
+                << read.error().toString();
+    }
+    isDone = true;
+    writer.join();
+    EXPECT_GT(errors, 0);
+}
+
 TEST(SvtFile, FailureInTheMiddleKeepsTheOldFile) {
     const TemporaryFolder folder;
     ASSERT_TRUE(writeSvt(sampleVolume({8, 8, 8}), folder / "v.svt"));
@@ -475,14 +507,14 @@ struct Wrong {
 TEST(SvtFile, WrongHeadersAreRefused) {
     const std::string file = bytesOfVolume(sampleVolume());
     const Wrong cases[] = {
-        {"svt.json", "\"svt\"", "\"other\"", "another 'format'"},
+        {"svt.json", "\"svt\"", "\"other\"", "'format' other than"},
         {"svt.json", "\"1.0\"", "\"x\"", "'version'"},
         {"svt.json", "\"1.0\"", "\"0.9\"", "'version'"},
         {"svt.json", "\"1.0\"", "\"99999999999999999999\"", "'version'"},
-        {"svt.json", "\"1.0\"", "1.0", "'version' that is no string"},
+        {"svt.json", "\"1.0\"", "1.0", "'version' that is not a string"},
         {"svt.json", "\"little\"", "\"big\"", "'byteOrder'"},
         {"svt.json", "\"tileSize\": 64", "\"tileSize\": 32", "'tileSize'"},
-        {"svt.json", "[70,66,9]", "[70,66]", "no list of three"},
+        {"svt.json", "[70,66,9]", "[70,66]", "not a list of three"},
         {"svt.json", "[70,66,9]", "[70,66,9.5]", "'dimension'"},
         {"svt.json", "[70,66,9]", "[70,66,-9]", "'dimension'"},
         {"svt.json", "[70,66,9]", "[70,66,1]", "'dimension'"},
@@ -493,17 +525,17 @@ TEST(SvtFile, WrongHeadersAreRefused) {
         {"svt.json", "[70,66,9]", "[70,66,8]", "beyond the top"},
         {"svt.json", "[0.05,", "[0.0,", "spacing"},
         {"svt.json", "[0.05,", "[1e999,", "out of range"},
-        {"svt.json", "[458877.03,", "[\"458877.03\",", "no number"},
-        {"svt.json", "[0.6,0.8,0.0]", "[0.6,0.9,0.0]", "no rotation"},
+        {"svt.json", "[458877.03,", "[\"458877.03\",", "not a number"},
+        {"svt.json", "[0.6,0.8,0.0]", "[0.6,0.9,0.0]", "not a rotation"},
         {"svt.json", "\"axes\"", "\"axis\"", "has no 'axes'"},
         {"svt.json", "\"scalarCount\": 6", "\"scalarCount\": 7", "states 7 scalars"},
-        {"svt.json", "\"scalarCount\": 6", "\"scalarCount\": -6", "no whole number"},
-        {"svt.json", "\"scalarCount\": 6", "\"scalarCount\": 4294967296", "no whole number"},
-        {"svt.json", "}", "", "no well-formed JSON"},
-        {"svt.json", "{", "[", "no well-formed JSON"},
-        {"svt.json", "haus.gml", "haus\xFF.gml", "no well-formed JSON"},
-        {"mimetype", "svt", "foo", "is no .svt"},
-        {"mimetype", "zip", "zipx", "says something else"},
+        {"svt.json", "\"scalarCount\": 6", "\"scalarCount\": -6", "not a whole number"},
+        {"svt.json", "\"scalarCount\": 6", "\"scalarCount\": 4294967296", "not a whole number"},
+        {"svt.json", "}", "", "invalid JSON"},
+        {"svt.json", "{", "[", "invalid JSON"},
+        {"svt.json", "haus.gml", "haus\xFF.gml", "invalid JSON"},
+        {"mimetype", "svt", "foo", "is not a .svt"},
+        {"mimetype", "zip", "zipx", "is not application/vnd.svt+zip"},
     };
     for (const Wrong& wrong : cases) {
         SCOPED_TRACE(wrong.to);
@@ -520,37 +552,37 @@ TEST(SvtFile, WrongLabelTablesAreRefused) {
         {"", "\"first\":5,", "\"first\":4294967295,", "are possible"},
         {"", "\"first\":5,\"count\":1", "\"first\":5,\"count\":67108860", "are possible"},
         {"", "\"first\":5,\"count\":1", "\"first\":6,\"count\":1", "phase colors"},
-        {"", "\"first\":5,", "\"first\":-5,", "no whole number"},
-        {"", "\"first\":5,", "\"first\":5.0,", "no whole number"},
+        {"", "\"first\":5,", "\"first\":-5,", "not a whole number"},
+        {"", "\"first\":5,", "\"first\":5.0,", "not a whole number"},
         {"", "\"first\":5,", "", "has no 'first'"},
         {"", "\"parent\":1", "\"parent\":2", "parent"},
         {"", "\"parent\":1", "\"parent\":3", "parent"},
         {"", "\"parent\":1", "\"parent\":0", "parent"},
         {"", "\"parent\":1", "\"parent\":null", "parent"},
         {"", "\"parent\":1", "\"parent\":77", "parent"},
-        {"", "\"parent\":1", "\"parent\":\"x\"", "no whole number"},
+        {"", "\"parent\":1", "\"parent\":\"x\"", "not a whole number"},
         {"", "\"parent\":null,\"subtreeEnd\":4", "\"parent\":null,\"subtreeEnd\":0", "subtree"},
         {"", "\"parent\":null,\"subtreeEnd\":4", "\"parent\":null,\"subtreeEnd\":6", "subtree"},
         {"", "\"parent\":null,\"subtreeEnd\":4", "\"parent\":null,\"subtreeEnd\":2", "subtree"},
         {"", "\"groups\":[4]", "\"groups\":[5]", "group 5"},
-        {"", "\"groups\":[4]", "\"groups\":4", "'groups' that are no list"},
+        {"", "\"groups\":[4]", "\"groups\":4", "'groups' that are not a list"},
         {"", "\"winding\"", "\"magic\"", "unknown filling"},
-        {"", "[0.8,0.8,0.8]", "[0.8,0.8]", "no list of three"},
+        {"", "[0.8,0.8,0.8]", "[0.8,0.8]", "not a list of three"},
         {"", "[0.8,0.8,0.8]", "[0.8,0.8,1e39]", "too large"},
-        {"", "\"opacity\":1.0", "\"opacity\":true", "no number"},
+        {"", "\"opacity\":1.0", "\"opacity\":true", "not a number"},
         {"", "\"value\":5.0", "\"value\":null", "attribute whose value"},
         {"", "\"value\":5.0", "\"value\":{\"real\":\"huge\"}", "attribute whose value"},
         {"", "9223372036854775807", "9223372036854775808", "beyond 64 bits"},
         {"", "\"name\":\"five\"", "\"nome\":\"five\"", "has no 'name'"},
         {"", "[1,3,12,false]", "[1,5,12,false]", "overlap names labels"},
-        {"", "[1,3,12,false]", "[1,3,-12,false]", "no whole number"},
-        {"", "[1,3,12,false]", "[1,3,12]", "overlap 0 is no list"},
-        {"", "[1,3,12,false]", "17", "overlap 0 is no list"},
+        {"", "[1,3,12,false]", "[1,3,-12,false]", "not a whole number"},
+        {"", "[1,3,12,false]", "[1,3,12]", "overlap 0 is not a list"},
+        {"", "[1,3,12,false]", "17", "overlap 0 is not a list"},
         {"", "[0.5,0.25,0.125],", "", "phase colors"},
-        {"", "[0.5,0.25,0.125]", "[0.5,0.25,\"a\"]", "no number"},
-        {"", "{\"labels\":[", "{\"labels\":[17,", "label 0 no JSON object"},
+        {"", "[0.5,0.25,0.125]", "[0.5,0.25,\"a\"]", "not a number"},
+        {"", "{\"labels\":[", "{\"labels\":[17,", "label 0 is not a JSON object"},
         {"", "{\"labels\":", "{\"lobels\":", "no list 'labels'"},
-        {"", "]}\n", "]", "no well-formed JSON"},
+        {"", "]}\n", "]", "invalid JSON"},
     };
     for (const Wrong& wrong : cases) {
         SCOPED_TRACE(std::string(wrong.from) + " -> " + wrong.to);
@@ -572,9 +604,9 @@ TEST(SvtFile, JsonOverItsLimitsIsRefused) {
     std::string many = "{\"labels\":[{\"id\":[0";
     for (int i = 0; i < 1'100'000; ++i) many += ",0";
     expectRefused(with("labels.json", many + "]}]}"), Code::InputTooBig, "values in one element");
-    expectRefused(with("labels.json", "{\"labels\":{\"a\":1}}"), Code::BadVolume, "label 0 no JSON object");
+    expectRefused(with("labels.json", "{\"labels\":{\"a\":1}}"), Code::BadVolume, "label 0 is not a JSON object");
     expectRefused(with("labels.json", "[]"), Code::BadVolume, "no list 'labels'");
-    expectRefused(with("labels.json", ""), Code::BadVolume, "no well-formed JSON");
+    expectRefused(with("labels.json", ""), Code::BadVolume, "invalid JSON");
 }
 
 TEST(SvtFile, WrongColumnsAreRefused) {
@@ -591,10 +623,10 @@ TEST(SvtFile, WrongColumnsAreRefused) {
         {[](EntryTexts& e) { e["columns/blocks"].pop_back(); }, "the index states"},
         {[](EntryTexts& e) { e["columns/blocks"] += 'x'; }, "the index states"},
         {[&](EntryTexts& e) { u32(e["columns/index"], 0, 0xFFFFFFFF); }, "the index states"},
-        {[&](EntryTexts& e) { u32(e["columns/index"], 1, 0xFFFFFFFF); }, "are said to unpack to"},
-        {[&](EntryTexts& e) { u32(e["columns/index"], 1, 7); }, "block 0 of the columns: it is no zstd frame"},
-        {[&](EntryTexts& e) { u32(e["columns/index"], 2, 0xFFFFFFFF); }, "are said to take 4294967295 bytes"},
-        {[&](EntryTexts& e) { u32(e["columns/index"], 2, 100); }, "more bytes than the index says"},
+        {[&](EntryTexts& e) { u32(e["columns/index"], 1, 0xFFFFFFFF); }, "cannot unpack to"},
+        {[&](EntryTexts& e) { u32(e["columns/index"], 1, 7); }, "block 0 of the columns: it is not a zstd frame"},
+        {[&](EntryTexts& e) { u32(e["columns/index"], 2, 0xFFFFFFFF); }, "cannot take 4294967295 bytes"},
+        {[&](EntryTexts& e) { u32(e["columns/index"], 2, 100); }, "more bytes than the index states"},
     };
     for (const auto& [change, reason] : cases) {
         SCOPED_TRACE(reason);

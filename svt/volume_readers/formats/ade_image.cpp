@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxAdeHead = std::size_t{1} << 30;
+constexpr std::uint64_t kMaxAdeHead = std::uint64_t{1} << 30;
 
 Error badAde(std::string message) { return Error(Code::BadImage, std::move(message)); }
 
@@ -61,10 +61,24 @@ Result<fs::path> fileBeside(const fs::path& document, std::string_view reference
     return document.parent_path() / name;
 }
 
-/// The numbers of svt:image, without their head.
+/// The numbers of svt:image.
 class PixelSource {
 public:
-    PixelSource(SharedFile file, std::string_view text) : file_(std::move(file)), rest_(text) {}
+    PixelSource(SharedFile file, FilePart text) : file_(std::move(file)), rest_(text) {}
+
+    /// The first numbers: the sizes of the image.
+    Result<std::array<std::int64_t, 4>> readSizes() {
+        std::array<std::int64_t, 4> sizes{};
+        for (std::int64_t& size : sizes) {
+            SVT_DO(skipSpace());
+            const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), size);
+            if (error != std::errc()) return badAde("the image of the volume has no sizes");
+            text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
+        }
+        return sizes;
+    }
+    /// Characters that are not read yet.
+    [[nodiscard]] std::uint64_t left() const noexcept { return text_.size() + rest_.size; }
 
     Result<void> read(std::span<std::byte> out) {
         if (out.empty()) {
@@ -78,7 +92,7 @@ public:
             const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
             if (error != std::errc())
                 return badAde("the image of the volume has fewer numbers than its dimension says");
-            if (end == text_.data() + text_.size() && !rest_.empty())
+            if (end == text_.data() + text_.size() && rest_.size != 0)
                 return badAde("a number of the image of the volume has too many digits");
             text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
             std::memcpy(out.data(), &value, 4);
@@ -87,7 +101,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kPiece = std::size_t{1} << 20;
+    static constexpr std::uint64_t kPiece = std::uint64_t{1} << 20;
     static constexpr std::string_view kSpace = " \t\r\n";
 
     /// Leaves a number at the beginning of the text, whole unless it has more than kPiece digits; nothing at the end.
@@ -95,18 +109,18 @@ private:
         for (;;) {
             text_.remove_prefix(std::min(text_.find_first_not_of(kSpace), text_.size()));
             const bool isWhole = text_.find_first_of(kSpace) != std::string_view::npos;
-            if (isWhole || rest_.empty() || text_.size() > kPiece) return {};
-            const auto stored = std::as_bytes(std::span(rest_.data(), std::min(rest_.size(), kPiece)));
+            if (isWhole || rest_.size == 0 || text_.size() > kPiece) return {};
+            const std::uint64_t size = std::min(rest_.size, kPiece);
             std::string buffer;
-            SVT_TRY(piece, file_->part(stored, buffer));
-            rest_.remove_prefix(stored.size());
-            window_ = std::string(text_).append(reinterpret_cast<const char*>(piece->data()), piece->size());
+            SVT_TRY(piece, file_->text({rest_.offset, size}, buffer));
+            rest_ = {rest_.offset + size, rest_.size - size};
+            window_ = std::string(text_).append(*piece);
             text_ = window_;
         }
     }
 
     SharedFile file_;
-    std::string_view rest_;  // of the file, behind the window
+    FilePart rest_;  // of the file, behind the window
     std::string window_;
     std::string_view text_;  // of the window
 };
@@ -203,21 +217,14 @@ Result<void> openBeside(const fs::path& path, pugi::xml_node texture, LabelImage
 }
 
 // The image in the document: sizes, then a number a sample. `numbers` is its text.
-Result<LabelImage> withPixels(LabelImage image, const SharedFile& file, std::string_view numbers) {
-    std::array<std::int64_t, 4> sizes{};
-    std::string_view list = numbers;
-    for (std::int64_t& size : sizes) {
-        list.remove_prefix(std::min(list.find_first_not_of(" \t\r\n"), list.size()));
-        const auto [after, error] = std::from_chars(list.data(), list.data() + list.size(), size);
-        if (error != std::errc()) return badAde("the image of the volume has no sizes");
-        list.remove_prefix(static_cast<std::size_t>(after - list.data()));
-    }
-    if (sizes != std::array<std::int64_t, 4>{1, image.dimension.x, image.dimension.y, image.dimension.z})
+Result<LabelImage> withPixels(LabelImage image, const SharedFile& file, FilePart numbers) {
+    auto source = std::make_shared<PixelSource>(file, numbers);
+    SVT_TRY(sizes, source->readSizes());
+    if (*sizes != std::array<std::int64_t, 4>{1, image.dimension.x, image.dimension.y, image.dimension.z})
         return badAde("the sizes of the image are not 1 component and the dimension of the volume");
     image.bits = 32;
     // A number takes two characters at least, and becomes four bytes.
-    SVT_DO(checkImage(image, 2 * list.size() + 4, false, Code::BadImage));
-    auto source = std::make_shared<PixelSource>(file, list);
+    SVT_DO(checkImage(image, 2 * source->left() + 4, false, Code::BadImage));
     image.read = [source](std::span<std::byte> out) { return source->read(out); };
     return image;
 }
@@ -239,51 +246,76 @@ Result<LabelImage> withSlices(LabelImage image, const fs::path& path, const pugi
     return image;
 }
 
-// The start tag of the texture of the volume in a document; npos: it has none.
-std::size_t findAdeTexture(std::string_view document) noexcept {
-    for (std::size_t at = document.find("urn:svt:citygml:ade:");
-         at != std::string_view::npos && at < document.size();) {
-        at = document.find("Texture3D", at + 1);
-        if (at == std::string_view::npos) return at;
-        const std::size_t open = document.rfind('<', at);
-        if (open == std::string_view::npos || at - open > 64 || document[open + 1] == '/') continue;
-        return open;
+// Where the start tag of the texture of the volume begins in a document; its size: it has none.
+Result<std::uint64_t> findAdeTexture(FileWindow& document) {
+    constexpr std::uint64_t kMaxBefore = 64;
+    const std::uint64_t end = document.file().size();
+    SVT_TRY(at, document.find("urn:svt:citygml:ade:", 0, end));
+    while (*at < end) {
+        at = document.find("Texture3D", *at + 1, end);
+        if (!at || *at == end) return at;
+        const std::uint64_t begin = *at - std::min(*at, kMaxBefore);
+        SVT_TRY(text, document.at(begin, static_cast<std::size_t>(*at - begin + 1)));
+        const std::size_t open = text->substr(0, static_cast<std::size_t>(*at - begin)).rfind('<');
+        if (open != std::string_view::npos && (*text)[open + 1] != '/') return begin + open;
     }
-    return std::string_view::npos;
+    return end;
+}
+
+// Where the texture of the volume stands in a document.
+struct AdeParts {
+    FilePart head;    // of the texture, without the numbers of an image and without the end tag
+    std::string tag;  // its name, with its prefix
+    FilePart pixels;  // numbers of the image; nothing: it is elsewhere
+};
+
+Result<AdeParts> findAdeParts(const SharedFile& file) {
+    FileWindow document(file, std::size_t{1} << 20);
+    SVT_TRY(begin, findAdeTexture(document));
+    if (*begin == file->size()) return badAde("the document holds no volume");
+    AdeParts parts;
+    std::string buffer;
+    SVT_TRY(start, file->text({*begin + 1, 4096}, buffer));
+    parts.tag = start->substr(0, start->find_first_of(" \t\r\n/>"));
+    SVT_TRY(end, document.find("</" + parts.tag, *begin, file->size()));
+    if (*end == file->size()) return badAde("the volume of the document does not end: it is cut short");
+    // The numbers of an image are read as they stand, all else by the parser.
+    const std::string image = "<" + parts.tag.substr(0, parts.tag.find(':') + 1) + "image>";
+    SVT_TRY(pixels, document.find(image, *begin, *end));
+    parts.head = {*begin, *pixels - *begin};
+    if (parts.head.size > kMaxAdeHead) return badAde("the head of the volume is over a gigabyte");
+    if (*pixels == *end) return parts;
+    const std::uint64_t first = *pixels + image.size();
+    SVT_TRY(last, document.find("</", first, *end));
+    parts.pixels = {first, *last - first};
+    return parts;
 }
 
 Result<LabelImage> openAde(const SharedFile& file, const fs::path& path) {
-    const std::string_view text = file->text();
-    const std::size_t begin = findAdeTexture(text);
-    if (begin == std::string_view::npos) return badAde("the document holds no volume");
-    const std::string name(text.substr(begin + 1, text.find_first_of(" \t\r\n/>", begin) - begin - 1));
-    const std::size_t end = text.find("</" + name, begin);
-    if (end == std::string_view::npos) return badAde("the volume of the document does not end: it is cut short");
-    // The numbers of an image are read as they stand, all else by the parser.
-    const std::string prefix = name.substr(0, name.find(':') == std::string::npos ? 0 : name.find(':') + 1);
-    std::size_t pixels = text.find("<" + prefix + "image>", begin);
-    if (pixels > end) pixels = end;
-    const std::string head = std::string(text.substr(begin, pixels - begin)) + "</" + name + ">";
+    SVT_TRY(parts, findAdeParts(file));
+    std::string buffer;
+    SVT_TRY(text, file->text(parts->head, buffer));
+    const std::string head = std::string(*text) + "</" + parts->tag + ">";
     pugi::xml_document document;
-    const bool hasPixels = pixels < end;
-    const std::string rest = hasPixels ? head : std::string(text.substr(begin, end - begin)) + "</" + name + ">";
-    if (rest.size() > kMaxAdeHead) return badAde("the head of the volume is over a gigabyte");
-    if (const auto parsed = document.load_buffer(rest.data(), rest.size()); !parsed)
+    if (const auto parsed = document.load_buffer(head.data(), head.size()); !parsed)
         return badAde(fmt::format("the volume of the document is no XML: {}", parsed.description()));
     const pugi::xml_node texture = document.first_child();
     LabelImage image;
     SVT_DO(readGrid(texture, image));
     readTargets(texture, image);
-    if (hasPixels) {
-        std::string_view numbers = text.substr(pixels, std::min(text.find("</", pixels), end) - pixels);
-        numbers.remove_prefix(numbers.find('>') + 1);
-        return withPixels(std::move(image), file, numbers);
-    }
+    if (parts->pixels.offset != 0) return withPixels(std::move(image), file, parts->pixels);
     if (childOf(texture, "imageURI")) {
         SVT_DO(openBeside(path, texture, image));
         return image;
     }
     return withSlices(std::move(image), path, texture);
+}
+
+bool looksLikeAde(const SharedFile& file) {
+    if (file->head(65536).find("CityModel") == std::string::npos) return false;
+    FileWindow document(file, std::size_t{1} << 20);
+    const auto begin = findAdeTexture(document);
+    return begin && *begin < file->size();
 }
 
 }  // namespace
@@ -292,11 +324,7 @@ extern const LabelFormat kAde{
     .name = "ade",
     .endings = ".ade.gml",
     .holds = "CityGML with a volume by the extension of svt",
-    .looksLike =
-        [](const auto& file, const auto&) {
-            return file->text().substr(0, 65536).find("CityModel") != std::string_view::npos &&
-                   findAdeTexture(file->text()) != std::string_view::npos;
-        },
+    .looksLike = [](const auto& file, const auto&) { return looksLikeAde(file); },
     .open = [](const auto& file, const auto& path, std::uint64_t) { return openAde(file, path); }};
 
 }  // namespace svt::volume_readers

@@ -11,6 +11,9 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace svt::volume_readers {
 namespace {
@@ -325,6 +328,229 @@ TEST(Damage, ATableThatTheHeaderOfNiftiHidesIsTold) {
     const Answer answer = ask(folder / "v.nii");
     ASSERT_TRUE(answer.volume) << answer.told;
     EXPECT_NE(answer.told.find("no extension that can be read"), std::string::npos) << answer.told;
+}
+
+// ------------------------------------------------------------------------------------ tables in files without seal
+
+/// The labels of a volume as rows of a table.
+std::vector<std::string> rowsOf(const SemanticVolume& volume) {
+    std::vector<std::string> rows;
+    for (const volume::Label& label : volume.labels.labels)
+        volume::appendJsonLabel(rows.emplace_back(), label, volume::JsonCharacters::AsciiOnly);
+    return rows;
+}
+
+std::string jsonOf(const std::vector<std::string>& rows) {
+    std::string text;
+    for (const std::string& row : rows) text += (text.empty() ? "" : ",\n") + row;
+    return "{\"labels\":[" + text + "],\"overlaps\":[],\"phaseColors\":[]}\n";
+}
+
+/// A key for each row that is not empty.
+std::string nrrdWithRows(std::string text, const std::vector<std::string>& rows) {
+    text = withoutLine(std::move(text), "svt_seal");
+    while (text.find("\nsvt_label_") != std::string::npos && text.find("\nsvt_label_") < text.find("\n\n"))
+        text = withoutLine(std::move(text), "svt_label_");
+    std::string lines = "svt_label_count:=" + std::to_string(rows.size()) + "\n";
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        if (rows[row].empty()) continue;
+        lines += "svt_label_" + std::to_string(row) + ":=";
+        for (const char c : rows[row]) lines += c == '\\' ? "\\\\" : std::string(1, c);
+        lines += '\n';
+    }
+    return text.insert(text.find("\n\n") + 1, lines);
+}
+
+std::string vtiWithRows(std::string text, const std::vector<std::string>& rows) {
+    const auto elementOf = [&](const std::string& name) {
+        const std::size_t begin = text.rfind("<Array", text.find("Name=\"" + name + "\""));
+        return std::pair(begin, text.find("</Array>", begin) - begin);
+    };
+    const auto [seal, sealSize] = elementOf("svt_seal");
+    text.erase(seal, sealSize + std::strlen("</Array>"));
+    const auto [table, tableSize] = elementOf("svt_labels");
+    std::string numbers = R"(<Array type="String" Name="svt_labels" NumberOfTuples="1" format="ascii">)";
+    for (const char c : jsonOf(rows)) numbers += std::to_string(static_cast<unsigned char>(c)) + " ";
+    return text.replace(table, tableSize, numbers + "0 ");
+}
+
+/// The table stands behind the rest of the file; the tag of the seal becomes one that nobody knows.
+std::string tiffWithRows(std::string text, const std::vector<std::string>& rows) {
+    const auto number = [&](std::size_t at, std::size_t size) {
+        std::uint32_t value = 0;
+        std::memcpy(&value, text.data() + at, size);
+        return value;
+    };
+    const std::size_t page = number(4, 4);
+    const std::string table = jsonOf(rows) + '\0';
+    const auto size = static_cast<std::uint32_t>(table.size()), place = static_cast<std::uint32_t>(text.size());
+    for (std::size_t entry = 0; entry < number(page, 2); ++entry) {
+        const std::size_t at = page + 2 + 12 * entry, tag = number(at, 2);
+        if (tag == 65082) text[at] = static_cast<char>(text[at] + 1);
+        if (tag != 65081) continue;
+        std::memcpy(text.data() + at + 4, &size, 4);
+        std::memcpy(text.data() + at + 8, &place, 4);
+    }
+    return text + table;
+}
+
+/// Formats in which a table without seal can be written with rows of any content.
+struct TableFormat {
+    const char* name;
+    std::string (*withRows)(std::string text, const std::vector<std::string>& rows);
+};
+constexpr TableFormat kTableFormats[] = {{"v.nrrd", nrrdWithRows}, {"v.vti", vtiWithRows}, {"v.tif", tiffWithRows}};
+
+/// The sample volume in each format, with rows in place of its table.
+class TableFiles {
+public:
+    TableFiles() {
+        volume.labels.overlaps.clear();
+        volume.labels.phaseColors.clear();
+        writers::VolumeWriteOptions options;
+        options.isCompressed = false;
+        for (const TableFormat& format : kTableFormats) {
+            EXPECT_TRUE(writers::writeVolume(volume, folder_ / format.name, options));
+            texts_.push_back(readText(folder_ / format.name));
+        }
+    }
+
+    /// Answers of all formats to a table.
+    std::vector<std::pair<std::string, Answer>> ask(const std::vector<std::string>& rows) {
+        std::vector<std::pair<std::string, Answer>> answers;
+        for (std::size_t n = 0; n < texts_.size(); ++n) {
+            const fs::path path = folder_ / kTableFormats[n].name;
+            writeText(path, kTableFormats[n].withRows(texts_[n], rows));
+            answers.emplace_back(kTableFormats[n].name, volume_readers::ask(path));
+        }
+        return answers;
+    }
+
+    /// Expects that each format refuses the table with a message that has `part`.
+    void expectRefused(const std::vector<std::string>& rows, const std::string& part, const std::string& what) {
+        for (const auto& [name, answer] : ask(rows)) {
+            EXPECT_FALSE(answer.volume) << name << ", " << what;
+            EXPECT_NE(answer.told.find(part), std::string::npos) << name << ", " << what << ": " << answer.told;
+        }
+    }
+
+    SemanticVolume volume = plainVolume();
+
+private:
+    TemporaryFolder folder_;
+    std::vector<std::string> texts_;
+};
+
+std::string replaced(std::string text, const std::string& part, const std::string& by) {
+    const std::size_t at = text.find(part);
+    EXPECT_NE(at, std::string::npos) << part << " in " << text;
+    return at == std::string::npos ? text : text.replace(at, part.size(), by);
+}
+
+TEST(Damage, TablesWithoutSealAreReadWhereTheyFitTheSamples) {
+    TableFiles files;
+    for (const auto& [name, answer] : files.ask(rowsOf(files.volume))) {
+        ASSERT_TRUE(answer.volume) << name << ": " << answer.told;
+        EXPECT_TRUE(answer.told.empty()) << name << ": " << answer.told;
+        EXPECT_TRUE(volume::test::isSame(*answer.volume, files.volume)) << name;
+    }
+}
+
+TEST(Damage, RowsWithoutSealThatAreNoLabelsAreRefused) {
+    TableFiles files;
+    const std::vector<std::string> whole = rowsOf(files.volume);
+    const std::string& room = whole[1];
+    const std::string voxels = "\"voxels\":" + std::to_string(files.volume.labels.labels[1].voxels);
+    for (const std::string& row : {room.substr(0, room.size() - 1),
+                                   room.substr(0, room.size() / 2),
+                                   room + "}",
+                                   room + ",",
+                                   std::string("null"),
+                                   std::string("7"),
+                                   std::string("\"room-1\""),
+                                   std::string("[]"),
+                                   std::string("{}"),
+                                   replaced(room, "\"room-1\"", "7"),
+                                   replaced(room, "\"room-1\"", "\"room-1"),
+                                   replaced(room, "\"class\"", "\"klass\""),
+                                   replaced(room, "\"solid\"", "\"liquid\""),
+                                   replaced(room, voxels, "\"voxels\":-1"),
+                                   replaced(room, voxels, "\"voxels\":\"12\""),
+                                   replaced(room, voxels, "\"voxels\":1.5"),
+                                   replaced(room, voxels, "\"voxels\":1e999"),
+                                   replaced(room, voxels, "\"voxels\":nan"),
+                                   replaced(room, "\"groups\":[4]", "\"groups\":[5]"),
+                                   replaced(room, "\"groups\":[4]", "\"groups\":4"),
+                                   replaced(room, "\"parent\":0", "\"parent\":1")}) {
+        std::vector<std::string> rows = whole;
+        rows[1] = row;
+        files.expectRefused(rows, "the table of labels that svt wrote into the file is damaged", row);
+    }
+}
+
+TEST(Damage, RowsThatAreMissingWithoutSealAreTold) {
+    TableFiles files;
+    const std::vector<std::string> whole = rowsOf(files.volume);
+    for (std::size_t row = 0; row < whole.size(); ++row) {
+        std::vector<std::string> rows = whole;
+        rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(row));
+        files.expectRefused(rows, "the table of labels", "without row " + std::to_string(row));
+        files.expectRefused({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(row)}, "label",
+                            "without rows from " + std::to_string(row));
+    }
+    // The wall is gone and all else fits: its samples have no label.
+    std::vector<std::string> rows = whole;
+    rows[0] = replaced(rows[0], "\"subtreeEnd\":4", "\"subtreeEnd\":3");
+    rows[1] = replaced(replaced(rows[1], "\"subtreeEnd\":3", "\"subtreeEnd\":2"), "\"groups\":[4]", "\"groups\":[3]");
+    rows[3] = replaced(replaced(rows[3], "\"subtreeEnd\":4", "\"subtreeEnd\":3"), "\"groups\":[4]", "\"groups\":[3]");
+    rows[4] = replaced(rows[4], "\"subtreeEnd\":5", "\"subtreeEnd\":4");
+    rows.erase(rows.begin() + 2);
+    files.expectRefused(rows, "label", "without the wall");
+}
+
+TEST(Damage, KeysOfNrrdThatAreMissingWithoutSealAreTold) {
+    TableFiles files;
+    // The last row is of a label that no sample and no other row needs.
+    SemanticVolume volume = files.volume;
+    volume::test::addGroup(volume, "spare", "Storey");
+    const std::vector<std::string> whole = rowsOf(volume);
+    ASSERT_TRUE(files.ask(whole)[0].second.volume);
+    for (std::size_t row = 0; row < whole.size(); ++row) {
+        std::vector<std::string> rows = whole;
+        rows[row].clear();
+        const Answer answer = files.ask(rows)[0].second;
+        EXPECT_FALSE(answer.volume) << "without row " << row;
+        EXPECT_NE(answer.told.find("the table of labels that svt wrote into the file is missing, or lacks rows"),
+                  std::string::npos)
+            << answer.told;
+    }
+}
+
+TEST(Damage, WrongCountsOfVoxelsWithoutSealAreToldWithTheirLabel) {
+    TableFiles files;
+    const std::vector<std::string> whole = rowsOf(files.volume);
+    for (std::size_t row = 0; row < whole.size(); ++row) {
+        const volume::Label& label = files.volume.labels.labels[row];
+        for (const std::uint64_t wrong :
+             {label.voxels + 1, label.voxels + (std::uint64_t{1} << 40), label.voxels / 2}) {
+            if (wrong == label.voxels) continue;
+            std::vector<std::string> rows = whole;
+            rows[row] = replaced(rows[row], "\"voxels\":" + std::to_string(label.voxels),
+                                 "\"voxels\":" + std::to_string(wrong));
+            files.expectRefused(rows,
+                                "of 5 labels 1 differ: '" + label.id + "' has " + std::to_string(label.voxels) +
+                                    " voxels, the table says " + std::to_string(wrong),
+                                label.id);
+        }
+    }
+    // Two labels that have each other's voxels.
+    std::vector<std::string> rows = whole;
+    for (const auto& [from, to] : {std::pair(1, 3), std::pair(3, 1)}) {
+        const std::string own = "\"voxels\":" + std::to_string(files.volume.labels.labels[std::size_t(from)].voxels);
+        const std::string other = "\"voxels\":" + std::to_string(files.volume.labels.labels[std::size_t(to)].voxels);
+        rows[std::size_t(from)] = replaced(whole[std::size_t(from)], own, other);
+    }
+    files.expectRefused(rows, "of 5 labels 2 differ", "swapped");
 }
 
 }  // namespace

@@ -151,6 +151,11 @@ Result<LabelImage> readNiftiHead(std::string_view text, std::uint64_t& dataOffse
 
 bool isGzip(std::string_view text) noexcept { return text.starts_with("\x1f\x8b"); }
 
+// Of the header, behind which extensions stand.
+std::size_t headBytes(std::string_view head) noexcept {
+    return head.starts_with(std::string_view("\x1c\2", 2)) ? 540 : 348;
+}
+
 // Whether a file begins with the header of NIfTI-1 or -2.
 bool beginsAsNifti(std::string_view head) noexcept {
     return head.size() >= 348 && ((head.starts_with(std::string_view("\x5c\1\0\0", 4)) && head[344] == 'n') ||
@@ -158,46 +163,49 @@ bool beginsAsNifti(std::string_view head) noexcept {
 }
 
 bool looksLikeNifti(const SharedFile& file) {
-    if (!isGzip(file->text())) return beginsAsNifti(file->text());
-    std::array<char, 348> head{};
-    const ReadSamples read = gzipSamples(file, file->bytes(), Code::BadImage);
-    const bool isRead = static_cast<bool>(read(std::as_writable_bytes(std::span(head))));
-    return isRead && beginsAsNifti({head.data(), head.size()});
+    std::string head = file->head(348);
+    if (!isGzip(head)) return beginsAsNifti(head);
+    head.assign(348, '\0');
+    const ReadSamples read = gzipSamples(file, file->from(0), Code::BadImage);
+    return static_cast<bool>(read(std::as_writable_bytes(std::span(head)))) && beginsAsNifti(head);
+}
+
+// The header, then all in front of the samples, then the samples: a stream that is read on.
+Result<LabelImage> openPackedNifti(const SharedFile& file) {
+    std::string unpacked(544, '\0');
+    ReadSamples read = gzipSamples(file, file->from(0), Code::BadImage);
+    SVT_DO(read(std::as_writable_bytes(std::span(unpacked))));
+    std::uint64_t offset = 0;
+    SVT_TRY(image, readNiftiHead(unpacked, offset));
+    if (offset / 1032 > file->size()) return badNifti("the samples begin at an impossible place");
+    if (offset < 544) {
+        // NIfTI-1 without extensions: what was read beyond is samples.
+        read = gzipSamples(file, file->from(0), Code::BadImage);
+        unpacked.assign(static_cast<std::size_t>(offset), '\0');
+        SVT_DO(read(std::as_writable_bytes(std::span(unpacked))));
+    } else {
+        unpacked.resize(static_cast<std::size_t>(offset));
+        SVT_DO(read(std::as_writable_bytes(std::span(unpacked).subspan(544))));
+    }
+    readExtensions(std::string_view(unpacked).substr(headBytes(unpacked)), *image);
+    SVT_DO(checkImage(*image, file->size(), true, Code::BadImage));
+    image->read = std::move(read);
+    return image;
 }
 
 // NIfTI-1 and -2 in one file, as it is or in gzip.
 Result<LabelImage> openNifti(const SharedFile& file) {
-    std::string_view text = file->text();
-    std::string unpacked(1024, '\0');
-    if (isGzip(text)) {
-        // The header, then all in front of the samples, then the samples: a stream that is read on.
-        ReadSamples read = gzipSamples(file, file->bytes(), Code::BadImage);
-        SVT_DO(read(std::as_writable_bytes(std::span(unpacked).first(544))));
-        std::uint64_t offset = 0;
-        SVT_TRY(image, readNiftiHead(std::string_view(unpacked).substr(0, 544), offset));
-        if (offset / 1032 > file->bytes().size()) return badNifti("the samples begin at an impossible place");
-        if (offset < 544) {
-            // NIfTI-1 without extensions: what was read beyond is samples.
-            read = gzipSamples(file, file->bytes(), Code::BadImage);
-            unpacked.assign(static_cast<std::size_t>(offset), '\0');
-            SVT_DO(read(std::as_writable_bytes(std::span(unpacked))));
-        } else {
-            unpacked.resize(static_cast<std::size_t>(offset));
-            SVT_DO(read(std::as_writable_bytes(std::span(unpacked).subspan(544))));
-        }
-        const std::size_t size = unpacked.starts_with(std::string_view("\x1c\2", 2)) ? 540 : 348;
-        readExtensions(std::string_view(unpacked).substr(size), *image);
-        SVT_DO(checkImage(*image, file->bytes().size(), true, Code::BadImage));
-        image->read = std::move(read);
-        return image;
-    }
+    std::string buffer;
+    SVT_TRY(head, file->text({0, 544}, buffer));
+    if (isGzip(*head)) return openPackedNifti(file);
     std::uint64_t offset = 0;
-    SVT_TRY(image, readNiftiHead(text, offset));
-    if (offset > text.size()) return badNifti("the samples begin behind the end of the file: it is cut short");
-    const std::size_t size = text.starts_with(std::string_view("\x1c\2", 2)) ? 540 : 348;
-    readExtensions(text.substr(size, static_cast<std::size_t>(offset) - size), *image);
-    const auto stored = file->bytes().subspan(static_cast<std::size_t>(offset));
-    SVT_DO(checkImage(*image, stored.size(), false, Code::BadImage));
+    SVT_TRY(image, readNiftiHead(*head, offset));
+    if (offset > file->size()) return badNifti("the samples begin behind the end of the file: it is cut short");
+    const std::size_t size = headBytes(*head);
+    SVT_TRY(extensions, file->text({size, offset - size}, buffer));
+    readExtensions(*extensions, *image);
+    const FilePart stored = file->from(offset);
+    SVT_DO(checkImage(*image, stored.size, false, Code::BadImage));
     image->read = plainSamples(file, stored, Code::BadImage);
     return image;
 }

@@ -11,6 +11,8 @@
 namespace svt::volume_readers {
 namespace {
 
+constexpr std::uint64_t kMaxNrrdHead = std::uint64_t{1} << 30;
+
 Error badNrrd(std::string message) { return Error(Code::BadNrrd, std::move(message)); }
 
 std::string unescaped(std::string_view value) {
@@ -41,7 +43,7 @@ bool takeVector(std::string_view& text, Vec3d& v) noexcept {
 
 struct NrrdHeader {
     std::map<std::string, std::string, std::less<>> fields, keys;
-    std::size_t dataOffset = 0;
+    std::uint64_t dataOffset = 0;
 
     [[nodiscard]] std::string_view field(std::string_view name) const {
         const auto found = fields.find(name);
@@ -53,21 +55,21 @@ struct NrrdHeader {
     }
 };
 
-Result<NrrdHeader> readNrrdHeader(std::string_view text) {
+/// Reads the header from the begin of a file.
+/// \return whether the text holds all of it
+Result<bool> readNrrdHeader(std::string_view text, NrrdHeader& header) {
     if (!text.starts_with("NRRD000") || text.size() < 9 || text[7] < '1' || text[7] > '5')
         return badNrrd("the file does not begin with NRRD0001 to NRRD0005");
-    NrrdHeader header;
     bool isFirst = true;
     for (std::size_t at = 0;;) {
         const std::size_t end = text.find('\n', at);
-        if (end == std::string_view::npos)
-            return badNrrd("the header does not end with an empty line: the file is cut short");
+        if (end == std::string_view::npos) return false;
         std::string_view line = text.substr(at, end - at);
         if (line.ends_with('\r')) line.remove_suffix(1);
         at = end + 1;
         if (line.empty()) {
             header.dataOffset = at;
-            return header;
+            return true;
         }
         if (std::exchange(isFirst, false) || line.front() == '#') continue;
         const std::size_t colon = line.find(':');
@@ -83,6 +85,19 @@ Result<NrrdHeader> readNrrdHeader(std::string_view text) {
         if (isTwice)
             return badNrrd(
                 fmt::format("the field '{}' stands twice in the header", withoutBlanks(line.substr(0, colon))));
+    }
+}
+
+Result<NrrdHeader> readNrrdHeader(const LabelFile& file) {
+    std::string buffer;
+    for (std::uint64_t size = std::uint64_t{1} << 16;; size *= 4) {
+        SVT_TRY(text, file.text({0, size}, buffer));
+        NrrdHeader header;
+        SVT_TRY(isWhole, readNrrdHeader(*text, header));
+        if (*isWhole) return header;
+        if (text->size() == file.size())
+            return badNrrd("the header does not end with an empty line: the file is cut short");
+        if (size >= kMaxNrrdHead) return badNrrd("the header is over a gigabyte");
     }
 }
 
@@ -141,25 +156,32 @@ Result<void> readNrrdPlace(const NrrdHeader& header, LabelImage& image) {
     return {};
 }
 
-/// The table that `svt convert` writes, as text of labels.json, and the segments of 3D Slicer.
+/// The table that `svt convert` writes, as text of labels.json; empty where rows are missing.
+std::string tableOf(const NrrdHeader& header) {
+    std::string table = "{\"labels\":[";
+    std::size_t rows = 0, count = 0;
+    for (;; ++rows) {
+        const std::string_view label = header.key(fmt::format("svt_label_{}", rows));
+        if (label.empty()) break;
+        if (rows > 0) table += ',';
+        table += label;
+    }
+    std::string_view told = header.key("svt_label_count");
+    if (takeNumber(told, count) && count != rows) return {};
+    const std::string_view colors = header.key("svt_phase_colors"), overlaps = header.key("svt_overlaps");
+    return table + fmt::format("],\"overlaps\":{},\"phaseColors\":{}}}", overlaps.empty() ? "[]" : overlaps,
+                               colors.empty() ? "[]" : colors);
+}
+
+/// The table that `svt convert` writes, and the segments of 3D Slicer.
 void readTables(const NrrdHeader& header, LabelImage& image) {
     const auto string = [&](std::string_view key) {
         const std::string_view text = header.key(key);
         return text.empty() ? std::string_view("\"\"") : text;
     };
     image.seal = header.key("svt_seal");
-    if (!header.key("svt_label_0").empty()) {
-        image.labelsJson = "{\"labels\":[";
-        for (std::size_t l = 0;; ++l) {
-            const std::string_view label = header.key(fmt::format("svt_label_{}", l));
-            if (label.empty()) break;
-            if (l > 0) image.labelsJson += ',';
-            image.labelsJson += label;
-        }
-        const std::string_view colors = header.key("svt_phase_colors");
-        const std::string_view overlaps = header.key("svt_overlaps");
-        image.labelsJson += fmt::format("],\"overlaps\":{},\"phaseColors\":{}}}", overlaps.empty() ? "[]" : overlaps,
-                                        colors.empty() ? "[]" : colors);
+    if (!header.key("svt_label_count").empty() || !header.key("svt_label_0").empty()) {
+        image.labelsJson = tableOf(header);
         // The header has the exact grid; its names are empty and stand in keys of their own, as JSON strings of ASCII.
         image.headerJson = header.key("svt_header");
         if (image.headerJson.empty()) image.headerJson = R"({"crs": "","model": "","source": ""})";
@@ -189,7 +211,7 @@ void readTables(const NrrdHeader& header, LabelImage& image) {
 }  // namespace
 
 Result<LabelImage> openNrrd(const SharedFile& file) {
-    SVT_TRY(header, readNrrdHeader(file->text()));
+    SVT_TRY(header, readNrrdHeader(*file));
     LabelImage image;
     SVT_DO(readNrrdType(header->field("type"), image));
     if (header->field("dimension") != "3")
@@ -217,18 +239,17 @@ Result<LabelImage> openNrrd(const SharedFile& file) {
     image.isSwapped = endian == "big";
     SVT_DO(readNrrdPlace(*header, image));
     readTables(*header, image);
-    const auto stored = file->bytes().subspan(header->dataOffset);
-    SVT_DO(checkImage(image, stored.size(), isGzip, Code::BadNrrd));
+    const FilePart stored = file->from(header->dataOffset);
+    SVT_DO(checkImage(image, stored.size, isGzip, Code::BadNrrd));
     image.read = isGzip ? gzipSamples(file, stored, Code::BadNrrd) : plainSamples(file, stored, Code::BadNrrd);
     return image;
 }
 
-extern const LabelFormat kNrrd{
-    .name = "nrrd",
-    .endings = ".nrrd",
-    .holds = "NRRD in one file, raw or gzip",
-    .fault = Code::BadNrrd,
-    .looksLike = [](const auto& file, const auto&) { return file->text().starts_with("NRRD000"); },
-    .open = [](const auto& file, const auto&, std::uint64_t) { return openNrrd(file); }};
+extern const LabelFormat kNrrd{.name = "nrrd",
+                               .endings = ".nrrd",
+                               .holds = "NRRD in one file, raw or gzip",
+                               .fault = Code::BadNrrd,
+                               .looksLike = [](const auto& file, const auto&) { return file->head(7) == "NRRD000"; },
+                               .open = [](const auto& file, const auto&, std::uint64_t) { return openNrrd(file); }};
 
 }  // namespace svt::volume_readers

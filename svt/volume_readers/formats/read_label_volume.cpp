@@ -32,8 +32,9 @@ struct Candidate {
 };
 
 bool isZippedZarr(const SharedFile& file) {
-    if (file == nullptr || !file->text().starts_with("PK\3\4"sv)) return false;
-    const std::string_view head = file->text().substr(0, 4096);
+    if (file == nullptr) return false;
+    const std::string head = file->head(4096);
+    if (!head.starts_with("PK\3\4"sv)) return false;
     const auto names = {".zarray"sv, ".zgroup"sv, ".zattrs"sv, "zarr.json"sv};
     return std::ranges::any_of(names, [&](std::string_view name) { return head.find(name) != std::string_view::npos; });
 }

@@ -1,6 +1,5 @@
 #include <svt/volume_readers/formats/label_formats.hpp>
 
-#include <svt/core/bytes.hpp>
 #include <svt/volume/grid.hpp>
 
 #include <fmt/format.h>
@@ -14,29 +13,10 @@ namespace svt::volume_readers {
 namespace {
 
 constexpr std::uint64_t kMaxStrips = 1u << 24;
+constexpr std::uint64_t kMaxTiffText = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMaxStripBytes = std::uint64_t{1} << 30;
 
 Error badTiff(std::string message) { return Error(Code::BadImage, std::move(message)); }
-
-/// Numbers of a file of either byte order. What lies outside the file reads as 0 and sets `isCut`.
-class TiffBytes {
-public:
-    TiffBytes(std::span<const std::byte> bytes, std::endian order) : bytes_(bytes), order_(order) {}
-
-    std::uint64_t number(std::uint64_t offset, std::size_t size) {
-        if (offset > bytes_.size() || size > bytes_.size() - offset) {
-            isCut = true;
-            return 0;
-        }
-        return loadNumber(bytes_, static_cast<std::size_t>(offset), size, order_);
-    }
-    [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
-    bool isCut = false;
-
-private:
-    std::span<const std::byte> bytes_;
-    std::endian order_;
-};
 
 struct TiffField {
     std::uint64_t count = 0, offset = 0;  ///< of its values
@@ -48,7 +28,7 @@ struct TiffPage {
     std::map<std::uint16_t, TiffField> fields;
     std::uint64_t next = 0;
 
-    [[nodiscard]] std::uint64_t value(TiffBytes& bytes, std::uint16_t tag, std::uint64_t otherwise,
+    [[nodiscard]] std::uint64_t value(FileNumbers& bytes, std::uint16_t tag, std::uint64_t otherwise,
                                       std::uint64_t index = 0) const {
         const auto found = fields.find(tag);
         if (found == fields.end() || index >= found->second.count || found->second.size == 0) return otherwise;
@@ -58,21 +38,18 @@ struct TiffPage {
         const auto found = fields.find(tag);
         return found == fields.end() ? 0 : found->second.count;
     }
-    [[nodiscard]] std::string text(const TiffBytes& bytes, std::uint16_t tag) const {
+    [[nodiscard]] std::string text(FileNumbers& bytes, std::uint16_t tag) const {
         const auto found = fields.find(tag);
-        if (found == fields.end() || found->second.size != 1 || found->second.offset > bytes.bytes().size() ||
-            found->second.count > bytes.bytes().size() - found->second.offset)
-            return {};
-        std::string text(reinterpret_cast<const char*>(bytes.bytes().data()) + found->second.offset,
-                         static_cast<std::size_t>(found->second.count));
+        if (found == fields.end() || found->second.size != 1 || found->second.count > kMaxTiffText) return {};
+        const std::string text = bytes.text(found->second.offset, found->second.count);
         return text.substr(0, text.find('\0'));
     }
-    [[nodiscard]] double real(TiffBytes& bytes, std::uint16_t tag, std::uint64_t index) const {
+    [[nodiscard]] double real(FileNumbers& bytes, std::uint16_t tag, std::uint64_t index) const {
         return std::bit_cast<double>(value(bytes, tag, 0, index));
     }
 };
 
-TiffPage readPage(TiffBytes& bytes, std::uint64_t offset, bool isWide) {
+TiffPage readPage(FileNumbers& bytes, std::uint64_t offset, bool isWide) {
     constexpr std::array<std::size_t, 19> kSizes{0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8};
     const std::size_t wide = isWide ? 8 : 4, entry = isWide ? 20 : 12, countBytes = isWide ? 8 : 2;
     TiffPage page;
@@ -98,7 +75,7 @@ struct TiffStack {
     bool isCompressed = false;
 };
 
-Result<void> readFirst(TiffBytes& bytes, const TiffPage& page, TiffStack& stack) {
+Result<void> readFirst(FileNumbers& bytes, const TiffPage& page, TiffStack& stack) {
     LabelImage& image = stack.image;
     const std::uint64_t width = page.value(bytes, 256, 0), height = page.value(bytes, 257, 0),
                         compression = page.value(bytes, 259, 1), format = page.value(bytes, 339, 1);
@@ -137,7 +114,8 @@ Result<void> readFirst(TiffBytes& bytes, const TiffPage& page, TiffStack& stack)
     return {};
 }
 
-Result<void> readStrips(TiffBytes& bytes, const TiffPage& page, TiffStack& stack) {
+/// \param sizes  the same file: the sizes of strips stand elsewhere than their offsets
+Result<void> readStrips(FileNumbers& bytes, FileNumbers& sizes, const TiffPage& page, TiffStack& stack) {
     const LabelImage& image = stack.image;
     const auto width = static_cast<std::uint64_t>(image.dimension.x),
                height = static_cast<std::uint64_t>(image.dimension.y);
@@ -152,10 +130,10 @@ Result<void> readStrips(TiffBytes& bytes, const TiffPage& page, TiffStack& stack
         return badTiff(fmt::format("page {} of the TIFF has {} strips, {} are expected", image.dimension.z,
                                    page.count(273), strips));
     for (std::uint64_t s = 0; s < strips; ++s) {
-        const std::uint64_t offset = page.value(bytes, 273, 0, s), size = page.value(bytes, 279, 0, s);
+        const std::uint64_t offset = page.value(bytes, 273, 0, s), size = page.value(sizes, 279, 0, s);
         const std::uint64_t unpacked =
             std::min(rows, height - s * rows) * width * static_cast<std::uint64_t>(image.bits / 8);
-        if (bytes.isCut || offset > bytes.bytes().size() || size > bytes.bytes().size() - offset)
+        if (bytes.isCut || sizes.isCut || offset > bytes.fileSize() || size > bytes.fileSize() - offset)
             return badTiff(fmt::format("a strip of page {} of the TIFF lies outside the file: it is cut short",
                                        image.dimension.z));
         if (unpacked > kMaxStripBytes)
@@ -163,9 +141,7 @@ Result<void> readStrips(TiffBytes& bytes, const TiffPage& page, TiffStack& stack
         if (unpacked / 1032 > size || (!stack.isCompressed && size < unpacked))
             return badTiff(fmt::format("a strip of page {} of the TIFF has {} bytes, which cannot hold its {}",
                                        image.dimension.z, size, unpacked));
-        stack.strips.push_back({bytes.bytes().subspan(static_cast<std::size_t>(offset),
-                                                      static_cast<std::size_t>(stack.isCompressed ? size : unpacked)),
-                                unpacked});
+        stack.strips.push_back({{offset, stack.isCompressed ? size : unpacked}, unpacked});
         stack.storedBytes += size;
     }
     return {};
@@ -176,14 +152,10 @@ bool looksLikeTiff(std::string_view text) noexcept {
     return std::ranges::any_of(kMarks, [&](std::string_view mark) { return text.starts_with(mark); });
 }
 
-// TIFF and BigTIFF, a page for each slice.
-Result<LabelImage> openTiff(const SharedFile& file) {
-    const std::string_view text = file->text();
-    const bool isBigEndian = text.starts_with("MM");
-    TiffBytes bytes(file->bytes(), isBigEndian ? std::endian::big : std::endian::little);
+Result<void> readPages(const SharedFile& file, FileNumbers& bytes, TiffStack& stack, std::endian order) {
+    FileNumbers sizes(file, order);
     const bool isWide = bytes.number(2, 2) == 43;
     std::uint64_t offset = isWide ? bytes.number(8, 8) : bytes.number(4, 4);
-    TiffStack stack;
     // Pages that lead back to earlier ones end at the limit.
     for (; offset != 0; ++stack.image.dimension.z) {
         if (stack.image.dimension.z == volume::Grid::kMaxDimension)
@@ -192,9 +164,19 @@ Result<LabelImage> openTiff(const SharedFile& file) {
         if (bytes.isCut) return badTiff(fmt::format("page {} of the TIFF is cut short", stack.image.dimension.z));
         if (stack.image.dimension.z == 0) SVT_DO(readFirst(bytes, page, stack));
         if (stack.image.bits != 8 && stack.image.bits != 16 && stack.image.bits != 32) break;  // told by checkImage()
-        SVT_DO(readStrips(bytes, page, stack));
+        SVT_DO(readStrips(bytes, sizes, page, stack));
         offset = page.next;
     }
+    return {};
+}
+
+// TIFF and BigTIFF, a page for each slice.
+Result<LabelImage> openTiff(const SharedFile& file) {
+    const bool isBigEndian = file->head(2) == "MM";
+    const std::endian order = isBigEndian ? std::endian::big : std::endian::little;
+    FileNumbers bytes(file, order);
+    TiffStack stack;
+    if (const auto done = readPages(file, bytes, stack, order); !done) return bytes.fault(done.error());
     stack.image.isSwapped = isBigEndian;
     SVT_DO(checkImage(stack.image, stack.storedBytes, stack.isCompressed, Code::BadImage));
     stack.image.read = zlibSamples(file, std::move(stack.strips), stack.isCompressed, Code::BadImage);
@@ -206,7 +188,7 @@ Result<LabelImage> openTiff(const SharedFile& file) {
 extern const LabelFormat kTiff{.name = "tiff",
                                .endings = ".tif|.tiff",
                                .holds = "TIFF and BigTIFF, a page for each slice, raw or Deflate",
-                               .looksLike = [](const auto& file, const auto&) { return looksLikeTiff(file->text()); },
+                               .looksLike = [](const auto& file, const auto&) { return looksLikeTiff(file->head(4)); },
                                .open = [](const auto& file, const auto&, std::uint64_t) { return openTiff(file); }};
 
 }  // namespace svt::volume_readers

@@ -5,15 +5,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstring>
-#include <iterator>
-#include <sstream>
 
 namespace svt::volume_readers {
 namespace {
 
 constexpr std::uint64_t kMaxVtkBlock = std::uint64_t{256} << 20;
-constexpr std::size_t kMaxVtkHead = std::size_t{1} << 30;
+constexpr std::uint64_t kMaxVtkHead = std::uint64_t{1} << 30;
 
 Error badVti(std::string message) { return Error(Code::BadImage, std::move(message)); }
 
@@ -30,51 +27,37 @@ std::string stringOf(std::string_view text) {
     }
 }
 
-/// The numbers in front of appended data, of 32 or 64 bits.
-class HeaderNumbers {
-public:
-    HeaderNumbers(std::span<const std::byte> bytes, bool isWide) : bytes_(bytes), size_(isWide ? 8 : 4) {}
-    bool take(std::uint64_t& number) {
-        if (bytes_.size() < size_) return false;
-        number = 0;
-        std::memcpy(&number, bytes_.data(), size_);
-        bytes_ = bytes_.subspan(size_);
-        return true;
-    }
-    [[nodiscard]] std::span<const std::byte> rest() const noexcept { return bytes_; }
-    [[nodiscard]] std::size_t size() const noexcept { return size_; }
-
-private:
-    std::span<const std::byte> bytes_;
-    std::size_t size_;
-};
-
-Result<void> readSamples(const SharedFile& file, std::span<const std::byte> data, bool isWide, bool isCompressed,
-                         LabelImage& image) {
-    HeaderNumbers numbers(data, isWide);
+/// The samples in `data`, behind their sizes, which are numbers of 32 or 64 bits.
+Result<void> readSamples(const SharedFile& file, FilePart data, bool isWide, bool isCompressed, LabelImage& image) {
+    FileNumbers numbers(file, std::endian::little);
+    const std::size_t width = isWide ? 8 : 4;
+    const auto take = [&](std::uint64_t& number) {
+        if (data.size < width) return false;
+        number = numbers.number(data.offset, width);
+        data = {data.offset + width, data.size - width};
+        return !numbers.isCut;
+    };
+    const auto cut = [&](std::string message) { return numbers.fault(badVti(std::move(message))); };
     std::uint64_t count = 0, size = 0, last = 0;
     if (!isCompressed) {
-        if (!numbers.take(size) || size > numbers.rest().size()) return badVti("the appended samples are cut short");
-        const auto stored = numbers.rest().first(static_cast<std::size_t>(size));
+        if (!take(size) || size > data.size) return cut("the appended samples are cut short");
         SVT_DO(checkImage(image, size, false, Code::BadImage));
-        image.read = plainSamples(file, stored, Code::BadImage);
+        image.read = plainSamples(file, {data.offset, size}, Code::BadImage);
         return {};
     }
-    if (!numbers.take(count) || !numbers.take(size) || !numbers.take(last) || size == 0 || size > kMaxVtkBlock ||
-        last >= size || count == 0 || count > numbers.rest().size() / numbers.size())
-        return badVti("the table of compressed blocks is damaged or cut short");
-    std::vector<std::uint64_t> sizes(static_cast<std::size_t>(count));
-    for (std::uint64_t& stored : sizes) numbers.take(stored);
+    if (!take(count) || !take(size) || !take(last) || size == 0 || size > kMaxVtkBlock || last >= size || count == 0 ||
+        count > data.size / width)
+        return cut("the table of compressed blocks is damaged or cut short");
+    FilePart blocksPart{data.offset + count * width, data.size - count * width};
     std::vector<ZlibBlock> blocks;
-    auto rest = numbers.rest();
     std::uint64_t total = 0;
-    for (std::size_t b = 0; b < sizes.size(); ++b) {
-        if (sizes[b] > rest.size())
-            return badVti(fmt::format("compressed block {} of {} is cut short", b, sizes.size()));
-        const bool isLast = b + 1 == sizes.size() && last != 0;
-        blocks.push_back({rest.first(static_cast<std::size_t>(sizes[b])), isLast ? last : size});
-        rest = rest.subspan(static_cast<std::size_t>(sizes[b]));
-        total += sizes[b];
+    for (std::uint64_t b = 0; b < count; ++b) {
+        std::uint64_t stored = 0;
+        if (!take(stored) || stored > blocksPart.size)
+            return cut(fmt::format("compressed block {} of {} is cut short", b, count));
+        blocks.push_back({{blocksPart.offset, stored}, b + 1 == count && last != 0 ? last : size});
+        blocksPart = {blocksPart.offset + stored, blocksPart.size - stored};
+        total += stored;
     }
     SVT_DO(checkImage(image, total, true, Code::BadImage));
     image.read = zlibSamples(file, std::move(blocks), true, Code::BadImage);
@@ -137,16 +120,52 @@ Result<void> readVtiPlace(pugi::xml_node image, pugi::xml_node piece, bool isCel
     return {};
 }
 
-Result<LabelImage> openVti(const SharedFile& file) {
-    const std::string_view text = file->text();
-    const std::size_t appended = text.find("<AppendedData");
-    const std::size_t begin = appended == std::string_view::npos ? appended : text.find('>', appended);
-    const std::size_t mark = begin == std::string_view::npos ? begin : text.find_first_not_of(" \t\r\n", begin + 1);
-    if (mark == std::string_view::npos || text[mark] != '_' || appended > kMaxVtkHead)
+/// Where the XML of a file ends, and the appended samples begin.
+struct VtiParts {
+    std::string head;  ///< whole: its element is closed
+    std::uint64_t samples = 0;
+};
+
+Result<VtiParts> splitVti(const SharedFile& file) {
+    constexpr std::uint64_t kMaxTag = std::uint64_t{1} << 16;
+    FileWindow window(file, std::size_t{1} << 20);
+    const std::uint64_t limit = std::min<std::uint64_t>(file->size(), kMaxVtkHead);
+    SVT_TRY(appended, window.find("<AppendedData", 0, limit));
+    std::string buffer;
+    SVT_TRY(tag, file->text({*appended, *appended == limit ? 0 : kMaxTag}, buffer));
+    const std::size_t begin = tag->find('>');
+    const std::size_t mark = begin == std::string_view::npos ? begin : tag->find_first_not_of(" \t\r\n", begin + 1);
+    if (mark == std::string_view::npos || (*tag)[mark] != '_')
         return badVti("the file has no appended samples; save it with appended raw data");
-    if (text.substr(appended, begin - appended).find("\"raw\"") == std::string_view::npos)
+    if (tag->substr(0, begin).find("\"raw\"") == std::string_view::npos)
         return badVti("the appended samples are in base64; save the file with raw data");
-    const std::string head = std::string(text.substr(0, appended)) + "</VTKFile>";
+    VtiParts parts;
+    parts.samples = *appended + mark + 1;
+    SVT_TRY(head, file->text({0, *appended}, buffer));
+    parts.head = std::string(*head) + "</VTKFile>";
+    return parts;
+}
+
+/// Whether the file ends with `text`, but for blanks.
+Result<bool> endsWith(const SharedFile& file, std::string_view text) {
+    constexpr std::uint64_t kPiece = 4096;
+    std::string buffer;
+    for (std::uint64_t end = file->size(); end != 0;) {
+        const std::uint64_t begin = end - std::min(end, kPiece);
+        SVT_TRY(piece, file->text({begin, end - begin}, buffer));
+        const std::size_t last = piece->find_last_not_of(" \t\r\n");
+        end = begin;
+        if (last == std::string_view::npos) continue;
+        const std::uint64_t size = std::min<std::uint64_t>(text.size(), begin + last + 1);
+        SVT_TRY(found, file->text({begin + last + 1 - size, size}, buffer));
+        return *found == text;
+    }
+    return false;
+}
+
+Result<LabelImage> openVti(const SharedFile& file) {
+    SVT_TRY(parts, splitVti(file));
+    const std::string& head = parts->head;
     pugi::xml_document document;
     if (const auto parsed = document.load_buffer(head.data(), head.size()); !parsed)
         return badVti(fmt::format("the XML of the file is damaged: {}", parsed.description()));
@@ -175,17 +194,13 @@ Result<LabelImage> openVti(const SharedFile& file) {
         if (name == "svt_labels") image.labelsJson = stringOf(field.child_value());
         if (name == "svt_seal") image.seal = stringOf(field.child_value());
     }
-    const std::size_t last = text.find_last_not_of(" \t\r\n");
-    if (!text.substr(0, last + 1).ends_with("</VTKFile>"))
-        return badVti("the file does not end with </VTKFile>: it is cut short, or something was added");
+    SVT_TRY(isWhole, endsWith(file, "</VTKFile>"));
+    if (!*isWhole) return badVti("the file does not end with </VTKFile>: it is cut short, or something was added");
     const std::uint64_t offset = array.attribute("offset").as_ullong(~0ull);
-    const auto bytes = file->bytes().subspan(mark + 1);
-    if (offset > bytes.size()) return badVti("the samples begin behind the end of the file: it is cut short");
+    if (offset > file->from(parts->samples).size)
+        return badVti("the samples begin behind the end of the file: it is cut short");
     const bool isWide = std::string_view(root.attribute("header_type").value()) == "UInt64";
-    if (auto done =
-            readSamples(file, bytes.subspan(static_cast<std::size_t>(offset)), isWide, !compressor.empty(), image);
-        !done)
-        return done.error();
+    SVT_DO(readSamples(file, file->from(parts->samples + offset), isWide, !compressor.empty(), image));
     return image;
 }
 
@@ -195,8 +210,7 @@ extern const LabelFormat kVti{
     .name = "vti",
     .endings = ".vti",
     .holds = "image data of VTK, appended raw or zlib",
-    .looksLike = [](const auto& file,
-                    const auto&) { return file->text().substr(0, 4096).find("<VTKFile") != std::string_view::npos; },
+    .looksLike = [](const auto& file, const auto&) { return file->head(4096).find("<VTKFile") != std::string::npos; },
     .open = [](const auto& file, const auto&, std::uint64_t) { return openVti(file); }};
 
 }  // namespace svt::volume_readers

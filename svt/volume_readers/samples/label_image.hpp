@@ -69,13 +69,13 @@ struct LabelImage {
 /// \return nothing, or `code` with what was found
 [[nodiscard]] Result<void> checkImage(const LabelImage& image, std::uint64_t storedBytes, bool isCompressed, Code code);
 
-/// Samples that stand in the file as they are, and nothing behind them. `bytes` is a part of the file.
-[[nodiscard]] ReadSamples plainSamples(SharedFile file, std::span<const std::byte> bytes, Code code);
+/// Samples that stand in the file as they are, and nothing behind them in `part`.
+[[nodiscard]] ReadSamples plainSamples(SharedFile file, FilePart part, Code code);
 /// Samples in gzip members, one behind the other.
-[[nodiscard]] ReadSamples gzipSamples(SharedFile file, std::span<const std::byte> bytes, Code code);
+[[nodiscard]] ReadSamples gzipSamples(SharedFile file, FilePart part, Code code);
 /// Samples in blocks of zlib, each for itself.
 struct ZlibBlock {
-    std::span<const std::byte> stored;
+    FilePart stored;
     std::uint64_t size = 0;  ///< unpacked
 };
 [[nodiscard]] ReadSamples zlibSamples(SharedFile file, std::vector<ZlibBlock> blocks, bool isCompressed, Code code);

@@ -22,8 +22,7 @@ Error trailing(Code code, std::uint64_t count) {
 /// gzip members as one stream.
 class GzipSource {
 public:
-    GzipSource(SharedFile file, std::span<const std::byte> bytes, Code code)
-        : file_(std::move(file)), rest_(bytes), code_(code) {}
+    GzipSource(SharedFile file, FilePart part, Code code) : file_(std::move(file)), rest_(part), code_(code) {}
 
     Result<void> read(std::span<std::byte> out) {
         if (out.empty()) return finish();
@@ -45,14 +44,14 @@ public:
     }
 
 private:
-    [[nodiscard]] bool isSpent() const noexcept { return rest_.empty() && piece_.empty(); }
+    [[nodiscard]] bool isSpent() const noexcept { return rest_.size == 0 && piece_.empty(); }
 
     /// Reads the next piece of the file where there is none.
     Result<void> fill() {
         if (!piece_.empty()) return {};
-        const auto stored = rest_.first(std::min(rest_.size(), kPiece));
-        SVT_TRY(piece, file_->part(stored, buffer_));
-        rest_ = rest_.subspan(stored.size());
+        const std::uint64_t size = std::min(rest_.size, kPiece);
+        SVT_TRY(piece, file_->bytes({rest_.offset, size}, buffer_));
+        rest_ = {rest_.offset + size, rest_.size - size};
         piece_ = *piece;
         return {};
     }
@@ -61,7 +60,7 @@ private:
     Result<void> finish() {
         while (!(isBetween_ && isSpent())) {
             SVT_DO(fill());
-            if (isBetween_ && piece_.front() != std::byte{0x1F}) return trailing(code_, rest_.size() + piece_.size());
+            if (isBetween_ && piece_.front() != std::byte{0x1F}) return trailing(code_, rest_.size + piece_.size());
             std::byte beyond{};
             std::span<std::byte> room(&beyond, 1);
             const InflateStep step = stream_.step(piece_, room);
@@ -74,10 +73,10 @@ private:
         return {};
     }
 
-    static constexpr std::size_t kPiece = std::size_t{1} << 20;
+    static constexpr std::uint64_t kPiece = std::uint64_t{1} << 20;
 
     SharedFile file_;
-    std::span<const std::byte> rest_;   // of the file, behind the piece
+    FilePart rest_;                     // of the file, behind the piece
     std::span<const std::byte> piece_;  // not unpacked yet
     std::string buffer_;
     Code code_;
@@ -109,7 +108,7 @@ private:
         if (block_ == blocks_.size()) return Error(code_, "the samples are fewer than the sizes say");
         const ZlibBlock& block = blocks_[block_++];
         at_ = 0;
-        SVT_TRY(stored, file_->part(block.stored, buffer_));
+        SVT_TRY(stored, file_->bytes(block.stored, buffer_));
         if (!isCompressed_) {
             bytes_.assign(stored->begin(), stored->end());
             return {};
@@ -152,20 +151,20 @@ Result<void> checkImage(const LabelImage& image, std::uint64_t storedBytes, bool
     return {};
 }
 
-ReadSamples plainSamples(SharedFile file, std::span<const std::byte> bytes, Code code) {
-    return [file = std::move(file), bytes, code,
-            buffer = std::string()](std::span<std::byte> out) mutable -> Result<void> {
-        if (bytes.size() < out.size()) return Error(code, "the samples are fewer than the sizes say");
-        if (out.empty() && !bytes.empty()) return trailing(code, bytes.size());
-        SVT_TRY(part, file->part(bytes.first(out.size()), buffer));
-        std::copy(part->begin(), part->end(), out.begin());
-        bytes = bytes.subspan(out.size());
-        return {};
-    };
+ReadSamples plainSamples(SharedFile file, FilePart part, Code code) {
+    return
+        [file = std::move(file), part, code, buffer = std::string()](std::span<std::byte> out) mutable -> Result<void> {
+            if (part.size < out.size()) return Error(code, "the samples are fewer than the sizes say");
+            if (out.empty() && part.size != 0) return trailing(code, part.size);
+            SVT_TRY(stored, file->bytes({part.offset, out.size()}, buffer));
+            std::copy(stored->begin(), stored->end(), out.begin());
+            part = {part.offset + out.size(), part.size - out.size()};
+            return {};
+        };
 }
 
-ReadSamples gzipSamples(SharedFile file, std::span<const std::byte> bytes, Code code) {
-    auto source = std::make_shared<GzipSource>(std::move(file), bytes, code);
+ReadSamples gzipSamples(SharedFile file, FilePart part, Code code) {
+    auto source = std::make_shared<GzipSource>(std::move(file), part, code);
     return [source](std::span<std::byte> out) { return source->read(out); };
 }
 

@@ -287,8 +287,9 @@ Result<std::optional<Stated>> readStated(const LabelImage& image, const std::opt
     Stated stated{header, {}, volume::readSeal(image.seal)};
     if (image.labelsJson.empty()) {
         if (!header && !stated.seal) return std::optional<Stated>();
-        return Error(Code::BadVolume,
-                     fmt::format("the table of labels that svt wrote into the file is missing; {}", kRemedy));
+        return Error(
+            Code::BadVolume,
+            fmt::format("the table of labels that svt wrote into the file is missing, or lacks rows; {}", kRemedy));
     }
     auto labels = volume::readLabelsJson(image.labelsJson);
     if (!labels)
@@ -351,11 +352,13 @@ Result<void> checkSamples(const volume::SemanticVolume& volume, const std::optio
 
 /// Whether each value has a label.
 Result<void> checkValues(const volume::SemanticVolume& volume) {
-    const std::vector<Scalar> found = valuesOf(volume.columns);
-    if (found.empty() || found.back() < volume.labels.scalarCount()) return {};
-    return Error(Code::BadVolume,
-                 fmt::format("a sample has the value {}, which no label of the table has; their last is {}",
-                             found.back(), volume.labels.scalarCount() - 1));
+    const std::vector<std::uint32_t> labelOf = volume.labels.labelOfScalar();
+    for (const Scalar value : valuesOf(volume.columns))
+        if (value >= labelOf.size() || labelOf[value] == kNoLabel)
+            return Error(Code::BadVolume,
+                         fmt::format("a sample has the value {}, which no label of the table has; their last is {}",
+                                     value, labelOf.size() - 1));
+    return {};
 }
 
 /// The volume of a table that is given, which is taken as it is.
