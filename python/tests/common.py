@@ -1,4 +1,4 @@
-"""What the tests share: the command, the generated house, its volume."""
+"""Shared by the tests: the command, the generated house, its volume."""
 import functools
 import os
 import subprocess
@@ -31,7 +31,7 @@ def house():
 
 @functools.lru_cache(maxsize=None)
 def house_svt():
-    """The same as the command builds it."""
+    """The same volume, built by the command."""
     command("build", house_file(), "-o", path("house.svt"), "--spacing", "0.1")
     return path("house.svt")
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs test modules of this folder, as ctest calls it. Ends with 77 and a word where what they need is missing.
+"""Runs a test module of this folder for ctest. Exits with 77 and a message if a requirement is missing.
 
     run.py MODULE [NEEDED...]     such as: run.py test_examples scipy
 """

@@ -14,7 +14,7 @@ from common import DATA, command, house, house_svt, needs_command, path
 
 
 def read_nrrd(name):
-    """A raw NRRD: header as a dict, samples as [k, j, i]. Written for this test from the format's definition."""
+    """A raw NRRD: header as a dict, samples as [k, j, i]. This reader follows the definition of the format."""
     with open(name, "rb") as file:
         head, _, data = file.read().partition(b"\n\n")
     fields = dict(

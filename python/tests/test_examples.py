@@ -1,4 +1,4 @@
-"""The examples of docs/python: they run, say what is known of the generated house, and write the pictures of the page."""
+"""The examples of docs/python: they run, print known values of the generated house, and write pictures."""
 import csv
 import os
 import pathlib
@@ -15,7 +15,7 @@ EXAMPLES = pathlib.Path(__file__).resolve().parent.parent.parent / "docs" / "pyt
 
 
 def run(name):
-    """Runs an example on the generated house: what it prints, and the rows of its table."""
+    """Runs an example on the generated house. Returns its output and the rows of its table."""
     done = subprocess.run(
         [sys.executable, EXAMPLES / f"{name}.py", "-o", path("examples")], capture_output=True, text=True
     )

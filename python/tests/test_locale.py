@@ -13,7 +13,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2] / "tests" / "locale" / "com
 
 
 def answers():
-    """What numbers in texts lead to, and texts with numbers."""
+    """Results of numbers in texts, and texts with numbers."""
     volume = house()
     section = volume.section("z=1.25")
     picture = volume.render(

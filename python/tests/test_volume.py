@@ -1,6 +1,8 @@
-"""Answers that are known: of a small array, and of the generated house."""
+"""Known answers for a small array and for the generated house."""
+import functools
 import os
 import unittest
+from typing import Callable
 
 import numpy as np
 
@@ -273,6 +275,56 @@ class Words(unittest.TestCase):
         with self.assertRaises(svt.Error) as caught:
             house().query("class=")
         self.assertEqual(caught.exception.code, "E901")
+
+    def test_a_model_that_was_cut_off_is_read_where_that_is_allowed(self):
+        records = [
+            "ISO-10303-21;",
+            "HEADER;",
+            "FILE_SCHEMA(('IFC4'));",
+            "ENDSEC;",
+            "DATA;",
+            "#1=IFCWALL('w',$,'Wall',$,$,$,#2,$,$);",
+            "#2=IFCPRODUCTDEFINITIONSHAPE($,$,(#3));",
+            "#3=IFCSHAPEREPRESENTATION($,'Body','CSG',(#4));",
+            "#4=IFCBLOCK($,1.,2.,3.);",
+        ]
+        with open(path("cut.ifc"), "w") as file:
+            file.write("\n".join(records) + "\n")
+        readers: list[Callable[[str], object]] = [svt.read, svt.build]
+        for act in readers:
+            with self.assertRaises(svt.Error) as caught:
+                act(path("cut.ifc"))
+            error = caught.exception
+            self.assertEqual((error.code, error.name, error.place.line), ("E137", "Truncated", len(records)))
+            self.assertIn("allow_truncated", error.message)
+        m = svt.read(path("cut.ifc"), allow_truncated=True)
+        self.assertEqual([feature.id for feature in m], ["w"])
+        self.assertEqual([finding.severity for finding in m.findings if finding.code == "E137"], ["warning"])
+        v = svt.build(path("cut.ifc"), allow_truncated=True, spacing=0.5)
+        self.assertEqual(v.labels["w"].voxels, 2 * 4 * 6)
+
+    def test_empty_texts_are_no_values(self):
+        v = house()
+        for act, options in (
+            (v.frame, ("look", "size", "camera", "color_by", "names", "highlight")),
+            (functools.partial(svt.build, house_file()), ("crs", "spacing", "lod", "style", "axes")),
+            (functools.partial(v.save, path("empty.obj")), ("select", "encoding", "faces")),
+        ):
+            for option in options:
+                with self.assertRaises(svt.Error, msg=option) as caught:
+                    act(**{option: ""})
+                self.assertEqual(caught.exception.code, "E904", option)
+                self.assertIn(f"{option}: the value is empty", caught.exception.message)
+        self.assertFalse(os.path.exists(path("empty.obj")))
+
+    def test_a_pipe_is_no_file(self):
+        os.mkfifo(path("pipe"))
+        readers: list[Callable[[str], object]] = [svt.read, svt.build, svt.open]
+        for act in readers:
+            with self.assertRaises(svt.Error) as caught:
+                act(path("pipe"))
+            self.assertEqual((caught.exception.code, caught.exception.place.file), ("E101", path("pipe")))
+            self.assertIn("a pipe", caught.exception.message)
 
     def test_keywords_are_held_against_the_declarations_of_the_command(self):
         v = house()

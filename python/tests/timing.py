@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Times of the Python module beside those of memory, as a table in Markdown: the figures of docs/python/README.md.
+"""Times of the Python module next to those of memory, as a table in Markdown: the figures of docs/python/README.md.
 
     PYTHONPATH=build/release/python python/tests/timing.py [MODEL]     default: the generated house
 """
@@ -14,7 +14,7 @@ import svt
 
 
 def best(work, times=7):
-    """Seconds by the clock and of all cores together, the best of each."""
+    """Elapsed seconds and processor seconds of all cores, the best of each."""
     seconds = []
     for _ in range(times):
         start, cores = time.perf_counter(), time.process_time()

@@ -190,9 +190,10 @@ test("a view shows what is selected", () => {
     again[member].forEach((x, axis) => assert.ok(Math.abs(x - seen[member][axis]) < 1e-6, `${member} ${x}`));
 });
 
+const fails = (code, act) => assert.throws(act, (/** @type {any} */ error) => error.code === code && error.message.length > 10);
+
 test("errors have their codes, and leave what was open as it was", () => {
   const before = open(houseVolume);
-  const fails = (code, act) => assert.throws(act, (/** @type {any} */ error) => error.code === code && error.message.length > 10);
   fails("E103", () => svt.call("open", ["bad.gml"], new TextEncoder().encode("not a model")));
   const damaged = readFileSync(houseVolume);
   damaged.fill(0x55, damaged.length >> 1, (damaged.length >> 1) + 64);
@@ -205,6 +206,57 @@ test("errors have their codes, and leave what was open as it was", () => {
   fails("E502", () => svt.call("draw", [{}, 0, 10]));
   fails("E504", () => svt.call("picture", [{ passes: [{ hidden: [] }] }]));
   assert.equal(ask("select", "all").length, before.features.length);
+});
+
+/** An IFC file with a box as #7, its map as #8 and `records`. */
+const ifcOf = (records) =>
+  `ISO-10303-21;
+HEADER;
+FILE_SCHEMA(('IFC4'));
+ENDSEC;
+DATA;
+#1=IFCCARTESIANPOINT((0.,0.,0.));
+#2=IFCAXIS2PLACEMENT3D(#1,$,$);
+#3=IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$,#1,1.,$);
+#7=IFCBLOCK(#2,1.,2.,3.);
+#8=IFCREPRESENTATIONMAP(#2,#9);
+#9=IFCSHAPEREPRESENTATION($,'Body','CSG',(#7));
+#10=IFCPRODUCTDEFINITIONSHAPE($,$,(#11));
+${records}
+ENDSEC;
+END-ISO-10303-21;
+`;
+const shapeOf = (items) => `#11=IFCSHAPEREPRESENTATION($,'Body','MappedRepresentation',(${items.join(",")}));\n`;
+const wallOf = (id) => `#${id}=IFCWALL('w${id}',$,$,$,$,$,#10,$,$);\n`;
+const ids = (first, count) => Array.from({ length: count }, (_, n) => first + n);
+
+test("hostile models end with their codes, and the next model opens", () => {
+  const box = ifcOf(wallOf(20) + shapeOf(["#7"]));
+  const items = ids(1000, 3000);
+  const bomb = ifcOf(
+    ids(5000, 200).map(wallOf).join("") +
+      shapeOf(items.map((id) => `#${id}`)) +
+      items.map((id) => `#${id}=IFCMAPPEDITEM(#8,#3);\n`).join(""),
+  );
+  const circle = ifcOf(
+    wallOf(20) +
+      shapeOf(["#30"]) +
+      "#30=IFCMAPPEDITEM(#31,#3);\n#31=IFCREPRESENTATIONMAP(#2,#32);\n#32=IFCSHAPEREPRESENTATION($,'Body','CSG',(#30));",
+  );
+  const openText = (text) => JSON.parse(new TextDecoder().decode(svt.call("open", ["a.ifc"], new TextEncoder().encode(text))));
+  for (const [code, text] of [
+    ["E104", bomb],
+    ["E109", circle],
+    ["E137", box.slice(0, box.indexOf("ENDSEC;\nEND"))],
+  ]) {
+    fails(code, () => openText(text));
+    assert.equal(openText(box).features[0].id, "w20", `after ${code}`);
+  }
+  // Beside a wall that is sound, the circle is a finding.
+  const { findings } = openText(
+    circle.replace("#30=", "#40=IFCWALL('sound',$,$,$,$,$,#41,$,$);\n#41=IFCPRODUCTDEFINITIONSHAPE($,$,(#9));\n#30="),
+  );
+  assert.ok(findings.some((finding) => finding.includes("E111")));
 });
 
 /** Answers the module with ranges of bytes of the city's folder until it has all that the scene shows. */

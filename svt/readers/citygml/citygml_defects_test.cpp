@@ -1,5 +1,7 @@
+#include <svt/model/surface_uses.hpp>
 #include <svt/readers/citygml/citygml_documents_test.hpp>
 
+#include <ctime>
 #include <random>
 
 namespace svt::readers {
@@ -246,6 +248,94 @@ TEST(CityGmlDefects, SelfReferencesEverywhereAreHarmless) {
     ASSERT_TRUE(reading.result);
     EXPECT_GE(reading.count(Code::ReferenceCycle), 4u) << reading.findings();
     EXPECT_TRUE(reading.feature("b").geometries.empty());
+}
+
+// References of every kind that is followed: to surfaces, shells, solids, prototypes, materials' targets and features.
+std::string linkedModel() {
+    const std::string matrix =
+        "<core:transformationMatrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</core:transformationMatrix>"
+        "<core:referencePoint><gml:Point><gml:pos>1 2 3</gml:pos></gml:Point></core:referencePoint>";
+    return cityModel(
+        3, building("b", "<core:lod1Solid xlink:href=\"#so\"/>" +
+                             lod2Surfaces(3, "<gml:MultiSurface gml:id=\"m\">" + surfaceReference("#c") +
+                                                 "</gml:MultiSurface>") +
+                             "<core:lod3Solid><gml:CompositeSolid gml:id=\"k\"><gml:solidMember "
+                             "xlink:href=\"#so\"/></gml:CompositeSolid></core:lod3Solid>"
+                             "<bldg:buildingRoom xlink:href=\"#r\"/>") +
+               member("<bldg:BuildingRoom gml:id=\"r\"><core:lod2Solid><gml:Solid gml:id=\"so\"><gml:exterior>"
+                      "<gml:Shell gml:id=\"sh\">" +
+                      surfaceReference("#o") + surfaceReference("#q") +
+                      "</gml:Shell></gml:exterior><gml:interior xlink:href=\"#in\"/></gml:Solid></core:lod2Solid>" +
+                      "<bldg:roomHeight xlink:href=\"#b\"/></bldg:BuildingRoom>") +
+               building("d", lod2Surfaces(3, multiSurface(surfaceMember(square("p")) + surfaceMember(square("q", 1)))) +
+                                 "<core:lod3MultiSurface><gml:MultiSurface>" +
+                                 surfaceMember("<gml:OrientableSurface gml:id=\"o\" orientation=\"-\"><gml:baseSurface "
+                                               "xlink:href=\"#p\"/></gml:OrientableSurface>") +
+                                 surfaceMember("<gml:CompositeSurface gml:id=\"c\">" + surfaceReference("#o") +
+                                               "</gml:CompositeSurface>") +
+                                 surfaceMember("<gml:Shell gml:id=\"in\">" + surfaceReference("#c") + "</gml:Shell>") +
+                                 "</gml:MultiSurface></core:lod3MultiSurface>") +
+               member("<frn:CityFurniture gml:id=\"f\"><core:lod3ImplicitRepresentation><core:ImplicitGeometry "
+                      "gml:id=\"i\">" +
+                      matrix +
+                      "<core:relativeGeometry xlink:href=\"#m\"/></core:ImplicitGeometry>"
+                      "</core:lod3ImplicitRepresentation></frn:CityFurniture>") +
+               "<core:appearanceMember><app:Appearance><app:theme>t</app:theme><app:surfaceData><app:X3DMaterial>"
+               "<app:diffuseColor>1 0 0</app:diffuseColor><app:target>#m</app:target></app:X3DMaterial>"
+               "</app:surfaceData></app:Appearance></core:appearanceMember>" +
+               member("<grp:CityObjectGroup gml:id=\"g\"><grp:groupMember><grp:Role><grp:groupMember "
+                      "xlink:href=\"#b\"/></grp:Role></grp:groupMember><grp:groupMember xlink:href=\"#f\"/>"
+                      "</grp:CityObjectGroup>"));
+}
+
+// The places of all texts between `before` and a quote.
+std::vector<std::pair<std::size_t, std::size_t>> valuesBehind(const std::string& text, std::string_view before) {
+    std::vector<std::pair<std::size_t, std::size_t>> found;
+    for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at)) {
+        at += before.size();
+        found.emplace_back(at, text.find('"', at) - at);
+    }
+    return found;
+}
+
+void expectWholeTree(const BuildingModel& model) {
+    for (std::size_t i = 0; i < model.features.size(); ++i) {
+        const Feature& feature = model.features[i];
+        EXPECT_TRUE(feature.parent == model::kNoFeature || feature.parent < i);
+        for (const Geometry& geometry : feature.geometries)
+            model::forEachUse(geometry,
+                              [&](const model::SurfaceUse& use) { EXPECT_LT(use.polygon, model.polygons.size()); });
+    }
+    EXPECT_EQ(model.treeOrder().size(), model.features.size());
+    for (const model::Membership& membership : model.memberships)
+        EXPECT_TRUE(membership.group < model.features.size() && membership.member < model.features.size());
+}
+
+TEST(CityGmlDefects, EveryReferenceMayCloseACircle) {
+    const std::string text = linkedModel();
+    const Reading whole = read(text);
+    ASSERT_TRUE(whole.result) << whole.result.error().toString();
+    EXPECT_TRUE(whole.diagnostics.items().empty()) << whole.findings();
+    const auto references = valuesBehind(text, "xlink:href=\"#"), ids = valuesBehind(text, "gml:id=\"");
+    ASSERT_EQ(references.size(), 14u);
+    const std::clock_t begin = std::clock();
+    std::size_t files = 0, named = 0;
+    for (const auto& [at, size] : references)
+        for (const auto& [idAt, idSize] : ids) {
+            const std::string id = text.substr(idAt, idSize);
+            std::string changed = text;
+            const Reading reading = read(changed.replace(at, size, id));
+            ASSERT_TRUE(reading.result) << reading.result.error().toString();
+            SCOPED_TRACE(text.substr(at, size) + " at byte " + std::to_string(at) + " becomes " + id);
+            EXPECT_EQ(reading.model().features.size(), whole.model().features.size());
+            EXPECT_LE(reading.model().polygons.size(), 4 * whole.model().polygons.size());
+            expectWholeTree(reading.model());
+            ++files;
+            if (reading.count(Code::ReferenceCycle) > 0) ++named;
+        }
+    EXPECT_GE(named, 55u);
+    // Each takes a millisecond; one that doubles its work with each reference would take for ever.
+    EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 0.1 * double(files));
 }
 
 // Any change of a few bytes gives a model or an error, never a crash; the result is the same each time.

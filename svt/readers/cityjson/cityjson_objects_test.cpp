@@ -283,6 +283,64 @@ TEST(CityJsonObjects, BrokenHierarchyIsReportedAndRepaired) {
     EXPECT_FALSE(reading.diagnostics.items().front().where.id.empty());
 }
 
+// The places of all ids in `parents` and `children`.
+std::vector<std::pair<std::size_t, std::size_t>> linksOf(const std::string& text) {
+    std::vector<std::pair<std::size_t, std::size_t>> links;
+    for (const std::string_view list : {R"("parents":[)", R"("children":[)"})
+        for (std::size_t at = text.find(list); at != std::string::npos; at = text.find(list, at)) {
+            const std::size_t end = text.find(']', at);
+            for (at = text.find('"', at + list.size()); at < end; at = text.find('"', at + 1)) {
+                const std::size_t quote = text.find('"', at + 1);
+                links.emplace_back(at + 1, quote - at - 1);
+                at = quote;
+            }
+            at = end;
+        }
+    return links;
+}
+
+// Four levels by `children`, three by `parents`, and two groups, one within the other.
+TEST(CityJsonObjects, EveryLinkMayCloseACircle) {
+    const std::vector<std::string> ids{"b", "p", "i", "j", "s", "r", "f", "g", "h"};
+    const std::string text = document(
+        R"({"b":{"type":"Building","children":["p","s"]},"p":{"type":"BuildingPart","children":["i"]},)"
+        R"("i":{"type":"BuildingInstallation","children":["j"]},"j":{"type":"BuildingInstallation"},"s":{"type":"BuildingStorey"},)"
+        R"("r":{"type":"BuildingRoom","parents":["s","b"]},"f":{"type":"BuildingFurniture","parents":["r"]},)"
+        R"("g":{"type":"CityObjectGroup","children":["b","f","h"]},)"
+        R"("h":{"type":"CityObjectGroup","parents":["g"],"children":["r"]}})");
+    ASSERT_TRUE(read(text).diagnostics.items().empty());
+    const auto links = linksOf(text);
+    ASSERT_EQ(links.size(), 12u);
+    std::size_t named = 0;
+    for (const auto& [at, size] : links)
+        for (const std::string& id : ids) {
+            std::string changed = text;
+            const Reading reading = read(changed.replace(at, size, id));
+            ASSERT_TRUE(reading.result) << changed;
+            const BuildingModel& model = reading.model();
+            ASSERT_EQ(model.features.size(), ids.size()) << changed;
+            EXPECT_EQ(model.treeOrder().size(), ids.size()) << changed;
+            for (std::size_t n = 0; n < ids.size(); ++n) {
+                const auto parent = model.features[n].parent;
+                EXPECT_TRUE(parent == model::kNoFeature || parent < n) << changed;
+            }
+            EXPECT_LE(model.memberships.size(), links.size()) << changed;
+            named += reading.diagnostics.count(Code::ReferenceCycle);
+        }
+    // b as the child of itself in place of p and of s, of p and of i; r and f as their own parents, and f as that of r.
+    EXPECT_EQ(named, 7u);
+}
+
+TEST(CityJsonObjects, AnEmptyIdIsReplaced) {
+    const Reading reading = read(document(
+        R"({"Building[1]":{"type":"Building"},"":{"type":"Building","children":["p"]},"p":{"type":"BuildingPart","parents":[""]}})"));
+    ASSERT_TRUE(reading.result);
+    ASSERT_EQ(reading.model().features.size(), 3u);
+    EXPECT_EQ(reading.model().features[1].id, "Building[2]");
+    EXPECT_EQ(reading.model().features[2].parent, 1u);
+    EXPECT_EQ(reading.diagnostics.count(Code::MissingId), 1u);
+}
+
 TEST(CityJsonObjects, LongChainOfParentsIsNoRecursion) {
     std::string objects = R"({"0":{"type":"Building"})";
     for (int i = 1; i < 20000; ++i)

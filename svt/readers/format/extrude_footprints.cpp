@@ -49,7 +49,7 @@ std::pair<double, double> heightRange(const Polygon& polygon) {
     return range;
 }
 
-// The polygons of the lowest of a feature's geometries; empty if one is a solid or not flat.
+// The polygons of the lowest of a feature's geometries; empty if any geometry is a solid or not flat.
 std::vector<model::PolygonIndex> footprintOf(const model::BuildingModel& model, const Feature& feature) {
     std::vector<model::PolygonIndex> lowest;
     double height = kInfinity;
@@ -116,7 +116,7 @@ model::Solid prismOver(model::BuildingModel& model, const Polygon& source, doubl
 }  // namespace
 
 std::size_t extrudeFootprints(model::BuildingModel& model, Diagnostics* diagnostics) {
-    // Walls, roofs or parts below a building tell more of it than its footprint. Parents stand before their children.
+    // Walls, roofs or parts below a building describe it better than its footprint. Parents come before their children.
     std::vector<bool> hasGeometryBelow(model.features.size());
     for (std::size_t f = model.features.size(); f-- > 0;) {
         const Feature& feature = model.features[f];
@@ -145,7 +145,7 @@ std::size_t extrudeFootprints(model::BuildingModel& model, Diagnostics* diagnost
     }
     if (diagnostics != nullptr && extruded > 0)
         diagnostics->add(Severity::Note, Code::NoHeights,
-                         fmt::format("{} footprints were raised by their height to bodies", extruded),
+                         fmt::format("{} footprints were extruded by their height to solids", extruded),
                          {model.source, 0, 0, {}});
     if (diagnostics != nullptr && unknown > 0)
         diagnostics->add(Severity::Warning, Code::NoHeights,

@@ -20,7 +20,7 @@
 
 namespace svt::readers {
 
-// Each is declared beside its reader.
+// Each is declared next to its reader.
 extern const Format kCityGml, kCityJson, kIfc, kIndoorGml;
 
 std::span<const Format> formats() noexcept {
@@ -39,7 +39,7 @@ string_view asText(Bytes bytes) noexcept { return {reinterpret_cast<const char*>
 
 bool isGzip(Bytes bytes) noexcept { return asText(bytes).starts_with("\x1F\x8B\x08"); }
 
-// How much gzip data may unpack to, and what to say of more.
+// The maximum size of unpacked gzip data, and the message for larger ones.
 struct UnpackLimit {
     std::uint64_t bytes;
     std::string message;
@@ -48,7 +48,7 @@ struct UnpackLimit {
 UnpackLimit unpackLimit(std::uint64_t packedBytes, std::uint64_t maxBytes) {
     // Models unpack to 5 to 50 times their size, the generated ones 20, deflate can do 1000.
     constexpr std::uint64_t kMaxRatio = 100, kFreeBytes = std::uint64_t{64} << 20;
-    // The text stays while the model is made of it.
+    // The text stays in memory while the model is made.
     constexpr std::uint64_t kShare = 3;
     constexpr string_view kInstead =
         "unpack it (gunzip) and read the result, which takes less memory, or split the model";
@@ -88,7 +88,7 @@ Result<std::vector<std::byte>> decompressed(Bytes bytes, string_view name, std::
     return fail(Code::CannotOpen, fmt::format("damaged gzip data at byte {}", unpacked.taken));
 }
 
-// Content that users often try: what it is and what to do instead.
+// Other content that users often try: its description and the remedy.
 struct KnownOther {
     string_view beginsWith;
     string_view isWhat;
@@ -119,7 +119,7 @@ std::string describeUnknown(string_view text) {
     if (text.empty()) return "the file is empty";
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     const string_view trimmed = withoutBlanks(text.substr(0, 4096));
-    if (trimmed.empty()) return "the file holds nothing but blanks";
+    if (trimmed.empty()) return "the file contains only blanks";
     for (const KnownOther& other : kOthers)
         if (trimmed.starts_with(other.beginsWith)) return fmt::format("this is {}", other.isWhat);
     if (lowerAscii(trimmed.substr(0, 14)) == "<!doctype html") return fmt::format("this is {}", kOtherRoots[0].isWhat);
@@ -131,7 +131,7 @@ std::string describeUnknown(string_view text) {
         if (prolog.hasRoot) return fmt::format("this is XML with the root <{}>", prolog.rootName.substr(0, 60));
         return "this begins like XML, but has no root element";
     }
-    if (trimmed[0] == '{' || trimmed[0] == '[') return "this is JSON, but no CityJSON";
+    if (trimmed[0] == '{' || trimmed[0] == '[') return "this is JSON, but not CityJSON";
     const bool isText = std::all_of(
         trimmed.begin(), trimmed.begin() + std::min<std::ptrdiff_t>(64, static_cast<std::ptrdiff_t>(trimmed.size())),
         [](char c) { return static_cast<unsigned char>(c) >= 0x20 || isBlank(c); });
@@ -205,7 +205,7 @@ Result<model::BuildingModel> readZip(Bytes bytes, string_view name, const ReadOp
     return readPlain(plain, name, options, diagnostics);
 }
 
-// Footprints become bodies where that is wanted.
+// Extrudes footprints if requested.
 Result<model::BuildingModel> withBodies(Result<model::BuildingModel> model, const ReadOptions& options,
                                         Diagnostics* diagnostics) {
     if (model && options.extrudeFootprints) extrudeFootprints(*model, diagnostics);
@@ -247,7 +247,7 @@ Result<model::BuildingModel> readModel(Bytes bytes, string_view name, const Read
     try {
         return withBodies(withStatedClasses(readAny(bytes, name, options, diagnostics)), options, diagnostics);
     } catch (const std::bad_alloc&) {
-        // Here it is known which file; the memory of its half-made model is free again.
+        // Here the file is known, and the memory of its incomplete model is free again.
         const auto grant = memoryGrant();
         return Error(
             Code::InputTooBig,

@@ -33,22 +33,22 @@ struct EpsgCode : record::PlainCodec<EpsgCode, int> {
 record::Members<ReadOptions> membersOf(const ReadOptions*) noexcept {
     static constexpr record::Member<ReadOptions> kMembers[] = {
         record::memberAs<EpsgCode, &ReadOptions::crs>(
-            "crs", "bring the model to this projection in metres, such as EPSG:25832",
+            "crs", "transform the model to this projection in metres, such as EPSG:25832",
             {.value = "CODE",
-             .otherwise = "the file's own; degrees and feet become metres of the usual projection of the place",
+             .otherwise = "that of the file; degrees and feet are projected to the usual projection of the place",
              .group = "Model",
              .option = "--crs",
              .isForModels = true}),
         member<&ReadOptions::keepFarFeatures>("keepFarFeatures", "keep features that lie far away from all others",
                                               {.group = "Model", .option = "--keep-far-features", .isForModels = true}),
         member<&ReadOptions::extrudeFootprints>(
-            "extrudeFootprints", "make bodies of features that have only a footprint and a height as attribute",
+            "extrudeFootprints", "make solids for features that have only a footprint and a height as attribute",
             {.group = "Model", .option = "--extrude-footprints", .isForModels = true}),
         member<&ReadOptions::allowTruncated>(
             "allowTruncated", "read a file that was cut off (IFC, CityJSONSeq) up to the cut, with a warning",
             {.group = "Model", .option = "--allow-truncated", .isForModels = true}),
         member<&ReadOptions::splitLayers>(
-            "layers", "IFC: split walls and slabs into the layers of their material, each an object of its own",
+            "layers", "IFC: split walls and slabs into the layers of their material, each a separate object",
             {.group = "Model", .option = "--layers", .isForModels = true}),
     };
     return kMembers;

@@ -1,8 +1,10 @@
 // A file that was cut off is an error wherever it was cut, unless the caller takes the part before the cut.
+#include <svt/core/deflate.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/readers/citygml/citygml_documents_test.hpp>
 #include <svt/readers/feature_file.hpp>
+#include <svt/readers/format/zip_documents_test.hpp>
 #include <svt/readers/ifc/ifc_documents_test.hpp>
 #include <svt/readers/read_model.hpp>
 
@@ -154,6 +156,56 @@ TEST(Truncated, RowsOfFeaturesEndWithTheErrorToo) {
             EXPECT_EQ(second.error().where().line, 3u);
         }
     }
+}
+
+std::string asGzip(std::string_view text) {
+    const std::vector<std::byte> packed = gzipBytes(std::as_bytes(std::span(text)));
+    return {reinterpret_cast<const char*>(packed.data()), packed.size()};
+}
+
+// The archive and the gzip data are whole; the model in them is not.
+TEST(Truncated, IfcIsAnErrorInArchivesAndGzipData) {
+    const std::string whole = ifc(), cut = whole.substr(0, whole.rfind("ENDSEC"));
+    const auto packings = {std::pair{asGzip(whole), asGzip(cut)},
+                           {test::zipOf({{"a.ifc", whole}}), test::zipOf({{"a.ifc", cut}})},
+                           {test::zipOf({{"a.ifc", whole, 0}}), test::zipOf({{"a.ifc", cut, 0}})}};
+    for (const auto& [packedWhole, packedCut] : packings) {
+        EXPECT_TRUE(read(packedWhole));
+        const auto model = read(packedCut);
+        ASSERT_FALSE(model);
+        EXPECT_EQ(model.error().code(), Code::Truncated);
+        EXPECT_NE(model.error().message().find("behind the record #200"), std::string::npos) << model.error().message();
+        Diagnostics log;
+        const auto part = read(packedCut, true, &log);
+        ASSERT_TRUE(part) << part.error().toString();
+        EXPECT_FALSE(part->features.back().geometries.empty());
+        EXPECT_EQ(log.count(Code::Truncated), 1u);
+    }
+}
+
+TEST(Truncated, SequencesAreErrorsInGzipData) {
+    const svt::test::TemporaryFolder folder;
+    const std::string text = sequence(), packed = asGzip(std::string_view(text).substr(0, text.size() - 40));
+    const auto model = read(packed);
+    ASSERT_FALSE(model);
+    EXPECT_EQ(model.error().code(), Code::Truncated);
+    EXPECT_EQ(model.error().where().line, 3u);
+    Diagnostics log;
+    const auto part = read(packed, true, &log);
+    ASSERT_TRUE(part) << part.error().toString();
+    EXPECT_EQ(part->features.size(), 1u);
+    EXPECT_EQ(log.count(Code::Truncated), 1u);
+
+    const auto path = folder / "cut.city.jsonl.gz";
+    svt::test::writeText(path, packed);
+    auto file = FeatureFile::open(path);
+    ASSERT_TRUE(file) << file.error().toString();
+    FeatureText feature;
+    ASSERT_TRUE(file->next(feature));
+    const auto second = file->next(feature);
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code(), Code::Truncated);
+    EXPECT_EQ(second.error().where().line, 3u);
 }
 
 TEST(Truncated, AFileThatShrinksWhileItIsReadEndsNoProgram) {

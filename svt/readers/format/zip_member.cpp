@@ -22,12 +22,12 @@ bool hasSignature(ZipBytes bytes, std::size_t at, std::uint32_t signature) noexc
     return at + 4 <= bytes.size() && loadBytes<std::uint32_t>(bytes, at) == signature;
 }
 
-// The end of the central directory, and how many bytes stand behind it and its comment.
+// The end of the central directory, and the number of bytes after it and its comment.
 struct ZipEnd {
     std::size_t offset = 0, beyond = 0;
 };
 
-// The record that ends where the file does, or else the last one that there is.
+// The record that ends at the end of the file, or else the last record.
 std::optional<ZipEnd> findEnd(ZipBytes bytes) noexcept {
     if (bytes.size() < kEndSize) return std::nullopt;
     std::optional<ZipEnd> found;
@@ -41,7 +41,7 @@ std::optional<ZipEnd> findEnd(ZipBytes bytes) noexcept {
     return found;
 }
 
-// A file as the directory of the archive has it.
+// A file in the directory of the archive.
 struct DirectoryEntry {
     std::string name;
     std::uint32_t flags = 0, method = 0, checksum = 0, packed = 0, size = 0, local = 0;
@@ -77,7 +77,7 @@ bool isWanted(const DirectoryEntry& entry, std::span<const std::string_view> ext
                        [&](std::string_view extension) { return lower.ends_with(extension); });
 }
 
-// The packed bytes of a file, where its own head has the name that the directory tells.
+// The packed bytes of a file, if its local header has the same name as the directory.
 std::optional<ZipBytes> packedBytes(ZipBytes bytes, std::size_t end, const DirectoryEntry& entry) noexcept {
     const std::size_t local = entry.local;
     if (local > end || end - local < kLocalSize || !hasSignature(bytes, local, 0x04034B50)) return std::nullopt;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The model in a zip archive, as .ifczip files are.
+/// The model in a zip archive, such as an .ifczip file.
 
 #include <svt/core/result.hpp>
 
@@ -17,15 +17,15 @@ namespace svt::readers {
 struct ZipMember {
     std::string name;
     std::span<const std::byte> packed;
-    std::uint64_t size = 0;      ///< unpacked, as the archive says
-    std::uint32_t checksum = 0;  ///< of the unpacked bytes, as the archive says
+    std::uint64_t size = 0;      ///< unpacked, according to the archive
+    std::uint32_t checksum = 0;  ///< of the unpacked bytes, according to the archive
     bool isDeflated = false;     ///< else stored
 };
 
 [[nodiscard]] bool isZip(std::span<const std::byte> bytes) noexcept;
 
-/// The one file of an archive whose name ends in one of `extensions` (lower case, with the dot). Companion files of macOS
-/// (`__MACOSX/`, `._name`) do not count.
+/// The one file of an archive whose name ends in one of `extensions` (lower case, with the dot). Companion files of
+/// macOS (`__MACOSX/`, `._name`) do not count.
 /// \param archive  in messages
 /// \return the member, or CannotOpen: damaged, encrypted, of another method than deflate, or with several such files;
 ///         UnknownFormat: no such file

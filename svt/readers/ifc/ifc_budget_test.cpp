@@ -1,15 +1,21 @@
 // Small files that refer to the same records again and again: what they stand for is bounded, and the rest of them is read.
+#include <svt/core/machine.hpp>
 #include <svt/readers/ifc/ifc_documents_test.hpp>
 #include <svt/readers/step/read_guard.hpp>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <ctime>
 #include <string>
 
 namespace svt::readers {
 namespace {
 
 using namespace test;
+
+// Of processor time, for one file. The budgets of the reader allow for some tenths of it.
+constexpr double kMostSeconds = kIsSanitized ? 60 : 3;
 
 struct Outcome {
     Code error = Code::Internal;  // where there is no model
@@ -27,7 +33,9 @@ Outcome readBeside(const std::string& records, const std::string& walls = "#100"
                                          "#903=IFCBLOCK(#14,1000.,1000.,1000.);\n",
                                      walls + ",#900");
     Diagnostics log;
+    const std::clock_t begin = std::clock();
     const auto model = readText(text, &log);
+    EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, kMostSeconds);
     Outcome outcome;
     for (const Diagnostic& d : log.items()) outcome.findings += d.toString() + "\n";
     if (!model) {
@@ -64,17 +72,43 @@ void expectLeftOut(const Outcome& outcome) {
     EXPECT_EQ(outcome.points, 24U);  // of the sound wall alone
 }
 
-TEST(IfcBudget, CurvesThatTrimEachOtherAreReadOnce) {
-    std::string text =
-        "#200=IFCEXTRUDEDAREASOLID(#201,#14,#11,1000.);\n#201=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#1029);\n"
-        "#210=IFCCARTESIANPOINT((500.,0.));\n#211=IFCCARTESIANPOINT((500.,500.));\n"
-        "#999=IFCPOLYLINE((#16,#210,#211,#16));\n";
-    for (int i = 1000; i < 1030; ++i)
+// Curves that trim each other, `length` of them around a triangle, extruded.
+std::string trimmedChain(int length) {
+    std::string text = fmt::format(
+                           "#200=IFCEXTRUDEDAREASOLID(#201,#14,#11,1000.);\n"
+                           "#201=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#{});\n",
+                           999 + length) +
+                       "#210=IFCCARTESIANPOINT((500.,0.));\n#211=IFCCARTESIANPOINT((500.,500.));\n"
+                       "#999=IFCPOLYLINE((#16,#210,#211,#16));\n";
+    for (int i = 1000; i < 1000 + length; ++i)
         text += fmt::format("#{}=IFCTRIMMEDCURVE(#{},(#16),(#211),.T.,.CARTESIAN.);\n", i, i - 1);
-    const Outcome outcome = readBeside(wall(text));
+    return wall(text);
+}
+
+TEST(IfcBudget, CurvesThatTrimEachOtherAreReadOnce) {
+    const Outcome outcome = readBeside(trimmedChain(30));
     EXPECT_TRUE(outcome.hasSound);
     EXPECT_EQ(outcome.findings.find("E13"), outcome.findings.find("E134")) << outcome.findings;
-    EXPECT_EQ(outcome.points, 24U + 18U);  // a triangle, extruded
+    EXPECT_EQ(outcome.points, 24U + 18U);
+}
+
+// Of a hundred readings; the least of several measurements.
+double secondsOfReading(const std::string& text) {
+    const std::string file = ifcFile(text, "#100");
+    double least = 1e9;
+    for (int round = 0; round < 5; ++round) {
+        const std::clock_t begin = std::clock();
+        for (int n = 0; n < 100; ++n) EXPECT_TRUE(readText(file));
+        least = std::min(least, double(std::clock() - begin) / CLOCKS_PER_SEC);
+    }
+    return least;
+}
+
+TEST(IfcBudget, TimeGrowsWithTheCurvesThatTrimEachOther) {
+    readBeside(trimmedChain(30));
+    ASSERT_FALSE(HasFailure()) << "a hundred readings would take too long";
+    const double ofHalf = secondsOfReading(trimmedChain(15)), ofWhole = secondsOfReading(trimmedChain(30));
+    EXPECT_LT(ofWhole, 3 * ofHalf);
 }
 
 TEST(IfcBudget, MappedItemsOfMappedItems) {

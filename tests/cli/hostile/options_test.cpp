@@ -175,5 +175,139 @@ TEST_F(NoFiles, StdinIsAnInputWhereAFileStandsBehindIt) {
     EXPECT_NE(readText(folder / "out").find("a pipe"), std::string::npos);
 }
 
+// Formats are told by the endings of files, and folders by their names.
+TEST_F(NoFiles, ArePipesWhateverTheirEnding) {
+    for (const std::string ending : {".svt", ".nrrd", ".nii", ".tif", ".vti", ".zarr", ".ifc", ".ifczip", ".gml.gz",
+                                     ".json", ".ade.gml", ".style.json", ".csv"}) {
+        const std::string pipe = "pipe" + ending;
+        ASSERT_EQ(::mkfifo((folder / pipe).c_str(), 0600), 0);
+        const auto before = folder.count();
+        for (const Arguments& arguments :
+             {Arguments{"info", pipe}, Arguments{"check", pipe}, Arguments{"query", pipe, "all"},
+              Arguments{"build", pipe, "-o", "o.svt"}, Arguments{"convert", pipe, "o.nrrd"},
+              Arguments{"render", pipe, "-o", "o.png"}, Arguments{"city-plan", pipe, "-o", "o"},
+              Arguments{"build", "two.gml", "-o", "o.svt", "--labels", pipe},
+              Arguments{"info", "two.gml", "--style", pipe}}) {
+            const CommandResult result = runSvt(folder.path(), arguments);
+            ASSERT_FALSE(result.isTimeout) << arguments[0] << " " << pipe;
+            EXPECT_EQ(result.exitCode, kInput) << arguments[0] << ": " << result.toString();
+            EXPECT_NE(result.err.find(pipe), std::string::npos) << result.toString();
+            EXPECT_NE(result.err.find("a pipe"), std::string::npos) << result.toString();
+        }
+        EXPECT_EQ(folder.count(), before);
+    }
+}
+
+// Folders with a pipe in the place of a file.
+class PipesInFolders : public ::testing::Test {
+protected:
+    // Runs `svt` where `tried` is a copy of the folder `whole` with a pipe for the file `name`.
+    CommandResult runWithPipe(const std::string& whole, const std::string& name, const Arguments& arguments) {
+        fs::remove_all(folder / "tried");
+        fs::copy(folder / whole, folder / "tried", fs::copy_options::recursive);
+        fs::remove(folder / "tried" / name);
+        EXPECT_EQ(::mkfifo((folder / "tried" / name).c_str(), 0600), 0) << name;
+        return runSvt(folder.path(), arguments);
+    }
+
+    // The command ends with `exitCode` and a message that names the pipe; it leaves no output.
+    void expectRefused(const std::string& whole, const std::string& name, const Arguments& arguments, int exitCode) {
+        const CommandResult result = runWithPipe(whole, name, arguments);
+        const std::string what = name + ": " + arguments[0] + " " + arguments.back() + ": ";
+        ASSERT_FALSE(result.isTimeout) << what;
+        EXPECT_EQ(result.exitCode, exitCode) << what << result.toString();
+        EXPECT_NE((result.err + result.out).find(fs::path(name).filename().string()), std::string::npos)
+            << what << result.toString();
+        for (const char* output : {"o", "o.svt", "o.png"}) EXPECT_FALSE(fs::exists(folder / output)) << what << output;
+    }
+
+    void makeCity() {
+        writeText(folder / "two.gml", twoBoxes());
+        runSvtWell(folder.path(), {"city-plan", "two.gml", "-o", "city", "--spacing", "1"});
+        runSvtWell(folder.path(), {"city-run", "city"});
+        fs::create_directory(folder / "page");
+        writeText(folder / "page/index.html", "<!doctype html><head></head>");
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(PipesInFolders, AreErrorsOfWhoReadsACity) {
+    makeCity();
+    const Arguments readers[] = {{"city-info", "tried"},
+                                 {"info", "tried"},
+                                 {"query", "tried", "all", "--json"},
+                                 {"render", "tried", "--size", "32x32", "-o", "o.png"},
+                                 {"publish", "tried", "--viewer", "page", "-o", "o"},
+                                 {"city-extract", "tried", "--box=-1e7,-1e7,-1e7,1e7,1e7,1e7", "-o", "o.svt"}};
+    for (const char* name : {"city.json", "index.bin", "ids.bin", "packs.bin"})
+        for (const Arguments& arguments : readers) expectRefused("city", name, arguments, kInput);
+    for (const Arguments& arguments : readers)
+        if (arguments[0] != "city-info" && arguments[0] != "info")
+            expectRefused("city", "packs/00000.svtp", arguments, kInput);
+    expectRefused("city", "packs/00000.svtp", {"check", "tried"}, kInvalid);
+}
+
+TEST_F(PipesInFolders, AreErrorsOfWhoWritesACity) {
+    makeCity();
+    for (const char* name : {"plan.json", "tiles.bin", "packs.bin"})
+        for (const char* command : {"city-status", "city-run", "city-merge"})
+            expectRefused("city", "plan/" + std::string(name), {command, "tried"}, kInput);
+    for (const char* name : {"plan.json", "tiles.bin", "packs.bin", "features.bin"})
+        expectRefused("city", "plan/" + std::string(name), {"city-plan", "two.gml", "--spacing", "2", "-o", "tried"},
+                      kOutput);
+    for (const char* name : {"packs/00000.svtp", "reports/00000.json"}) {
+        expectRefused("city", name, {"city-task", "tried", "0"}, kOutput);
+        expectRefused("city", name, {"city-run", "tried"}, kInput);
+    }
+    for (const char* name : {"packs.bin", "index.bin", "ids.bin", "city.json"})
+        expectRefused("city", name, {"city-merge", "tried"}, kOutput);
+}
+
+TEST_F(PipesInFolders, AreErrorsOfWhoWritesFilesIntoAFolder) {
+    writeText(folder / "two.gml", twoBoxes());
+    runSvtWell(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "1"});
+    runSvtWell(folder.path(), {"sheets", "two.svt", "--svg", "svg", "--dxf", "dxf"});
+    runSvtWell(folder.path(), {"sample-city", "--buildings", "1", "-o", "models"});
+    expectRefused("svg", "sheet-1.svg", {"sheets", "two.svt", "--svg", "tried"}, kOutput);
+    expectRefused("dxf", "plan-1.dxf", {"sheets", "two.svt", "--dxf", "tried"}, kOutput);
+    expectRefused("models", "00000.gml", {"sample-city", "--buildings", "1", "-o", "tried"}, kOutput);
+}
+
+TEST_F(PipesInFolders, AreErrorsOfWhoReadsZarr) {
+    writeText(folder / "two.gml", twoBoxes());
+    runSvtWell(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "1"});
+    runSvtWell(folder.path(), {"convert", "two.svt", "two.zarr"});
+    runSvtWell(folder.path(), {"convert", "two.svt", "three.zarr", "--zarr", "3"});
+    runSvtWell(folder.path(), {"convert", "two.svt", "sharded.zarr", "--zarr", "3", "--sharded"});
+    const std::pair<std::string, std::vector<std::string>> files[] = {{"two.zarr", {".zattrs", "0/.zarray", "0/0/0/0"}},
+                                                                      {"three.zarr", {"0/zarr.json", "0/c/0/0/0"}},
+                                                                      {"sharded.zarr", {"0/zarr.json", "0/c/0/0/0"}}};
+    for (const auto& [whole, names] : files)
+        for (const std::string& name : names) {
+            expectRefused(whole, name, {"info", "tried"}, kInput);
+            expectRefused(whole, name, {"build", "tried", "-o", "o.svt"}, kInput);
+        }
+}
+
+TEST_F(PipesInFolders, AreErrorsOfAPlanOfModels) {
+    fs::create_directory(folder / "models");
+    writeText(folder / "models/two.gml", twoBoxes());
+    for (const char* name : {"pipe.gml", "pipe.json", "pipe.ifc", "pipe.gml.gz"})
+        expectRefused("models", name, {"city-plan", "tried", "-o", "o"}, kInput);
+    // What does not end as a model is none.
+    EXPECT_EQ(runWithPipe("models", "pipe.txt", {"city-plan", "tried", "-o", "o"}).exitCode, kDone);
+}
+
+// The page is what the folder has as files.
+TEST_F(PipesInFolders, AreNoPartOfAPage) {
+    makeCity();
+    EXPECT_EQ(runWithPipe("page", "more.js", {"publish", "city", "--viewer", "tried", "-o", "o"}).exitCode, kDone);
+    EXPECT_FALSE(fs::exists(folder / "o/more.js"));
+    fs::remove_all(folder / "o");
+    const CommandResult result = runWithPipe("page", "index.html", {"publish", "city", "--viewer", "tried", "-o", "o"});
+    EXPECT_EQ(result.exitCode, kInput) << result.toString();
+}
+
 }  // namespace
 }  // namespace svt::test

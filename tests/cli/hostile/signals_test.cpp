@@ -1,20 +1,16 @@
-// Signals and closed streams: whatever ends the command, no temporary file and no half of an output is left, and no
-// message gets into a file.
-#include <tests/cli/run_command.hpp>
+// Signals: whatever ends the command, no temporary file and no half of an output is left.
+#include <tests/cli/hostile/running_svt.hpp>
 #include <tests/cli/small_model.hpp>
 
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <svt/core/machine.hpp>
+#include <svt/serve/http_client_test.hpp>
 
-#include <array>
-#include <cerrno>
+#include <poll.h>
+
+#include <chrono>
 #include <csignal>
 #include <functional>
-#include <optional>
+#include <thread>
 
 namespace svt::test {
 namespace {
@@ -23,78 +19,6 @@ namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
 constexpr int kEndingSignals[] = {SIGTERM, SIGHUP, SIGINT, SIGPIPE};
-
-// A process of `svt` that the test can send signals to. Its temporary folder is `folder`/tmp.
-class RunningSvt {
-public:
-    RunningSvt(const fs::path& folder, const Arguments& arguments, const std::function<void()>& prepare = {}) {
-        const std::string command = commandPath(), temporary = (folder / "tmp").string();
-        std::vector<std::string> texts{"svt"};
-        texts.insert(texts.end(), arguments.begin(), arguments.end());
-        std::vector<char*> pointers;
-        for (std::string& text : texts) pointers.push_back(text.data());
-        pointers.push_back(nullptr);
-        std::array<int, 2> started{};  // closed when the child becomes svt
-        if (::pipe2(started.data(), O_CLOEXEC) != 0) ADD_FAILURE() << "no pipe";
-        child_ = ::fork();
-        if (child_ != 0) {
-            ::close(started[1]);
-            char none = 0;
-            while (::read(started[0], &none, 1) < 0 && errno == EINTR) {
-            }
-            ::close(started[0]);
-            return;
-        }
-        for (const int signal : {SIGTERM, SIGHUP, SIGINT, SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_DFL);
-        const int nothing = ::open("/dev/null", O_RDWR);
-        for (const int stream : {0, 1, 2}) ::dup2(nothing, stream);
-        ::setenv("TMPDIR", temporary.c_str(), 1);
-        if (::chdir(folder.c_str()) != 0) ::_exit(126);
-        if (prepare) prepare();
-        ::execv(command.c_str(), pointers.data());
-        ::_exit(126);
-    }
-    ~RunningSvt() {
-        if (status_) return;
-        ::kill(child_, SIGKILL);
-        ::waitpid(child_, nullptr, 0);
-    }
-    RunningSvt(const RunningSvt&) = delete;
-    RunningSvt& operator=(const RunningSvt&) = delete;
-
-    void send(int signal) const { ::kill(child_, signal); }
-    // Whether it has ended.
-    bool isOver() {
-        int status = 0;
-        if (!status_ && ::waitpid(child_, &status, WNOHANG) == child_) status_ = status;
-        return status_.has_value();
-    }
-    // Waits for its end.
-    int status() {
-        int status = 0;
-        if (!status_ && ::waitpid(child_, &status, 0) == child_) status_ = status;
-        return status_.value_or(-1);
-    }
-
-private:
-    pid_t child_ = -1;
-    std::optional<int> status_;
-};
-
-// The names of what lies below a folder.
-std::vector<std::string> namesBelow(const fs::path& folder) {
-    std::vector<std::string> names;
-    std::error_code failed;
-    for (fs::recursive_directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
-        names.push_back(at->path().lexically_relative(folder).string());
-    return names;
-}
-
-bool hasTemporary(const fs::path& folder) {
-    for (const std::string& name : namesBelow(folder))
-        if (name.find(".svt-") != std::string::npos || name.find(".part") != std::string::npos) return true;
-    return false;
-}
 
 class Signals : public ::testing::Test {
 protected:
@@ -125,6 +49,52 @@ protected:
             ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "status " << status;
         }
         ADD_FAILURE() << "signal " << signal << " never came in the middle of the work";
+    }
+
+    // Sends each signal at several times of a run. Nothing temporary is left, and what is left of `output`, a folder or a file, is as a
+    // whole run writes it: all of it where `last` is there.
+    void expectWholeAtAnyTime(const Arguments& arguments, const std::string& output, const std::string& last,
+                              const std::function<void()>& reset) {
+        constexpr int kTimes = 8;
+        const auto left = [&] {
+            return fs::is_regular_file(folder / output)
+                       ? std::map<std::string, std::string>{{"", readText(folder / output)}}
+                       : contentBelow(folder / output);
+        };
+        reset();
+        const auto start = std::chrono::steady_clock::now();
+        EXPECT_EQ(RunningSvt(folder.path(), arguments).status(), 0);
+        const auto time = std::chrono::steady_clock::now() - start;
+        const auto whole = left();
+        ASSERT_TRUE(whole.contains(last));
+        int met = 0;
+        for (const int signal : {SIGTERM, SIGHUP, SIGPIPE})
+            for (int n = 0; n < kTimes; ++n) {
+                reset();
+                RunningSvt svt(folder.path(), arguments);
+                std::this_thread::sleep_for(time * n / kTimes);
+                svt.send(signal);
+                const int status = svt.status();
+                met += WIFSIGNALED(status) && WTERMSIG(status) == signal ? 1 : 0;
+                const std::string when = "signal " + std::to_string(signal) + ", " + std::to_string(n) + " of " +
+                                         std::to_string(kTimes) + " of the time";
+                EXPECT_TRUE(WIFSIGNALED(status) || status == 0) << "status " << status << ", " << when;
+                ASSERT_FALSE(hasTemporary(folder.path())) << when;
+                ASSERT_TRUE(fs::is_empty(folder / "tmp")) << when;
+                const auto now = left();
+                for (const auto& [name, content] : now)
+                    EXPECT_TRUE(whole.contains(name) && content == whole.at(name)) << name << ", " << when;
+                EXPECT_TRUE(!now.contains(last) || now.size() == whole.size()) << when;
+            }
+        EXPECT_GE(met, 3) << "the signals came too late";
+    }
+
+    // Runs `svt`; 120 s of processor time are for sanitizers.
+    void runLong(const Arguments& arguments) {
+        Limits limits;
+        limits.seconds = 120;
+        const CommandResult result = runSvt(folder.path(), arguments, limits);
+        ASSERT_EQ(result.exitCode, 0) << arguments[0] << ": " << result.toString();
     }
 
     TemporaryFolder folder;
@@ -195,44 +165,16 @@ TEST_F(Signals, LeaveNothingOfAFilmAndEndItsEncoder) {
 }
 
 TEST_F(Signals, LeaveNothingOfACity) {
-    const auto runWell = [&](const Arguments& arguments) {
-        Limits limits;
-        limits.seconds = 120;
-        const CommandResult result = runSvt(folder.path(), arguments, limits);
-        ASSERT_EQ(result.exitCode, 0) << arguments[0] << ": " << result.toString();
-    };
-    runWell({"sample-city", "--buildings", "40", "-o", "models"});
-    runWell({"city-plan", "models", "-o", "city", "--spacing", "1", "--pack-seconds", "0.05"});
+    runLong({"sample-city", "--buildings", "40", "-o", "models"});
+    runLong({"city-plan", "models", "-o", "city", "--spacing", "1", "--pack-seconds", "0.05"});
     for (const int signal : kEndingSignals)
         expectNothingLeft({"city-run", "city", "--jobs", "2"}, folder / "city", signal, [&] {
             for (const char* part : {"packs", "reports", "city.json", "index.bin", "ids.bin", "packs.bin"})
                 fs::remove_all(folder / "city" / part);
         });
     // What is done stays, and the same command goes on from there.
-    runWell({"city-run", "city"});
-    runWell({"city-info", "city"});
-}
-
-TEST_F(Signals, AFileSizeLimitIsAnErrorOfEveryOutput) {
-    writeText(folder / "two.gml", twoBoxes());
-    runSvtWell(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "0.2"});
-    const Arguments commands[] = {
-        {"build", "two.gml", "-o", "o.svt", "--spacing", "0.2"},
-        {"convert", "two.svt", "o.nrrd", "--encoding", "raw"},
-        {"convert", "two.svt", "o.zarr"},
-        {"render", "two.svt", "-o", "o.png"},
-        {"section", "two.svt", "-o", "o.dxf"},
-        {"sample", "house", "-o", "o.gml"},
-    };
-    for (const Arguments& arguments : commands) {
-        Limits limits;
-        limits.fileBytes = 64;
-        const CommandResult result = runSvt(folder.path(), arguments, limits);
-        EXPECT_EQ(result.exitCode, kOutput) << arguments[0] << ": " << result.toString();
-        EXPECT_FALSE(hasTemporary(folder.path())) << arguments[0];
-        for (const std::string& name : namesBelow(folder.path()))
-            EXPECT_FALSE(name.starts_with("o.")) << arguments[0] << " left " << name;
-    }
+    runLong({"city-run", "city"});
+    runLong({"city-info", "city"});
 }
 
 TEST_F(Signals, ThatAreIgnoredStayIgnored) {
@@ -250,35 +192,112 @@ TEST_F(Signals, ThatAreIgnoredStayIgnored) {
     runSvtWell(folder.path(), {"info", "o.svt"});
 }
 
-TEST_F(Signals, ClosedStreamsGetIntoNoFile) {
+TEST_F(Signals, LeaveNothingOfAPublishedPage) {
     writeText(folder / "two.gml", twoBoxes());
-    const Arguments build{"build", "two.gml", "-o", "o.svt", "--spacing", "0.5", "--verbose"};
-    runSvtWell(folder.path(), build);
-    const std::string expected = readText(folder / "o.svt");
-    for (int closed = 1; closed < 8; ++closed) {
-        fs::remove(folder / "o.svt");
-        const auto close = [closed] {
-            for (const int stream : {0, 1, 2})
-                if ((closed >> stream & 1) != 0) ::close(stream);
-        };
-        RunningSvt svt(folder.path(), build, close);
-        EXPECT_EQ(svt.status(), 0) << closed;
-        EXPECT_TRUE(readText(folder / "o.svt") == expected) << closed;
-        // A message of an error has nowhere to go.
-        RunningSvt wrong(folder.path(), {"build", "missing.gml", "-o", "o.svt"}, close);
-        const int status = wrong.status();
-        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 3) << closed << ": status " << status;
-        EXPECT_TRUE(readText(folder / "o.svt") == expected) << closed;
-    }
+    fs::create_directories(folder / "page/assets");
+    writeText(folder / "page/index.html", "<!doctype html><head></head>");
+    for (int n = 0; n < 20; ++n) writeText(folder / ("page/assets/" + std::to_string(n) + ".js"), "1");
+    const Arguments publish{"publish", "two.gml", "-o", "site", "--viewer", "page", "--spacing", "0.5"};
+    for (const int signal : {SIGTERM, SIGHUP, SIGPIPE})
+        expectNothingLeft(publish, folder / "site", signal, [&] { fs::remove_all(folder / "site"); });
+    expectWholeAtAnyTime(publish, "site", "index.html", [&] { fs::remove_all(folder / "site"); });
 }
 
-TEST_F(Signals, MessagesThatCannotBeWrittenDoNotAbort) {
-    RunningSvt svt(folder.path(), {"info", "missing.gml"}, [] {
-        const int full = ::open("/dev/full", O_WRONLY);
-        ::dup2(full, 2);
+TEST_F(Signals, LeaveNothingOfSheets) {
+    writeText(folder / "two.gml", twoBoxes());
+    runSvtWell(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "0.5"});
+    expectWholeAtAnyTime({"sheets", "two.svt", "--svg", "sheets"}, "sheets", "sheet-1.svg",
+                         [&] { fs::remove_all(folder / "sheets"); });
+    expectWholeAtAnyTime({"sheets", "two.svt", "-o", "o.pdf"}, "o.pdf", "", [&] { fs::remove(folder / "o.pdf"); });
+}
+
+TEST_F(Signals, LeaveNothingOfAPlanAndOfAMerge) {
+    runLong({"sample-city", "--buildings", "40", "-o", "models"});
+    const Arguments plan{"city-plan", "models", "-o", "city", "--spacing", "2", "--pack-seconds", "0.05"};
+    expectWholeAtAnyTime(plan, "city", "plan/plan.json", [&] { fs::remove_all(folder / "city"); });
+    fs::remove_all(folder / "city");
+    runLong(plan);
+    runLong({"city-run", "city"});
+    fs::rename(folder / "city", folder / "run");
+    expectWholeAtAnyTime({"city-merge", "city"}, "city", "city.json", [&] {
+        fs::remove_all(folder / "city");
+        fs::create_directory(folder / "city");
+        for (const char* part : {"plan", "reports"})
+            fs::copy(folder / "run" / part, folder / "city" / part, fs::copy_options::recursive);
+        fs::create_directory(folder / "city/packs");
+        // Those behind the packs of the plan are made by the merge.
+        for (const auto& report : fs::directory_iterator(folder / "run/reports")) {
+            const std::string pack = "packs/" + report.path().stem().string() + ".svtp";
+            fs::copy(folder / "run" / pack, folder / "city" / pack);
+        }
     });
-    const int status = svt.status();
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 3) << "status " << status;
+}
+
+// A server that takes uploads, and a client of it.
+class Uploads : public Signals {
+protected:
+    Uploads() {
+        fs::create_directory(folder / "page");
+        writeText(folder / "page/index.html", "<!doctype html><head></head>");
+    }
+
+    // Starts a server, has `upload` bring it to work until `isAtWork`, and sends the signal: nothing temporary is left.
+    void expectNothingOfAnUpload(int signal, const std::string& sent, std::size_t promised,
+                                 const std::function<bool()>& isAtWork) {
+        RunningSvt svt(folder.path(), {"serve", "--viewer", "page", "--port", "0", "--allow-uploads"});
+        const int port = portOf(svt);
+        ASSERT_NE(port, 0) << "status " << svt.status();
+        serve::Client client(port);
+        client.send("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n");
+        ASSERT_EQ(client.receive().status, 200) << "signals are watched from here on";
+        ASSERT_FALSE(fs::is_empty(folder / "tmp"));
+        client.send("POST /api/convert?name=two.gml HTTP/1.1\r\nHost: localhost\r\nContent-Length: " +
+                    std::to_string(promised) + "\r\n\r\n" + sent);
+        while (!svt.isOver() && !isAtWork()) {
+        }
+        ASSERT_FALSE(svt.isOver()) << "status " << svt.status();
+        const std::string process = std::to_string(svt.process());
+        const std::string child = readText("/proc/" + process + "/task/" + process + "/children");
+        svt.send(signal);
+        const int status = svt.status();
+        if (signal == SIGTERM)
+            EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "status " << status;
+        else
+            EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << "status " << status;
+        EXPECT_TRUE(fs::is_empty(folder / "tmp"))
+            << "signal " << signal << " leaves " << contentBelow(folder / "tmp").begin()->first;
+        EXPECT_TRUE(child.empty() || ::kill(std::stoi(child), 0) != 0) << "the conversion is at work";
+    }
+
+    // Whether a file that `isMeant` lies below the temporary folder.
+    bool hasFile(const std::function<bool(const fs::path&)>& isMeant) const {
+        std::error_code failed;
+        for (fs::recursive_directory_iterator at(folder / "tmp", failed), end; !failed && at != end;
+             at.increment(failed))
+            if (isMeant(at->path())) return true;
+        return false;
+    }
+};
+
+TEST_F(Uploads, AreRemovedWhereASignalComesInTheMiddle) {
+    const auto hasBody = [&] {
+        return hasFile([](const fs::path& file) {
+            std::error_code failed;
+            return fs::is_regular_file(file, failed) && fs::file_size(file, failed) > 0 && !failed;
+        });
+    };
+    for (const int signal : {SIGTERM, SIGHUP, SIGPIPE})
+        expectNothingOfAnUpload(signal, std::string(400'000, ' '), 1'000'000, hasBody);
+}
+
+TEST_F(Uploads, AreRemovedWhereASignalComesDuringTheirConversion) {
+    if (kIsSanitized) GTEST_SKIP() << "a sanitizer needs more address space than a conversion may have";
+    const std::string model = twoBoxes();
+    const auto isConverting = [&] {
+        return hasFile([](const fs::path& file) { return file.filename() == "two.gml"; });
+    };
+    for (const int signal : {SIGTERM, SIGHUP, SIGPIPE})
+        expectNothingOfAnUpload(signal, model, model.size(), isConverting);
 }
 
 }  // namespace
