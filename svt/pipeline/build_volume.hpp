@@ -35,18 +35,18 @@ constexpr auto namesOf(AxesKind) {
 struct BuildOptions {
     std::optional<Vec3i> dimension;  ///< samples along x, y, z; overrides spacing
     std::optional<Vec3d> spacing;    ///< metres; without dimension and spacing see chooseSpacing()
-    std::uint64_t memoryBytes = SpacingChoice::kMemoryBytes;  ///< at most, of a spacing that nobody asked for
+    std::uint64_t memoryBytes = SpacingChoice::kMemoryBytes;  ///< limit for a default spacing
     AxesKind axes = AxesKind::World;
     std::optional<volume::Grid> grid;  ///< grid of another volume; dimension, spacing and axes are then ignored
     model::LodChoice lod;
-    readers::ReadOptions read;         ///< of files; threads and progress are those below
+    readers::ReadOptions read;         ///< for files; threads and progress are those below
     bool assignThematicBodies = true;  ///< assigns material between hull and rooms to the nearest boundary surface
     bool usePatterns = false;          ///< use the patterns of the built-in style
     voxelize::SheetMode sheets = voxelize::SheetMode::Thin;
     bool keepThinParts = true;
     VectorChoice vectors;               ///< content of SemanticVolume::vectors; empty by default
     const StyleSheet* style = nullptr;  ///< applied after the built-in style
-    std::filesystem::path styleFile;    ///< read and applied where `style` is null; empty: none
+    std::filesystem::path styleFile;    ///< read and applied if `style` is null; empty: none
     int threads = 0;
     const Progress* progress = nullptr;
 };
@@ -62,7 +62,7 @@ struct BuildReport {
     std::size_t tJunctions = 0;  ///< closed objects with edges that match only up to T-junctions
     std::array<std::size_t, 6> closures{};  ///< objects per mesh::Closure: how they were closed
     std::uint64_t uncertainVoxels = 0;      ///< of all open shells: voxels with a winding number between 0.25 and 0.75
-    std::optional<SpacingChoice> spacing;   ///< where none was asked for: the one that was chosen
+    std::optional<SpacingChoice> spacing;   ///< the chosen spacing; empty if one was requested
     struct Seconds {
         double read = 0, mesh = 0, voxelize = 0, pack = 0, write = 0, total = 0;
     } seconds;  ///< voxelize: meshes in memory to the finished canonical volume; pack: labels, counts, checks
@@ -85,7 +85,7 @@ struct BuildOutput {
                                               Diagnostics* log = nullptr);
 
 /// The grid requested by `options` for the meshes.
-/// \param choice  receives the spacing where none was requested; may be null
+/// \param choice  receives the chosen spacing if none was requested; may be null
 [[nodiscard]] Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions& options,
                                               std::optional<SpacingChoice>* choice = nullptr);
 

@@ -190,7 +190,7 @@ TEST(BuildVolume, GridByDimensionSpacingOrContent) {
     const BuildOutput small = build(model, options);
     EXPECT_EQ(small.volume.grid.spacing(), (Vec3d{0.2, 0.2, 0.2}));
     EXPECT_LE(small.report.spacing->forecast.bytes, 100'000);
-    EXPECT_NE(small.report.spacing->reason.find("0.2 m, since by 0.1 m it would take about"), std::string::npos)
+    EXPECT_NE(small.report.spacing->reason.find("0.2 m, because at 0.1 m it would take about"), std::string::npos)
         << small.report.spacing->reason;
     options.memoryBytes = SpacingChoice::kMemoryBytes;
     options.spacing = Vec3d{0.5, 0.25, 0.125};

@@ -12,8 +12,8 @@
 namespace svt::pipeline {
 namespace {
 
-// Bytes that building and drawing take at most: 2 where solids are large, 9 where all walls and roofs are sheets, too
-// (100 buildings of LoD2, 230 MB for 25 million voxels on surfaces).
+// Maximum bytes per voxel on surfaces for building and drawing: 2 if solids are large, 9 if all walls and roofs are
+// sheets as well (100 buildings of LoD2, 230 MB for 25 million voxels on surfaces).
 constexpr double kBytesPerSurfaceVoxel = 10;
 constexpr double kBytesPerColumn = 2;  // numbers of columns in rows that differ
 constexpr double kBytesPerBrick = 4;   // index of bricks
@@ -28,19 +28,19 @@ double spacingOf(int n) noexcept {
 }
 constexpr int kUsualStep = 5;  // 50 mm
 
-// Which limit a grid is over; empty: none.
+// The limit that a grid exceeds, as text; empty: none.
 std::string excessOf(const GridForecast& forecast, std::uint64_t memoryBytes) {
     if (forecast.largestDimension > volume::Grid::kMaxDimension)
         return fmt::format("have {:.0f} samples along its longest side (at most {})", forecast.largestDimension,
                            volume::Grid::kMaxDimension);
     if (forecast.surfaceVoxels > SpacingChoice::kMostSurfaceVoxels)
-        return fmt::format("have {:.0f} million voxels on surfaces (unasked at most {:.0f})",
+        return fmt::format("have {:.0f} million voxels on surfaces (limit for default spacings: {:.0f})",
                            forecast.surfaceVoxels / 1e6, SpacingChoice::kMostSurfaceVoxels / 1e6);
     if (forecast.columns > SpacingChoice::kMostColumns)
-        return fmt::format("have {:.0f} million columns (unasked at most {:.0f})", forecast.columns / 1e6,
+        return fmt::format("have {:.0f} million columns (limit for default spacings: {:.0f})", forecast.columns / 1e6,
                            SpacingChoice::kMostColumns / 1e6);
     if (forecast.bytes > double(memoryBytes))
-        return fmt::format("take about {} of memory (unasked at most {})",
+        return fmt::format("take about {} of memory (limit for default spacings: {})",
                            bytesText(static_cast<std::uint64_t>(std::min(forecast.bytes, 1e18))),
                            bytesText(memoryBytes));
     return {};
@@ -73,7 +73,7 @@ SpacingChoice chooseSpacing(Vec3d size, double area, std::uint64_t memoryBytes) 
         choice.reason = fmt::format("the usual {} m", choice.spacing);
     else
         choice.reason =
-            fmt::format("{} m, since by {} m the longest side would have {:.0f} samples", choice.spacing,
+            fmt::format("{} m, because at {} m the longest side would have {:.0f} samples", choice.spacing,
                         SpacingChoice::kUsual, forecastGrid(size, area, SpacingChoice::kUsual).largestDimension);
     for (; step < kLast; ++step) {
         const std::string excess = excessOf(choice.forecast, memoryBytes);
@@ -81,7 +81,7 @@ SpacingChoice chooseSpacing(Vec3d size, double area, std::uint64_t memoryBytes) 
         const double finer = choice.spacing;
         choice.spacing = spacingOf(step + 1);
         choice.forecast = forecastGrid(size, area, choice.spacing);
-        choice.reason = fmt::format("{} m, since by {} m it would {}", choice.spacing, finer, excess);
+        choice.reason = fmt::format("{} m, because at {} m it would {}", choice.spacing, finer, excess);
     }
     return choice;
 }

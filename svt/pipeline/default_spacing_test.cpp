@@ -16,7 +16,7 @@ TEST(DefaultSpacing, IsFinerWhereTheModelIsSmall) {
     EXPECT_EQ(chooseSpacing({4.9, 1, 1}, 22, SpacingChoice::kMemoryBytes).spacing, 0.02);
     const SpacingChoice chair = chooseSpacing({0.5, 0.5, 1}, 3, SpacingChoice::kMemoryBytes);
     EXPECT_EQ(chair.spacing, 0.01);
-    EXPECT_EQ(chair.reason, "0.01 m, since by 0.05 m the longest side would have 22 samples");
+    EXPECT_EQ(chair.reason, "0.01 m, because at 0.05 m the longest side would have 22 samples");
     EXPECT_EQ(chooseSpacing({1e-3, 1e-3, 0}, 1e-6, SpacingChoice::kMemoryBytes).spacing, SpacingChoice::kFinest);
     EXPECT_EQ(chooseSpacing({0, 0, 0}, 0, SpacingChoice::kMemoryBytes).spacing, SpacingChoice::kFinest);
 }
@@ -43,13 +43,15 @@ TEST(DefaultSpacing, GetsCoarserUntilAllLimitsHold) {
 
 TEST(DefaultSpacing, SaysWhichLimitMadeItCoarser) {
     const SpacingChoice area = chooseSpacing({300, 300, 20}, 1e6, SpacingChoice::kMemoryBytes);
-    EXPECT_NE(area.reason.find("m, since by 0.1 m it would have 100 million voxels on surfaces (unasked at most 80)"),
+    EXPECT_NE(area.reason.find("m, because at 0.1 m it would have 100 million voxels on surfaces (limit for default "
+                               "spacings: 80)"),
               std::string::npos)
         << area.reason;
     const SpacingChoice memory = chooseSpacing({300, 300, 20}, 1e5, 100'000'000);
-    EXPECT_NE(memory.reason.find("of memory (unasked at most 100 MB)"), std::string::npos) << memory.reason;
+    EXPECT_NE(memory.reason.find("of memory (limit for default spacings: 100 MB)"), std::string::npos) << memory.reason;
     const SpacingChoice columns = chooseSpacing({5000, 5000, 1}, 10, SpacingChoice::kMemoryBytes);
-    EXPECT_NE(columns.reason.find("million columns (unasked at most 60)"), std::string::npos) << columns.reason;
+    EXPECT_NE(columns.reason.find("million columns (limit for default spacings: 60)"), std::string::npos)
+        << columns.reason;
     const SpacingChoice road = chooseSpacing({5000, 1, 1}, 10, SpacingChoice::kMemoryBytes);
     EXPECT_EQ(road.spacing, 0.1);
     EXPECT_NE(road.reason.find("100002 samples along its longest side"), std::string::npos) << road.reason;

@@ -2,9 +2,9 @@
 
 namespace svt::pipeline {
 
-// Later rules win: by class, then by the names of construction elements, what they are for (function), then by IFC type with
-// its predefined type, and material. Rooms and other
-// spaces are thin coloured air, so that their contents are visible; whatever their names are.
+// Later rules win: by class, then by the names of construction elements and their function, then by IFC type with its
+// predefined type, and material. Rooms and other spaces are thin coloured air regardless of their names, so that their
+// contents are visible.
 const char* const kDefaultStyleJson = R"json({
   "rules": [
     {"select": "all", "color": "#c9c4ba", "opacity": 1},

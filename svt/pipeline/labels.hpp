@@ -24,8 +24,8 @@ struct LabelledObjects {
 /// Adds a ClosureSurface feature below each object that was closed by caps, with the cap area as attribute.
 void addCapFeatures(model::BuildingModel& model, const mesh::MeshSet& meshes);
 
-/// Numbers all features in tree order and assigns every object a contiguous scalar range. A feature that has lines is an
-/// object, too, without voxels: a scalar of its own gives its lines a style.
+/// Numbers all features in tree order and assigns every object a contiguous scalar range. A feature with lines is an
+/// object as well, without voxels: a separate scalar gives its lines a style.
 /// \return the labels, or TooManyLabels over volume::kMaxScalarCount
 [[nodiscard]] Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh::MeshSet& meshes,
                                                  std::span<const StyleSheet* const> sheets);

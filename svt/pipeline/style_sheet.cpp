@@ -31,7 +31,7 @@ struct UnitSize : record::PlainCodec<UnitSize, Vec3d> {
     static Json write(const Option& option, const Vec3d& from) { return record::Codec<Vec3d>::write(option, from); }
 };
 
-// Pattern, rule and sheet as they stand in a file.
+// Pattern, rule and sheet as written in a file.
 struct PatternText {
     std::optional<voxelize::PatternKind> type;
     voxelize::Pattern pattern;
@@ -69,7 +69,7 @@ Members<PatternText> membersOf(const PatternText*) noexcept {
     using All = PatternText;
     using voxelize::Pattern;
     static constexpr Member<All> kMembers[] = {
-        member<&All::type>("type", "what the pattern shows"),
+        member<&All::type>("type", "kind of pattern"),
         memberAs<UnitSize, &All::pattern, &Pattern::size>("size", "of one unit along u (length), v (depth) and w (up)"),
         member<&All::pattern, &Pattern::line>("line", "width of joints and lines", {.unit = "metres"}),
         member<&All::pattern, &Pattern::angleDegrees>("angle", "hatch: from u towards w", {.unit = "degrees"}),

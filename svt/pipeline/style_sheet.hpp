@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Assigns colour, opacity and spatial pattern by class or query. A JSON file
-/// (docs/formats/style.schema.json); a default style for buildings is built in.
+/// Style sheets: colour, opacity and spatial pattern by class or query, read from a JSON file
+/// (docs/formats/style.schema.json). A default style for buildings is built in.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -39,8 +39,8 @@ struct StyleSheet {
 [[nodiscard]] Result<StyleSheet> readStyleSheet(const std::filesystem::path& file);
 [[nodiscard]] Result<StyleSheet> parseStyleSheet(std::string_view json, const std::filesystem::path& folder);
 
-/// The files that the patterns of a style file name, found relative to it; none where the style cannot be read, which
-/// readStyleSheet() tells.
+/// The files that the patterns of a style file name, relative to it; empty if the style cannot be read, which
+/// readStyleSheet() reports.
 [[nodiscard]] std::vector<std::filesystem::path> filesOfStyle(const std::filesystem::path& file);
 
 /// The resulting style of one row.

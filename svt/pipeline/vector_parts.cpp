@@ -85,7 +85,7 @@ void append(const volume::VectorParts& from, std::uint32_t label, volume::Vector
             {label, {triangle.corners[0] + first, triangle.corners[1] + first, triangle.corners[2] + first}});
 }
 
-// Room for all triangles, since lists that grow are there twice at times.
+// Reserves space for all triangles, because growing would temporarily hold two copies.
 void reserve(const mesh::MeshSet& meshes, volume::VectorParts& parts) {
     std::size_t points = 0;
     for (const mesh::ObjectMesh& mesh : meshes.objects) points += mesh.vertices.size();
@@ -93,7 +93,7 @@ void reserve(const mesh::MeshSet& meshes, volume::VectorParts& parts) {
     parts.triangles.reserve(meshes.triangleCount());
 }
 
-// The same of lines; false if a point is out of reach.
+// The same for lines; false if a point is out of reach.
 bool appendLines(const LabelledLines& lines, Vec3d gridOrigin, volume::VectorParts& to) {
     for (std::size_t l = 0; l < lines.lines.size(); ++l) {
         const std::vector<Vec3d>& points = lines.lines[l].points;
@@ -128,7 +128,7 @@ Result<volume::VectorParts> makeVectorParts(const mesh::MeshSet& meshes, std::sp
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return labelOfObject[a] < labelOfObject[b]; });
     if (choice.meshes) reserve(meshes, all);
-    // Some at a time, so that parts are not there twice.
+    // In groups, so that parts are not in memory twice.
     constexpr std::size_t kBatch = 4096;
     bool areInReach = true;
     for (std::size_t first = 0; first < order.size() && areInReach; first += kBatch) {
@@ -137,7 +137,7 @@ Result<volume::VectorParts> makeVectorParts(const mesh::MeshSet& meshes, std::sp
             objects.emplace_back(meshes.objects[order[n]], fromGrid, all.unit);
         parallelFor(objects.size(), 8, threads, [&](std::size_t begin, std::size_t end) {
             for (std::size_t o = begin; o < end; ++o) {
-                // Triangles first: points that are numbered by their order take least in a file.
+                // Triangles first: points numbered in their order take the least space in a file.
                 if (choice.meshes) objects[o].addTriangles();
                 if (choice.edges) objects[o].addEdges();
             }

@@ -12,22 +12,22 @@
 
 namespace svt::pipeline {
 
-/// What to store.
+/// The parts to store.
 struct VectorChoice {
     bool edges = false;      ///< feature edges, see mesh::findFeatureEdges()
     bool meshes = false;     ///< all triangles
-    bool isRequired = true;  ///< false: nothing is stored where points are too far away
+    bool isRequired = true;  ///< false: nothing is stored if points are too far away
     [[nodiscard]] bool isNone() const noexcept { return !edges && !meshes; }
 };
 
-/// Lines of a model, each with its label; a line of one point is none.
+/// Lines of a model, each with its label. Lines with one point are ignored.
 struct LabelledLines {
     std::span<const model::Polyline> lines;
     std::span<const std::uint32_t> labels;  ///< per line
 };
 
 /// \param labelOfObject  per meshes.objects
-/// \param lines          stored where edges are
+/// \param lines          stored together with edges
 /// \return the parts, in label order, or GridTooLarge if a point is over 200 km from the grid's origin
 /// Cost: that of the feature edges, parallel. The result does not depend on `threads`.
 [[nodiscard]] Result<volume::VectorParts> makeVectorParts(const mesh::MeshSet& meshes,

@@ -68,8 +68,8 @@ struct Distances : PlainCodec<Distances, Vec3d> {
     static Json write(const Option&, Vec3d from) { return fmt::format("{},{},{}", from.x, from.y, from.z); }
 };
 
-// The memory of all the work, in MB. Half of it remains for the volume, since reading and meshing come before. The memory
-// of the machine does not count, so that the same options give the same volume everywhere.
+// The memory of all the work, in MB. Half of it remains for the volume, because reading and meshing come before. The
+// memory of the machine has no influence, so that the same options give the same volume everywhere.
 struct WorkMemory : PlainCodec<WorkMemory, std::uint64_t> {
     static constexpr std::uint64_t kBytesOfMegabyte = 500000;
 
@@ -91,7 +91,7 @@ record::Members<BuildOptions> membersOf(const BuildOptions*) noexcept {
             "dimension", "samples along x, y and z, such as 800,700,400 (2 to 65535)",
             {.value = "X,Y,Z", .group = "Grid", .option = "--dimension", .excludes = "--spacing", .isForModels = true}),
         memberAs<Distances, &BuildOptions::spacing>(
-            "spacing", "distance of samples in metres, one number or three",
+            "spacing", "distance between samples in metres, one number or three",
             {.value = "M",
              .otherwise = "0.05; coarser for large models, finer for small ones",
              .group = "Grid",
@@ -112,12 +112,12 @@ record::Members<BuildOptions> membersOf(const BuildOptions*) noexcept {
         member<&BuildOptions::read>("read", "how files are read"),
         memberAs<WorkMemory, &BuildOptions::memoryBytes>(
             "memory",
-            "memory that the work may take; where it needs more, it ends with a message. Pictures of cities give "
-            "half of it to tiles (1 GB without the option), and become coarser",
+            "memory limit; work that needs more ends with a message. Pictures of cities use half of it for tiles "
+            "(1 GB without the option), and become coarser",
             {.unit = "MB",
              .least = 64,
              .most = 16777216,
-             .otherwise = "what the machine has, or a control group or ulimit grants",
+             .otherwise = "the memory of the machine, or the limit of a control group or ulimit",
              .group = "Model",
              .option = "--memory"}),
         member<&BuildOptions::styleFile>(

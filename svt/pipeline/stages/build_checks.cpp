@@ -25,9 +25,9 @@ bool liesInGrid(const mesh::ObjectMesh& object, const mesh::MeshSet& meshes, con
                        [&](const Vec3d& vertex) { return box.contains(grid.indexFromWorld(vertex + meshes.origin)); });
 }
 
-// Voxels of a label, and those that others took which can stand in it: finer solids that claim the same voxels, the
-// surfaces, bodies and open shells below it, whose overlaps are not counted, and all that is below an open shell. An upper
-// bound: voxels that three claim count twice.
+// Voxels of a label, plus voxels inside it that other labels took. These are finer solids that claim the same voxels,
+// the surfaces, bodies and open shells below it, whose overlaps are not counted, and everything below an open shell. An
+// upper bound: voxels that three labels claim count twice.
 std::uint64_t mostVoxels(const volume::LabelTable& table, std::uint32_t label, std::uint64_t lostByPriority) {
     const bool isOpen = table.labels[label].filling == volume::Filling::Winding;
     std::uint64_t sum = table.labels[label].voxels + lostByPriority;
@@ -58,8 +58,8 @@ Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshS
     return Error(
         Code::EmptyModel,
         fmt::format("no part of the model lies in the given grid: the model reaches from ({:.3f}, {:.3f}, "
-                    "{:.3f}) to ({:.3f}, {:.3f}, {:.3f}), the grid begins at ({:.3f}, {:.3f}, {:.3f}); both "
-                    "must be of one place and CRS",
+                    "{:.3f}) to ({:.3f}, {:.3f}, {:.3f}), the grid starts at ({:.3f}, {:.3f}, {:.3f}). Use a "
+                    "grid of the same place and CRS",
                     low.x, low.y, low.z, high.x, high.y, high.z, grid.origin().x, grid.origin().y, grid.origin().z));
 }
 

@@ -13,7 +13,7 @@ namespace svt::pipeline {
 struct Prepared {
     mesh::MeshSet meshes;
     volume::Grid grid;
-    std::optional<SpacingChoice> choice;  ///< of its spacing, where none was asked for
+    std::optional<SpacingChoice> choice;  ///< the chosen spacing; empty if one was requested
     LabelledObjects labelled;
 };
 
@@ -21,13 +21,13 @@ struct Prepared {
 [[nodiscard]] Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshSet& meshes,
                                           const volume::Grid& grid, Diagnostics* log);
 
-/// Warns of objects whose voxels are too many or too few for the volume that their shells enclose. A face that is up to half
-/// a voxel off shifts the volume by half a voxel times its area, so area * spacing / 2 is allowed beside 2 %, and the one
-/// voxel that every object gets; so small objects need no special case.
+/// Warns of objects that have too many or too few voxels for the volume that their shells enclose. The tolerance is 2 %
+/// plus area * spacing / 2 plus one voxel. A face that is half a voxel off changes the volume by half a voxel times its
+/// area, and every object gets at least one voxel, so small objects need no special case.
 void checkVolumes(const model::BuildingModel& model, const Prepared& prepared, const voxelize::VoxelizeResult& voxels,
                   Diagnostics& log);
 
-/// Reports where a bound on work made the answer coarser than it is elsewhere.
+/// Reports objects whose result is coarser than usual because of a limit on work.
 void reportBounds(const model::BuildingModel& model, const mesh::MeshSet& meshes,
                   const voxelize::VoxelizeResult& voxels, Diagnostics& log);
 

@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// Buildings in which only boundary surfaces can own the material between hull and rooms.
+// Buildings in which only boundary surfaces can get the material between hull and rooms.
 std::vector<voxelize::BodyGroup> findBodyGroups(const mesh::MeshSet& meshes, const LabelledObjects& labelled) {
     std::vector<std::uint32_t> objectOf(labelled.table.labels.size(), volume::kNoLabel);
     for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) objectOf[labelled.labelOfObject[o]] = o;
@@ -61,7 +61,7 @@ void fillOverlaps(const LabelledObjects& labelled, const std::vector<voxelize::C
 Result<Prepared> prepare(model::BuildingModel& model, const BuildOptions& options, Diagnostics* log) {
     mesh::MeshOptions meshOptions;
     meshOptions.lod = options.lod;
-    meshOptions.measuresThickness = false;  // below: only what is thinner than a voxel matters
+    meshOptions.measuresThickness = false;  // measured below: only parts thinner than a voxel matter
     meshOptions.threads = options.threads;
     meshOptions.progress = options.progress;
     SVT_TRY(meshes, mesh::buildMeshes(model, meshOptions, log));
@@ -69,7 +69,7 @@ Result<Prepared> prepare(model::BuildingModel& model, const BuildOptions& option
     SVT_TRY(grid, chooseGrid(*meshes, options, &choice));
     if (options.grid) SVT_DO(checkGivenGrid(model, *meshes, *grid, log));
     const Vec3d spacing = grid->spacing();
-    constexpr double kRounding = 1 + 1e-6;  // thickness is of single precision
+    constexpr double kRounding = 1 + 1e-6;  // thickness has single precision
     mesh::measureThickness(*meshes, std::max({spacing.x, spacing.y, spacing.z}) * kRounding, options.threads);
     addCapFeatures(model, *meshes);
     std::vector<const StyleSheet*> sheets{&defaultStyle(options.usePatterns)};
@@ -131,7 +131,7 @@ void countObjects(const mesh::MeshSet& meshes, BuildReport& report) {
     }
 }
 
-// Frees the content that has become meshes and labels. Ids, lines in the file and polylines stay.
+// Frees the content that was converted to meshes and labels. Ids, lines in the file and polylines stay.
 void dropContent(model::BuildingModel& model) {
     model.polygons = {};
     for (model::Feature& feature : model.features) {
@@ -142,7 +142,7 @@ void dropContent(model::BuildingModel& model) {
     returnFreeMemory();
 }
 
-// \param keepsContent  false: the model loses what has become meshes and labels
+// \param keepsContent  false: the model loses the content that was converted to meshes and labels
 Result<BuildOutput> buildFrom(model::BuildingModel& model, const BuildOptions& options, bool keepsContent,
                               Diagnostics* log) {
     BuildOutput output;

@@ -1,0 +1,56 @@
+#pragma once
+/// \file
+/// What a horizontal plane cuts of a generated model, from the half-spaces of its design; for tests.
+
+#include <svt/samples/sample.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace svt::test {
+
+/// The area in which any component is cut, m2. At one height the sides of all pieces must be lines along x or y, as they
+/// are in a model that is not turned. Between two neighbours of them nothing begins or ends, so one point of each cell
+/// tells of all.
+/// \param z  metres in the CRS
+/// \return the area; not a number where a side is slanted in plan
+inline double designCut(const std::vector<samples::SampleComponent>& components, double z) {
+    std::vector<double> xs, ys;
+    std::vector<const samples::SampleComponent*> cut;
+    bool isSlanted = false;
+    const auto addLines = [&](const samples::SamplePiece& piece) {
+        for (const samples::HalfSpace& side : piece.sides) {
+            const bool isAcrossX = std::abs(side.normal.x) > 1e-9, isAcrossY = std::abs(side.normal.y) > 1e-9;
+            const double limit = side.offset - side.normal.z * z;
+            if (!isAcrossX && !isAcrossY && limit < 0) return false;  // the piece is not at this height
+            isSlanted = isSlanted || (isAcrossX && isAcrossY);
+            if (isAcrossX) xs.push_back(limit / side.normal.x);
+            if (isAcrossY) ys.push_back(limit / side.normal.y);
+        }
+        return true;
+    };
+    for (const samples::SampleComponent& component : components) {
+        bool isCut = false;
+        for (const auto& solid : component.solids)
+            for (const samples::SamplePiece& piece : solid) isCut = (addLines(piece) && piece.adds) || isCut;
+        if (isCut) cut.push_back(&component);
+    }
+    if (isSlanted) return std::nan("");
+    std::sort(xs.begin(), xs.end());
+    std::sort(ys.begin(), ys.end());
+    double area = 0;
+    for (std::size_t i = 1; i < xs.size(); ++i)
+        for (std::size_t j = 1; j < ys.size(); ++j) {
+            const double width = xs[i] - xs[i - 1], depth = ys[j] - ys[j - 1];
+            if (width < 1e-6 || depth < 1e-6) continue;
+            const Vec3d middle{xs[i - 1] + 0.5 * width, ys[j - 1] + 0.5 * depth, z};
+            const auto contains = [&](const samples::SampleComponent* component) {
+                return component->contains(middle);
+            };
+            if (std::any_of(cut.begin(), cut.end(), contains)) area += width * depth;
+        }
+    return area;
+}
+
+}  // namespace svt::test
