@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Numbers as bytes of files: appends them to a buffer, loads them at an offset, takes them from the front with bounds
-/// checked.
+/// Conversion between numbers and the bytes of files: append to a buffer, load at an offset, take from the front with
+/// bounds checks.
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ namespace svt {
 static_assert(std::endian::native == std::endian::little,
               "numbers of files are little-endian, and are copied unchanged");
 
-/// Appends plain values as they stand in memory: numbers little-endian.
+/// Appends the bytes of trivially copyable values as in memory. Numbers are little-endian.
 /// \param to  a string or a vector of bytes
 template <class Buffer, class... Values>
 void appendBytes(Buffer& to, const Values&... values) {
@@ -38,7 +38,7 @@ void appendAs(Buffer& to, const Values&... values) {
     appendBytes(to, static_cast<T>(values)...);
 }
 
-/// Appends a number in LEB128: seven bits a byte, the lowest first.
+/// Appends a number in LEB128: seven bits per byte, lowest bits first.
 template <class Buffer>
 void appendVarint(Buffer& to, std::uint64_t value) {
     using Byte = typename Buffer::value_type;
@@ -46,7 +46,7 @@ void appendVarint(Buffer& to, std::uint64_t value) {
     to.push_back(static_cast<Byte>(value));
 }
 
-/// Zigzag code, which gives small numbers of either sign a short varint.
+/// Zigzag code: a number of small magnitude gets a short varint, whatever its sign.
 [[nodiscard]] constexpr std::uint64_t zigzag(std::int64_t value) noexcept {
     return static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63);
 }
@@ -54,7 +54,7 @@ void appendVarint(Buffer& to, std::uint64_t value) {
     return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
 }
 
-/// The number of type T at `at`. The caller makes sure that sizeof(T) bytes are there.
+/// The number of type T at `at`. The caller ensures that sizeof(T) bytes are available.
 template <class T>
 [[nodiscard]] T loadBytes(const std::byte* at, std::endian order = std::endian::little) noexcept {
     std::array<std::byte, sizeof(T)> bytes{};
@@ -67,7 +67,7 @@ template <class T>
     return loadBytes<T>(bytes.data() + at);
 }
 
-/// The unsigned number of 1 to 8 bytes at `at`. The caller makes sure that they are there.
+/// The unsigned number of 1 to 8 bytes at `at`. The caller ensures that they are available.
 [[nodiscard]] inline std::uint64_t loadNumber(std::span<const std::byte> bytes, std::size_t at, std::size_t size,
                                               std::endian order = std::endian::little) noexcept {
     std::uint64_t value = 0;
@@ -76,8 +76,8 @@ template <class T>
     return value;
 }
 
-/// Bits as bytes, the lowest of each byte first.
-/// \param isSet  takes the number of a bit, below `count`
+/// Packs bits into bytes, lowest bit first.
+/// \param isSet  isSet(n): whether bit n is set, for n below `count`
 template <class IsSet>
 [[nodiscard]] std::string packedBits(std::size_t count, const IsSet& isSet) {
     std::string bytes((count + 7) / 8, '\0');
@@ -86,7 +86,8 @@ template <class IsSet>
     return bytes;
 }
 
-/// Takes values from the front of bytes. Once too few bytes are left, isGood() is false and all further values are 0.
+/// Takes values from the front of a byte sequence. When too few bytes are left, isGood() becomes false and all further
+/// values are 0.
 class ByteReader {
 public:
     explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
@@ -111,7 +112,7 @@ public:
         }
         if constexpr (sizeof...(Rest) > 0) take(rest...);
     }
-    /// A number that appendVarint() wrote. One of more than ten bytes counts as missing.
+    /// A number that appendVarint() wrote. A number of more than ten bytes counts as missing.
     [[nodiscard]] std::uint64_t takeVarint() {
         std::uint64_t value = 0;
         for (int shift = 0; shift < 64; shift += 7) {
@@ -123,7 +124,7 @@ public:
         rest_ = {};
         return 0;
     }
-    /// The next `size` bytes. If fewer are left, it returns those, and isGood() is false.
+    /// The next `size` bytes. If fewer are left, returns those, and isGood() becomes false.
     [[nodiscard]] std::string_view text(std::size_t size) {
         isGood_ = isGood_ && size <= rest_.size();
         const std::string_view taken = rest_.substr(0, size);

@@ -1,18 +1,19 @@
 #pragma once
 /// \file
-/// SVT_CHECK stops the program on a programming error and prints the values that it compared. Input never reaches one.
+/// SVT_CHECK stops the program on a programming error and prints the compared values. No input of a user can trigger
+/// it.
 
 #include <string>
 #include <type_traits>
 
 namespace svt {
 
-/// Prints condition, values and place to stderr and aborts.
+/// Prints the condition, its values and the place in the source to stderr, and aborts.
 [[noreturn]] void checkFailed(const char* condition, const std::string& values, const char* file, int line) noexcept;
 
 namespace check {
 
-/// A number, an enumerator or a truth value as text; "?" for anything else.
+/// A number, an enumerator or a Boolean as text; "?" for any other type.
 template <class T>
 std::string textOf(const T& value) {
     if constexpr (std::is_same_v<T, bool>)
@@ -35,7 +36,7 @@ struct Comparison {
     [[nodiscard]] std::string values() const { return textOf(a) + " and " + textOf(b); }
 };
 
-/// What stands left of a comparison, or a condition on its own.
+/// The left operand of a comparison, or a condition that is not a comparison.
 template <class A>
 struct Left {
     const A& a;
@@ -69,7 +70,7 @@ struct Left {
     }
 };
 
-/// `Begin() <=> a == b` is read as `(Begin() <=> a) == b`, since <=> binds more tightly than any other comparison.
+/// `Begin() <=> a == b` is parsed as `(Begin() <=> a) == b`, because <=> binds more tightly than any other comparison.
 struct Begin {
     template <class A>
     Left<A> operator<=>(const A& a) const {
@@ -92,5 +93,6 @@ void verify(const Left<A>& left, const char* condition, const char* file, int li
 }  // namespace check
 }  // namespace svt
 
-/// Stops unless the condition holds: `SVT_CHECK(count == expected)`. Values joined by && are not printed.
+/// Aborts unless the condition holds: `SVT_CHECK(count == expected)`. Values of conditions joined by && are not
+/// printed.
 #define SVT_CHECK(...) ::svt::check::verify(::svt::check::Begin() <=> __VA_ARGS__, #__VA_ARGS__, __FILE__, __LINE__)

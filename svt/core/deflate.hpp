@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Deflate (RFC 1951), zlib (RFC 1950) and gzip (RFC 1952) in memory. Unpacked sizes are bounded by the caller. No other
+/// Deflate (RFC 1951), zlib (RFC 1950) and gzip (RFC 1952) in memory. The caller limits the unpacked size. No other
 /// source of the library calls zlib.
 
 #include <cstddef>
@@ -22,36 +22,36 @@ enum class DeflateFormat : std::uint8_t {
 enum class InflateStatus : std::uint8_t {
     Done,
     Damaged,
-    CutShort,  ///< the data end before the stream does
-    TooLong    ///< more bytes than the limit
+    CutShort,  ///< the data end before the stream ends
+    TooLong    ///< more unpacked bytes than the limit
 };
 
 struct Inflated {
     InflateStatus status = InflateStatus::Done;
-    std::size_t taken = 0;         ///< bytes of the input that were read; fewer than there are if others follow the end
-    std::vector<std::byte> bytes;  ///< whole only if Done
+    std::size_t taken = 0;         ///< bytes of input used; fewer than all if other bytes follow the stream
+    std::vector<std::byte> bytes;  ///< complete only if Done
 };
 
-/// CRC-32 as ZIP and gzip have it. \param before  that of the bytes before these
+/// CRC-32 as in ZIP and gzip. \param before  checksum of the preceding bytes
 [[nodiscard]] std::uint32_t zipChecksum(std::span<const std::byte> bytes, std::uint32_t before = 0) noexcept;
-/// The CRC-32 of two sequences of bytes as one. \param first, second  their checksums \param size  bytes of the second
+/// The CRC-32 of two byte sequences joined. \param first, second  their checksums \param size  bytes of the second
 [[nodiscard]] std::uint32_t joinedChecksum(std::uint32_t first, std::uint32_t second, std::uint64_t size) noexcept;
 
-/// Unpacks `packed`. Each gzip member is checked against the checksum and the size at its end.
-/// \param expectedBytes  guess of the size, to reserve memory; the buffer doubles beyond it
-/// \param maxBytes       limit of the size
-/// Cost: about 3 s per GB unpacked. Memory: twice the unpacked size at most, and at most `maxBytes`.
+/// Unpacks `packed`. Verifies the checksum and the size at the end of each gzip member.
+/// \param expectedBytes  estimate of the unpacked size, to reserve memory; beyond it the buffer doubles
+/// \param maxBytes       limit of the unpacked size
+/// Cost: about 3 s per GB unpacked. Memory: at most twice the unpacked size, and at most `maxBytes`.
 [[nodiscard]] Inflated inflateBytes(std::span<const std::byte> packed, DeflateFormat format,
                                     std::uint64_t expectedBytes, std::uint64_t maxBytes);
 
-/// Unpacks one stream, which must have out.size() bytes. Bytes behind the stream are ignored.
-/// \return false for a damaged stream, or one of another size
+/// Unpacks one stream, whose unpacked size must be out.size(). Ignores bytes after the stream.
+/// \return false if the stream is damaged or has another size
 [[nodiscard]] bool inflateInto(std::span<const std::byte> packed, DeflateFormat format, std::span<std::byte> out);
 
 enum class InflateStep : std::uint8_t {
     End,    ///< end of the stream or gzip member
     More,   ///< there is more to unpack
-    Stuck,  ///< it needs more input or room to go on
+    Stuck,  ///< more input or more space in the output is needed
     Damaged
 };
 
@@ -63,7 +63,7 @@ public:
     InflateStream& operator=(InflateStream&&) noexcept;
     ~InflateStream();
 
-    /// Unpacks from the front of `packed` to the front of `out`. Both shrink by the bytes that were used.
+    /// Unpacks from the front of `packed` to the front of `out`. Both spans shrink by the bytes used.
     InflateStep step(std::span<const std::byte>& packed, std::span<std::byte>& out);
     /// Begins the next stream or member.
     void restart() noexcept;
@@ -73,13 +73,13 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Unpacks gzip data piece by piece, of one or more members, in memory of its own that does not grow.
+/// Unpacks gzip data of one or more members piece by piece, with a constant amount of memory.
 class GzipStream {
 public:
-    /// Appends to `out` what `packed` unpacks to.
-    /// \return Done: the piece is used up; Damaged: nothing more can be unpacked
+    /// Unpacks `packed` and appends the result to `out`.
+    /// \return Done: all of the piece was unpacked; Damaged: no further data can be unpacked
     InflateStatus append(std::span<const std::byte> packed, std::string& out);
-    /// Whether the last member is complete: where the data end, so that CutShort is the word for anything else.
+    /// Whether the last member is complete. If it is not at the end of the data, the data are cut short.
     [[nodiscard]] bool isComplete() const noexcept { return isComplete_ && !isDamaged_; }
 
 private:
@@ -87,9 +87,10 @@ private:
     bool isComplete_ = true, isDamaged_ = false;
 };
 
-/// Raw deflate data of `bytes` that end at a byte boundary, so that pieces that were made independently can be joined.
+/// Compresses `bytes` to raw deflate data that end at a byte boundary, so that pieces can be compressed independently
+/// and then joined.
 /// \param bytes   less than 2 GiB
-/// \param level   of zlib, 1 to 9; -1: its default
+/// \param level   compression level of zlib, 1 to 9; -1: the default of zlib
 /// \param isLast  whether the stream ends with this piece
 [[nodiscard]] std::vector<std::byte> deflatePiece(std::span<const std::byte> bytes, int level, bool isLast);
 
@@ -97,10 +98,11 @@ private:
 /// \param bytes  less than 2 GiB
 [[nodiscard]] std::vector<std::byte> gzipBytes(std::span<const std::byte> bytes);
 
-/// Packs pieces, each into a zlib stream of its own. It keeps one state: a new one costs more than a small piece.
+/// Packs each piece into a separate zlib stream. Reuses one zlib state, because a new state costs more than packing a
+/// small piece.
 class ZlibPacker {
 public:
-    /// \param windowBits, memoryLevel  of deflateInit2() of zlib
+    /// \param windowBits, memoryLevel  as in deflateInit2() of zlib
     explicit ZlibPacker(int level, int windowBits = 15, int memoryLevel = 8);
     ZlibPacker(ZlibPacker&&) noexcept;
     ZlibPacker& operator=(ZlibPacker&&) noexcept;

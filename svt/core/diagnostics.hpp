@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Findings that do not stop processing: a dangling link, an open shell, a face left out.
+/// Findings that do not stop processing: a dangling link, an open shell, an omitted face.
 
 #include <svt/core/error.hpp>
 
@@ -26,8 +26,8 @@ struct Diagnostic {
     [[nodiscard]] std::string toString() const;
 };
 
-/// Collects diagnostics in the order in which they are found. Keeps at most `kKeptPerCode`
-/// of each code but counts all of them, which bounds the memory for a file full of errors.
+/// Collects diagnostics in the order in which they are found. Keeps at most `kKeptPerCode` of each code, but counts all
+/// of them. This limits the memory for a file full of errors.
 /// Threads: not synchronized; parallel stages collect per task and append in order.
 class Diagnostics {
 public:

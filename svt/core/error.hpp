@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Errors: a stable code, a message that says what was found, what was expected
-/// and what to do, and the place. Each code has a page in docs/errors/.
+/// Errors: a stable code, a place, and a message with the problem, the expected input and the remedy. Each code has a
+/// page in docs/errors/.
 
 #include <cstdint>
 #include <string>
@@ -9,14 +9,13 @@
 
 namespace svt {
 
-/// Stable codes, grouped: 1xx read, 2xx geometry, 3xx voxel, 4xx volume, 5xx render,
-/// 6xx cities, 9xx program.
-/// The meaning of a code never changes.
+/// Stable codes, grouped: 1xx read, 2xx geometry, 3xx voxel, 4xx volume, 5xx render, 6xx cities, 9xx program. The
+/// meaning of a code never changes.
 enum class Code : std::uint16_t {
     // 1xx: reading a model
     CannotOpen = 101,         ///< file missing or unreadable
     BadXml = 102,             ///< not well-formed XML
-    UnknownFormat = 103,      ///< none of the readable formats
+    UnknownFormat = 103,      ///< not a supported format
     InputTooBig = 104,        ///< over a stated limit (bytes, depth, count)
     BadJson = 105,            ///< not well-formed JSON, or not the expected structure
     UnknownVersion = 106,     ///< unsupported version of the format
@@ -26,26 +25,26 @@ enum class Code : std::uint16_t {
     DanglingReference = 110,  ///< an XLink, child or template reference without target
     ReferenceCycle = 111,     ///< circular references
     DuplicateId = 112,        ///< the same id used twice
-    MissingId = 113,          ///< a feature without id; one is made from its path
+    MissingId = 113,          ///< a feature without id; its path becomes its id
     BadValue = 114,           ///< a number, code or attribute that cannot be interpreted
     ExternalReference = 115,  ///< a reference to another file or host; never fetched
     UnknownElement = 116,     ///< an unknown element or type; skipped
     MixedCrs = 117,           ///< parts of one model in different CRSs
-    GeographicCrs = 118,      ///< coordinates in degrees: projected, or no one knows how to
+    GeographicCrs = 118,      ///< coordinates in degrees; projected if the CRS is known
     BadIndex = 119,           ///< a vertex, material or template index out of range
-    ForeignUnit = 120,        ///< coordinates in feet or another unit than the metre
-    CannotProject = 121,      ///< coordinates that cannot be brought into another CRS
+    ForeignUnit = 120,        ///< coordinates in feet or another unit that is not the metre
+    CannotProject = 121,      ///< coordinates that cannot be converted to another CRS
     FarFeature = 122,         ///< a feature far away from all others; left out
     NoHeights = 123,          ///< coordinates of two numbers: heights are missing
-    DualityBroken = 124,      ///< links between cell spaces, states and transitions that do not agree
+    DualityBroken = 124,      ///< contradictory links between cell spaces, states and transitions
     BadStep = 130,            ///< not a STEP file (ISO 10303-21), or one without records
     BadRecord = 131,          ///< a record of a STEP file that cannot be read; left out
-    ReadInPart = 132,         ///< a product of which a part of the shape, or an opening, was not read
+    ReadInPart = 132,         ///< a product without a part of its shape or an opening that was not read
     ShapeNotRead = 133,       ///< a product whose shape could not be read
-    ProductsRead = 134,       ///< how many products of a model were read, in part or not
-    LayersNotSplit = 135,     ///< a product that was not split into the layers of its material, or not as a whole
-    LayersSplit = 136,        ///< how many products were split into the layers of their material
-    Truncated = 137,          ///< a file that ends before its last part: it was cut off
+    ProductsRead = 134,       ///< number of products read, and of those with missing parts
+    LayersNotSplit = 135,     ///< a product not split into its material layers, or not as its file specifies
+    LayersSplit = 136,        ///< number of products split into their material layers
+    Truncated = 137,          ///< a truncated file: it ends before its last part
     // 2xx: geometry
     TooFewPoints = 201,         ///< a ring of fewer than three distinct points
     BadCoordinate = 202,        ///< NaN, infinite or absurdly large coordinate
@@ -61,26 +60,26 @@ enum class Code : std::uint16_t {
     TriangulationFailed = 212,  ///< a polygon that could not be triangulated; left out
     NoGeometry = 213,           ///< a feature without the geometry expected of it
     FacesComplemented = 214,    ///< open shell completed with faces of adjoining objects
-    VolumeDiffers = 215,        ///< an object whose voxels are more or less than its shell encloses
-    RepeatedPoint = 220,        ///< the same point twice in a row in a ring
+    VolumeDiffers = 215,        ///< an object with more or less volume in voxels than in its shell
+    RepeatedPoint = 220,        ///< a point of a ring that equals the point before it
     RingNotClosed = 221,        ///< a ring whose last point is not its first
     RingsIntersect = 222,       ///< rings of a polygon that cross or share a line
     DuplicateRing = 223,        ///< the same ring twice in a polygon
     NormalsDeviate = 224,       ///< a polygon folded by more than the tolerance
-    PolygonSplit = 225,         ///< rings that touch so that they cut the interior of their polygon
+    PolygonSplit = 225,         ///< touching rings that divide the interior of their polygon
     InnerRingOutside = 226,     ///< an interior ring outside of the exterior one
     InnerRingsNested = 227,     ///< an interior ring within another
-    InnerRingTurnsAlike = 228,  ///< an interior ring in the direction of the exterior one
+    InnerRingTurnsAlike = 228,  ///< an interior ring with the same direction as the exterior ring
     TooFewFaces = 229,          ///< a shell of fewer than four faces
-    NonManifold = 230,          ///< an edge of more than two faces, or parts that meet in a point
-    ShellDisconnected = 231,    ///< a shell of several pieces
+    NonManifold = 230,          ///< an edge with more than two faces, or parts that meet only in a point
+    ShellDisconnected = 231,    ///< a shell of several disconnected pieces
     ShellSelfIntersects = 232,  ///< faces of a shell that intersect
-    FaceTurnedOver = 233,       ///< a face that looks the other way than its neighbours
+    FaceTurnedOver = 233,       ///< a face with the opposite orientation to its neighbours
     ShellsIntersect = 234,      ///< shells of a solid that intersect or share a face
     DuplicateShell = 235,       ///< the same interior shell twice in a solid
     InnerShellOutside = 236,    ///< an interior shell outside of the exterior one
-    SolidSplit = 237,           ///< shells that touch so that they cut the interior of their solid
-    ShellTurnedOver = 238,      ///< an exterior shell that looks inwards, or an interior one outwards
+    SolidSplit = 237,           ///< touching shells that divide the interior of their solid
+    ShellTurnedOver = 238,      ///< an exterior shell facing inwards, or an interior shell facing out of its void
     SolidsIntersect = 239,      ///< solids of a composite that overlap
     DuplicateSolid = 240,       ///< the same solid twice in a composite
     SolidsDisconnected = 241,   ///< solids of a composite that share no face
@@ -90,7 +89,7 @@ enum class Code : std::uint16_t {
     CellsNotAdjacent = 245,     ///< a transition between cell spaces that do not touch
     // 3xx: voxels
     BadDimension = 301,   ///< grid dimension or spacing out of range
-    GridTooLarge = 302,   ///< over the grid's limits
+    GridTooLarge = 302,   ///< over the limits of a grid
     TooManyLabels = 303,  ///< more labels than a volume can number
     BadPattern = 304,     ///< a spatial pattern that cannot be used
     BadStyle = 305,       ///< a style file that does not follow its schema
@@ -104,7 +103,7 @@ enum class Code : std::uint16_t {
     DiskFull = 405,       ///< no space left for the output
     BadImage = 406,       ///< an image or raw file that cannot be read
     BadNrrd = 407,        ///< not a readable NRRD file
-    WouldDestroy = 408,   ///< an output would take the place of an input, of another output or of another kind of file
+    WouldDestroy = 408,   ///< an output would replace an input, another output or a file of another kind
     // 5xx: pictures
     BadCamera = 501,      ///< up parallel to view, or field of view out of range
     BadFrame = 502,       ///< picture size or plane out of range
@@ -113,21 +112,21 @@ enum class Code : std::uint16_t {
     NoGraphics = 505,     ///< no graphics context, or one without the required features
     UncertainArea = 506,  ///< the bound of a cut area is larger than the area
     PlaneInFaces = 507,   ///< a section plane lies in faces of the model
-    DrawnByVoxels = 508,  ///< a cut object that is drawn by its voxels beside exact ones
-    NoMeshes = 509,       ///< lines beyond a cut were asked of a volume that keeps no meshes
+    DrawnByVoxels = 508,  ///< a cut object drawn from its voxels, next to exact objects
+    NoMeshes = 509,       ///< lines beyond a cut requested from a volume without meshes
     NoCairo = 510,        ///< no cairo library, so no PDF
     BadSheets = 511,      ///< a file of sheets that does not follow its schema
     // 6xx: cities
     BadPlan = 601,         ///< not the plan of a city, or a damaged one
     PlanVersion = 602,     ///< a plan that another version of the program wrote
-    BadPack = 603,         ///< a pack of a city, or a member of it, that is damaged
-    BadCity = 604,         ///< an index of a city that is damaged
-    CityIncomplete = 605,  ///< tasks of a city that are not done yet
-    FeatureSkipped = 606,  ///< a feature that was left out of a city
-    LinkedFeature = 607,   ///< a feature that refers to another one, which is read without it
-    InputChanged = 608,    ///< an input file that is no longer the one that was planned
-    TaskFailed = 609,      ///< a task of a city that came to no result
-    Replica = 610,         ///< a feature that was there already, with the same id and content
+    BadPack = 603,         ///< a damaged pack of a city, or a damaged member of it
+    BadCity = 604,         ///< a damaged index of a city
+    CityIncomplete = 605,  ///< a city with unfinished tasks
+    FeatureSkipped = 606,  ///< a feature left out of a city
+    LinkedFeature = 607,   ///< a feature with references to content of another feature; read without this content
+    InputChanged = 608,    ///< an input file that changed after planning
+    TaskFailed = 609,      ///< a task of a city that failed
+    Replica = 610,         ///< a feature with the same id and content as an earlier one
     // 9xx: program
     BadQuery = 901,         ///< a query that cannot be parsed
     NothingSelected = 902,  ///< a query that selects nothing
@@ -146,14 +145,14 @@ enum class Code : std::uint16_t {
 struct Place {
     std::string file;          ///< path or name as the caller gave it
     std::uint64_t line = 0;    ///< 1-based; 0: unknown
-    std::uint64_t column = 0;  ///< 1-based; 0: unknown; shown only behind a line
+    std::uint64_t column = 0;  ///< 1-based; 0: unknown; shown only after a line
     std::string id;            ///< gml:id or CityJSON id of the feature or geometry
 
     /// "house.gml:12:5 (id 'wall-3')", or empty.
     [[nodiscard]] std::string toString() const;
 };
 
-/// What went wrong, where, and what to do about it.
+/// A problem with its place and its remedy.
 class Error {
 public:
     Error() = default;
@@ -173,9 +172,9 @@ private:
     Place where_;
 };
 
-/// Stops the program: a Result was asked for its value, but is `error`.
+/// Stops the program: the value of a Result was requested, but the Result holds `error`.
 [[noreturn]] void valueMissing(const Error& error) noexcept;
-/// Stops the program: an error was taken out of a result that holds a value. For Result.
+/// Stops the program: the error of a Result was requested, but the Result holds a value.
 [[noreturn]] void errorMissing() noexcept;
 
 }  // namespace svt

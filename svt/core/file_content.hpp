@@ -1,7 +1,6 @@
 #pragma once
 /// \file
-/// Kinds of files that are told apart by their first bytes, so that a command replaces only files of the kind that it
-/// writes.
+/// Kinds of files, identified by their first bytes. A command replaces only files of the kind that it writes.
 
 #include <svt/core/names.hpp>
 
@@ -36,18 +35,18 @@ enum class FileContent : std::uint8_t {
     Webp,
     Html,
     CityGml,
-    Xml,  ///< another XML
+    Xml,  ///< any other XML
     CityJson,
     Ifc,
     IndoorGml,
     GeoJson,
     Style,
-    PlainJson,  ///< another JSON
+    PlainJson,  ///< any other JSON
     Dxf,
     Text,
     Unknown
 };
-/// In words, with an article.
+/// Names in words, with an article.
 constexpr auto namesOf(FileContent) {
     using enum FileContent;
     return std::to_array<Name<FileContent>>({{Nothing, "an empty file"},

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A hash table that finds the number (index) of an item by its hash. The items themselves stay with the caller, who
-/// compares them: used where equal parts are stored once (columns, rows, stacks of boundaries, profiles).
+/// A hash table that finds the number (index) of an item by its hash. The caller stores the items and compares them.
+/// Used to store equal parts only once (columns, rows, stacks of boundaries, profiles).
 
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace svt {
 /// clear() keeps the memory.
 class HashIndex {
 public:
-    /// \param size  initial count of entries, a power of two; the table doubles when it is half full
+    /// \param size  initial number of entries, a power of two; the table doubles when it is half full
     explicit HashIndex(std::size_t size = 256) : table_(size, 0) {}
 
     /// Removes all numbers. Cost: O(size of the table); O(1) when it is empty.

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The names of the values of enums, each written once: beside its enum, by a function namesOf().
+/// Names of enum values. Each name is defined once, next to its enum, by a function namesOf().
 
 #include <array>
 #include <cstddef>
@@ -10,14 +10,14 @@
 
 namespace svt {
 
-/// A value with the name that files, options and reports give it.
+/// A value, and its name in files, options and reports.
 template <class E>
 struct Name {
     E value;
     std::string_view name;
 };
 
-/// The values of an enum have names if a function `namesOf(E)` beside the enum lists them, in the order of help:
+/// An enum is Named if a function `namesOf(E)` next to it lists its values and their names, in the order of help:
 /// `constexpr auto namesOf(Look) { return std::to_array<Name<Look>>({{Look::Plain, "plain"}, {Look::Dark, "dark"}}); }`
 template <class E>
 concept Named = requires {
@@ -35,7 +35,7 @@ template <Named E>
     return {};
 }
 
-/// The value of that name, or nothing. Case matters.
+/// The value with this name, or nothing. Case-sensitive.
 template <Named E>
 [[nodiscard]] constexpr std::optional<E> fromName(std::string_view name) noexcept {
     for (const Name<E>& known : kNames<E>)
@@ -65,13 +65,13 @@ struct JoinedNames {
 
 }  // namespace detail
 
-/// All names, as Option::choices has them: "plain|paper|dark". Lives as long as the program.
+/// All names in the format of Option::choices: "plain|paper|dark". Valid for the lifetime of the program.
 template <Named E>
 [[nodiscard]] constexpr std::string_view choicesOf() noexcept {
     return {detail::JoinedNames<E>::kText.data(), detail::JoinedNames<E>::kText.size()};
 }
 
-/// All names with commas between them, for messages.
+/// All names, separated by commas, for messages.
 template <Named E>
 [[nodiscard]] std::string listedNames() {
     std::string text;

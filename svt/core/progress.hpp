@@ -11,8 +11,8 @@
 
 namespace svt {
 
-/// Passed to long calls by the caller, which may run on another thread.
-/// `report` is called by one thread at a time, at most a few hundred times per call.
+/// The caller passes it to long calls, and can cancel them from another thread. `report` is called by one thread at a
+/// time, at most a few hundred times per call.
 struct Progress {
     /// name of the stage, such as "read" or "voxelize", and the fraction of it that is done, 0..1
     std::function<void(std::string_view stage, double fraction)> report;
@@ -27,18 +27,19 @@ struct Progress {
     }
 };
 
-/// Reports what share of a stage is done, at most a hundred times, for loops whose threads count what they have done.
+/// Reports the completed fraction of a stage, at most a hundred times. For loops whose threads count their completed
+/// items.
 class ProgressCounter {
 public:
     /// \param progress  may be null
     /// \param stage     must outlive the counter
-    /// \param total     of what add() counts
+    /// \param total     of the counts passed to add()
     ProgressCounter(const Progress* progress, std::string_view stage, std::uint64_t total)
         : progress_(progress), stage_(stage), total_(std::max<std::uint64_t>(total, 1)) {
         Progress::tell(progress_, stage_, 0);
     }
 
-    /// From any thread. A thread that finds another one reporting goes on without.
+    /// Threads: any. Skips the report if another thread is reporting.
     void add(std::uint64_t count = 1) {
         if (progress_ == nullptr) return;
         const std::uint64_t done = done_.fetch_add(count, std::memory_order_relaxed) + count;

@@ -1,9 +1,10 @@
 #pragma once
 /// \file
-/// Which sets of instructions SIMD kernels are compiled for. Include it before Highway.
+/// The instruction sets that SIMD kernels are compiled for. Include this header before Highway.
 ///
-/// x86-64: AVX-512 (AVX3), AVX2, SSE4 and the baseline; the best that the machine has is chosen at run time. SSSE3 adds
-/// nothing to the baseline for our kernels. Other architectures: the baseline alone, which holds NEON and WebAssembly SIMD.
+/// x86-64: AVX-512 (AVX3), AVX2, SSE4 and the baseline; the best set that the machine supports is chosen at run time.
+/// SSSE3 adds nothing to the baseline for our kernels. Other architectures: only the baseline, which includes NEON and
+/// WebAssembly SIMD.
 
 #if defined(__x86_64__) || defined(_M_X64)
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Text that comes from files and arguments: UTF-8 with every byte checked; digits, numbers, blanks and letter case of
-/// ASCII, whatever the locale of the process. scripts/check_banned_calls.py bans the calls that depend on the locale.
+/// Text from files and arguments: UTF-8 with every byte checked, and ASCII digits, numbers, blanks and letter case,
+/// independent of the locale of the process. scripts/check_banned_calls.py bans the calls that depend on the locale.
 
 #include <charconv>
 #include <cstddef>
@@ -16,10 +16,10 @@ namespace svt {
 /// A character of UTF-8 text.
 struct Utf8Character {
     char32_t code = 0;
-    std::uint8_t size = 0;  ///< bytes; 0: the text begins with no valid character
+    std::uint8_t size = 0;  ///< bytes; 0: the text does not begin with a valid character
 };
 
-/// The character that `text` begins with. Overlong forms, surrogates and codes above U+10FFFF are not valid.
+/// The first character of `text`. Overlong forms, surrogates and codes above U+10FFFF are not valid.
 /// \param text  not empty
 [[nodiscard]] constexpr Utf8Character firstCharacter(std::string_view text) noexcept {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -42,40 +42,40 @@ struct Utf8Character {
 /// \param code  at most U+10FFFF
 void appendUtf8(char32_t code, std::string& to);
 
-/// Offset of the first byte that begins no valid character, or npos.
+/// Offset of the first byte that does not begin a valid character, or npos.
 [[nodiscard]] std::size_t findInvalidUtf8(std::string_view text) noexcept;
 
-/// Count of characters of valid UTF-8; in other text, of bytes that continue none.
+/// Number of characters of valid UTF-8. In other text, the number of bytes that are not continuation bytes.
 [[nodiscard]] std::size_t characterCount(std::string_view text) noexcept;
 
-/// `text` as content of an element of XML 1.0: markup is escaped; what XML forbids is replaced, control characters by
-/// blanks, other characters and invalid UTF-8 by U+FFFD. Cost: O(length), as of xmlAttribute().
+/// `text` as content of an element of XML 1.0, with escaped markup. Control characters that XML forbids become blanks;
+/// other forbidden characters and invalid UTF-8 become U+FFFD. Cost: O(length), also of xmlAttribute().
 [[nodiscard]] std::string xmlContent(std::string_view text);
-/// The same for the value of an attribute in quotes of either kind, and for HTML: quotes, tabs and ends of lines are
-/// references, too, so that a parser gives them back.
+/// The same for the value of an attribute in single or double quotes, and for HTML. Quotes, tabs and line breaks become
+/// character references, too, so that a parser restores them.
 [[nodiscard]] std::string xmlAttribute(std::string_view text);
 
 /// 0 to 9.
 [[nodiscard]] constexpr bool isDigit(char c) noexcept { return c >= '0' && c <= '9'; }
-/// Space, tab or the end of a line: what separates words in XML, JSON and queries.
+/// Space, tab or line break: the separators of words in XML, JSON and queries.
 [[nodiscard]] constexpr bool isBlank(char c) noexcept { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 
 [[nodiscard]] constexpr bool isLetter(char c) noexcept { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 
-/// `text` without the blanks at its ends.
+/// `text` without leading and trailing blanks.
 [[nodiscard]] std::string_view withoutBlanks(std::string_view text) noexcept;
 
-/// The finite number that the whole of `text` spells: [+-] digits [. digits] [e [+-] digits]. The digits on one side of
-/// the point may be missing. Nothing for any other text: blanks, a comma, hexadecimal digits, "inf" and "nan", and
+/// Parses all of `text` as a finite number: [+-] digits [. digits] [e [+-] digits]. The digits on one side of the point
+/// may be missing. Returns nothing for any other text: blanks, a comma, hexadecimal digits, "inf" and "nan", and
 /// numbers beyond the range of a double (1e999, 1e-400).
 [[nodiscard]] std::optional<double> parseNumber(std::string_view text) noexcept;
-/// Removes the longest such number from the beginning of `text` and returns it; otherwise `text` stays as it is.
+/// Removes the longest such number from the beginning of `text` and returns it; otherwise leaves `text` unchanged.
 [[nodiscard]] std::optional<double> takeNumber(std::string_view& text) noexcept;
 /// Numbers separated by commas, with blanks around each; nothing if one of them is not a number.
-/// \param most  more numbers than this are refused as well
+/// \param most  maximum number of values; nothing if there are more
 [[nodiscard]] std::optional<std::vector<double>> parseNumbers(std::string_view text, std::size_t most);
 
-/// The integer that the whole of `text` spells, with a '-' in front only for signed types; nothing for other text and for
+/// Parses all of `text` as an integer. Only signed types allow a leading '-'. Returns nothing for other text, and for
 /// numbers beyond the range of `Integer`.
 template <class Integer>
 [[nodiscard]] std::optional<Integer> parseInteger(std::string_view text, int base = 10) noexcept {
@@ -85,14 +85,14 @@ template <class Integer>
     return value;
 }
 
-/// A to Z become a to z; other bytes stay.
+/// Converts A to Z to lower case; other bytes stay unchanged.
 [[nodiscard]] constexpr char lowerAscii(char c) noexcept {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 [[nodiscard]] std::string lowerAscii(std::string_view text);
 [[nodiscard]] bool equalsIgnoringCase(std::string_view a, std::string_view b) noexcept;
 
-/// The parts of "a|b|c"; none of an empty text.
+/// The parts of "a|b|c"; no parts for an empty text.
 [[nodiscard]] std::vector<std::string_view> splitChoices(std::string_view choices);
 
 }  // namespace svt

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What the code of a coordinate reference system says of its coordinates: degrees or lengths, which axis comes first,
-/// where on earth it is used. From tables of the EPSG dataset, so that it needs no library and no file.
+/// Facts about the coordinates of a coordinate reference system, by its code: degrees or lengths, order of the axes,
+/// area of use. They come from built-in tables of the EPSG dataset and need no library or file.
 
 #include <svt/core/vec.hpp>
 
@@ -15,7 +15,7 @@ enum class AxisOrder {
     SouthWest,  ///< values are usually given with inverted signs, as east and north
 };
 
-/// What is known of a code; all as for a projection in metres with east first where the code is not known.
+/// Facts about a code. An unknown code has those of a projection in metres with east first.
 struct CrsFacts {
     int horizontal = 0;      ///< code of the horizontal part of a compound; else the code itself
     int vertical = 0;        ///< code of the vertical part of a compound, 0: none
@@ -24,13 +24,14 @@ struct CrsFacts {
     AxisOrder order = AxisOrder::EastNorth;
 };
 
-/// Cost: a search in some hundred numbers.
+/// Cost: a search in a few hundred numbers.
 [[nodiscard]] CrsFacts factsOf(int epsg) noexcept;
 
-/// The area of use of a code of degrees, x: longitude, y: latitude; nothing where it is not known or not one box.
+/// The area of use of a geographic code, x: longitude, y: latitude, degrees; nothing if it is unknown or not a single
+/// box.
 [[nodiscard]] std::optional<Box3d> areaOf(int epsg) noexcept;
 
-/// Length of one unit of the heights of a vertical code in metres: 1, or that of a foot.
+/// Metres per unit of the heights of a vertical code: 1, or the length of a foot.
 [[nodiscard]] double metresPerHeight(int vertical) noexcept;
 
 inline constexpr double kFoot = 0.3048;                 ///< international foot in metres

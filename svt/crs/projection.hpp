@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Takes coordinates of one reference system to metres of another, in plan; heights stay.
+/// Converts horizontal coordinates of one reference system to metres of another. Heights are unchanged.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -11,31 +11,32 @@
 
 namespace svt::crs {
 
-/// How coordinates of one code come to those of another, a projection in metres. Immutable.
+/// A conversion of coordinates of one code to those of another, a projection in metres. Immutable.
 class Projection {
 public:
-    /// To the metres that are usual for the source: a projection in feet to the same one in metres; degrees to the
-    /// UTM zone of their datum at `place`, in Japan to the zone of the plane rectangular system; others to the UTM zone
-    /// of WGS 84.
+    /// Converts to the usual projection in metres for the source. A projection in feet becomes the same projection in
+    /// metres. Degrees become the UTM zone of their datum at `place`, in Japan the zone of the plane rectangular
+    /// system. All others become the UTM zone of WGS 84.
     /// \param source  EPSG code, horizontal or compound
     /// \param place   a point of the model, x: east or longitude, y: north or latitude, in units of the source
-    /// \return CannotProject, saying why: the code is not known, `place` is nowhere on earth, or the way needs PROJ and
-    ///         this build is without it
+    /// \return the conversion, or CannotProject with the reason: the code is unknown, `place` is not on earth, or the
+    ///         conversion needs PROJ in a build without it
     [[nodiscard]] static Result<Projection> toUsualMetres(int source, Vec3d place);
 
-    /// To the code `target`.
-    /// \return BadArgument where the target is not known or no projection in metres; CannotProject where there is no way
-    ///         from the source to it, or it needs PROJ and this build is without it
+    /// Converts to the code `target`.
+    /// \return the conversion; BadArgument if the target is unknown or not a projection in metres; CannotProject if no
+    ///         conversion from the source is known, or if it needs PROJ in a build without it
     [[nodiscard]] static Result<Projection> between(int source, int target, Vec3d place);
 
     [[nodiscard]] int epsg() const noexcept { return epsg_; }                 ///< code of the target
     [[nodiscard]] const std::string& name() const noexcept { return name_; }  ///< name of the target, may be empty
 
-    /// Metres in a unit of the source; 1 for degrees.
+    /// Metres per unit of the source; 1 for degrees.
     [[nodiscard]] double metresPerUnit() const noexcept { return metresPerUnit_; }
 
-    /// Replaces x and y of each point (east or longitude, north or latitude) by metres east and north; z stays.
-    /// What cannot be projected becomes NaN. Cost: below a microsecond for each point. Not for several threads at once.
+    /// Replaces x and y of each point (east or longitude, north or latitude) by metres east and north; z is unchanged.
+    /// Points that cannot be projected become NaN. Cost: less than a microsecond per point. Not for several threads at
+    /// once.
     void apply(std::span<Vec3d> points) const;
 
     class Way;
@@ -50,13 +51,13 @@ private:
 };
 
 /// Length of a degree to the east (x) and to the north (y) at a latitude, on the ellipsoid GRS 1980; z: 1.
-/// \param latitude  degrees, less than 90 in size
+/// \param latitude  degrees, less than 90 in magnitude
 [[nodiscard]] Vec3d metresPerDegree(double latitude) noexcept;
 
 /// Version of the PROJ library that is used, or empty for a build without it.
 [[nodiscard]] std::string projVersion();
 
-/// The definition of a code as PROJJSON, on one line; empty where PROJ is not there or does not know it.
+/// The definition of a code as PROJJSON, on one line; empty if PROJ is missing or does not know the code.
 /// Cost: milliseconds.
 [[nodiscard]] std::string projJsonOf(int epsg);
 

@@ -47,11 +47,12 @@ private:
 struct ImageDifference {
     /// The larger of `mean` and `worstBlock`, so that small changes everywhere and changes of a small detail both
     /// count:
-    ///     0         equal, except for the colour of transparent pixels
-    ///     < 0.005   invisible: rounding, one step of 255
-    ///     < 0.05    visible only side by side: a border moved by part of a pixel, slightly stronger light
-    ///     < 0.2     visible: something moved by a pixel or more, or has another colour
-    ///     <= 1      a different image; 1: black against white in some block, or different sizes
+    ///
+    ///     0         Equal, except for the colour of transparent pixels.
+    ///     < 0.005   Invisible: rounding, one step of 255.
+    ///     < 0.05    Visible only side by side: a border moved by part of a pixel, slightly stronger light.
+    ///     < 0.2     Visible: a part moved by a pixel or more, or has another colour.
+    ///     <= 1      A different image; 1: black against white in some block, or different sizes.
     double error = 0;
     double mean = 0;              ///< mean over pixels of the largest channel difference, 0..1
     double worstBlock = 0;        ///< largest difference of the mean colours of a block of 8 x 8 pixels, 0..1

@@ -134,7 +134,7 @@ bool read(Stream& stream, Target& target) {
         return false;
     }
     png_set_read_fn(png, &stream, onRead);
-    png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // allocate() has the limit
+    png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // allocate() checks the limit
     png_set_chunk_malloc_max(png, 16u << 20);
     png_read_info(png, info);
     const bool isGray16 = png_get_color_type(png, info) == PNG_COLOR_TYPE_GRAY && png_get_bit_depth(png, info) == 16;

@@ -27,9 +27,9 @@ inline constexpr std::int32_t kMaxPngSize = 16384;  ///< pixels along an axis
 Result<void> writePng(const std::filesystem::path& path, const Image<Rgba8>& image, int dpi = 0);
 Result<void> writePng(const std::filesystem::path& path, const Image<std::uint16_t>& image);
 
-/// Decodes a PNG of any kind to RGBA with 8 bits per channel, sRGB: another gamma that the file names is converted, 16
-/// bits are truncated to the upper 8, gray is expanded to three equal channels.
-/// \param maxSize  pixels along an axis; a larger image is refused before memory is taken for it
+/// Decodes a PNG of any kind to RGBA with 8 bits per channel, sRGB: a different gamma in the file is converted, 16 bits
+/// are truncated to the upper 8, gray is expanded to three equal channels.
+/// \param maxSize  pixels along an axis; a larger image is rejected before memory is allocated for it
 /// \return the image, or BadImage if the bytes are not a PNG, are damaged, or the image is larger than `maxSize`
 [[nodiscard]] Result<Image<Rgba8>> decodePng(std::span<const std::byte> bytes, std::int32_t maxSize = kMaxPngSize);
 /// The same for a file; CannotOpen if it is missing or unreadable.

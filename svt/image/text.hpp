@@ -22,7 +22,7 @@ struct TextStyle {
 /// DejaVu Sans, as a TrueType file.
 [[nodiscard]] std::span<const std::byte> embeddedFont() noexcept;
 
-/// Width of `text` (UTF-8), pixels. Characters that are missing in the font count as a box.
+/// Width of `text` (UTF-8), pixels. Characters that are missing in the font have the width of a box.
 [[nodiscard]] double textWidth(std::string_view text, double height);
 
 /// Draws `text` with its left end at `x`, vertically centred at `y`; clipped to the image. Cost: O(pixels covered).

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Triangle meshes of all objects of a model, each with the way it was closed. Built once from the semantic tree,
+/// Triangle meshes of all objects of a model, each with its closing method. Built once from the semantic tree,
 /// independent of any grid.
 
 #include <svt/core/diagnostics.hpp>
@@ -31,10 +31,10 @@ struct Triangle {
     std::array<std::uint32_t, 3> corners{};  ///< indices in ObjectMesh::vertices; counter-clockwise from outside
     std::uint32_t plane = kNoPlane;          ///< index in MeshSet::planes; kNoPlane if (nearly) vertical
     float thickness = 0;  ///< metres of the object's material behind the centre of this face; +inf: unknown or a sheet
-    model::PolygonIndex polygon = kNoPolygon;  ///< of the model, that it is a part of; kNoPolygon: added, as by a cap
+    model::PolygonIndex polygon = kNoPolygon;  ///< the polygon of the model; kNoPolygon: added, for example by a cap
 };
 
-/// How an object became a solid, or why it is none.
+/// How an object became a solid, or why it is not a solid.
 enum class Closure : std::uint8_t {
     Closed,        ///< every edge is used equally often in both directions
     TJunctions,    ///< the same, after edges were split at points that lie on them
@@ -77,7 +77,7 @@ struct ObjectMesh {
     double volume = 0;          ///< m3, of the closed mesh; 0 if open
     double enclosedVolume = 0;  ///< m3: volume, and of an Open mesh an estimate, its holes closed by fans
     double area = 0;            ///< m2
-    bool isAssembled = false;   ///< built from the boundary surfaces of the feature, since it has no own solid
+    bool isAssembled = false;   ///< built from the boundary surfaces of the feature, because it has no solid of its own
     Box3d bounds;               ///< local space
 
     /// True if the mesh is closed, so that it defines inside and outside.
@@ -94,11 +94,11 @@ struct MeshSet {
 };
 
 struct MeshOptions {
-    model::LodChoice lod;             ///< which level of detail of a feature to mesh
+    model::LodChoice lod;             ///< level of detail to mesh of each feature
     double weldDistance = 5e-6;       ///< points closer than this along each axis are merged, metres
     double tJunctionDistance = 1e-4;  ///< a point within this distance of an edge lies on it, metres
     double capDeviation = 0.05;       ///< a hole is capped if its boundary is within this distance of a plane, metres
-    bool measuresThickness = true;    ///< false: Triangle::thickness is left +inf, see measureThickness()
+    bool measuresThickness = true;    ///< false: Triangle::thickness stays +inf, see measureThickness()
     int threads = 0;
     const Progress* progress = nullptr;
 };
@@ -107,14 +107,14 @@ struct MeshOptions {
 /// boundary surfaces (with their openings) form one.
 ///
 /// Polygons are triangulated, points welded, duplicate faces removed, edges split at T-junctions, and faces oriented
-/// consistently and outwards. Every object is tested for being closed (paper, section 4.1). The faces of an open object
-/// with solid meaning are turned by their meaning and by rays; then it is completed by faces of adjoining features, by
-/// joining edges over gaps, by bridges and by planar caps; otherwise it stays Open, or, where nothing is enclosed, a
-/// Surface. Nothing is dropped without a diagnostic.
+/// consistently and outwards. The closing test (paper, section 4.1) runs on every object. For an open object with solid
+/// meaning, the faces are oriented by their class and by rays. Then faces of adjoining features, joined edges over
+/// gaps, bridges and planar caps complete the object. If it still is not closed, it stays Open, or becomes a Surface if
+/// it encloses nothing. Every dropped part is reported as a diagnostic.
 ///
 /// \param log  receives findings with feature id and world coordinates, in tree order; may be null
 /// \return the meshes, or EmptyModel if no feature has geometry, or Cancelled
-/// Cost: O(n log n) in the count of points. The result does not depend on `threads`.
+/// Cost: O(n log n) in the number of points. The result does not depend on `threads`.
 [[nodiscard]] Result<MeshSet> buildMeshes(const model::BuildingModel& model, const MeshOptions& options = {},
                                           Diagnostics* log = nullptr);
 

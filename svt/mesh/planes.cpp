@@ -32,7 +32,7 @@ struct CellHash {
     }
 };
 
-// The triangles that can have a plane, by descending area. Takes away the planes that the triangles had.
+// The triangles that can have a plane, by descending area. Removes the previous planes of the triangles.
 std::vector<Candidate> findCandidates(MeshSet& meshes) {
     std::vector<Candidate> candidates;
     for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
@@ -67,8 +67,8 @@ struct CornerLimits {
     double distance = 0;
 };
 
-// The planes of one cell as an octree over their points, so that of many planes that hardly differ only those are looked
-// at that pass by the corners of a triangle.
+// The planes of one cell as an octree over their points. If many planes hardly differ, the search tests only planes
+// that pass by the corners of a triangle.
 class PlaneTree {
 public:
     PlaneTree(const DualPoint& low, const DualPoint& size) : low_(low), size_(size), nodes_(1) {}
@@ -135,8 +135,8 @@ private:
         nodes_[node].children = children;
     }
 
-    // Whether some plane with its point in the box can pass by the corners. The height of a plane over a corner is linear
-    // in its point.
+    // Whether some plane with its point in the box can pass by the corners. The height of a plane over a corner is
+    // linear in its point.
     static bool mayPass(const CornerLimits& limits, const DualPoint& low, const DualPoint& size) noexcept {
         return std::all_of(limits.corners.begin(), limits.corners.end(), [&](const Vec3d& p) {
             const double middle = (low[0] + size[0] / 2) * p.x + (low[1] + size[1] / 2) * p.y + low[2] + size[2] / 2;
@@ -169,7 +169,8 @@ class PlanesByPlace {
 public:
     explicit PlanesByPlace(Vec3d center) : center_(center) {}
 
-    // The first plane near `place` that passes by the corners of `triangle` and for which fits(plane) holds, or kNoPlane.
+    // The first plane near `place` that passes by the corners of `triangle` and for which fits(plane) holds, or
+    // kNoPlane.
     template <class Fits>
     [[nodiscard]] std::uint32_t find(const Plane& place, const ObjectMesh& object, const Triangle& triangle,
                                      double distance, const Fits& fits) const {

@@ -56,7 +56,7 @@ enum class GeometryKind : std::uint8_t {
 /// One geometry of a feature at one level of detail.
 struct Geometry {
     GeometryKind kind = GeometryKind::Surface;
-    bool isComposite = false;  ///< CompositeSolid, CompositeSurface: the members hang together and overlap nowhere
+    bool isComposite = false;  ///< CompositeSolid, CompositeSurface: the members are connected and do not overlap
     double lod = -1;           ///< 0..4; CityJSON 2.2 is 2.2; -1: not stated
     std::string id;            ///< gml:id of the solid or (multi)surface, or empty
     std::vector<Solid> solids;
@@ -65,9 +65,9 @@ struct Geometry {
 
 /// A semantic object: building, storey, room, wall, window, table, parcel, tree.
 struct Feature {
-    std::string id;  ///< unique in the model; made from the path if the file has none
-    std::string
-        className;  ///< CityGML 3.0 local name where one exists: Building, BuildingRoom, WallSurface (see classes.hpp)
+    std::string id;  ///< unique in the model; made from the path if the file has no id
+    /// CityGML 3.0 local name where one exists: Building, BuildingRoom, WallSurface (see classes.hpp).
+    std::string className;
     std::string name;  ///< gml:name, or empty
     std::vector<Attribute> attributes;
     FeatureIndex parent = kNoFeature;
@@ -84,8 +84,8 @@ struct Membership {
     friend bool operator==(const Membership&, const Membership&) = default;
 };
 
-/// A line of a feature, such as a path through a building or an axis in a plan; a single point is a place. Lines have no
-/// voxels: they are kept beside them and drawn (volume::VectorParts).
+/// A line of a feature, such as a path through a building or an axis in a plan; a single point is a place. Lines have
+/// no voxels: volumes store them separately and draw them (volume::VectorParts).
 struct Polyline {
     FeatureIndex feature = kNoFeature;
     std::vector<Vec3d> points;  ///< world space; a closed line ends where it begins
@@ -99,8 +99,8 @@ struct Material {
     float transparency = 0;           ///< 0 opaque .. 1 invisible
 };
 
-/// Coordinate reference system of the model: that of the file, or the projection in metres that its degrees or feet were
-/// brought to. Axes are always (east, north, up).
+/// Coordinate reference system of the model: that of the file, or the projection in metres to which its degrees or feet
+/// were converted. Axes are always (east, north, up).
 struct Crs {
     std::string name;          ///< srsName or referenceSystem, or empty; "EPSG:6677 (from EPSG:6697)" if projected
     int epsg = 0;              ///< horizontal EPSG code if the name contains one, else 0
@@ -132,8 +132,8 @@ struct BuildingModel {
 
 /// The level of detail to use for a feature that has several.
 struct LodChoice {
-    /// -1: the finest that each feature has; else the finest not above this. A whole level includes its refinements
-    /// (2 includes 2.2); a refined level does not (2.1 excludes 2.2).
+    /// -1: the finest level of each feature; otherwise the finest level not above this. A whole level includes its
+    /// refinements (2 includes 2.2); a refined level does not (2.1 excludes 2.2).
     double lod = -1;
     [[nodiscard]] static LodChoice finest() { return {}; }
 

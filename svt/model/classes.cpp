@@ -83,7 +83,7 @@ constexpr std::array<string_view, 22> kSurfaceOnly{"TINRelief",
                                                    "ClearanceSpace",
                                                    "Hole",
                                                    "DoorSurface"};
-// What files give as loose sheets as often as bodies.
+// Classes that files store as loose sheets as often as bodies.
 constexpr std::array<string_view, 13> kBodyIfDeclared{"Door",
                                                       "Window",
                                                       "SolitaryVegetationObject",

@@ -11,8 +11,8 @@ namespace svt::model {
 
 /// One name for all formats: the CityGML 3.0 local name where one exists. "Room" becomes "BuildingRoom",
 /// "IntBuildingInstallation" "BuildingInstallation", "BuildingStorey" "Storey". An unknown name, including one with a
-/// leading '+' (CityJSON extension), is kept, except that "+Window" and "+Door" are windows and doors.
-/// Known old names are matched ignoring ASCII case.
+/// leading '+' (CityJSON extension), is kept, except that "+Window" and "+Door" become "Window" and "Door". Known old
+/// names are matched ignoring ASCII case.
 [[nodiscard]] std::string canonicalClassName(std::string_view sourceName);
 
 /// Priority where several objects claim a voxel: the finer component, that is, the lower rank, gets it.
@@ -29,39 +29,40 @@ enum class ClassRank : std::uint8_t {
 };
 [[nodiscard]] ClassRank classRank(std::string_view className) noexcept;
 
-/// Whether things of a class have an inside that is filled. A shell that is closed as read is filled in any case.
+/// Whether objects of a class have an inside that is filled. A shell that is closed in the file is always filled.
 enum class Inside : std::uint8_t {
-    Always,    ///< a body or a space: an open shell is meant to be closed
-    Declared,  ///< only where the geometry is a solid: trees of crossed pictures, bridge decks, generic objects
+    Always,    ///< a body or a space: an open shell counts as incomplete and is closed
+    Declared,  ///< only where the geometry is a solid: trees of crossed images, bridge decks, generic objects
     Never      ///< terrain, roads, land use, boundary surfaces: a sheet
 };
 
-/// The inside of a class. Unknown classes are bodies (what encloses nothing becomes a sheet in any case).
+/// The inside of a class. Unknown classes are bodies (geometry that encloses nothing becomes a sheet in any case).
 ///
-///     Always    Building, BuildingPart, rooms, units, storeys, constructive elements, installations, furniture, tunnels
+///     Always    Building, BuildingPart, rooms, units, storeys, constructive elements, installations, furniture,
+///               tunnels
 ///     Declared  Door, Window, SolitaryVegetationObject, PlantCover, CityFurniture, GenericOccupiedSpace,
 ///               GenericUnoccupiedSpace, GenericLogicalSpace, Bridge, BridgePart, BridgeInstallation, WaterBody,
 ///               OtherConstruction
 ///     Never     boundary surfaces, DoorSurface, WindowSurface, relief, LandUse, CityObjectGroup, transportation
 [[nodiscard]] Inside insideOf(std::string_view className) noexcept;
 
-/// True if things of the class can be bodies with a volume (Building, BuildingRoom, furniture, Door of CityGML 3.0):
+/// True if objects of the class can be bodies with a volume (Building, BuildingRoom, furniture, Door of CityGML 3.0):
 /// insideOf() is not Never.
 [[nodiscard]] bool hasSolidMeaning(std::string_view className) noexcept;
 
 /// True for surfaces that bound a space: WallSurface, RoofSurface, ..., ClosureSurface.
 [[nodiscard]] bool isBoundarySurface(std::string_view className) noexcept;
 
-/// Which way the faces of a boundary surface look, out of what it bounds.
+/// Orientation of a boundary surface: the direction of its faces, out of the shell that it bounds.
 enum class Facing : std::uint8_t {
-    Any,  ///< walls, closure surfaces, and classes whose meaning does not tell
+    Any,  ///< walls, closure surfaces, and classes without a typical orientation
     Up,
     Down
 };
 
-/// How faces of a boundary surface look in the shell that they bound: GroundSurface and OuterCeilingSurface down,
+/// Orientation of a boundary surface in the shell that it bounds: GroundSurface and OuterCeilingSurface face down,
 /// RoofSurface and OuterFloorSurface up.
-/// \param boundsSpace  the shell is that of a room or another space, seen from within: then FloorSurface looks down,
+/// \param boundsSpace  true if the shell bounds a room or another space: then FloorSurface faces down and
 ///                     CeilingSurface up; in a shell of material they can be either face of a slab
 [[nodiscard]] Facing facingOf(std::string_view surfaceClass, bool boundsSpace) noexcept;
 

@@ -7,24 +7,27 @@
 ///     storey="EG" and not (class=Window or ifcType=IfcDoor)
 ///
 /// Grammar (keywords, class names and attribute names ignore case; everything else is case-sensitive):
+///
 ///     query      := and ('or' and)*
 ///     and        := not ('and' not)*
 ///     not        := 'not' not | '(' query ')' | term
 ///     term       := key op value | 'under' value | 'all' | 'none'
-///     key        := class | id | name | storey | volume | voxels | any attribute name
+///     key        := class | id | name | storey | volume | voxels | any attribute
 ///     op         := = | == | != | < | <= | > | >= | ~ (regular expression, found anywhere) | !~
+///
 /// A key or value with blanks, quotes, brackets ( ) or operators must be quoted as "..." or '...'; inside, \" and \'
 /// are literal quotes and any other backslash is kept. A quoted key is always an attribute: "class"=1000 tests the
 /// attribute `class`. Two values compare as numbers if both are numbers, else as text; `class`, `id` and `name` are
 /// always text, `volume` (m3) and `voxels` always numbers. Class names are compared after canonicalClassName():
-/// class=room selects BuildingRoom; of a row with an attribute `ifcType` that counts, too: class=IfcWall. `class`, `id` and `storey` support = != ~ !~ only. See regex.hpp for patterns.
+/// class=room selects BuildingRoom. The attribute `ifcType` of a row counts as a class, too: class=IfcWall. `class`,
+/// `id` and `storey` support only = != ~ !~. See regex.hpp for patterns.
 ///
 /// `under X` selects the feature whose id or name is X, all its descendants, its members and their descendants: a flat
 /// has its rooms as children in one format and as members in another. `storey=X` selects the descendants and members of
-/// a Storey with that id or name, or of a CityObjectGroup with that id or name whose attribute function, class or usage
-/// contains "storey" or "Geschoss", and the descendants and members of those. A feature without the attribute (for
-/// storey: in no storey) matches no comparison with it, not even != or !~; an empty name counts as missing. `not`
-/// selects all others, including those without the attribute.
+/// a storey with the id or name X, and their descendants and members. A storey is a Storey, or a CityObjectGroup whose
+/// attribute function, class or usage contains "storey" or "Geschoss". A feature without the attribute (for storey: in
+/// no storey) matches no comparison with it, not even != or !~; an empty name counts as missing. `not` selects all
+/// others, including those without the attribute.
 
 #include <svt/core/attribute.hpp>
 #include <svt/core/result.hpp>
@@ -47,7 +50,7 @@ struct QueryRow {
     std::string_view name;
     std::uint32_t parent = kNoRow;  ///< row index
     std::span<const Attribute> attributes;
-    std::span<const std::uint32_t> groups;  ///< rows of the groups, storeys and units it is a member of
+    std::span<const std::uint32_t> groups;  ///< rows of the groups, storeys and units that it is a member of
     double volume = 0;                      ///< m3
     std::uint64_t voxels = 0;
 };
@@ -64,7 +67,7 @@ public:
     static constexpr std::size_t kMaxBytes = 65536;  ///< maximum length of a query
     static constexpr int kMaxDepth = 64;             ///< maximum nesting of brackets and nots
 
-    /// \return the query, or Code::BadQuery with the 1-based byte column, what was found and what was expected
+    /// \return the query, or Code::BadQuery with the 1-based byte column, the text found and the expected text
     [[nodiscard]] static Result<Query> parse(std::string_view text);
 
     /// Matching rows, ascending. A value that occurs nowhere selects nothing; see unknownValue(). Rows may be in any

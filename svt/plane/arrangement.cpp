@@ -10,7 +10,7 @@
 namespace svt::plane {
 namespace {
 
-// Nodes, and which is near to a point.
+// Nodes, and the search for the node near a point.
 class NodeSet {
 public:
     explicit NodeSet(std::int32_t tolerance) : tolerance_(tolerance) {}
@@ -109,7 +109,7 @@ public:
     }
 
 private:
-    // An edge that is led through a node.
+    // An edge that is routed through a node.
     struct Split {
         std::uint32_t pair = 0, node = 0;
         Wide along = 0;
@@ -126,7 +126,7 @@ private:
         pairs_.push_back({from, to, claim, winding, isLine});
     }
 
-    // Joins what lies on each other; borders of a claim that cancel are gone.
+    // Merges coinciding edges. Borders of a claim that cancel each other disappear.
     void merge() {
         const auto key = [](const NodePair& p) { return std::tuple(p.from, p.to, p.claim, p.isLine); };
         std::sort(pairs_.begin(), pairs_.end(), [&](const NodePair& a, const NodePair& b) { return key(a) < key(b); });
@@ -140,7 +140,7 @@ private:
         pairs_.resize(kept);
     }
 
-    // One step: all edges are cut at the nodes that they pass, and where they cross. False if there was nothing to do.
+    // One round: cuts all edges at the nodes that they pass, and where they cross. False if nothing was cut.
     bool split() {
         if (pairs_.empty()) return false;
         splits_.clear();
@@ -222,8 +222,8 @@ private:
         merge();
     }
 
-    // Half of the distance that nodes keep from each other: where a node is led through, the corner is then so blunt that
-    // the new edges do not come near to each other's ends, and the steps come to an end.
+    // Half of the distance that nodes keep from each other. An edge routed through a node then has so obtuse a corner
+    // that the new edges do not come near each other's ends. So the rounds come to an end.
     std::int32_t reach_;
     NodeSet nodes_;
     std::vector<NodePair> pairs_;

@@ -66,7 +66,7 @@ void BoxTree::addSlabs(const std::vector<SpaceTriangle>& triangles) {
     slabs_.clear();
     slabs_.reserve(nodes_.size());
     for (const Node& node : nodes_) {
-        // Without a normal, the slab is one that all triangles reach.
+        // Without a normal, all triangles reach the slab.
         Slab thinnest{{}, 0, 0};
         for (std::uint32_t i = 0; i < kTried; ++i) {
             const SpaceTriangle& t = triangles[order_[node.begin + (node.end - node.begin) * i / kTried]];

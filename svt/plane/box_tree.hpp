@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A bounding volume hierarchy over boxes in space, to find the boxes near something.
+/// A bounding volume hierarchy over boxes in space, to find the boxes near a place.
 
 #include <svt/plane/point.hpp>
 
@@ -11,17 +11,17 @@ namespace svt::plane {
 /// Corners of a triangle in space.
 using SpaceTriangle = std::array<Vec3d, 3>;
 
-/// A box that reaches `by` further on all sides. Exact for whole numbers up to 2^52.
+/// The box, extended by `by` on all sides. Exact for whole numbers up to 2^52.
 [[nodiscard]] inline Box3d grown(const Box3d& box, double by) noexcept {
     return {box.min - Vec3d{by, by, by}, box.max + Vec3d{by, by, by}};
 }
 
-/// A binary tree that is halved at the middle box.
+/// A binary tree whose nodes are split at the middle box.
 class BoxTree {
 public:
-    /// How a node is halved; it decides the order in which boxes are found.
+    /// How a node is split. It determines the order in which boxes are found.
     struct Halving {
-        std::uint32_t leafSize = 4;  ///< boxes of a node that is not halved
+        std::uint32_t leafSize = 4;  ///< maximum number of boxes of a node that is not split
         bool usesCenters = true;     ///< along the longest axis of the centers of boxes; false: of the boxes
     };
 
@@ -30,15 +30,15 @@ public:
     explicit BoxTree(std::vector<Box3d> boxes, Halving halving);
     explicit BoxTree(std::vector<Box3d> boxes) : BoxTree(std::move(boxes), Halving{}) {}
 
-    /// Gives each node a slab besides its box: the space between two parallel planes across a normal of one of its
-    /// triangles. The boxes of slanted long triangles side by side all meet, but their slabs do not (Gottschalk 1996,
-    /// "OBBTree").
-    /// \param triangles  one in each box, in the same order; coordinates are whole numbers of up to 40 bits
+    /// Gives each node a slab in addition to its box: the space between two parallel planes perpendicular to a normal
+    /// of one of its triangles. The boxes of long slanted triangles side by side all meet, but their slabs do not
+    /// (Gottschalk 1996, "OBBTree").
+    /// \param triangles  one per box, in the same order; coordinates are whole numbers of up to 40 bits
     /// Cost: O(n log n).
     void addSlabs(const std::vector<SpaceTriangle>& triangles);
 
     /// Calls `take(i)` for each box i with isNear(box), until one call returns true. `isNear` must hold for a box if it
-    /// holds for one inside of it. The order is that of the tree.
+    /// holds for a box inside it. The order is that of the tree.
     /// \return whether a call returned true
     template <class IsNear, class Take>
     [[nodiscard]] bool visit(const IsNear& isNear, const Take& take) const {
@@ -55,7 +55,7 @@ public:
     void forEach(const Box3d& box, const Body& body) const {
         forEach([&](const Box3d& other) { return other.overlaps(box); }, body);
     }
-    /// As forEach(box, body), without boxes in slabs that `triangle` does not reach. Needs addSlabs().
+    /// As forEach(box, body), without boxes in slabs that `triangle` does not reach. Requires addSlabs().
     template <class Body>
     void forEachBeside(const Box3d& box, const SpaceTriangle& triangle, const Body& body) const {
         const auto isNear = [&](const Box3d& other) { return other.overlaps(box); };
@@ -94,7 +94,7 @@ private:
 
     template <class IsNodeNear, class IsNear, class Take>
     bool walk(const IsNodeNear& isNodeNear, const IsNear& isNear, const Take& take) const {
-        std::uint32_t stack[64];  // halves go down at most 32 steps
+        std::uint32_t stack[64];  // the tree is at most 32 nodes deep
         std::uint32_t depth = 0;
         if (!nodes_.empty()) stack[depth++] = 0;
         while (depth != 0) {

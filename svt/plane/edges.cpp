@@ -18,10 +18,10 @@ struct CrossingPlace {
     double t = 0, u = 0;
 };
 
-// One sweep from left to right (Shamos and Hoey 1976). Edges that touch or overlap are cut at once, as the place is a
-// vertex. Where two edges cross, the place is noted and the shorter of them taken out of the sweep, so that the others
-// stay in order; both are cut after the sweep, and the next one looks at their parts. A sweep that took nothing out has
-// proved that no edges cross.
+// One sweep from left to right (Shamos and Hoey 1976). Edges that touch or overlap are cut at once, because the place
+// is a vertex. Where two edges cross, the sweep records the place and removes one of the edges (isKept()), so that the
+// others stay in order. Both edges are cut after the sweep, and the next sweep tests their parts. A sweep that removes
+// no edge proves that no edges cross.
 class CrossingSweep {
 public:
     CrossingSweep(EdgeGraph& graph, std::size_t maxCrossings, const MakePoint& makePoint)
@@ -51,13 +51,13 @@ public:
 private:
     struct SweptEdge {
         Edge ends;
-        std::uint32_t cuts = 0;  // how many are noted
+        std::uint32_t cuts = 0;  // number of recorded cuts
     };
     // A cut that is made after the sweep.
     struct Cut {
         std::uint32_t edge, vertex;
     };
-    // The rest of an edge behind a vertex that it overlaps another edge up to.
+    // The rest of an edge that overlaps another edge up to a vertex.
     struct Later {
         std::uint32_t right, next;
     };
@@ -101,7 +101,7 @@ private:
             if (above != open_.begin() && above != open_.end()) testPair(std::prev(above), above);
             return;
         }
-        // What crosses may leave, so the neighbours are looked up again each time.
+        // Crossing edges may be removed, so the neighbours are looked up again each time.
         const auto first = open_.find(starting_.front());
         if (first != open_.begin()) testPair(std::prev(first), first);
         const auto last = open_.find(starting_.back());
@@ -109,8 +109,8 @@ private:
         if (std::next(last) != open_.end()) testPair(last, std::next(last));
     }
 
-    // Sorts the edges that start at `v` from below. Of those in the same direction the shortest stays, if their number is
-    // odd; the rests of the others start where it ends.
+    // Sorts the edges that start at `v` from below. Among edges in the same direction, the shortest stays if their
+    // number is odd; the rests of the others start where it ends.
     void joinOverlapping(std::uint32_t v) {
         std::sort(starting_.begin(), starting_.end(), [&](std::uint32_t a, std::uint32_t b) {
             const int turn = side(edges_[a].ends, edges_[b].ends.right);
@@ -139,7 +139,7 @@ private:
         starting_.resize(kept);
     }
 
-    // Takes edges out until the two neighbours do not cross.
+    // Removes edges until the two neighbours do not cross.
     void testPair(Open::iterator lower, Open::iterator upper) {
         CrossingPlace place;
         while (crossingOf(edges_[*lower].ends, edges_[*upper].ends, place)) {
@@ -158,7 +158,7 @@ private:
         }
     }
 
-    // Which of two edges stays in the sweep: the one that crosses more, else the longer one.
+    // True if `a` rather than `b` stays in the sweep: the edge that crosses more, otherwise the longer one.
     [[nodiscard]] bool isKept(std::uint32_t a, std::uint32_t b) const {
         if (edges_[a].cuts != edges_[b].cuts) return edges_[a].cuts > edges_[b].cuts;
         const auto squared = [&](std::uint32_t edge) {

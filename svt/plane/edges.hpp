@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Edges of rings in a plane. Edges that touch, overlap or cross are made into edges that meet at their ends only.
+/// Edges of rings in a plane. Cuts edges that touch, overlap or cross into edges that meet only at their ends.
 
 #include <svt/plane/point.hpp>
 
@@ -19,41 +19,41 @@ struct Edge {
     friend auto operator<=>(const Edge&, const Edge&) = default;
 };
 
-/// Vertices in ascending order, none twice, so that a smaller index is further left; and edges, ascending.
+/// Distinct vertices in ascending order, so that a smaller index is further left, and edges in ascending order.
 struct EdgeGraph {
     struct Vertex {
         Point at;
-        std::uint32_t point = 0;  ///< of the input, or an extra one
+        std::uint32_t point = 0;  ///< index in the input, or of an extra point
     };
     std::vector<Vertex> vertices;
     std::vector<Edge> edges;
     bool isTouching = false;  ///< points were joined, or edges touched, overlapped or crossed
 
-    /// Ends of an edge by its number, as sweepEdges() asks for them.
+    /// The ends of an edge by its number, for sweepEdges().
     [[nodiscard]] std::pair<Point, Point> endsOf(std::uint32_t edge) const {
         return {vertices[edges[edge].left].at, vertices[edges[edge].right].at};
     }
 
-    /// Sorts vertices and edges, and joins vertices at the same place: the smallest `point` stays. Edges without length
-    /// go, and so do pairs of equal edges: between two of them nothing changes from inside to outside.
+    /// Sorts vertices and edges, and merges vertices at the same place, which keep the smallest `point`. Removes edges
+    /// without length and pairs of equal edges: crossing such a pair does not change between inside and outside.
     void tidy();
 };
 
-/// Makes the extra point where two edges cross: `first` and `second` are their ends by `point`, t and u the fractions of
-/// them. Returns its number.
+/// Makes the extra point where two edges cross. `first` and `second` are the ends of the edges by `point`, t and u the
+/// fractions along them. Returns the number of the point.
 using MakePoint = std::function<std::uint32_t(std::pair<std::uint32_t, std::uint32_t> first, double t,
                                               std::pair<std::uint32_t, std::uint32_t> second, double u)>;
 
-/// Cuts the edges of a tidy graph where they touch, overlap or cross, until they meet at their ends only. The inside by
-/// the odd rule stays the same, up to a step of the grid where edges cross. Coordinates are at most 2^50 from 0.
-/// \param maxCrossings  number of places where edges cross that are cut
-/// \return false if there are more, or if cutting does not come to an end
-/// Cost: O((n + k) log n) a round, k crossings; one round without crossings, some where edges cross often, 40 at most.
-///       Memory: O(n + k).
+/// Cuts the edges of a tidy graph where they touch, overlap or cross, until they meet only at their ends. The inside by
+/// the even-odd rule stays the same, up to one grid step where edges cross. Coordinates are at most 2^50 from 0.
+/// \param maxCrossings  maximum number of crossings that are cut
+/// \return false if there are more, or if cutting does not end
+/// Cost: O((n + k) log n) per round, k crossings. One round without crossings, several if edges cross often, at most
+///       40. Memory: O(n + k).
 [[nodiscard]] bool cutCrossings(EdgeGraph& graph, std::size_t maxCrossings, const MakePoint& makePoint);
 
-/// True if two edges have more in common than one end each, more than two edges have an end in common, or an edge has no
-/// length. False for simple rings that do not touch each other. Exact.
+/// True if two edges share more than one end, if more than two edges share an end, or if an edge has no length. False
+/// for simple rings that do not touch each other. Exact.
 /// \param edges  each from one corner of a ring to the next
 /// Cost: as cutCrossings() without crossings.
 [[nodiscard]] bool meetBeyondEnds(std::span<const std::pair<Point, Point>> edges);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Points of a plane on a grid of whole numbers, and the tests of their positions. Each test has one exact answer. Double
-/// precision is not enough: a point beside a line must lie beside it in all tests.
+/// Points of a plane on a grid of whole numbers, and exact tests of their positions. Double precision is not enough: a
+/// point next to a line must lie on the same side of it in all tests.
 
 #include <svt/core/vec.hpp>
 
@@ -15,7 +15,7 @@ namespace svt::plane {
 /// Products of coordinates. The type is not part of standard C++, but each compiler that builds SVT has it.
 __extension__ using Wide = __int128;
 
-/// Stands for a missing number of a point, edge or box.
+/// Marks a missing index of a point, edge or box.
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
 /// A point, or a difference of points; each coordinate at most 2^60 from 0. Points are ordered by u, then by v.
@@ -29,8 +29,8 @@ struct Point {
 [[nodiscard]] constexpr Wide cross(Point a, Point b) noexcept { return Wide(a.u) * b.v - Wide(a.v) * b.u; }
 [[nodiscard]] constexpr Wide dot(Point a, Point b) noexcept { return Wide(a.u) * b.u + Wide(a.v) * b.v; }
 
-/// 1 if a, b, c turn counter-clockwise, so that c lies to the left of the line from a to b; -1 if clockwise; 0 if they lie
-/// on one line. Exact.
+/// 1 if a, b, c turn counter-clockwise, so that c lies to the left of the line from a to b; -1 if clockwise; 0 if they
+/// lie on one line. Exact.
 [[nodiscard]] constexpr int turn(Point a, Point b, Point c) noexcept {
     const Wide twiceArea = cross(b - a, c - a);
     return (twiceArea > 0) - (twiceArea < 0);
@@ -42,7 +42,7 @@ struct Point {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// True if the triangle (not collapsed) holds `p`, border included. Exact.
+/// True if the triangle (not collapsed) contains `p`, border included. Exact.
 [[nodiscard]] constexpr bool holds(const std::array<Point, 3>& t, Point p) noexcept {
     const int a = turn(t[0], t[1], p), b = turn(t[1], t[2], p), c = turn(t[2], t[0], p);
     return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
@@ -78,8 +78,8 @@ struct Box {
 /// How two closed segments, or a segment and a triangle, meet.
 enum class Meeting : std::uint8_t {
     None,
-    Touch,  ///< at an end point, along an edge, or lying within one line or plane
-    Cross   ///< an inner point of one lies within the inside of the other, with ends on both sides
+    Touch,  ///< at an end point, along an edge, or within one line or plane
+    Cross   ///< an inner point of one lies inside the other, with ends on both sides
 };
 
 /// How the segments ab and cd meet. Exact.

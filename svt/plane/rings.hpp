@@ -20,9 +20,9 @@ namespace svt::plane {
     return normal;
 }
 
-/// Splits a closed walk at the points that it visits again into rings that touch there, and calls take(ring) for each.
+/// Splits a closed walk at repeated points into rings that touch there, and calls take(ring) for each ring.
 /// \param pointOf  returns the point of a step of the walk, of any type with an order
-/// \param take     receives each ring as a std::vector<Step>; for an empty walk, an empty one
+/// \param take     receives each ring as a std::vector<Step>; an empty vector for an empty walk
 /// Cost: O(n log n).
 template <class Step, class PointOf, class Take>
 void splitAtRepeats(const std::vector<Step>& walk, const PointOf& pointOf, const Take& take) {

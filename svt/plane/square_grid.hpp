@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Equal squares over a part of the plane, to find points and segments near something.
+/// Equal squares over a part of the plane, to find points and segments near a place.
 
 #include <svt/plane/point.hpp>
 
@@ -9,14 +9,14 @@
 
 namespace svt::plane {
 
-/// Finds the squares that something meets; the caller keeps lists of their content. Functions call body(square) with the
-/// number of each square until one call returns false, and return whether none did.
+/// Finds the squares that a segment or a box meets. The caller keeps lists of their content. The functions call
+/// body(square) with the number of each square until a call returns false. They return true if no call did.
 class SquareGrid {
 public:
     /// \param box        the part of the plane, not empty; at most 2^50 from 0
-    /// \param wanted     number of squares: some more for a long and narrow part, fewer where a limit below is met
-    /// \param mostAlong  squares along the longer side
-    /// \param least      side of a square
+    /// \param wanted     wanted number of squares; some more for a long and narrow part, fewer if a limit below applies
+    /// \param mostAlong  maximum number of squares along the longer side
+    /// \param least      minimum side of a square
     SquareGrid(const Box& box, double wanted, double mostAlong, double least) noexcept : low_(box.low) {
         const double width = double(box.high.u) - double(box.low.u) + 1;
         const double height = double(box.high.v) - double(box.low.v) + 1;
@@ -29,8 +29,8 @@ public:
     [[nodiscard]] double side() const noexcept { return side_; }
     [[nodiscard]] std::size_t squareOf(Point p) const noexcept { return at(columnOf(double(p.u)), rowOf(double(p.v))); }
 
-    /// For each square within `reach` of the segment a-b, and for some squares further away; each once.
-    /// \param reach  at least 1, which is more than the rounding error
+    /// Visits each square within `reach` of the segment a-b, and some squares further away; each once.
+    /// \param reach  at least 1, which exceeds the rounding error
     template <class Body>
     bool forSegment(Point a, Point b, double reach, const Body& body) const {
         const auto [left, right] = std::minmax(a, b);
@@ -52,7 +52,7 @@ public:
         return true;
     }
 
-    /// For each square that meets the box.
+    /// Visits each square that meets the box.
     template <class Body>
     bool forBox(const Box& box, const Body& body) const {
         for (std::int64_t row = rowOf(double(box.low.v)), top = rowOf(double(box.high.v)); row <= top; ++row)
@@ -66,7 +66,7 @@ public:
                double(rowOf(double(box.high.v)) - rowOf(double(box.low.v)) + 1);
     }
 
-    /// For each square that lies `ring` squares away from that of `p`. Ignores the result of body(square).
+    /// Visits each square that lies `ring` squares away from the square of `p`. Ignores the result of body(square).
     /// \return false if all squares are nearer to `p`
     template <class Body>
     bool forRing(Point p, std::int64_t ring, const Body& body) const {

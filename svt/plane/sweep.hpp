@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// A sweep over edges that meet at their ends only, from the first point to the last, with the edges at each in order.
+/// A sweep over edges that meet only at their ends, from the first point to the last, with the edges at each point in
+/// order.
 
 #include <svt/plane/point.hpp>
 
@@ -12,8 +13,9 @@
 
 namespace svt::plane {
 
-/// The order from below of the edges that the sweeping line meets, and of points among them. Of two edges, the one that
-/// begins later is on the side of the other on which it begins, or, if it begins on the other, ends. Edges must not cross.
+/// The order, from below, of the edges that the sweep line meets, and of points among them. The edge that begins later
+/// lies on the side of the earlier edge on which it begins; if it begins on the earlier edge, on the side on which it
+/// ends. Edges must not cross.
 /// \tparam EndsOf  the ends of an edge by its number: a pair of Points, the lesser first
 template <class EndsOf>
 struct BelowEdge {
@@ -40,7 +42,8 @@ struct BelowEdge {
 };
 
 /// Calls visit(point, ending, starting, below) for each end of an edge, in ascending order. `ending` and `starting` are
-/// the numbers of the edges that end and start there, from below; `below` is that of the edge below the point, or kNone.
+/// the numbers of the edges that end and start there, from below; `below` is the number of the edge below the point, or
+/// kNone.
 /// \param count   number of edges; they are numbered in ascending order of their lesser ends
 /// \param endsOf  as for BelowEdge
 /// Cost: O(n log n). Source: M. I. Shamos, D. Hoey, Geometric intersection problems, FOCS 1976.

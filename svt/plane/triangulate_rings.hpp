@@ -12,14 +12,14 @@ namespace svt::plane {
 /// Corners of a triangle: indices of points.
 using Corners = std::array<std::uint32_t, 3>;
 
-/// A corner of a ring: where it lies, and by which index it is known. Equal places have equal indices.
+/// A corner of a ring: its place and its index. Equal places have equal indices.
 struct RingCorner {
     Point at;
     std::uint32_t index = 0;
 };
 
-/// Cuts ears (Meisters 1975; holes joined to the exterior by bridges as in Eberly, "Triangulation by ear clipping"), then
-/// turns edges until no sum of opposite angles in space exceeds 180 degrees (Lawson 1977), which avoids slivers.
+/// Cuts ears (Meisters 1975; holes joined to the exterior by bridges as in Eberly, "Triangulation by ear clipping"),
+/// then flips edges until no sum of opposite angles in space exceeds 180 degrees (Lawson 1977), which avoids slivers.
 ///
 /// \param rings   the exterior counter-clockwise, then holes clockwise; rings may touch at shared corners, not cross
 /// \param points  in space, by index

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points by the cells of a grid; one number for all points near to each other.
+/// Gives points that are near each other the same number. Finds points by the cells of a grid.
 
 #include <svt/core/hash.hpp>
 #include <svt/plane/point.hpp>
@@ -13,19 +13,20 @@ namespace svt::plane {
 /// A cell of a cubic grid; a plane has z = 0.
 using Cell = Vec3<std::int64_t>;
 
-/// Numbers, from 0 on, by the cells that they are filed under.
+/// An index of the numbers 0, 1, 2, ... by the cells that they are added to.
 class CellIndex {
 public:
-    /// Files the next number.
+    /// Adds the next number to `cell`.
     void add(const Cell& cell) {
         std::uint32_t& last = last_.try_emplace(keyOf(cell), kNone).first->second;
         before_.push_back(last);
         last = static_cast<std::uint32_t>(before_.size() - 1);
     }
 
-    /// Calls visit(number) for all numbers in the cells from `low` to `high`, both included: cell by cell with z fastest,
-    /// in each the last one first. Cells that share a hash add a few other numbers, or a number again.
-    /// Cost: O(1) for each cell and number.
+    /// Calls visit(number) for all numbers in the cells from `low` to `high`, both included: cell by cell with z
+    /// fastest, in each cell the last number first. Cells that share a hash add a few other numbers, or repeat a
+    /// number.
+    /// Cost: O(1) per cell and number.
     template <class Visit>
     void forEach(const Cell& low, const Cell& high, const Visit& visit) const {
         for (std::int64_t x = low.x; x <= high.x; ++x)
@@ -48,7 +49,7 @@ private:
     std::unordered_map<std::uint64_t, std::uint32_t> last_;  // cell -> its last number
 };
 
-/// Numbers points so that a point near an earlier one gets its number. The caller decides which points are near.
+/// Numbers points. A point near an earlier point gets the same number. The caller decides which points are near.
 /// \tparam P  a point of a plane or of space
 template <class P>
 class Welder {

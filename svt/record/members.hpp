@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The members of a struct, for headers: a struct that has a JSON form or options declares
-/// `record::Members<T> membersOf(const T*) noexcept;` beside it. record.hpp has all else, and needs a JSON library.
+/// The members of a struct, for headers. Next to a struct with a JSON representation or options, its header declares
+/// `record::Members<T> membersOf(const T*) noexcept;`. Everything else is in record.hpp, which needs a JSON library.
 
 #include <span>
 

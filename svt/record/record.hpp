@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// Structs that have a JSON form, declared member by member: a declaration (Option) bound to a field. Reading, writing,
-/// setting one member by its pointer and the list of all declarations for schemas and help follow from the declarations.
+/// Structs with a JSON representation, declared member by member: a declaration (Option) bound to a field. The
+/// declarations define reading, writing, setting one member by its JSON pointer, and the list of declarations for
+/// schemas and help.
 ///
 ///     record::Members<Sun> membersOf(const Sun*) noexcept {
 ///         static constexpr record::Member<Sun> kMembers[] = {
@@ -11,8 +12,9 @@
 ///     }
 ///
 /// The type of a field gives the kind, the number of values and the choices (namesOf()) of its declaration; a
-/// default-constructed struct gives its default. `void checkMembers(record::Faults&, const std::string& path, const T&)`
-/// beside membersOf() may check members together; it is called after they were read.
+/// default-constructed struct gives its default.
+/// `void checkMembers(record::Faults&, const std::string& path, const T&)` next to membersOf() is optional: it checks
+/// members together, after they were read.
 
 #include <svt/core/file.hpp>
 #include <svt/core/names.hpp>
@@ -42,7 +44,7 @@ namespace svt::record {
 
 using Json = nlohmann::ordered_json;
 
-/// The first fault of a text that is read. Nothing is read after it.
+/// The first fault of a text. Reading stops there.
 class Faults {
 public:
     /// \param path  of the member, a JSON pointer; "" is the whole text
@@ -55,7 +57,7 @@ public:
     [[nodiscard]] const std::string& path() const noexcept { return path_; }
     [[nodiscard]] const std::string& text() const noexcept { return fault_.message(); }
     /// The fault, with `before` in front of its text.
-    /// \param code  of a fault that has none of its own
+    /// \param code  for a fault without its own code
     [[nodiscard]] Error error(Code code, const std::string& before) const {
         return Error(fault_.code() == Code::Internal ? code : fault_.code(), before + text(), fault_.where());
     }
@@ -65,8 +67,8 @@ private:
     Error fault_;
 };
 
-/// How values of type T stand in JSON: describe(), read(), write(), set(), list() and kHasDefault as in PlainCodec. A member
-/// may name another class with these functions, see memberAs().
+/// The JSON representation of values of type T: describe(), read(), write(), set(), list() and kHasDefault as in
+/// PlainCodec. A member may name another class with these functions, see memberAs().
 template <class T>
 struct Codec;
 
@@ -75,11 +77,11 @@ template <class Owner>
 struct Member {
     Option option;  ///< named as in JSON: "zoom"
     void (*read)(Faults&, const Json&, const std::string& path, const Option&, Owner&);
-    Json (*write)(const Option&, const Owner&);  ///< null if the member is not to be written
-    /// Sets a part of the field; `rest` is the pointer behind the member's name.
+    Json (*write)(const Option&, const Owner&);  ///< returns null to omit the member
+    /// Sets a part of the field; `rest` is the JSON pointer after the name of the member.
     void (*set)(Faults&, std::string_view rest, const Json&, const std::string& path, const Option&, Owner&);
-    std::string (*byDefault)(const Option&);  ///< the field's default as help has it; empty: none
-    /// Appends the declarations of the members below, if the field is a struct or a list of structs.
+    std::string (*byDefault)(const Option&);  ///< the default of the field as in help; empty: none
+    /// Appends the declarations of nested members, if the field is a struct or a list of structs.
     void (*list)(const std::string& pointer, std::deque<std::string>& texts, std::vector<Option>& all);
 };
 
@@ -102,10 +104,10 @@ template <Recorded T>
 [[nodiscard]] std::pair<std::string_view, std::string_view> firstStep(std::string_view pointer) noexcept;
 /// A value as it is written in help: texts without quotes, arrays as "a,b".
 [[nodiscard]] std::string plainText(const Json& value);
-/// The value that texts stand for by a declaration, as faultOf() allows them: true of a flag without a text, numbers, an
-/// array of several numbers.
+/// The value of `texts` by the declaration `option`, after faultOf() accepted them: true for a flag without a text, a
+/// number, an array of several numbers, or a text.
 [[nodiscard]] Json valueOfTexts(const Option& option, std::span<const std::string> texts);
-/// Checks that a number is one, and in the range of its declaration.
+/// Checks that a value is a number, and in the range of its declaration.
 [[nodiscard]] bool isInRange(Faults& faults, const Json& value, const std::string& path, const Option& option,
                              bool isWhole);
 /// Checks the number of elements of an array against the range of its declaration.
@@ -162,8 +164,8 @@ void setMember(Faults& faults, std::string_view pointer, const Json& value, cons
     member->set(faults, rest, value, path + "/" + std::string(name), member->option, to);
 }
 
-/// Sets one member to the values of an option, as faultOf() allows them. Those of a member that may repeat are appended.
-/// \param pointer  of the member; each * is the first element of a list
+/// Sets one member to the values of an option that faultOf() accepted. Appends them if the member may repeat.
+/// \param pointer  of the member; each * means the first element of a list
 template <Recorded T>
 void setTexts(Faults& faults, std::string pointer, const Option& option, std::span<const std::string> texts, T& to) {
     std::replace(pointer.begin(), pointer.end(), '*', '0');
@@ -171,8 +173,8 @@ void setTexts(Faults& faults, std::string pointer, const Option& option, std::sp
     for (const std::string& text : texts) setMember(faults, pointer + "/-", valueOfTexts(option, {&text, 1}), "", to);
 }
 
-/// Appends the declaration of a member, and those of the members below it; names are pointers with * for any index.
-/// \param texts  keeps what the declarations refer to
+/// Appends the declarations of a member and of its nested members; names are JSON pointers with * for any index.
+/// \param texts  owns the texts that the declarations refer to
 template <class T>
 void listMember(const Member<T>& member, const std::string& prefix, std::deque<std::string>& texts,
                 std::vector<Option>& all) {
@@ -184,13 +186,13 @@ void listMember(const Member<T>& member, const std::string& prefix, std::deque<s
     member.list(std::string(option.name), texts, all);
 }
 
-/// Appends the declarations of all members of T, an object before its own.
+/// Appends the declarations of all members of T, each object before its nested members.
 template <Recorded T>
 void listMembers(const std::string& prefix, std::deque<std::string>& texts, std::vector<Option>& all) {
     for (const Member<T>& member : membersOf<T>()) listMember(member, prefix, texts, all);
 }
 
-/// All declarations of T, made once; they live as long as the program.
+/// All declarations of T, made once and valid for the lifetime of the program.
 template <Recorded T>
 [[nodiscard]] std::span<const Option> declared() {
     static const struct All {
@@ -201,10 +203,9 @@ template <Recorded T>
     return kAll.options;
 }
 
-/// Reads a file of one struct.
+/// Parses a file that contains one struct.
 /// \param name  of the file, for messages
-/// \return the struct, or BadJson, or `code`; the latter names the member (as a JSON pointer), what was found and what
-///         is expected
+/// \return the struct; BadJson; or `code`, with the member (as a JSON pointer), the value found and the expected value
 template <Recorded T>
 [[nodiscard]] Result<T> parseRecord(std::string_view text, const std::string& name, Code code) {
     const Json json = Json::parse(text, nullptr, false);
@@ -216,7 +217,7 @@ template <Recorded T>
     return read;
 }
 
-/// The text of a file of one struct. Equal structs give equal bytes.
+/// The text of a file that contains one struct. Equal structs give equal bytes.
 template <Recorded T>
 [[nodiscard]] std::string recordText(const T& from) {
     return writeRecord(from).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -224,7 +225,7 @@ template <Recorded T>
 
 // ---- values ---------------------------------------------------------------------------------------------------------
 
-/// The base of codecs of values without parts: only the whole can be set. `Own` is the codec.
+/// The base of codecs for values without parts, which can only be set as a whole. `Own` is the codec itself.
 template <class Own, class T>
 struct PlainCodec {
     static constexpr bool kHasDefault = true;
@@ -283,7 +284,7 @@ struct Codec<std::filesystem::path> : PlainCodec<Codec<std::filesystem::path>, s
     static Json write(const Option&, const std::filesystem::path& from) { return from.string(); }
 };
 
-/// A flag that is set where the field is false: "--no-bodies".
+/// A flag that is set if the field is false: "--no-bodies".
 struct Not : PlainCodec<Not, bool> {
     static constexpr void describe(Option& option) { option.kind = OptionKind::Flag; }
     static void read(Faults& faults, const Json& json, const std::string& path, const Option& option, bool& to) {
@@ -365,7 +366,7 @@ struct Codec<Vec3d> : PlainCodec<Codec<Vec3d>, Vec3d> {
     }
 };
 
-/// A value that is written as a text.
+/// A value whose JSON representation is a text.
 /// \param Parse  text to Result<T>
 /// \param Text   T to text
 template <class T, auto Parse, auto Text>
@@ -381,7 +382,7 @@ struct TextOf : PlainCodec<TextOf<T, Parse, Text>, T> {
     static Json write(const Option&, const T& from) { return Text(from); }
 };
 
-/// A member without a field: any value is allowed, and none is kept.
+/// A member without a field: any value is allowed and ignored.
 template <class Owner>
 struct Ignored : PlainCodec<Ignored<Owner>, Owner> {
     static constexpr bool kHasDefault = false;
@@ -389,7 +390,8 @@ struct Ignored : PlainCodec<Ignored<Owner>, Owner> {
     static Json write(const Option&, const Owner&) { return {}; }
 };
 
-/// The name and version of a file format: the only choice, or the highest number, of the declaration. They have no field.
+/// The name and version of a file format: the only choice, or the highest number, of the declaration. They have no
+/// field.
 template <class Owner>
 struct FormatName : PlainCodec<FormatName<Owner>, Owner> {
     static constexpr bool kHasDefault = false;
@@ -430,7 +432,7 @@ struct Codec<T> {
     }
 };
 
-/// A value that may be unset: then it is not in the file. `Inner` is the codec of the value.
+/// An optional value, which is not written if it is unset. `Inner` is the codec of the value.
 template <class T, class Inner>
 struct OptionalCodec {
     static constexpr bool kHasDefault = false;
@@ -571,7 +573,7 @@ struct Binding {
 /// Whether a member is written even if it has its default.
 enum class Written : bool { IfSet, Always };
 
-/// Declares the member of a struct that is kept in `Field`, or, of a chain of fields, in the last.
+/// Declares a member of a struct that is stored in `Field`, or in the last field of a chain.
 /// \param option  further parts of the declaration
 template <auto Field, auto... Further>
 [[nodiscard]] constexpr auto member(std::string_view name, std::string_view help, Option option = {},
@@ -580,7 +582,7 @@ template <auto Field, auto... Further>
     return detail::Binding<Owner, void, Field, Further...>::member(name, help, option, written == Written::Always);
 }
 
-/// The same with a codec of its own; of an optional field, the codec of its value.
+/// The same with an explicit codec; for an optional field, the codec of its value.
 template <class As, auto Field, auto... Further>
 [[nodiscard]] constexpr auto memberAs(std::string_view name, std::string_view help, Option option = {},
                                       Written written = Written::IfSet) {

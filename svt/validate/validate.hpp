@@ -1,11 +1,12 @@
 #pragma once
 /// \file
-/// Is the geometry of a model valid by ISO 19107? Rings, polygons, shells, solids, composite solids and the parts of
-/// buildings are tested from the bottom up, on the rings as read. Nothing is repaired.
+/// Tests whether the geometry of a model is valid by ISO 19107. Rings, polygons, shells, solids, composite solids and
+/// the parts of buildings are tested from the bottom up, on the rings as read. Nothing is repaired.
 ///
-/// The terms, the hierarchy of tests and the numbers that findings are known by elsewhere are those of Ledoux, "On the
-/// validation of solids represented with the international standards for geographic information", CACAIE 28(9), 2013,
-/// and "val3dity: validation of 3D GIS primitives according to the international standards", OGDSS 3(1), 2018.
+/// The terms, the hierarchy of tests and the numbers of val3dity follow two papers of Ledoux. The first is "On the
+/// validation of solids represented with the international standards for geographic information", CACAIE 28(9), 2013.
+/// The second is "val3dity: validation of 3D GIS primitives according to the international standards", OGDSS 3(1),
+/// 2018.
 
 #include <svt/core/error.hpp>
 #include <svt/core/progress.hpp>
@@ -30,15 +31,16 @@ struct ValidateOptions {
     double normalsDegrees = 20;  ///< largest angle between the triangles of a polygon, degrees; more than 0
     /// Solids may overlap by twice this depth, metres; negative: not deeper than `snap`.
     double overlap = -1;
-    /// Geometries to test: all levels of detail, or with a level (0 or more) the one that each feature is used with.
+    /// Geometries to test. Negative: all levels of detail; 0 or more: only the geometry that LodChoice selects for each
+    /// feature.
     double lod = -1;
     int threads = 0;  ///< 0: all cores
     const Progress* progress = nullptr;
 };
 
-/// What is wrong, and where. All places are world space.
+/// A defect and its place. All places are in world space.
 struct Finding {
-    /// Findings of each code that are kept; all are counted.
+    /// Maximum number of kept findings per code; all are counted.
     static constexpr std::size_t kKeptPerCode = 1000;
 
     Code code = Code::Internal;
@@ -48,20 +50,20 @@ struct Finding {
     int shell = -1;     ///< 0: exterior, 1...: interiors; -1: of the solid as a whole
     model::PolygonIndex polygon = kNoPolygon;
     Vec3d at{};
-    /// What is measured: metres for NonPlanar and overlaps, degrees for NormalsDeviate, else empty.
+    /// The measured value: metres for NonPlanar and overlaps, degrees for NormalsDeviate; otherwise empty.
     std::optional<double> value;
-    std::string message;  ///< what was found; without place and code
-    /// Lines that show the defect: pairs of points. Empty: `at` alone shows it.
+    std::string message;  ///< description of the defect, without place and code
+    /// Lines that show the defect: pairs of points. Empty if `at` is enough to show it.
     std::vector<std::array<Vec3d, 2>> marks;
 };
 
-/// The volume of a geometry as its shells enclose it.
+/// The volume that the shells of a geometry enclose.
 struct SolidVolume {
-    std::optional<double> volume;  ///< m3; empty where the shells enclose none that one could state
-    Code reason = Code::Internal;  ///< the finding because of which there is none
+    std::optional<double> volume;  ///< m3; empty if the shells do not enclose a definite volume
+    Code reason = Code::Internal;  ///< code of the finding that prevents a volume
 };
 
-/// How many there are, and how many of them have no finding.
+/// The number of items, and of those without a finding.
 struct ValidCount {
     std::size_t total = 0, valid = 0;
 };
@@ -69,30 +71,31 @@ struct ValidCount {
 struct ValidationReport {
     std::vector<Finding> findings;  ///< by root, in tree order; rings before polygons before shells before solids
     std::map<Code, std::size_t> counts;
-    /// By class, of features with geometry; parts count for themselves.
+    /// Features with geometry, by class; parts count separately.
     std::map<std::string, ValidCount> features;
-    /// By type: Solid, CompositeSolid, MultiSolid, CompositeSurface, MultiSurface.
+    /// Geometries by type: Solid, CompositeSolid, MultiSolid, CompositeSurface, MultiSurface.
     std::map<std::string, ValidCount> primitives;
-    /// Of geometries with solids: feature and geometry -> volume.
+    /// Volumes of geometries with solids, by feature and geometry.
     std::map<std::pair<model::FeatureIndex, int>, SolidVolume> volumes;
-    std::size_t polygonCount = 0;  ///< tested
+    std::size_t polygonCount = 0;  ///< number of tested polygons
 };
 
 /// Tests the geometries of all features.
 ///
-/// From the bottom up: a shell is tested if its polygons are valid, a solid if its shells are, a composite or a building
-/// if its solids are, since what stands above a defect would only repeat it.
+/// Tests from the bottom up: a shell is tested if its polygons are valid, a solid if its shells are, a composite or a
+/// building if its solids are. Tests above a defect would only repeat the defect.
 /// \return the report, BadArgument if an option is out of range, or Cancelled
-/// Cost: O(n log n) in the points of a feature where its faces meet only at their borders. Memory beyond the report: that
+/// Cost: O(n log n) in the points of a feature if its faces meet only at their borders. Memory beyond the report: that
 /// of the largest root feature, per thread. The result does not depend on `threads`.
 [[nodiscard]] Result<ValidationReport> validateModel(const model::BuildingModel& model,
                                                      const ValidateOptions& options = {});
 
-/// The number by which val3dity reports the same, 0 if it has none.
+/// The number of the same error in val3dity; 0 if val3dity does not report it.
 [[nodiscard]] int val3dityCode(Code code) noexcept;
-/// val3dity's name of one of its numbers, such as "SHELL_NOT_CLOSED"; empty if it has none.
+/// The name of a number in val3dity, such as "SHELL_NOT_CLOSED"; empty if unknown.
 [[nodiscard]] std::string_view val3dityName(int val3dityCode) noexcept;
-/// What ISO 19107 requires that is not the case, as a noun, such as "GM_Ring: simple"; empty if it is not of geometry.
+/// The violated requirement of ISO 19107, as a noun, such as "GM_Ring: simple"; empty if the code is not about
+/// geometry.
 [[nodiscard]] std::string_view isoTerm(Code code) noexcept;
 /// Solid, CompositeSolid, MultiSolid, CompositeSurface or MultiSurface.
 [[nodiscard]] std::string_view primitiveType(const model::Geometry& geometry) noexcept;

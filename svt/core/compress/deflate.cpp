@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kStep = std::size_t{1} << 30;  // zlib counts with 32 bits
 constexpr std::size_t kLeastBuffer = std::size_t{1} << 12;
 constexpr int kGzipWindow = MAX_WBITS + 16;
-constexpr std::size_t kFlushBytes = 64;  // what Z_SYNC_FLUSH may add beyond deflateBound()
+constexpr std::size_t kFlushBytes = 64;  // upper limit of the bytes that Z_SYNC_FLUSH adds to deflateBound()
 
 Bytef* zlibBytes(std::span<const std::byte> bytes) noexcept {
     return reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));
@@ -68,7 +68,7 @@ std::vector<std::byte> deflated(std::span<const std::byte> bytes, int level, int
 }  // namespace
 
 std::uint32_t zipChecksum(std::span<const std::byte> bytes, std::uint32_t before) noexcept {
-    if (bytes.empty()) return before;  // zlib takes a null pointer as a wish for the first value
+    if (bytes.empty()) return before;  // for a null pointer, zlib returns the initial value
     return static_cast<std::uint32_t>(crc32_z(before, zlibBytes(bytes), bytes.size()));
 }
 
@@ -97,7 +97,7 @@ InflateStep InflateStream::step(std::span<const std::byte>& packed, std::span<st
     const std::size_t input = std::min(packed.size(), kStep), room = std::min(out.size(), kStep);
     stream.next_in = zlibBytes(packed);
     stream.avail_in = static_cast<uInt>(input);
-    std::byte none{};  // zlib refuses a null address, even without room
+    std::byte none{};  // zlib rejects a null address, even for an empty buffer
     stream.next_out = zlibBytes(out.empty() ? std::span(&none, 1) : out);
     stream.avail_out = static_cast<uInt>(room);
     const int state = inflate(&stream, Z_NO_FLUSH);
@@ -137,7 +137,7 @@ Inflated inflateBytes(std::span<const std::byte> packed, DeflateFormat format, s
         if (written == out.size() && out.size() < maxBytes)
             out.resize(
                 static_cast<std::size_t>(std::min<std::uint64_t>(std::max(2 * out.size(), kLeastBuffer), maxBytes)));
-        // At the limit, one byte more tells a stream that ends there from one that goes on.
+        // At the limit, one more byte shows whether the stream ends there or continues.
         std::byte beyond{};
         const bool isAtLimit = written == out.size();
         std::span<std::byte> room = isAtLimit ? std::span(&beyond, 1) : std::span(out).subspan(written);

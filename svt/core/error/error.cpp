@@ -5,7 +5,7 @@
 
 namespace svt {
 
-// A table, one line for each code, and a switch, so that the compiler warns where one is missing.
+// A table with one line per code. It is a switch, so that the compiler warns about a missing code.
 // NOLINTNEXTLINE(readability-function-size)
 std::string_view codeName(Code code) noexcept {
     switch (code) {

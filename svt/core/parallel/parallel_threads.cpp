@@ -14,7 +14,7 @@ void parallelFor(std::size_t count, std::size_t grain, int threads,
     if (count == 0) return;
     grain = std::max<std::size_t>(grain, 1);
     const std::size_t ranges = (count + grain - 1) / grain;
-    // More threads than a small machine has cores, so that a race between them can show.
+    // At least four threads, also on a machine with fewer cores, so that data races can occur.
     constexpr std::size_t kMinThreads = 4;
     const std::size_t wanted =
         threads > 0 ? std::size_t(threads) : std::max(kMinThreads, std::size_t(hardwareThreads()));

@@ -1,9 +1,9 @@
-// Replaces parallel_tbb.cpp in builds for WebAssembly, whose standard library of threads is there only where a module is
-// linked with threads: the same object files become a module with helpers and one without. Only POSIX calls are used, which
-// both have; without threads pthread_create() fails, and the caller does all.
+// Replaces parallel_tbb.cpp in builds for WebAssembly. The same object files become a module with threads and one
+// without, but std::thread exists only in a module that is linked with threads. So this source uses only POSIX calls,
+// which exist in both. Without threads, pthread_create() fails, and the caller does all the work.
 //
-// A browser starts threads late, when the page's own thread is free again. So nobody waits for a helper to begin: ranges
-// are taken by whoever is there, and the caller waits for those that are being worked on.
+// A browser starts threads late, when the main thread of the page is idle again. So no thread waits for a helper to
+// start: each running thread takes ranges, and the caller waits only for the ranges in progress.
 #include <svt/core/parallel.hpp>
 
 #include <emscripten/threading.h>
@@ -44,7 +44,7 @@ void work(Loop& loop) noexcept {
 
 class Helpers {
 public:
-    // Waits until a loop needs help, for ever.
+    // Waits for loops that need help, and never returns.
     [[noreturn]] void help() {
         pthread_mutex_lock(&mutex_);
         while (true) {

@@ -22,7 +22,7 @@ std::string rangeText(const Option& option) {
 
 namespace {
 
-// The fault of a value without characters, and what to give in its place.
+// The fault of an empty value, with the value to give instead.
 std::string emptyFault(const Option& option) {
     const std::string wanted = !option.choices.empty()
                                    ? fmt::format("one of {}", fmt::join(splitChoices(option.choices), ", "))
@@ -48,7 +48,7 @@ std::string faultOf(const Option& option, std::string_view text) {
     const double number = *parsed;
     if (option.kind == OptionKind::Whole && number != std::floor(number))
         return fmt::format("'{}' is not a whole number", text);
-    // Beyond 2^53 a double no longer tells neighbours apart.
+    // Beyond 2^53, neighbouring whole numbers are the same double.
     if (option.kind == OptionKind::Whole && std::abs(number) > 9007199254740992.0)
         return fmt::format("{} is out of range; it has too many digits", text);
     if (number < option.least || number > option.most)

@@ -49,7 +49,7 @@ std::optional<double> takeNumber(std::string_view& text) noexcept {
     const bool isPositive = number.starts_with('+');
     if (isPositive) number.remove_prefix(1);
     const std::size_t first = !isPositive && number.starts_with('-') ? 1 : 0;
-    // from_chars also takes names such as "inf".
+    // from_chars also accepts names such as "inf".
     if (number.size() <= first || !(isDigit(number[first]) || number[first] == '.')) return std::nullopt;
     double value = 0;
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Facts of the EPSG dataset (10.076) on codes whose coordinates are not metres: which datum degrees belong to and
-/// which UTM zones it has, which projection in metres a projection in feet is the same as, parts of compound codes.
+/// Facts of the EPSG dataset (10.076) on codes whose coordinates are not metres: datums of degrees with their UTM
+/// zones, projections in feet with their equivalents in metres, and the parts of compound codes.
 
 #include <svt/crs/facts/code_ranges.hpp>
 
@@ -26,20 +26,20 @@ struct SameDegrees {
     int epsg, datum;
 };
 
-/// Projections in feet that are projections in metres but for the unit: `count` codes, each `feetStep` and `metreStep`
-/// after the one before.
+/// Projections in feet that differ from projections in metres only in the unit: `count` codes, each `feetStep` and
+/// `metreStep` after the previous one.
 struct FeetCodes {
     int feet, metres, count, feetStep, metreStep;
     bool isSurveyFoot;  ///< 1200/3937 m, else 0.3048 m
 };
 
-/// What the origin of a projection in feet lies off that in metres; of more than half a millimetre.
+/// The offset of the origin of a projection in feet from that in metres, if it exceeds half a millimetre.
 struct OriginOffset {
     int first, last;     ///< codes in feet
     double east, north;  ///< metres, to be added
 };
 
-/// Parts of a compound code whose horizontal part is no projection in metres.
+/// Parts of a compound code whose horizontal part is not a projection in metres.
 struct Compound {
     int epsg, horizontal, vertical;
 };

@@ -9,7 +9,7 @@
 
 namespace svt::crs::facts {
 
-/// The projection in metres that is the same as one in feet but for the unit.
+/// The projection in metres that differs from a projection in feet only in the unit.
 struct MetricTwin {
     int epsg = 0;
     double metresPerUnit = 1;
@@ -20,7 +20,7 @@ struct MetricTwin {
 /// The two-dimensional code of degrees of the same datum, or the code itself.
 [[nodiscard]] int datumOfDegrees(int epsg) noexcept;
 
-/// The datum of a code of degrees; null where it stands on an older ellipsoid or has no UTM zones.
+/// The datum of a code of degrees; null if it is based on an older ellipsoid or has no UTM zones.
 [[nodiscard]] const Datum* findDatum(int epsg) noexcept;
 
 }  // namespace svt::crs::facts

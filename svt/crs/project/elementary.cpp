@@ -9,8 +9,8 @@ namespace {
 constexpr double kHalfPiHigh = 1.57079632673412561417e+00;
 constexpr double kHalfPiLow = 6.07710050650619224932e-11;
 
-// Sum of the terms of a power series in x^2, from the term `first`: each is the one before times the ratio
-// x2 / ((k + 1) (k + 2)), with `sign` alternating or not; until a term no longer counts.
+// Sum of the terms of a power series in x^2, from the term `first`, until a term no longer changes the sum. Each term
+// is the previous one times x2 / ((k + 1) (k + 2)).
 double factorialSeries(double first, double x2, int k) noexcept {
     double sum = first, term = first;
     for (; std::abs(term) > 1e-18 * std::abs(sum); k += 2) {

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Sine, cosine and inverse functions from sums, products and square roots alone. Mathematical libraries differ in the
-/// last bit from machine to machine; these do not, so a model in degrees gives the same volume everywhere.
+/// Sine, cosine and inverse functions that use only sums, products and square roots. Mathematical libraries differ in
+/// the last bit from machine to machine; these do not, so a model in degrees gives the same volume everywhere.
 
 namespace svt::crs::project {
 
@@ -10,11 +10,11 @@ struct SineCosine {
 };
 
 /// Sine and cosine of an angle. Error: some units in the last place.
-/// \param radians  at most 100 in size
+/// \param radians  at most 100 in magnitude
 [[nodiscard]] SineCosine sineCosine(double radians) noexcept;
 
 /// Hyperbolic sine and cosine.
-/// \param x  at most 2 in size
+/// \param x  at most 2 in magnitude
 [[nodiscard]] SineCosine hyperbolic(double x) noexcept;
 
 /// Angle whose tangent is `x`, in radians.
@@ -24,7 +24,7 @@ struct SineCosine {
 [[nodiscard]] double inverseHyperbolicSine(double x) noexcept;
 
 /// Inverse of the hyperbolic tangent.
-/// \param x  at most 0.5 in size
+/// \param x  at most 0.5 in magnitude
 [[nodiscard]] double inverseHyperbolicTangent(double x) noexcept;
 
 }  // namespace svt::crs::project

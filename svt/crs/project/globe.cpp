@@ -23,8 +23,8 @@ Result<Vec3d> placeOnEarth(int epsg, Vec3d place) {
     const int horizontal = factsOf(epsg).horizontal;
     if (factsOf(horizontal).isDegrees)
         return Error(Code::CannotProject,
-                     fmt::format("EPSG:{} is in degrees, and the coordinates are metres; which projection they are "
-                                 "in is not known",
+                     fmt::format("EPSG:{} is in degrees, but the coordinates are metres of an unknown projection; "
+                                 "name a projection",
                                  epsg));
     Vec3d found = place;
     if (const auto zone = project::findZone(horizontal)) {
@@ -35,7 +35,7 @@ Result<Vec3d> placeOnEarth(int epsg, Vec3d place) {
     }
     if (!isPlaceOnEarth(found))
         return Error(Code::CannotProject,
-                     fmt::format("({}, {}) is outside of what EPSG:{} can describe", place.x, place.y, epsg));
+                     fmt::format("({}, {}) is outside the range of EPSG:{}", place.x, place.y, epsg));
     return found;
 }
 

@@ -13,8 +13,8 @@ namespace {
 Error withoutProj(int code) {
     return {
         Code::CannotProject,
-        fmt::format("EPSG:{} needs the PROJ library, which this build is without; project the file first, or use the "
-                    "native program",
+        fmt::format("EPSG:{} needs the PROJ library, which this build does not contain; project the file first, or use "
+                    "the native program",
                     code)};
 }
 

@@ -16,8 +16,8 @@ namespace svt::crs {
 namespace project {
 namespace {
 
-// PROJ's functions, under PROJ's names. The library is loaded with the first use and not linked: with the 34 libraries
-// that it brings, every command would start 8 ms later, and few models need it.
+// PROJ's functions, under PROJ's names. The library is loaded on first use and not linked: with its 34 dependencies,
+// every command would start 8 ms later, and few models need it.
 struct Proj {
     decltype(&::proj_context_create) context_create = nullptr;
     decltype(&::proj_context_destroy) context_destroy = nullptr;
@@ -69,7 +69,7 @@ const Result<Proj>& loadedProj() {
     return proj;
 }
 
-// Only where checkLoaded() found it.
+// Requires that checkLoaded() found the library.
 const Proj& proj() { return *loadedProj(); }
 
 Result<void> checkLoaded(int code) {
@@ -89,7 +89,7 @@ struct ObjectDeleter {
 };
 using Object = std::unique_ptr<PJ, ObjectDeleter>;
 
-// Without network: grids that are not installed are left out, and the result does not depend on who is connected.
+// Without network: grids that are not installed are left out, and the result does not depend on a connection.
 Context makeContext() {
     Context context(proj().context_create());
     proj().context_set_enable_network(context.get(), 0);
@@ -104,19 +104,19 @@ Object makeCrs(const Context& context, int code) {
 
 Error notKnown(const Context& context, int code, Code kind) {
     if (makeCrs(context, 4326))
-        return {kind, fmt::format("EPSG:{} is no reference system that PROJ {} knows", code, projVersion())};
+        return {kind, fmt::format("EPSG:{} is not a reference system known to PROJ {}", code, projVersion())};
     return {Code::CannotProject,
-            "PROJ finds none of its data (proj.db); install it (Debian: proj-data) or name its "
+            "PROJ cannot find its data (proj.db); install them (Debian: proj-data) or name their "
             "folder in PROJ_LIB"};
 }
 
-// The horizontal part of a compound; what is none stays.
+// The horizontal part of a compound; any other reference system is returned unchanged.
 Object horizontalOf(const Context& context, Object crs) {
     if (proj().get_type(crs.get()) != PJ_TYPE_COMPOUND_CRS) return crs;
     return Object(proj().crs_get_sub_crs(context.get(), crs.get(), 0));
 }
 
-// Metres in a unit of both axes; 0 for what is no pair of lengths.
+// Metres per unit of both axes; 0 if the axes are not two lengths in the same unit.
 double metresPerUnitOf(const Context& context, const Object& crs) {
     const Object axes(proj().crs_get_coordinate_system(context.get(), crs.get()));
     if (!axes || proj().cs_get_axis_count(context.get(), axes.get()) < 2) return 0;
@@ -132,7 +132,7 @@ double metresPerUnitOf(const Context& context, const Object& crs) {
 
 Result<void> checkMetres(const Context& context, const Object& crs, int code) {
     if (proj().get_type(crs.get()) != PJ_TYPE_PROJECTED_CRS)
-        return Error(Code::BadArgument, fmt::format("EPSG:{} ({}) is no projection; name one with metres, such as the "
+        return Error(Code::BadArgument, fmt::format("EPSG:{} ({}) is not a projection; name one in metres, such as the "
                                                     "UTM zone of the place",
                                                     code, proj().get_name(crs.get())));
     if (metresPerUnitOf(context, crs) != 1)
@@ -150,7 +150,7 @@ public:
     void apply(std::span<Vec3d> points) const override {
         if (points.empty()) return;
         const std::lock_guard guard(mutex_);
-        // x and y are what PROJ takes and gives; heights are not its matter.
+        // PROJ reads and writes x and y; heights stay unchanged.
         proj().trans_generic(operation_.get(), PJ_FWD, &points[0].x, sizeof(Vec3d), points.size(), &points[0].y,
                              sizeof(Vec3d), points.size(), nullptr, 0, 0, nullptr, 0, 0);
         constexpr double kSteps = 1 << 20;
@@ -184,8 +184,8 @@ Result<Projection> projBetween(int source, int target) {
     if (operation) operation.reset(proj().normalize_for_visualization(context.get(), operation.get()));
     if (!operation)
         return Error(Code::CannotProject,
-                     fmt::format("PROJ knows no way from EPSG:{} ({}) to EPSG:{} ({}) without further files", source,
-                                 proj().get_name(from.get()), target, proj().get_name(to.get())));
+                     fmt::format("PROJ knows no conversion from EPSG:{} ({}) to EPSG:{} ({}) without further files",
+                                 source, proj().get_name(from.get()), target, proj().get_name(to.get())));
     std::string name = proj().get_name(to.get());
     const double unit = proj().get_type(from.get()) == PJ_TYPE_PROJECTED_CRS ? metresPerUnitOf(context, from) : 1;
     return Projection(target, std::move(name), unit,

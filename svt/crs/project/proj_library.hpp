@@ -1,17 +1,17 @@
 #pragma once
 /// \file
-/// What is asked of the PROJ library. Two sources: one that calls it, one for builds without it.
+/// Conversions by the PROJ library. Two sources: one calls the library, the other is for builds without it.
 
 #include <svt/crs/projection.hpp>
 
 namespace svt::crs::project {
 
-/// A way from one code to another, with axes in the order east, north.
-/// \return the way; BadArgument where PROJ does not know the target, or it is no projection in metres; CannotProject for
-///         an unknown source, no way between them, a build without PROJ, or where PROJ finds none of its data
+/// A conversion from one code to another, with axes in the order east, north.
+/// \return the conversion; BadArgument if PROJ does not know the target, or the target is not a projection in metres;
+///         CannotProject for an unknown source, no conversion, a build without PROJ, or missing data of PROJ
 [[nodiscard]] Result<Projection> projBetween(int source, int target);
 
-/// Code of the degrees that a projection stands on, and the longitude and latitude of `place`.
+/// The geographic code that a projection is based on, and the longitude and latitude of `place`.
 struct PlaceInDegrees {
     int epsg = 0;
     Vec3d place;

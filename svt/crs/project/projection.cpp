@@ -51,7 +51,7 @@ Projection toZone(project::DatumZone zone) {
 
 bool isOnEarth(Vec3d place) noexcept { return std::abs(place.x) <= 360 && std::abs(place.y) <= 90; }
 
-// What needs no library: degrees of a known datum to one of its zones, feet to the same projection in metres.
+// Conversions without PROJ: degrees of a known datum to one of its zones, feet to the same projection in metres.
 std::optional<Projection> ownWay(int source, int target) {
     if (const auto twin = facts::findMetricTwin(source); twin && twin->epsg == target) return toTwin(*twin);
     const auto zone = project::findZone(target);
@@ -67,7 +67,7 @@ Result<Projection> Projection::toUsualMetres(int source, Vec3d place) {
     if (factsOf(source).isDegrees) {
         if (!isOnEarth(place))
             return Error(Code::CannotProject,
-                         fmt::format("({}, {}) is no longitude and latitude in degrees", place.x, place.y));
+                         fmt::format("({}, {}) is not a longitude and latitude in degrees", place.x, place.y));
         if (auto zone = project::usualZone(source, place)) return toZone(std::move(*zone));
         const auto zone = project::usualZone(4326, place);
         return project::projBetween(source, zone->epsg);
@@ -75,7 +75,7 @@ Result<Projection> Projection::toUsualMetres(int source, Vec3d place) {
     SVT_TRY(degrees, project::placeInDegrees(source, place));
     if (!isOnEarth(degrees->place))
         return Error(Code::CannotProject,
-                     fmt::format("({}, {}) is outside of what EPSG:{} can describe", place.x, place.y, source));
+                     fmt::format("({}, {}) is outside the range of EPSG:{}", place.x, place.y, source));
     auto zone = project::usualZone(degrees->epsg, degrees->place);
     if (!zone) zone = project::usualZone(4326, degrees->place);
     return project::projBetween(source, zone->epsg);
@@ -85,7 +85,7 @@ Result<Projection> Projection::between(int source, int target, Vec3d place) {
     source = factsOf(source).horizontal;
     if (factsOf(source).isDegrees && !isOnEarth(place))
         return Error(Code::CannotProject,
-                     fmt::format("({}, {}) is no longitude and latitude in degrees", place.x, place.y));
+                     fmt::format("({}, {}) is not a longitude and latitude in degrees", place.x, place.y));
     if (auto way = ownWay(source, target)) return std::move(*way);
     return project::projBetween(source, target);
 }

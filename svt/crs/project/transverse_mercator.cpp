@@ -33,7 +33,7 @@ Vec3d sineSum(const std::array<double, 6>& c, double xi, double eta) noexcept {
     return sum;
 }
 
-// e atanh(e sine): what divides the isometric latitude of the ellipsoid from that of the sphere.
+// e atanh(e sine): the difference between the isometric latitudes of the sphere and the ellipsoid.
 double ellipticPart(double e2, double sine) noexcept {
     const double e = std::sqrt(e2);
     return e * inverseHyperbolicTangent(e * sine);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a projection does with points; one class for each kind of it.
+/// The conversion of points by a projection; one class per kind of projection.
 
 #include <svt/crs/projection.hpp>
 

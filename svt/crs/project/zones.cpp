@@ -38,7 +38,7 @@ struct JapaneseSystem {
 };
 constexpr JapaneseSystem kJapaneseSystems[] = {{4612, 2443}, {6668, 6669}};
 
-// Boxes that together are the zones; the first that has the place counts.
+// Boxes that together cover the zones; the first box that contains the place counts.
 struct ZoneBox {
     double south, west, north, east;
     int zone;
@@ -113,7 +113,7 @@ std::optional<DatumZone> usualZone(int degrees, Vec3d place) {
         if (system.datum == datum->epsg) return findZone(system.firstCode + japaneseZone(place) - 1);
     const int zone = utmZone(place);
     const bool isSouth = place.y < 0;
-    // A datum may have its own zones on one side of the equator alone; that side's then reach over it.
+    // A datum may have zones only on one side of the equator; these zones are then also used on the other side.
     for (const bool side : {isSouth, !isSouth})
         for (const facts::UtmZones& row : facts::kUtmZones)
             if (row.datum == datum->epsg && row.isSouth == side && row.first <= zone && zone <= row.last)

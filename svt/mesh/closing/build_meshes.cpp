@@ -24,14 +24,14 @@ using model::Feature;
 using model::FeatureIndex;
 using model::SurfaceUse;
 
-// One object: its shell, or those of its solids one by one where they are not closed together.
+// One object: its shell, or the shells of its solids separately if they are not closed together.
 struct Work {
     Shell shell;
     std::vector<Shell> parts;
 };
 
-// Where solids touch, faces of both that look the wrong way cancel all the same, so that the shells are closed together.
-// Then those of the solids one by one are taken, if turning faces closes them.
+// Where solids touch, wrongly oriented faces of both can cancel each other, so that the shells are closed only
+// together. Then the shells of the solids are used separately, if turning faces closes them.
 void checkSolidsAlone(const std::vector<MeshSource>& solids, const ShellInput& input, Shell& together) {
     std::vector<Shell> parts;
     bool isWrong = false;
@@ -129,8 +129,8 @@ void finish(ObjectMesh& mesh, bool measuresThickness) {
     }
 }
 
-// Polygons whose faces a shell turned: 1 those that the source uses forwards, 2 those that it uses reversed, 0 the others,
-// and those that it uses both ways.
+// Polygons whose faces a shell turned: 1 those that the source uses forwards, 2 those that it uses reversed, 0 the
+// others, and those that it uses both ways.
 void markTurnedPolygons(const MeshSource& source, const LocalPolygons& polygons, const ObjectMesh& mesh,
                         std::vector<std::uint8_t>& turned) {
     std::map<model::PolygonIndex, Vec3d> asRead;  // area vectors, as the source uses the polygon
@@ -156,8 +156,8 @@ void markTurnedPolygons(const MeshSource& source, const LocalPolygons& polygons,
         if (value < 0 && isAmbiguous.count(polygon) == 0) turned[polygon] |= isReversed[polygon] ? 2 : 1;
 }
 
-// Boundary surfaces are turned with the shells that they bound, for a sheet lies behind its face. The finding is that of
-// the shell.
+// Boundary surfaces are flipped together with the shells that they bound, because a sheet lies behind its face. The
+// finding of the shell covers them.
 void turnSheets(const std::vector<MeshSource>& sources, const LocalPolygons& polygons, MeshSet& meshes) {
     std::vector<std::uint8_t> turned(polygons.firstPoint.size(), 0);
     bool hasTurned = false;
@@ -189,7 +189,7 @@ std::string leakText(const ObjectMesh& mesh, Vec3d origin) {
     return text + (mesh.leakCount > 3 ? ", ..." : "");
 }
 
-// What else than caps closed a shell.
+// Text about closing methods of a shell besides caps.
 std::string joinedText(const ObjectMesh& mesh) {
     std::string text;
     if (mesh.joinedEdges != 0) text += fmt::format(", {} edges joined over gaps of up to 25 cm", mesh.joinedEdges);
@@ -208,7 +208,7 @@ void report(const BuildingModel& model, const Shell& shell, const ObjectMesh& me
                 place);
     if (shell.hasUncutJunctions)
         log.add(Severity::Warning, Code::TJunction,
-                fmt::format("edges were cut at points of others until it was no use: {} times, and points still lie on "
+                fmt::format("cutting edges at points of others was stopped after {} cuts, and points still lie on "
                             "edges; faces probably overlap, or edges lie within {:g} m of each other",
                             mesh.tJunctionCount, options.tJunctionDistance),
                 place);
@@ -290,7 +290,7 @@ Result<MeshSet> buildMeshes(const BuildingModel& model, const MeshOptions& optio
     parallelFor(meshes.objects.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             finish(meshes.objects[i], options.measuresThickness);
-            meshes.objects[i].vertices.shrink_to_fit();  // lists that grew may be twice as long as what they hold
+            meshes.objects[i].vertices.shrink_to_fit();  // lists that grew may have reserved twice their size
             meshes.objects[i].triangles.shrink_to_fit();
         }
     });

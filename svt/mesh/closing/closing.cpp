@@ -48,7 +48,7 @@ struct Choice {
 
 DirectedEdge undirected(const DirectedEdge& edge) { return std::minmax(edge.first, edge.second); }
 
-// Adds the triangles of the chosen faces; a vertex where the mesh has none yet joins `pointIds`, too.
+// Adds the triangles of the chosen faces. A new vertex of the mesh is added to `pointIds`, too.
 void addFaces(const std::vector<Choice>& chosen, const LocalPolygons& polygons, ObjectMesh& mesh,
               std::vector<std::uint32_t>& pointIds) {
     std::map<std::uint32_t, std::uint32_t> vertexOfPoint;
@@ -78,9 +78,9 @@ void addFaces(const std::vector<Choice>& chosen, const LocalPolygons& polygons, 
 struct FaceFinder::Edges {
     std::vector<std::vector<DirectedEdge>> ofFace;
     std::vector<std::vector<model::PolygonIndex>> polygonsOf;  // per face, ascending
-    // Undirected edges (low, high) with faces, sorted: of each face the half of its edges that the fewest others have. A
-    // face closes more edges than it opens only if more than half of its edges are missing, so one of these is. An edge
-    // that very many faces share does not lead to each of them.
+    // Undirected edges (low, high) with faces, sorted: of each face the half of its edges that the fewest others have.
+    // A face closes more edges than it opens only if more than half of its edges are missing, so one of these is. An
+    // edge that very many faces share does not lead to each of them.
     std::vector<std::pair<DirectedEdge, FaceIndex>> sorted;
 };
 
@@ -117,8 +117,9 @@ FaceFinder::FaceFinder(const LocalPolygons& polygons, const model::BuildingModel
 
 FaceFinder::~FaceFinder() = default;
 
-// Greedy: takes the first polygon with a positive gain, until there is none. Only polygons with one of the edges that were
-// open at the start count. A polygon that was rejected is asked again when one of its edges is needed more or less.
+// Greedy: takes the first polygon with a positive gain, until there is none. Only polygons with one of the edges that
+// were open at the start count. A polygon that was rejected is asked again when one of its edges is needed more or
+// less.
 class FaceFinder::Chooser {
 public:
     Chooser(const Edges& edges, const std::vector<model::PolygonIndex>& own, std::map<DirectedEdge, int> need)

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Closing an open shell with faces of adjoining features (paper, section 4.1). What they leave open: gaps.hpp, holes.hpp.
+/// Closing an open shell with faces of adjoining features (paper, section 4.1). gaps.hpp and holes.hpp close the rest.
 
 #include <svt/mesh/mesh_set.hpp>
 #include <svt/mesh/polygons/local_polygons.hpp>
@@ -11,7 +11,7 @@
 
 namespace svt::mesh {
 
-/// A vertex of a mesh that is none of the welded points of the polygons.
+/// Marks a vertex of a mesh that is not a welded point of the polygons.
 inline constexpr std::uint32_t kNoPoint = 0xFFFFFFFFu;
 
 /// An index of polygons by their edges. Built once for all open objects.
@@ -28,9 +28,9 @@ public:
     /// it opens. Updates `mesh.openEdges`.
     /// \param pointIds  per vertex of the mesh: its welded point in the polygons, or kNoPoint; new vertices are added
     /// \param own       polygons that the mesh has already, ascending
-    /// \return count of faces added
-    /// Cost: O(n log n) in the open edges and in the edges of the faces that share an edge with them that few others have;
-    ///       faces with the same edges count once.
+    /// \return number of added faces
+    /// Cost: O(n log n) in the open edges and in the edges of the faces that share a rare edge with them. Faces
+    ///       with the same edges count once.
     std::uint32_t complement(ObjectMesh& mesh, std::vector<std::uint32_t>& pointIds,
                              const std::vector<model::PolygonIndex>& own) const;
 

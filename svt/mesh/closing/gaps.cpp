@@ -14,14 +14,14 @@
 namespace svt::mesh {
 namespace {
 
-// Ends of open edges, each with how far it may be from what it is joined with.
+// An end of open edges, and the largest distance to the place that it is joined with.
 struct LooseEnd {
     std::uint32_t vertex;
     double reach;
 };
 
 std::vector<LooseEnd> findLooseEnds(const ObjectMesh& mesh, double distance) {
-    constexpr double kPartOfEdge = 0.3, kNoEdge = 1e-4;  // shorter ones are noise: their ends are one
+    constexpr double kPartOfEdge = 0.3, kNoEdge = 1e-4;  // shorter edges are noise: their ends are joined
     std::map<std::uint32_t, double> reach;
     for (const OpenEdge& edge : mesh.openEdges) {
         const double edgeLength = length(mesh.vertices[edge.to] - mesh.vertices[edge.from]);
@@ -221,7 +221,7 @@ std::uint32_t joinGaps(ObjectMesh& mesh) {
     const double diagonal = diagonalOf(mesh), asRead = openLength(mesh.vertices, mesh.openEdges);
     const auto edgesAsRead = static_cast<std::uint32_t>(mesh.openEdges.size());
     double least = asRead / 2;
-    // An end in a gap lies on an edge or two; what is cut far more often is a heap of faces, which nothing joins.
+    // An end in a gap lies on one or two edges. Far more cuts indicate a heap of faces, which cannot be joined.
     const std::size_t mostCuts = 4096 + 2 * mesh.openEdges.size();
     ObjectMesh best;
     bool isFound = false;
@@ -240,7 +240,7 @@ std::uint32_t joinGaps(ObjectMesh& mesh) {
         const double open = openLength(joined.vertices, joined.openEdges);
         const bool isBetter = open < least || joined.openEdges.empty();
         if (isBetter) {
-            least = open / 2;  // a longer reach must be worth it
+            least = open / 2;  // a longer reach must improve the result clearly
             best = std::move(joined);
             isFound = true;
         }

@@ -19,7 +19,7 @@ struct FittedPlane {
     double area = 0, deviation = kInfinity;
 };
 
-// The face beside an open edge.
+// The face at an open edge.
 struct Beside {
     Vec3d unitNormal{};
     std::uint32_t component = 0;  // of findComponents()
@@ -93,7 +93,7 @@ private:
     }
 
     // True if the loop is the border of a part that lies in its plane as a whole: a cap would only be its back. Where
-    // faces overlap in a part that bends, a cap on them is right: it takes away what is there twice.
+    // faces overlap in a part that bends, a cap on them is right: it removes the doubled faces.
     [[nodiscard]] bool boundsFlatPart(const Loop& loop) const {
         const auto beside = besideEdge_.find({loop[1], loop[0]});
         if (beside == besideEdge_.end()) return false;

@@ -10,14 +10,14 @@ namespace svt::mesh {
 ///
 ///     one plane               a corner                    planes along chords
 ///                             o-----.                     o-------o
-///     o--------o              |\     \  three runs of     |  run  |   a wall and the ground that it stands on are
+///     o--------o              |\     \  three runs of     |  run  |   a wall and the ground below it are
 ///     |  cap   |              | x-----o edges, each in    o- - - -o   missing: a run of edges in one plane is cut off
 ///     o--------o              |/     /  a plane: x is      \  run  \  by the chord of its ends, then the next
 ///                             o-----'   where they meet     o-------o
 ///
-/// A run is evidence of a plane if it bends at least twice, and if a cap there would not lie on the faces beside it. The
-/// border of a flat part, such as a single floating face, is no hole, unless it is a sliver: a hundredth of the shell at most,
-/// all of them together. What is no plane stays open.
+/// A run is evidence of a plane if it bends at least twice, and if a cap there would not lie on the neighbouring faces.
+/// The border of a flat part, such as a single floating face, is not a hole, unless the part is a sliver: all slivers
+/// together are at most a hundredth of the shell. Non-planar holes stay open.
 /// \param deviation  how far the border may be from its plane, metres
 /// \post mesh.openEdges holds the edges that are still open
 /// Cost: O(n) for a planar loop of n points, else O(n^3); loops of more than 200 points are tried as one plane only.

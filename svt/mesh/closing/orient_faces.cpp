@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kPointsPerPatch = 8, kRayPairs = 16;
 constexpr double kMeaningWeight = 0.5, kParityWeight = 0.25, kMajority = 0.02;
-// Of the area of the shell. Less is a sliver where faces overlap: it holds no volume, and fits its neighbours as it is.
+// Fraction of the area of the shell. A smaller patch is a sliver where faces overlap: it encloses no volume, and fits
+// its neighbours as it is.
 constexpr double kSmallestPatch = 0.001;
 
 // Directions all around: points of the R3 sequence (Roberts 2018) within the unit ball, at most sums and products, so
@@ -76,13 +77,13 @@ Patches findPatches(const std::vector<Triangle>& triangles) {
     return patches;
 }
 
-// What the rays of a patch saw: sums over pairs of rays, weighted by the cosine to the normal.
+// Results of the rays of a patch: sums over pairs of rays, weighted by the cosine to the normal.
 struct RayVotes {
     double weight = 0, escape = 0, parity = 0;
 };
 
 int countHits(FaceTree& tree, std::uint32_t self, Vec3d origin, Vec3d direction) {
-    constexpr double kNearest = 1e-6;  // metres; what is nearer lies in the same place
+    constexpr double kNearest = 1e-6;  // metres; a nearer hit counts as the same place
     int hits = 0;
     double nearest = kInfinity;
     tree.forEachNear(origin, direction, nearest, [&](const RayFace& face) {

@@ -54,7 +54,7 @@ std::uint32_t removeDoubledTriangles(std::vector<Triangle>& triangles) {
     }));
 }
 
-// Per triangle which way it should look by the boundary surface of the feature that it is a part of.
+// Expected orientation per triangle, by the boundary surface that it belongs to.
 std::vector<model::Facing> facingsOf(const ShellInput& input, const ObjectMesh& mesh) {
     const BuildingModel& model = input.model;
     const bool isSpace = model::isSpace(model.features[mesh.feature].className);
@@ -192,7 +192,7 @@ void closeByItself(ObjectMesh& mesh, const MeshOptions& options) {
     capHoles(mesh, options.capDeviation);
     mesh.closure = Closure::Capped;
     if (mesh.openEdges.empty() && !isFlat(mesh)) return;
-    // Caps alone do not close it.
+    // Caps are not enough to close it.
     mesh.vertices = vertices;
     mesh.triangles = triangles;
     mesh.caps.clear();

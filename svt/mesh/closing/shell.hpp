@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One shell on its way to a mesh: gathered, tested for being closed, closed by what it has itself.
+/// Steps from a shell to a mesh: gather its faces, run the closing test, close it from its own faces.
 
 #include <svt/mesh/closing/sources.hpp>
 #include <svt/mesh/mesh_set.hpp>
@@ -18,10 +18,10 @@ struct Shell {
     std::vector<std::uint32_t> pointIds;        ///< per vertex: its welded point, see FaceFinder
     std::vector<model::PolygonIndex> polygons;  ///< ascending
     std::uint32_t duplicateFaces = 0;
-    bool hasUncutJunctions = false;  ///< points are left on edges of others
+    bool hasUncutJunctions = false;  ///< points still lie on edges of others
 };
 
-/// What all shells of a model share.
+/// Input that all shells of a model share.
 struct ShellInput {
     const model::BuildingModel& model;
     const LocalPolygons& polygons;
@@ -33,16 +33,16 @@ struct ShellInput {
 /// dropped; two uses in opposite directions are kept (they cancel). Shells of voids are turned inwards.
 [[nodiscard]] Shell gatherShell(const MeshSource& source, const ShellInput& input);
 
-/// The closing test, and the repairs of faces that are there: doubled ones, T-junctions, ones that look the wrong way.
-/// \param usesRays  faces are turned by meaning and by rays, too, if the shell is open
+/// The closing test, and repairs of the existing faces: doubled faces, T-junctions, wrong orientation.
+/// \param usesRays  if the shell is open, also orients faces by class and by rays
 void testClosing(Shell& shell, const ShellInput& input, bool usesRays);
 
-/// Closes an open shell by joining gaps, bridges and caps. Where there is nothing to fill it becomes a Surface.
+/// Closes an open shell by joining gaps, bridges and caps. If there is no volume to fill, it becomes a Surface.
 /// \pre the shell is open
 void closeByItself(ObjectMesh& mesh, const MeshOptions& options);
 
-/// Joins the meshes of the solids of one object. The closure is the worst of theirs; a part that is a mere sheet gets a
-/// back, so that it encloses nothing and yet is closed, unless all parts are sheets.
+/// Joins the meshes of the solids of one object. The result has the worst closing method of the parts. A part that is
+/// only a sheet gets a back, so that it is closed without enclosing a volume, unless all parts are sheets.
 [[nodiscard]] Shell joinShells(std::vector<Shell> parts);
 
 }  // namespace svt::mesh

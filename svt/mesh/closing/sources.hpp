@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What each mesh is made of: a feature, and the faces of its geometry or of its boundary surfaces.
+/// The source of each mesh: a feature, and the faces of its geometry or of its boundary surfaces.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/model/building_model.hpp>
@@ -16,7 +16,7 @@ namespace svt::mesh {
 struct MeshSource {
     model::FeatureIndex feature = model::kNoFeature;
     double lod = -1;
-    bool isAssembled = false;      ///< of the boundary surfaces of the feature
+    bool isAssembled = false;      ///< made from the boundary surfaces of the feature
     bool hasSolidMeaning = false;  ///< if so, an open shell will be closed
     std::vector<model::SurfaceUse> uses;
     std::vector<std::pair<std::size_t, std::size_t>> voids;  ///< ranges of `uses` that are shells of voids
@@ -28,7 +28,7 @@ struct MeshSource {
 [[nodiscard]] std::vector<MeshSource> collectSources(const model::BuildingModel& model, const model::LodChoice& lod,
                                                      Diagnostics* log);
 
-/// The solids of a source one by one, what belongs to none before them; empty if there are fewer than two.
+/// Each solid of a source separately, after the faces that do not belong to a solid; empty if there are fewer than two.
 [[nodiscard]] std::vector<MeshSource> splitIntoSolids(const MeshSource& source);
 
 /// Per polygon the boundary surface that lists it, or kNoFeature.

@@ -108,7 +108,7 @@ private:
     std::vector<int> counts_;   // per edge: uses from high to low, and from low to high
 };
 
-// Whether triangles are covered by others.
+// Tests whether triangles are covered by others.
 class Cover {
 public:
     Cover(const std::vector<Vec3d>& vertices, const std::vector<Triangle>& others)
@@ -159,8 +159,8 @@ private:
 
 void flip(Triangle& triangle) { std::swap(triangle.corners[1], triangle.corners[2]); }
 
-// Signed crossings of the ray from `point` towards +z with a triangle: -1, 0 or 1. A ray through an edge is not resolved;
-// that is good enough for a containment test.
+// Signed crossings of the ray from `point` towards +z with a triangle: -1, 0 or 1. A ray through an edge is not
+// resolved; that is good enough for a containment test.
 int crossingAlongZ(Vec3d point, const std::vector<Vec3d>& vertices, const Triangle& triangle) {
     const auto& c = triangle.corners;
     const Vec3d p[3] = {vertices[c[0]] - point, vertices[c[1]] - point, vertices[c[2]] - point};
@@ -241,7 +241,7 @@ private:
     std::vector<std::vector<std::uint32_t>> members_;
     std::vector<double> volume_;
     std::vector<Box3d> bounds_;
-    std::optional<plane::BoxTree> boundsTree_;          // made when it is asked for
+    std::optional<plane::BoxTree> boundsTree_;          // made on first use
     std::vector<std::optional<plane::BoxTree>> trees_;  // of the triangles of each component, the same
 };
 

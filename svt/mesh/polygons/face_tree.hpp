@@ -25,8 +25,9 @@ struct RayFace {
 
 /// The faces of a mesh that have an area, in a tree of their boxes.
 ///
-/// The rays of a building meet 10 to 200 boxes each. Where thin triangles lie across each other's boxes, as in a star of many
-/// thousand spikes, each ray would meet all of them; so all rays together may test 256 boxes a face, and 34 million.
+/// The rays of a building meet 10 to 200 boxes each. Where thin triangles lie across each other's boxes, as in a star
+/// of many thousand spikes, each ray would meet all of them. So all rays together may test 256 boxes per face plus 34
+/// million boxes.
 /// Threads: one at a time.
 class FaceTree {
 public:
@@ -36,11 +37,11 @@ public:
     /// In the order of the mesh.
     [[nodiscard]] const std::vector<RayFace>& faces() const noexcept { return faces_; }
 
-    /// True if a ray ended because too many boxes were tested: what it found is of no use.
+    /// True if a ray ended because too many boxes were tested: its result must not be used.
     [[nodiscard]] bool isExhausted() const noexcept { return testsLeft_ == 0; }
 
-    /// Calls `body(face)` for the faces whose boxes the ray meets before `nearest`, in lengths of `direction`. The body may
-    /// lower `nearest`.
+    /// Calls `body(face)` for the faces whose boxes the ray meets before `nearest`, in lengths of `direction`. The body
+    /// may lower `nearest`.
     template <class F>
     void forEachNear(Vec3d origin, Vec3d direction, double& nearest, F&& body) {
         const Vec3d inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};

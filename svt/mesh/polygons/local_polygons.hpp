@@ -30,7 +30,7 @@ struct LocalPolygons {
 /// reported (BadCoordinate) and left out, and so are polygons that cannot be triangulated.
 /// \param log  receives findings per polygon: ZeroArea, SelfTouchingRing, NonPlanar (over 1 cm), TriangulationFailed;
 ///             may be null
-/// When `options.progress` cancels, the polygons that are left have no triangles, and the result is of no use.
+/// When `options.progress` cancels, the remaining polygons have no triangles, and the result must not be used.
 /// Cost: O(n log n). The result does not depend on `options.threads`.
 [[nodiscard]] LocalPolygons prepareLocalPolygons(const model::BuildingModel& model,
                                                  const std::vector<std::uint8_t>& isUsed, const MeshOptions& options,

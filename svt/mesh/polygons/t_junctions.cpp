@@ -45,13 +45,13 @@ bool isNearEdge(const Box3d& box, Vec3d a, Vec3d b, double distance) {
     return low <= high;
 }
 
-// Finds ends of open edges that lie on other open edges, round by round: what was found to be apart in one round is not
-// asked again in the next.
+// Finds ends of open edges that lie on other open edges, in rounds. A pair that was apart in one round is not tested
+// again in the next.
 class CutFinder {
 public:
     CutFinder(const std::vector<Vec3d>& vertices, double distance) : vertices_(vertices), distance_(distance) {}
 
-    // Nothing, where edges overlap so often that there are more than `maxCuts`.
+    // Returns nothing if there are more than `maxCuts` cuts, because edges overlap often.
     std::optional<std::vector<EdgeCut>> find(const std::vector<OpenEdge>& open, std::size_t maxCuts) {
         std::vector<std::uint32_t> points;
         std::vector<Key> keys;
@@ -204,7 +204,7 @@ private:
         return false;
     }
 
-    // What was offered for this point before counts no more.
+    // Earlier offers for this point no longer count.
     void offer(std::uint32_t i) {
         ++turn_[i];
         const BorderPoint &a = ring_[before_[i]], &b = ring_[i], &c = ring_[after_[i]];
@@ -238,7 +238,7 @@ std::uint32_t cutAtTJunctions(std::vector<Vec3d>& vertices, std::vector<Triangle
                               bool* isUnfinished, std::size_t mostCuts) {
     // A split can expose another point on an edge; a few rounds settle all.
     constexpr int kMaxRounds = 8;
-    // A point on a hundred edges is no T-junction, but a heap of faces.
+    // A point on a hundred edges is not a T-junction, but a heap of faces.
     constexpr std::size_t kLeastMaxCuts = 1 << 20, kMaxCutsPerEdge = 16;
     std::uint32_t count = 0;
     if (isUnfinished != nullptr) *isUnfinished = false;

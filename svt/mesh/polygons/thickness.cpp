@@ -18,7 +18,7 @@ void measureThickness(ObjectMesh& mesh, double limit) {
             const double t = hitFace(other, face.center, direction);
             if (t > 1e-7 && t < nearest) nearest = t;
         });
-        if (tree.isExhausted()) return;  // the faces that are left stay unknown, this one too
+        if (tree.isExhausted()) return;  // the remaining faces stay unknown, also this one
         if (nearest < limit) mesh.triangles[face.triangle].thickness = static_cast<float>(nearest);
     }
 }

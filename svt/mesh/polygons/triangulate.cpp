@@ -104,8 +104,8 @@ void tessellate(std::span<const Vec3d> points, std::span<const std::uint32_t> ri
     }
 }
 
-// The points of a polygon in the coordinate plane that its normal is nearest to, on a grid of 2^50 steps across at least:
-// a nanometre for a polygon of a thousand kilometres. The same projection as GLU's.
+// The points of a polygon in the coordinate plane that its normal is nearest to, on a grid of 2^50 steps across at
+// least: a nanometre for a polygon of a thousand kilometres. The same projection as GLU's.
 std::vector<plane::EdgeGraph::Vertex> flatten(std::span<const Vec3d> points, Vec3d normal) {
     const Vec3d size{std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
     int axis = size.y > size.x ? 1 : 0;
@@ -164,8 +164,8 @@ bool crossesTooOften(plane::EdgeGraph graph, std::size_t pointCount) {
     return !plane::cutCrossings(graph, maxCrossings(pointCount), noPoint);
 }
 
-// GLU has the places where edges cross with the precision of a float; where many edges meet it lost 3 % of an area. So
-// what crosses is left to the sweep, unless it crosses too often.
+// GLU computes crossings with the precision of a float; where many edges meet, it lost 3 % of an area. So the sweep
+// triangulates polygons with crossings, unless there are too many.
 void cutExactly(std::span<const Vec3d> points, std::span<const std::uint32_t> ringEnds, Vec3d normal,
                 Triangulation& result) {
     Triangulation exact;

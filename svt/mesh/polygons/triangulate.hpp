@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Triangulates polygons with holes by the odd winding rule, so that a hole with the wrong orientation is still a hole,
-/// and a ring that crosses itself still gets an area. The GLU tessellator does it for polygons as buildings have them; it
-/// is quadratic in their points, so those of many points have a sweep of our own.
+/// Triangulates polygons with holes by the even-odd rule, so that a hole with the wrong orientation is still a hole,
+/// and a ring that crosses itself still gets an area. The GLU tessellator triangulates polygons of typical buildings.
+/// Its cost is quadratic in the points, so SVT's own sweep triangulates polygons of many points.
 
 #include <svt/plane/rings.hpp>
 
@@ -22,13 +22,13 @@ struct Triangulation {
     bool isZeroArea = false;       ///< all points are collinear; a triangle is kept for its edges, others are dropped
     bool isSelfTouching = false;   ///< rings touch or cross themselves or each other
     bool hasFailed = false;        ///< the tessellator gave up
-    bool crossesTooOften = false;  ///< it gave up since the rings cross in more than maxCrossings() places
+    bool crossesTooOften = false;  ///< it gave up because the rings cross in more than maxCrossings() places
 };
 
 /// Polygons of more points, of all rings, are triangulated by the sweep.
 inline constexpr std::size_t kMaxGluPoints = 400;
 
-/// In how many places the rings of a polygon may cross; of one of up to kMaxUncountedPoints points anywhere.
+/// Number of places where the rings of a polygon may cross; unlimited for up to kMaxUncountedPoints points.
 inline constexpr std::size_t kMaxUncountedPoints = 64;
 [[nodiscard]] constexpr std::size_t maxCrossings(std::size_t pointCount) noexcept { return 2 * pointCount; }
 

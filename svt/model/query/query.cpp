@@ -77,14 +77,14 @@ bool anyAttributeHolds(const Node& node, const QueryRow& row) {
     });
 }
 
-// IfcWall is IfcWallStandardCase, too, which is a wall of a simple shape.
+// IfcWall also matches IfcWallStandardCase, a wall of a simple shape.
 bool isSourceClass(std::string_view source, std::string_view wanted) {
     if (source.size() < wanted.size() || !equalsIgnoringCase(source.substr(0, wanted.size()), wanted)) return false;
     const std::string_view rest = source.substr(wanted.size());
     return !source.empty() && (rest.empty() || rest == "StandardCase" || rest == "ElementedCase");
 }
 
-// Both names of a class count where a row has two: class=IfcWall selects what class=BuildingConstructiveElement does.
+// A row with two class names matches by either: class=IfcWall and class=BuildingConstructiveElement both select it.
 bool classHolds(const Node& node, const QueryRow& row) {
     const std::string name = canonicalClassName(row.className);
     const std::string_view source = query::sourceClass(row);

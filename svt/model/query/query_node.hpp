@@ -32,7 +32,7 @@ using Node = Query::Node;
 /// Parses a query; errors as Query::parse().
 [[nodiscard]] Result<Node> parse(std::string_view text);
 
-/// The class that the source gives a row beside that of the model: its attribute `ifcType`, or empty.
+/// The class of a row in the source, in addition to that of the model: its attribute `ifcType`, or empty.
 [[nodiscard]] std::string_view sourceClass(const QueryRow& row) noexcept;
 
 [[nodiscard]] bool containsWord(std::string_view text, std::string_view word) noexcept;

@@ -53,7 +53,7 @@ std::string describe(std::string_view what, std::string_view wanted, const Names
 std::string unknownClass(const Node& node, Rows rows) {
     std::set<std::string> owned;
     for (const QueryRow& row : rows) owned.insert(canonicalClassName(row.className));
-    // Classes of the source are offered to those who ask for one.
+    // Classes of the source are suggested only if the query names one.
     if (lowerAscii(node.value.substr(0, 3)) == "ifc")
         for (const QueryRow& row : rows)
             if (const std::string_view source = query::sourceClass(row); !source.empty()) {

@@ -6,8 +6,8 @@ namespace svt::plane {
 namespace {
 
 // Between two neighbouring edges that the sweeping line meets, the inside that has no triangles yet is bounded on its
-// left by a chain of vertices, from the lower edge to the upper one. It bends to the right or is straight: where it bends
-// to the left, triangles have been cut off.
+// left by a chain of vertices, from the lower edge to the upper one. It bends to the right or is straight: where it
+// bends to the left, triangles have been cut off.
 //
 //        \___ upper edge                  The vertex that was visited last is the rightmost of the chain. A new vertex
 //         \                               between the two edges sees it, so the chain is parted there.
@@ -123,8 +123,8 @@ private:
         chain.top = chains_[upper].top;
     }
 
-    // Both edges end at `v`: it sees all of the chain. A part of the chain may lie on a line with `v`, at either end; its
-    // vertices are joined to the first vertex off that line.
+    // Both edges end at `v`: it sees all of the chain. A part of the chain may lie on a line with `v`, at either end;
+    // its vertices are joined to the first vertex off that line.
     void close(std::uint32_t index, std::uint32_t v) {
         std::vector<std::uint32_t>& ring = ring_;
         ring.clear();

@@ -87,7 +87,7 @@ private:
         return first;
     }
 
-    // Files a ring, which becomes part of the border, in the grid. Lines are looked for where there are holes alone.
+    // Adds a ring, which becomes part of the border, to the grid. Lines are added only if there are holes.
     void addToBorder(std::size_t first) {
         std::size_t i = first;
         do {
@@ -177,7 +177,8 @@ private:
         addToBorder(partnerCopy, links_[partnerCopy].next);
     }
 
-    // The nearest corner of the border from which the hole is seen; if there is none, one that touches it, else the nearest.
+    // The nearest corner of the border from which the hole is seen; if there is none, one that touches it, else the
+    // nearest.
     [[nodiscard]] std::size_t findPartner(std::size_t hole) const {
         const Point from = at(hole);
         using Candidate = std::pair<double, std::size_t>;  // squared distance, link
@@ -207,7 +208,7 @@ private:
         }
     }
 
-    // Only the border can stand between a hole and what lies left of it, and holes that are joined already.
+    // Only the border, with the holes joined so far, can lie between a hole and a corner to the left of it.
     [[nodiscard]] bool sees(std::size_t hole, std::size_t link) const {
         const Point a = at(hole), b = at(link);
         const auto isClear = [&](std::size_t line) {

@@ -49,7 +49,7 @@ int side(const Point& a, const Point& b, const Point& c, const Point& d) noexcep
 
 int axisOf(const Point& a, const Point& b, const Point& c) noexcept {
     const Vec3d n = cross(Lattice::local(b) - Lattice::local(a), Lattice::local(c) - Lattice::local(a));
-    // The largest component first; it is wrong only for slivers, whence the exact test.
+    // The largest component first; it fails only for slivers, which the exact test finds.
     int order[3] = {0, 1, 2};
     const double size[3] = {std::abs(n.x), std::abs(n.y), std::abs(n.z)};
     if (size[order[1]] > size[order[0]]) std::swap(order[0], order[1]);

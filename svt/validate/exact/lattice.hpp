@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Coordinates as whole numbers, so that every question of side has one exact answer. Double precision is not enough:
-/// a point one micrometre beyond a wall must lie beyond it for each triangle that is asked.
+/// Coordinates as whole numbers, so that all tests of sides are exact. Double precision is not enough: a point one
+/// micrometre beyond a wall must lie beyond each tested triangle of it.
 
 #include <svt/plane/point.hpp>
 
@@ -22,7 +22,7 @@ using plane::Meeting;
 class Lattice {
 public:
     Lattice() = default;
-    /// \param bounds  of all points that will be asked for; world space
+    /// \param bounds  of all points to convert; world space
     explicit Lattice(const Box3d& bounds) noexcept;
 
     [[nodiscard]] Point toLattice(Vec3d world) const noexcept;
@@ -45,8 +45,8 @@ private:
 /// Exact.
 [[nodiscard]] int side(const Point& a, const Point& b, const Point& c, const Point& d) noexcept;
 
-/// The point without its coordinate along `axis`, so that what turns counter-clockwise seen from the positive end of
-/// the axis does so in the plane.
+/// The point without its coordinate along `axis`. A ring that is counter-clockwise seen from the positive end of the
+/// axis is also counter-clockwise in the plane.
 [[nodiscard]] constexpr plane::Point dropped(const Point& p, int axis) noexcept {
     return axis == 0 ? plane::Point{p.y, p.z} : axis == 1 ? plane::Point{p.z, p.x} : plane::Point{p.x, p.y};
 }

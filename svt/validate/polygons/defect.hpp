@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a test found, before it is known of which feature.
+/// A defect found by a test, before it is assigned to a feature.
 
 #include <svt/core/error.hpp>
 #include <svt/core/vec.hpp>

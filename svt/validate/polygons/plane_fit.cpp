@@ -30,7 +30,7 @@ void rotate(double (&m)[3][3], double (&axes)[3][3], int p, int q) noexcept {
 
 PlaneFit fitPlane(std::span<const Vec3d> points) noexcept {
     PlaneFit fit;
-    // Twice: the sum of large coordinates loses what the second round regains.
+    // Twice: the second round recovers the precision that the sum of large coordinates loses.
     fit.center = points.front();
     for (int round = 0; round < 2; ++round) {
         Vec3d sum{};

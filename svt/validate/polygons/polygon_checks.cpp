@@ -16,7 +16,7 @@
 namespace svt::validate {
 namespace {
 
-// Steps of the lattice within which a point lies on a line: what rounding to the lattice can do.
+// Steps of the lattice within which a point lies on a line: the largest error of rounding to the lattice.
 constexpr double kNoise = 2;
 
 struct Ring {
@@ -30,7 +30,7 @@ struct Ring {
 
 enum class Where { Outside, On, Inside };
 
-// Where a point lies to a ring that does not cross itself.
+// The position of a point relative to a ring that does not cross itself.
 Where locate(const Ring& ring, plane::Point p) {
     bool isInside = false;
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -109,7 +109,7 @@ private:
                 ring.flat.push_back(i);
                 if (ring.ids.back() == firstAt_.size()) firstAt_.push_back(i);
             }
-            // A last point that is the first but for rounding only closes the ring.
+            // A last point that differs from the first one only by rounding just closes the ring.
             while (ring.size() > 3 && ring.ids.back() == ring.ids.front()) {
                 ring.ids.pop_back();
                 ring.flat.pop_back();
@@ -129,7 +129,7 @@ private:
             const std::set<std::uint32_t> distinct(ring.ids.begin(), ring.ids.end());
             if (distinct.size() < 3) {
                 report(Code::TooFewPoints, ring.size() == 0 ? Vec3d{} : world(ring, 0),
-                       fmt::format("{} has {} distinct points, of at least three", nameOf(r), distinct.size()));
+                       fmt::format("{} has {} distinct points, fewer than three", nameOf(r), distinct.size()));
                 return false;
             }
             for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -180,7 +180,8 @@ private:
                          [](const Edge& a, const Edge& b) { return a.box.low.u < b.box.low.u; });
     }
 
-    // Most polygons are simple. Of those with many edges it is asked first, since long edges side by side have common ranges.
+    // Most polygons are simple. Polygons with many edges are tested for this first, because long edges side by side
+    // have common ranges.
     [[nodiscard]] bool isSimple() {
         constexpr std::size_t kFew = 64;
         if (isSimple_ || edges_.size() < kFew) return isSimple_;
@@ -190,8 +191,8 @@ private:
         return isSimple_ = !plane::meetBeyondEnds(edges);
     }
 
-    // Calls visit(edge, edge, meeting) for all edges that have a point in common, unless those are neighbours alone; stops
-    // where it returns false.
+    // Calls visit(edge, edge, meeting) for all edges that have a point in common, except if the polygon is simple.
+    // Stops when a call returns false.
     template <class Visit>
     bool forEachMeeting(const Visit& visit) {
         if (isSimple()) return true;
@@ -220,7 +221,7 @@ private:
         });
     }
 
-    // Of neighbours, `next` begins where `edge` ends.
+    // For neighbouring edges: `next` begins at the end of `edge`.
     static bool isFoldedBack(const Edge& edge, const Edge& next) {
         if (turn(edge.a, edge.b, next.b) != 0) return false;
         const Vec3d one{static_cast<double>(edge.b.u - edge.a.u), static_cast<double>(edge.b.v - edge.a.v), 0};
@@ -301,7 +302,7 @@ private:
         return first;
     }
 
-    // An end that lies beyond the other edge by rounding alone only touches it.
+    // An end that lies beyond the other edge only by rounding touches the edge.
     static bool isCrossing(const Edge& e, const Edge& f, Meeting meeting) {
         if (meeting != Meeting::Cross) return false;
         const double least = std::min({distanceFromLine(f.a, f.b, e.a), distanceFromLine(f.a, f.b, e.b),
@@ -333,7 +334,7 @@ private:
         }
     }
 
-    // Where `ring` lies to `other`, which it does not cross.
+    // The position of `ring` relative to `other`, which it does not cross.
     [[nodiscard]] Where locateRing(const Ring& ring, const Ring& other) const {
         for (const plane::Point p : ring.at)
             if (const Where where = locate(other, p); where != Where::On) return where;
@@ -425,7 +426,7 @@ private:
         return {};
     }
 
-    // Triangles thinner than the tolerance of points have no normal worth the name.
+    // Triangles thinner than the tolerance of points have no reliable normal.
     void checkNormals() {
         struct Facet {
             Vec3d normal;

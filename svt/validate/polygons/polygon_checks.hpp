@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The tests of one polygon: its rings, how they lie to each other, how flat it is. Its triangles come out as well, since
-/// the last test and all of shells need them.
+/// The tests of one polygon: its rings, their positions relative to each other, and its flatness. The result includes
+/// the triangles, because the last test and all tests of shells need them.
 
 #include <svt/model/building_model.hpp>
 #include <svt/plane/triangulate_rings.hpp>
@@ -28,7 +28,7 @@ struct CheckedPolygon {
     std::vector<Corners> triangles;
 };
 
-/// Tests a polygon. The tests end with the first that fails, as all others rest on it.
+/// Tests a polygon. The tests end with the first that fails, because all later tests depend on it.
 /// Cost: O(n log n) in its points for rings that cross nowhere, O(n^2) for the triangles of very irregular ones.
 [[nodiscard]] CheckedPolygon checkPolygon(const model::Polygon& polygon, const Lattice& lattice,
                                           const PolygonTolerances& tolerances);

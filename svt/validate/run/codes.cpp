@@ -57,7 +57,7 @@ constexpr Term kTerms[] = {
     {Code::Internal, 999, {}},
 };
 
-// As in val3dity's documentation, which gives 300 for a shell of unknown error: every one is known here.
+// As in val3dity's documentation, without its 300 (a shell with an unknown error): here every error is known.
 struct Name {
     int code;
     std::string_view name;

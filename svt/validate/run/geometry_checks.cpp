@@ -32,7 +32,7 @@ public:
           overlap_(std::max({options.snap, 2 * options.overlap, 4 * lattice.unit()}) / lattice.unit()) {}
 
     GroupReport run(const std::vector<FeatureIndex>& members) {
-        // A face of a solid is reported with the solid, not with the wall that it is as well.
+        // Solids first: a face of a solid is reported with the solid, not with the wall that also uses it.
         for (const bool areSolids : {true, false})
             for (const FeatureIndex feature : members)
                 forEachGeometry(feature, [&](int g, const Geometry& geometry) {
@@ -222,7 +222,8 @@ private:
         return first;
     }
 
-    // Solids of one geometry; those of a MultiSolid may lie as they like, but then have no common volume.
+    // Solids of one geometry. Solids of a MultiSolid may have any position, but if they overlap, the geometry has no
+    // defined volume.
     std::optional<Code> compareSolids(FeatureIndex feature, int number, const Geometry& geometry,
                                       const SolidBodies& part, const PointSet& set) {
         if (part.solids.size() < 2) return std::nullopt;

@@ -20,7 +20,7 @@ struct SolidBodies {
     std::vector<Body> solids;
 };
 
-/// What one root feature adds to the report.
+/// The contribution of one root feature to the report.
 struct GroupReport {
     struct Volume {
         model::FeatureIndex feature;

@@ -72,7 +72,7 @@ Lattice latticeOf(const model::BuildingModel& model) {
 }
 
 void append(ValidationReport& report, const model::BuildingModel& model, GroupReport&& group) {
-    // Kept are the first of each code, over all groups.
+    // Keeps the first findings of each code, over all groups.
     std::map<Code, std::size_t> kept;
     for (Finding& finding : group.findings)
         if (report.counts[finding.code] + kept[finding.code]++ < Finding::kKeptPerCode)
@@ -100,7 +100,7 @@ void appendCells(ValidationReport& report, const model::BuildingModel& model, Gr
     append(report, model, std::move(group));
 }
 
-// Polygons that the features of a group use: what its tests cost.
+// Number of polygons that the features of a group use: an estimate of the cost of its tests.
 std::uint64_t polygonsOf(const model::BuildingModel& model, const std::vector<FeatureIndex>& group) {
     std::uint64_t count = 1;
     for (const FeatureIndex feature : group)

@@ -15,8 +15,9 @@ Vec3d normalOf(const Triangle& t) noexcept {
 
 Point rounded(Vec3d p) noexcept { return {std::llround(p.x), std::llround(p.y), std::llround(p.z)}; }
 
-// On which side of the line a b the point p lies that is moved by an infinitely small way along u, and by an infinitely
-// smaller one along v (simulation of simplicity, Edelsbrunner and Muecke 1990). Never 0 for a line of two points.
+// The side of the line a b on which the point p lies, after p is moved by an infinitely small distance along u and by
+// an infinitely smaller distance along v. This is simulation of simplicity (Edelsbrunner and Muecke 1990). Never 0 for
+// a line of two points.
 int turnMoved(plane::Point a, plane::Point b, plane::Point p) noexcept {
     if (const int exact = turn(a, b, p); exact != 0) return exact;
     if (a.v != b.v) return a.v > b.v ? 1 : -1;

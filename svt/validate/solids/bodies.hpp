@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// How two closed surfaces lie to each other: apart, touching, with shared faces, one within the other, overlapping.
-/// A triangle of one is cut along all lines in which the other meets it; each piece then lies inside, outside or on the
-/// other as a whole, which one point of it decides.
+/// The relative position of two closed surfaces: apart, touching, with shared faces, one within the other, overlapping.
+/// A triangle of one surface is cut along all lines in which the other meets it. Each piece then lies inside, outside
+/// or on the other as a whole, so one point of the piece decides.
 
 #include <svt/validate/solids/crossings.hpp>
 
@@ -12,7 +12,7 @@
 
 namespace svt::validate {
 
-/// A closed surface whose triangles look away from what it encloses.
+/// A closed surface whose triangles face outwards, away from the enclosed volume.
 class Body {
 public:
     /// \param points  must outlive the body
@@ -28,7 +28,7 @@ public:
 
     struct Nearest {
         double distance = 0;  ///< units
-        Vec3d normal{};       ///< of the nearest triangle; of several, of the one most parallel to the normal asked for
+        Vec3d normal{};       ///< of the nearest triangle; of several, of the one most parallel to the given normal
     };
     /// The surface near `p` (units), empty if none is within `reach`.
     [[nodiscard]] std::optional<Nearest> near(Vec3d p, double reach, Vec3d normal) const;
@@ -53,20 +53,20 @@ struct Piece {
 /// Lines in which `body` meets the triangle, those of faces in its plane included. Units.
 [[nodiscard]] std::vector<Segment> linesOn(const Triangle& triangle, const Body& body, double noise);
 
-/// Areas (square units) of the surface of one body, by where they lie to another.
+/// Areas (square units) of the surface of one body, by their position relative to another.
 struct Share {
     double inside = 0, outside = 0;
-    double alike = 0;     ///< on its surface, looking the same way
-    double opposite = 0;  ///< on its surface, looking the other way
+    double alike = 0;     ///< on its surface, with the same orientation
+    double opposite = 0;  ///< on its surface, with the opposite orientation
     Vec3d insideAt{};     ///< a point that lies inside, units
     Vec3d outsideAt{}, onAt{};
     double depth = 0;  ///< of `insideAt` below the surface, at most ten times the noise
 };
 
-/// \param noise  units; what is nearer to the surface of `other` lies on it
+/// \param noise  units; a point nearer to the surface of `other` lies on it
 [[nodiscard]] Share shareOf(const Body& body, const Body& other, double noise);
 
-/// How two bodies lie to each other.
+/// The relative position of two bodies.
 struct Relation {
     Share first, second;            ///< of each within the other
     bool haveContact = false;       ///< a common point

@@ -35,7 +35,7 @@ bool liesOnSharedEdge(const Face& a, const Face& b, const Segment& common, const
             }
         return edges;
     };
-    constexpr double kNear = 4;  // steps: what rounding does to the common segment
+    constexpr double kNear = 4;  // steps: the largest error of rounding at the common segment
     const auto ofB = edgesOf(b);
     for (const auto& [p, q] : edgesOf(a)) {
         if (ofB.count({p, q}) == 0) continue;

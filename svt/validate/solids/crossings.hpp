@@ -18,12 +18,12 @@ using Segment = std::array<Vec3d, 2>;
 /// True if two triangles that share nothing by index have a point in common. Exact.
 [[nodiscard]] bool triangleMeets(const Triangle& a, const Triangle& b) noexcept;
 
-/// True if an edge of one leads through the inside of the other and goes on for more than `depth` on both sides.
-/// Decided exactly, but for the depth.
+/// True if an edge of one leads through the inside of the other and extends by more than `depth` on both sides. Exact,
+/// except for the depth.
 [[nodiscard]] bool triangleCrosses(const Triangle& a, const Triangle& b, double depth) noexcept;
 
 /// The segment that the triangle `b` has in common with the plane of `a`, in units; empty for a point, nothing, or
-/// triangles of one plane (corners within `noise` of it). `isCoplanar` tells which.
+/// triangles of one plane (corners within `noise` of it). `isCoplanar` is true in the last case.
 [[nodiscard]] std::optional<Segment> cutByPlane(const Triangle& a, const Triangle& b, double noise, bool& isCoplanar);
 
 /// The part of the segment `s`, in the plane of `t`, that lies within `t` grown by `noise`; empty for none.

@@ -120,7 +120,7 @@ private:
                     }
     }
 
-    // Joins piece i with what is seen from it.
+    // Joins piece i with the piece that is visible from it.
     void look(std::size_t i, Vec3d direction) {
         const Vec3d from = pieces_[i].piece.center;
         double nearest = kInfinity;

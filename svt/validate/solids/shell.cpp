@@ -13,7 +13,7 @@ std::vector<Defect> checkShell(const Shell& shell, const PointSet& points, const
     if (rules.isClosed && shell.faces.size() < kTetrahedron) {
         Defect& defect = defects.emplace_back();
         defect.code = Code::TooFewFaces;
-        defect.message = fmt::format("a shell of {} faces, of at least four", shell.faces.size());
+        defect.message = fmt::format("the shell has {} faces, fewer than four", shell.faces.size());
         if (!shell.faces.empty()) {
             defect.at = points.world(shell.faces.front().rings.front().front());
             defect.polygon = shell.faces.front().polygon;

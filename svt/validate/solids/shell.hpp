@@ -25,7 +25,7 @@ struct Shell {
     std::vector<std::uint32_t> faceOf;  ///< of each triangle
 };
 
-/// Points of a geometry and where they stand in the world.
+/// Points of a geometry and their places in the world.
 struct PointSet {
     const std::vector<Point>* points = nullptr;
     const Lattice* lattice = nullptr;
@@ -47,15 +47,15 @@ struct ShellRules {
     bool isClosed = true;  ///< false for a CompositeSurface, which may have a border
 };
 
-/// Findings of each kind that one shell may have.
+/// Maximum number of findings of each kind per shell.
 inline constexpr std::size_t kLargestDefectCount = 100;
 
-/// Tests faces that are valid each: enough of them, every edge used by two in opposite directions, one umbrella around
-/// every point, one piece, closed, free of intersections. The tests end with the first that fails.
+/// Tests faces that are valid themselves: enough faces, every edge used by two in opposite directions, one umbrella
+/// around every point, one piece, closed, free of intersections. The tests end with the first that fails.
 /// Cost: O(n log n) for faces that meet only at their borders.
 [[nodiscard]] std::vector<Defect> checkShell(const Shell& shell, const PointSet& points, const ShellRules& rules = {});
 
-/// Six times the volume that a closed shell encloses, in units, positive if its faces look outwards.
+/// Six times the volume that a closed shell encloses, in units; positive if its faces are oriented outwards.
 [[nodiscard]] double sixfoldVolume(std::span<const Corners> triangles, const PointSet& points) noexcept;
 
 }  // namespace svt::validate

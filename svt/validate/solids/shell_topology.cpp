@@ -80,7 +80,7 @@ void markFace(Defect& defect, const Face& face, const PointSet& points) {
 
 bool hasRoom(const std::vector<Defect>& defects) { return defects.size() < kLargestDefectCount; }
 
-// Faces that must be turned so that each edge is used once in either direction. False where no choice will do.
+// Faces that must be turned so that each edge is used once in either direction. False if this is impossible.
 struct Turning {
     std::vector<std::uint8_t> isTurned;
     std::vector<std::uint32_t> component;
@@ -122,7 +122,7 @@ Turning findTurning(const Shell& shell, const std::vector<EdgeUse>& uses) {
                 }
             }
         }
-        // The fewer faces are the wrong ones.
+        // The smaller group of faces counts as wrong.
         std::size_t turned = 0;
         for (const std::uint32_t face : members) turned += turning.isTurned[face];
         if (2 * turned > members.size())
@@ -132,8 +132,8 @@ Turning findTurning(const Shell& shell, const std::vector<EdgeUse>& uses) {
     return turning;
 }
 
-// The triangles around a point, joined across the edges that two of them share, are its umbrellas. A point may have one;
-// several that are all open are gaps of a closed shell, reported as such.
+// The triangles around a point, joined across the edges that two of them share, are its umbrellas. A point may have one
+// umbrella. Several umbrellas that are all open are gaps of a closed shell, and reported as gaps.
 void checkUmbrellas(const Shell& shell, const PointSet& points, const ShellRules& rules, std::vector<Defect>& defects) {
     const std::vector<EdgeUse> uses = edgesOfTriangles(shell);
     Groups groups(3 * shell.triangles.size());
@@ -172,7 +172,7 @@ void checkUmbrellas(const Shell& shell, const PointSet& points, const ShellRules
     }
 }
 
-// Edges that one face uses, cut where others end on them, pair off if they match up to T-junctions.
+// Edges with one face, cut where others end on them, form pairs if they match up to T-junctions.
 bool matchWhenCut(const std::vector<EdgeUse>& open, const PointSet& points) {
     constexpr std::size_t kMost = 1000;  // the search is of all pairs
     if (open.size() > kMost) return false;
@@ -207,18 +207,18 @@ void checkManifold(const Shell& shell, const PointSet& points, const ShellRules&
         isOpposed = isOpposed || (edge.size() == 2 && edge[0].isUp == edge[1].isUp);
         if (edge.size() < 3 || !hasRoom(defects)) return;
         defects.push_back(defectOfEdge(Code::NonManifold, edge[0], points,
-                                       fmt::format("an edge is shared by {} faces, of two at most", edge.size())));
+                                       fmt::format("an edge is shared by {} faces, more than two", edge.size())));
     });
     if (isOpposed && hasRoom(defects)) {
         const Turning turning = findTurning(shell, uses);
         if (!turning.isPossible)
             defects.push_back(defectAt(Code::NonManifold, points.world(shell.faces.front().rings.front().front()),
-                                       "the faces cannot be directed so that all look outwards"));
+                                       "the faces cannot be oriented consistently"));
         for (std::uint32_t f = 0; turning.isPossible && f < shell.faces.size(); ++f) {
             if (turning.isTurned[f] == 0 || !hasRoom(defects)) continue;
             const Face& face = shell.faces[f];
             defects.push_back(defectAt(Code::FaceTurnedOver, points.world(face.rings.front().front()),
-                                       "a face looks the other way than its neighbours"));
+                                       "a face has the opposite orientation to its neighbours"));
             markFace(defects.back(), face, points);
         }
     }
@@ -241,7 +241,7 @@ void checkOnePiece(const Shell& shell, const PointSet& points, std::vector<Defec
         const Face& face = shell.faces[leader];
         Defect defect =
             defectAt(Code::ShellDisconnected, points.world(face.rings.front().front()),
-                     fmt::format("the shell has {} pieces; one of {} faces does not hang together with the rest",
+                     fmt::format("the shell has {} pieces; one piece of {} faces is not connected to the rest",
                                  sizes.size(), size));
         markFace(defect, face, points);
         defects.push_back(std::move(defect));
@@ -254,7 +254,7 @@ void checkClosed(const Shell& shell, const PointSet& points, std::vector<Defect>
         if (edge.size() == 1) open.push_back(edge[0]);
     });
     if (open.empty()) return;
-    // One defect for each border that hangs together.
+    // One defect per connected border.
     const bool isTight = matchWhenCut(open, points);
     std::map<std::uint32_t, std::size_t> number;
     for (const EdgeUse& use : open)
@@ -267,8 +267,9 @@ void checkClosed(const Shell& shell, const PointSet& points, std::vector<Defect>
         if (!hasRoom(defects)) return;
         Defect defect = defectOfEdge(
             isTight ? Code::TJunction : Code::ShellNotClosed, *border.front(), points,
-            isTight ? fmt::format("{} edges match those of the faces beside only in parts (T-junctions)", border.size())
-                    : fmt::format("the shell is open along {} edges", border.size()));
+            isTight
+                ? fmt::format("{} edges match edges of neighbouring faces only in part (T-junctions)", border.size())
+                : fmt::format("the shell is open along {} edges", border.size()));
         defect.marks.clear();
         for (const EdgeUse* use : border) defect.marks.push_back({points.world(use->low), points.world(use->high)});
         defect.polygon = shell.faces[border.front()->owner].polygon;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The tests of a shell that look at who shares what, not at where it lies.
+/// The tests of a shell that depend only on shared points and edges, not on coordinates.
 
 #include <svt/validate/solids/shell.hpp>
 
@@ -8,7 +8,7 @@ namespace svt::validate {
 
 /// Edges used by more than two faces or twice in one direction, points with more than one umbrella (303, 307).
 void checkManifold(const Shell& shell, const PointSet& points, const ShellRules& rules, std::vector<Defect>& defects);
-/// Faces that hang together by edges nowhere (305).
+/// Faces that are not connected by edges (305).
 void checkOnePiece(const Shell& shell, const PointSet& points, std::vector<Defect>& defects);
 /// Edges used by one face only (302).
 void checkClosed(const Shell& shell, const PointSet& points, std::vector<Defect>& defects);

@@ -10,14 +10,14 @@
 namespace svt::validate {
 namespace {
 
-// Steps within which shells of one solid touch: what rounding to the lattice can do to a common point.
+// Steps within which shells of one solid touch: the largest error of rounding a common point to the lattice.
 constexpr double kTouching = 4;
 
 std::string nameOfShell(std::size_t shell) {
     return shell == 0 ? "the exterior shell" : fmt::format("interior shell {}", shell);
 }
 
-// The triangles of a shell, looking away from what it encloses.
+// The triangles of a shell, oriented away from the enclosed volume.
 std::vector<Corners> outwards(const Shell& shell, const PointSet& points) {
     std::vector<Corners> triangles = shell.triangles;
     if (sixfoldVolume(triangles, points) < 0)
@@ -48,7 +48,7 @@ std::vector<Box3d> boundsOf(const std::vector<Body>& bodies) {
     return bounds;
 }
 
-// An interior shell beside the exterior one.
+// An interior shell compared with the exterior one.
 std::optional<Defect> checkInterior(const Body& exterior, const Body& interior, std::size_t number,
                                     const PointSet& points) {
     const Relation relation = relate(interior, exterior, kTouching);
@@ -71,7 +71,7 @@ std::optional<Defect> checkInterior(const Body& exterior, const Body& interior, 
                     number);
 }
 
-// Two interior shells beside each other.
+// Two interior shells compared with each other.
 std::optional<Defect> checkInteriors(const Body& one, const Body& other, std::size_t i, std::size_t j,
                                      const PointSet& points) {
     const Relation relation = relate(one, other, kTouching);
@@ -97,7 +97,7 @@ std::vector<Defect> checkSolid(const std::vector<Shell>& shells, const PointSet&
         const double volume = sixfoldVolume(shells[s].triangles, points);
         if (s == 0 ? volume > 0 : volume < 0) continue;
         defects.push_back(defectOf(Code::ShellTurnedOver, points, points.units(shells[s].triangles.front()[0]),
-                                   nameOfShell(s) + (s == 0 ? " looks inwards" : " looks out of its void"), s));
+                                   nameOfShell(s) + (s == 0 ? " faces inwards" : " faces out of its void"), s));
         markShell(defects.back(), shells[s], points);
     }
     if (!defects.empty() || shells.size() < 2) return defects;
@@ -115,7 +115,7 @@ std::vector<Defect> checkSolid(const std::vector<Shell>& shells, const PointSet&
         for (const std::uint32_t j : bounds.findAll(plane::grown(bodies[i].tree().bounds(), 1)))
             if (j > i) keep(checkInteriors(bodies[i], bodies[j], i, j, points), j);
     if (!defects.empty()) return defects;
-    std::vector<Body> material;  // looking away from the material between the shells
+    std::vector<Body> material;  // oriented away from the material between the shells
     material.reserve(shells.size());
     for (const Shell& shell : shells) material.emplace_back(shell.triangles, points);
     std::vector<const Body*> pointers;
