@@ -3,9 +3,9 @@
 /// Contacts between labels and their areas: the neighbours of each label, and its surface area.
 ///
 /// The faces between voxels overestimate the area of an oblique surface by up to a factor of sqrt(3). But their counts
-/// across x, y and z are the surface's projections along these axes. So area is measured in cells of 8 x 8 x 8 voxels:
-/// it is the length of the vector of the three counts (times the area of a face), which is exact for a plane through
-/// the whole cell. Where axis-aligned faces meet each other, as on a box, or meet an oblique one, areas are summed:
+/// across x, y and z are the surface's projections along these axes. So area is measured in cells of 8 x 8 x 8 voxels.
+/// It is the length of the vector of the three counts (times the area of a face). This is exact for a plane through the
+/// whole cell. Where axis-aligned faces meet each other, as on a box, or meet an oblique one, areas are summed:
 ///
 ///     a slope: sqrt(4^2 + 9^2)   --+              an edge: 4 + 9    --------+
 ///                                  +--+                                     |
@@ -16,11 +16,11 @@
 /// edge it is not. Error of the area, measured on solids of known area (contacts_test.cpp), with edges and radii in
 /// voxels:
 ///
-///     boxes along the grid                              0 %; -1.5 % where edges lie one voxel from two cell sides
-///     planes of any slope, discs                        -1.5 to +4 %, on average +1 %
-///     boxes rotated about z     edges of 20, 30, 50     -11, -5, -3 % to +1 %
-///     boxes rotated freely      edges of 20, 30, 50     -14, -8, -5 % at most
-///     spheres                   radius 10, 15, 20, 30   -4.5, -2.5, -1, +-0.5 % at most
+///     | boxes along the grid                            | 0 %; -1.5 % where edges lie one voxel from two cell sides
+///     | planes of any slope, discs                      | -1.5 to +4 %, on average +1 %
+///     | boxes rotated about z   edges of 20, 30, 50     | -11, -5, -3 % to +1 %
+///     | boxes rotated freely    edges of 20, 30, 50     | -14, -8, -5 % at most
+///     | spheres                 radius 10, 15, 20, 30   | -4.5, -2.5, -1, +-0.5 % at most
 ///
 /// Area is lost at oblique edges, up to two voxels along each; a single voxel counts 3.5 of its 6 faces.
 

@@ -25,11 +25,12 @@ struct LabelMeasure {
                                                       const std::vector<Contact>& contacts);
 
 /// Volume of each label, m3; entry l is label l. If the label lost no voxels to others (see LabelTable::overlaps), it
-/// is that of its solid, which is exact; else that of its own voxels: a room without its furniture, a flat without its
-/// rooms. 0 for sheets.
+/// is the exact volume of its solid. Otherwise it is the volume of its own voxels: a room without its furniture, a flat
+/// without its rooms. 0 for sheets.
 [[nodiscard]] std::vector<double> ownVolumes(const volume::LabelTable& labels, const volume::Grid& grid);
 
-/// Volume of a label's solid, m3. A label without a solid has the sum of those below it in the tree; 0: there are none.
+/// Volume of a label's solid, m3. A label without a solid has the sum of the solids below it in the tree; 0: there are
+/// none.
 [[nodiscard]] double solidVolume(const volume::LabelTable& labels, std::uint32_t label) noexcept;
 
 /// The box around the voxels of `box`, along world axes, metres; empty if `box` is.

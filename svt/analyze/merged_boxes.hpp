@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Voxels of a label or a group of labels as few boxes: what solvers and games read that know boxes alone.
+/// The voxels of a label or a group of labels as few boxes, for solvers and games that read only boxes.
 
 #include <svt/core/result.hpp>
 #include <svt/volume/column_volume.hpp>

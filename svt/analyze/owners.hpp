@@ -2,11 +2,11 @@
 /// \file
 /// Ownership of the parts of a building: spaces by a table, and the walls and slabs between them by a rule.
 ///
-/// The rule: what the table lists belongs to its owner. Each other component (wall, slab, window, ...; not a space) is
-/// divided between the owners of what it touches, in proportion to the contact area; spaces that are not listed count
-/// as unowned. The surfaces that bound a space are part of it. Outside air and other unlisted components do not count,
-/// so an exterior wall belongs to the owners of the spaces behind it. A component that touches no space at all (a beam
-/// inside a slab) is not divided.
+/// The rule: a feature in the table belongs to its owner. Each other component (wall, slab, window, ...; not a space)
+/// is divided between the owners of the features that it touches, in proportion to the contact area; spaces that are
+/// not listed count as unowned. The surfaces that bound a space are part of it. Outside air and other unlisted
+/// components do not count, so an exterior wall belongs to the owners of the spaces behind it. A component that touches
+/// no space at all (a beam inside a slab) is not divided.
 ///
 ///        flat A   |wall|  flat B        contact A 20 m2, B 20 m2: half each
 ///        ---------+    +--------
@@ -35,13 +35,13 @@ struct OwnerTable {
 /// separators or quotes are in "...", with "" for a quote. The separator is the first of the two in the first line,
 /// outside of quotes. A first line `feature,owner` and empty lines are skipped.
 ///
-/// A feature is an id or a query. It includes all below the selected features in the tree, and their members: a flat
-/// with its rooms and inner walls.
+/// A feature is an id or a query. It includes all features below the selected ones in the tree, and their members: a
+/// flat with its rooms and inner walls.
 /// \param file  name for messages
 /// \return the table, or an error with its line:
-///         - BadValue         not two columns, an empty field, an open quote, a feature given to two owners, no rows
-///         - NothingSelected  neither an id nor a query that selects something (names the nearest)
-///         - InputTooBig      over 64 MiB, or rows that look at more than 2^30 features in all
+///         - BadValue         not two columns, an empty field, an open quote, a feature given to two owners, no rows.
+///         - NothingSelected  neither an id nor a query that selects something (names the nearest).
+///         - InputTooBig      over 64 MiB, or rows that look at more than 2^30 features in all.
 /// Cost: O(bytes + selected labels) for ids; a query O(labels).
 [[nodiscard]] Result<OwnerTable> parseOwners(std::string_view text, std::string_view file,
                                              const volume::LabelTable& labels);
@@ -65,7 +65,7 @@ struct OwnerTotal {
     double own = 0;     ///< listed in the table
     double alone = 0;   ///< components that touch no other owner's space
     double shared = 0;  ///< its share of the others
-    /// Breakdown of `shared` by co-owner: the part in components of which this other owner has a share, too. A
+    /// Breakdown of `shared` by co-owner: the part in components in which this other owner has a share, too. A
     /// component of three owners counts for each pair. In order, unowned last; `area` is the owner's own contact with
     /// those components.
     std::vector<OwnerShare> with;

@@ -23,14 +23,14 @@ class LabelRows {
 public:
     /// Implicit, so that a single query can name the table itself.
     /// \param labels   must outlive the rows, unchanged
-    /// \param nothing  if given, queries that select nothing are no error: what NothingSelected would say is added here,
-    ///                 once, and the selection is empty
+    /// \param nothing  if given, queries that select nothing are not an error: the message of NothingSelected is added
+    ///                 here, once, and the selection is empty
     LabelRows(const volume::LabelTable& labels, std::vector<std::string>* nothing = nullptr) noexcept
         : labels_(labels), nothing_(nothing) {}
 
     [[nodiscard]] std::span<const model::QueryRow> get() const;
 
-    /// The end of a query that selects nothing: an empty selection, or NothingSelected with this message.
+    /// The result of a query that selects nothing: an empty selection, or NothingSelected with this message.
     [[nodiscard]] Result<std::vector<std::uint32_t>> selectNothing(const std::string& message) const;
 
 private:

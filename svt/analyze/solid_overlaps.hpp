@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Space that two solids claim, m3: exact from closed meshes, however thin; from voxels where there are none.
+/// Space that two solids claim, m3: exact from closed meshes, however thin; from voxels if there are no closed meshes.
 
 #include <svt/volume/semantic_volume.hpp>
 
@@ -15,22 +15,23 @@ struct SolidOverlap {
     std::uint32_t a = 0, b = 0;  ///< labels; `a` has the space: lower rank, then the smaller volume, then the id
     std::uint64_t voxels = 0;    ///< that both claimed; 0 where all of it lies between samples
     double volume = 0;           ///< m3
-    double bound = 0;            ///< m3 by which `volume` may be off; infinite where nothing tells
+    double bound = 0;            ///< m3 by which `volume` may be off; infinite if unknown
     bool isExact = false;        ///< from meshes, whose points are rounded to VectorParts::unit; else from voxels
     bool isNested = false;       ///< one belongs to the other by hierarchy or groups, see volume::Overlap
 };
 
 struct SolidOverlapOptions {
-    /// Steps: triangles looked at and pairs of triangles compared. Pairs of solids beyond are taken from voxels.
+    /// Maximum number of steps: inspected triangles and compared pairs of triangles. The overlaps of further solids
+    /// come from voxels.
     std::uint64_t work = std::uint64_t{1} << 30;
 };
 
 struct SolidOverlaps {
     /// Ordered by (a, b): solids with a common volume that exceeds its bound, and all that share voxels.
     std::vector<SolidOverlap> pairs;
-    /// Solids of which the volume keeps no closed mesh: an overlap between samples is not found.
+    /// Number of solids without a closed mesh in the volume: an overlap between samples is not found.
     std::size_t withoutMesh = 0;
-    /// False where the work did not suffice for all pairs: an overlap between samples may be missing.
+    /// False if the work did not suffice for all pairs: an overlap between samples may be missing.
     bool isComplete = true;
 };
 
@@ -39,8 +40,8 @@ struct SolidOverlaps {
 [[nodiscard]] SolidOverlaps solidOverlaps(const volume::SemanticVolume& volume,
                                           const SolidOverlapOptions& options = {});
 
-/// Whether one label belongs to the other by the model's hierarchy or groups: a room in its building, a door in the flat
-/// that has its wall as a member.
+/// Whether one label belongs to the other by the model's hierarchy or groups: a room in its building, a door in the
+/// flat that has its wall as a member.
 [[nodiscard]] bool areNested(const volume::LabelTable& table, std::uint32_t a, std::uint32_t b);
 
 }  // namespace svt::analyze

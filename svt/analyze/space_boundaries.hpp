@@ -1,16 +1,16 @@
 #pragma once
 /// \file
-/// What lies between two spaces, or a space and the outside, layer by layer with thickness: the input of energy and
-/// acoustic models (space boundaries of the second level in the words of IFC).
+/// The layers between two spaces, or a space and the outside, with their thickness: the input of energy and acoustic
+/// models (in IFC: space boundaries of the second level).
 ///
-/// Lines of samples are followed along x, y and z. Where one leaves a space and enters another, the labels between are a
-/// path:
+/// Lines of samples are followed along x, y and z. Where one leaves a space and enters another, the labels between are
+/// a path:
 ///
 ///     kitchen | plaster 0.015 | brick 0.24 | plaster 0.02 | outside        along x, 4.32 m2
 ///
 /// An element along the grid's axes has its true thickness and area. A slanted one, with the normal n, is crossed along
-/// more than one axis, with the area A |n_i| and the thickness t / |n_i| along axis i: the conductances A n_i^2 / t of
-/// its paths add up to its own, A / t.
+/// more than one axis, with the area A |n_i| and the thickness t / |n_i| along axis i. So the conductances A n_i^2 / t
+/// of its paths add up to its own, A / t.
 
 #include <svt/volume/column_volume.hpp>
 #include <svt/volume/grid.hpp>
@@ -38,12 +38,12 @@ struct SpaceBoundary {
     friend bool operator==(const SpaceBoundary&, const SpaceBoundary&) = default;
 };
 
-/// The space that each label belongs to: spaces filled with air (model::isSpace) themselves; what stands in a room or
-/// bounds it as a surface, such as furniture, to that room; kNoLabel: a component.
+/// The space of each label. Spaces filled with air (model::isSpace) belong to themselves. Objects in a room, such as
+/// furniture, and surfaces that bound it belong to the room. kNoLabel: a component.
 [[nodiscard]] std::vector<std::uint32_t> spacesOfLabels(const volume::LabelTable& labels);
 
-/// Background counts as outside, also where it is enclosed. Paths from a space back into itself, and between outside and
-/// outside, are left out.
+/// Background counts as outside, also where it is enclosed. Paths from a space back into itself, and between outside
+/// and outside, are left out.
 /// \return ordered by (a, b, axis, layers' labels)
 /// Cost: O(columns + area of surfaces in voxels). Memory: the result, and a plane of samples.
 [[nodiscard]] std::vector<SpaceBoundary> findSpaceBoundaries(const volume::ColumnVolume& columns,

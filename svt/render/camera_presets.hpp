@@ -18,7 +18,7 @@ struct PresetOptions {
     double margin = 0.04;      ///< free margin on each side, as a share of the picture's width and height, 0 to 0.45
     Camera::Projection projection = Camera::Projection::Perspective;
     double verticalFovDegrees = 30;  ///< perspective
-    double sideMargin = 0;  ///< at least so much is free at the left and the right, as a share of the width, 0 to 0.45
+    double sideMargin = 0;           ///< minimum free margin at left and right, as a share of the width, 0 to 0.45
 };
 
 /// All names: "iso" (from the south-east, above), "iso-se" (the same), "iso-sw", "iso-ne", "iso-nw", "front" (from
@@ -36,8 +36,8 @@ struct PresetOptions {
 [[nodiscard]] Result<Camera> cameraPreset(std::string_view name, const volume::Grid& grid,
                                           const PresetOptions& options = {});
 
-/// The same for points, in the sides of `axes`: all of them are shown, and the outermost touch the margin.
-/// \param points  world space; BadCamera if there are none, or all are one
+/// The same for points, with the sides of `axes`: all points are shown, and the outermost ones touch the margin.
+/// \param points  world space; BadCamera if there are none, or all are equal
 /// \param axes    unit vectors at right angles, as those of a grid
 [[nodiscard]] Result<Camera> cameraPreset(std::string_view name, std::span<const Vec3d> points,
                                           const std::array<Vec3d, 3>& axes, const PresetOptions& options = {});

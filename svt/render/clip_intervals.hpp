@@ -13,7 +13,7 @@
 
 namespace svt::render {
 
-/// The clip face, plane or round, on which a cap (cut face) lies; both null: no cap. CapFace{} is no cap. There are no
+/// The clip face, plane or round, on which a cap (cut face) lies; both null, as in CapFace{}: no cap. There are no
 /// default initializers, because arrays of many are kept per ray: always write the braces.
 struct CapFace {
     const HalfSpace* plane;
@@ -65,7 +65,7 @@ public:
     [[nodiscard]] DrawnIntervals cut(const VoxelRay& ray, RaySpan span) const noexcept {
         return cut(ray.origin, ray.direction, span);
     }
-    /// Whether a point (voxel space) is drawn, by what depends on no line of sight: gaps leave all.
+    /// Whether a point (voxel space) is drawn; clips that depend on the line of sight (gaps) are ignored.
     [[nodiscard]] bool keeps(Vec3d point) const noexcept;
 
 private:

@@ -19,8 +19,8 @@ struct HalfSpace {
     friend bool operator==(const HalfSpace&, const HalfSpace&) = default;
 };
 
-/// A convex body bounded by one quadric. With d[i] = dot(axes[i], p - center), the axes in 1 / metres, it contains the
-/// points p with
+/// A convex body bounded by one quadric. It contains the points p with the following condition, where
+/// d[i] = dot(axes[i], p - center), with axes in 1 / metres.
 ///     Ball      d0^2 + d1^2 + d2^2 < 1            also ellipsoids
 ///     Cylinder  d0^2 + d1^2 < 1                   infinite
 ///     Cone      d0^2 + d1^2 < d2^2 and d2 > 0     infinite, with its apex at `center`
@@ -57,8 +57,8 @@ struct ConvexPart {
 struct ClipRegion {
     enum class Mode : std::uint8_t {
         CutAway,   ///< nothing inside the region is drawn
-        KeepOnly,  ///< only what is inside the region is drawn
-        Gap  ///< of each line of sight only what lies between part `gap` and the next that it meets, 0: before all
+        KeepOnly,  ///< only the inside of the region is drawn
+        Gap  ///< only the stretch of a line of sight from part `gap` to the next one is drawn; 0: before all parts
     };
 
     std::vector<ConvexPart> parts;  ///< at least one

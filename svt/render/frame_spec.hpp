@@ -49,7 +49,7 @@ struct Light {
     float key = 0.60f;                 ///< >= 0
     float ambient = 0.56f;             ///< >= 0; key + ambient near 1.1 uses the full tonal range
     float ambientOcclusion = 0.6f;     ///< 0..1: how much corners are darkened; 0 switches it off
-    bool hasShadows = false;           ///< what is opaque keeps the key light from what is behind; CPU only
+    bool hasShadows = false;           ///< opaque parts block the key light; CPU only
     double size = 0.53;                ///< diameter of the key light in degrees, 0..20: how soft shadows are
     friend bool operator==(const Light&, const Light&) = default;
 };
@@ -87,13 +87,14 @@ struct Pass {
     /// How the pass is composited with the passes before it, per sample.
     enum class Join : std::uint8_t {
         Over,     ///< in front of them, at any depth
-        Replace,  ///< where this pass draws anything, all before it is dropped, with a border line around it
+        Replace,  ///< where this pass draws anything, it replaces all passes before it, with a border line around it
         Depth,    ///< in front of them where this pass's first label is nearer, else behind
-        /// Sorted by depth with the pass before and its other parts; together they are joined as that pass says. For parts
-        /// of space that no ray enters twice, such as volumes beside each other and the gaps between them.
+        /// Sorted by depth with the previous pass and its other parts. Together they are joined by the mode of the
+        /// previous pass. For parts of space that no ray enters twice, such as adjacent volumes and the gaps between
+        /// them.
         Part
     };
-    /// Of the ways that a scene may name.
+    /// Names of the modes that a scene can use.
     friend constexpr auto namesOf(Join) {
         return std::to_array<Name<Join>>({{Join::Over, "over"}, {Join::Replace, "replace"}, {Join::Depth, "depth"}});
     }
@@ -130,9 +131,9 @@ struct FrameSpec {
 };
 
 /// Checks all preconditions of castRays().
-/// \return BadFrame if a size, count, style, light or clip is out of range; BadCamera if eye, target and up do not
-///         define a view, or the field of view or the height is out of range. The message names what is wrong, and the
-///         range.
+/// \return nothing, or an error whose message names the problem and the valid range:
+///         - BadFrame   a size, count, style, light or clip is out of range.
+///         - BadCamera  eye, target and up do not define a view, or the field of view or the height is out of range.
 [[nodiscard]] Result<void> checkFrameSpec(const FrameSpec& spec);
 
 }  // namespace svt::render

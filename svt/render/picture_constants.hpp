@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Numbers that the casters of this folder and the shaders of render_gl share, so that they draw the same picture. Each
-/// stands here once; render_gl hands them to its shaders. For renderers: used by render and render_gl.
+/// is defined only here; render_gl passes them to its shaders. For renderers: used by render and render_gl.
 
 #include <cstdint>
 
@@ -9,11 +9,11 @@ namespace svt::render {
 
 // Light.
 
-/// Sky light on an upright surface, and what is added to it, times the normal's upward component.
+/// Sky light on a vertical surface, and the light added to it, times the normal's upward component.
 inline constexpr double kSkyAside = 0.80, kSkyAbove = 0.20;
-/// What ambient light is made of: sky, and light from the viewer.
+/// The shares of ambient light: sky, and light from the viewer.
 inline constexpr double kSkyShare = 0.82, kViewerShare = 0.18;
-/// Share of the key light where all is occluded, and what is added to it, times openness.
+/// Share of the key light at full occlusion, and the share added to it, times openness.
 inline constexpr double kKeyShut = 0.45, kKeyOpen = 0.55;
 /// Occlusion in a full cavity of voxels.
 inline constexpr double kCavityOcclusion = 0.35;
@@ -33,14 +33,14 @@ inline constexpr double kSeamDistance = 0.75, kSeamSlope = 0.2;
 
 // Lines inside the volume.
 
-/// Depth bias towards the viewer: voxels, and half widths of the line. Beside it, its surface may be nearer.
+/// Depth bias towards the viewer: voxels, and half widths of the line. Next to the line, its surface may be nearer.
 inline constexpr double kVoxelsBefore = 1.5, kHalfWidthsBefore = 4;
 /// Lines this close in depth are one, voxels.
 inline constexpr double kVoxelsTogether = 2;
 
 // Border lines, see TileRenderer::lineBetween().
 
-/// Least cosine between a surface's normal and the view direction with which depths beside it are predicted.
+/// Least cosine between a surface's normal and the view direction with which depths next to it are predicted.
 inline constexpr double kLeastFacing = 0.02;
 /// Share of the predicted change of depth by which the depth may differ without a border.
 inline constexpr double kDepthTolerance = 0.7;

@@ -19,10 +19,11 @@ struct CastOptions {
     int threads = 0;          ///< 0: all cores; the picture does not depend on it
     float opaqueAt = 0.999f;  ///< early ray termination at this opacity, in (0, 1]
     float labelAt = 0;        ///< label and depth are those of the first run after which the ray's opacity exceeds
-                              ///< this, in [0, 1): 0: the first visible label; 0.5: looks through ghosts
+                              ///< this, in [0, 1). 0: the first visible label; 0.5: looks through ghosts.
     /// Adaptive sampling: with several samples per pixel, a pixel gets all of them only if it differs from one of its
     /// eight neighbours in label, depth, normal or colour. Ignored if the farthest voxels are smaller than a pixel,
-    /// since thin parts between equal pixel centres would be missed. So at most the tips of what is seen edge-on are.
+    /// since thin parts between equal pixel centres would be missed. So adaptive sampling misses at most the tips of
+    /// parts seen edge-on.
     bool isAdaptive = false;
     const Progress* progress = nullptr;  ///< for cancelling only; no progress is reported
 };
@@ -31,18 +32,19 @@ struct CastOptions {
 struct Frame {
     image::Image<image::Rgba8> color;    ///< sRGB, alpha not premultiplied
     image::Image<volume::Scalar> label;  ///< of the ray through the pixel's centre; 0: background
-    image::Image<float> depth;  ///< metres along the view direction to the start of that label; +inf: background
+    image::Image<float> depth;  ///< metres along the view direction to the start of the label; +inf: background
 };
 
-/// A form of a semantic volume that passes may draw: the volume itself, a level of detail, or its shell. All forms have
-/// the scalars of the volume, so one table of styles holds for each. The arguments must outlive it.
+/// A representation of a semantic volume that passes can draw: the volume itself, a level of detail, or its hulls. All
+/// representations have the scalars of the volume, so one table of styles applies to all of them. The arguments must
+/// outlive it.
 class DrawnVolume {
 public:
     /// \param grid  where the samples of `bricks` lie; its dimension must be that of `bricks`
     DrawnVolume(const volume::BrickVolume& bricks, const volume::Grid& grid) : bricks_(&bricks), grid_(&grid) {}
     /// A coarse level.
     ///
-    /// A cell has the extinction and colour of its labels, weighted by coverage (Al-Thelaya 2020); an opaque label
+    /// A cell has the extinction and colour of its labels, weighted by coverage (Al-Thelaya 2020). An opaque label
     /// stops 99 % of the light over the length of one fine voxel, so a wall one voxel thick stays nearly opaque at each
     /// level. A cell that opaque labels cover by half or more is a surface. Frame::label has the most frequent visible
     /// label of the cell.
@@ -58,18 +60,19 @@ private:
     const volume::LodLevel* level_ = nullptr;
 };
 
-/// Draws `volumes` as described by `spec`; Pass::volume tells which of them a pass draws.
+/// Draws `volumes` as described by `spec`; Pass::volume is the index of the volume that a pass draws.
 ///
 /// A voxel is the box of half a spacing around its sample. Per pass, the ray is clipped to the volume's voxels and by
-/// the clips, then split into runs of one scalar, blended front to back:
-///   - opacity 1: an opaque surface at the start of the run, lit by its normal;
+/// the clips. It is then split into runs of one scalar, which are blended front to back:
+///   - opacity 1: an opaque surface at the start of the run, lit by its normal.
 ///   - opacity o in (0, 1): over a length in metres it stops 1 - (1 - o)^length of the light (Beer-Lambert), whatever
 ///     the voxel size. Its colour is lit half as strongly as a surface, at the start of the run, so that the shape of
-///     glass is seen;
+///     glass is visible.
 ///   - opacity 0: nothing.
-/// A surface has the normal of the plane or voxel face where the run starts; an opaque one in a brick of voxels has one
-/// fitted to the opaque voxels around. A cap (cut face) has the normal of the clip face, and shows the label that is
-/// cut. Lighting and blending are in linear light; passes are composited by Pass::Join, all over the background.
+/// A surface has the normal of the plane or voxel face where the run starts. The normal of an opaque surface in a brick
+/// of voxels is fitted to the opaque voxels around it. A cap (cut face) has the normal of the clip face, and shows the
+/// label that is cut. Lighting and blending are in linear light; passes are composited by Pass::Join, all over the
+/// background.
 ///
 /// \return the frame, or
 ///         - BadFrame, BadCamera   see checkFrameSpec(); a pass draws a volume that does not exist

@@ -33,7 +33,7 @@ struct LabelInterval {
                                                              const volume::Grid& grid, const volume::LabelTable& labels,
                                                              Vec3d origin, Vec3d direction);
 
-/// The intervals of many rays, one ray behind the other: those of ray r are intervals[start[r]] to before
+/// The intervals of many rays, ray after ray: ray r has the intervals from intervals[start[r]] to before
 /// intervals[start[r + 1]].
 struct RayIntervals {
     std::vector<std::uint64_t> start;  ///< rays + 1 entries
@@ -46,7 +46,7 @@ struct RayIntervals {
 /// \param threads     0: all cores; the result does not depend on it
 /// \param progress    stage "rays"; may be null
 /// \return the intervals, or BadArgument if a number is not finite, a direction is zero (the message names the ray) or
-///         the counts do not fit; Cancelled
+///         the counts do not match; Cancelled
 /// Cost: that of the rays, and O(scalars) once. Memory: the result, twice while it is joined.
 [[nodiscard]] Result<RayIntervals> labelsAlongRays(const volume::BrickVolume& bricks, const volume::Grid& grid,
                                                    const volume::LabelTable& labels, std::span<const Vec3d> origins,

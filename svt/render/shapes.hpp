@@ -28,7 +28,7 @@ struct Line {
     friend bool operator==(const Line&, const Line&) = default;
 };
 
-/// Lines of one look. A depth bias of 1.5 voxels and four half widths draws them in front of the surface that they lie
+/// Lines of one style. A depth bias of 1.5 voxels and four half widths draws them in front of the surface that they lie
 /// on, so that the edges of a body lie on its voxels. They change only the colour of a picture, not its labels and
 /// depths. Where lines coincide, as the edges of neighbours do, only the strongest is drawn. Lines shorter than half a
 /// pixel are left out.

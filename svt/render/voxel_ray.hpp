@@ -4,9 +4,9 @@
 ///
 /// Voxel space is index space plus one half: voxel i is [i, i + 1]. The ray's parameter t is depth: metres along the
 /// view direction. The time at which a ray crosses plane n of an axis is always computed by the same expression,
-/// planeTime(), never by a running sum. It is monotonic in n, so comparing such times alone decides which voxel the ray
-/// is in. A walk that skips a whole box thus visits the same voxels, to the last bit, as one that steps from voxel to
-/// voxel (Amanatides and Woo 1987, without their accumulated sums).
+/// planeTime(), never by a running sum. It is monotonic in n, so the comparison of such times decides which voxel the
+/// ray is in. A walk that skips a whole box thus visits the same voxels, to the last bit, as one that steps from voxel
+/// to voxel (Amanatides and Woo 1987, without their accumulated sums).
 
 #include <svt/core/vec.hpp>
 
@@ -92,7 +92,7 @@ struct VoxelRay {
     }
 };
 
-/// An interval of a ray; empty if from >= to. Of spanInVolume(): the part inside the volume, in front of the eye.
+/// An interval of a ray; empty if from >= to. spanInVolume() gives the part inside the volume, in front of the eye.
 struct RaySpan {
     double from = 0, to = 0;
 };

@@ -20,7 +20,7 @@ struct GlOptions {
     float labelAt = 0;        ///< see render::CastOptions::labelAt, in [0, 1)
 };
 
-/// What one pixel shows.
+/// Label and depth of one pixel.
 struct PickedPixel {
     volume::Scalar label = 0;  ///< of the ray through the pixel's centre; 0: background
     float depth = 0;           ///< metres along the view direction; +inf: background
@@ -32,17 +32,17 @@ struct PickedPixel {
 /// context's program, textures, vertex array, viewport and scissor, and leave blending, face culling, depth and stencil
 /// tests disabled; framebuffer bindings are restored.
 ///
-/// The result is that of render::castRays() with the same options: equal labels, except for pixels whose ray passes
-/// within 1e-3 voxel of an edge (floats instead of doubles; for volumes of up to about 5,000 voxels along a side), and
-/// colours within 3 of 255. draw() and pick() give the same result for the same ray.
+/// The result is that of render::castRays() with the same options. Labels are equal, except for pixels whose ray passes
+/// within 1e-3 voxel of an edge (floats instead of doubles; for volumes of up to about 5,000 voxels along a side).
+/// Colours are within 3 of 255. draw() and pick() give the same result for the same ray.
 class GlRenderer {
 public:
     /// Uploads the bricks, without conversion.
     /// \param volume, grid  must outlive the renderer
     /// \return the renderer, or
-    ///         - NoGraphics    no context of OpenGL ES 3.0 is current, or its memory is too small
-    ///         - GridTooLarge  an array of the volume does not fit a texture
-    ///         - BadArgument   the grid is not the volume's, or an option is out of range
+    ///         - NoGraphics    no context of OpenGL ES 3.0 is current, or its memory is too small.
+    ///         - GridTooLarge  an array of the volume does not fit a texture.
+    ///         - BadArgument   the grid is not the volume's, or an option is out of range.
     /// Cost: O(bytes of the bricks). Shaders are compiled when a frame first needs them, see README.md.
     [[nodiscard]] static Result<GlRenderer> make(const volume::BrickVolume& volume, const volume::Grid& grid,
                                                  const GlOptions& options = {});

@@ -11,13 +11,14 @@
 ///     |        air      # wall#      room
 ///     +--------> x
 ///
-///     the index has two steps: clusters of 4 x 4 x 4 bricks, x fastest, and bricks
-///       cluster        all its bricks are uniform and one same-label box has them all: the number of that box
-///                      otherwise: kMixedCluster, and where its list of bricks begins (`clusterWords`)
-///       list           64 bits: which bricks are coded; the count of coded bricks in the lists before; 64 bytes: by
-///                      brick, x fastest, the place of its entry in the table that follows: the distinct entries
+///     The index has two steps: clusters of 4 x 4 x 4 bricks, x fastest, and the bricks of each cluster.
+///       cluster        If one same-label box contains all bricks of the cluster: the number of this box.
+///                      Otherwise: kMixedCluster, and the start of its list of bricks in `clusterWords`.
+///       list           64 bits, one per brick: 1 if the brick is coded. The number of coded bricks in all previous
+///                      lists. 64 bytes, one per brick, x fastest: the place of its entry in the table that follows.
+///                      The table contains the distinct entries.
 ///
-///     with u same-label boxes and c boxes of coded bricks:
+///     With u same-label boxes and c boxes of coded bricks:
 ///       entry          kind     refers to
 ///       [0, u)         uniform  a same-label box: bounds in voxels and the scalar
 ///       [u, u + c)     coded    a box of coded bricks that share one code (BoxCoding)
@@ -27,15 +28,16 @@
 /// The ideas (ours unless a source is named):
 /// - All bricks of a same-label box hold one scalar, so a ray crosses the whole box in one step. Boxes may overlap.
 ///   This is empty-space skipping by EQUAL LABEL instead of emptiness: a change of styles never rebuilds anything.
-/// - Most mixed bricks are coded, by at most six planes or cuts across an axis (between two voxels; one for each axis):
-///   the sides on which a point lies select its scalar (brick_coder.hpp). All 512 samples of a brick keep their label.
-/// - Bricks that one code describes, with uniform bricks beside them, share a box. So a ray crosses a wall in as many
-///   steps as it meets labels, faces are flat even in close-up, and normals are those of planes.
-/// - Other bricks have a palette per brick, as in neuroglancer's compressed_segmentation, but with the indices as bit
-///   planes: a brick of two labels takes 64 bytes, and the mask of the voxels with one label is a few word operations.
-///   Coded bricks have a palette brick as well, for access to single voxels; it is found by the rank of the brick in the
-///   bit vector of its cluster.
-/// - Where nothing changes, a cluster takes 4 bytes, so the index grows with the surface, as all else does.
+/// - Most mixed bricks are coded by at most six sides: planes, and cuts between two voxels across an axis (at most one
+///   cut per axis). The sides on which a point lies select its scalar (brick_coder.hpp). All 512 samples of a brick
+///   keep their label.
+/// - Bricks that one code describes share a box, together with adjacent uniform bricks. So a ray through a wall takes
+///   one step per label, faces are flat even in close-up, and normals are those of planes.
+/// - Other bricks have a palette per brick, as in neuroglancer's compressed_segmentation, but store the indices as bit
+///   planes. A brick of two labels takes 64 bytes, and the mask of the voxels with one label takes a few word
+///   operations. Coded bricks have a palette brick as well, for access to single voxels. It is found by the rank of the
+///   brick in the bit vector of its cluster.
+/// - A cluster without changes of label takes 4 bytes, so the index grows with the surface, as all other arrays do.
 /// - Equal palette bricks are stored once, and so are equal bit planes (walls repeat along their length).
 
 #include <svt/core/progress.hpp>
@@ -63,8 +65,8 @@ struct SameLabelBox {
 /// How rays see the labels of mixed bricks.
 enum class BrickFaces : std::uint8_t {
     Planes,  ///< by cuts and planes, where these reproduce all samples; else by voxels
-    /// As planes, but borders parallel to an axis lie between voxels, not on the model's faces. Where some bricks find
-    /// the plane of a face and their neighbours do not, a picture would show ledges of up to half a voxel.
+    /// As Planes, but borders parallel to an axis stay between voxels and do not move to the model's faces. This avoids
+    /// ledges of up to half a voxel where some bricks find the plane of a face and their neighbours do not.
     Slopes,
     Voxels  ///< by voxels only
 };
@@ -73,8 +75,8 @@ enum class BrickFaces : std::uint8_t {
 class BrickVolume {
 public:
     static constexpr std::uint32_t kNoPlane = 0xFFFFFFFFu;
-    static constexpr std::size_t kMaxPlanes = 3;              ///< maximum of planes in a code
-    static constexpr std::size_t kMaxSides = 3 + kMaxPlanes;  ///< maximum of sides in a code: cuts and planes
+    static constexpr std::size_t kMaxPlanes = 3;              ///< maximum number of planes in a code
+    static constexpr std::size_t kMaxSides = 3 + kMaxPlanes;  ///< maximum number of sides in a code: cuts and planes
 
     static constexpr std::int32_t kBrickSize = 8;
     static constexpr std::int32_t kClusterSize = 4;  ///< bricks along an axis
@@ -100,11 +102,11 @@ public:
         /// Planes of the model's faces, in the voxel space of `columns`. They are tried first, in this order.
         std::span<const FacePlane> planes{};
         int threads = 0;                     ///< 0: all cores; the result does not depend on it
-        const Progress* progress = nullptr;  ///< is told of the stage "prepare"
+        const Progress* progress = nullptr;  ///< receives the progress of the stage "prepare"
     };
 
-    /// Bricks of `columns`. A given plane is used in a brick only if all samples of the brick agree with it. Each tile
-    /// of 64 x 64 columns tries the planes with faces in or next to it, 256 at most.
+    /// Makes the bricks of `columns`. A given plane is used in a brick only if all samples of the brick agree with it.
+    /// Each tile of 64 x 64 columns tries the planes with faces in or next to it, at most 256.
     /// \return the bricks, or GridTooLarge if there are more than kMaxBricks, a dimension is over 65535, or the mixed
     ///         bricks hold more than 2^32 - 1 words
     /// Cost: O(runs of distinct columns + bricks), plus 1 to 5 us per brick on oblique surfaces for planes.
@@ -135,7 +137,7 @@ public:
     }
     /// Same-label box of a brick that is not mixed.
     [[nodiscard]] const SameLabelBox& box(Entry uniform) const noexcept { return boxes_[uniform.value_]; }
-    /// Index of that box in boxes().
+    /// Index in boxes() of the same-label box of a brick that is not mixed.
     [[nodiscard]] std::size_t boxNumber(Entry uniform) const noexcept { return uniform.value_; }
     /// A view of a mixed brick, for fast access to many of its voxels.
     class MixedBrick {
@@ -167,16 +169,17 @@ public:
 
     /// The code of a box of bricks: cuts, planes and the label of each side combination. 24 bytes.
     struct BoxCoding {
-        /// Per axis: voxels of the volume below the cut, or the low bits of the number of a plane that takes its place.
+        /// Per axis: the number of voxels of the volume below the cut, or the low bits of the number of the plane that
+        /// replaces the cut.
         std::array<std::uint16_t, 3> cut{};
-        /// Bit a: the code has a cut across axis a. Bit 3 + a: a plane across axis a is in its place. Bits 6 + 3 a to
-        /// 8 + 3 a: the high bits of that plane's number.
+        /// Bit a: the code has a cut across axis a. Bit 3 + a: a plane across axis a replaces the cut. Bits 6 + 3 a to
+        /// 8 + 3 a: the high bits of the number of this plane.
         std::uint16_t cutAxes = 0;
-        std::array<std::uint32_t, kMaxPlanes> plane{kNoPlane, kNoPlane, kNoPlane};  ///< in planes()
-        /// Offset in palettes of the scalars by side combination. It has one bit per side in the order of forEachSide(),
-        /// from the lowest; 1 means beyond the cut, or on the positive side of the plane.
+        std::array<std::uint32_t, kMaxPlanes> plane{kNoPlane, kNoPlane, kNoPlane};  ///< indices in planes()
+        /// Offset in palettes of the scalars by side combination. A combination has one bit per side in the order of
+        /// forEachSide(), lowest bit first; 1 means beyond the cut, or on the positive side of the plane.
         std::uint32_t firstSideScalar = 0;
-        static constexpr std::uint32_t kMostPlanesInCuts = 1u << 19;  ///< those with lower numbers can be
+        static constexpr std::uint32_t kMostPlanesInCuts = 1u << 19;  ///< planes with lower numbers can replace cuts
         [[nodiscard]] bool hasCut(int axis) const noexcept { return ((cutAxes >> axis) & 1u) != 0; }
         [[nodiscard]] std::uint32_t planeInCut(int axis) const noexcept {
             if (((cutAxes >> (3 + axis)) & 1u) == 0) return kNoPlane;

@@ -108,12 +108,13 @@ public:
     /// Number of the column with these runs, added if new. Runs: ends ascending, last = nz, adjacent ones differ in
     /// scalar.
     [[nodiscard]] std::uint16_t addColumn(std::span<const Run> runs);
-    /// The same without a copy: returns space for at most `count` runs, to be filled by the caller, ...
+    /// The same without a copy: returns space for at most `count` runs. The caller fills it and calls endColumn().
     [[nodiscard]] Run* beginColumn(std::size_t count) {
         if (runs_.size() < runCount_ + count) runs_.resize(2 * (runCount_ + count));
         return runs_.data() + runCount_;
     }
-    /// ... who then gives the actual `count` of runs, at most that of beginColumn(), and gets the number of the column.
+    /// Ends the column of beginColumn(). `count` is its actual number of runs, at most that of beginColumn().
+    /// \return the number of the column
     [[nodiscard]] std::uint16_t endColumn(std::size_t count);
     /// Adds the next row: `width` column numbers.
     void addRow(std::span<const std::uint16_t> columns);

@@ -68,7 +68,7 @@ void copyTile(const ColumnVolume& columns, std::int32_t tileX, std::int32_t tile
     out += static_cast<std::size_t>(tileX * kTile + first - box.iBegin) +
            stride * static_cast<std::size_t>(tileY * kTile + rowBegin - box.jBegin);
 
-    // The rows of the dictionary are unpacked where one of their columns changes; what is written are copies of them.
+    // The rows of the dictionary are unpacked again only if a column changes; the output consists of copies of them.
     const std::size_t rows = tile.rowColumns.size() / tileWidth;
     std::vector<T> unpacked(rows * width);
     Plane<T> plane(tile, box.kBegin);

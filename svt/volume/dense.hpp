@@ -29,7 +29,8 @@ struct DenseBox {
 /// ni = iEnd - iBegin and nj = jEnd - jBegin.
 /// `T` is std::uint8_t, std::uint16_t or std::uint32_t and must hold every scalar; the box must lie inside the volume
 /// and `out` must have exactly its size.
-/// Cost: about 0.5 ns per sample and core, pages of new memory included. Prefer boxes of several k: each call searches every column once.
+/// Cost: about 0.5 ns per sample and core, pages of new memory included. Prefer boxes of several k: each call searches
+/// every column once.
 /// \param threads  at most this many; 0: all cores. The result does not depend on it.
 template <class T>
 void copyBox(const ColumnVolume& columns, const DenseBox& box, std::span<T> out, int threads = 0);

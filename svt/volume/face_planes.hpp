@@ -15,8 +15,8 @@
 
 namespace svt::volume {
 
-/// The points p of voxel space (index space + 1/2) with dot(normal, p) + offset = 0. Where the value is positive is one
-/// side, the rest is the other. `normal` has length 1, in voxels.
+/// The points p of voxel space (index space + 1/2) with dot(normal, p) + offset = 0. The positive side has the points
+/// with a positive value; the other side has all others. `normal` has length 1, in voxels.
 struct BrickPlane {
     Vec3d normal{};
     double offset = 0;
@@ -47,15 +47,16 @@ struct FacePlane {
 /// The planes across an axis near each border between voxels. Thread-safe to read.
 class FaceBorders {
 public:
-    /// For the voxels [low, low + size). Faces across no axis are left out.
+    /// For the voxels [low, low + size). Faces that are not across an axis are left out.
     /// \param faces  must outlive this
     FaceBorders(Vec3i low, Vec3i size, std::span<const FacePlane> faces);
 
     [[nodiscard]] bool isEmpty() const noexcept { return count_ == 0; }
 
-    /// The plane of a face across `axis` in or beside the voxels [brick, brick + 8), between the samples on both sides of
-    /// `border` (voxels from the corner of the volume); of several the one whose faces cover most of the brick's side.
-    /// Its normal points up the axis. A plane across the axis itself has exactly that axis as normal.
+    /// Finds the plane of a face across `axis` in or next to the voxels [brick, brick + 8), between the samples on both
+    /// sides of `border` (voxels from the corner of the volume). If there are several, the plane whose faces cover most
+    /// of the brick's side wins. Its normal points up the axis. A plane exactly across the axis has exactly this axis
+    /// as its normal.
     [[nodiscard]] std::optional<BrickPlane> find(int axis, std::int32_t border, Vec3i brick) const;
 
 private:

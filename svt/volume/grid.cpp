@@ -83,9 +83,9 @@ Result<Grid> Grid::fromParts(Vec3i dimension, Vec3d spacing, Vec3d origin, const
     for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b)
             if (!(std::abs(dot(axes[a], axes[b]) - (a == b ? 1.0 : 0.0)) < 1e-9))
-                return Error(Code::BadDimension, "the axes of the grid are no rotation");
+                return Error(Code::BadDimension, "the axes of the grid are not a rotation");
     if (!(dot(cross(axes[0], axes[1]), axes[2]) > 0))
-        return Error(Code::BadDimension, "the axes of the grid are mirrored, no rotation");
+        return Error(Code::BadDimension, "the axes of the grid are mirrored, not a rotation");
     Grid grid;
     grid.dimension_ = dimension;
     grid.spacing_ = spacing;

@@ -9,10 +9,10 @@
 ///      x---x---x---x                     +-----------+
 ///                                      x   x   x   x   x
 ///
-/// By dimension it is the node grid of the paper (section 3.2), spacing[i] = envelope[i] / (dimension[i] - 1): the first
-/// and last samples lie on the envelope. By spacing they lie half a step outside of it, so that faces at whole steps lie
-/// between samples, the lower ones like the upper ones, and a model that is turned by 90 or 180 degrees gets the same
-/// labels.
+/// A grid by dimension is the node grid of the paper (section 3.2), spacing[i] = envelope[i] / (dimension[i] - 1): the
+/// first and last samples lie on the envelope. In a grid by spacing, they lie half a step outside of it. So faces at
+/// whole steps lie between samples, both lower and upper faces. A model that is rotated by 90 or 180 degrees gets the
+/// same labels.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>

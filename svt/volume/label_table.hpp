@@ -47,7 +47,7 @@ struct Label {
     double volume = 0;  ///< m3: of the closed mesh; of the voxels for bodies; 0 for surfaces
     Filling filling = Filling::None;
     std::uint64_t thinVoxels = 0;       ///< voxels from the pass for thin parts only
-    std::uint64_t uncertainVoxels = 0;  ///< voxels with a winding number over 0.25 from a whole one
+    std::uint64_t uncertainVoxels = 0;  ///< voxels with a winding number over 0.25 from a whole number
     Vec3f color{0.8f, 0.8f, 0.8f};      ///< default style: sRGB, 0..1
     float opacity = 1;                  ///< default style: fraction of light stopped by 1 m; 1 = opaque surface
 
@@ -62,7 +62,7 @@ struct Overlap {
     friend bool operator==(const Overlap&, const Overlap&) = default;
 };
 
-/// All labels in tree order, and who owns a scalar.
+/// All labels in tree order, and the owner of each scalar.
 struct LabelTable {
     std::vector<Label> labels;
     std::vector<Overlap> overlaps;  ///< ordered by (a, b)

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
 /// Coarse levels of a label volume. A cell of level L covers a block of 2^L samples per axis and stores the labels in
-/// it with their coverage, so that thin parts are not lost: a wall one voxel thick has coverage 1/8 in a cell of 8. No
-/// colours are stored: they come from the current styles when a mixture is drawn.
+/// it with their coverage. So thin parts are not lost: a wall one voxel thick has coverage 1/8 in a cell of 8. Colours
+/// are not stored: they come from the current styles when a mixture is drawn.
 /// After Al-Thelaya, Agus, Schneider: The Mixture Graph, IEEE TVCG 2020.
 
 #include <svt/core/result.hpp>
@@ -24,7 +24,7 @@ struct MixturePart {
     friend bool operator==(const MixturePart&, const MixturePart&) = default;
 };
 
-/// The content of a cell: its most frequent labels except background, four at most, most frequent first (ties: the
+/// The content of a cell: its most frequent labels except background, at most four, most frequent first (ties: the
 /// smaller scalar first). Background covers the rest. The share of further labels is distributed among the first four
 /// in proportion.
 struct Mixture {
@@ -47,14 +47,14 @@ struct LodLevel {
     BrickVolume bricks;
 };
 
-/// Levels 1, 2, ... of `columns`, each with half the resolution of the one before; none for a very small volume.
+/// Levels 1, 2, ... of `columns`, each with half the resolution of the previous one; no levels for a very small volume.
 ///
 /// A level has ceil(n / 2^L) cells per axis. If 2^L does not divide n, the coverage of the last cell refers to the
 /// samples that exist. The levels end at `coarsest`, or before a dimension would fall below 2.
 /// \param grid      grid of `columns`
 /// \param coarsest  last level, 1..6
 /// \param threads   0: all cores; the result does not depend on it
-/// \param progress  is told of the stage "prepare"; may be null
+/// \param progress  receives the progress of the stage "prepare"; may be null
 /// \return the levels, finest first, or BadArgument if `coarsest` is out of range or the dimension of `grid` differs
 ///         from that of `columns`
 /// Cost: O(columns + runs of the distinct blocks of columns) per level.
@@ -62,12 +62,14 @@ struct LodLevel {
                                                             int coarsest = 6, int threads = 0,
                                                             const Progress* progress = nullptr);
 
-/// Count of the levels that buildLodPyramid() makes of a volume of this dimension, 0 to 6.
+/// Number of levels that buildLodPyramid() makes from a volume of this dimension, 0 to 6.
 [[nodiscard]] int lodLevelCount(Vec3i dimension) noexcept;
 
-/// One of these levels alone, equal to that of buildLodPyramid(): each is made of `columns`, not of the one before.
+/// One level, equal to the same level of buildLodPyramid(), since each is made from `columns`, not from the previous
+/// one.
 /// \param level  1 to lodLevelCount(columns.dimension())
-/// \return the level, or BadArgument if there is no such level or the dimension of `grid` differs from that of `columns`
+/// \return the level, or BadArgument if there is no such level or the dimension of `grid` differs from that of
+///         `columns`
 /// Cost: O(columns + runs of the distinct blocks of columns).
 [[nodiscard]] Result<LodLevel> buildLodLevel(const ColumnVolume& columns, const Grid& grid, int level, int threads = 0);
 

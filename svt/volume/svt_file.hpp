@@ -3,13 +3,14 @@
 /// The `.svt` file: a semantic volume in one file that any ZIP tool can open, with its columns compressed in blocks
 /// that can be read individually. docs/formats/svt.md specifies it to the bit.
 ///
-///     mimetype         application/vnd.svt+zip
-///     svt.json         version, grid, names
-///     labels.json      label table, overlaps, phase colors (deflated)
-///     columns/index    index of the blocks, see column_blocks.hpp
-///     columns/blocks   zstd frames, one per block
-///     meshes/shapes    lines and triangles by label, see vector_parts.hpp; optional (meshes/parts in older files)
-///     meshes/planes    planes of the model's faces, see face_planes.hpp; optional
+///     | entry          | content
+///     | mimetype       | application/vnd.svt+zip
+///     | svt.json       | version, grid, names
+///     | labels.json    | label table, overlaps, phase colors (deflated)
+///     | columns/index  | index of the blocks, see column_blocks.hpp
+///     | columns/blocks | zstd frames, one per block
+///     | meshes/shapes  | lines and triangles by label, see vector_parts.hpp; optional (meshes/parts in older files)
+///     | meshes/planes  | planes of the model's faces, see face_planes.hpp; optional
 
 #include <svt/core/result.hpp>
 #include <svt/volume/column_blocks.hpp>
@@ -27,12 +28,15 @@ namespace svt::volume {
 /// Writes `volume` to the file `path` atomically (see AtomicFile). Equal volumes give equal bytes.
 /// In strings that are not valid UTF-8, each wrong byte is replaced by U+FFFD. Cost: that of compressColumns. Memory:
 /// the file.
-/// \return bytes written, or CannotWrite or DiskFull; BadArgument if grid and columns differ in dimension, a scalar
-///         belongs to no label, the label table, vectors or planes are invalid (checkLabels, checkVectorParts,
-///         checkFacePlanes), or a limit is exceeded
+/// \return bytes written, or
+///         - CannotWrite, DiskFull.
+///         - BadArgument  if grid and columns differ in dimension, a scalar belongs to no label, the label table,
+///                        vectors or planes are invalid (checkLabels, checkVectorParts, checkFacePlanes), or a limit is
+///                        exceeded.
 [[nodiscard]] Result<std::uint64_t> writeSvt(const SemanticVolume& volume, const std::filesystem::path& path);
 
-/// The bytes that writeSvt() would write, for files of many volumes. Errors as there, but for those of writing.
+/// The bytes that writeSvt() would write, for files of many volumes. Errors as writeSvt(), except CannotWrite and
+/// DiskFull.
 [[nodiscard]] Result<std::vector<std::byte>> svtBytes(const SemanticVolume& volume);
 
 /// Opens the file `path` and decodes all columns in parallel.
@@ -65,7 +69,7 @@ struct SvtBlocks {
 
 /// Whether a file that begins with `head` (at least 61 bytes) has the signature of a `.svt`.
 [[nodiscard]] bool looksLikeSvt(std::span<const std::byte> head) noexcept;
-/// looksLikeSvt() of the first bytes of a regular file; false where there is none.
+/// looksLikeSvt() of the first bytes of a regular file; false if there is no such file.
 [[nodiscard]] bool isSvtFile(const std::filesystem::path& path);
 
 }  // namespace svt::volume

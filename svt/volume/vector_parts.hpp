@@ -14,8 +14,8 @@
 namespace svt::volume {
 
 /// Lines and triangles by label. Points are integer multiples of `unit`, relative to Grid::origin(), along the axes of
-/// world space (also in a rotated grid). Memory and file hold the same numbers; rounding moves a point by at most half a
-/// unit per axis.
+/// world space (also in a rotated grid). Memory and file hold the same numbers; rounding moves a point by at most half
+/// a unit per axis.
 struct VectorParts {
     /// Unit of models within 1 km of the grid's lower corner, metres: about a micrometre.
     static constexpr double kFinestUnit = 0x1p-20;
@@ -48,8 +48,8 @@ struct VectorParts {
 };
 
 /// Checks parts from an untrusted source.
-/// \return success, or BadVolume that names a part that is out of order or refers to a missing label or point, or a
-///         unit that is none
+/// \return success, or BadVolume that names the unit if it is invalid, or the part that is out of order or refers to a
+///         missing label or point
 [[nodiscard]] Result<void> checkVectorParts(const VectorParts& parts, std::size_t labelCount);
 
 /// The parts as one zstd frame, see docs/formats/svt.md. Equal parts give equal bytes.

@@ -18,7 +18,7 @@ inline constexpr int kSvtMinorVersion = 0;
 inline constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 20;
 inline constexpr std::size_t kMaxLabelsBytes = std::size_t{1} << 30;
 
-/// What `svt.json` holds.
+/// The content of `svt.json`.
 struct SvtHeader {
     Grid grid;
     Scalar scalarCount = 1;
@@ -27,7 +27,7 @@ struct SvtHeader {
     std::string source;
 };
 
-/// Which characters are written to JSON without escapes.
+/// The characters that are written to JSON without escapes.
 enum class JsonCharacters { Utf8, AsciiOnly };
 
 /// Appends `text` as a JSON string with quotes. Bytes that are not valid UTF-8 become U+FFFD.
@@ -55,7 +55,8 @@ void appendJsonLabel(std::string& json, const Label& label, JsonCharacters chara
 [[nodiscard]] Result<void> checkLabels(const LabelTable& labels);
 
 // ------------------------------------------------------------------------------------------------------- the seal
-// A volume in a format of others has checksums beside its table, so that damage is noticed where the format has none.
+// A volume in a format of other programs has checksums next to its table, which reveal damage if the format has no own
+// checksums.
 
 /// CRC-32 of `svt.json` followed by `labels.json` of a volume.
 [[nodiscard]] std::uint32_t tableChecksum(const SemanticVolume& volume);
@@ -68,7 +69,7 @@ struct VolumeSeal {
 /// Both checksums as text, such as "svt-seal 01234567 89abcdef".
 /// \param columns  the samples that are written
 [[nodiscard]] std::string sealText(const SemanticVolume& volume, const ColumnVolume& columns);
-/// The seal that a text begins with; nothing for another text.
+/// The seal at the start of a text; nullopt if there is no seal.
 [[nodiscard]] std::optional<VolumeSeal> readSeal(std::string_view text) noexcept;
 
 }  // namespace svt::volume

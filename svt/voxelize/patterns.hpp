@@ -62,7 +62,7 @@ struct Pattern {
     PatternKind kind = PatternKind::None;
     Vec3d size{
         0, 0,
-        0};  ///< of one unit along u, v, w; hatch, stripes, wood grain and concrete use w alone; 0: the kind's default
+        0};  ///< of one unit along u, v, w; hatch, stripes, wood grain and concrete use only w; 0: the kind's default
     double line = 0;                              ///< width of joints and lines; 0: the kind's default
     double angleDegrees = 45;                     ///< hatch: from u towards w
     std::uint32_t seed = 1;                       ///< grains, rings
@@ -71,7 +71,7 @@ struct Pattern {
     /// Number of scalars that an object with this pattern owns; 1 for None.
     [[nodiscard]] std::uint32_t phaseCount() const noexcept;
     /// Phase at a point along the object's axes (metres from the lower corner of its envelope along them), 0 to
-    /// phaseCount() - 1. Same result on every machine: of the math library only sqrt and floor are used.
+    /// phaseCount() - 1. The result is the same on every machine: only sqrt and floor of the math library are used.
     [[nodiscard]] std::uint32_t phaseAt(Vec3d uvw) const noexcept;
 };
 
@@ -95,7 +95,7 @@ struct ObjectAxes {
     Vec3d extent{};  ///< of its envelope along them, metres
 };
 /// Finds the dominant horizontal edge direction: the fullest bin of a length-weighted histogram of one-degree bins,
-/// refined to the mean direction of that bin.
+/// refined to the mean direction within the bin.
 [[nodiscard]] ObjectAxes dominantAxes(const mesh::ObjectMesh& mesh) noexcept;
 
 struct PatternedObject {
@@ -104,11 +104,10 @@ struct PatternedObject {
     ObjectAxes axes;
 };
 
-/// Fits brick and block to an object and a grid. Units are stretched or squeezed so that whole ones fill the object's extent
-/// (half units along u and v, since every second course begins
-/// with one): its faces show bricks then, and not the joint within.
-/// Joints that are thinner than a voxel become as wide as one, where a unit has three at least: else samples would meet some
-/// and miss others. Other kinds stay.
+/// Fits brick and block to an object and a grid. Units are scaled so that whole units fill the object's extent (half
+/// units along u and v, since every second course begins with one). So its faces show bricks, and not a joint inside.
+/// Joints thinner than a voxel become one voxel wide if a unit has at least three voxels. Otherwise samples would hit
+/// some joints and miss others. Other kinds stay.
 /// \param spacing  of the grid, metres
 void fitPattern(PatternedObject& object, Vec3d spacing) noexcept;
 

@@ -3,11 +3,11 @@
 /// Voxelizes meshes into the canonical label volume. No dense array is used: every column is built as runs, and equal
 /// columns and rows are shared right away.
 ///
-/// Exactness. In index space vertices are snapped to even multiples of 1/512 voxel, and samples are offset from them by
-/// 1/512 voxel along each axis, so that no vertex and no axis-parallel edge or face ever passes through a sample. All
+/// Exactness. In index space, vertices are snapped to even multiples of 1/512 voxel, and samples are offset from them
+/// by 1/512 voxel along each axis. So no vertex and no axis-parallel edge or face ever passes through a sample. All
 /// other cases are decided in 64-bit integers with half-open rules, and heights come from planes shared by all objects.
-/// Therefore a voxel is inside exactly when its centre is, except for centres within 1/256 voxel of a face, and solids
-/// that share a face neither both claim a voxel there nor leave a gap between them.
+/// Therefore a voxel is inside exactly when its centre is, except for centres within 1/256 voxel of a face. Solids that
+/// share a face neither both claim a voxel there nor leave a gap between them.
 
 #include <svt/core/names.hpp>
 #include <svt/core/progress.hpp>
@@ -24,14 +24,14 @@
 
 namespace svt::voxelize {
 
-/// What the voxelizer needs to know about an object besides its mesh.
+/// The properties of an object that the voxelizer needs besides its mesh.
 struct ObjectClaim {
     volume::Scalar scalar = 0;  ///< written to its voxels, > 0
     std::uint8_t rank = 0;      ///< where objects overlap, the lower rank wins, then the smaller volume, then the id
     std::string id;             ///< last tie-break
-    /// A surface around a body that is an object, too, such as a roof of a building with a solid. As a thin sheet it gets no
-    /// voxels that only separate what is in front of it from what is behind: the body does that, and beyond the edges of
-    /// its faces they would stick out.
+    /// The surface bounds a body that is also an object, such as the roof of a building with a solid. As a thin sheet,
+    /// it gets no voxels that only separate its two sides from each other. The body already does that, and such voxels
+    /// would stick out beyond the edges of its faces.
     bool boundsBody = false;
 };
 
@@ -64,7 +64,7 @@ struct VoxelizeResult {
     std::vector<std::uint64_t>
         thinVoxels;  ///< per object: voxels claimed only by the pass for thin parts, before priority is applied
     std::vector<std::uint64_t>
-        uncertainVoxels;                  ///< per object: voxels with a winding number over 0.25 from a whole one
+        uncertainVoxels;                  ///< per object: voxels with a winding number over 0.25 from a whole number
     std::vector<std::uint32_t> unfilled;  ///< open shells with too many holes for winding numbers: kept as sheets
     std::vector<ClaimPair> overlaps;      ///< ordered by (a, b); between solids only. Where more than 16 solids claim a
                                           ///< voxel, only pairs with one of the first 16 count it
@@ -79,7 +79,7 @@ struct VoxelizeResult {
 /// object's last voxel.
 ///
 /// \param claims  one per meshes.objects, same order
-/// \param grid    need not contain all objects; what lies outside is clipped
+/// \param grid    need not contain all objects; parts outside are clipped
 /// \return the volume, or GridTooLarge (also where sheets or the surroundings of holes need too many voxels), or
 ///         Cancelled
 /// Cost: O(triangles * rows they cover + distinct columns); open shells in addition about O(area of their holes in

@@ -91,7 +91,7 @@ private:
         std::sort(row_.begin(), row_.end(), [](const Strip& a, const Strip& b) { return a.key() < b.key(); });
     }
 
-    // Both lists are bottom up: an open strip goes on where the column has the same interval.
+    // Both lists are bottom up: an open strip continues if the column has the same interval.
     void joinColumn(std::int32_t i) {
         next_.clear();
         std::size_t at = 0;

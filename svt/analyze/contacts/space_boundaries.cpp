@@ -17,7 +17,7 @@ struct Sums {
     std::vector<std::uint64_t> samples;  // of each layer, over all lines
 };
 
-// Lines are counted by what they lead through. Key: a, b, axis, then the labels from a to b.
+// Counts lines by the labels on their way. Key: a, b, axis, then the labels from a to b.
 class PathCounter {
 public:
     void add(std::uint32_t from, std::uint32_t to, int axis,
@@ -27,7 +27,7 @@ public:
         for (const auto& layer : layers) key_.push_back(layer.first);
         const bool isReversed = from > to;
         if (isReversed) std::reverse(key_.begin() + 3, key_.end());
-        // Neighbouring lines mostly lead through the same.
+        // Neighbouring lines mostly lead through the same labels.
         if (last_ == paths_.end() || last_->first != key_) last_ = paths_.try_emplace(key_).first;
         Sums& sums = last_->second;
         sums.samples.resize(layers.size());
@@ -58,7 +58,7 @@ private:
     std::vector<std::uint32_t> key_;
 };
 
-// A line of samples, as far as it was followed: the last space that it left, and what came since.
+// A line of samples, as far as it was followed: the last space that it left, and the labels since then.
 class Line {
 public:
     // From `position` on the line is in `label`, which belongs to `space`.
@@ -80,7 +80,7 @@ public:
 private:
     std::uint32_t from_ = kNoLabel;
     std::vector<std::pair<std::uint32_t, std::int32_t>> layers_;  // label, samples
-    std::uint32_t label_ = kNoLabel, space_ = kNoLabel;           // at the moment
+    std::uint32_t label_ = kNoLabel, space_ = kNoLabel;           // current ones
     bool isOpen_ = true;
     std::int32_t begin_ = 0;
 };
@@ -154,7 +154,7 @@ private:
 
 std::vector<std::uint32_t> spacesOfLabels(const volume::LabelTable& labels) {
     std::vector<std::uint32_t> spaces(labels.labels.size(), kNoLabel);
-    // Parents stand before their children.
+    // Parents come before their children.
     for (std::uint32_t l = 0; l < spaces.size(); ++l) {
         const volume::Label& label = labels.labels[l];
         if (model::isSpace(label.className)) {

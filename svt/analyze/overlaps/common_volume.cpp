@@ -11,7 +11,8 @@ struct PlanPoint {
     double x = 0, y = 0;
 };
 
-// A convex polygon seen from above. Each of four lines adds a corner; where rounding bends a side, up to half as many again.
+// A convex polygon seen from above. Each of four lines adds a corner; if rounding bends a side, up to half as many
+// again.
 struct PlanPolygon {
     std::array<PlanPoint, 20> points;
     std::size_t count = 0;
@@ -19,7 +20,7 @@ struct PlanPolygon {
     void add(PlanPoint p) { points[count++] = p; }
 };
 
-// What of a polygon lies where `valueAt` is positive; it is linear.
+// Clips a polygon to the part where `valueAt`, a linear function, is positive.
 template <class ValueAt>
 PlanPolygon clipped(const PlanPolygon& polygon, const ValueAt& valueAt) {
     PlanPolygon kept;
@@ -100,7 +101,7 @@ bool makeRoofTriangle(const std::array<Vec3d, 3>& corners, RoofTriangle& triangl
 }
 
 std::uint64_t comparisons(std::span<const RoofTriangle> a, std::span<const RoofTriangle> b) {
-    // All pairs, less those of which one ends before the other begins.
+    // All pairs, except those where one ends before the other begins.
     std::vector<double> endsA, endsB;
     for (const RoofTriangle& t : a) endsA.push_back(t.maxX);
     for (const RoofTriangle& t : b) endsB.push_back(t.maxX);

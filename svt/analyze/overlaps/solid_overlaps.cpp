@@ -72,7 +72,7 @@ Box3d commonBox(const Box3d& a, const Box3d& b) {
     return hasVolume ? box : Box3d{};
 }
 
-// What a solid has in a box.
+// The part of a solid in a box.
 struct Clip {
     std::vector<RoofTriangle> roofs;  // above, in and below the box, in order of minX
     double area = 0;                  // m2 in the box, at most
@@ -124,7 +124,7 @@ public:
     }
 
 private:
-    // Takes steps of the work; false if there are not so many left.
+    // Takes steps of the work; false if fewer are left.
     bool take(std::uint64_t steps) {
         if (steps > work_) {
             isComplete_ = false;
@@ -157,7 +157,8 @@ private:
         SolidOverlap overlap{a, b};
         const double lowest = std::min(ofS.lowest, ofT.lowest);
         overlap.volume = std::max(0.0, commonVolume(ofS.roofs, ofT.roofs, lowest));
-        // Each face lies within the rounding of its corners. The sum of prisms rounds, too, also where no face is in the box.
+        // Each face lies within the rounding of its corners. The sum of prisms rounds, too, also where no face is in
+        // the box.
         constexpr double kRoundingOfSum = 1e-9;
         const Vec3d size = box.size();
         overlap.bound = (ofS.area + ofT.area) * volume_.vectors.unit +
@@ -168,7 +169,7 @@ private:
         if (overlap.voxels > 0 || overlap.volume > overlap.bound) found_[{a, b}] = overlap;
     }
 
-    // Who has what both claim, as the voxelizer decides it.
+    // First the label that gets the space that both claim, by the rule of the voxelizer.
     [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> inOrder(std::uint32_t a, std::uint32_t b) const {
         const auto key = [&](std::uint32_t l) {
             const volume::Label& label = labels_[l];

@@ -64,7 +64,7 @@ Camera fitted(const Preset& preset, std::span<const Vec3d> points, const Axes& a
     const Vec3d right = normalized(cross(forward, along(axes, preset.up)));
     const CameraAxes view{right, cross(right, forward), forward};
     const double free = 1 - 2 * options.margin;
-    // The picture as wide as what lies between the side margins.
+    // Aspect ratio of the picture between the side margins.
     const double aspect = options.aspect * (1 - 2 * std::max(options.margin, options.sideMargin)) / free;
     Camera camera;
     camera.projection = options.projection;

@@ -25,7 +25,7 @@ void drawCellEdges(const PreparedFrame& frame, std::size_t pass, double u, doubl
     double ink = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const Vec3d across = grid.axes()[static_cast<std::size_t>(axis)];
-        // How far one goes on the face to leave the voxel along this axis.
+        // Along the face, a voxel has the length spacing / slope in the direction of this axis.
         const double slope = std::sqrt(std::max(0.0, 1 - dot(normal, across) * dot(normal, across)));
         if (slope < 0.1) continue;
         const double size = grid.spacing()[axis] / slope;

@@ -7,8 +7,8 @@
 
 namespace svt::render {
 
-/// Draws the edges of the voxel, or cell of a level, on which a sample lies. Where cells are less than three pixels wide
-/// they are left out: they would only darken the picture.
+/// Draws the edges of the voxel, or cell of a level, on which a sample lies. Where cells are less than three pixels
+/// wide they are left out: they would only darken the picture.
 /// \param pass  whose sample it is
 /// \param u, v  see CameraRays::at()
 void drawCellEdges(const PreparedFrame& frame, std::size_t pass, double u, double v, Sample& sample) noexcept;

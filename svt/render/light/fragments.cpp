@@ -163,8 +163,8 @@ double FragmentFinder::addSurfaces(std::size_t pass, double u, double v, const C
     return end;
 }
 
-// Finds the body that the ray is inside at a depth, the one entered last; null if in none. An object that the ray does
-// not enter as often as it leaves it is an open sheet, not a body.
+// Finds the body that the ray is inside at a depth: the one entered last; null if there is no such body. An object that
+// the ray does not enter as often as it leaves it is an open sheet, not a body.
 const PictureTriangle* FragmentFinder::findCutBody(const PassShapes& shapes, double depth) {
     bodies_.clear();
     for (const Hit& hit : hits_) {

@@ -2,9 +2,9 @@
 /// \file
 /// Fragments: the lines and triangles that a ray meets, and how they are blended with the volume.
 ///
-/// Both casters find and blend fragments by this code, so that they cannot differ. Where a ray meets a fragment inside
-/// a run, the run is blended up to there, then the fragment, then the rest of the run: it is not lit again, and the ray
-/// is not walked twice.
+/// Both casters use this code to find and blend fragments, so that they cannot differ. If a ray meets a fragment inside
+/// a run, the run is blended up to the fragment, then the fragment, then the rest of the run. The run is not lit again,
+/// and the ray is not walked twice.
 
 #include <svt/render/light/line_kernel.hpp>
 #include <svt/render/light/sample.hpp>
@@ -46,7 +46,7 @@ struct Fragments {
     }
 };
 
-/// Blends a fragment behind what a ray has accumulated, front to back.
+/// Blends a fragment behind the light that a ray has accumulated, front to back.
 /// \param transmittance  of voxels and surfaces
 /// \param lines          transmittance of lines: separate, so that a line ends no ray and does not change the label
 inline void blend(const Fragment& fragment, Vec3d& color, double& transmittance, double& lines) noexcept {
@@ -88,7 +88,7 @@ public:
 
     /// Appends the surfaces that the ray through (u, v) meets in the intervals `drawn`, up to the first opaque one, and
     /// sorts the ray's fragments, from index `first` on, by depth.
-    /// \return depth of that opaque one, where the ray ends; infinity if there is none
+    /// \return depth of the first opaque surface, where the ray ends; infinity if there is none
     double addSurfaces(std::size_t pass, double u, double v, const CameraRay& ray, std::span<const DrawnInterval> drawn,
                        std::size_t first, Fragments& fragments);
 

@@ -112,8 +112,8 @@ VoxelWindow layersAlong(const VoxelWindow& window, int axis, int sign) noexcept 
     return layers;
 }
 
-// The body's surface as a height field over the plane across an axis: bit (p, q) of tops[h] is set if a voxel of layer
-// h is body and that of layer h + 1 is not.
+// The body's surface as a height field over the plane across an axis. Bit (p, q) of tops[h] is set if the voxel of
+// layer h is body and the voxel of layer h + 1 is not.
 struct Heights {
     VoxelWindow tops{};
     std::uint64_t places = 0;

@@ -80,7 +80,7 @@ struct SurfaceNormal {
 /// Normal of the surface next to the centre of a window. The window is centred on the voxel in front of the surface, so
 /// that a sheet one voxel thick has two sides.
 /// \param faceAxis  axis of the voxel face that the ray hits, 0..2
-/// \param faceSign  sign of that face's normal along the axis, 1 or -1
+/// \param faceSign  sign of the normal of this face along the axis, 1 or -1
 ///
 /// The surface is a height field over the face's plane, grown from the face while neighbouring heights differ by at
 /// most one voxel. If all heights are equal, the normal is exactly the face's, up to the edges of a wall. Else it is

@@ -2,10 +2,10 @@
 /// \file
 /// Casts rays in packets, with the results of SampleCaster to the last bit.
 ///
-/// The scalar part around the kernel: it collects up to 64 rays and clips them to the hull of what a pass shows. It
-/// splits them at clips, so that each round walks the n-th interval of all rays at once. It finds the lines and
-/// triangles that they meet, and joins the passes from the last to the first, since what an opaque pass hides need not
-/// be cast.
+/// The scalar part around the kernel: it collects up to 64 rays and clips them to the hull of the visible parts of a
+/// pass. It splits them at clips, so that each round walks the n-th interval of all rays at once. It finds the lines
+/// and triangles that they meet, and casts the passes from the last to the first, since rays that an opaque pass hides
+/// need not be cast.
 
 #include <svt/render/light/fragments.hpp>
 #include <svt/render/light/sample.hpp>

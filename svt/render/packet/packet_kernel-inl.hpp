@@ -1,6 +1,6 @@
 /// \file
 /// The packet kernel for one set of instructions: SVT_KERNEL_TARGET, a target of Highway. Each is a source file of its
-/// own (packet_kernel_avx2.cpp, ...), because compiling one takes as long as all else of this folder.
+/// own (packet_kernel_avx2.cpp, ...), because compiling one takes as long as the rest of this folder.
 
 #ifndef SVT_KERNEL_TARGET
 #error "define SVT_KERNEL_TARGET before including this file"

@@ -14,10 +14,10 @@
 ///
 ///     change rows of a group (here of 4 lanes): written by the walk, read by the shader
 ///
-///                lane 0    lane 1    lane 2    lane 3
-///     row 0      t, a      t, a      t, a      t, a       a lane has at most one change of label in a row, and its
-///     row 1      t, b      t, c      t, b      t, b       rows are in the order of t; lanes that change in the same
-///     row 2      -         t, d      t, d      -          step share a row
+///     |          lane 0    lane 1    lane 2    lane 3
+///     | row 0    t, a      t, a      t, a      t, a       a lane has at most one change of label in a row, and its
+///     | row 1    t, b      t, c      t, b      t, b       rows are in the order of t; lanes that change in the same
+///     | row 2    -         t, d      t, d      -          step share a row
 ///
 /// - Packet traversal (Wald et al. 2001): neighbouring rays cross mostly the same boxes of bricks. A box is looked up
 ///   once and its numbers are broadcast to all lanes, so the walk through boxes needs no gather.
@@ -29,9 +29,9 @@
 /// - Deferred shading: the walk only writes changes of label into rows; a group is shaded row by row at the end of its
 ///   walk, or once it has 24 rows (1 row where only labels are wanted). So most lanes are active in the shader. Rays
 ///   that it ends leave the walk (ours).
-/// - The same arithmetic in the same order as VoxelRay, RunWalk and RunShader, in doubles and without fused
-///   multiply-add: runs, labels, depths and colors are those of the plain caster to the last bit, on every instruction
-///   set (ours).
+/// - The arithmetic and its order are those of VoxelRay, RunWalk and RunShader, in doubles and without fused
+///   multiply-add. So runs, labels, depths and colors are those of the plain caster to the last bit, on every
+///   instruction set (ours).
 
 #include <svt/render/camera_rays.hpp>
 #include <svt/render/light/surface_light.hpp>
@@ -82,8 +82,8 @@ struct PacketSamples {
     Lanes<double> nextFragment;  ///< depth of the ray's next fragment; infinity if there is none
 };
 
-/// A surface that the kernel does not shade itself and asks PacketPass::surface for: its normal is fitted to voxels, it
-/// is a cap, the eye is inside, or it belongs to a body that is not opaque.
+/// A surface that PacketPass::surface shades for the kernel. Its normal is fitted to voxels, it is a cap, the eye is
+/// inside, or it belongs to a body that is not opaque.
 struct PacketSurface {
     std::size_t lane;
     std::int64_t scalar, plane;

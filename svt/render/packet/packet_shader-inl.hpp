@@ -4,9 +4,8 @@
 ///
 /// Takes the change rows of a walk. At each change, the run before is blended front to back: extinction over its length
 /// (Beer-Lambert) attenuates the transmittance. The new run gets a normal from a table of planes and voxel faces; if it
-/// is opaque its ray ends, and all opaque runs of the group are lit together at the end. What is rare (a fitted normal,
-/// a cap, a translucent body, a fragment) is handed to the caster by PacketPass::surface and PacketPass::fragment, ray
-/// by ray.
+/// is opaque its ray ends, and all opaque runs of the group are lit together at the end. Rare cases (a fitted normal, a
+/// cap, a translucent body, a fragment) go to the caster by PacketPass::surface and PacketPass::fragment, ray by ray.
 
 #include <svt/render/packet/packet_vectors-inl.hpp>
 #include <svt/render/picture_constants.hpp>
@@ -178,7 +177,7 @@ private:
         }
     }
 
-    // Blends the fragments up to `t`. At a fragment the run is blended up to there, and goes on behind it.
+    // Blends the fragments up to `t`. A run is blended up to a fragment, and continues behind it.
     HWY_NOINLINE void addFragments(M lanes, V t) {
         const D d;
         const DI di;
@@ -412,7 +411,7 @@ private:
         if (any(special)) shadeSpecialSurfaces(special, scalar, isVoxel, faceAxis);
     }
 
-    // Which index entries are below `end`, see BrickVolume::Arrays.
+    // The lanes whose index entry is below `end`, see BrickVolume::Arrays.
     static HWY_INLINE M isBelow(VI entry, std::size_t end) {
         return toDoubles(hn::Lt(entry, hn::Set(DI(), static_cast<std::int64_t>(end))));
     }

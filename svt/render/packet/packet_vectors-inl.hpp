@@ -1,12 +1,11 @@
 #pragma once
 /// \file
-/// Vector types and helpers of the packet kernel: rays as vectors (RayVectors), table look-ups and gathers by lane
-/// (lookUp(), gatherBytes(), Styles), and the rows that carry changes of label from the walk to the shader
-/// (ChangeRows).
+/// Vector types and helpers of the packet kernel: rays as vectors (RayVectors), and table look-ups and gathers by lane
+/// (lookUp(), gatherBytes(), Styles). ChangeRows carries changes of label from the walk to the shader.
 ///
-///     change word of one lane     bits 0..31  scalar    bit 32  only voxels tell the label    bits 33..  plane + 1
+///     change word of one lane     bits 0..31  scalar    bit 32  a brick of voxels only    bits 33..  plane + 1
 ///
-/// Where all lanes want the same element, isSame() finds out and one scalar load replaces the gather.
+/// If isSame() finds that all lanes need the same element, one scalar load replaces the gather.
 
 #include <svt/render/packet/packet_kernel.hpp>
 
@@ -106,7 +105,7 @@ struct Axis {
     HWY_INLINE V at(V t) const { return hn::Add(origin, hn::Mul(t, direction)); }
 };
 
-// Whether all lanes of the mask, which must not be empty, hold the same number, `first`. Neighbouring rays mostly do.
+// Whether all lanes of the mask, which must not be empty, hold the same number, `first`. Neighbouring rays usually do.
 HWY_INLINE bool isSame(VI numbers, M lanes, std::int64_t& first) {
     first = hn::ExtractLane(numbers, hn::FindKnownFirstTrue(D(), lanes));
     return !any(hn::And(lanes, toDoubles(hn::Ne(numbers, hn::Set(DI(), first)))));
@@ -117,7 +116,7 @@ struct RayVectors {
     Axis x, y, z;
     V slack;
     bool areNonZero;       // no ray has a zero direction on any axis
-    bool isPlain = false;  // besides, the signs of its directions are those of the packet's ray 0, see hasDirections()
+    bool isPlain = false;  // also, the signs of its directions are those of the packet's ray 0, see hasDirections()
 
     HWY_INLINE RayVectors(const PacketPass& pass, const PacketRays& rays, std::size_t first)
         : x(axisOf(pass, rays, first, 0)),

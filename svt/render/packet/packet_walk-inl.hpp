@@ -2,10 +2,10 @@
 /// \file
 /// Walks the rays of a group through boxes of bricks: the vector version of walkRuns().
 ///
-/// A box of one label is left in one step. A coded box has up to three cuts and three planes; for each, one bit tells
-/// on which side a ray is, and the bits form a side combination, whose label comes from a table (crossSides(), with no
-/// branch per side). A brick of voxels is stepped through voxel by voxel as by Amanatides and Woo (1987): the voxel is
-/// kept as a bit and a word of the brick's bit planes. Each step masks off the lanes that have left the box.
+/// A box of one label is left in one step. A coded box has up to three cuts and three planes. One bit per cut or plane
+/// is the side on which a ray is. The bits form a side combination, and its label comes from a table (crossSides(),
+/// with no branch per side). A brick of voxels is stepped through voxel by voxel as by Amanatides and Woo (1987); the
+/// voxel is stored as a bit and a word of the brick's bit planes. Each step masks off the lanes that have left the box.
 
 #include <svt/render/packet/packet_vectors-inl.hpp>
 #include <svt/render/walk/plane_crossing.hpp>

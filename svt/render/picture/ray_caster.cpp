@@ -21,7 +21,7 @@ Result<void> checkCall(std::span<const DrawnVolume> volumes, const FrameSpec& sp
                      fmt::format("{} volumes to draw; 1 to {} are possible", volumes.size(), FrameSpec::kMaxPasses));
     for (const DrawnVolume& volume : volumes)
         if (volume.bricks().dimension() != volume.grid().dimension())
-            return Error(Code::BadArgument, "the grid's dimension is not the volume's");
+            return Error(Code::BadArgument, "the grid and the volume have different dimensions");
     for (std::size_t n = 0; n < spec.passes.size(); ++n)
         if (spec.passes[n].volume >= volumes.size())
             return Error(Code::BadFrame, fmt::format("pass {} draws volume {}, but there are {}; the first is 0", n,

@@ -27,7 +27,7 @@ SampleLayout::SampleLayout(const FrameSpec& spec)
     : side(static_cast<std::int32_t>(std::lround(std::sqrt(spec.samplesPerPixel)))),
       lineReach(reachOf(spec.borders.width, side)),
       cutReach(reachOf(spec.borders.cutWidth, side)),
-      // Next to what is not cut, the whole line is drawn on the cap.
+      // Next to parts that are not cut, the whole line is drawn on the cap.
       margin(spec.borders.strength > 0 ? std::max(lineReach, cutReach > 1 ? 2 * cutReach : 1) : 0),
       pixelMargin((margin + side - 1) / side + 1) {}
 
@@ -243,7 +243,7 @@ float TileRenderer::lineBetween(const Sample& sample, const Sample& other, Vec3d
     const Vec3d normal = toDouble(sample.normal);
     const double facing = std::max(-dot(normal, frame_.rays().forward()), kLeastFacing);
     const double predicted = dot(normal, aside) / facing;
-    // A step of one voxel in a face of one object is no border, though the side of the step faces the viewer.
+    // A step of one voxel in a face of one object is not a border, though the side of the step faces the viewer.
     const double otherFacing = std::max(-dot(toDouble(other.normal), frame_.rays().forward()), kLeastFacing);
     const double grazing = sample.object == other.object ? std::min(facing, otherFacing) : facing;
     const double tolerance = (1 + 2 / grazing) * frame_.volumes[sample.volume].voxelSize + length(aside) +

@@ -15,7 +15,7 @@ namespace {
 
 using Kind = LinearStyle::Kind;
 
-// exp(-x) for x >= 0 by basic arithmetic alone, so that every machine and compiler gives the same bits. With n the
+// exp(-x) for x >= 0 by only basic arithmetic, so that every machine and compiler gives the same bits. With n the
 // integer nearest to x / ln 2, exp(-x) = 2^-n * exp(-r)^2, |r| <= ln(2) / 4; exp(-r) by its Taylor polynomial,
 // evaluated by Estrin's scheme for a short dependency chain. Relative error below 1e-7.
 double expOfMinus(double x) noexcept {

@@ -125,7 +125,7 @@ std::size_t Clipper::within(const Region& region, const Line& line, PartInterval
     return kept;
 }
 
-// What lies between two of the `count` intervals inside a region; empty where there is no such gap.
+// The gap between two of the `count` intervals inside a region; empty if there is no such gap.
 DrawnInterval Clipper::inGap(const DrawnInterval& interval, const Region& region, const PartIntervals& insides,
                              std::size_t count) noexcept {
     DrawnInterval gap = interval;

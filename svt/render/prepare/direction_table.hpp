@@ -23,12 +23,12 @@ public:
     };
     DirectionTable(const volume::BrickVolume& volume, const volume::Grid& grid);
 
-    /// Of voxel faces across an axis, in the axis's positive direction.
+    /// Normal of voxel faces across an axis, in the axis's positive direction.
     [[nodiscard]] const Directions& axis(int axis) const noexcept { return axes_[static_cast<std::size_t>(axis)]; }
-    /// Of a plane of BrickVolume::planes(), towards its positive side.
+    /// Normal of a plane of BrickVolume::planes(), towards its positive side.
     [[nodiscard]] const Directions& plane(std::uint32_t number) const noexcept { return planes_[number]; }
     [[nodiscard]] std::span<const Directions> planes() const noexcept { return planes_; }
-    /// Of a surface with the normal (covector) `index` in index space.
+    /// Directions of a surface with the normal (covector) `index` in index space.
     [[nodiscard]] Directions directions(Vec3d index) const noexcept;
     /// Directions::outwardIndex for a normal in world space.
     [[nodiscard]] Vec3d outwardIndex(Vec3d normal) const noexcept;

@@ -11,7 +11,7 @@ namespace {
 // One tap per level, one cell away from the surface: close enough for the tap to include the corner, far enough that a
 // flat surface does not occlude itself through the trilinear filter. Closer levels weigh more.
 constexpr std::array<double, OcclusionField::kLevels> kWeights{0.30, 0.30, 0.24, 0.16};
-// Coverage that counts as full occlusion: a wall beside the surface covers about half of a tap.
+// Coverage that counts as full occlusion: a wall next to the surface covers about half of a tap.
 constexpr double kFull = 0.55;
 
 OcclusionField::Level emptyLevel(Vec3i count, double cellSize, double weight) {

@@ -79,7 +79,7 @@ struct PreparedFrame {
     /// since most pixels then have one sample.
     double lineSamples = 1;
 
-    /// The camera's rays, for all that does not depend on the volume: not for CameraRay::voxelRay.
+    /// The camera's rays, for values that do not depend on the volume; CameraRay::voxelRay does.
     [[nodiscard]] const CameraRays& rays() const noexcept { return volumes.front().rays; }
     [[nodiscard]] const PreparedVolume& volumeOf(std::size_t pass) const noexcept {
         return volumes[passes[pass].volume];

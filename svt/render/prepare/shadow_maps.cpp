@@ -38,7 +38,7 @@ std::vector<Vec3d> directionsOf(Vec3d towards, double degrees) {
     return directions;
 }
 
-// Whether a volume has more than background, and so can throw shadows.
+// Whether a volume has more than background, and so can cast shadows.
 bool isFilled(const DrawnVolume& drawn) { return drawn.bricks().scalarCount() > 1; }
 
 // The corners of all volumes.
@@ -53,7 +53,7 @@ std::vector<Vec3d> cornersOf(std::span<const DrawnVolume> volumes) {
     return corners;
 }
 
-// What stops light: opaque parts of all passes, whatever is drawn over what.
+// The parts that stop light: opaque parts of all passes, whatever the order of drawing.
 FrameSpec makeSpec(const FrameSpec& spec) {
     FrameSpec from = spec;
     from.samplesPerPixel = 1;

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Which share of the key light reaches a point. The light's disc is taken as some directions; for each, a picture of the
-/// model as it is seen from there tells how deep the light reaches (shadow maps: Williams 1978). The mean over the disc is
-/// the soft shadow of a disc, without noise.
+/// The share of the key light that reaches a point. Several directions represent the disc of the light. For each
+/// direction, a picture of the model as seen from the light stores how deep the light reaches (shadow maps: Williams
+/// 1978). The mean over the directions is the soft shadow of a disc, without noise.
 
 #include <svt/render/frame_spec.hpp>
 #include <svt/render/ray_caster.hpp>
@@ -26,7 +26,7 @@ public:
     [[nodiscard]] bool isEmpty() const noexcept { return maps_.empty(); }
     /// Share of the light that reaches a surface, 0..1; between pixels of the maps by linear interpolation.
     /// \param point   world space
-    /// \param normal  world space, unit length, to the side that is looked at
+    /// \param normal  world space, unit length, towards the visible side
     [[nodiscard]] double lightAt(Vec3d point, Vec3d normal) const noexcept;
 
 private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A convex hull of all that a pass shows, as slabs.
+/// A convex hull of the visible parts of a pass, as slabs.
 
 #include <svt/render/camera_rays.hpp>
 #include <svt/render/pass_table.hpp>
@@ -17,9 +17,9 @@ struct ViewRect {
     double low = 1, high = -1;    ///< v
 };
 
-/// Slabs that contain all bricks with visible labels (a k-DOP): across the axes, across their diagonals, and across the
-/// most frequent planes of the volume, so that the hull of a house is tight for any orientation. All outside is hidden,
-/// so rays need not be walked there.
+/// Slabs that contain all bricks with visible labels (a k-DOP). They are across the axes, across their diagonals, and
+/// across the most frequent planes of the volume, so that the hull of a house is tight for any orientation. Nothing is
+/// visible outside, so rays need not be walked there.
 class VisibleHull {
 public:
     /// An empty hull.

@@ -58,8 +58,8 @@ inline constexpr BrickPlanes kNoPlanes = volume::BrickVolume::BoxCoding().plane;
     }
     return volume::BrickVolume::kNoPlane;
 }
-/// The plane of the seam at which a ray enters `voxel` at t, of the brick entered or of the one left;
-/// BrickVolume::kNoPlane if this is not on a face of a brick, or no plane is near.
+/// The plane of the seam at which a ray enters `voxel` at t. It belongs to the brick that the ray enters or leaves.
+/// BrickVolume::kNoPlane if the ray is not on a face of a brick, or no plane is near.
 [[nodiscard]] inline std::uint32_t seamPlane(const volume::BrickVolume& volume, const VoxelRay& ray, double t,
                                              Vec3i voxel) noexcept {
     const int axis = ray.entryAxis(t, voxel);

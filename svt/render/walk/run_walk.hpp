@@ -6,7 +6,7 @@
 ///     runs          [ 0 ][    a   ][ b ][ 0 ]      enter(a), leave(a), enter(b), ...
 ///
 /// walkRuns() crosses whole boxes at once; walkRunsReference() steps from voxel to voxel. Both visit the same runs, to
-/// the last bit, since both decide by VoxelRay::planeTime() alone.
+/// the last bit, since both decide only by VoxelRay::planeTime().
 
 #include <svt/render/voxel_ray.hpp>
 #include <svt/render/walk/plane_crossing.hpp>
@@ -27,9 +27,9 @@ struct RunStart {
     bool isVoxel = false;
 };
 
-/// Walks [from, to) of the ray, which must lie in spanInVolume(), and calls `visitor` for each run of one scalar:
-///     bool enter(Scalar, double from, RunStart)        at its start; true ends the walk
-///     bool leave(Scalar, double from, double to)       at its end; true ends the walk
+/// Walks [from, to) of the ray, which must lie in spanInVolume(), and calls `visitor` for each run of one scalar.
+///     bool enter(Scalar, double from, RunStart)        at its start; true ends the walk.
+///     bool leave(Scalar, double from, double to)       at its end; true ends the walk.
 /// Same-label boxes are crossed in one step, coded boxes from one cut or plane to the next, other mixed bricks voxel by
 /// voxel.
 template <class Visitor>
@@ -189,8 +189,8 @@ void walkRuns(const volume::BrickVolume& volume, const VoxelRay& ray, double fro
     RunWalk<Visitor>(volume, ray, from, to, visitor).walk();
 }
 
-/// The same by stepping from voxel to voxel, within voxels of coded bricks from plane to plane, and otherwise by
-/// scalarAt() alone: the reference that the fast walks are tested against.
+/// The same by stepping from voxel to voxel. Within voxels of coded bricks, it steps from plane to plane; all other
+/// labels come from scalarAt(). Tests compare the fast walks with this reference.
 template <class Visitor>
 void walkRunsReference(const volume::BrickVolume& volume, const VoxelRay& ray, double from, double to,
                        Visitor& visitor) {

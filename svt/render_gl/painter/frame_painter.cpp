@@ -49,17 +49,16 @@ Result<void> FramePainter::prepare(const FrameParts& parts) {
 
     for (const render::Pass& pass : spec.passes)
         if (pass.hasCells || pass.join == render::Pass::Join::Part)
-            return Error(Code::BadFrame,
-                         "edges of voxels, and several volumes, are drawn by the CPU alone; leave out --gl");
-    if (spec.light.hasShadows)
-        return Error(Code::BadFrame, "shadows of the sun are drawn by the CPU alone; leave out --gl");
+            return Error(Code::BadFrame, "only the CPU draws edges of voxels and several volumes; leave out --gl");
+    if (spec.light.hasShadows) return Error(Code::BadFrame, "only the CPU draws shadows of the sun; leave out --gl");
     passes_.resize(spec.passes.size());
     passNeeds_.clear();
     for (std::size_t n = 0; n < passes_.size(); ++n) {
         const render::Pass& pass = spec.passes[n];
         if (pass.volume != 0)
-            return Error(Code::BadFrame, fmt::format("pass {} draws volume {}; by OpenGL all passes draw one volume, 0",
-                                                     n, pass.volume));
+            return Error(
+                Code::BadFrame,
+                fmt::format("pass {} draws volume {}; OpenGL draws only volume 0; leave out --gl", n, pass.volume));
         if (auto updated = passes_[n].update(pass, spec, parts.volume, parts.grid, parts.textures.middle, parts.limits,
                                              parts.options.threads);
             !updated)

@@ -170,7 +170,7 @@ Result<Program> Program::make(const std::string& defines, std::span<const std::s
     glDeleteShader(vertex);
     glDeleteShader(fragment);
     if (status != GL_TRUE)
-        return Error(Code::NoGraphics, fmt::format("the graphics driver does not take the shader: {}", log));
+        return Error(Code::NoGraphics, fmt::format("the graphics driver rejects the shader: {}", log));
     return program;
 }
 

@@ -45,7 +45,7 @@ struct GlLimits {
 /// Discards pending errors of the context.
 void clearGlErrors() noexcept;
 /// \return nothing, or NoGraphics if the context has an error pending
-/// \param doing  what was being done, for the message
+/// \param doing  the current work, for the message
 [[nodiscard]] Result<void> checkGl(std::string_view doing);
 
 /// A texture, not filtered.

@@ -111,7 +111,7 @@ GlRenderer::~GlRenderer() = default;
 Result<GlRenderer> GlRenderer::make(const volume::BrickVolume& volume, const volume::Grid& grid,
                                     const GlOptions& options) {
     if (volume.dimension() != grid.dimension())
-        return Error(Code::BadArgument, "the grid's dimension is not the volume's");
+        return Error(Code::BadArgument, "the grid and the volume have different dimensions");
     SVT_DO(checkOptions(options));
     SVT_TRY(limits, glLimits());
     SVT_TRY(textures, VolumeTextures::make(volume, *limits));

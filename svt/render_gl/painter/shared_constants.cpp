@@ -21,7 +21,7 @@ class Declarations {
 public:
     void add(const char* name, float value) {
         std::string digits = fmt::format("{}", value);
-        // A number without point or exponent is no float in GLSL.
+        // A number without point or exponent is not a float in GLSL.
         if (digits.find_first_of(".e") == std::string::npos) digits += ".0";
         text_ += fmt::format("const float {} = {};\n", name, digits);
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Constants that C++ and the shaders share. They stand in C++ only; the shaders get them as lines of GLSL.
+/// Constants that C++ and the shaders share. They are defined only in C++; the shaders get them as lines of GLSL.
 
 #include <svt/render/frame_spec.hpp>
 #include <svt/render/pass_table.hpp>
@@ -37,7 +37,7 @@ inline constexpr std::uint32_t kKindBits = 3, kBodyBit = 4, kHatchShift = 8;
 }
 
 /// All of them, and those of svt/render that the shaders use, as declarations such as "const float kFar = 3e+38;", one
-/// a line.
+/// per line.
 [[nodiscard]] std::string_view sharedConstants();
 
 }  // namespace svt::render_gl

@@ -53,8 +53,7 @@ void add(float alpha) {
 
 bool isDone() { return 1.0 - transmittance >= opaqueAt; }
 
-// Goes on to where something is to be drawn, a surface or a shape; false if the interval ends before. Adds what is
-// translucent on the way.
+// Goes on to the next surface or shape to draw; false if the interval ends before. Adds translucent runs on the way.
 bool findEvent(float to, bool isBeyond) {
     bool isNew = false;
     for (int steps = 0; steps < 65536; ++steps) {
@@ -177,7 +176,7 @@ void castPass() {
 #endif
     bool isOpaque = hasEnded && !isDone();
 #if !SHAPES
-    // Where nothing is met, the cleared target already says so; discarding is cheaper than writing.
+    // If the ray meets nothing, the cleared target is already right; discarding is cheaper than writing.
     if (join == kFirstPass && !isOpaque && transmittance >= 1.0) discard;
 #endif
     if (isOpaque) {

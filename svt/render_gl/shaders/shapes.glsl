@@ -146,7 +146,7 @@ void addSurface(uint number, vec3 normal, float at, bool isCap) {
 }
 
 #if CLIPS
-// Finds the body that the ray is inside at a clip face, the one entered last; an object that the ray does not enter as
+// Finds the body that the ray is inside at a clip face: the one entered last. An object that the ray does not enter as
 // often as it leaves it is an open sheet, not a body. If the body is opaque, draws its cap and returns true: the ray
 // ends.
 bool addCutBody(float at, uint cap) {
@@ -209,7 +209,7 @@ void beginShapes(vec2 samplePlace) {
     triangleAt = shapes.z > 0u ? -kFar : kFar;
 }
 
-// Draws the next shape, and finds the one after it. Of the lines behind the end of the ray, the strongest is kept.
+// Draws the next shape, and finds the one after it. Keeps the strongest line behind the end of the ray.
 void addShape() {
     bool isOver = hasEnded || isDone();
     if (lineAt <= triangleAt) {
@@ -234,7 +234,7 @@ void addShape() {
     shapeAt = min(lineAt, triangleAt);
 }
 
-// Draws the strongest hidden line over what the ray has ended at.
+// Draws the strongest hidden line over the place where the ray has ended.
 void drawHiddenLines(inout float alpha) {
     color = color * (1.0 - strongestHidden) + strongestColor * strongestHidden;
     alpha += (1.0 - alpha) * strongestHidden;

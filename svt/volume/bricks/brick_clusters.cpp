@@ -36,7 +36,7 @@ public:
     BoxFinder(BrickClusters& volume, int threads) : volume_(volume) {
         boxOfCluster_.assign(volume_.entries.size(), kNoBox);
         findScalars(threads);
-        // As many as bricks, but no more than take a fraction of a second.
+        // As many as there are bricks, but limited to a fraction of a second.
         budget_ = std::min<std::int64_t>(512 * static_cast<std::int64_t>(volume_.entries.size()), kMostLooks);
     }
 
@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    // Clusters that may be looked at for all boxes, and for one when these are spent.
+    // Maximum number of inspected clusters for all boxes, and for each further box when these are used up.
     static constexpr std::int64_t kMostLooks = std::int64_t{1} << 24, kLooksOfSmall = 256;
 
     // The bricks of a mixed cluster that have a scalar, with one list for all clusters.
@@ -106,8 +106,8 @@ private:
                 std::min(brick.z, volume_.bricks.z)};
     }
 
-    // Calls body(cluster, bricks) for each cluster in which bricks [min, max) lie, with these as bits, until it returns
-    // false; returns whether it never did.
+    // Calls body(cluster, bricks) for each cluster that contains some of the bricks [min, max), with these bricks as
+    // bits. Stops when `body` returns false; returns true if all calls returned true.
     template <class Body>
     bool forEachIn(Vec3i min, Vec3i max, const Body& body) {
         const auto bitsOf = [&](int axis, std::int32_t cluster) {
@@ -140,7 +140,7 @@ private:
         });
     }
 
-    // Moves one side of the box outwards by as many bricks as it can: to the next border of clusters, or one by one.
+    // Moves one side of the box outwards by as many bricks as possible: to the next border of clusters, or one by one.
     void growAlong(BrickBox& box, int axis, bool isUpper, std::int64_t looks) {
         const std::int64_t least = budget_ - looks;
         while (budget_ > least) {
@@ -199,7 +199,7 @@ private:
         return true;
     }
 
-    // Gives the entries beyond the border of the volume those at the border again.
+    // Repeats the entries at the border of the volume beyond it.
     void repeatAtBorder() {
         forEachCluster([&](Vec3i at, std::size_t cluster) {
             const std::uint32_t entry = volume_.entries[cluster];

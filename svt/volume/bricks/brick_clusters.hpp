@@ -1,9 +1,10 @@
 #pragma once
 /// \file
-/// The bricks of a volume by clusters of 4 x 4 x 4, while BrickVolume is made, and the same-label boxes that cover them.
+/// The bricks of a volume in clusters of 4 x 4 x 4, while a BrickVolume is made, and the same-label boxes that cover
+/// them.
 ///
-///     +-------+-------+-------+-------+      clusters of a row: those of one scalar have no list of bricks, and are
-///     |   0   |   0   |  o o  |   2   |      never taken apart
+///     +-------+-------+-------+-------+      clusters of a row: clusters of one scalar have no list of bricks and
+///     |   0   |   0   |  o o  |   2   |      are never split
 ///     |       |       |  o o  |       |
 ///     +-------+-------+-------+-------+
 
@@ -20,13 +21,13 @@ namespace svt::volume {
 
 /// The entry of a brick while bricks are made. Without a tag it is the number of a scalar.
 struct BrickTag {
-    static constexpr std::uint32_t kCoded = 0x40000000u;       ///< and the number of a box of coded bricks
-    static constexpr std::uint32_t kVoxels = 0x80000000u;      ///< and the number of a palette brick
-    static constexpr std::uint32_t kBoxed = kCoded | kVoxels;  ///< and the number of a same-label box
+    static constexpr std::uint32_t kCoded = 0x40000000u;       ///< with the number of a box of coded bricks
+    static constexpr std::uint32_t kVoxels = 0x80000000u;      ///< with the number of a palette brick
+    static constexpr std::uint32_t kBoxed = kCoded | kVoxels;  ///< with the number of a same-label box
 };
 
-/// The entries of the 64 bricks of a cluster, x fastest, then y, then z. Beyond the border of the volume those at the
-/// border are repeated.
+/// The entries of the 64 bricks of a cluster, x fastest, then y, then z. Beyond the border of the volume, the entries
+/// at the border are repeated.
 using ClusterEntries = std::array<std::uint32_t, 64>;
 
 struct BrickClusters {
@@ -51,13 +52,13 @@ struct BrickBox {
     std::uint32_t scalar = 0;  ///< its number
 };
 
-/// Covers the bricks without a tag with boxes, greedily. Each box is grown from a cluster of one scalar that no box has
-/// in full, then from a brick that no box has: along x, then y, then z, over all bricks of its scalar, including those
-/// of other boxes. So boxes may overlap, and a ray goes far in each. A budget of clusters that are looked at bounds the
-/// cost; when it is spent, boxes grow over few clusters.
+/// Greedily covers the bricks without a tag with boxes. Boxes start at clusters of one scalar that no box contains in
+/// full, then at bricks that no box contains. A box grows along x, then y, then z, over all bricks of its scalar,
+/// including bricks of other boxes. So boxes may overlap, and a ray goes far in each. A budget for inspected clusters
+/// bounds the cost; when it is used up, boxes grow over few clusters.
 ///
-/// Replaces in `volume` each scalar by the first box that has the cluster in full, or the brick: of a cluster of one
-/// scalar without a tag, of a brick with BrickTag::kBoxed.
+/// Replaces each scalar in `volume` by the number of the first box that contains the whole cluster, or the brick. The
+/// numbers have no tag for clusters of one scalar, and BrickTag::kBoxed for bricks.
 /// Cost: O(clusters), with a factor of up to 512.
 [[nodiscard]] std::vector<BrickBox> boxUniformBricks(BrickClusters& volume, int threads);
 

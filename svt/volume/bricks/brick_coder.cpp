@@ -65,8 +65,9 @@ std::optional<std::uint32_t> indexIn(const BrickPattern& pattern, const SideMask
 }
 
 // Finds the label of each side combination; returns false if one has voxels of two labels. Those without a sample are
-// slivers between the others. They take the label of the nearest one with samples, where crossing a cut costs less
-// than crossing a plane, and a later plane, which is less likely to be a face of the model, less than an earlier one.
+// slivers between the others. They take the label of the nearest combination with samples. Crossing a cut costs less
+// than crossing a plane. Crossing a later plane costs less than an earlier one, because it is less likely to be a face
+// of the model.
 bool findSideScalars(const BrickPattern& pattern, std::span<const SideMask> sides, std::size_t cuts,
                      std::vector<Scalar>& scalars) {
     const std::size_t count = std::size_t{1} << sides.size();
@@ -112,7 +113,7 @@ Changes findChanges(const BrickPattern& pattern) noexcept {
 
 namespace {
 
-// Two changes along one axis at different places, which no plane of a set explains: no cut across the axis explains both.
+// Two changes along one axis at different places that no plane of a set explains and a single cut cannot explain both.
 struct CutConflict {
     int axis = -1;  // none
     std::array<std::size_t, 2> word{};
@@ -135,8 +136,8 @@ void findExtreme(const SideMask& mask, int axis, bool isHighest, std::size_t& wo
     bit &= ~bit + 1;
 }
 
-// As codeBySides(), but more than kMaxPlanes planes take the places of cuts that the code does not have. Where no cuts
-// exist because of two changes, `conflict` tells which.
+// As codeBySides(), but planes beyond kMaxPlanes replace cuts that the code does not have. If two changes make a cut
+// impossible, `conflict` receives them.
 std::optional<BrickCode> codeByPlanes(const BrickPattern& pattern, const Changes& changes,
                                       std::span<const BrickSide* const> planes, CutConflict& conflict) {
     BrickCode code;
@@ -168,7 +169,7 @@ std::optional<BrickCode> codeByPlanes(const BrickPattern& pattern, const Changes
     return code;
 }
 
-// Names the planes of a code of codeByPlanes(), in the order in which they were given.
+// Sets the numbers of the planes of a code from codeByPlanes(), in the order in which the planes were given.
 void setPlanes(std::span<const std::uint32_t> numbers, BrickCode& code) {
     const std::size_t own = std::min(numbers.size(), BrickVolume::kMaxPlanes);
     std::copy(numbers.begin(), numbers.begin() + std::ptrdiff_t(own), code.plane.begin());
@@ -354,12 +355,12 @@ public:
 private:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
     // Maximum candidates per brick: planes of the model, planes where surfaces meet, cuts; and those tried in triples.
-    // At most 32 of all together.
+    // At most 32 in total.
     static constexpr std::size_t kMaxFaces = 12, kMaxAround = 8, kMaxCuts = 4, kMaxOfThree = 7;
-    // The same where sheets may be; planes of one code there, and sets of more than three that are tried.
+    // The same for bricks that may contain sheets; the planes of one code there, and the tried sets of more than three.
     static constexpr std::size_t kMaxOfSheets = 16, kMostPlanesOfSheets = 5, kMaxSetsOfSheets = 500;
 
-    // Mixed bricks that cuts alone do not code for certain, in the order of places.
+    // Finds the mixed bricks that cuts do not certainly code, in the order of places.
     void findMixed() {
         std::size_t place = 0;
         for (std::int32_t z = 0; z < places_.count.z; ++z)
@@ -417,8 +418,8 @@ private:
         return mask;
     }
 
-    // The side of all samples: 1 if it is the positive one; nullopt if there are two, or a sample is within kMargin of the
-    // plane. As sideMask(), but mostly without looking at the samples one by one.
+    // The side of all samples: 1 if it is the positive one; nullopt if there are two, or a sample is within kMargin of
+    // the plane. As sideMask(), but usually without a test of each sample.
     [[nodiscard]] std::optional<std::size_t> sideOfAll(const BrickPlane& plane, Vec3i at) const noexcept {
         constexpr double kRounding = 1e-8;
         const double middle = valueAt(plane, corner(at) + Vec3d{4, 4, 4});
@@ -446,14 +447,14 @@ private:
         return true;
     }
 
-    // True if cuts code the brick, but may be a step of a sloped surface.
+    // True if cuts code the brick, but it may be a step of a sloped surface.
     [[nodiscard]] bool isStep(Vec3i at) const noexcept {
         return isMixed(at) && codeIndex_[place(at)] == kNone &&
                kindOfPattern_[places_.patternOf[place(at)]] == static_cast<std::uint8_t>(BrickKind::Step);
     }
 
     // Codes a height field of two labels by a neighbour's plane, else by a fitted one. `mayStandAlone`: also accept a
-    // plane that is fitted to this brick alone.
+    // plane that is fitted to only this brick.
     void codeSurface(Vec3i at, bool mayStandAlone) {
         std::array<std::uint32_t, 4> tried{kNone, kNone, kNone, kNone};
         std::size_t count = 0;
@@ -552,9 +553,9 @@ private:
         codeBySheets(at);
     }
 
-    // By more planes of faces than three, then by those of the backs of sheets as well. The voxels of a sheet are the
-    // samples behind its face that have a neighbour along an axis in front of it: they end on a plane, too, at the largest
-    // component of the normal behind the face.
+    // Tries more than three planes of faces, then also planes of the backs of sheets. The voxels of a sheet are the
+    // samples behind its face that have a neighbour along an axis in front of it. So they end on a plane, too. Its
+    // distance behind the face is the largest component of the normal.
     void codeBySheets(Vec3i at) {
         for (const bool withBacks : {false, true}) {
             startCandidates(at);
@@ -604,8 +605,8 @@ private:
         return false;
     }
 
-    // Whether the model has a face at each cut of the code, or, where sheets may be, a voxel beside; true if no faces are
-    // known.
+    // Whether the model has a face at each cut of the code, or one voxel beside it if the brick may contain sheets.
+    // True if no faces are known.
     [[nodiscard]] bool hasCutsOfModel(const BrickCode& code, Vec3i at) const noexcept {
         if (!knowsFaces_) return true;
         for (int axis = 0; axis < 3; ++axis) {
@@ -633,7 +634,7 @@ private:
                    at.z <= max[2];
         }
     };
-    // The bricks in or beside which the plane has faces.
+    // The bricks that contain faces of the plane, and those next to the faces.
     [[nodiscard]] BrickRange bricksBeside(const FacePlane& face) const noexcept {
         BrickRange range;
         for (int axis = 0; axis < 3; ++axis) {
@@ -706,9 +707,9 @@ private:
         if (sides_.size() > known) tryCandidates(at, known);
     }
 
-    // Tries one, two and three candidates, at least one of them with index `from` or higher. Cuts needed besides must
-    // be at faces of the model: otherwise they are steps of an oblique face that is not among the candidates, and
-    // voxels look better.
+    // Tries one, two and three candidates, at least one of them with index `from` or higher. Additional cuts must be at
+    // faces of the model: otherwise they are steps of an oblique face that is not among the candidates, and voxels look
+    // better.
     bool tryCandidates(Vec3i at, std::size_t from) {
         conflicts_.clear();
         for (std::size_t a = from; a < sides_.size(); ++a)
@@ -724,8 +725,8 @@ private:
         return false;
     }
 
-    // Most sets of candidates fail for one of few reasons, so these are kept: of two changes that cannot both be at a cut,
-    // the candidates that explain either.
+    // Most sets of candidates fail for one of a few reasons. So these are stored: two changes that one cut cannot
+    // explain, as the candidates that explain either change.
     bool trySides(Vec3i at, std::initializer_list<std::size_t> candidates) {
         return trySides(at, std::span(candidates.begin(), candidates.size()));
     }
@@ -949,17 +950,17 @@ private:
     const TilePlaces& places_;
     const std::vector<BrickPattern>& patterns_;
     const std::vector<std::uint8_t>& kindOfPattern_;
-    // A plane with faces in or beside the bricks of a column from height min to height max, including both.
+    // A plane with faces in or next to the bricks [min, max] of a column.
     struct ColumnFace {
         BrickPlane plane;
         std::int16_t min, max;
     };
     static constexpr std::int32_t kColumns = ColumnVolume::kTileSize / BrickVolume::kBrickSize;  // along an axis
-    std::array<std::vector<ColumnFace>, kColumns * kColumns> facesOfColumn_;  // of the model, across no axis
+    std::array<std::vector<ColumnFace>, kColumns * kColumns> facesOfColumn_;  // of the model, not across an axis
     std::array<std::vector<std::vector<BrickRange>>, 3>
         cutPlanes_;  // across an axis: by cut, voxels from the tile's corner
     bool knowsFaces_, hasFacePlanes_ = false;
-    bool mayBeSheet_ = false;  // cuts may lie a voxel beside a face
+    bool mayBeSheet_ = false;  // cuts may lie one voxel away from a face
     std::vector<Vec3i> mixed_;
     std::vector<std::array<std::optional<Heights>, 3>> heights_;
     std::vector<std::optional<Faces>> faces_;               // by pattern

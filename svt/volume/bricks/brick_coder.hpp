@@ -2,12 +2,12 @@
 /// \file
 /// Codes bricks of 8 x 8 x 8 voxels by cuts and planes, exactly: every sample keeps its label.
 ///
-///     j 7   c c c c c c c c         One layer of a brick with three labels, coded by two sides:
+///     j 7   c c c c c c c c         One layer of a brick with three labels, coded by two sides.
 ///       6   c c c c c c c c
-///       5   c c c c c c c c           bit 0 of the sides   cut across y at 5: 1 where j >= 5
-///           ---------------           bit 1                a plane: 1 on its positive side (right)
+///       5   c c c c c c c c           bit 0 of the sides   cut across y at 5: 1 where j >= 5.
+///           ---------------           bit 1                a plane: 1 on its positive side (right).
 ///       4   a a a a a/b b b
-///       3   a a a a/b b b b         2 sides have 2^2 combinations; `sideScalars` has one label for each:
+///       3   a a a a/b b b b         2 sides have 2^2 combinations; `sideScalars` has one label per combination.
 ///       2   a a a/b b b b b
 ///       1   a a/b b b b b b           sides  0   1   2   3
 ///       0   a/b b b b b b b           label  a   c   b   c
@@ -17,15 +17,16 @@
 /// - A side is a mask of 512 bits: the samples on the positive side of a plane, or beyond a cut. A code is valid if the
 ///   samples of each side combination have one label, which is tested on the bit planes of the palette by a few AND
 ///   operations.
-/// - Where labels change from voxel to voxel is a mask, too. Changes along an axis that no plane explains must all lie
-///   at one place: this is the cut across that axis. So cuts are derived, not searched for.
-/// - Candidate planes, first match wins: planes of the model's faces, alone, in pairs and in triples; the plane of a
-///   neighbouring brick, so that a roof keeps one plane; a plane of least squares through the boundary between two
-///   labels, read as a height field over one axis in the brick and its neighbours.
+/// - The places where labels change from voxel to voxel are a mask, too. Changes along an axis that no plane explains
+///   must all lie at one place: this is the cut across that axis. So cuts are derived, not searched for.
+/// - Candidate planes are tried in order, and the first match wins. First come planes of the model's faces: single
+///   planes, pairs and triples. Then comes the plane of a neighbouring brick, so that a roof keeps one plane. Last
+///   comes a least-squares plane through the boundary between two labels, which is read as a height field over one axis
+///   in the brick and its neighbours.
 /// - A fitted plane is shifted along that axis by the least amount that puts all samples of the brick on the right side
 ///   (an interval of offsets; no solution if it is empty).
-/// - Bricks of one label beside a sloped surface get its plane where it cuts the half voxel outside of their samples,
-///   so that the surface continues there.
+/// - Bricks of one label next to a sloped surface get its plane if it cuts the half voxel outside of their samples, so
+///   that the surface continues there.
 
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/bricks/side_masks.hpp>
@@ -53,9 +54,9 @@ struct BrickCode {
     std::array<std::uint8_t, 3> cut{};  ///< voxels of the brick below the cut across each axis, 1..7; 0: no cut
     std::array<std::uint32_t, BrickVolume::kMaxPlanes> plane{BrickVolume::kNoPlane, BrickVolume::kNoPlane,
                                                              BrickVolume::kNoPlane};
-    /// Planes across an axis that take the place of its cut, which is 0 then: a code has six sides at most.
+    /// Planes across an axis that replace its cut, which is then 0. So a code has at most six sides.
     std::array<std::uint32_t, 3> cutPlane{BrickVolume::kNoPlane, BrickVolume::kNoPlane, BrickVolume::kNoPlane};
-    /// By side combination: a bit per cut or plane in its place (x, y, z), then per plane, from the lowest.
+    /// Label of each side combination: one bit per cut or its plane (x, y, z), then one per plane, lowest bit first.
     std::vector<Scalar> sideScalars;
     friend bool operator==(const BrickCode&, const BrickCode&) = default;
 };
@@ -76,12 +77,13 @@ struct BrickSide {
 /// Codes `pattern` by the given sides of planes and at most one cut across each axis.
 /// \param changes  findChanges(pattern)
 /// \param planes   at most BrickVolume::kMaxPlanes
-/// \return the code, with BrickCode::plane left to the caller, or nullopt if there is none
+/// \return the code without BrickCode::plane, which the caller sets, or nullopt if there is no code
 [[nodiscard]] std::optional<BrickCode> codeBySides(const BrickPattern& pattern, const Changes& changes,
                                                    std::initializer_list<const BrickSide*> planes = {});
 
-/// Labels of side combinations without a sample, which are slivers between the others: that of the nearest one that has
-/// samples. Crossing side s costs `costOf(s)`; of equally near ones the lowest counts.
+/// Finds the labels of side combinations without a sample, which are slivers between the others. Each takes the label
+/// of the nearest combination with samples. Crossing side s costs `costOf(s)`; at equal cost, the lowest combination
+/// wins.
 /// \param known    bit n: `scalars[n]` is known
 template <class CostOf>
 void fillUnknown(std::size_t sides, std::uint64_t known, const CostOf& costOf, std::vector<Scalar>& scalars) {
@@ -121,7 +123,7 @@ struct PlacedCode {
     BrickCode code;
 };
 
-/// Whether cuts alone code a pattern.
+/// Whether cuts suffice to code a pattern.
 enum class BrickKind : std::uint8_t {
     Uncoded,
     Coded,
@@ -135,13 +137,13 @@ struct TileCodes {
 
 /// Codes bricks by planes: those that cuts do not code, and steps. Passes over the tile, in this order:
 ///
-/// 1. All of them by planes of the model's faces, alone, in pairs and in triples.
+/// 1. All of them: by single planes, pairs and triples of planes of the model's faces.
 /// 2. Bricks of two labels whose boundary is a height field over an axis: by the plane of a neighbour, else by least
 ///    squares through the boundary in the brick and its neighbours.
-/// 3. Steps of two labels as in 2, but not by a plane fitted to the brick alone; other steps by planes of neighbours.
+/// 3. Steps of two labels as in 2, but not by a plane fitted to only this brick; other steps by planes of neighbours.
 /// 4. Bricks where surfaces meet: by planes of the model and of the neighbours, in the same way as 1, then by planes
 ///    fitted to the boundary between two labels.
-/// 5. Uniform bricks beside a sloped surface: by its plane, where that cuts the half voxel outside of their samples.
+/// 5. Uniform bricks next to a sloped surface: by its plane, if it cuts the half voxel outside of their samples.
 ///
 /// Every code is checked sample by sample. Bricks without a code stay patterns.
 /// \param kindOfPattern  per pattern: its BrickKind

@@ -183,7 +183,7 @@ private:
     TileBricks result_;
 };
 
-// Codes the bricks of a tile: first each pattern by cuts alone, then single bricks by planes.
+// Codes the bricks of a tile: first each pattern by cuts, then single bricks by planes.
 class TileCoding {
 public:
     TileCoding(TileBricks& tile, Vec3i origin, Vec3i count) : tile_(tile), places_{origin, count, {}, {}} {
@@ -214,7 +214,7 @@ public:
     }
 
 private:
-    // Borders parallel to an axis go onto faces where `columns` is given.
+    // If `columns` is given, borders parallel to an axis move to faces.
     void codeBricks(std::span<const FacePlane> planes, const ColumnVolume* columns) {
         std::vector<std::uint8_t> kinds;
         std::vector<BrickCode> codes;
@@ -305,7 +305,7 @@ public:
         : volume_(volume), tilesX_(tilesX), numbers_(tiles) {}
 
     // Adds scalars, patterns, planes, codes and boxes of a tile to the volume, and records their numbers there.
-    // Those of its clusters are left to takeTile().
+    // takeTile() adds the clusters of the tile.
     void addTile(std::size_t number, const TileBricks& tile) {
         Numbers& numbers = numbers_[number];
         for (const Scalar scalar : tile.scalars) numbers.scalars.push_back(scalarNumber(scalar));

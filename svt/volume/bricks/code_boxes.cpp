@@ -30,7 +30,7 @@ public:
 private:
     [[nodiscard]] Vec3i corner(Vec3i at) const noexcept { return places_.origin + at * 8; }
 
-    // Which sides of the box's code cut a brick, and on which side of the others the brick lies.
+    // The sides of the box's code that cut a brick, and for all others the side on which the brick lies.
     struct Sides {
         std::array<bool, BrickVolume::kMaxSides> cuts{};
         std::size_t fixed = 0;                                   // bits of the sides that do not cut it
@@ -69,7 +69,7 @@ private:
         return sides;
     }
 
-    // Does the code of the box give this brick the same labels as its own code?
+    // Whether the code of the box gives this brick the same labels as its own code.
     [[nodiscard]] bool mayJoin(Vec3i at) {
         --budget_;
         const std::size_t place = places_.at(at.x, at.y, at.z);

@@ -34,10 +34,10 @@ struct TileBoxes {
     static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 };
 
-/// Covers the coded bricks of a tile with boxes, greedily: each box is grown from the first brick without a box, along
-/// x, then y, then z, over all bricks for which its code gives the same labels as their own: coded bricks that its
-/// sides cut, and uniform bricks beside them. Boxes may overlap; a budget of tests bounds the cost: when it is spent, boxes
-/// grow only by layers that have a coded brick without a box.
+/// Greedily covers the coded bricks of a tile with boxes. Each box starts at the first brick without a box and grows
+/// along x, then y, then z. It takes all bricks for which its code gives the same labels as their own: coded bricks
+/// that its sides cut, and adjacent uniform bricks. Boxes may overlap. A budget of tests bounds the cost; when it is
+/// used up, boxes grow only by layers with a coded brick without a box.
 /// \param codeIndex  by place: index in `codes`, or TileBoxes::kNone
 [[nodiscard]] TileBoxes findCodeBoxes(const TilePlaces& places, const std::vector<std::uint32_t>& codeIndex,
                                       const std::vector<BrickCode>& codes, const std::vector<BrickPlane>& planes);

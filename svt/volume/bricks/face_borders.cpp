@@ -6,9 +6,9 @@
 namespace svt::volume {
 namespace {
 
-// Voxels: how far a plane may lie from where samples say it is, by rounding; and how near to samples it may come.
+// Voxels: by how much rounding may move a plane past samples; the minimum distance of a plane from samples.
 constexpr double kRounding = 1.0 / 256, kInset = 1e-3;
-constexpr std::size_t kMaxCandidates = std::size_t{1} << 22;  // more need a malicious file
+constexpr std::size_t kMaxCandidates = std::size_t{1} << 22;  // only a malicious file needs more
 
 // Where the line through `point` along the axis meets the plane.
 double placeOf(const BrickPlane& plane, int axis, Vec3d point) noexcept {
@@ -16,7 +16,8 @@ double placeOf(const BrickPlane& plane, int axis, Vec3d point) noexcept {
     return -(dot(plane.normal, point) + plane.offset) / plane.normal[axis];
 }
 
-// Square voxels of the brick's side across which the box of the faces reaches; negative if it is not beside the brick.
+// The area of the brick's side that the box of the faces covers, square voxels; negative if it is not next to the
+// brick.
 double overlapOf(const FacePlane& face, int axis, Vec3i brick) noexcept {
     double area = 1;
     for (int n = 0; n < 3; ++n) {
@@ -28,8 +29,8 @@ double overlapOf(const FacePlane& face, int axis, Vec3i brick) noexcept {
     return area;
 }
 
-// The plane, if it passes between the samples on both sides of the border all over the brick. A plane that samples
-// nearly lie on is moved beside them.
+// The plane, if it passes between the samples on both sides of the border in the whole brick. A plane that is too close
+// to samples is moved away from them.
 std::optional<BrickPlane> between(const BrickPlane& plane, int axis, std::int32_t border, Vec3i brick) {
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     Vec3d middle = toDouble(brick);

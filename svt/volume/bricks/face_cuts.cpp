@@ -11,7 +11,7 @@ namespace svt::volume {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFu;
-// Voxels: a plane so near to the border of voxels is left to a cut.
+// Voxels: if a plane is closer than this to the border of voxels, the cut stays.
 constexpr double kSame = 1.0 / 256;
 
 // Sides of a brick while its code is made: first cuts, then planes.
@@ -58,8 +58,8 @@ int axisOf(const BrickPlane& plane) noexcept {
     return -1;
 }
 
-// The place of each side in a code: 0 to 2 that of the cut across an axis, which one plane across it may take, then
-// those of planes; nullopt if there are too many.
+// The place of each side in a code; nullopt if there are too many. Places 0 to 2 are for the cut across each axis, or
+// for one plane across it. The places of planes follow.
 using Places = std::array<std::size_t, BrickVolume::kMaxSides>;
 std::optional<Places> placesOf(const SideList& list, const std::vector<BrickPlane>& planes) noexcept {
     Places places{};
@@ -72,7 +72,7 @@ std::optional<Places> placesOf(const SideList& list, const std::vector<BrickPlan
         std::size_t place = axis < 0 ? 3 : static_cast<std::size_t>(axis);
         if (isTaken[place]) place = 3;
         while (place < isTaken.size() && isTaken[place]) ++place;
-        // More than three of them take places of cuts that are free.
+        // Planes beyond three take free places of cuts.
         if (place == isTaken.size())
             for (place = 0; place < 3 && isTaken[place]; ++place) {
             }
@@ -115,7 +115,7 @@ struct Around {
         return static_cast<std::size_t>(p.x + 1) +
                kWidth * (static_cast<std::size_t>(p.y + 1) + kWidth * static_cast<std::size_t>(p.z + 1));
     }
-    // All known samples but those of the brick itself.
+    // All known samples except those of the brick itself.
     template <class Body>
     void forEachBeside(const Body& body) const {
         for (std::int32_t z = min.z; z < max.z; ++z)
@@ -173,7 +173,7 @@ private:
         return static_cast<std::uint32_t>(tile_.planes.size() - 1);
     }
 
-    // The number of the face's plane at a border; kNone if there is none, or the border is where it lies anyway.
+    // The number of the face's plane at a border; kNone if there is none, or if it lies on the border.
     std::uint32_t faceAt(int axis, std::int32_t border, Vec3i at) {
         const auto plane = faces_.find(axis, border, corner(at));
         if (!plane || std::abs(plane->offset + border) < kSame) return kNone;
@@ -192,7 +192,7 @@ private:
         std::uint32_t& index = tile_.codeIndex[place(at)];
         if (index == kNone) return;
         SideList list = sidesOf(tile_.codes[index]);
-        // What becomes of each side: the number of a plane, or kNone.
+        // The plane that replaces each side, or kNone.
         std::array<std::uint32_t, BrickVolume::kMaxSides> becomes;
         becomes.fill(kNone);
         bool isAny = false;
@@ -221,8 +221,8 @@ private:
         index = known->second;
     }
 
-    // A brick without a code, whose labels change at few places: by all of them. Where faces are oblique, these places are
-    // steps, and voxels look better.
+    // Codes a brick that has no code and whose labels change at few places: by sides at all of them. At oblique faces,
+    // these places are steps, and voxels look better.
     void codeByBorders(Vec3i at) {
         const std::size_t number = place(at);
         if (tile_.codeIndex[number] != kNone || places_.patternOf[number] == TilePlaces::kUniform) return;
@@ -269,7 +269,7 @@ private:
         tile_.codes.push_back(codeOf(list, *places, scalars));
     }
 
-    // Whether faces that are across no axis reach to the brick.
+    // Whether faces that are not across an axis reach the brick.
     [[nodiscard]] bool isBesideOblique(Vec3i at) const noexcept {
         const Vec3i low = corner(at);
         return std::any_of(oblique_.begin(), oblique_.end(), [&](const FacePlane& face) {
@@ -294,7 +294,7 @@ private:
         return found;
     }
 
-    // Faces in the half voxel at the sides of a brick, whose samples are those of the bricks beside it.
+    // Handles faces in the half voxel at the sides of a brick; they bound samples of adjacent bricks.
     void takeFacesAtSides(Vec3i at) {
         const bool isUniform = places_.patternOf[place(at)] == TilePlaces::kUniform;
         if (tile_.codeIndex[place(at)] == kNone && !isUniform) return;
@@ -314,7 +314,7 @@ private:
         if (count == 1 && isSameBeyond(at, faces[0])) return;
         if (codeAround(at, std::span(faces).first(count))) return;
         if (count == 1) return;
-        // Not all of them together: one after the other.
+        // All faces together have no code: take them one after the other.
         std::array<SideFace, 6> taken;
         std::size_t takenCount = 0;
         for (std::size_t n = 0; n < count; ++n) {
@@ -323,7 +323,7 @@ private:
         }
     }
 
-    // A quick test that spares most bricks the rest: all around is one label.
+    // A quick test, after which most bricks are done: the brick and its surroundings have one label.
     [[nodiscard]] bool isAloneAmongEquals(Vec3i at, std::span<const SideFace> faces) const noexcept {
         if (places_.patternOf[place(at)] != TilePlaces::kUniform) return false;
         Vec3i min = at, max = at;
@@ -376,7 +376,7 @@ private:
         return pattern.palette[index];
     }
 
-    // Codes a brick so that its labels hold for the samples beside it, too, on the sides of `faces`.
+    // Codes a brick so that its labels are also valid for the adjacent samples on the sides of `faces`.
     bool codeAround(Vec3i at, std::span<const SideFace> faces) {
         around_.min = {0, 0, 0};
         around_.max = {8, 8, 8};
@@ -429,7 +429,7 @@ private:
         return false;
     }
 
-    // The side combination of each sample beside the brick.
+    // Finds the side combination of each sample next to the brick.
     void findCombinations(Vec3i at, const SideList& list) {
         const Vec3d first = toDouble(corner(at)) + Vec3d{0.5, 0.5, 0.5};
         std::array<std::array<std::uint8_t, Around::kWidth>, 3> bits{};  // of sides across an axis
@@ -465,15 +465,15 @@ private:
         });
     }
 
-    // The label of each side combination; false if one has samples of two. Those without samples take that of the
-    // nearest, see findSideScalars() of the coder.
+    // Finds the label of each side combination; false if a combination has samples of two labels. Combinations without
+    // samples take the label of the nearest one, see fillUnknown().
     bool findScalars(Vec3i at, const SideList& list) {
         findCombinations(at, list);
         const std::size_t count = std::size_t{1} << list.count;
         scalars_.assign(count, 0);
         std::uint64_t known = 0;
         bool isValid = true;
-        // Between the planes at its sides the brick stays as it was.
+        // Between the planes at its sides, the brick keeps its labels.
         for (std::size_t combination = 0; combination < count; ++combination) {
             if ((combination & nearMask_) != insideBits_) continue;
             scalars_[combination] = ownScalars_[combination & (ownScalars_.size() - 1)];
@@ -501,7 +501,7 @@ private:
         return n.x == 1 || n.y == 1 || n.z == 1;
     }
 
-    // Adds sides where labels around the brick change and nothing tells it yet; false if there are too many.
+    // Adds sides at changes of label around the brick that no side explains yet; false if there are too many.
     bool addMissingSides(Vec3i at, SideList& list) {
         for (int axis = 0; axis < 3; ++axis) {
             std::uint32_t borders = 0;

@@ -7,9 +7,10 @@
 ///      a face              |
 ///      its border            ^                   at the face of the voxel, which is that of the bricks, too
 ///
-/// A cut of a brick lies between voxels. Where a face of the model is known between the samples on both sides of it, its
-/// plane takes the place of the cut. A face may lie in the brick beside the one whose samples it bounds, as in the drawing; then
-/// that brick is coded, too: labels on the far side of the plane are those of the samples beyond, up to the corners.
+/// A cut of a brick lies between voxels. If a face of the model is known between the samples on both sides of a cut,
+/// the plane of the face replaces the cut. A face may lie in the brick next to the one whose samples it bounds, as in
+/// the drawing. Then this brick is coded, too: beyond the plane it has the labels of the samples beyond, up to the
+/// corners.
 
 #include <svt/volume/bricks/brick_coder.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -27,9 +28,10 @@ struct TileBrickCodes {
     std::vector<BrickPlane> planes;
 };
 
-/// Replaces cuts of `tile` by planes of `faces` across (nearly) an axis, and codes uniform bricks that they cross. All samples
-/// keep their labels. A brick has three planes and one across each axis at most; cuts that find no room stay. Bricks
-/// without a code, where no face is oblique, are coded first by all places where labels change, six at most.
+/// Replaces cuts of `tile` by planes of `faces` that are (nearly) across an axis, and codes uniform bricks that they
+/// cross. All samples keep their labels. A brick has at most three planes and one more across each axis; a cut stays if
+/// there is no room. Bricks without a code and without an oblique face nearby are first coded by sides at all places
+/// where labels change, at most six.
 /// Cost: O(bricks), and about 2 us for each brick that a face crosses in the half voxel at its side.
 void moveCutsToFaces(const TilePlaces& places, const std::vector<BrickPattern>& patterns,
                      std::span<const FacePlane> faces, const ColumnVolume& columns, TileBrickCodes& tile);

@@ -280,7 +280,8 @@ Result<LodLevel> buildLodLevel(const ColumnVolume& columns, const Grid& grid, in
     if (level < 1 || level > lodLevelCount(dimension))
         return Error(Code::BadArgument,
                      fmt::format("level {} is out of range; there are {}", level, lodLevelCount(dimension)));
-    if (grid.dimension() != dimension) return Error(Code::BadArgument, "the grid's dimension is not the volume's");
+    if (grid.dimension() != dimension)
+        return Error(Code::BadArgument, "the grid and the volume have different dimensions");
     for (int axis = 0; axis < 3; ++axis)
         for (int n = 0; n < level; ++n) dimension[axis] = (dimension[axis] + 1) / 2;
     return makeLevel(columns, grid, level, dimension, threads);
@@ -292,7 +293,7 @@ Result<std::vector<LodLevel>> buildLodPyramid(const ColumnVolume& columns, const
         return Error(Code::BadArgument,
                      fmt::format("level {} is out of range; 1 to {} are possible", coarsest, kCoarsest));
     if (grid.dimension() != columns.dimension())
-        return Error(Code::BadArgument, "the grid's dimension is not the volume's");
+        return Error(Code::BadArgument, "the grid and the volume have different dimensions");
     std::vector<LodLevel> levels;
     for (int level = 1; level <= std::min(coarsest, lodLevelCount(columns.dimension())); ++level) {
         Progress::tell(progress, "prepare", double(level - 1) / coarsest);

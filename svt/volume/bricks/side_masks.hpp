@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// On which side of a plane the samples of a brick lie. SIMD by Google Highway: compiled for several instruction sets, the
-/// best one available is chosen at run time; all give the same results.
+/// Finds the side of a plane on which each sample of a brick lies. SIMD by Google Highway: compiled for several
+/// instruction sets, the best one available is chosen at run time; all give the same results.
 
 #include <svt/core/vec.hpp>
 

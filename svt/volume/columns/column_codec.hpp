@@ -60,8 +60,9 @@ template <class T>
 using PerStream = std::array<T, kBlockStreams>;
 using BlockStreams = PerStream<std::vector<std::uint8_t>>;
 
-/// An operation is the byte kind + kOperationKinds * movement. Movement 1 to 7 means -3 to 3; 0 means that it is in
-/// Shifts, or for kInsert that there is none. Kinds 0 to 3 skip 0 to 3 segments above and reuse the next one's column.
+/// An operation is the byte kind + kOperationKinds * movement. Movement 1 to 7 means -3 to 3; 0 means that the movement
+/// is in Shifts, or, for kInsert, that there is no movement. Kinds 0 to 3 skip 0 to 3 segments above and reuse the next
+/// one's column.
 inline constexpr std::uint32_t kOperationKinds = 6;
 inline constexpr std::uint32_t kReplace = 4;  ///< a new column in place of the segment above
 inline constexpr std::uint32_t kInsert = 5;   ///< a new column before the segment above

@@ -136,7 +136,8 @@ private:
             if (movement > 2 * kMaxShift + 1 || (kind == kInsert && movement != 0)) return refuse("unknown operation");
             Segment segment;
             if (kind < kReplace) upper += kind;
-            if (kind != kInsert && upper >= above_.size()) return refuse("a segment refers to none in the row above");
+            if (kind != kInsert && upper >= above_.size())
+                return refuse("a segment refers to a missing segment of the row above");
             if (kind < kReplace)
                 segment.column = above_[upper].column;
             else if (!decodeColumn(upper, segment.column))
@@ -174,7 +175,7 @@ private:
                 const std::uint64_t end = std::uint64_t{height} + 1 + reader(BlockStream::Heights).number();
                 if (end > top) return refuse("a run reaches beyond the top");
                 if (scalar >= scalarCount_) return refuse("a scalar is in no label's range");
-                if (scalar == last) return refuse("neighbouring runs have one scalar");
+                if (scalar == last) return refuse("adjacent runs have one scalar");
                 fresh_.push_back({static_cast<std::uint32_t>(end), scalar});
             } else if (!moveRun(command, left, above, height, last)) {
                 return false;
@@ -185,7 +186,7 @@ private:
         number = dictionary_.add(fresh_);
         // Each column of the block is used by at least one tile, so its runs count against the limit.
         if (std::uint64_t{dictionary_.runCount()} * sizeof(Run) > arrayBytes_)
-            return refuse("its arrays take more bytes than the index says");
+            return refuse("its arrays take more bytes than the index states");
         return true;
     }
 
@@ -194,7 +195,7 @@ private:
         const std::size_t count =
             argument < 2 ? reference.runs.size() - std::min(first, reference.runs.size()) : argument / 2;
         if (count == 0 || count > reference.runs.size() || first > reference.runs.size() - count)
-            return refuse("runs are copied that are not there");
+            return refuse("runs that do not exist are copied");
         const auto copied = reference.runs.subspan(first, count);
         fresh_.insert(fresh_.end(), copied.begin(), copied.end());
         return true;
@@ -206,7 +207,7 @@ private:
         const bool isLeft = command == kMoveLeft || (command >= kNearLeft && command < kNearAbove);
         ReferenceColumn& reference = isLeft ? left : above;
         const std::size_t run = reference.next(height, last);
-        if (run >= reference.runs.size()) return refuse("a run is moved that is not there");
+        if (run >= reference.runs.size()) return refuse("a run that does not exist is moved");
         std::int64_t moved = 0;
         if (command < kNearLeft) {
             moved = fromZigzag(reader(BlockStream::Moves).number());
@@ -243,7 +244,7 @@ private:
         for (const std::uint32_t column : columns) runCount += dictionary_.column(column).size();
         const std::uint64_t bytes =
             arrayBytesOf(tile.view()) + columns.size() * sizeof(std::uint32_t) + std::uint64_t{runCount} * sizeof(Run);
-        if (bytes > bytesLeft_) return refuse("its arrays take more bytes than the index says");
+        if (bytes > bytesLeft_) return refuse("its arrays take more bytes than the index states");
         bytesLeft_ -= bytes;
         tile.columnStart.reserve(columns.size() + 1);
         tile.runs.reserve(runCount);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The error of everything that reads a `.svt`.
+/// The error of all functions that read a `.svt`.
 
 #include <svt/core/error.hpp>
 

@@ -192,14 +192,15 @@ Result<ColumnBlocks> ColumnBlocks::open(Vec3i dimension, Scalar scalarCount, std
         offset += block.size;
         arrayBytes += block.arrayBytes;
         if (block.streamBytes > maxStreamBytes(block.size))
-            return badVolume(fmt::format("block {} of the columns: {} bytes are said to unpack to {}, {} are possible",
-                                         b, block.size, block.streamBytes, maxStreamBytes(block.size)));
+            return badVolume(
+                fmt::format("block {} of the columns: {} bytes cannot unpack to {}, at most {} are possible", b,
+                            block.size, block.streamBytes, maxStreamBytes(block.size)));
     }
     if (offset != frameBytes)
         return badVolume(
             fmt::format("the frames of the columns have {} bytes, the index states {}", frameBytes, offset));
     if (const std::uint64_t most = maxArrayBytes(frameBytes); arrayBytes > most)
-        return badVolume(fmt::format("the columns are said to take {} bytes, {} are possible in a file of this size",
+        return badVolume(fmt::format("the columns cannot take {} bytes, at most {} are possible in a file of this size",
                                      arrayBytes, most));
     return blocks;
 }
@@ -225,7 +226,7 @@ Result<std::vector<ColumnTileData>> ColumnBlocks::decodeBlock(std::size_t number
     const Decompressor context(ZSTD_createDCtx(), ZSTD_freeDCtx);
     if (!context || ZSTD_findFrameCompressedSize(frame.data(), frame.size()) != frame.size() ||
         ZSTD_decompressDCtx(context.get(), bytes.data(), bytes.size(), frame.data(), frame.size()) != bytes.size())
-        return wrong("it is no zstd frame of the size that the index says");
+        return wrong("it is not a zstd frame of the size in the index");
     const auto streams = splitStreams(bytes);
     if (!streams) return wrong("the lengths of its streams do not fit");
     auto tiles =

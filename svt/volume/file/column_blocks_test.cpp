@@ -92,11 +92,11 @@ TEST(ColumnBlocks, IndexThatLiesIsRefused) {
         {[](auto& index) { index.emplace_back(); }, "has 48 bytes"},
         {[](auto& index) { index[0].size += 1; }, "the index states"},
         {[](auto& index) { index[1].size = 0; }, "the index states"},
-        {[](auto& index) { index[0].streamBytes = 0xFFFFFFFF; }, "said to unpack to 4294967295"},
-        {[](auto& index) { index[0].streamBytes -= 1; }, "no zstd frame of the size"},
-        {[](auto& index) { index[0].streamBytes += 1; }, "no zstd frame of the size"},
-        {[](auto& index) { index[0].streamBytes = 0; }, "no zstd frame of the size"},
-        {[](auto& index) { index[0].arrayBytes = 0xFFFFFFFF; }, "said to take"},
+        {[](auto& index) { index[0].streamBytes = 0xFFFFFFFF; }, "cannot unpack to 4294967295"},
+        {[](auto& index) { index[0].streamBytes -= 1; }, "not a zstd frame of the size"},
+        {[](auto& index) { index[0].streamBytes += 1; }, "not a zstd frame of the size"},
+        {[](auto& index) { index[0].streamBytes = 0; }, "not a zstd frame of the size"},
+        {[](auto& index) { index[0].arrayBytes = 0xFFFFFFFF; }, "cannot take"},
         {[](auto& index) { index[1].arrayBytes -= 1; }, "block 1 of the columns: its arrays take more"},
     };
     for (const auto& [change, reason] : cases) {
@@ -122,16 +122,16 @@ TEST(ColumnBlocks, TheFirstDamagedBlockIsTold) {
 TEST(ColumnBlocks, FramesOfOtherContentAreRefused) {
     Changed changed;
     changed.replaceFrame(std::vector<std::byte>(100, std::byte{'x'}));
-    changed.expectRefused(Code::BadVolume, "no zstd frame");
+    changed.expectRefused(Code::BadVolume, "not a zstd frame");
     changed.replaceFrame({});
-    changed.expectRefused(Code::BadVolume, "no zstd frame");
+    changed.expectRefused(Code::BadVolume, "not a zstd frame");
     // Two frames that together have the right size.
     std::vector<std::byte> two = test::zstdFrameOf(std::vector<std::uint8_t>(10));
     const std::vector<std::byte> second =
         test::zstdFrameOf(std::vector<std::uint8_t>(changed.columns.index[1].streamBytes - 10));
     two.insert(two.end(), second.begin(), second.end());
     changed.replaceFrame(two);
-    changed.expectRefused(Code::BadVolume, "no zstd frame");
+    changed.expectRefused(Code::BadVolume, "not a zstd frame");
     const std::size_t size = changed.columns.index[1].streamBytes;
     changed.replaceFrame(test::zstdFrameOf(std::vector<std::uint8_t>(size, 1)));
     changed.expectRefused(Code::BadVolume, "lengths of its streams do not fit");
@@ -142,9 +142,9 @@ TEST(ColumnBlocks, FramesOfOtherContentAreRefused) {
 TEST(ColumnBlocks, FrameThatUnpacksToMoreThanSaidIsRefused) {
     Changed changed;
     changed.replaceFrame(test::zstdFrameOf(std::vector<std::uint8_t>(50'000'000)));
-    changed.expectRefused(Code::BadVolume, "no zstd frame of the size");
+    changed.expectRefused(Code::BadVolume, "not a zstd frame of the size");
     changed.columns.index[1].streamBytes = 50'000'000;
-    changed.expectRefused(Code::BadVolume, "are said to unpack to 50000000");
+    changed.expectRefused(Code::BadVolume, "cannot unpack to 50000000");
 }
 
 TEST(ColumnBlocks, DamageWithTheRightChecksumIsRefusedOrHarmless) {

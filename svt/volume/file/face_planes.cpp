@@ -172,14 +172,14 @@ Result<std::vector<FacePlane>> readFacePlanes(std::span<const std::byte> frame, 
     NumberReader reader(*bytes);
     const std::uint64_t count = reader.number();
     if (!reader.isGood() || count * kPlaneBytes > reader.left())
-        return badPlanes(fmt::format("{} planes are said to be in {} bytes", count, reader.left()));
+        return badPlanes(fmt::format("{} planes do not fit in {} bytes", count, reader.left()));
     if (count > kMaxPlanes) return badPlanes(fmt::format("{} planes are over the limit of {}", count, kMaxPlanes));
     std::vector<FacePlane> planes(static_cast<std::size_t>(count));
     std::uint32_t normalCount = 0;
     const std::vector<NormalUse> uses = readUses(reader, planes.size(), normalCount);
-    if (uses.size() != planes.size()) return badPlanes("a plane has the normal of none before it");
+    if (uses.size() != planes.size()) return badPlanes("a plane refers to a normal that is not defined before it");
     if (normalCount * kNormalBytes > reader.left())
-        return badPlanes(fmt::format("{} normals are said to be in {} bytes", normalCount, reader.left()));
+        return badPlanes(fmt::format("{} normals do not fit in {} bytes", normalCount, reader.left()));
     readNormals(reader, uses, normalCount, planes);
     readOffsets(reader, planes);
     const bool isInRange = readBoxes(reader, planes);

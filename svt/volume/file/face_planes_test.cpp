@@ -175,17 +175,17 @@ TEST(FacePlanes, WrongOnesAreFound) {
 }
 
 TEST(FacePlanes, DamagedOnesAreRefused) {
-    expectRefused({}, "no zstd frame");
-    expectRefused(std::vector<std::byte>(40, std::byte{7}), "no zstd frame");
-    expectRefused(test::zstdFrameOf({}), "0 planes are said to be in 0 bytes");
-    expectRefused(test::zstdFrameOf({1, 0, 0}), "1 planes are said to be in 2 bytes");
-    expectRefused(test::zstdFrameOf({0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0}), "4294967295 planes are said to be in 1 bytes");
-    expectRefused(test::zstdFrameOf({0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0}), "are said to be in");
+    expectRefused({}, "not a zstd frame");
+    expectRefused(std::vector<std::byte>(40, std::byte{7}), "not a zstd frame");
+    expectRefused(test::zstdFrameOf({}), "0 planes do not fit in 0 bytes");
+    expectRefused(test::zstdFrameOf({1, 0, 0}), "1 planes do not fit in 2 bytes");
+    expectRefused(test::zstdFrameOf({0xFF, 0xFF, 0xFF, 0xFF, 0x0F, 0}), "4294967295 planes do not fit in 1 bytes");
+    expectRefused(test::zstdFrameOf({0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0}), "do not fit in");
     expectRefused(test::zstdFrameOf({0, 0}), "1 bytes are left over");
-    expectRefused(exampleWith(1, {1}), "the normal of none before it");
-    expectRefused(exampleWith(1, {2}), "the normal of none before it");
-    expectRefused(exampleWith(2, {1}), "the normal of none before it");
-    expectRefused(exampleWith(2, {4}), "the normal of none before it");
+    expectRefused(exampleWith(1, {1}), "a normal that is not defined before it");
+    expectRefused(exampleWith(1, {2}), "a normal that is not defined before it");
+    expectRefused(exampleWith(2, {1}), "a normal that is not defined before it");
+    expectRefused(exampleWith(2, {4}), "a normal that is not defined before it");
     expectRefused(exampleWith(2, {0}), "cut short");  // a second normal takes what the rest needs
     expectRefused(exampleWith(10, {0x40}), "the normal of plane 0 has length 65536,");
     expectRefused(exampleWith(9, {0xF8, 0x7F}), "the normal of plane 0 has length nan");
@@ -208,7 +208,7 @@ TEST(FacePlanes, DamagedOnesAreRefused) {
 TEST(FacePlanes, MoreNormalsThanBytesAreRefused) {
     Bytes bytes{100};
     bytes.resize(1 + 100 * 15, 0);
-    expectRefused(test::zstdFrameOf(bytes), "100 normals are said to be in 1400 bytes");
+    expectRefused(test::zstdFrameOf(bytes), "100 normals do not fit in 1400 bytes");
 }
 
 TEST(FacePlanes, TooManyAreRefused) {

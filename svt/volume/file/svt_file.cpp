@@ -61,7 +61,7 @@ public:
     [[nodiscard]] Result<ZipEntry> find(std::string_view name) const {
         for (const ZipEntry& entry : entries_)
             if (entry.name == name) return entry;
-        return badVolume(fmt::format("the entry '{}' is missing; the file is no complete .svt, build it again", name));
+        return badVolume(fmt::format("the entry '{}' is missing; the .svt is incomplete, build it again", name));
     }
     /// Data of a stored or deflated entry, with checked CRC; unpacked into `buffer` if deflated.
     [[nodiscard]] Result<std::string_view> text(std::string_view name, std::uint64_t maxBytes,
@@ -97,7 +97,7 @@ Result<Entries> openEntries(std::span<const std::byte> bytes) {
     if (bytes.empty()) return badVolume("the file is empty");
     if (!looksLikeSvt(bytes))
         return badVolume(
-            "this is no .svt: a ZIP whose first entry is 'mimetype' with 'application/vnd.svt+zip' is expected, "
+            "this is not a .svt: a ZIP whose first entry is 'mimetype' with 'application/vnd.svt+zip' is expected, "
             "and the file may be cut short. Build one from a model with 'svt build'.");
     SVT_TRY(found, readZip(bytes));
     return Entries(std::move(*found));
@@ -107,8 +107,7 @@ Result<SvtBlocks> readTables(const Entries& entries) {
     std::vector<std::byte> buffer;
     SVT_TRY(mime, entries.stored(kMimeEntry));
     SVT_TRY(mimeText, entries.text(kMimeEntry, mime->size, buffer));
-    if (*mimeText != kMimeType)
-        return badVolume("the entry 'mimetype' says something else than application/vnd.svt+zip");
+    if (*mimeText != kMimeType) return badVolume("the text of the entry 'mimetype' is not application/vnd.svt+zip");
     SVT_TRY(headerText, entries.text(kHeader, kMaxHeaderBytes, buffer));
     SVT_TRY(header, readHeaderJson(*headerText));
     SVT_TRY(labelsText, entries.text(kLabels, kMaxLabelsBytes, buffer));

@@ -40,13 +40,13 @@ bool isUnit(double unit) noexcept {
            std::ldexp(1.0, std::ilogb(unit)) == unit;
 }
 
-// The counts of points, segments and triangles, as empty lists of that size.
+// Reads the numbers of points, segments and triangles, and makes lists of these sizes.
 Result<VectorParts> readCounts(NumberReader& reader) {
     const std::uint64_t points = reader.number(), segments = reader.number(), triangles = reader.number();
     if (!reader.isGood() ||
         points * kPointBytes + segments * kSegmentBytes + triangles * kTriangleBytes > reader.left())
-        return badParts(fmt::format("{} points, {} segments and {} triangles are said to be in {} bytes", points,
-                                    segments, triangles, reader.left()));
+        return badParts(fmt::format("{} points, {} segments and {} triangles do not fit in {} bytes", points, segments,
+                                    triangles, reader.left()));
     VectorParts parts;
     parts.points.resize(static_cast<std::size_t>(points));
     parts.segments.resize(static_cast<std::size_t>(segments));
@@ -125,7 +125,7 @@ Result<VectorParts> readVectorParts(std::span<const std::byte> frame, std::size_
     SVT_TRY(sized, readCounts(reader));
     VectorParts parts = std::move(*sized);
     parts.unit = std::ldexp(1.0, -static_cast<int>(std::min(exponent, 1000u)));
-    if (!isUnit(parts.unit)) return badParts(fmt::format("the unit is said to be 2^-{} m", exponent));
+    if (!isUnit(parts.unit)) return badParts(fmt::format("the unit 2^-{} m is not one of 2^-20 to 2^-10 m", exponent));
     for (int axis = 0; axis < 3; ++axis) {
         std::uint32_t before = 0;
         for (Vec3i& point : parts.points) {

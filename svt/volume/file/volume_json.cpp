@@ -77,7 +77,7 @@ void appendValue(std::string& out, const AttributeValue& value, JsonCharacters c
 class Members {
 public:
     Members(const json& object, std::string where) : object_(object), where_(std::move(where)) {
-        if (!object_.is_object()) fail("no JSON object");
+        if (!object_.is_object()) fail("is not a JSON object");
     }
 
     [[nodiscard]] bool isGood() const noexcept { return !error_; }
@@ -102,7 +102,7 @@ public:
     void read(const char* key, std::string& out) {
         const json* value = find(key);
         if (value == nullptr) return;
-        if (!value->is_string()) return fail(fmt::format("has a '{}' that is no string", key));
+        if (!value->is_string()) return fail(fmt::format("has a '{}' that is not a string", key));
         out = value->get_ref<const std::string&>();
     }
     template <std::unsigned_integral T>
@@ -122,12 +122,12 @@ public:
     void readUnsigned(const json& value, const char* key, T& out) {
         if (!value.is_number_unsigned() || value.get<std::uint64_t>() > std::numeric_limits<T>::max())
             return fail(
-                fmt::format("has a '{}' that is no whole number from 0 to {}", key, std::numeric_limits<T>::max()));
+                fmt::format("has a '{}' that is not a whole number from 0 to {}", key, std::numeric_limits<T>::max()));
         out = static_cast<T>(value.get<std::uint64_t>());
     }
     template <std::floating_point T>
     void readReal(const json& value, const char* key, T& out) {
-        if (!value.is_number()) return fail(fmt::format("has a '{}' that is no number", key));
+        if (!value.is_number()) return fail(fmt::format("has a '{}' that is not a number", key));
         const auto real = value.get<double>();
         if (!(std::abs(real) <= double{std::numeric_limits<T>::max()}))
             return fail(fmt::format("has a '{}' that is too large", key));
@@ -136,7 +136,7 @@ public:
     template <std::floating_point T>
     void readVec(const json& value, const char* key, Vec3<T>& out) {
         if (!value.is_array() || value.size() != 3)
-            return fail(fmt::format("has a '{}' that is no list of three", key));
+            return fail(fmt::format("has a '{}' that is not a list of three", key));
         for (int axis = 0; axis < 3; ++axis) readReal(value[static_cast<std::size_t>(axis)], key, out[axis]);
     }
 
@@ -164,14 +164,14 @@ void readAttributeValue(Members& members, const json& value, AttributeValue& out
     } else if (value == json::object({{"real", "-inf"}})) {
         out = -std::numeric_limits<double>::infinity();
     } else {
-        members.fail("has an attribute whose value is no string, number, true or false");
+        members.fail("has an attribute whose value is not a string, a number, true or false");
     }
 }
 
 void readAttributes(Members& members, const std::string& where, std::vector<Attribute>& out) {
     const json* list = members.find("attributes");
     if (list == nullptr) return;
-    if (!list->is_array()) return members.fail("has 'attributes' that are no list");
+    if (!list->is_array()) return members.fail("has 'attributes' that are not a list");
     out.reserve(list->size());
     for (const json& item : *list) {
         Members attribute(item, where + ": an attribute");
@@ -207,7 +207,7 @@ Result<Label> readLabel(const json& object, std::size_t number) {
     if (members.has("uncertainVoxels")) members.read("uncertainVoxels", label.uncertainVoxels);
     if (members.has("groups")) {
         const json& groups = *members.find("groups");
-        if (!groups.is_array()) members.fail("has 'groups' that are no list");
+        if (!groups.is_array()) members.fail("has 'groups' that are not a list");
         for (const json& group : groups) members.readUnsigned(group, "groups", label.groups.emplace_back());
     }
     if (members.has("attributes")) readAttributes(members, where, label.attributes);
@@ -219,7 +219,7 @@ Result<Overlap> readOverlap(const json& list, std::size_t number) {
     Members members(json::object(), fmt::format("labels.json: overlap {}", number));
     Overlap overlap;
     if (!list.is_array() || list.size() != 4 || !list[3].is_boolean()) {
-        members.fail("is no list of two labels, voxels and true or false");
+        members.fail("is not a list of two labels, voxels and true or false");
     } else {
         members.readUnsigned(list[0], "label", overlap.a);
         members.readUnsigned(list[1], "label", overlap.b);
@@ -279,7 +279,7 @@ private:
 
 Error parseError(std::string_view entry, const json::exception& exception) {
     const auto* syntax = dynamic_cast<const json::parse_error*>(&exception);
-    return badVolume(syntax != nullptr ? fmt::format("{}: no well-formed JSON at byte {}", entry, syntax->byte)
+    return badVolume(syntax != nullptr ? fmt::format("{}: invalid JSON at byte {}", entry, syntax->byte)
                                        : fmt::format("{}: a number is out of range", entry));
 }
 
@@ -287,7 +287,7 @@ Result<void> checkVersion(Members& members) {
     std::string format;
     std::string version;
     members.read("format", format);
-    if (members.isGood() && format != "svt") members.fail("has another 'format' than svt");
+    if (members.isGood() && format != "svt") members.fail("has a 'format' other than svt");
     members.read("version", version);
     unsigned major = 0;
     std::size_t digits = 0;
@@ -463,7 +463,7 @@ Result<SvtHeader> readHeaderJson(std::string_view text) {
     members.read("source", header.source);
     std::array<Vec3d, 3> axes;
     if (const json* list = members.find("axes")) {
-        if (!list->is_array() || list->size() != 3) members.fail("has 'axes' that are no list of three");
+        if (!list->is_array() || list->size() != 3) members.fail("has 'axes' that are not a list of three");
         for (std::size_t axis = 0; members.isGood() && axis < 3; ++axis)
             members.readVec((*list)[axis], "axes", axes[axis]);
     }
@@ -537,7 +537,7 @@ Result<void> checkLabels(const LabelTable& table) {
         const bool isFinite = std::isfinite(label.volume) && std::isfinite(label.opacity) &&
                               std::isfinite(label.color.x) && std::isfinite(label.color.y) &&
                               std::isfinite(label.color.z);
-        if (!isFinite) return wrong(i, "has a volume, color or opacity that is no finite number");
+        if (!isFinite) return wrong(i, "has a volume, color or opacity that is not a finite number");
         if (fillingName(label.filling) == "none" && label.filling != Filling::None)
             return wrong(i, "has a filling that does not exist");
     }
@@ -549,7 +549,7 @@ Result<void> checkLabels(const LabelTable& table) {
             fmt::format("{} phase colors found, {} or none expected", table.phaseColors.size(), table.scalarCount()));
     for (const Vec3f color : table.phaseColors)
         if (!std::isfinite(color.x) || !std::isfinite(color.y) || !std::isfinite(color.z))
-            return badVolume("a phase color is no finite number");
+            return badVolume("a phase color is not a finite number");
     return {};
 }
 

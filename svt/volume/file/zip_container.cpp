@@ -31,7 +31,7 @@ constexpr std::uint16_t kPaddingExtra = 0x5653;  // the bytes "SV": zeros up to 
 constexpr std::uint16_t kVersion20 = 20;
 constexpr std::uint16_t kVersion45 = 45;  // ZIP64
 constexpr std::uint16_t kMadeByUnix = 3 << 8;
-constexpr std::uint16_t kDate1980 = (1 << 5) | 1;  // 1 January 1980, the earliest a ZIP can say
+constexpr std::uint16_t kDate1980 = (1 << 5) | 1;  // 1 January 1980, the earliest date of a ZIP
 constexpr std::uint32_t kFileMode = 0100644u << 16;
 constexpr std::uint32_t kIn64 = 0xFFFFFFFFu;  // "see the ZIP64 field"
 constexpr std::uint16_t kIn64Count = 0xFFFFu;
@@ -188,12 +188,11 @@ Result<Directory> readEnd(std::span<const std::byte> bytes) {
     }
     if (directory.offset > directoryEnd || directory.size != directoryEnd - directory.offset)
         return badVolume(
-            fmt::format("the central directory is said to have {} bytes at {}, which is not what lies before its "
-                        "end at {}: the file is cut short or damaged",
+            fmt::format("the central directory of {} bytes at {} does not end at {}: the file is cut short or damaged",
                         directory.size, directory.offset, directoryEnd));
     if (directory.count > kMaxEntries || directory.count > directory.size / kCentralSize)
-        return badVolume(fmt::format("{} entries are said to be in {} bytes of central directory, which cannot be",
-                                     directory.count, directory.size));
+        return badVolume(
+            fmt::format("{} entries do not fit in {} bytes of central directory", directory.count, directory.size));
     return directory;
 }
 
@@ -202,7 +201,7 @@ std::string_view wrongName(std::string_view name) noexcept {
     if (name.empty()) return "is empty";
     if (name.size() > kMaxNameBytes) return "is longer than 255 bytes";
     for (const char c : name) {
-        if (c < 0x20 || c > 0x7E) return "holds a character that is no printable ASCII";
+        if (c < 0x20 || c > 0x7E) return "holds a character that is not printable ASCII";
         if (c == '\\') return "holds a backslash";
         if (c == ':') return "holds a colon";
     }
@@ -289,10 +288,9 @@ struct Located {
 Result<Located> readLocal(std::span<const std::byte> bytes, ZipEntry entry, std::uint64_t offset,
                           std::uint64_t packedSize, std::uint64_t directoryOffset) {
     if (offset > directoryOffset || directoryOffset - offset < kLocalSize)
-        return badVolume("is said to lie outside the file");
+        return badVolume("has an offset outside the file");
     const auto at = static_cast<std::size_t>(offset);
-    if (loadBytes<std::uint32_t>(bytes, at) != kLocalSignature)
-        return badVolume("has no local header where it is said to lie");
+    if (loadBytes<std::uint32_t>(bytes, at) != kLocalSignature) return badVolume("has no local header at its offset");
     const auto method = loadBytes<std::uint16_t>(bytes, at + 8);
     SVT_DO(checkKind(loadBytes<std::uint16_t>(bytes, at + 6), method));
     const std::size_t nameSize = loadBytes<std::uint16_t>(bytes, at + 26);
@@ -460,7 +458,7 @@ Result<std::span<const std::byte>> unpack(const ZipEntry& entry, std::uint64_t m
     std::span<const std::byte> data = entry.data;
     if (entry.isDeflated) {
         if (entry.size > maxUnpacked(data.size()))
-            return badVolume(fmt::format("entry {} is said to unpack from {} bytes to {}, {} are possible",
+            return badVolume(fmt::format("entry {} cannot unpack from {} bytes to {}, at most {} are possible",
                                          shown(entry.name), data.size(), entry.size, maxUnpacked(data.size())));
         if (!inflateInto(entry, buffer))
             return badVolume(

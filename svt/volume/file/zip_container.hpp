@@ -40,7 +40,7 @@ struct ZipEntry {
 [[nodiscard]] std::uint32_t crc32Of(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
 /// Writes the entries in the given order to a file, atomically. Equal entries give equal bytes. Data are deflated in
-/// parallel; they are stored instead if deflating gains nothing, or if unpack() would refuse the ratio.
+/// parallel; they are stored instead if deflating gains nothing, or if unpack() would reject the ratio.
 /// \param zip64From  sizes and offsets of at least this value are written in ZIP64 form; only tests use another value
 /// \return bytes written, or CannotWrite or DiskFull
 [[nodiscard]] Result<std::uint64_t> writeZip(const std::filesystem::path& path, std::span<const ZipSource> entries,

@@ -14,8 +14,8 @@ namespace {
 /// saves 5 to 8 %; 3 is three times as fast and 15 % larger.
 constexpr int kZstdLevel = 9;
 
-/// ZSTD_c_useRowMatchFinder and ZSTD_ps_enable, which zstd.h hides from those who link it dynamically. Left to itself, zstd
-/// takes that way of finding matches where it has SIMD, and gives other bytes where it has not.
+/// ZSTD_c_useRowMatchFinder and ZSTD_ps_enable, which zstd.h hides from programs that link it dynamically. By default,
+/// zstd uses this match finder only with SIMD, and gives other bytes without it.
 constexpr ZSTD_cParameter kRowMatchFinder = ZSTD_c_experimentalParam14;
 constexpr int kEnable = 1;
 
@@ -34,8 +34,8 @@ void startFrame(ZSTD_CCtx* context) {
 
 namespace {
 
-// The same in blocks of 1 KiB, each of which takes three bytes at least: a frame that every reader accepts, however often
-// the bytes repeat themselves.
+// The same in blocks of 1 KiB. Each block takes at least three bytes, so every reader accepts the frame, even if the
+// bytes repeat often.
 Result<std::vector<std::byte>> compressInSmallBlocks(ZSTD_CCtx* context, std::span<const std::uint8_t> bytes,
                                                      std::string_view what) {
     constexpr std::size_t kBlock = 1024, kHeaders = 64;
@@ -71,11 +71,10 @@ Result<std::vector<std::uint8_t>> unpackNumbers(std::span<const std::byte> frame
     const std::uint64_t size = ZSTD_getFrameContentSize(frame.data(), frame.size());
     if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN ||
         ZSTD_findFrameCompressedSize(frame.data(), frame.size()) != frame.size())
-        return Error(
-            Code::BadVolume,
-            fmt::format("{}: they are no zstd frame that says its size; the file is damaged, build it again", what));
+        return Error(Code::BadVolume,
+                     fmt::format("{}: not a zstd frame with a stated size; the file is damaged, build it again", what));
     if (size > maxBytes(frame.size()))
-        return Error(Code::BadVolume, fmt::format("{}: {} bytes are said to unpack to {}, {} are possible", what,
+        return Error(Code::BadVolume, fmt::format("{}: {} bytes cannot unpack to {}, at most {} are possible", what,
                                                   frame.size(), size, maxBytes(frame.size())));
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
     if (ZSTD_decompress(bytes.data(), bytes.size(), frame.data(), frame.size()) != bytes.size())

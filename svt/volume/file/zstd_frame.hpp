@@ -15,7 +15,7 @@ struct ZSTD_CCtx_s;
 
 namespace svt::volume {
 
-/// Prepares a context for a frame of a file: what decides the frame's bytes is the same on every machine.
+/// Prepares a context for a frame of a file. All parameters that affect the bytes are the same on every machine.
 void startFrame(ZSTD_CCtx_s* context);
 
 /// Maximum unpacked size of any frame, bytes.
@@ -37,8 +37,8 @@ private:
     std::vector<std::uint8_t> bytes_;
 };
 
-/// Reads what NumberWriter wrote. A number that is truncated or over 32 bits, or a byte beyond the end, reads as 0 and
-/// sets isGood() to false.
+/// Reads the output of NumberWriter. A number that is truncated or over 32 bits, or a byte beyond the end, reads as 0
+/// and sets isGood() to false.
 class NumberReader {
 public:
     explicit NumberReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
@@ -72,10 +72,10 @@ private:
     bool isGood_ = true;
 };
 
-/// Compresses bytes. Equal bytes give equal frames. What would unpack to more than readers accept (1 MiB + 1024 times the
-/// frame) is compressed less well.
+/// Compresses bytes. Equal bytes give equal frames. Bytes that would unpack to more than readers accept (1 MiB + 1024
+/// times the frame) are compressed less well.
 /// \param what  name of the content for messages: "the vector parts"
-/// \return the frame, or BadArgument where zstd fails
+/// \return the frame, or BadArgument if zstd fails
 [[nodiscard]] Result<std::vector<std::byte>> compressNumbers(std::span<const std::uint8_t> bytes,
                                                              std::string_view what);
 

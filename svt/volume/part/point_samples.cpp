@@ -15,7 +15,7 @@ void samplePoints(const ColumnVolume& columns, const Grid& grid, std::span<const
     parallelFor(points.size(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
             const Vec3d voxel = grid.indexFromWorld(points[p]) + Vec3d{0.5, 0.5, 0.5};
-            // Also false for NaN; and what is inside fits into an integer.
+            // Also false for NaN. Points inside fit into an integer.
             const bool isInside = voxel.x >= 0 && voxel.y >= 0 && voxel.z >= 0 && voxel.x < dimension.x &&
                                   voxel.y < dimension.y && voxel.z < dimension.z;
             out[p] = isInside ? columns.scalarAt(static_cast<std::int32_t>(voxel.x), static_cast<std::int32_t>(voxel.y),

@@ -15,7 +15,7 @@ namespace {
 constexpr std::int32_t kTile = ColumnVolume::kTileSize;
 constexpr std::uint16_t kNoColumn = 0xFFFF;  // a tile has 4096 columns at most
 
-/// Counts voxels again; a volume that is no longer that of the whole label becomes that of its voxels.
+/// Counts voxels again. A label that is no longer complete gets the volume of its voxels.
 void recount(SemanticVolume& volume) {
     const auto voxels = volume.columns.countVoxels(volume.labels.scalarCount());
     for (Label& label : volume.labels.labels) {
@@ -40,7 +40,7 @@ ColumnTileData replacedTile(const ColumnTile& tile, std::size_t width, std::span
     ColumnTileBuilder builder(static_cast<std::int32_t>(width));
     std::vector<std::uint16_t> numberOf;
     std::vector<Run> runs;
-    // Columns are numbered by first use, and what becomes equal takes the number of the first.
+    // Columns are numbered by first use, and columns that become equal get the number of the first one.
     for (std::uint32_t c = 0; c + 1 < tile.columnStart.size(); ++c) {
         runs.clear();
         for (const Run& run : tile.column(c)) appendRun(runs, {run.end, newOf[run.scalar]});
@@ -129,7 +129,7 @@ std::vector<FacePlane> croppedPlanes(std::span<const FacePlane> planes, const In
     return kept;
 }
 
-/// The scalar of a cell: that of which most is there, of the label that fills most; background where that fills more.
+/// The scalar of a cell: the most frequent scalar of the label that fills most of it; background if it fills more.
 Scalar scalarOf(const Mixture& mixture, std::span<const std::uint32_t> labelOf) {
     int most = 0;
     Scalar scalar = 0;
@@ -154,7 +154,7 @@ Result<IndexBox> samplesIn(const Grid& grid, const Box3d& world) {
                                        (corner & 4) != 0 ? world.max.z : world.min.z}));
     IndexBox box;
     const Vec3i dimension = grid.dimension();
-    // A bound that is meant to lie on a sample does so up to rounding.
+    // Rounding may move a bound away from the sample that it should lie on.
     constexpr double kRounding = 1e-6;
     for (int axis = 0; axis < 3; ++axis) {
         const double least = std::max(std::ceil(index.min[axis] - kRounding), 0.0);
@@ -162,7 +162,7 @@ Result<IndexBox> samplesIn(const Grid& grid, const Box3d& world) {
         if (world.isEmpty() || !(least <= most))
             return Error(Code::NothingSelected,
                          fmt::format("no sample lies in the box from {:.3f},{:.3f},{:.3f} to {:.3f},{:.3f},{:.3f}; "
-                                     "`svt info` tells where the volume lies",
+                                     "`svt info` prints the position of the volume",
                                      world.min.x, world.min.y, world.min.z, world.max.x, world.max.y, world.max.z));
         box.begin[axis] = static_cast<std::int32_t>(least);
         box.end[axis] = static_cast<std::int32_t>(most) + 1;
@@ -212,7 +212,7 @@ Result<SemanticVolume> croppedVolume(const SemanticVolume& volume, const IndexBo
     const Vec3i dimension = volume.grid.dimension();
     for (int axis = 0; axis < 3; ++axis)
         if (box.begin[axis] < 0 || box.end[axis] > dimension[axis] || box.end[axis] - box.begin[axis] < 2)
-            return Error(Code::BadArgument, fmt::format("samples {} to {} of {} along axis {} are no box to crop to",
+            return Error(Code::BadArgument, fmt::format("cannot crop to samples {} to {} of {} along axis {}",
                                                         box.begin[axis], box.end[axis], dimension[axis], axis));
     if (box == IndexBox{{}, dimension}) return volume;
     const Vec3i size = box.end - box.begin;

@@ -51,7 +51,7 @@ volume::BrickPlane planeThrough(Vec3d normal, Vec3d point) noexcept {
     return plane;
 }
 
-// A triangle of an object in voxel space; nothing where it is too small.
+// A triangle of an object in voxel space; nullopt if it is too small.
 std::optional<Facet> facetOf(const mesh::ObjectMesh& object, const mesh::Triangle& triangle,
                              const IndexFromLocal& indexFromLocal) {
     Facet facet;
@@ -66,7 +66,8 @@ std::optional<Facet> facetOf(const mesh::ObjectMesh& object, const mesh::Triangl
     return facet;
 }
 
-// Which triangle a facet is of. A facet has 120 bytes, so of millions only these 16 are kept, and facets made again.
+// The triangle of a facet. A facet has 120 bytes. There may be millions, so only these 16 bytes are kept for each, and
+// facets are made again.
 struct FacetPlace {
     double area = 0;
     std::uint32_t object = 0, triangle = 0;
@@ -95,7 +96,7 @@ public:
         const volume::BrickPlane own = planeThrough(facet.normal, facet.corners[0]);
         const std::array<double, 4> place{own.normal.x * kCellsPerNormal, own.normal.y * kCellsPerNormal,
                                           own.normal.z * kCellsPerNormal, heightOver(own, center_)};
-        // Look in all cells that a nearly equal plane may fall into; mostly that is one.
+        // Search all cells that a nearly equal plane may fall into; usually one.
         constexpr double kEdge = 0.05;
         for (unsigned corner = 0; corner < 16; ++corner) {
             Cell cell;
@@ -156,7 +157,7 @@ volume::BrickPlane rounded(const volume::BrickPlane& plane) noexcept {
     return result;
 }
 
-// nullopt where the faces lie outside the grid.
+// nullopt if the faces lie outside the grid.
 std::optional<volume::FacePlane> clipped(const PlaneGroup& group, Vec3i dimension) noexcept {
     volume::FacePlane face{rounded(group.plane), {}, {}};
     for (int axis = 0; axis < 3; ++axis) {

@@ -7,7 +7,7 @@
 namespace svt::voxelize {
 namespace {
 
-// False where the triangle crosses no sample line within `dimension`.
+// False if the triangle crosses no sample line within `dimension`.
 bool setUpPlan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c, Vec3i dimension, FaceTriangle& out,
                bool& facesDown) noexcept {
     const QuantaPoint* corners[3] = {&a, &b, &c};

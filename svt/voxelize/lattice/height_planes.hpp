@@ -31,8 +31,8 @@ struct HeightPlane {
     }
 };
 
-/// Height planes of a grid by number. Numbers 0 to depth are flat height planes, each directly below the sample of that
-/// number; `first` and up are sloped height planes.
+/// Height planes of a grid by number. Numbers 0 to depth are flat height planes, each directly below the sample with
+/// its number. Numbers from `first` on are sloped height planes.
 struct HeightPlanes {
     std::int32_t depth = 0;
     std::uint32_t first = 0;

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Scan conversion of triangles: which sample lines along one axis cross a triangle, and at which height.
-/// Written for lines along z; the other axes are handled by permuting the coordinates.
+/// The code is for lines along z; for the other axes, the coordinates are permuted.
 
 #include <svt/voxelize/lattice/index_mesh.hpp>
 

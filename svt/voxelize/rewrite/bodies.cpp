@@ -40,7 +40,7 @@ struct TileArea {
     std::int32_t firstColumn, firstRow, width, height;
 };
 
-// Of each column of a tile the lowest and one past the highest sample of a group; low >= high where it has none.
+// The lowest sample and one past the highest sample of a group in each column of a tile; low >= high: no sample.
 struct SampleRanges {
     std::vector<std::int32_t> low, high;
 };

@@ -98,7 +98,7 @@ Result<std::shared_ptr<const PatternTexels>> readPatternImage(const std::filesys
     for (std::int32_t y = image->height() - 1; y >= 0; --y)
         for (std::int32_t x = 0; x < image->width(); ++x) {
             const image::Rgba8 pixel = image->at(x, y);
-            // What is transparent lets black through.
+            // Transparent pixels show black behind them.
             const auto over = [&](std::uint8_t channel) { return static_cast<std::uint8_t>(channel * pixel.a / 255); };
             colors.push_back({over(pixel.r), over(pixel.g), over(pixel.b)});
         }

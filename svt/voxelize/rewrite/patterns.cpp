@@ -33,8 +33,9 @@ std::uint32_t hashCell(std::int64_t x, std::int64_t y, std::int64_t z, std::uint
 
 double unit(std::uint32_t bits) noexcept { return bits * (1.0 / 4294967296.0); }
 
-// Running bond: every second course is shifted by half a brick, also in depth, so that no cut along a wall is all joint. Returns 1 in a joint, 0 in a brick. Each brick begins
-// at its lower corner, with the joints behind it, so that a face at 0 shows bricks.
+// Running bond: every second course is shifted by half a brick, also in depth, so that no cut along a wall shows only a
+// joint. Returns 1 in a joint, 0 in a brick. Each brick begins at its lower corner, with the joints behind it, so that
+// a face at 0 shows bricks.
 //
 //     w   [ ][      ][      ]
 //         [      ][      ][ ]   course 0
@@ -48,15 +49,15 @@ std::uint32_t bond(Vec3d p, Vec3d size, double joint) noexcept {
     return u >= size.x - joint || v >= size.y - joint || w >= size.z - joint ? 1 : 0;
 }
 
-// `unit` stretched or squeezed so that whole ones fill `extent`, the last without its joint. Objects that are smaller than
-// half a unit keep it.
+// `unit`, scaled so that whole units fill `extent`, the last one without its joint. It stays for objects smaller than
+// half a unit.
 double fitted(double unit, double joint, double extent) noexcept {
     const double count = std::floor((extent + joint) / unit + 0.5);
     return count >= 1 ? (extent + joint) / count : unit;
 }
 
 std::uint32_t hatch(Vec3d p, double period, double line, double angleDegrees) noexcept {
-    // Cosine and sine of the angle, in turns, by the polynomial above.
+    // Cosine and sine of the angle by the polynomial above, whose argument is a number of turns.
     const double c = cosineOfTurn(angleDegrees / 360), s = cosineOfTurn(angleDegrees / 360 - 0.25);
     // Lines run along (cos, sin) in (u, w) and also slope along v, so that every section shows them.
     return within(p.z * c - p.x * s + p.y * s, period) < line ? 1 : 0;
@@ -192,7 +193,7 @@ void fitPattern(PatternedObject& object, Vec3d spacing) noexcept {
     pattern.size.x = 2 * fitted(pattern.size.x / 2, pattern.line, extent.x);
     pattern.size.y = 2 * fitted(pattern.size.y / 2, pattern.line, extent.y);
     pattern.size.z = fitted(pattern.size.z, pattern.line, extent.z);
-    // A sheet, of which the material lies on either side, goes through the middle of bricks.
+    // A sheet goes through the middle of bricks, because its material may lie on either side.
     if (extent.y < pattern.line)
         object.axes.origin = object.axes.origin - object.axes.directions[1] * ((pattern.size.y / 2 - pattern.line) / 2);
 }

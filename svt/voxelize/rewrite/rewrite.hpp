@@ -30,7 +30,7 @@ struct VoxelEdit {
     volume::Scalar scalar = 0;
 };
 
-/// Sets single voxels. Of several edits of one voxel the first wins; edits outside the volume are ignored.
+/// Sets single voxels. The first of several edits of one voxel wins; edits outside the volume are ignored.
 [[nodiscard]] volume::ColumnVolume editVoxels(const volume::ColumnVolume& columns, std::vector<VoxelEdit> edits,
                                               int threads);
 

@@ -22,8 +22,8 @@ namespace {
 
 using volume::ColumnVolume;
 
-// Every object has three claims: as a solid; for thin parts whose sample lies on a side of them; for other thin parts, or as
-// a sheet.
+// Every object has three claims: as a solid; for thin parts with a sample on one of their sides; for other thin parts,
+// or as a sheet.
 struct Claims {
     std::vector<PrioritizedClaim> ordered;
     std::vector<std::uint32_t> solidOrder, tiedOrder, thinOrder;  // per object
@@ -39,7 +39,8 @@ Claims orderClaims(const mesh::MeshSet& meshes, std::span<const ObjectClaim> cla
     std::vector<Entry> entries;
     for (std::uint32_t o = 0; o < claims.size(); ++o)
         for (const Kind kind : {Kind::Solid, Kind::Tied, Kind::Thin}) entries.push_back({o, kind});
-    // Lower rank first; at equal rank solids and ties before other thin parts and sheets, then the smaller volume, then the id.
+    // Lower rank first; at equal rank solids and ties before other thin parts and sheets, then the smaller volume, then
+    // the id.
     std::sort(entries.begin(), entries.end(), [&](const Entry& p, const Entry& q) {
         const auto key = [&](const Entry& e) {
             return std::tuple<std::uint8_t, bool, double, std::string_view, std::uint32_t, Kind>(
@@ -146,7 +147,7 @@ void addSheet(const IndexMesh& index, const volume::Grid& grid, std::uint32_t cl
         addThinSheet(index, grid.dimension(), claim, boundsBody, parts.boxes);
     else
         addConservativeSheet(index, grid.dimension(), claim, parts.boxes);
-    // Of faces closer together than voxels most boxes are the same; each would take 300 bytes in its tiles.
+    // If faces are closer together than voxels, most boxes are the same. Each would take 300 bytes in its tiles.
     constexpr std::size_t kMany = 1 << 16;
     if (parts.boxes.size() <= kMany) return;
     std::ranges::sort(parts.boxes);

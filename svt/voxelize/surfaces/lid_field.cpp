@@ -54,7 +54,7 @@ struct HalfAngle {
 };
 
 double squaredDistance(Vec3d a, Vec3d b) noexcept {
-    // Of the origin to the segment from a to b.
+    // From the origin to the segment from a to b.
     const Vec3d ab = b - a;
     const double squared = dot(ab, ab);
     const double t = squared > 0 ? std::clamp(-dot(a, ab) / squared, 0.0, 1.0) : 0.0;
@@ -83,7 +83,7 @@ void addEdge(const Ray& a, const Ray& b, Jet& jet) noexcept {
                                 0.5;
 }
 
-// Does the way from a over b to c bend at b?
+// Whether the path from a over b to c bends at b.
 bool isCorner(Vec3d a, Vec3d b, Vec3d c) noexcept {
     const Vec3d ab = b - a, bc = c - b;
     return !(length(cross(ab, bc)) <= 1e-9 * length(ab) * length(bc) && dot(ab, bc) > 0);

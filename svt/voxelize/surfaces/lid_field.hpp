@@ -2,7 +2,7 @@
 /// \file
 /// The winding number of lids, c(p): the solid angle under which p sees them, divided by 4 pi.
 ///
-/// Where p crosses a lid, c jumps by one. Elsewhere it is harmonic, and its derivatives need the border alone (the law
+/// Where p crosses a lid, c jumps by one. Elsewhere it is harmonic, and its derivatives need only the border (the law
 /// of Biot and Savart). It is evaluated for sets of pieces, the triangles of the lids; edges that two neighbouring
 /// pieces of a set share cancel.
 
@@ -92,10 +92,10 @@ public:
 
     /// Winding number of a set of pieces at `p`.
     [[nodiscard]] double winding(std::span<const std::uint32_t> set, Vec3d p) const noexcept;
-    /// The same at a sample that may be close to some of them: on which side it is, is decided as in the sweep.
+    /// The same at a sample that may be close to some of them. The side of the sample is decided as in the sweep.
     [[nodiscard]] double windingNear(std::span<const std::uint32_t> set, Vec3i sample) const noexcept;
-    /// What windingNear() adds to winding() for the sake of one piece; NaN where rounding decides the side of the piece.
-    /// Over all pieces close to the sample the sum is a whole number, but for strips thinner than 1/256 voxel.
+    /// Contribution of one piece to windingNear() - winding(); NaN if rounding decides the side of the piece. The sum
+    /// over all pieces close to the sample is a whole number, except in strips thinner than 1/256 voxel.
     [[nodiscard]] double latticeDifference(std::uint32_t piece, Vec3i sample) const noexcept;
     /// The jet of a set of pieces at `p`, with a bound of its error for distances up to `radius`. If that is more than
     /// `limit`, the rest is not computed.

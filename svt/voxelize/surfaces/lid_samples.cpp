@@ -28,7 +28,7 @@ HWY_INLINE V dotOf(const Rays& a, const Rays& b) { return sumOfProducts(a.x, b.x
 
 HWY_INLINE V crossOf(V a, V b, V c, V d) { return hn::Sub(hn::Mul(a, b), hn::Mul(c, d)); }
 
-// Argument of a complex number in turns, -1/2 to 1/2, with an error of less than 1e-5.
+// Argument of a complex number, in full turns, -1/2 to 1/2, with an error of less than 1e-5.
 HWY_INLINE V argument(V real, V imaginary) {
     const Lanes d;
     const V x = hn::Abs(real), y = hn::Abs(imaginary);

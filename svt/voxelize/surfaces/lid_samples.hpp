@@ -11,10 +11,10 @@
 
 namespace svt::voxelize {
 
-/// At most so many samples; a multiple of the widest vector.
+/// Maximum number of samples; a multiple of the widest vector.
 inline constexpr std::size_t kLidSamples = 64;
 
-/// Bound of the error of an arc tangent in turns, which windingsAt() approximates by a polynomial.
+/// Error bound, in full turns, of the polynomial for the arc tangent in windingsAt().
 inline constexpr double kArcError = 3e-6;
 
 /// Positions relative to a centre. Entries beyond `count` up to the next multiple of 8 must be finite.

@@ -2,7 +2,7 @@
 /// \file
 /// The rim of an open shell, chained into loops, and a lid over each loop: a fan of triangles about an apex.
 ///
-///        r3 ------- r2        A lid is turned so that shell and lids together are a closed mesh.
+///        r3 ------- r2        A lid is oriented so that shell and lids together are a closed mesh.
 ///        |  \     /  |        Loops of three or four edges have their first point as apex.
 ///        |    apex   |
 ///        |  /     \  |

@@ -137,8 +137,8 @@ void addRod(const ThinFace& face, const IndexFromLocal& indexFromLocal, Vec3i di
     for (int s = 0; s <= steps; ++s) addNearest(from + way * (double(s) / steps), dimension, claim, boxes);
 }
 
-// The axes along which the normal is longest: mostly one; more where they are equal but for rounding, which differs from
-// triangle to triangle of a face.
+// The axes along which the normal is longest: usually one; several if they differ only by rounding, which varies
+// between the triangles of a face.
 std::array<bool, 3> axesAcross(const IndexMesh& mesh, const mesh::Triangle& triangle) {
     std::array<Vec3d, 3> corner;
     for (std::size_t c = 0; c < 3; ++c) {

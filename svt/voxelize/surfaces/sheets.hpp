@@ -12,8 +12,8 @@ namespace svt::voxelize {
 /// Thin, 6-separating sheet (Cohen-Or & Kaufman 1995): wherever the surface passes between two samples that are
 /// neighbours along x, y or z, the sample behind the face gets a voxel. No path of 6-neighbours crosses the sheet. Two
 /// sheets at the same place that face opposite ways get different voxels. Clipped to `dimension`.
-/// \param boundsBody  see ObjectClaim: neighbours along the longest component of a triangle's normal alone count. Within a
-///                    face these are all of its voxels; at its edges a path of 6-neighbours may pass
+/// \param boundsBody  see ObjectClaim: only neighbours along the longest component of a triangle's normal count. Within
+///                    a face these give all of its voxels; at its edges a path of 6-neighbours may pass
 void addThinSheet(const IndexMesh& mesh, Vec3i dimension, std::uint32_t claim, bool boundsBody,
                   std::vector<ClaimedBox>& boxes);
 

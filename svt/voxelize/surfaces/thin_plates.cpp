@@ -12,8 +12,8 @@
 namespace svt::voxelize {
 namespace {
 
-constexpr double kOpposite = -0.99;  // cosine between the two sides of a plate: 8 degrees; a wedge is no plate
-constexpr double kAlmost = 0.99;     // of the longest component of a normal: as long, but for rounding
+constexpr double kOpposite = -0.99;  // cosine between the two sides of a plate: 8 degrees; a wedge is not a plate
+constexpr double kAlmost = 0.99;     // share of the longest component of a normal: equal up to rounding
 constexpr std::int32_t kStrip = 32;  // rows at a time
 constexpr std::uint64_t kLooks = 34'000'000, kLooksPerFace = 256;
 constexpr std::int32_t kSnap = 4;  // quanta by which the snap of corners may bring two sides past each other
@@ -32,7 +32,8 @@ struct PlateFace {
     Box3d box;             // rows, columns and heights, in samples
 };
 
-// The faces through which lines along an axis enter a solid, where it is the dominant one of the face, and leave it.
+// The faces through which lines along an axis enter a solid, if this is their dominant axis, and those through which
+// they leave it.
 struct Sides {
     std::vector<PlateFace> entries, exits;
 };
@@ -81,7 +82,7 @@ struct Missed {
     bool isTied = false;  // it lies on a side of the material
 };
 
-// The sample nearest to the middle of material that has none; -1 where it has one, or ends nowhere.
+// The sample nearest to the middle of material without a sample; -1 if it has a sample, or no end.
 Missed missedSample(std::int64_t entry, std::int64_t exit, std::int32_t count) {
     constexpr std::int64_t kHalf = std::int64_t{1} << (Height::kBits + kQuantaBits - 1);
     if (exit == kAtEntry) exit = entry;
@@ -137,7 +138,7 @@ private:
         if (hasTies) add(true, claims.tied);
     }
 
-    // Of each line the first exit above the entry; without any, one that the snap has brought to it.
+    // Finds the first exit of each line above the entry; if there is none, an exit that snapping moved to the entry.
     template <class Leave>
     static void markExits(const PlateFace& entry, const PlateFace& exit, std::int32_t firstRow, std::int32_t endRow,
                           std::int32_t left, std::int32_t right, const Leave& leave) {
@@ -184,7 +185,7 @@ void addThinPlates(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, 
         for (const PlateFace& entry : sides.entries) {
             Box3d behind = entry.box;
             behind.min.z -= double(kSnap) / kQuanta;
-            behind.max.z += 1;  // a voxel on
+            behind.max.z += 1;  // one voxel further
             exits.clear();
             std::uint64_t looked = 0;
             const auto isBehind = [&](const Box3d& box) {

@@ -2,9 +2,9 @@
 /// \file
 /// Plates of a solid that are thinner than a voxel: panes, leaves, jambs, sheets of metal.
 ///
-/// What is thin is decided on each sample line by itself: from where the line enters the solid to where it leaves through a
-/// face that is nearly parallel. So it does not depend on the triangulation of faces, nor on other parts behind a
-/// face: a jamb is a plate beside the door's leaf, too.
+/// Each sample line decides by itself whether material is thin: from the point where it enters the solid to the point
+/// where it leaves through a face that is nearly parallel. So the result does not depend on the triangulation of faces,
+/// nor on other parts behind a face: a jamb next to the door's leaf is also a plate.
 
 #include <svt/voxelize/tiles/tile_plan.hpp>
 
@@ -15,15 +15,17 @@ namespace svt::voxelize {
 /// Claims of an object for its thin parts.
 struct ThinClaims {
     std::uint32_t thin = 0;
-    /// Of a plate without a sample that has one on a side, within 1/128 voxel. On which side of a face such a tie falls depends
-    /// on the axes of the grid; had it fallen to the other, the sample would be inside. So it claims as what is inside.
+    /// Claim of a plate without a sample inside but with a sample on one of its sides, within 1/128 voxel. The axes of
+    /// the grid decide on which side of the face such a tie falls. On the other side, the sample would be inside. So
+    /// the claim has the priority of samples inside.
     std::uint32_t tied = 0;
 };
 
-/// Adds, for each sample line along the dominant axis of a face, the nearest sample to the middle of the material behind
-/// the face, where the material has no sample. Faces within 8 degrees of each other are the two sides of a plate.
-/// Cost: O(n log n) in triangles, then the sample lines of plates. Past 34 million boxes looked at, and 256 a face,
-/// the faces that are left get nothing.
+/// Adds, for each sample line along the dominant axis of a face, the nearest sample to the middle of the material
+/// behind the face, where the material has no sample. Faces within 8 degrees of each other are the two sides of a
+/// plate.
+/// Cost: O(n log n) in triangles, then the sample lines of plates. The work ends after 34 million inspected boxes, or
+/// 256 per triangle if this is more; the remaining faces get nothing.
 void addThinPlates(const IndexMesh& mesh, const IndexFromLocal& indexFromLocal, Vec3i dimension,
                    const ThinClaims& claims, std::vector<ClaimedBox>& boxes);
 

@@ -17,9 +17,9 @@ constexpr std::int32_t kSmallest = 4;             // blocks of this size are not
 constexpr double kShift = 1.0 / double(kQuanta);  // samples lie this far beyond their index
 constexpr double kTie = 1e-9;                     // a winding number this far below 1/2 is inside
 constexpr double kCountError = 0.01;              // for the count of uncertain samples
-constexpr double kOpenLayer = 0.2;                // voxels: so thick may be the layer of samples left open by an error
-constexpr double kBand = 1.0 / 64;                // voxels: closer to a lid its side is decided on the lattice
-constexpr double kReach = 1.0 / 32;               // voxels: a lid so close to a block touches it
+constexpr double kOpenLayer = 0.2;                // maximum thickness of the undecided layer, voxels
+constexpr double kBand = 1.0 / 64;                // voxels: closer to a lid, its side is decided on the lattice
+constexpr double kReach = 1.0 / 32;               // voxels: a lid closer than this to a block touches it
 
 // Largest error of a piece that joins the far ones. Samples left open go back to the lists of larger blocks.
 constexpr double foldError(std::int32_t size) noexcept {
@@ -35,7 +35,7 @@ double distanceToBox(Vec3d p, const Box3d& box) noexcept {
     return length(outside);
 }
 
-// What the sweep has to count more, so that it may compare with 1.
+// The amount by which the sweep must count more, so that it can compare with 1.
 std::int32_t deltaOf(double c) noexcept { return -static_cast<std::int32_t>(std::ceil(c - 0.5 - kTie)); }
 
 double distanceToHalf(double c) noexcept { return std::abs(c - std::floor(c) - 0.5); }
@@ -125,7 +125,7 @@ private:
     // \return a bound of the winding number of those listed
     double foldFar(const Samples& samples, Range parent, Block& block) {
         constexpr std::size_t kFew = 12;  // cheaper to evaluate than to fold
-        constexpr double kMany = 256;     // the errors of so many pieces may add up
+        constexpr double kMany = 256;     // maximum number of pieces whose errors add up
         if (block.size <= kSmallest && parent.end - parent.begin <= kFew) return kInfinity;
         block.near.begin = near_.size();
         folded_.clear();
@@ -301,7 +301,7 @@ private:
         part_.uncertain += uncertain;
     }
 
-    // Is the sample so close to a lid of the block that its side has to be decided on the lattice?
+    // Whether the sample is so close to a lid of the block that its side must be decided on the lattice.
     [[nodiscard]] bool isClose(const Block& block, Vec3i sample) const {
         const Vec3d at{sample.x + kShift, sample.y + kShift, sample.z + kShift};
         for (std::size_t n = block.lids.begin; n < block.lids.end; ++n) {
@@ -311,8 +311,8 @@ private:
         return false;
     }
 
-    // What deciding the sides of lids on the lattice adds to c at a sample close to one; NaN if that has to be asked of
-    // all pieces together.
+    // The change of c at a sample close to a lid if the sides of lids are decided on the lattice; NaN if only all
+    // pieces together can decide.
     [[nodiscard]] double latticeDifference(const Block& block, Vec3i sample) const {
         constexpr double kAround = 1.0 / 8;  // voxels: lids farther away are seen alike on the lattice
         const Vec3d at{sample.x + kShift, sample.y + kShift, sample.z + kShift};
@@ -329,7 +329,7 @@ private:
 
     // c at a sample of the block.
     [[nodiscard]] double evaluate(const Block& block, Vec3i sample) {
-        constexpr std::uint64_t kScalar = 16;  // takes as long as so many at once
+        constexpr std::uint64_t kScalar = 16;  // a single sample takes as long as this number at once
         const Vec3d p = field_.localOfSample(sample);
         const bool close = isClose(block, sample);
         for (const Block* b = &block;; b = b->parent) {
@@ -371,7 +371,7 @@ private:
         addDeltas(samples);
     }
 
-    // True if all lids of the block lie in one plane as far as it reaches.
+    // True if all lids of the block lie in one plane within the block.
     [[nodiscard]] bool isOnePlane(const Block& block, const Samples& samples) const {
         const WindingFill::LidTriangle& first = fill_.lids_[lids_[block.lids.begin]];
         const double at = dot(first.normal, samples.center) - first.offset;
@@ -396,7 +396,7 @@ private:
             if (!isOnePlane(block, samples)) return false;
             normal = fill_.lids_[lids_[block.lids.begin]].normal;
             offset = fill_.lids_[lids_[block.lids.begin]].offset;
-            // On either side c and its smooth continuation differ by a whole number: see at the farthest samples.
+            // On either side c and its smooth continuation differ by a whole number: read it at the farthest samples.
             for (const int side : {0, 1}) {
                 Vec3i n;
                 for (int axis = 0; axis < 3; ++axis)

@@ -12,7 +12,7 @@
 /// against it, so that the sweep may always compare with 1:
 ///
 ///      o---------o     the lid, and below it the surface c = 1/2: other holes push it away from the lid. Between them
-///       `._____,'      n = 1 but w < 1/2: boxes that count -1. If the holes were alone, a planar lid and the surface
+///       `._____,'      n = 1 but w < 1/2: boxes that count -1. For a single hole, a planar lid and the surface
 ///                      c = 1/2 would be the same, since a plane is seen under 2 pi from close by.
 
 #include <svt/voxelize/surfaces/lid_field.hpp>
@@ -26,22 +26,22 @@ namespace svt::voxelize {
 
 /// Fills the samples whose generalized winding number (Jacobson, Kavan & Sorkine 2013) is at least 1/2.
 ///
-/// Evaluated as crossings minus a boundary integral (after the one-shot method of Martens & Bessmeltsev 2025). Blocks
-/// of samples are halved until c is known well enough: in a block each lid is a quadratic polynomial with a bound of
-/// its error, far lids one polynomial for the block and all its parts (as in a fast multipole method). Only samples for
-/// which the bound leaves the threshold open evaluate the solid angles. Close to a lid its side is decided as in the
-/// sweep, so that n and c always jump together.
+/// The winding number is evaluated as crossings minus a boundary integral (after the one-shot method of Martens &
+/// Bessmeltsev 2025). Blocks of samples are halved until c is known well enough. In a block, each lid is a quadratic
+/// polynomial with an error bound. Far lids are one polynomial for the block and all its parts (as in a fast multipole
+/// method). Only samples for which the bound leaves the threshold open evaluate the solid angles. Close to a lid, its
+/// side is decided as in the sweep, so that n and c always jump together.
 ///
 /// The result is that of the sum over all triangles, except where that is within 1e-9 of 1/2, and for samples within
 /// 1/256 voxel of the shell. Samples outside its bounding box are left out.
-/// Cost: O(n log n) in the triangles, and O(samples close to the surfaces c = 1/2 + an integer, and to lids), each times
-/// the pieces of lids close by. Past a bound, which only heaps of loose triangles reach, the work ends: such a shell is
-/// to be kept as a sheet.
+/// Cost: O(n log n) in the triangles, and O(samples close to the surfaces c = 1/2 + an integer, and to lids), each
+/// times the pieces of lids close by. The work ends at a bound, which only heaps of loose triangles reach. Such a shell
+/// should become a sheet.
 class WindingFill {
 public:
     /// \param shell  an open object of `meshes`
     /// \param claim  for the boxes
-    /// \param solidAngles  the bound: so many, and 20,000 * (samples of the bounding box)^(2/3)
+    /// \param solidAngles  the bound is this number + 20,000 * (samples of the bounding box)^(2/3)
     WindingFill(const mesh::ObjectMesh& shell, const mesh::MeshSet& meshes, const volume::Grid& grid,
                 const IndexFromLocal& indexFromLocal, std::uint32_t claim, std::uint64_t solidAngles);
 

@@ -16,9 +16,9 @@
 ///     order        floor, ceiling, roof       slots of the height planes, sorted by height
 ///     profile      0 | room | attic | 0       scalars below, between and above the height planes in this order
 ///
-///     step n              0  1  2  3  4  5    one line along x over B
-///     height of the roof  5  5  6  6  7  7    first sample above it; floor and ceiling are flat, at 2 and 4
-///     break               1  0  1  0  1  0    some height differs from that of the step before
+///     step n              0  1  2  3  4  5    one line along x over B.
+///     height of the roof  5  5  6  6  7  7    first sample above it; floor and ceiling are flat, at 2 and 4.
+///     break               1  0  1  0  1  0    some height differs from the previous step.
 ///     column              a  a  b  b  c  c    a = {end 2, 0} {end 4, room} {end 5, attic} {end nz, 0}
 ///                                             b = the same with {end 6, attic}, c with {end 7, attic}
 ///
@@ -27,23 +27,24 @@
 /// - Intervals with equal boundaries share one stack, in all tiles; it is found by hash.
 /// - Coherence: a stack keeps its height planes in the order of its last column. Moving to the next one updates only
 ///   the heights of sloped height planes; height planes are sorted again only if they no longer ascend.
-/// - Heights are computed for whole lines by SIMD (line_heights.hpp), and columns are made only at breaks: an interval
-///   without slopes has one column per tile; one that slopes along y alone has one column per break along y; one that
-///   slopes along x alone is made only for the first of the rows with one plan. Unchanged rows are repeated as a whole.
+/// - Heights are computed for whole lines by SIMD (line_heights.hpp), and columns are made only at breaks. An interval
+///   without slopes has one column per tile. An interval that slopes only along y has one column per break along y. An
+///   interval that slopes only along x is made only for the first of the rows with one plan. Unchanged rows are
+///   repeated as a whole.
 /// - On slopes the same heights recur from row to row: a direct-mapped cache, indexed by a hash of stack and heights,
 ///   finds columns made before. Its entries also count voxels shared by solids, so a hit costs one addition.
 ///
 /// Glossary:
-///   boundary            a face of a claim, or an end of one of its boxes, at a height plane: entry or exit (Boundary)
-///   stack               all boundaries over an interval, grouped by height plane; its index in the stack is
-///                       its slot
-///   line, step          up to 64 samples along x or y over an interval; step n is its sample n
-///   computeHeights      computes all heights of a stack at one column and sorts them (first use of the stack)
-///   setSlopedHeights    sets the heights of the sloped height planes to those of a step
-///   computeLineHeights  computes the heights of the sloped height planes at all steps of a line, and the breaks
-///   columnAtStep        number of the column at a step: looks it up in the cache, calls cacheColumn() on a miss
-///   cacheColumn         moves the stack to the step, makes the column and replaces the cache entry
-///   ColumnCacheEntry    an entry of the cache
+///   | Boundary           | a face of a claim, or an end of one of its boxes, at a height plane: entry or exit
+///   | stack              | all boundaries over an interval, grouped by height plane
+///   | slot               | the index of a height plane in a stack
+///   | line, step         | up to 64 samples along x or y over an interval; step n is its sample n
+///   | computeHeights     | computes all heights of a stack at one column and sorts them (first use of the stack)
+///   | setSlopedHeights   | sets the heights of the sloped height planes to those of a step
+///   | computeLineHeights | computes the heights of the sloped height planes at all steps of a line, and the breaks
+///   | columnAtStep       | number of the column at a step: looks it up in the cache, calls cacheColumn() on a miss
+///   | cacheColumn        | moves the stack to the step, makes the column and replaces the cache entry
+///   | ColumnCacheEntry   | an entry of the cache
 
 #include <svt/core/hash_index.hpp>
 #include <svt/volume/column_volume.hpp>
@@ -97,7 +98,7 @@ private:
     struct Interval {
         std::int32_t begin = 0, end = 0;
         std::uint32_t stack = 0;
-        std::uint32_t line = 0;    // index in lines_ of its line: along y if it slopes along y alone, else along x
+        std::uint32_t line = 0;    // index in lines_ of its line: along y if it slopes only along y, else along x
         std::uint64_t breaks = 0;  // line along y, bit i: row i differs from row i - 1
     };
     // `count` samples from (i, j) on, along x or along y; samples of the grid.

@@ -12,10 +12,10 @@
 ///     +--------> x
 ///
 /// - A cover is a boundary (of a face or a box) with one span of columns in each row. The spans come from scan
-///   conversion of the outline of the face; edges between its triangles are skipped. An edge with winding +1 begins
-///   the span of a row, one with -1 ends it. Of edges west of the tile only the sum of windings matters.
-/// - Faces with several spans in a row (concave in x) fall back to the textbook scanline polygon fill: all
-///   crossings of a row are sorted and paired by winding, and the n-th span of each row goes to the n-th cover.
+///   conversion of the outline of the face; edges between its triangles are skipped. An edge with winding +1 begins the
+///   span of a row, one with -1 ends it. For edges west of the tile, only the sum of windings matters.
+/// - Faces with several spans in a row (concave in x) fall back to the textbook scanline polygon fill. All crossings of
+///   a row are sorted and paired by winding. The n-th span of each row goes to the n-th cover.
 /// - Sets of rows are 64-bit masks, one bit per row. newRows() has the rows where some cover begins, ends or moves:
 ///   only these are laid out again (row coherence, as in scanline rendering).
 /// - A row is cut into intervals at all ends of spans. The intervals of a row often have the same members as those of
@@ -100,7 +100,7 @@ private:
         std::uint64_t boundary = 0;
         std::uint8_t begin[kTile], end[kTile];
     };
-    // The same columns in all rows: of boxes, of which open surfaces have very many.
+    // The cover of a box, with the same columns in all rows. Open surfaces have very many.
     struct BoxCover {
         std::uint64_t rows, boundary;
         std::uint8_t begin, end;
