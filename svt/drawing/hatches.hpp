@@ -9,9 +9,9 @@
 
 namespace svt::drawing {
 
-/// Hatch of each label, by its material if the model has one, else by class, kind and name: walls are masonry, slabs
-/// and beams reinforced concrete, rafters timber, ground earth. Spaces have none.
-/// \return entry l is label l
+/// Hatch of each label: by its material if the model has one, otherwise by class, IFC type and name. Walls are masonry,
+/// slabs and beams reinforced concrete, rafters timber, ground earth. Spaces have no hatch.
+/// \return one hatch per label, by index
 [[nodiscard]] std::vector<render::Hatch> labelHatches(const analyze::LabelRows& labels);
 
 }  // namespace svt::drawing

@@ -2,14 +2,15 @@
 /// \file
 /// The section of a volume by a plane, as closed polygons: the drawing of a plan or a section.
 ///
-/// Where the volume keeps its meshes, they are cut: the borders of all closed objects are laid over each other in one
-/// arrangement of edges, and each region has the label that voxels there would have. Objects without inside are lines,
-/// and open shells are drawn by their voxels.
+/// If the volume stores its meshes, the meshes are cut. The borders of all closed objects form one arrangement of
+/// edges, and each region gets the label that voxels there would have. Objects without an interior become lines, and
+/// open shells are drawn by their voxels.
 ///
-/// Without meshes voxels are cut. The section of each brick is cut into convex pieces of one label: a brick of one label is one piece, a coded brick
-/// is split by its cuts and planes, a brick of voxels by its voxels. Pieces have the same corners where they meet, in
-/// integers (multiples of a drawing unit). When edges between equal labels are removed, borders remain that both
-/// neighbours share point by point. A border is straightened once, for both.
+/// Without meshes, voxels are cut. The section of each brick is split into convex pieces of one label. A brick of one
+/// label is one piece, a coded brick is split by its cuts and planes, and a brick of voxels by its voxels. Adjacent
+/// pieces share their corners exactly, because coordinates are integers (multiples of a drawing unit). After edges
+/// between equal labels are removed, both neighbours share each border point by point. A border is straightened once,
+/// for both.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/result.hpp>
@@ -34,8 +35,8 @@ struct PlanePoint {
 
 /// The drawing's coordinate system in world space. u, v and normal are orthonormal and right-handed.
 ///
-/// Horizontal planes are drawn as seen from above: u and v are the grid's x and y axes. All others are drawn as seen
-/// from the side that is cut away: v is the steepest upward direction in the plane, u points to the right.
+/// Horizontal planes are drawn as seen from above: u and v are the grid's x and y axes. All other planes are drawn as
+/// seen from the side that is cut away: v is the steepest upward direction in the plane, and u points to the right.
 struct PlaneAxes {
     Vec3d origin{};  ///< the point of the plane nearest to the grid's lower corner
     Vec3d u{1, 0, 0}, v{0, 1, 0}, normal{0, 0, 1};
@@ -65,17 +66,17 @@ struct SectionComponent {
     std::uint32_t label = 0;  ///< index into LabelTable::labels
     std::vector<SectionPolygon> polygons;
     double area = 0;  ///< m2
-    /// Error bound of `area`, m2. Of an exact component: each edge of a border is within a few tolerances of the object's
-    /// mesh (for a body within half a millimetre of where surfaces are equally near). Of others: each edge is within
-    /// half a voxel, measured across the edge, plus the tolerance, of the object's surface; in coded bricks the actual
-    /// error is far smaller. For surfaces that meet the plane at an angle t, divide by sin t. Space that the object lost
-    /// to finer components is not included.
+    /// Error bound of `area`, m2. Exact components: each edge of a border is within a few tolerances of the object's
+    /// mesh. Between thematic bodies, it is within half a millimetre of the place where surfaces are equally near.
+    /// Other components: the distance of each edge to the object's surface is up to half a voxel, measured across the
+    /// edge, plus the tolerance. In coded bricks the actual error is far smaller. For surfaces that meet the plane at
+    /// an angle t, divide by sin t. Space that the object lost to finer components is not included.
     double areaBound = 0;
     bool isExact = false;   ///< cut from the mesh, not from voxels
-    double lineLength = 0;  ///< of its lines, metres
+    double lineLength = 0;  ///< total length of its lines, metres
 };
 
-/// The section of an object without inside, where nothing of a higher rank covers it.
+/// The section of an object without an interior, where no object of higher priority covers it.
 struct SectionLine {
     std::vector<PlanePoint> points;  ///< a closed one repeats the first at the end
     std::uint32_t label = 0;
@@ -88,15 +89,16 @@ struct SectionBorder {
     std::uint32_t right = 0;
 };
 
-/// How a line beside the cut is drawn.
+/// The kind of a line beyond the cut.
 enum class BeyondKind : std::uint8_t {
     Visible,  ///< behind the plane, and seen from it
-    Hidden,   ///< behind the plane, and behind something else or what is cut
-    Above     ///< on the side that is cut away (in a plan above the cut), and seen from the plane
+    Hidden,   ///< behind the plane, and hidden by another object or a cut component
+    Above     ///< on the side that is cut away (in a plan: above the cut), and seen from the plane
 };
 
-/// A straight line of what is not cut: an edge of an object, or where two pierce each other, projected onto the plane. Lines do not lie on each other,
-/// nor on borders and lines of the cut; where they would, the first kind of the enumeration stays.
+/// A straight line of parts that are not cut, projected onto the plane: an edge of an object, or the line where two
+/// objects pierce each other. Lines overlap neither each other nor borders and lines of the cut. Where lines overlap,
+/// the first kind of the enumeration is kept.
 struct BeyondLine {
     PlanePoint from, to;
     std::uint32_t label = 0;
@@ -107,15 +109,15 @@ struct BeyondLine {
 /// The side of a plan on which a chain of dimensions stands.
 enum class DimensionSide : std::uint8_t { Below, Right, Above, Left };
 
-/// A chain of dimensions along a side of a plan, as builders read it: what one sees from there.
+/// A chain of dimensions along a side of a plan: the dimensions of the parts that are visible from that side.
 struct DimensionChain {
     DimensionSide side = DimensionSide::Below;
     int row = 0;                ///< 0 is nearest to the building
-    std::vector<double> stops;  ///< ascending, two or more: u where it stands below or above, else v; metres
+    std::vector<double> stops;  ///< ascending, two or more, metres: u for a chain below or above, otherwise v
     friend bool operator==(const DimensionChain&, const DimensionChain&) = default;
 };
 
-/// How a door opens, as plans show it.
+/// The symbol of an opening door in a plan.
 struct DoorSwing {
     /// A quarter of a circle, counter-clockwise.
     struct Arc {
@@ -125,7 +127,7 @@ struct DoorSwing {
     std::vector<std::vector<PlanePoint>> lines;  ///< open leaves, arrows
     std::vector<Arc> arcs;
 };
-/// An arc as 12 chords.
+/// The points of an arc as 12 chords.
 [[nodiscard]] std::vector<PlanePoint> pointsOf(const DoorSwing::Arc& arc);
 
 /// Total of one class.
@@ -142,23 +144,24 @@ struct SectionDrawing {
     std::vector<SectionBorder> borders;
     std::vector<SectionLine> lines;          ///< by label
     std::vector<BeyondLine> beyond;          ///< by kind, then label
-    std::vector<DimensionChain> dimensions;  ///< by side and row; only where asked for, and of plans
-    std::vector<DoorSwing> doors;            ///< by label; of plans, where the model tells how doors open
+    std::vector<DimensionChain> dimensions;  ///< by side and row; only on request, and only in plans
+    std::vector<DoorSwing> doors;            ///< by label; only in plans, if the model describes how doors open
     std::vector<ClassArea> classes;          ///< by name
     double area = 0;                         ///< of all components, m2
     double drawingUnit = 0;                  ///< all coordinates are integer multiples of it, metres
-    double tolerance = 0;                    ///< the one used, metres
-    /// Edges of the meshes that lie in the plane as asked for (to 0.2 mm). What is drawn is what stands just before it,
-    /// on the kept side.
+    double tolerance = 0;                    ///< the effective tolerance, metres
+    /// The number of mesh edges in the requested plane (within 0.2 mm). The drawing shows the parts just before it, on
+    /// the kept side.
     std::size_t edgesInPlane = 0;
-    bool isFromMeshes = false;  ///< meshes were cut; else all is drawn from voxels
-    /// Meshes were to be cut, but their edges did not settle in whole numbers (see plane/arrangement.hpp).
+    bool isFromMeshes = false;  ///< meshes were cut; otherwise everything is drawn from voxels
+    /// Meshes could not be cut, because their edges did not converge in integer coordinates (see
+    /// plane/arrangement.hpp).
     bool isUnsettled = false;
-    bool lacksMeshes = false;  ///< lines beyond the cut were asked for, but the volume keeps no meshes
-    double planeShift = 0;     ///< metres; `plane` was moved so far to the kept side, to be clear of such edges
+    bool lacksMeshes = false;  ///< lines beyond the cut were requested, but the volume stores no meshes
+    double planeShift = 0;     ///< distance that `plane` was moved to the kept side to avoid such edges, metres
 };
 
-/// Which lines beside the cut are drawn. They are taken from the meshes that the volume keeps, not from voxels.
+/// The kinds of lines beyond the cut to draw. They come from the meshes that the volume stores, not from voxels.
 struct BeyondOptions {
     bool visible = false;
     bool hidden = false;
@@ -167,39 +170,39 @@ struct BeyondOptions {
 };
 
 struct SectionOptions {
-    std::vector<std::string> show;  ///< queries; only what one of them selects is drawn. Empty: all
-    std::vector<std::string> hide;  ///< queries; what one of them selects is left out
-    bool spaces = true;             ///< also rooms, units and storeys
-    double smallestArea = 0;        ///< m2; smaller polygons are left out
-    /// Largest deviation of a simplified border, metres; below 0: a hundredth of the smallest spacing, or, where meshes
-    /// are cut, four micrometres.
+    std::vector<std::string> show;  ///< queries; only labels that one of them selects are drawn; empty: all
+    std::vector<std::string> hide;  ///< queries; labels that one of them selects are omitted
+    bool spaces = true;             ///< also draw rooms, units and storeys
+    double smallestArea = 0;        ///< m2; smaller polygons are omitted
+    /// Largest deviation of a simplified border, metres; below 0: a hundredth of the smallest spacing, or four
+    /// micrometres if meshes are cut.
     double tolerance = -1;
-    BeyondOptions beyond;  ///< what stands behind the plane, and above it
+    BeyondOptions beyond;  ///< lines behind the plane, and above it
     bool dimensions =
         false;  ///< chains of dimensions around plans, see findDimensions() in dimension/dimension_chains.hpp
-    bool doorSwings = true;  ///< plans: how doors open, see findDoorSwings() in section/door_swings.hpp
-    bool useMeshes = true;   ///< cut the meshes that the volume keeps; false: always the voxels
+    bool doorSwings = true;  ///< plans: door symbols, see findDoorSwings() in section/door_swings.hpp
+    bool useMeshes = true;   ///< cut the meshes that the volume stores; false: always cut voxels
     int threads = 0;         ///< 0: all cores; the result does not depend on it
-    /// If given, queries of show and hide that select nothing are no error, but are told here.
+    /// If given, queries of show and hide that select nothing are appended here instead of causing an error.
     std::vector<std::string>* nothing = nullptr;
 };
 
 /// The options that a user can set.
 record::Members<SectionOptions> membersOf(const SectionOptions*) noexcept;
 
-/// Cuts `volume` with `plane`. Labels that are left out become gaps, like background. Where the plane coincides with
-/// faces of voxels, the voxels on the kept side are cut; likewise where it lies in faces of meshes.
+/// Cuts `volume` with `plane`. Omitted labels become gaps, like background. If the plane coincides with voxel faces,
+/// the voxels on the kept side are cut. The same applies to faces of meshes.
 ///
 /// All coordinates are integer multiples of `drawingUnit`, a power of two, at most 2^-28 of the largest coordinate that
-/// the grid can have. All phases of an object's pattern are one label. A drawing without components is no error.
+/// the grid can have. All phases of an object's pattern are one label. A drawing without components is not an error.
 /// \return the drawing, or
 ///         - BadSection               the plane's normal or point is not finite, or the normal is zero
 ///         - BadQuery, NothingSelected  of show and hide
 ///         - BadArgument              smallestArea or tolerance is not finite
 ///         - GridTooLarge             see BrickVolume::fromColumns
-/// Cost: with meshes O(triangles + n log n) in the segments that the plane cuts, about 2 us each; else that of
-/// BrickVolume::fromColumns(), and 1 to 2 us per brick that the plane meets, 50 us if it has voxels only. Lines beyond
-/// the cut: see addLinesBeyond() in beyond/lines_beyond.hpp.
+/// Cost: with meshes O(triangles + n log n) for n cut segments, about 2 us each. Without meshes, that of
+/// BrickVolume::fromColumns(), plus 1 to 2 us per brick that the plane meets, or 50 us for a brick of voxels. Lines
+/// beyond the cut: see addLinesBeyond() in beyond/lines_beyond.hpp.
 [[nodiscard]] Result<SectionDrawing> drawSection(const volume::SemanticVolume& volume, const SectionPlane& plane,
                                                  const SectionOptions& options = {});
 
@@ -208,20 +211,20 @@ record::Members<SectionOptions> membersOf(const SectionOptions*) noexcept;
                                                  const volume::BrickVolume& bricks, const SectionPlane& plane,
                                                  const SectionOptions& options = {});
 
-/// Tells what a reader of the drawing should know: areas with a bound that is larger than they are (a warning, all
-/// together), a plane in faces, and objects that are drawn by their voxels though others are exact (notes).
+/// Reports limits of the drawing. One warning lists all areas whose bound is larger than the area. Notes report a plane
+/// in faces, and objects that are drawn by their voxels although others are exact.
 void reportSection(const SectionDrawing& drawing, const volume::SemanticVolume& volume, Diagnostics& log);
-/// The same of several drawings of one volume, each component once; of planes in faces nothing.
+/// The same for several drawings of one volume, each component once. Does not report planes in faces.
 void reportSections(std::span<const SectionDrawing* const> drawings, const volume::SemanticVolume& volume,
                     Diagnostics& log);
 
-/// A rectangle inside a polygon, for a text.
+/// A rectangle for a text inside a polygon.
 struct TextPlace {
     PlanePoint center;
     double width = 0, height = 0;  ///< metres
 };
-/// The largest rectangle for a text about twice as wide as high. The polygon is sampled on 32 levels of v, so details
-/// smaller than a level may be missed. Cost: O(32 points).
+/// The largest rectangle for a text that is about twice as wide as high. The polygon is sampled on 32 levels of v, so
+/// details smaller than a level may be missed. Cost: O(32 points).
 [[nodiscard]] TextPlace findTextPlace(const SectionPolygon& polygon);
 
 }  // namespace svt::drawing

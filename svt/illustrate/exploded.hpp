@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A building with its storeys drawn apart: the same volume with each storey lifted above the one below. What follows
-/// (cuts, lenses, names, levels of detail, any renderer) need not know of it, for it is an ordinary volume.
+/// A building with its storeys drawn apart: the same volume with each storey lifted above the one below. The result is
+/// an ordinary volume, so later steps (cuts, lenses, names, levels of detail, any renderer) need no special case.
 ///
 ///          +----+                  roof      +----+     + 2 d
 ///        +-+----+-+                        +-+----+-+
@@ -16,16 +16,16 @@
 
 namespace svt::illustrate {
 
-/// Lifts each storey of a building by `distance` times its number, the lowest being 0; the grid grows upwards.
+/// Lifts each storey of a building by `distance` times its number, where the lowest is 0. The grid grows upwards.
 ///
-/// What belongs to a storey by the tree or a group moves as a whole. All else (walls of the whole height, shafts) moves with
-/// the storey in which at least 85 % of its height lies, and is cut into storeys otherwise: where the ceilings of rooms
-/// are, so that a storey takes its floor with it. Where the model names no storeys they are those of findLevels(). Storeys
-/// are counted in each building by itself; what belongs to no building stays.
+/// Labels that belong to a storey by the tree or a group move as a whole. Other labels (walls of the whole height,
+/// shafts) move with the storey that contains at least 85 % of their height. Otherwise they are cut at the ceilings of
+/// rooms, so that a storey moves with its floor. If the model declares no storeys, the levels of findLevels() are used.
+/// Storeys are counted separately in each building. Labels outside of buildings do not move.
 /// \param distance  metres, > 0; rounded to whole bricks of 8 voxels, at least one
 /// \param threads   0: all cores
 /// \return the volume, or BadArgument: no building has two storeys, or the grid would be too high
-/// Cost: O(distinct columns and rows + labels + planes and vectors times storeys); bricks are made anew.
+/// Cost: O(distinct columns and rows + labels + planes and vectors times storeys); bricks must be made again.
 [[nodiscard]] Result<volume::SemanticVolume> explodeStoreys(const volume::SemanticVolume& volume, double distance,
                                                             int threads = 0);
 

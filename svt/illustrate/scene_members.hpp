@@ -16,17 +16,18 @@ namespace svt::illustrate {
 
 struct Scene;
 
-/// All members, an object before its own; named by JSON pointers with * for any index: "/passes/*/styles/*/opacity".
+/// All members, an object before its members. Names are JSON pointers with * for any index:
+/// "/passes/*/styles/*/opacity".
 [[nodiscard]] std::span<const Option> sceneMembers() noexcept;
 
-/// The member of that name, or of a pointer with indices such as "/passes/0/level"; null if there is none. An index behind
-/// a member with several values is left out: "/camera/eye/0" is "/camera/eye".
+/// Finds a member by name, or by a pointer with indices such as "/passes/0/level"; null if there is none. An index
+/// behind a member with several values is ignored: "/camera/eye/0" is "/camera/eye".
 [[nodiscard]] const Option* findSceneMember(std::string_view pointer);
 
-/// The same where there must be one.
+/// The same for a member that must exist.
 [[nodiscard]] const Option& sceneMember(std::string_view pointer);
 
-/// A member with the value that an option of the command line, or a keyword, gives it.
+/// A member with the value from a command-line option or a keyword.
 struct GivenMember {
     std::string member;  ///< "/camera/zoom"; "/passes/0/show/-" appends
     std::string value;   ///< JSON
@@ -34,7 +35,7 @@ struct GivenMember {
 };
 
 /// Sets a member.
-/// \return success, or BadArgument that names the option
+/// \return success, or BadArgument with the name of the option
 [[nodiscard]] Result<void> setSceneMember(Scene& scene, const GivenMember& given);
 
 }  // namespace svt::illustrate

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Draws scenes of one volume. Keeps the forms of the volume (shells, levels of detail, bricks), each made when first
-/// needed.
+/// Draws scenes of one volume. Keeps the representations of the volume (hulls, levels of detail, bricks); each is made
+/// on first use.
 
 #include <svt/illustrate/details.hpp>
 #include <svt/illustrate/scene.hpp>
@@ -22,11 +22,11 @@ namespace svt::illustrate {
 
 /// A drawn scene, and the frame description that it was drawn from.
 struct Painting {
-    /// What became of the names that Scene::names asks for.
+    /// The results for the names that Scene::names requests.
     struct Names {
         std::size_t drawn = 0;
-        std::size_t hidden = 0;       ///< of what is not seen: not drawn
-        std::size_t withoutRoom = 0;  ///< not drawn either
+        std::size_t hidden = 0;       ///< labels that are not visible: not drawn
+        std::size_t withoutRoom = 0;  ///< not drawn, for lack of space
     };
     render::Frame frame;
     render::FrameSpec spec;
@@ -37,62 +37,61 @@ struct Painting {
 class ScenePainter {
 public:
     /// \param volume   must outlive the painter
-    /// \param threads  for making forms; 0: all cores
+    /// \param threads  for making representations; 0: all cores
     explicit ScenePainter(const volume::SemanticVolume& volume, int threads = 0);
     ~ScenePainter();
     ScenePainter(ScenePainter&&) noexcept;
 
-    /// From now on a query that selects nothing is no error: it is told in `nothing`, and the picture is drawn as if the
-    /// query were one that nothing in the model answers. nullptr: an error again.
+    /// From now on a query without matches is not an error: a message is appended to `nothing`, and the picture is
+    /// drawn with an empty selection. nullptr: an error again.
     void tolerateNothing(std::vector<std::string>* nothing) noexcept { nothing_ = nothing; }
 
-    /// From now on `progress` is told of the stage "prepare" while a form of the volume is made; may be null.
+    /// From now on reports the stage "prepare" to `progress` while a representation of the volume is made; may be null.
     void reportTo(const Progress* progress) noexcept { progress_ = progress; }
 
-    /// From now on `detail` is drawn in place of what it has of the volume, see details.hpp. Drafts are without it.
-    /// \param detail  of joinLabels(); must outlive the painter
+    /// From now on `detail` replaces the same part of the volume, see details.hpp. Drafts ignore it.
+    /// \param detail  processed by joinLabels(); must outlive the painter
     void addDetail(const volume::SemanticVolume& detail);
 
-    /// From now on `part` is drawn with the volume: a part of one model that is divided among several volumes, none of whose
-    /// objects has voxels in another one. So parts take no place of others, and have shells of their own.
-    /// \param part       of joinLabels(); must outlive the painter
-    /// \param hasSlopes  whether its slopes are seen; else its voxels are drawn, whose bricks are made in a third of the time
+    /// From now on `part` is drawn with the volume. A model may be divided among several volumes if no object has
+    /// voxels in more than one. Such parts replace nothing, and have shells of their own.
+    /// \param part       processed by joinLabels(); must outlive the painter
+    /// \param hasSlopes  true: draws its slopes; false: draws its voxels, whose bricks take a third of the time
     void addPart(const volume::SemanticVolume& part, bool hasSlopes = true);
 
-    /// A scalar that stands for several others: a place too far away to tell them apart.
+    /// A scalar that represents several others at a place where they are too far away to distinguish.
     struct StyleMixture {
         volume::Scalar scalar = 0;
         std::vector<std::pair<volume::Scalar, float>> parts;  ///< others, and their shares
-        float empty =
-            0;  ///< the share of none: there the background is seen, fully from above and less the flatter the view
+        float empty = 0;  ///< share of gaps, where the background is visible: fully from above, less in flat views
     };
-    /// From now on these scalars look as the styles of a scene say of their parts: the mean, by share, of those that are
-    /// shown, and of the background where there is one; hidden where none is shown.
+    /// From now on these scalars get the mean style of their visible parts, weighted by share, and of the background if
+    /// there is one. Scalars without visible parts are hidden.
     void mixStyles(std::vector<StyleMixture> mixtures) { mixtures_ = std::move(mixtures); }
 
     /// Draws `scene`, with its name tags.
     /// \return picture and frame, or an error of makeFrameSpec(), extractShell() or castRays()
-    /// Cost: that of castRays(), and once that of each form.
+    /// Cost: that of castRays(), and once that of each representation.
     [[nodiscard]] Result<Painting> paint(const Scene& scene, const render::CastOptions& options = {});
 
-    /// Draws a draft of the same, for a quick first picture: surfaces show their voxels, distant parts may alias. Keeps
-    /// no bricks and no levels; about three times faster than a picture for which these must be made first.
-    /// \return as paint(), or an error of BrickVolume::fromColumns()
-    /// Cost: that of castRays() and of bricks of voxels, at each call.
+    /// Draws a draft of the same scene, for a quick first picture: surfaces show their voxels, and distant parts may
+    /// alias. Keeps no bricks or levels. About three times faster than a picture that must make these first.
+    /// \return like paint(), or an error of BrickVolume::fromColumns()
+    /// Cost: that of castRays() and of bricks of voxels, in each call.
     [[nodiscard]] Result<Painting> paintDraft(const Scene& scene, const render::CastOptions& options = {});
 
-    /// Renders a frame: gets the volumes that the passes draw, and the frame description.
+    /// Renders a frame from the volumes that the passes draw, and the frame description.
     using Draw = std::function<Result<render::Frame>(std::span<const render::DrawnVolume>, const render::FrameSpec&)>;
-    /// As the first paint(), with another renderer.
+    /// Like the first paint(), with another renderer.
     [[nodiscard]] Result<Painting> paint(const Scene& scene, const Draw& draw);
 
-    /// The painter of the volume with storeys drawn `distance` apart, made when first asked for; itself for 0. It lives until
-    /// another distance is asked for.
+    /// The painter of the volume with storeys drawn `distance` apart, made on first request; this painter for 0. It
+    /// lives until another distance is requested.
     /// \return the painter, or an error of explodeStoreys()
     [[nodiscard]] Result<ScenePainter*> apart(double distance);
     [[nodiscard]] const volume::SemanticVolume& volume() const noexcept { return volume_; }
 
-    /// A form of the volume for the frame `spec`. It lives as long as the painter.
+    /// A representation of the volume for the frame `spec`. It lives as long as the painter.
     [[nodiscard]] Result<render::DrawnVolume> form(const VolumeForm& form, const render::FrameSpec& spec);
 
 private:

@@ -6,7 +6,7 @@
 
 namespace svt::illustrate {
 
-/// A view of what `query` selects, as large as possible.
+/// A view of the labels that `query` selects, as large as possible.
 /// \param query   empty: the whole volume
 /// \param preset  named view, see render::cameraPresetNames(); empty: the view direction of `now`
 /// \param now     the current camera: projection, field of view and view direction

@@ -1,14 +1,14 @@
 #pragma once
 /// \file
-/// Volumes of a city as 3D Tiles 1.1 with implicit tiling: a quadtree of squares, each with the surfaces of what stands
-/// there, added one by one.
+/// Volumes of a city as 3D Tiles 1.1 with implicit tiling: a quadtree of squares, each with the surfaces of its
+/// features, added one by one.
 ///
-///     tileset.json                    the root, and how to find the others
-///     subtrees/LEVEL/X/Y.subtree      which squares of five levels there are, with their boxes and errors
-///     content/LEVEL/X/Y.glb           surfaces; a feature is a building, a table has its attributes
+///     tileset.json                    the root, and the address template of the others.
+///     subtrees/LEVEL/X/Y.subtree      existing squares of five levels, with their boxes and errors.
+///     content/LEVEL/X/Y.glb           surfaces; a feature is a building, a table has its attributes.
 ///
-/// The root stands on the globe by the CRS, as that of tileset_writer.cpp. Content is bent along the globe: each vertex is
-/// where the projection has it, to a millimetre.
+/// The CRS determines the place of the root on the globe, as in tileset_writer.cpp. Content follows the curvature of
+/// the globe: each vertex is within a millimetre of its projected place.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -30,25 +30,25 @@ struct QuadtreeNode {
     std::uint32_t x = 0, y = 0;
 };
 
-/// The square of the root, and what there is of options.
+/// The square of the root, and options.
 struct CityTilesetFrame {
-    Vec3d corner;  ///< of the root: west, south, lowest; metres of the CRS
+    Vec3d corner;  ///< lower corner of the root: west, south, lowest; metres of the CRS
     double side = 0;
-    int levels = 1;  ///< of the quadtree, the root included; 1..24
+    int levels = 1;  ///< levels of the quadtree, including the root; 1..24
     std::string crsName;
-    std::string source;        ///< what the city is made of, for people
+    std::string source;        ///< source of the city, for display
     VolumeWriteOptions write;  ///< place (of `corner`), lift, faces
 };
 
-/// What stands in a square.
+/// The content of a square.
 struct TileContent {
-    std::string glb;   ///< empty: nothing
+    std::string glb;   ///< empty: no content
     Box3d box;         ///< in the frame of the root, metres
-    double error = 0;  ///< metres by which it differs from the finest content
+    double error = 0;  ///< deviation from the finest content, metres
     std::size_t features = 0;
 };
 
-/// A folder that tiles are added to. Nothing is there before finish().
+/// A folder to which tiles are added. It appears on disk only with finish().
 class CityTileset {
 public:
     static constexpr int kMostLevels = 24;
@@ -58,16 +58,16 @@ public:
                                                                      const CityTilesetFrame& frame);
     virtual ~CityTileset() = default;
 
-    /// Surfaces of volumes; a feature is a label without parent with all below it. Upward faces have the colour of its
-    /// roofs, upright ones that of its walls, where it has such labels.
-    /// Threads: may be called by several at once. Memory: that of labelSurfaces() of one volume, and the content.
-    /// \return the content, empty where no voxel is filled; or CannotProject, GridTooLarge, Cancelled
+    /// Surfaces of volumes; a feature is a label without parent, with all labels below it. Upward faces have the colour
+    /// of its roofs, and vertical faces that of its walls, if it has such labels.
+    /// Threads: several may call this at the same time. Memory: that of labelSurfaces() of one volume, and the content.
+    /// \return the content, empty if no voxel is filled; or CannotProject, GridTooLarge, Cancelled
     [[nodiscard]] virtual Result<TileContent> make(std::span<const volume::SemanticVolume> volumes,
                                                    double error) const = 0;
-    /// Writes the content of a square, which has none yet. \return nothing, or CannotWrite, DiskFull
+    /// Writes the content of a square, which must not have content yet. \return success, or CannotWrite, DiskFull
     [[nodiscard]] virtual Result<void> add(QuadtreeNode node, const TileContent& content) = 0;
-    /// Memory: some 200 bytes for each content and square around it.
-    /// \return bytes of all files, or NothingSelected without any content, CannotWrite, DiskFull
+    /// Memory: about 200 bytes per content and per square around it.
+    /// \return size of all files, bytes; or NothingSelected without any content, CannotWrite, DiskFull
     [[nodiscard]] virtual Result<std::uint64_t> finish() = 0;
 };
 

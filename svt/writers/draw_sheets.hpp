@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Draws a set of sheets: its views, or those that the program chooses, and its tables.
+/// Draws a set of sheets: its views, or automatically selected views, and its tables.
 
 #include <svt/drawing/sheet_set.hpp>
 #include <svt/writers/sheet_writer.hpp>
@@ -14,10 +14,11 @@ namespace svt::writers {
 [[nodiscard]] SheetOptions sheetOptionsOf(const drawing::SheetSet& set);
 
 /// Draws all views of a set, and its tables of areas. Bricks are made once, with the first view that needs them.
-/// \param set      its sheets are filled in by chooseSheetViews() where it has none
+/// \param set      if it has no sheets, chooseSheetViews() adds them
 /// \param threads  0: all cores; the result does not depend on it
 /// \param nothing  if given, receives the queries of the set that select nothing
-/// \return the content of the sheets, or an error of viewsOfSet(), chooseSheetViews(), drawSection() or measureFloorAreas()
+/// \return the content of the sheets, or an error of viewsOfSet(), chooseSheetViews(), drawSection() or
+///         measureFloorAreas()
 [[nodiscard]] Result<SheetContent> drawSheets(drawing::SheetSet& set, const volume::SemanticVolume& volume,
                                               int threads = 0, std::vector<std::string>* nothing = nullptr);
 

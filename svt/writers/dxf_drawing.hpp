@@ -1,13 +1,13 @@
 #pragma once
 /// \file
-/// A section drawing as DXF (ASCII, version 2000), in metres of the drawing's plane (u of its axes is x, v is y) or of the
-/// world.
+/// A section drawing as DXF (ASCII, version 2000), in metres. Coordinates are those of the drawing's plane (u of its
+/// axes is x, v is y) or of the world.
 ///
-/// Layers by IFC type, else class and function, or after ISO 13567-2. Each ring is a closed LWPOLYLINE, including holes, and
-/// a HATCH fills them; room names are TEXT entities, doors blocks, dimensions DIMENSION entities with blocks. The transform back
-/// to the model's CRS is given in comments (group 999) at the start. Text is in the code page named in the header,
-/// 1252; other characters are written as \U+XXXX. Version 2000 is the oldest that states its unit, and all programs
-/// read it.
+/// Layers are named by IFC type, otherwise by class and function, or according to ISO 13567-2. Each ring, including
+/// holes, is a closed LWPOLYLINE, and a HATCH fills them. Room names are TEXT entities, doors are blocks, dimensions
+/// are DIMENSION entities with blocks. Comments (group 999) at the start contain the transform back to the model's CRS.
+/// Text is in the code page named in the header, 1252; other characters are written as \U+XXXX. Version 2000 is the
+/// oldest that states its unit, and all programs read it.
 
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/record/members.hpp>
@@ -17,15 +17,15 @@
 namespace svt::writers {
 
 struct DxfOptions {
-    bool isoLayers = false;  ///< names of layers after ISO 13567-2: `A-21----E-`
-    /// Coordinates of the model's CRS, also of upright drawings, which then stand in space. Dimensions are left in plans alone.
+    bool isoLayers = false;  ///< names of layers according to ISO 13567-2: `A-21----E-`
+    /// Coordinates of the model's CRS. Vertical drawings then stand in space. Only plans keep their dimensions.
     bool world = false;
 };
 
 /// The options that a user can set.
 record::Members<DxfOptions> membersOf(const DxfOptions*) noexcept;
 
-/// The drawing as DXF text. `volume` is the volume the drawing was made from. Equal drawings give equal bytes.
+/// The drawing as DXF text. `volume` is the volume from which the drawing was made. Equal drawings give equal bytes.
 [[nodiscard]] std::string makeDxf(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                   const DxfOptions& options = {});
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Features with an outline in plan and values, one after the other: CSV, GeoJSON, GeoPackage or GeoParquet, for tables
+/// Features with values and an outline in plan, written one by one: CSV, GeoJSON, GeoPackage or GeoParquet, for tables
 /// and GIS.
 
 #include <svt/core/result.hpp>
@@ -16,20 +16,21 @@
 
 namespace svt::writers {
 
-/// A file that features are added to. Nothing is there before finish().
+/// A file to which features are added. It appears on disk only with finish().
 class FeatureLayer {
 public:
-    /// \param path     ends in .csv (without outlines), .geojson, .gpkg (table `features`) or .parquet (column `geometry`)
-    /// \param crsName  of the coordinates, which are written as they are; GeoJSON names it as its version of 2008 did,
-    ///                 GeoParquet has it as PROJJSON, which needs PROJ (none without it)
+    /// \param path     ends in .csv (without outlines), .geojson, .gpkg (table `features`) or .parquet (column
+    ///                 `geometry`)
+    /// \param crsName  CRS of the coordinates, which are written unchanged; GeoJSON names it in the style of 2008,
+    ///                 GeoParquet stores it as PROJJSON, which needs PROJ (omitted without PROJ)
     /// \return the layer, or BadArgument for another ending; CannotWrite, DiskFull
     [[nodiscard]] static Result<std::unique_ptr<FeatureLayer>> create(const std::filesystem::path& path,
                                                                       std::vector<Column> columns,
                                                                       const std::string& crsName);
     virtual ~FeatureLayer() = default;
 
-    /// \param cells    one for each column, of its type or empty
-    /// \param outline  a simple ring (east, north), the first point not repeated; empty: none
+    /// \param cells    one per column, of its type or empty
+    /// \param outline  a simple ring (east, north) without repeating the first point; empty: none
     [[nodiscard]] virtual Result<void> add(std::span<const Cell> cells,
                                            std::span<const std::array<double, 2>> outline) = 0;
     /// \return bytes written, or CannotWrite, DiskFull. Equal features give equal bytes.

@@ -17,8 +17,8 @@
 
 namespace svt::writers {
 
-/// The drawing as GeoJSON text, one feature per line. `volume` is the volume the drawing was made from. `area` is in m2
-/// in the section plane. Exterior rings of plans are counter-clockwise as seen from above.
+/// The drawing as GeoJSON text, one feature per line. `volume` is the volume from which the drawing was made. `area` is
+/// in m2 in the section plane. Exterior rings of plans are counter-clockwise as seen from above.
 [[nodiscard]] std::string makeGeojson(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume);
 
 }  // namespace svt::writers

@@ -3,10 +3,10 @@
 /// Drawings of a building on sheets of paper, to scale, with frame and title block: as one PDF, or as SVG documents.
 ///
 ///     +--+---------------------------------+
-///     |  |   view         view             |    views of one kind stand on one sheet, as many as fit
+///     |  |   view         view             |    views of one kind are on one sheet, as many as fit
 ///     |  |   Plan EG      Plan OG          |
 ///     |  |                  +--------------+
-///     |  |  scale bar       | title block  |    180 mm wide, after ISO 7200; frame after ISO 5457
+///     |  |  scale bar       | title block  |    180 mm wide, as in ISO 7200; frame as in ISO 5457
 ///     +--+------------------+--------------+
 
 #include <svt/core/names.hpp>
@@ -23,17 +23,17 @@
 
 namespace svt::writers {
 
-/// A view and what it shows.
+/// A view and its drawing.
 struct DrawnView {
     drawing::SheetView view;
     drawing::SectionDrawing drawing;
-    int group = -1;  ///< of SheetContent::groups: these share sheets; -1: with others of its kind
+    int group = -1;  ///< index into SheetContent::groups, which share sheets; -1: with others of its kind
 };
 
 /// Views that share sheets.
 struct SheetGroup {
-    std::string title;  ///< empty: of its views
-    double scale = 0;   ///< 0: that of all
+    std::string title;  ///< empty: derived from its views
+    double scale = 0;   ///< 0: common scale
 };
 
 enum class SheetLanguage : std::uint8_t { English, German };
@@ -45,45 +45,46 @@ constexpr auto namesOf(SheetLanguage) {
 struct SheetTable {
     struct Column {
         std::string heading;
-        bool isNumber = false;  ///< stands at the right
+        bool isNumber = false;  ///< aligned to the right
     };
     std::string title;
     std::vector<Column> columns;
-    std::vector<std::vector<std::string>> rows;  ///< a text for each column
-    std::size_t sums = 0;                        ///< so many rows at the end are sums
+    std::vector<std::vector<std::string>> rows;  ///< one text per column
+    std::size_t sums = 0;                        ///< number of total rows at the end
 };
 
 struct SheetContent {
-    std::vector<drawing::BuildingLevel> levels;  ///< marks of heights are above the lowest
+    std::vector<drawing::BuildingLevel> levels;  ///< heights are stated above the lowest
     std::vector<DrawnView> views;
     std::vector<SheetGroup> groups;
-    std::vector<SheetTable> tables;  ///< after the views; those that fit share sheets
+    std::vector<SheetTable> tables;  ///< after the views; tables that fit share sheets
 };
 
 struct SheetOptions {
     double scale = 0;          ///< 100 draws 1 m as 10 mm; 0: 1:100, or the next standard scale at which all views fit
     std::string paper = "A3";  ///< A4 to A0, landscape
     SheetLanguage language = SheetLanguage::English;
-    std::string title{};  ///< of the building; empty: the name of the model
+    std::string title{};  ///< name of the building; empty: name of the model
 };
 
-/// The tables of rooms, floor areas and components; without rooms that of components alone.
+/// The tables of rooms, floor areas and components; without rooms, only the table of components.
 [[nodiscard]] std::vector<SheetTable> makeAreaTables(const drawing::FloorAreas& areas,
                                                      const std::vector<drawing::BuildingLevel>& levels,
                                                      SheetLanguage language);
 
-/// The sheets as SVG documents, in order. `volume` is the volume the drawings were made from. Equal drawings give equal
-/// bytes.
-/// \return the documents, or BadArgument: an unknown paper, a scale out of 1:0.01 to 1:10000000, or a view that is
-///         larger than the paper (names the paper or scale that would do)
+/// The sheets as SVG documents, in order. `volume` is the volume from which the drawings were made. Equal drawings give
+/// equal bytes.
+/// \return the documents, or BadArgument: an unknown paper, a scale outside of 1:0.01 to 1:10000000, or a view that is
+///         larger than the paper (the message suggests a paper or scale that works)
 [[nodiscard]] Result<std::vector<std::string>> makeSvgSheets(const SheetContent& content,
                                                              const volume::SemanticVolume& volume,
                                                              const SheetOptions& options = {});
 
-/// Why no PDF has layers (optional content) here; empty: they have. Loads libqpdf with the first call.
+/// The reason why PDFs have no layers (optional content) on this machine; empty: they have layers. Loads libqpdf on the
+/// first call.
 [[nodiscard]] const std::string& missingPdfLayers();
 
-/// The sheets as one PDF, a page each, with the layers of the SVG unless missingPdfLayers().
+/// The sheets as one PDF, one page per sheet, with the layers of the SVG unless missingPdfLayers().
 /// \return the bytes, or the errors of makeSvgSheets(), NoCairo or CannotWrite
 [[nodiscard]] Result<std::string> makePdfSheets(const SheetContent& content, const volume::SemanticVolume& volume,
                                                 const SheetOptions& options = {});

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A table: named columns, and rows of typed cells. Its forms are text, JSON, CSV and Parquet.
+/// A table: named columns, and rows of typed cells. It can be written as text, JSON, CSV and Parquet.
 
 #include <svt/core/attribute.hpp>
 #include <svt/core/result.hpp>
@@ -18,12 +18,12 @@
 
 namespace svt::writers {
 
-/// Bytes that are not text, such as a geometry. GeoPackage and Parquet store them.
+/// Bytes that are not text, such as a geometry. Only GeoPackage and Parquet store them.
 struct Blob {
     std::string bytes;
 };
 
-/// Nothing, or a value. Cells of one column may differ in type, as attributes of models do.
+/// A value, or empty. Cells of one column may differ in type, like attributes of models.
 struct Cell {
     std::variant<std::monostate, bool, std::int64_t, float, double, std::string, std::vector<std::string>, Blob> value;
 
@@ -54,30 +54,30 @@ enum class CellType : std::uint8_t { Text, Whole, Number, SmallNumber, Truth, Bl
 
 struct Column {
     std::string name;
-    std::string title{};  ///< heading of text: the unit or a shorter name; empty: the column is left out there
-    int decimals = 3;     ///< of floating-point numbers in text
-    CellType type = CellType::Text;  ///< of GeoPackage and GeoParquet, where each cell has this type or is empty
+    std::string title{};             ///< heading in text: the unit or a shorter name; empty: text omits the column
+    int decimals = 3;                ///< of floating-point numbers in text
+    CellType type = CellType::Text;  ///< for GeoPackage and GeoParquet: each cell has this type or is empty
 };
 
 struct Table {
     std::vector<Column> columns;
-    std::vector<Row> rows;                                     ///< a cell for each column
-    std::vector<std::pair<std::string, std::string>> notes{};  ///< of the whole table, for formats that can hold them
+    std::vector<Row> rows;                                     ///< one cell per column
+    std::vector<std::pair<std::string, std::string>> notes{};  ///< of the whole table, for formats that can store them
 };
 
-/// The cell as text: numbers in shortest round-trip form, lists joined by blanks; empty for nothing and blobs.
+/// The cell as text: numbers in shortest round-trip form, lists joined by blanks; empty for empty cells and blobs.
 [[nodiscard]] std::string cellText(const Cell& cell);
 
 /// Aligned columns under their titles: numbers at the right, `-` for empty cells.
 [[nodiscard]] std::string makeText(const Table& table);
 
-/// A JSON array with an object for each row, indented by two blanks. Empty cells are null. Invalid UTF-8 is replaced.
+/// A JSON array with one object per row, indented by two blanks. Empty cells are null. Invalid UTF-8 is replaced.
 [[nodiscard]] std::string makeJson(const Table& table);
 
-/// Forms of comma-separated values.
+/// Variants of comma-separated values.
 enum class CsvForm : std::uint8_t {
-    File,  ///< RFC 4180
-    Stream  ///< for tools of the shell: lines end with LF only, numbers are those of JSON, texts with `;` have quotes too
+    File,   ///< RFC 4180
+    Stream  ///< for shell tools: lines end with LF only, numbers as in JSON, texts with `;` have quotes too
 };
 [[nodiscard]] std::string csvLine(std::span<const Cell> cells, CsvForm form = CsvForm::File);
 /// The line of column names.
@@ -85,10 +85,10 @@ enum class CsvForm : std::uint8_t {
 /// Header and rows in UTF-8, without the notes.
 [[nodiscard]] std::string makeCsv(const Table& table);
 
-/// Apache Parquet: one row group, plain encoding, not compressed. A column whose cells are all whole numbers is INT64, of
-/// numbers DOUBLE (FLOAT), of truth values BOOLEAN, else UTF-8 text; one with empty cells is optional. Notes are key/value
+/// Apache Parquet: one row group, plain encoding, not compressed. A column of whole numbers is INT64, of numbers DOUBLE
+/// (FLOAT), of truth values BOOLEAN, otherwise UTF-8 text. A column with empty cells is optional. Notes are key/value
 /// metadata. Source: the format's own parquet.thrift and Encodings.md.
-/// \return the file, or GridTooLarge where a column would have 2 GiB
+/// \return the file, or GridTooLarge if a column would have 2 GiB
 [[nodiscard]] Result<std::string> makeParquet(const Table& table);
 
 }  // namespace svt::writers

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Drawings on a page of their own: line drawings in three dimensions as SVG or PDF, where what is cut is hatched and has
-/// bold outlines, edges are narrow lines, hidden ones dashed (ISO 128-2); sections as PDF.
+/// Drawings on a page of their own: line drawings in three dimensions as SVG or PDF, and sections as PDF. Cut faces are
+/// hatched and have bold outlines, edges are narrow lines, and hidden edges are dashed (ISO 128-2).
 
 #include <svt/core/result.hpp>
 #include <svt/drawing/line_view.hpp>
@@ -10,7 +10,7 @@
 
 namespace svt::writers {
 
-/// \param width  of the page, millimetres; its height follows from the picture. What is beyond the page is cut off
+/// \param width  width of the page, millimetres; its height follows from the picture; parts beyond the page are cut off
 /// \return the document. Equal views give equal bytes
 [[nodiscard]] std::string makeViewSvg(const drawing::LineView& view, const volume::SemanticVolume& volume,
                                       double width);
@@ -19,10 +19,10 @@ namespace svt::writers {
 [[nodiscard]] Result<std::string> makeViewPdf(const drawing::LineView& view, const volume::SemanticVolume& volume,
                                               double width);
 
-/// A section on the page of makeSvg(), with layers as makePdfSheets().
+/// A section on the page of makeSvg(), with layers as in makePdfSheets().
 /// \param scale  100 draws 1 m as 10 mm; 0.01 to 10^7
-/// \return the bytes, or BadArgument: a scale out of range, or a page over the 5.08 m that PDF allows; NoCairo or
-///         CannotWrite
+/// \return the bytes, or BadArgument: a scale out of range, or a page larger than the 5.08 m that PDF allows; NoCairo
+///         or CannotWrite
 [[nodiscard]] Result<std::string> makeSectionPdf(const drawing::SectionDrawing& drawing,
                                                  const volume::SemanticVolume& volume, double scale);
 

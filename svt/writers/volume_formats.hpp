@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The formats that a volume can be written in: the one table that `svt convert`, its help, the completions of shells and
-/// the manual are made from, and the call that writes any of them.
+/// The formats in which a volume can be written. One table is the source of `svt convert`, its help, shell completions
+/// and the manual; one call writes any format.
 
 #include <svt/core/file_content.hpp>
 #include <svt/core/names.hpp>
@@ -23,12 +23,12 @@
 
 namespace svt::writers {
 
-/// Where a format that is a document (X3D, CityGML) has the samples.
+/// The place of the samples in document formats (X3D, CityGML).
 enum class TextureKind : std::uint8_t {
     Pixel,     ///< PixelTexture3D: numbers in the document
     Image,     ///< ImageTexture3D: an NRRD beside the document
     Composed,  ///< ComposedTexture3D: a folder of PNG slices beside the document
-    Atlas      ///< of X3D alone: one PNG beside the document, colours without labels (ImageTextureAtlas of X3DOM)
+    Atlas      ///< only X3D: one PNG beside the document, colours without labels (ImageTextureAtlas of X3DOM)
 };
 constexpr auto namesOf(TextureKind) {
     using enum TextureKind;
@@ -36,41 +36,41 @@ constexpr auto namesOf(TextureKind) {
         {{Pixel, "pixel"}, {Image, "image"}, {Composed, "composed"}, {Atlas, "atlas"}});
 }
 
-/// Which voxels of components become boxes together.
+/// The components whose voxels are merged into boxes together.
 enum class MergeBy : std::uint8_t { Label, Class, Material };
 constexpr auto namesOf(MergeBy) {
     using enum MergeBy;
     return std::to_array<Name<MergeBy>>({{Label, "label"}, {Class, "class"}, {Material, "material"}});
 }
 
-/// Options of one format each, declared beside its writer.
+/// Options of one format, declared beside its writer.
 struct CityGmlWriteOptions {
-    std::filesystem::path model;  ///< the model that the volume was built from, which is kept; empty: none
-    int version = 0;              ///< 2 or 3; 0: that of the model, 3 without one
+    std::filesystem::path model;  ///< the model from which the volume was built; it is kept unchanged; empty: none
+    int version = 0;              ///< 2 or 3; 0: version of the model, 3 without a model
 };
 struct ZarrWriteOptions {
     int version = 2;  ///< 2 (OME-NGFF 0.4) or 3 (0.5)
 };
-/// Of neuroglancer.
+/// Options of neuroglancer.
 struct PrecomputedWriteOptions {
-    bool hasMeshes = false;  ///< also the surface of each label
-    bool isSharded = false;  ///< chunks in shards, many in a file
+    bool hasMeshes = false;  ///< also write the surface of each label
+    bool isSharded = false;  ///< chunks in shards, many per file
 };
-/// Of 3D Tiles.
+/// Options of 3D Tiles.
 struct TilesetWriteOptions {
-    /// Latitude, longitude (degrees) and height over the ellipsoid (metres) of the lower corner; none: by the CRS.
+    /// Latitude, longitude (degrees) and height over the ellipsoid (metres) of the lower corner; unset: by the CRS.
     std::optional<Vec3d> place;
-    double lift = 0;         ///< metres that are added to heights
-    bool hasVoxels = false;  ///< voxels by the draft extensions, not surfaces
+    double lift = 0;         ///< added to heights, metres
+    bool hasVoxels = false;  ///< voxels by the draft extensions instead of surfaces
 };
 struct VdbWriteOptions {
-    bool hasLevelSets = false;  ///< each class as signed distances, not as a fog volume
+    bool hasLevelSets = false;  ///< each class as signed distances instead of a fog volume
 };
-/// Of FDS and of lists of boxes.
+/// Options of FDS and of lists of boxes.
 struct BoxWriteOptions {
     MergeBy mergeBy = MergeBy::Label;
-    std::size_t maxBoxes = 1'000'000;  ///< more are refused
-    std::string holes, vents;          ///< of FDS: queries of open components, and of those with vents on both sides
+    std::size_t maxBoxes = 1'000'000;  ///< more boxes are an error
+    std::string holes, vents;          ///< FDS: queries for open components, and for those with vents on both sides
 };
 record::Members<CityGmlWriteOptions> membersOf(const CityGmlWriteOptions*) noexcept;
 record::Members<ZarrWriteOptions> membersOf(const ZarrWriteOptions*) noexcept;
@@ -80,8 +80,8 @@ record::Members<VdbWriteOptions> membersOf(const VdbWriteOptions*) noexcept;
 record::Members<BoxWriteOptions> membersOf(const BoxWriteOptions*) noexcept;
 
 struct VolumeWriteOptions {
-    bool isCompressed = true;           ///< of dense formats that leave the choice: gzip, zlib; else raw
-    GlbFaces faces = GlbFaces::Planes;  ///< of triangles
+    bool isCompressed = true;           ///< dense formats with a choice: gzip or zlib; false: raw
+    GlbFaces faces = GlbFaces::Planes;  ///< formats of triangles
     TextureKind texture = TextureKind::Pixel;
     std::uint64_t maxVoxels = std::uint64_t{1} << 24;  ///< of samples as numbers in a document
     CityGmlWriteOptions cityGml;
@@ -99,8 +99,8 @@ record::Members<VolumeWriteOptions> membersOf(const VolumeWriteOptions*) noexcep
 
 /// A format, declared beside its code.
 struct VolumeFormat {
-    std::string_view name;  ///< of the option, such as "nrrd"; unique
-    /// Of files, "|" between them: ".nii|.nii.gz"; the longest that fits a name decides its format.
+    std::string_view name;  ///< name in the option, such as "nrrd"; unique
+    /// Endings of files, separated by "|": ".nii|.nii.gz". The longest match for a name decides its format.
     std::string_view endings;
     std::string_view holds;    ///< content, for the manual
     std::string_view readers;  ///< programs that read it
@@ -114,12 +114,12 @@ struct VolumeFormat {
 /// All formats, in the order of the manual.
 [[nodiscard]] std::span<const VolumeFormat> volumeFormats() noexcept;
 
-/// The format that the name of `path` tells by its ending, in any case; null: none of them.
+/// The format by the ending of `path`, case-insensitive; null for an unknown ending.
 [[nodiscard]] const VolumeFormat* volumeFormatOf(const std::filesystem::path& path);
 
-/// Writes the volume in the format that the file's name tells, all or nothing; equal volumes give equal bytes.
-/// Memory of dense formats: below 256 MB besides volume and label table, whatever the dense size.
-/// \return bytes written, or BadArgument (no such format, or a volume that the format cannot hold, with the reason),
+/// Writes the volume in the format that the ending of the file name selects, all or nothing. Equal volumes give equal
+/// bytes. Memory of dense formats: below 256 MB besides volume and label table, regardless of the dense size.
+/// \return bytes written, or BadArgument (unknown format, or a volume that the format cannot store, with the reason),
 ///         CannotWrite, DiskFull, Cancelled, NothingSelected; more with writeGlb()
 [[nodiscard]] Result<std::uint64_t> writeVolume(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                                 const VolumeWriteOptions& options = {});

@@ -109,7 +109,7 @@ public:
     }
 
 private:
-    // What each level encloses, and the area of each label at its level.
+    // Measures the area that each level encloses, and the area of each label at its level.
     Result<void> cutLevels() {
         areaAt_.assign(levels_.size(), std::vector<double>(volume_.labels.labels.size(), 0));
         const Vec3d up = volume_.grid.axes()[2];

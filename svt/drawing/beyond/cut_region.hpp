@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is cut hides everything behind it: the parts of lines that lie within the polygons of a drawing.
+/// Cut components hide everything behind them: finds the parts of lines that lie within the polygons of a drawing.
 
 #include <svt/drawing/beyond/line_parts.hpp>
 #include <svt/drawing/beyond/plane_index.hpp>
@@ -17,10 +17,10 @@ public:
         std::vector<double> crossings;
     };
 
-    /// The polygons of all components but spaces.
+    /// The polygons of all components except spaces.
     CutRegion(const SectionDrawing& drawing, const volume::LabelTable& table);
 
-    /// Adds the parts of the line within the region. On its border either may be told.
+    /// Adds the parts of the line within the region. The result on its border is unspecified.
     void addCovered(PlanePoint from, PlanePoint to, Scratch& scratch, std::vector<LinePart>& covered) const;
 
 private:

@@ -1,13 +1,13 @@
 #pragma once
 /// \file
-/// Parts of a line by the parameter along it, 0 at its beginning and 1 at its end: unions of them, and what is left.
+/// Parts of a line by the parameter along it, 0 at its beginning and 1 at its end: unions and differences.
 
 #include <algorithm>
 #include <vector>
 
 namespace svt::drawing {
 
-/// Shorter pieces of lines are left out, metres.
+/// Shorter pieces of lines are omitted, metres.
 inline constexpr double kShortestPiece = 5e-4;
 
 /// A part of a line.
@@ -25,7 +25,8 @@ struct LinePart {
     return true;
 }
 
-/// What of `part` no part of `covered` covers; both gaps and what is left are at least `least` long. Sorts `covered`.
+/// The parts of `part` that `covered` does not cover. They, and the gaps between them, are at least `least` long. Sorts
+/// `covered`.
 [[nodiscard]] inline std::vector<LinePart> partsLeft(LinePart part, std::vector<LinePart>& covered, double least) {
     std::sort(covered.begin(), covered.end(), [](LinePart a, LinePart b) { return a.from < b.from; });
     std::vector<LinePart> left;

@@ -15,18 +15,18 @@
 namespace svt::drawing {
 namespace {
 
-constexpr double kOnFace = 2e-4;      // metres: lines so near to a face lie on it
+constexpr double kOnFace = 2e-4;      // metres: lines within this distance of a face lie on it
 constexpr double kBehindFace = 2e-6;  // metres: where a line pierces a face
 constexpr double kAlongSide = 5e-5;   // metres: lines that run along the side of a face are behind it
 constexpr double kAcrossSide = 1e-7;  // metres: others end there
-constexpr double kSteep = 0.05;       // sine of the angle that tells the two
+constexpr double kSteep = 0.05;       // sine of the angle that separates the two
 constexpr double kBesideEdge = 2e-4;  // metres: where to look for the face on the other side of a joint
 constexpr double kSameDirection = 0.99999;
 
 // Whether faces of two labels that lie in one plane show no joint.
 struct JointKind {
     std::uint32_t building = 0;  // or kNoLabel
-    bool isPaper = false;        // a boundary surface that is a sheet: it lies on what it bounds
+    bool isPaper = false;        // a boundary surface that is a sheet: it lies on the object that it bounds
     bool joins = false;
     render::Hatch hatch{};
     const std::string* className = nullptr;
@@ -53,7 +53,7 @@ bool isJoint(const JointKind& a, const JointKind& b, bool isSame) noexcept {
     return a.isPaper != b.isPaper || (a.hatch == b.hatch && *a.className == *b.className);
 }
 
-// What one thread needs beside its line.
+// Buffers of one thread.
 struct ClipScratch {
     PlaneIndex::Seen seen;
     CutRegion::Scratch cut;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kSameLine = 1e-4;   // metres
 constexpr double kParallel = 0.02;   // sine
 constexpr double kStraight = 1e-3;   // sine: pieces that go on
-constexpr double kSpeck = 3e-3;      // metres: shorter lines that stand alone
+constexpr double kSpeck = 3e-3;      // metres: shorter isolated lines are dropped
 constexpr double kSamePoint = 1e-5;  // metres
 
 double lengthOfLine(const BeyondLine& line) noexcept {
@@ -27,7 +27,7 @@ auto placeOf(const BeyondLine& line) noexcept {
     return std::tuple(line.from.u, line.from.v, line.to.u, line.to.v, line.label);
 }
 
-// What is drawn of the cut: borders of what is no space, and sheets.
+// The lines of the cut in the drawing: borders of components, and sheets.
 std::vector<BeyondLine> linesOfCut(const SectionDrawing& drawing, const volume::LabelTable& table) {
     std::vector<BeyondLine> lines;
     const auto isSpace = [&](std::uint32_t label) {
@@ -59,7 +59,7 @@ bool partOn(const BeyondLine& line, const BeyondLine& other, LinePart& part) noe
            part.to > part.from;
 }
 
-// Of lines that lie on each other the first stays; the first `fixed` are not looked at.
+// Keeps the first of lines that overlap. The first `fixed` lines are not checked.
 std::vector<BeyondLine> withoutDoubles(const std::vector<BeyondLine>& lines, std::size_t fixed, int threads) {
     std::vector<PlanePoint> corners;
     std::vector<std::uint32_t> starts{0};

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Lines that lie on each other become one, and lines that go on in the same direction are joined.
+/// Merges overlapping lines, and joins lines that continue in the same direction.
 
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -9,8 +9,8 @@
 
 namespace svt::drawing {
 
-/// Removes what lies on borders and lines of the cut, or on other lines: of two, the lower kind stays, else the longer
-/// one. Then joins pieces of one label and kind.
+/// Removes lines that lie on borders and lines of the cut, or on other lines. The line of the lower kind is kept; for
+/// equal kinds, the longer one. Then joins pieces of one label and kind.
 /// \return the lines by kind, label and place
 /// Cost: O(n log n) for lines that are spread over the drawing.
 [[nodiscard]] std::vector<BeyondLine> mergeLines(std::vector<BeyondLine> lines, const SectionDrawing& drawing,

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which segments and faces of a drawing may lie near a line: a grid of equal cells over the drawing.
+/// Finds the segments and faces of a drawing that may lie near a line, with a grid of equal cells over the drawing.
 
 #include <svt/drawing/section_drawing.hpp>
 
@@ -11,11 +11,11 @@
 
 namespace svt::drawing {
 
-/// Convex polygons of two points or more, found by the cells that they meet. Items are numbered as they were added; each
-/// cell lists its own in that order.
+/// Convex polygons of two points or more, found by the cells that they meet. Items are numbered as they were added;
+/// each cell lists its own in that order.
 class PlaneIndex {
 public:
-    /// Which items a thread has seen already on its present line.
+    /// The items that a thread has already seen on its current line.
     struct Seen {
         std::vector<std::uint32_t> lineOfItem;
         std::uint32_t line = 0;
@@ -23,7 +23,7 @@ public:
 
     /// \param corners      the corners of all items, one item after the other
     /// \param firstCorner  per item, and once more at the end
-    /// \param reach        how near items lie to a line that finds them at least, metres
+    /// \param reach        items up to this distance from a line are found, metres
     PlaneIndex(std::span<const PlanePoint> corners, std::span<const std::uint32_t> firstCorner, double reach);
 
     /// Calls `visit(item)` once for each item that may lie near the line. It returns whether to go on.

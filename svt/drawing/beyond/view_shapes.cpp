@@ -162,7 +162,7 @@ private:
         Vec3d at;
         double height = 0;  // over the plane that clips
     };
-    // What lies behind the plane of a triangle that is not seen from the side.
+    // Adds the part of a triangle behind the plane, unless the triangle is seen edge-on.
     void addFace(const volume::VectorParts::Triangle& triangle, const TriangleView& seen, const LabelView& view) {
         if (std::abs(seen.facing) < kFromTheSide || (view.isClosed && seen.facing > 0)) return;
         std::array<ClippedPoint, 8> corners{}, clipped{};

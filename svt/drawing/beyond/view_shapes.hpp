@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is seen of a volume's meshes from a plane: faces that hide, and edges to draw, in the coordinates of the view.
+/// The meshes of a volume as seen from a plane: faces that hide, and edges to draw, in the coordinates of the view.
 ///
 ///     view space: u and v of the drawing, d the depth behind the plane; the eye is infinitely far away at d < 0
 ///
@@ -19,7 +19,7 @@
 
 namespace svt::drawing {
 
-/// A triangle, or what the plane leaves of it: convex, in view space.
+/// A triangle, or the part of it behind the plane: convex, in view space.
 struct ViewFace {
     std::array<Vec3d, 5> corners;  ///< counter-clockwise in u and v
     std::uint32_t cornerCount = 0;
@@ -32,11 +32,11 @@ struct ViewFace {
 struct ViewEdge {
     Vec3d from, to;
     std::uint32_t label = 0;
-    /// Of an edge with one face that looks to the eye: its unit normal (pointing away from the eye), and the side of
-    /// the edge where it lies, 1 for the left. 0: any other edge.
+    /// For an edge with one face toward the eye: the face's unit normal (pointing away from the eye), and the side of
+    /// the edge on which it lies, 1 for the left. Other edges: 0.
     Vec3d normal;
     int faceSide = 0;
-    bool isPiercing = false;  ///< no edge of a mesh, but where two of them cross, see piercing.hpp
+    bool isPiercing = false;  ///< not an edge of a mesh, but a line where two of them cross, see piercing.hpp
 };
 
 struct ViewShapes {
@@ -45,23 +45,24 @@ struct ViewShapes {
 };
 
 struct ViewOptions {
-    bool looksAtCut = false;  ///< looks at what is cut away instead: the depth grows to the other side
+    bool looksAtCut = false;  ///< looks at the part that is cut away: the depth grows to the other side
     bool everyEdge = false;   ///< also edges of closed shells between faces that look away
 };
 
 /// An eye anywhere, for pictures. Points of view space are (u, v, d) of `axes`, d being the depth behind its origin. A
-/// perspective eye is `distance` before that; its view space is that of the picture, with the same u and v, and the depth
+/// perspective eye is `distance` before that; its view space is that of the picture, with the same u and v, and the
+/// depth
 ///
 ///     u' = u D / (D + d)    v' = v D / (D + d)    d' = d D / (D + d)
 ///
-/// so that lines are lines, planes are planes, what is nearer has less depth, and nothing changes where d is zero.
+/// so that lines and planes are preserved, nearer points have less depth, and points with d = 0 do not move.
 struct EyeView {
     PlaneAxes axes;
     Vec3d away{0, 1, 0};      ///< unit vector from the eye along the view
     double distance = 0;      ///< of a perspective eye, metres; 0: parallel
     double nearest = -1e300;  ///< d of the near plane; above -distance
     bool hasCut = false;
-    SectionPlane cut;  ///< what is cut away, if any
+    SectionPlane cut;  ///< cuts the model, if hasCut
 
     /// View space of the picture from that of the model; the point is behind the near plane.
     [[nodiscard]] Vec3d pictured(Vec3d p) const noexcept {
@@ -74,16 +75,16 @@ struct EyeView {
     }
 };
 
-/// Projects the meshes of `volume`. Faces that are seen from the side, and what is in front of the plane, are left out.
-/// What hides: objects that are drawn, but spaces and closure surfaces. A room that is a hole in a closed building and
-/// has no surfaces of its own shows its shell from within.
-/// Edges: where a face ends, creases over 20 degrees, and where a round surface turns away from the eye.
+/// Projects the meshes of `volume`. Omits faces that are seen edge-on, and all parts in front of the plane. The drawn
+/// objects hide other objects, except spaces and closure surfaces. A room that is a hole in a closed building and has
+/// no surfaces of its own shows its shell from within. Edges are ends of faces, creases over 20 degrees, and
+/// silhouettes of round surfaces.
 /// \param isDrawn  by label
 [[nodiscard]] ViewShapes projectMeshes(const volume::SemanticVolume& volume, const SectionPlane& plane,
                                        const PlaneAxes& axes, std::span<const std::uint8_t> isDrawn,
                                        const ViewOptions& options);
 
-/// The same as an eye sees them, from which a cut takes away what is before its plane.
+/// The same as seen by an eye, without the parts in front of the plane of a cut.
 [[nodiscard]] ViewShapes projectMeshes(const volume::SemanticVolume& volume, const EyeView& eye,
                                        std::span<const std::uint8_t> isDrawn, bool everyEdge);
 

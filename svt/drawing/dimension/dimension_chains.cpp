@@ -59,7 +59,7 @@ struct SeenEdge {
     [[nodiscard]] double depthAt(double s) const noexcept { return t0 + slope() * (s - s0); }
 };
 
-// What a line of sight meets first, between two stops.
+// The first objects on a line of sight between two stops.
 struct SeenPart {
     Matter face = Matter::Air;
     double near = 0, far = 0;  // depth of the face at the beginning and the end of the part
@@ -164,8 +164,8 @@ private:
         return true;
     }
 
-    // Behind more than the usual thickness lies the niche of a window in a wall that runs away from the eye; so does what
-    // is too narrow for a room.
+    // Behind more than the usual thickness lies the niche of a window in a wall that runs away from the eye; so does
+    // what is too narrow for a room.
     void closeNiches() {
         double thinnest = kThickestFace;
         for (const SeenPart& part : parts_)
@@ -223,7 +223,7 @@ private:
         return kInWall;
     }
 
-    // Whether a narrow part goes on in its neighbours: what it belongs to is wider.
+    // Whether a narrow part continues in its neighbours, so that together they are wide enough.
     [[nodiscard]] bool isPiece(std::size_t n) const noexcept {
         const auto goesOn = [&](const SeenPart& other) {
             return other.face == parts_[n].face && other.room == parts_[n].room;
@@ -280,7 +280,7 @@ bool isSame(const std::vector<double>& a, const std::vector<double>& b) {
                                               [](double x, double y) { return std::abs(x - y) < 0.5 * kShortestPart; });
 }
 
-// The extent of what is cut: where there are no borders, that of lines.
+// The extent of the cut: of its borders, or of its lines if it has no borders.
 std::vector<double> extentOf(const SectionDrawing& drawing, const std::vector<Matter>& matters, bool isAlongU) {
     std::vector<double> extent{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     const auto add = [&](std::uint32_t label, const std::vector<PlanePoint>& points) {

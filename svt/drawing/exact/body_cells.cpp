@@ -26,7 +26,7 @@ struct Cell {
     }
 };
 
-// One side of a part of a grid line: what lies above a horizontal line, or to the right of a vertical one, or opposite.
+// One side of a part of a grid line: above or below a horizontal line, right or left of a vertical one.
 struct LineSide {
     bool isVertical = false;
     std::int64_t line = 0, from = 0, to = 0;
@@ -236,7 +236,7 @@ private:
             const std::uint32_t last = corners[static_cast<std::size_t>((n + 1) % 4)];
             outline.emplace_back(a, first);
             if (first == last) continue;
-            // Looked for from the same end by both cells that share the side.
+            // Both cells that share the side search from the same end, so they find the same point.
             const bool isTurned = b < a;
             const plane::Point leaves = isTurned ? endOf(b, a, last, candidates) : endOf(a, b, first, candidates);
             crossings.push_back({leaves, first, last});

@@ -7,7 +7,7 @@
 namespace svt::drawing {
 namespace {
 
-constexpr double kOnPlane = 1e-5;    // metres: rounding of coordinates, and of what was welded
+constexpr double kOnPlane = 1e-5;    // metres: rounding of coordinates, and distance of welded points
 constexpr double kNearPlane = 2e-4;  // metres: edges within it should lie in the plane
 constexpr double kHair = 3e-4;       // metres: how far the plane is moved from them
 constexpr double kShortEdge = 1e-3;  // metres
@@ -51,8 +51,8 @@ private:
         return keepsAbove_ ? heights_[point] > 0 : heights_[point] >= 0;
     }
 
-    // Of a triangle that is counter-clockwise from outside, the segment begins where its border goes down through the
-    // plane; then the inside is to the left.
+    // If the triangle is counter-clockwise from outside, the segment begins where its border goes down through the
+    // plane, so the inside is to the left.
     void addSegment(const volume::VectorParts::Triangle& triangle, std::vector<CutSegment>& segments) const {
         const auto& c = triangle.corners;
         const int above = (isAbove(c[0]) ? 1 : 0) + (isAbove(c[1]) ? 1 : 0) + (isAbove(c[2]) ? 1 : 0);

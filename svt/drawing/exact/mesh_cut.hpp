@@ -1,10 +1,10 @@
 #pragma once
 /// \file
-/// Where a plane cuts the triangles of a volume's meshes.
+/// Cuts the triangles of a volume's meshes with a plane.
 ///
-/// A corner on the plane counts as on the side that is cut away, so that faces and edges in the plane never come and go
-/// with rounding: what is drawn is what stands just before the plane. Where edges lie nearly in the plane, but not to
-/// rounding, the plane is moved by a hair to the side that is kept.
+/// A corner on the plane counts as on the side that is cut away, so that rounding never decides whether faces and edges
+/// in the plane are drawn. The drawing shows the parts just before the plane. If edges lie nearly, but not exactly, in
+/// the plane, the plane is moved slightly to the side that is kept.
 
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/volume/vector_parts.hpp>
@@ -15,7 +15,7 @@
 
 namespace svt::drawing {
 
-/// A segment that one triangle gives; for a closed mesh the inside is to the left.
+/// The segment of one triangle; for a closed mesh the inside is to the left.
 struct CutSegment {
     PlanePoint from, to;
     std::uint32_t label = 0;
@@ -24,7 +24,7 @@ struct CutSegment {
 struct MeshCut {
     std::vector<CutSegment> segments;  ///< labels ascend; a closed mesh gives closed rings, point by point
     std::size_t edgesInPlane = 0;      ///< edges of triangles that lie in the plane as given
-    double shift = 0;                  ///< how far the plane was moved to the kept side, metres
+    double shift = 0;                  ///< distance that the plane was moved to the kept side, metres
 };
 
 /// Cuts all triangles with the plane through `axes`.

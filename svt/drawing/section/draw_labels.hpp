@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A section of chosen labels; what drawSection() and drawLineView() have in common.
+/// A section of selected labels: the common part of drawSection() and drawLineView().
 
 #include <svt/drawing/section_drawing.hpp>
 
@@ -9,8 +9,8 @@
 
 namespace svt::drawing {
 
-/// As drawSection(), for a plane that is checked, with the labels of `isDrawn` instead of the queries of `options`.
-/// \param bricks  those of the volume, or null: made where they are needed
+/// Like drawSection() with a checked plane, but draws the labels of `isDrawn` instead of the queries of `options`.
+/// \param bricks  bricks of the volume, or null: made if needed
 [[nodiscard]] Result<SectionDrawing> drawLabels(const volume::SemanticVolume& volume, const volume::BrickVolume* bricks,
                                                 const SectionPlane& plane, const std::vector<std::uint8_t>& isDrawn,
                                                 const SectionOptions& options);

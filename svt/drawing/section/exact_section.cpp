@@ -19,11 +19,11 @@ using volume::Filling;
 using volume::kNoLabel;
 
 constexpr std::uint32_t kNoClaim = 0xFFFFFFFFu;
-constexpr double kMeetDistance = 8e-6;  // metres: what lies closer meets, as points that are welded
+constexpr double kMeetDistance = 8e-6;  // metres: closer points and edges meet, like welded points
 
 bool isClosedShell(Filling filling) noexcept { return filling >= Filling::Solid && filling <= Filling::Capped; }
 
-// What a label claims of the plane; claims are ordered by priority, as the voxelizer orders them.
+// The claim of a label to a part of the plane; claims are ordered by priority, like those of the voxelizer.
 struct SectionClaim {
     std::uint32_t label = 0;
     std::uint8_t rank = 0;
@@ -31,7 +31,7 @@ struct SectionClaim {
     double volume = 0;
 };
 
-// A building of which the material belongs to the boundary surfaces below it.
+// A building whose material belongs to the boundary surfaces below it.
 struct MaterialGroup {
     std::uint32_t building = 0;
     std::uint32_t firstBody = 0, endBody = 0;  // of ExactCutter::bodies_
@@ -144,7 +144,7 @@ private:
         }
     }
 
-    // The polygons of what is drawn by voxels.
+    // Adds the polygons of objects that are drawn by voxels.
     Result<void> addVoxelSegments() {
         std::vector<std::uint32_t> labels = volume_.labels.labelOfScalar();
         bool isNeeded = false;
@@ -177,7 +177,7 @@ private:
         return {};
     }
 
-    // The claim of highest priority; what a building's material is divided into stands behind the claims.
+    // The claim of highest priority. The claims of thematic bodies follow after all claims of labels.
     [[nodiscard]] std::uint32_t topClaim(std::span<const plane::ClaimCount> counts) const noexcept {
         for (const plane::ClaimCount& count : counts) {
             if (count.winding <= 0) continue;

@@ -28,7 +28,7 @@ constexpr Rule kRules[] = {
     {"class=Window or class=WindowSurface or ifcType~Window", Hatch::Glass},
     {"class=TINRelief or class=ReliefFeature or class=LandUse", Hatch::Earth},
     {"class=SolitaryVegetationObject or class=PlantCover or class~Water", Hatch::None},
-    // What covers a wall comes before what bears it, which names the hatch of a wall with both.
+    // Coverings come before load-bearing materials: the last match decides the hatch of a wall with both.
     {"material~'[Ii]nsulation|D(ä|ae)mm|[Mm]ineral [Ww]ool'", Hatch::Insulation},
     {"material~'[Ss]creed|Estrich|[Pp]laster|[Mm]ortar'", Hatch::Concrete},
     {"material~'[Bb]rick|[Mm]asonry|[Bb]lock|Ziegel|Mauerwerk|Kalksandstein|Porenbeton|[Ss]tone'", Hatch::Masonry},

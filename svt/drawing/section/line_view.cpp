@@ -118,7 +118,7 @@ Result<LineView> drawLineView(const volume::SemanticVolume& volume, const render
     EyeView eye = eyeOf(frame.camera);
     LineView view;
     if (*plane) {
-        // Rooms are air: nothing is filled, and what stands in them is seen.
+        // Rooms are air: they are not filled, and the objects in them are visible.
         std::vector<std::uint8_t> isCut = isDrawn;
         for (std::size_t l = 0; l < isCut.size(); ++l)
             if (model::isSpace(volume.labels.labels[l].className)) isCut[l] = 0;
@@ -135,7 +135,7 @@ Result<LineView> drawLineView(const volume::SemanticVolume& volume, const render
             view.drawing.lines.clear();
         }
         if (!CutPicturer(eye, view.drawing.axes).run(view.drawing))
-            return Error(Code::BadCamera, "the camera stands in what is cut; move --eye away from it");
+            return Error(Code::BadCamera, "the camera stands in a component that is cut; move --eye away from it");
     }
     view.drawing.axes = eye.axes;
     view.drawing.plane = {eye.axes.normal, eye.axes.origin};

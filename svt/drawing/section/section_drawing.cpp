@@ -23,7 +23,7 @@ namespace {
 
 using volume::kNoLabel;
 
-// Entry per label: 1 for what is drawn.
+// Entry per label: 1 if it is drawn.
 Result<std::vector<std::uint8_t>> drawnLabels(const volume::LabelTable& table, const SectionOptions& options) {
     const analyze::LabelRows rows(table, options.nothing);
     std::vector<std::uint8_t> isDrawn(table.labels.size(), options.show.empty() ? 1 : 0);
@@ -38,7 +38,7 @@ Result<std::vector<std::uint8_t>> drawnLabels(const volume::LabelTable& table, c
     return isDrawn;
 }
 
-// Entry per scalar: its label, or kNoLabel for what is left out.
+// Entry per scalar: its label, or kNoLabel if it is omitted.
 std::vector<std::uint32_t> drawnLabelOfScalar(const volume::LabelTable& table,
                                               const std::vector<std::uint8_t>& isDrawn) {
     std::vector<std::uint32_t> labels = table.labelOfScalar();
@@ -335,7 +335,7 @@ TextPlace findTextPlace(const SectionPolygon& polygon) {
             double from = levels[bottom][n], to = levels[bottom][n + 1];
             for (std::size_t top = bottom; top < kLevels && narrow(levels[top], from, to); ++top) {
                 const double height = step * double(top + 1 - bottom);
-                // Texts are wide. Of equally good rectangles take the highest, so that the text is centred in it.
+                // Texts are wide. The highest of equally good rectangles is used, so that the text is centred in it.
                 const double score = std::min((to - from) / 2, height);
                 if (score < bestScore || (score == bestScore && height <= best.height)) continue;
                 bestScore = score;

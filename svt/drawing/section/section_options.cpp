@@ -7,19 +7,19 @@ record::Members<SectionOptions> membersOf(const SectionOptions*) noexcept {
     using All = SectionOptions;
     using record::member;
     static constexpr record::Member<All> kMembers[] = {
-        member<&All::beyond, &BeyondOptions::visible>("beyond", "also draw what is seen behind the plane",
+        member<&All::beyond, &BeyondOptions::visible>("beyond", "also draw the visible lines behind the plane",
                                                       {.group = "Drawing", .option = "--beyond"}),
-        member<&All::beyond, &BeyondOptions::hidden>("hidden", "also draw the edges behind it that are hidden, dashed",
+        member<&All::beyond, &BeyondOptions::hidden>("hidden", "also draw the hidden edges behind the plane, dashed",
                                                      {.group = "Drawing", .option = "--hidden"}),
         member<&All::beyond, &BeyondOptions::above>(
-            "above", "also draw what is cut away, as seen from the plane, dashed and dotted",
+            "above", "also draw the parts that are cut away, as seen from the plane, dashed and dotted",
             {.group = "Drawing", .option = "--above"}),
         member<&All::dimensions>("dimensions",
                                  "plans: chains of dimensions around the building: openings, rooms, overall",
                                  {.group = "Drawing", .option = "--dimensions"}),
-        member<&All::hide>("hide", "leave out what the query selects",
+        member<&All::hide>("hide", "leave out the selection of the query",
                            {.value = "QUERY", .group = "Drawing", .option = "--hide"}),
-        member<&All::show>("show", "draw only what the query selects",
+        member<&All::show>("show", "draw only the selection of the query",
                            {.value = "QUERY", .group = "Drawing", .option = "--show"}),
         record::memberAs<record::Not, &All::spaces>("noRooms", "leave out rooms, units and storeys",
                                                     {.group = "Drawing", .option = "--no-rooms"}),

@@ -216,8 +216,8 @@ private:
         std::size_t count = 0;
     };
 
-    // Borders lie on the model's faces. Where the face for the side of the brick lies inside it, what is before it has the
-    // labels of the voxel beyond.
+    // Borders lie on the model's faces. If the face for a side of the brick lies inside the brick, the space in front
+    // of the face has the labels of the voxel beyond that side.
     [[nodiscard]] Spans spansAlong(int axis) const {
         Spans spans;
         double at = low_[axis];

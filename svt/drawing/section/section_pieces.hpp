@@ -46,10 +46,11 @@ private:
     double drawingUnit_ = 1;
 };
 
-/// Edges of all pieces that have a label. Where pieces meet, their edges have the same end points: each edge between
-/// two labels appears once in each direction. Borders of voxels that stand for faces of the model across an axis lie on these.
+/// Edges of all pieces that have a label. Edges of adjacent pieces have the same end points: each edge between two
+/// labels appears once in each direction. Voxel borders that represent faces of the model perpendicular to an axis lie
+/// on these faces.
 /// \param faces          the planes of the model's faces
-/// \param labelOfScalar  entry per scalar: the label, or kNoLabel for what is not drawn
+/// \param labelOfScalar  entry per scalar: the label, or kNoLabel if it is not drawn
 [[nodiscard]] std::vector<PieceEdge> cutPieces(const volume::BrickVolume& bricks,
                                                std::span<const volume::FacePlane> faces, const CutPlane& plane,
                                                std::span<const std::uint32_t> labelOfScalar);

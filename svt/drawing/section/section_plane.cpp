@@ -39,7 +39,8 @@ std::pair<double, double> extentAlong(Vec3d normal, const volume::Grid& grid) {
 }  // namespace
 
 double hairOffFaces(const SectionPlane& plane, const volume::SemanticVolume& volume) {
-    // Of a voxel: what rounding moves faces by, see voxelize.hpp, and how far samples stand from whole indices.
+    // In voxels: the distance that rounding moves faces, see voxelize.hpp, and the offset of samples from whole
+    // indices.
     constexpr double kRounding = 1.0 / 256, kShift = 0.5 - 1.0 / 512;
     constexpr double kInFace = 2e-4;  // metres
     const volume::Grid& grid = volume.grid;

@@ -57,26 +57,25 @@ void reportSections(std::span<const SectionDrawing* const> drawings, const volum
     }
     const Place place{volume.source, 0, 0, {}};
     if (isUnsettled)
-        log.add(
-            Severity::Warning, Code::DrawnByVoxels,
-            fmt::format("all components{} are drawn by their voxels, for the edges of their meshes do not settle in "
-                        "whole numbers; move the plane by a little",
-                        drawings.size() > 1 ? " of a view" : ""),
-            place);
+        log.add(Severity::Warning, Code::DrawnByVoxels,
+                fmt::format("all components{} are drawn by their voxels, because the edges of their meshes do not "
+                            "converge in integer coordinates; move the plane slightly",
+                            drawings.size() > 1 ? " of a view" : ""),
+                place);
     if (lacksMeshes)
         log.add(Severity::Warning, Code::NoMeshes,
-                "what stands beyond the cut is not drawn, for the volume keeps no meshes; give the model itself, or "
+                "lines beyond the cut are not drawn, because the volume keeps no meshes; give the model itself, or "
                 "build the volume with --vectors meshes",
                 place);
     if (!byVoxels.empty())
         log.add(Severity::Note, Code::DrawnByVoxels,
-                fmt::format("{} of {} components are drawn by their voxels, for their shells are open: {}",
+                fmt::format("{} of {} components are drawn by their voxels, because their shells are open: {}",
                             byVoxels.size(), all.size(), listed(byVoxels)),
                 place);
     if (!uncertain.empty())
         log.add(Severity::Warning, Code::UncertainArea,
-                fmt::format("{} of {} areas may be off by more than they are, for the voxels are too large: {}; give "
-                            "the model itself, a volume that keeps its meshes, or a smaller --spacing",
+                fmt::format("{} of {} areas have an error bound above 100 %, because the voxels are too large: {}; "
+                            "give the model itself, a volume that keeps its meshes, or a smaller --spacing",
                             uncertain.size(), all.size(), listed(uncertain)),
                 place);
 }

@@ -299,7 +299,7 @@ private:
         sortRings(label);
     }
 
-    // Of the borders that start where h ends, the first one clockwise from h: this keeps the inside connected.
+    // The next border: the first one clockwise from h that starts where h ends, which keeps the inside connected.
     [[nodiscard]] std::uint32_t nextOf(std::uint32_t h, const std::vector<std::uint32_t>& byStart,
                                        const std::vector<std::uint8_t>& isUsed) const {
         const std::size_t size = sizeOf(halves_[h]);

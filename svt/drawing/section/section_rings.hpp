@@ -10,10 +10,10 @@
 ///     | A | A | C |                |       | C |                |       |   | C |
 ///     +---+---+---+                +-------o---+                +-------+   +---+
 ///
-/// - Each piece gives its edges counter-clockwise, so an edge between two pieces is there once in each direction. Where
-///   both have the same label the two cancel (ours).
+/// - Each piece gives its edges counter-clockwise, so an edge between two pieces is present once in each direction. If
+///   both pieces have the same label, the two edges cancel (ours).
 /// - The rest is joined to borders: polylines with one label on the left and one on the right, from node to node, or
-///   closed. A node is a point where not just one border passes through.
+///   closed. A node is a point that more than one border touches.
 /// - A border is simplified once, with its nodes fixed (Douglas and Peucker 1973), so both neighbours keep sharing it
 ///   point by point: no gaps, no overlaps.
 /// - A ring follows the borders of its label. At a node it takes the first one clockwise from the one that it came by,

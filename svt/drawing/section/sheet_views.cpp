@@ -23,7 +23,7 @@ bool isRoom(const volume::Label& label) {
     return model::isSpace(label.className) && model::classRank(label.className) == model::ClassRank::Room;
 }
 
-// Whether a component is a stair by its class, type or name; the door of a stairwell is none.
+// Whether a component is a stair by its class, type or name; the door of a stairwell is not a stair.
 bool isStair(const volume::Label& label) {
     const auto rank = model::classRank(label.className);
     if (rank != model::ClassRank::Installation && rank != model::ClassRank::Element) return false;
@@ -36,8 +36,8 @@ bool isStair(const volume::Label& label) {
     return words.find("stair") != std::string::npos || words.find("treppe") != std::string::npos;
 }
 
-// Of nine planes across an axis, through the stair or the middle half of the building, the one that cuts most of rooms
-// and least of walls along their length.
+// Selects one of nine planes across an axis, through the stair or the middle half of the building: the one that cuts
+// most of the rooms and least of the walls along their length.
 Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, const Box3d& all,
                               const std::optional<Box3d>& stair, int threads) {
     const Box3d& through = stair ? *stair : all;
@@ -50,13 +50,13 @@ Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, co
     options.threads = threads;
     double best = low + 0.5 * size, most = -kInfinity;
     for (int n = 0; n < 9; ++n) {
-        // From the middle outwards, beside round parts of the extent, where walls often stand.
+        // From the middle outwards, avoiding round fractions of the extent, where walls often stand.
         const int step = (n + 1) / 2;
         const double at = low + (0.487 + (n % 2 == 0 ? 1 : -1) * spread * step) * size;
         const auto drawing =
             drawSection(volume, {along * (axis == 1 ? -1.0 : 1.0), volume.grid.origin() + along * at}, options);
         if (!drawing) return drawing.error();
-        // Without rooms, what cuts most of the buildings.
+        // Without rooms, the plane that cuts most of the buildings wins.
         double score = 0;
         for (const SectionComponent& component : drawing->components) {
             const volume::Label& label = volume.labels.labels[component.label];
@@ -74,7 +74,7 @@ Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, co
     return best;
 }
 
-// Tops of slabs: of components that are one by class or IFC type, and of floors that are surfaces. Slabs of roofs are none.
+// Whether a component is a slab by class or IFC type, or a floor that is a surface. Roof slabs do not count.
 bool isSlab(const volume::Label& label) {
     if (label.className == "FloorSurface") return true;
     std::string type, words = label.name;
@@ -90,7 +90,7 @@ bool isSlab(const volume::Label& label) {
     return has(type, "slab") || has(type, "floor");
 }
 
-// Levels from what is stood on, each at the height that most of its area has.
+// Levels from floors, each at the height of most of its area.
 std::vector<BuildingLevel> levelsOf(const std::vector<FloorHeight>& floors) {
     std::vector<BuildingLevel> levels;
     for (const FloorHeight& floor : floors) {
@@ -107,7 +107,7 @@ std::vector<BuildingLevel> levelsOfSlabs(const volume::SemanticVolume& volume,
     for (std::size_t l = 0; l < extents.size(); ++l) {
         const Box3d& box = extents[l].box;
         const Vec3d size = box.size();
-        // Thicker ones are no slabs, or slope.
+        // Thicker components are not slabs, or slope.
         if (box.isEmpty() || !isSlab(volume.labels.labels[l]) || size.z > kThickestSlab) continue;
         if (size.x * size.y >= kLeastSlabArea) tops.push_back({box.max.z, size.x * size.y, extents[l].bound});
     }
@@ -115,7 +115,7 @@ std::vector<BuildingLevel> levelsOfSlabs(const volume::SemanticVolume& volume,
         return std::tie(a.at, a.area) < std::tie(b.at, b.area);
     });
     std::vector<BuildingLevel> levels = levelsOf(tops);
-    // What nothing stands on is a flat roof.
+    // The highest level is a flat roof if nothing stands on it.
     double highest = -kInfinity;
     for (const LabelExtent& extent : extents) highest = std::max(highest, extent.box.max.z);
     while (levels.size() > 1 && highest - levels.back().floor < kLeastRoom) levels.pop_back();

@@ -69,7 +69,7 @@ private:
     std::vector<FloorHeight> levels_;  // of faces that look down
 };
 
-// What a storey is made of, and the heights that follow.
+// The extents of a storey's features, and the heights that follow.
 class StoreyExtent {
 public:
     void add(const volume::Label& label, const LabelExtent& extent) {
@@ -83,7 +83,7 @@ public:
             roomFloors_.push_back(floorHeightOf(extent));
     }
 
-    // The storey itself: what it declares, and its own geometry where nothing stands on it.
+    // Adds the storey itself: its declared elevation, and its own geometry for a storey without features.
     void addStorey(const volume::Label& storey, const LabelExtent& extent, const volume::Grid& grid) {
         if (!extent.box.isEmpty()) own_.add(extent);
         for (const Attribute& attribute : storey.attributes)
@@ -123,8 +123,8 @@ private:
     std::optional<double> elevation_;  // metres above the grid's lower corner
 };
 
-// What stands directly below each label: its children, and the members of a group. A district has a thousand storeys, so
-// that these are found once for all.
+// The labels directly below each label: its children, and the members of a group. A district has a thousand storeys, so
+// these are found once for all.
 class StoreyMembers {
 public:
     explicit StoreyMembers(const volume::LabelTable& table) : begins_(table.labels.size() + 1, 0) {

@@ -32,7 +32,7 @@ Vec3f paletteColor(std::size_t n) {
     return kMuted[n - kMuted.size()] * 0.5f + Vec3f{0.5f, 0.5f, 0.5f};
 }
 
-// A value of a row; `unit` of an attribute. Nothing: the row has none.
+// A value of a row; `unit` is that of an attribute.
 struct Value {
     std::string text, unit;
     bool isWord = false;  // text in the model, even if it reads like a number: a code
@@ -70,7 +70,7 @@ private:
         return std::nullopt;
     }
 
-    // What `find` finds in the row, the features above it, and their groups; the nearest first.
+    // The first result of `find` in the row, the features above it, and their groups, from the nearest.
     template <class Find>
     [[nodiscard]] std::optional<Value> firstAbove(std::uint32_t row, const Find& find) const {
         std::vector<std::uint32_t> found{row};
@@ -109,7 +109,7 @@ Error nothingToColor(std::string_view key, std::span<const model::QueryRow> rows
     std::vector<std::string> some(names.begin(), names.end());
     if (some.size() > 12) some.resize(12);
     return {Code::BadArgument,
-            fmt::format("nothing that is visible has '{}' to be coloured by; possible are class, name, storey, "
+            fmt::format("no visible component has the key '{}' for colours; use class, name, storey, "
                         "volume, area (of rooms), voxels{}{}{}{}",
                         key, equalsIgnoringCase(key, "owner") ? ", owner with a table of owners (--owners)" : "",
                         some.empty() ? "" : ", ", fmt::join(some, ", "), names.size() > 12 ? ", ..." : "")};

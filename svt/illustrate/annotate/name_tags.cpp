@@ -78,7 +78,7 @@ image::Image<std::int32_t> runLengths(const image::Image<volume::Scalar>& seen,
     return lengths;
 }
 
-// Finds where texts fit into what they name.
+// Finds places where texts fit into the labels that they name.
 class RoomFinder {
 public:
     RoomFinder(const image::Image<volume::Scalar>& seen, const std::vector<std::uint32_t>& labelOf)

@@ -126,7 +126,7 @@ std::vector<volume::FacePlane> liftPlanes(const volume::SemanticVolume& volume, 
     return planes;
 }
 
-// Lifts edges and triangles: what is cut into storeys is clipped to each of them.
+// Lifts edges and triangles. Those of labels that are cut into storeys are clipped to each storey.
 class VectorLift {
 public:
     VectorLift(const volume::SemanticVolume& volume, const Lift& lift)

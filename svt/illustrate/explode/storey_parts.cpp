@@ -14,8 +14,8 @@
 namespace svt::illustrate {
 namespace {
 
-constexpr double kWhole = 0.85;       // share of a label's height in one storey with which it goes as a whole
-constexpr double kSlab = 0.3;         // metres below a floor, where no ceiling tells how thick the slab is
+constexpr double kWhole = 0.85;       // share of a label's height in one storey for which it moves as a whole
+constexpr double kSlab = 0.3;         // metres below a floor: thickness of the slab if there is no ceiling
 constexpr double kLeastStorey = 1.5;  // metres; lower levels are landings
 constexpr std::int32_t kAbove = std::numeric_limits<std::int32_t>::max();
 
@@ -23,7 +23,7 @@ bool isRoom(const volume::Label& label) {
     return model::isSpace(label.className) && model::classRank(label.className) == model::ClassRank::Room;
 }
 
-// A storey of a building, and the samples of its rooms or, without any, of all that is on it.
+// A storey of a building, and the samples of its rooms or, without rooms, of all its labels.
 struct Storey {
     std::uint32_t label = volume::kNoLabel;
     double floor = 0;                           // sample of the lowest of most of it

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which part of which label belongs to which storey.
+/// Assigns parts of labels to storeys.
 
 #include <svt/volume/semantic_volume.hpp>
 
@@ -10,7 +10,8 @@
 
 namespace svt::illustrate {
 
-/// The part of a label below `end` (samples along z), down to the end of the part before: of storey `number`.
+/// The part of a label that belongs to storey `number`: below `end` (samples along z), down to the end of the previous
+/// part.
 struct StoreyPart {
     std::int32_t end = 0;
     int number = 0;
@@ -19,7 +20,7 @@ struct StoreyPart {
 /// Parts of all labels; the last of each ends above all samples.
 struct StoreyParts {
     std::vector<std::vector<StoreyPart>> ofLabel;
-    int highest = 0;  ///< number of the highest storey of any building; 0: nothing can be drawn apart
+    int highest = 0;  ///< number of the highest storey of any building; 0: no storeys to draw apart
 };
 
 /// The rule is that of explodeStoreys().

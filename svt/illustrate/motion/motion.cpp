@@ -34,7 +34,7 @@ Scene withoutMotion(Scene scene) {
     return scene;
 }
 
-// Members without any below them, by pointer; what is empty is none.
+// Members without members below them, by pointer, except empty ones.
 std::vector<std::pair<std::string, Json>> leavesOf(const Json& json) {
     std::vector<std::pair<std::string, Json>> leaves;
     const Json flat = json.flatten();
@@ -130,8 +130,8 @@ void goAround(Scene& scene, const Scene& before, const Scene& after, double shar
                              *scene.camera.target);
 }
 
-// What a camera that goes around must show, metres from the grid's lower corner: all that the scene draws at its
-// beginning, whether cut away or not; the corners of the volume's box where it draws nothing.
+// The points that an orbiting camera must show, metres from the grid's lower corner: of all parts that the scene draws
+// at its beginning, including parts that are cut away. If it draws nothing, the corners of the volume's box.
 std::vector<Vec3d> pointsToShow(Scene scene, const volume::SemanticVolume& volume) {
     for (ScenePass& pass : scene.passes) {
         pass.cut.clear();
@@ -241,7 +241,7 @@ Result<void> addCutKey(Scene& scene, std::span<const std::string> cuts, double s
             if (json.contains(Pointer(fmt::format("/passes/{}/cut", n))))
                 return Error(
                     Code::BadArgument,
-                    fmt::format("the cut '{}' is to move to '{}', but the motion of the scene moves it already "
+                    fmt::format("the cut '{}' cannot move to '{}', because the motion of the scene already moves it "
                                 "(key at {} s)",
                                 scene.passes[n].cut, cuts[n], key.at));
     }

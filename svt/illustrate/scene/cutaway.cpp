@@ -13,7 +13,7 @@ namespace {
 using render::Camera;
 using render::RoundBody;
 
-// Of openings beside each other, the widest first: tan 25, 12 and 4 degrees.
+// Slopes of adjacent openings, from the widest: tan 25, 12 and 4 degrees.
 constexpr double kNarrowest = 0.0699;
 constexpr double kSlopes[] = {kCutawaySlope, 0.2126, kNarrowest};
 
@@ -70,8 +70,8 @@ bool meet(const RoundBody& a, const RoundBody& b, const volume::Grid& grid) {
     return hasRimIn(a, b) || hasRimIn(b, a);
 }
 
-// A box of targets and all before it: between planes of sight through its outline. What stands behind and beside it stays,
-// and what carries it.
+// A box of targets and the space in front of it, between planes of sight through its outline. Objects behind, beside
+// and below it stay.
 render::ConvexPart shadowPart(const Camera& camera, const volume::Grid& grid, const analyze::SampleBox& target,
                               double margin) {
     const bool isPerspective = camera.projection == Camera::Projection::Perspective;
@@ -109,7 +109,7 @@ render::ConvexPart shadowPart(const Camera& camera, const volume::Grid& grid, co
     for (int axis = 0; axis < 3; ++axis)
         for (const bool isUpper : {false, true})
             if (!isSeen(axis, isUpper)) {
-                // Within the targets by a part of a voxel: what touches them there is not cut.
+                // Inside the targets by a fraction of a voxel, so that objects that touch them there are not cut.
                 const render::HalfSpace behind = face(axis, isUpper);
                 const Vec3d spacing = grid.spacing();
                 const double inset = 0.3 * std::min({spacing.x, spacing.y, spacing.z});

@@ -73,8 +73,7 @@ public:
         for (const ConvexPart& part : *region)
             if (part.halfSpaces.size() + part.rounds.size() > ConvexPart::kMaxFaces)
                 return Error(Code::BadSection,
-                             fmt::format("the region '{}' is too involved: a part of {} faces, {} "
-                                         "are possible",
+                             fmt::format("the region '{}' is too complex: a part has {} faces, up to {} are possible",
                                          text_, part.halfSpaces.size() + part.rounds.size(), ConvexPart::kMaxFaces));
         return region;
     }
@@ -143,9 +142,8 @@ private:
 
     Result<void> checkCount(const Parts& parts) const {
         if (parts.size() <= render::Pass::kMaxClipParts) return {};
-        return Error(Code::BadSection,
-                     fmt::format("the region '{}' is too involved: it falls into more than {} convex parts", text_,
-                                 render::Pass::kMaxClipParts));
+        return Error(Code::BadSection, fmt::format("the region '{}' is too complex: it has more than {} convex parts",
+                                                   text_, render::Pass::kMaxClipParts));
     }
 
     Result<Parts> both(const Parts& a, const Parts& b) const {
@@ -356,7 +354,7 @@ private:
     Result<Parts> makeAround(const std::string& text) const {
         SVT_TRY(selection, selectionOf("around", text));
         if (selection->first.empty()) return nowhere();
-        SVT_TRY(box, analyze::boxAround(selection->first, context_.volume, "what around() selects"));
+        SVT_TRY(box, analyze::boxAround(selection->first, context_.volume, "the selection of around()"));
         Vec3d low, high;
         for (int axis = 0; axis < 3; ++axis) {
             low[axis] = (box->min[axis] - 0.5) * grid().spacing()[axis] - selection->second;
@@ -374,7 +372,7 @@ private:
     Result<Parts> makeCutaway(const std::string& text) const {
         SVT_TRY(selection, selectionOf("cutaway", text));
         if (selection->first.empty()) return nowhere();
-        SVT_TRY(all, analyze::boxAround(selection->first, context_.volume, "what cutaway() selects"));
+        SVT_TRY(all, analyze::boxAround(selection->first, context_.volume, "the selection of cutaway()"));
         const auto boxes = analyze::labelBoxes(context_.volume.columns, context_.volume.labels);
         std::vector<analyze::SampleBox> targets;
         for (const std::uint32_t label : selection->first)
@@ -401,7 +399,7 @@ bool dependsOnView(std::string_view region) {
 std::vector<MovedPlane> planesInFaces(const Scene& scene, const volume::SemanticVolume& volume) {
     const analyze::LabelRows rows(volume.labels);
     std::vector<MovedPlane> moved;
-    // What else is wrong with a region is told where it is drawn.
+    // Drawing reports other errors of a region.
     for (const ScenePass& pass : scene.passes)
         for (const std::string& region : {pass.cut, pass.keep})
             if (!region.empty()) (void)parseRegion(region, {volume, rows, {}, 1, &moved});

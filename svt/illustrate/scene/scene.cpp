@@ -25,11 +25,11 @@ namespace {
 using volume::Label;
 using volume::LabelTable;
 
-// Light of sun and sky: shadows are to be seen, and what is in them.
+// Light of sun and sky: shadows are visible, and so are objects in them.
 constexpr float kSunKey = 0.85f, kSunAmbient = 0.46f;
 constexpr float kGhostOpacity = 0.22f;
-constexpr float kGhostGray = 0.7f;  // how much of a ghost's colour is lost
-// What stops less light per metre is air, such as a room.
+constexpr float kGhostGray = 0.7f;  // share of a ghost's colour that is lost
+// Labels that stop less light per metre are air, such as a room.
 constexpr float kSolidOpacity = 0.5f;
 // Share of light that a shell of glass stops, seen face on.
 constexpr double kShellGhost = 0.10;
@@ -89,7 +89,7 @@ void applyLook(const Scene& scene, render::FrameSpec& spec) {
     if (scene.ambientOcclusion) spec.light.ambientOcclusion = *scene.ambientOcclusion;
 }
 
-// The sun instead of the light beside the camera. Below the horizon it gives none, and the sky alone is left.
+// Replaces the light beside the camera with the sun. Below the horizon, only the sky gives light.
 Result<void> applySun(const Scene& scene, const volume::SemanticVolume& volume, render::FrameSpec& spec) {
     if (!scene.sun) return {};
     SVT_TRY(sunlight, sunlightOf(*scene.sun, volume));
@@ -116,7 +116,7 @@ volume::Grid gridOf(const analyze::SampleBox& box, const volume::Grid& grid) {
     return part ? *part : grid;
 }
 
-// What a named view is fitted to: the corners of a grid, or points.
+// The points to which a named view is fitted: the corners of a grid, or a list.
 struct ToShow {
     volume::Grid grid;
     std::vector<Vec3d> points;  ///< empty: the grid
@@ -127,11 +127,11 @@ Result<ToShow> wholeOrAround(const SceneCamera& wanted, const volume::SemanticVo
     if (wanted.around.empty()) return ToShow{volume.grid, {}};
     SVT_TRY(selected, analyze::selectLabels(rows, wanted.around));
     if (selected->empty()) return ToShow{volume.grid, {}};
-    SVT_TRY(box, analyze::boxAround(*selected, volume, fmt::format("what the query '{}' selects", wanted.around)));
+    SVT_TRY(box, analyze::boxAround(*selected, volume, fmt::format("the selection of the query '{}'", wanted.around)));
     return ToShow{gridOf(*box, volume.grid), {}};
 }
 
-// Moves a camera to the right, so that what it shows stands further left, by a share of the picture's height.
+// Moves a camera to the right, so that its picture moves to the left, by a share of the picture's height.
 void moveAside(double share, render::Camera& camera) {
     const Vec3d forward = camera.target - camera.eye;
     const double height = camera.projection == render::Camera::Projection::Orthographic
@@ -161,9 +161,9 @@ Result<render::Camera> cameraOf(const Scene& scene, const volume::Grid& grid, co
     const double legend = scene.colorBy.empty() || !scene.hasLegend ? 0 : legendMargin(scene.width, scene.height);
     options.sideMargin = std::max({options.sideMargin, names, legend});
     const InsetMargins insets = insetMargins(scene);
-    // Of a picture that is moved aside, so that the free parts of both sides are as wide as what stands there.
+    // The margins of a picture that is moved aside are as wide as the marks at each side.
     const double left = std::max({options.sideMargin, options.margin, insets.left});
-    // Names stand between what is shown and the legend.
+    // Names are between the model and the legend.
     const double right = std::max({options.sideMargin, std::min(0.5, names + legend), options.margin, insets.right});
     options.sideMargin = std::min(0.45, (left + right) / 2);
     auto camera = toShow.points.empty() ? render::cameraPreset(wanted.preset, toShow.grid, options)
@@ -201,7 +201,7 @@ float ghostOpacity(const ScenePass& pass, const volume::Grid& grid) {
     return static_cast<float>(std::min(0.9999, 1 - std::pow(1 - kShellGhost, 1 / thickness)));
 }
 
-// Rooms and other air that are shown alone are drawn solid: their shape is wanted, and there is nothing to see in them.
+// Rooms and other air are drawn solid if nothing else is shown, because their shape matters and nothing is inside.
 void makeSolidIfAlone(const LabelTable& table, std::vector<LabelLook>& looks) {
     for (std::size_t l = 0; l < looks.size(); ++l)
         if (looks[l].opacity >= kSolidOpacity && table.labels[l].count > 0) return;
@@ -228,7 +228,7 @@ Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass
         for (const std::uint32_t l : *selected) {
             LabelLook& look = looks[l];
             if (style.isGhost) {
-                // Gray, so that what is lit in a ghost is the only thing in colour.
+                // Gray, so that only the highlight inside a ghost has colour.
                 const float gray = brightnessOf(look.color);
                 look.color = mix(look.color, {gray, gray, gray}, kGhostGray);
                 look.isGhost = true;
@@ -280,7 +280,7 @@ Result<PassLooks> passLooks(const Scene& scene, const volume::SemanticVolume& vo
         all.push_back(std::move(*looks));
     }
     if (scene.colorBy.empty()) return all;
-    // What is seen through counts only where nothing else does.
+    // Transparent labels count only if there are no others.
     const auto& labels = volume.labels.labels;
     std::vector<std::uint8_t> isShown(labels.size(), 0);
     for (const float least : {kSolidOpacity, 0.0f}) {
@@ -331,7 +331,7 @@ Result<std::vector<render::Pass>> passesOf(const Scene& scene, const PassLooks& 
     return passes;
 }
 
-// Fits the named view of a frame, so far of the whole volume, to what its passes draw.
+// Fits the named view of a frame, initially of the whole volume, to the parts that its passes draw.
 Result<void> fitToVisible(const Scene& scene, const PassLooks& looks, const volume::SemanticVolume& volume,
                           const analyze::LabelRows& rows, render::FrameSpec& spec) {
     // Before anything is clipped: whether there are more parts than a ray has room for.
@@ -424,7 +424,7 @@ Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::Semant
                                                  scene.width, scene.height, render::FrameSpec::kMaxSize));
     if (scene.hasScaleBar && !scene.camera.isParallel)
         return Error(Code::BadCamera,
-                     "a scale bar needs a parallel view (--ortho); in perspective what is near is larger");
+                     "a scale bar needs a parallel view (--ortho); in perspective, near objects are larger");
     applyLook(scene, spec);
     SVT_DO(applySun(scene, volume, spec));
     SVT_TRY(toShow, wholeOrAround(scene.camera, volume, rows));

@@ -84,23 +84,23 @@ Members<SceneCamera> membersOf(const SceneCamera*) noexcept {
             {.choices = "iso|iso-se|iso-sw|iso-ne|iso-nw|front|back|left|right|top|bottom",
              .group = "View",
              .option = "--camera"}),
-        member<&SceneCamera::around>("around", "the view shows what the query selects, as large as it fits",
+        member<&SceneCamera::around>("around", "fit the view to the selection of the query",
                                      {.value = "QUERY", .group = "View", .option = "--around"}),
         member<&SceneCamera::fit>("fit",
-                                  "a named view shows what is visible as large as possible, or always the whole "
-                                  "volume; where eye or target is given, or pictures are a series, all",
+                                  "fit a named view to the visible parts, or always to the whole volume; all, if "
+                                  "eye or target is given, or for a series of pictures",
                                   {.group = "View", .option = "--fit"}),
         member<&SceneCamera::isParallel>("parallel", "parallel projection", {.group = "View", .option = "--ortho"}),
         member<&SceneCamera::fieldOfView>(
             "fieldOfView", "vertical field of view",
             {.unit = "degrees", .least = 0.001, .most = 179.999, .group = "View", .option = "--fov"}),
-        member<&SceneCamera::zoom>("zoom", "nearer (above 1) or further than the preset",
+        member<&SceneCamera::zoom>("zoom", "nearer (above 1) or farther than the preset",
                                    {.least = 0.01, .most = 100, .group = "View", .option = "--zoom"}),
         member<&SceneCamera::eye>(
-            "eye", "where the viewer stands, from the lower corner of the grid, in world axes",
+            "eye", "position of the viewer, from the lower corner of the grid, in world axes",
             {.value = "X,Y,Z", .unit = "metres", .least = -1e9, .most = 1e9, .group = "View", .option = "--eye"}),
         member<&SceneCamera::target>(
-            "target", "what stands in the middle of the picture, from the lower corner of the grid, in world axes",
+            "target", "point in the centre of the picture, from the lower corner of the grid, in world axes",
             {.value = "X,Y,Z", .unit = "metres", .least = -1e9, .most = 1e9, .group = "View", .option = "--target"})};
     return kMembers;
 }
@@ -117,7 +117,7 @@ Members<BorderLook> membersOf(const BorderLook*) noexcept {
                                     .otherwise = "by look",
                                     .group = "Style",
                                     .option = "--line-width"}),
-        member<&BorderLook::cutWidth>("cutWidth", "width of lines around what is cut",
+        member<&BorderLook::cutWidth>("cutWidth", "width of lines around cut faces",
                                       {.unit = "pixels",
                                        .least = 0,
                                        .most = double(render::BorderLines::kMaxWidth),
@@ -130,7 +130,7 @@ Members<BorderLook> membersOf(const BorderLook*) noexcept {
 
 Members<HatchLook> membersOf(const HatchLook*) noexcept {
     static constexpr Member<HatchLook> kMembers[] = {
-        member<&HatchLook::show>("show", "hatch what is cut, by material or class",
+        member<&HatchLook::show>("show", "hatch cut faces, by material or class",
                                  {.otherwise = "paper and blueprint do so", .group = "Style", .option = "--hatch"}),
         member<&HatchLook::spacing>("spacing", "distance of hatch lines",
                                     {.unit = "metres",
@@ -145,7 +145,7 @@ Members<HatchLook> membersOf(const HatchLook*) noexcept {
 Members<Sun> membersOf(const Sun*) noexcept {
     static constexpr Member<Sun> kMembers[] = {
         member<&Sun::time>("time",
-                           "date and hour of the sun, such as '2026-06-21 15:00', with Z or +02:00 where it is not the "
+                           "date and hour of the sun, such as '2026-06-21 15:00'; with Z or +02:00 unless it is the "
                            "time of the meridian",
                            {.value = "TIME", .group = "Illustrate", .option = "--sun", .isRequired = true}),
         member<&Sun::place>("place", "latitude and longitude of the building",
@@ -163,20 +163,20 @@ Members<Sun> membersOf(const Sun*) noexcept {
 
 Members<Inset> membersOf(const Inset*) noexcept {
     static constexpr Member<Inset> kMembers[] = {
-        member<&Inset::corner>("corner", "corner of the picture in which it stands"),
+        member<&Inset::corner>("corner", "corner of the picture that contains the inset"),
         member<&Inset::size>("size", "share of the picture's width and height", {.least = 0.05, .most = 0.5}),
         member<&Inset::title>("title", "write a title into the inset", {.value = "TEXT"}),
-        member<&Inset::hasMark>("mark", "frame in the picture what the inset shows, with lines to it"),
-        memberAs<SceneText, &Inset::scene>("scene", "its camera, and members of the scene that are others in it", {},
+        member<&Inset::hasMark>("mark", "frame the part of the picture that the inset shows, with lines to it"),
+        memberAs<SceneText, &Inset::scene>("scene", "its camera, and members of the scene that differ in it", {},
                                            Written::Always)};
     return kMembers;
 }
 
 Members<Motion::Key> membersOf(const Motion::Key*) noexcept {
     static constexpr Member<Motion::Key> kMembers[] = {
-        member<&Motion::Key::at>("at", "the time, after that of the key before",
+        member<&Motion::Key::at>("at", "the time, after that of the previous key",
                                  {.unit = "seconds", .least = 0, .most = 3600, .isRequired = true}),
-        memberAs<SceneText, &Motion::Key::scene>("scene", "members of the scene that have these values then",
+        memberAs<SceneText, &Motion::Key::scene>("scene", "values of members of the scene at this time",
                                                  {.isRequired = true})};
     return kMembers;
 }
@@ -189,50 +189,52 @@ Members<Motion> membersOf(const Motion*) noexcept {
         member<&Motion::rate>("rate", "pictures per second of a film",
                               {.least = 1, .most = 120, .group = "Motion", .option = "--rate"}),
         member<&Motion::turn>(
-            "turn", "how far the camera goes around, counter-clockwise from above, evenly; 360: once",
+            "turn",
+            "angle by which the camera orbits the model, counter-clockwise from above, evenly; 360: once "
+            "around",
             {.unit = "degrees", .least = -36000, .most = 36000, .group = "Motion", .option = "--turn"}),
-        member<&Motion::pace>("pace", "how values go from key to key: gently at both ends, or evenly"),
+        member<&Motion::pace>("pace", "change of values from key to key: smooth at both ends, or even"),
         member<&Motion::keys>("keys",
-                              "what the scene is at some times; between them, numbers, points, colours and the numbers "
-                              "of regions go from one to the next")};
+                              "the scene at some times; numbers, points, colours and the numbers of regions are "
+                              "interpolated between them")};
     return kMembers;
 }
 
 Members<SceneStyle> membersOf(const SceneStyle*) noexcept {
     static constexpr Member<SceneStyle> kMembers[] = {
-        member<&SceneStyle::select>("select", "what the style is for", {.value = "QUERY", .isRequired = true}),
-        member<&SceneStyle::isGhost>("ghost", "coloured air where it was solid, gone where it was air"),
+        member<&SceneStyle::select>("select", "labels that get the style", {.value = "QUERY", .isRequired = true}),
+        member<&SceneStyle::isGhost>("ghost", "draw solid labels as coloured air, and hide air"),
         memberAs<Color, &SceneStyle::color>("color", kColor),
         member<&SceneStyle::opacity>("opacity", "share of light stopped by 1 m; 1: solid, 0: hidden",
                                      {.least = 0, .most = 1}),
-        member<&SceneStyle::hatch>("hatch", "hatch of what is cut")};
+        member<&SceneStyle::hatch>("hatch", "hatch of cut faces")};
     return kMembers;
 }
 
 Members<SceneLines> membersOf(const SceneLines*) noexcept {
     static constexpr Member<SceneLines> kMembers[] = {
-        member<&SceneLines::select>("select", "what the edges belong to, visible or not",
-                                    {.value = "QUERY", .otherwise = "all that is visible"}),
+        member<&SceneLines::select>("select", "labels whose edges are drawn, visible or not",
+                                    {.value = "QUERY", .otherwise = "all visible labels"}),
         member<&SceneLines::width>("width", "width of the lines", {.unit = "pixels", .least = 0.1, .most = 64}),
         memberAs<Color, &SceneLines::color>("color", kColor, {.otherwise = "by look"}),
-        member<&SceneLines::hidden>("hidden", "lines behind something opaque")};
+        member<&SceneLines::hidden>("hidden", "lines behind opaque objects")};
     return kMembers;
 }
 
 Members<ScenePass> membersOf(const ScenePass*) noexcept {
     static constexpr Member<ScenePass> kMembers[] = {
-        member<&ScenePass::show>("show", "show only what the query selects",
+        member<&ScenePass::show>("show", "show only the selection of the query",
                                  {.value = "QUERY", .group = "Style", .option = "--show"}),
-        member<&ScenePass::hide>("hide", "hide what the query selects",
+        member<&ScenePass::hide>("hide", "hide the selection of the query",
                                  {.value = "QUERY", .group = "Style", .option = "--hide"}),
-        member<&ScenePass::styles>("styles", "what is given overrides the styles before it"),
+        member<&ScenePass::styles>("styles", "styles of labels; later ones override earlier ones"),
         member<&ScenePass::cut>("cut", "cut away a region, such as 'z>1.2 and not box(2,2,0,4,4,3)'",
                                 {.value = "REGION"}),
         member<&ScenePass::keep>("keep", "draw nothing outside of a region, such as storey(Attic)",
                                  {.value = "REGION", .group = "Cut", .option = "--keep"}),
         member<&ScenePass::join>("join",
-                                 "over: in front of what is drawn already; replace: where anything is drawn, all "
-                                 "before it is dropped; depth: whichever is nearer in front"),
+                                 "over: in front of earlier passes; replace: removes earlier passes wherever it draws; "
+                                 "depth: the nearer pass is in front"),
         member<&ScenePass::form, &VolumeForm::shell>(
             "shell", "draw only the hulls of components, rooms, units, storeys or the building",
             {.group = "Illustrate", .option = "--shell"}),
@@ -241,8 +243,8 @@ Members<ScenePass> membersOf(const ScenePass*) noexcept {
             {.least = 0, .most = 6, .otherwise = "as fine as the pixels show"}),
         member<&ScenePass::lines>("lines", "feature edges of the model's meshes, at their depth inside the volume"),
         member<&ScenePass::meshes>("meshes",
-                                   "draw what the query selects as meshes, not as voxels; size<M: all that is shorter "
-                                   "than M metres along each axis",
+                                   "draw the selection of the query as meshes, not as voxels; size<M: all objects "
+                                   "shorter than M metres along each axis",
                                    {.value = "QUERY", .group = "Lines", .option = "--vectors"}),
         member<&ScenePass::form, &VolumeForm::hasCells>("cells", "draw each voxel as a box with edges")};
     return kMembers;
@@ -250,7 +252,7 @@ Members<ScenePass> membersOf(const ScenePass*) noexcept {
 
 Members<Scene> membersOf(const Scene*) noexcept {
     static constexpr Member<Scene> kMembers[] = {
-        memberOf<Scene, FormatName<Scene>>("format", "says that this is a scene", {.choices = "svt-scene"}),
+        memberOf<Scene, FormatName<Scene>>("format", "identifies a scene", {.choices = "svt-scene"}),
         memberOf<Scene, FormatVersion<Scene>>("version", "version of the format", {.least = 1, .most = 1}),
         memberOf<Scene, PictureSize>("size", "width and height",
                                      {.unit = "pixels", .least = 1, .most = render::FrameSpec::kMaxSize}),
@@ -267,16 +269,17 @@ Members<Scene> membersOf(const Scene*) noexcept {
         member<&Scene::title>("title", "write a title into the picture",
                               {.value = "TEXT", .group = "Illustrate", .option = "--title"}),
         member<&Scene::hasScaleBar>("scaleBar",
-                                    "draw a scale bar; parallel projection only, since no other picture has one scale",
+                                    "draw a scale bar; parallel projection only, because no other picture has a single "
+                                    "scale",
                                     {.group = "Illustrate", .option = "--scale-bar"}),
         member<&Scene::hasNorthArrow>("northArrow", "draw an arrow to grid north (+y)",
                                       {.group = "Illustrate", .option = "--north-arrow"}),
         member<&Scene::colorBy>("colorBy",
-                                "colour what is seen by class, name, storey, volume, area of rooms, owner, voxels or "
-                                "an attribute, with a legend",
+                                "colour visible components by class, name, storey, volume, area of rooms, owner, "
+                                "voxels or an attribute, with a legend",
                                 {.value = "KEY", .group = "Illustrate", .option = "--color-by"}),
-        member<&Scene::hasLegend>("legend", "draw what the colours of colorBy mean"),
-        member<&Scene::explode>("explode", "draw the storeys apart, each so much higher above the one below",
+        member<&Scene::hasLegend>("legend", "draw a legend for the colours of colorBy"),
+        member<&Scene::explode>("explode", "draw the storeys apart, with this vertical gap between them",
                                 {.value = "DISTANCE",
                                  .unit = "metres",
                                  .least = 0,
@@ -285,22 +288,22 @@ Members<Scene> membersOf(const Scene*) noexcept {
                                  .option = "--explode"}),
         member<&Scene::sun>("sun", "light by the sun, with shadows"),
         member<&Scene::insets>("insets", "small pictures in the corners of the picture", {.least = 0, .most = 4}),
-        member<&Scene::camera>("camera", "where the picture is taken from"),
+        member<&Scene::camera>("camera", "position and view direction of the picture"),
         memberAs<Color, &Scene::background>("background", kColor,
                                             {.otherwise = "by look", .group = "Style", .option = "--background"}),
         member<&Scene::isTransparent>("transparent", "leave the background transparent",
                                       {.group = "Style", .option = "--transparent"}),
-        member<&Scene::lines>("lines", "lines between objects, and where the depth jumps"),
-        member<&Scene::hatches>("hatches", "hatches of what is cut"),
-        member<&Scene::ambientOcclusion>("ambientOcclusion", "how much corners are darkened",
+        member<&Scene::lines>("lines", "lines between objects, and at jumps of the depth"),
+        member<&Scene::hatches>("hatches", "hatches of cut faces"),
+        member<&Scene::ambientOcclusion>("ambientOcclusion", "strength of the darkening in corners",
                                          {.least = 0, .most = 1, .byDefault = "0.6"}),
         member<&Scene::names>("names",
-                              "name what is seen of the selected: inside it where the text fits, else at the sides of "
-                              "the picture, with leader lines",
+                              "name the visible labels that the query selects: inside them if the text fits, "
+                              "otherwise at the sides of the picture, with leader lines",
                               {.value = "QUERY", .group = "Illustrate", .option = "--names"}),
         member<&Scene::passes>("passes", "passes, drawn one after the other",
                                {.least = 1, .most = double(render::FrameSpec::kMaxPasses)}, Written::Always),
-        member<&Scene::motion>("motion", "how the scene changes with time, for films")};
+        member<&Scene::motion>("motion", "changes of the scene with time, for films")};
     return kMembers;
 }
 
@@ -318,7 +321,7 @@ void checkMembers(Faults& faults, const std::string& path, const Motion& motion)
     for (std::size_t n = 1; n < motion.keys.size(); ++n)
         if (motion.keys[n].at <= motion.keys[n - 1].at)
             return faults.add(fmt::format("{}/keys/{}/at", path, n),
-                              "expected a later time than that of the key before");
+                              "expected a later time than that of the previous key");
     if (!motion.keys.empty() && motion.keys.back().at > motion.seconds)
         faults.add(path + "/keys", fmt::format("the last key is at {} s, after the end of the motion at {} s; change "
                                                "\"seconds\"",

@@ -14,7 +14,7 @@
 namespace svt::illustrate {
 namespace {
 
-// Of texts in a picture: dark on light paper, light on dark.
+// Colours of texts in a picture: dark on light paper, light on dark.
 struct TextColors {
     Vec3f text, halo;
 };
@@ -42,8 +42,8 @@ ScenePainter::Draw byCasting(const render::CastOptions& options) {
     };
 }
 
-// The share of what is empty between things on the ground that they do not hide. From lower than some 30 degrees they
-// hide more and more of it.
+// The visible share of the gaps between objects on the ground. Below a view angle of about 30 degrees, the objects hide
+// more and more of the gaps.
 float seenGaps(const render::FrameSpec& spec, const volume::Grid& grid) {
     return static_cast<float>(std::clamp(-2 * render::CameraRays(spec, grid).forward().z, 0.0, 1.0));
 }
@@ -78,8 +78,8 @@ struct ScenePainter::Forms {
     std::optional<ShellLevel> level;
     std::optional<volume::SemanticVolume> shell;
     const volume::SemanticVolume* volume = nullptr;
-    std::optional<volume::BrickVolume> bricks, cells;  // the second of voxels alone
-    std::map<int, volume::LodLevel> levels;            // made when a picture takes them
+    std::optional<volume::BrickVolume> bricks, cells;  // `cells` has only voxels
+    std::map<int, volume::LodLevel> levels;            // made on first use
 };
 
 struct ScenePainter::Apart {
@@ -105,7 +105,7 @@ Result<ScenePainter::Forms*> ScenePainter::findForms(std::size_t number, std::op
         ShellOptions options;
         options.threads = threads_;
         auto hulls = extractShell(*forms->volume, *shell, options);
-        // A part may have no group of that level, such as one of classes alone.
+        // A part may have no group of this level, for example if it has only classes.
         const bool isPart = number > 0 && details_[number - 1].isPart;
         if (!hulls && !(isPart && hulls.error().code() == Code::NothingSelected)) return hulls.error();
         if (hulls) forms->volume = &forms->shell.emplace(std::move(*hulls));
@@ -159,7 +159,7 @@ Result<std::vector<render::DrawnVolume>> ScenePainter::drawnVolumes(const Scene&
     std::vector<render::DrawnVolume> drawn;
     const std::vector<VolumeForm> forms = illustrate::volumeForms(scene);
     for (VolumeForm wanted : forms) {
-        // What is divided into parts has its shells there.
+        // A volume that is divided into parts has its shells in the parts.
         if (!details_.empty() && details_.front().isPart) wanted.shell.reset();
         SVT_TRY(made, form(wanted, spec));
         drawn.push_back(*made);
@@ -186,7 +186,9 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const render::CastOptio
 Result<ScenePainter*> ScenePainter::apart(double distance) {
     if (distance == 0) return this;
     if (!details_.empty())
-        return Error(Code::BadArgument, "storeys of one volume can be drawn apart; leave out --explode, or --with");
+        return Error(Code::BadArgument,
+                     "storeys can be drawn apart only without further volumes; leave out "
+                     "--explode or --with");
     if (!apart_ || apart_->distance != distance) {
         SVT_TRY(lifted, explodeStoreys(volume_, distance, threads_));
         apart_ = std::make_unique<Apart>(distance, std::move(*lifted), threads_);
@@ -205,8 +207,8 @@ Result<Painting> ScenePainter::paint(const Scene& scene, const Draw& draw) {
     return painting;
 }
 
-// Draws the insets, and marks in the picture what they show: what their camera is around, else all that is seen in them. An
-// inset that shows most of the picture is an overview: there the mark says where the picture is.
+// Draws the insets, and marks the parts that they show in the picture: the target of their camera, otherwise everything
+// visible in them. An inset that shows most of the picture is an overview; its mark shows the area of the picture.
 Result<void> ScenePainter::addInsets(const Scene& scene, const Paint& paint, Painting& painting) const {
     const Vec3f color{0.80f, 0.16f, 0.12f}, halo = textColors(painting.spec.background).halo;
     if (scene.insets.empty()) return {};
@@ -226,7 +228,7 @@ Result<void> ScenePainter::addInsets(const Scene& scene, const Paint& paint, Pai
     return {};
 }
 
-// What a named view is around; nothing without a query, or where it selects nothing.
+// The target box of a named view; empty without a query, or if it selects nothing.
 std::optional<analyze::SampleBox> ScenePainter::targetOf(const Scene& scene) const {
     if (scene.camera.around.empty()) return {};
     const auto selected = analyze::selectLabels(volume_.labels, scene.camera.around);

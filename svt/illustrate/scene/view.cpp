@@ -15,7 +15,7 @@ Result<render::Camera> drawnCamera(const SceneCamera& camera, double aspect, con
                                    const analyze::LabelRows& rows) {
     Scene scene;
     scene.camera = camera;
-    scene.camera.fit = Fit::All;  // what is visible is not known here, and must not move the camera
+    scene.camera.fit = Fit::All;  // visible parts are unknown here, and must not move the camera
     scene.height = 1000;
     scene.width = static_cast<std::int32_t>(std::lround(scene.height * aspect));
     SVT_TRY(frame, makeFrameSpec(scene, volume, rows));
@@ -27,7 +27,7 @@ Result<Box3d> boxOf(const std::string& query, const volume::SemanticVolume& volu
     analyze::SampleBox box{{0, 0, 0}, {n.x - 1, n.y - 1, n.z - 1}};
     if (!query.empty()) {
         SVT_TRY(selected, analyze::selectLabels(rows, query));
-        SVT_TRY(around, analyze::boxAround(*selected, volume, fmt::format("what the query '{}' selects", query)));
+        SVT_TRY(around, analyze::boxAround(*selected, volume, fmt::format("the selection of the query '{}'", query)));
         box = *around;
     }
     return analyze::worldBox(box, volume.grid);

@@ -13,7 +13,8 @@
 namespace svt::illustrate {
 namespace {
 
-// Places that are looked at along an axis. More would not show in a picture: points are at most half a step too far out.
+// Places that are looked at along an axis. More would not show in a picture: points are at most half a step too far
+// out.
 constexpr std::int32_t kMostColumns = 256;
 
 struct Heights {
@@ -103,7 +104,7 @@ public:
     }
 
 private:
-    // Finds the points of what is drawn in `window`; what was found before stays if there is nothing.
+    // Finds the points of the drawn parts in `window`; keeps the previous points if there are none.
     void scan(const Window& window) {
         if (window.isEmpty()) return;
         const double least = clipper_.isEmpty() ? 1 : 0;  // a column is cut in different heights at its sides
@@ -130,7 +131,7 @@ private:
         }
         if (upper_.empty()) return;
         found_.add(upper_.front().x - step.x, y - step.y, upper_.back().x + step.x, y + step.y);
-        // A place stands for what is up to half a step beside it.
+        // A place represents everything up to half a step beside it.
         for (const auto* hull : {&upper_, &lower_})
             for (const Place place : *hull)
                 for (const double besideX : {place.x - step.x / 2, place.x + step.x / 2})

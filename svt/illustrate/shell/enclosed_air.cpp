@@ -12,12 +12,13 @@ using volume::ColumnTile;
 using volume::ColumnVolume;
 using volume::Run;
 
-// Joins two values of what surrounds background: 0 nothing yet, a group, or kNoGroupValue: several, or the outside.
+// Joins two values of the surroundings of background: 0 (unknown), a group, or kNoGroupValue (several groups, or the
+// outside).
 std::uint32_t joined(std::uint32_t a, std::uint32_t b) noexcept {
     return a == 0 ? b : b == 0 || a == b ? a : kNoGroupValue;
 }
 
-// Union-find; each set knows what surrounds it. The smaller number becomes the root.
+// Union-find; each set stores the group that surrounds it. The smaller number becomes the root.
 class AirParts {
 public:
     explicit AirParts(std::size_t count = 0) : parent_(count), around_(count, 0) {

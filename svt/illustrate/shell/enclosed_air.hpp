@@ -3,7 +3,7 @@
 /// Cavities: background that cannot be reached from outside, and the group that encloses it.
 ///
 /// Connected components of background (by faces) are found by union-find over the background runs of the columns.
-/// Consecutive equal rows and columns share their nodes, so the cost of a tile depends on what differs in it:
+/// Consecutive equal rows and columns share their nodes, so the cost of a tile depends on the differences in it:
 ///
 ///     stretch   consecutive equal rows
 ///     cell      consecutive equal columns in a stretch. firstNode[x + width * stretch] is the node of its lowest

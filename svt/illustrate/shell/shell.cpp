@@ -350,7 +350,7 @@ Result<volume::SemanticVolume> extractShell(const volume::SemanticVolume& volume
                      [](const volume::Label& label) { return label.voxels > 0; }))
         return Error(
             Code::NothingSelected,
-            "the shell has no voxels: no group holds what was selected; select what is in a group, such as 'under ID'");
+            "the shell has no voxels: the selection is in no group; select features of a group, such as 'under ID'");
     return shell;
 }
 

@@ -55,7 +55,7 @@ public:
 private:
     enum class State : std::uint8_t { New, Open, Done };
 
-    // What is above `l` in the hierarchy: number 0 is the parent, the groups follow.
+    // A feature above `l` in the hierarchy: number 0 is the parent, the groups follow.
     [[nodiscard]] std::uint32_t above(std::uint32_t l, std::size_t number) const {
         return number == 0 ? rows_[l].parent : rows_[l].groups[number - 1];
     }
@@ -90,10 +90,10 @@ private:
             if (a >= rows_.size() || state_[a] != State::Done) continue;
             for (std::size_t level = std::max(own, kRoom); level < kLevels; ++level)
                 if (holders[level] == kNoLabel) holders[level] = holders_[a][level];
-            // Of nested buildings, the outermost.
+            // If buildings are nested, the outermost counts.
             if (own == kBuilding && holders_[a][kBuilding] != kNoLabel) holders[kBuilding] = holders_[a][kBuilding];
         }
-        // Holders of the lowest holder hold this one, too.
+        // Holders of the lowest holder contain this one, too.
         const std::size_t low = lowest(holders);
         if (low < kLevels && holders[low] != l && state_[holders[low]] == State::Done)
             for (std::size_t level = low + 1; level < kLevels; ++level)

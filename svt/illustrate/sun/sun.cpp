@@ -85,7 +85,7 @@ int daysIn(int year, int month) {
     return month == 2 && isLeap ? 29 : kDays[month - 1];
 }
 
-// Hours east of Greenwich at the end of a time; nothing where the text is none.
+// Hours east of Greenwich at the end of a time; empty if the text is invalid.
 std::optional<double> zoneAt(TextReader& read, double longitude) {
     read.take(" ");
     if (read.isAtEnd()) return std::round(longitude / 15);
@@ -188,8 +188,8 @@ Result<Sunlight> sunlightOf(const Sun& sun, const volume::SemanticVolume& volume
     if (!site) site = siteOfAttributes(volume);
     if (!site)
         return Error(Code::BadScene,
-                     "nothing in the model says where on earth it stands, and so where its sun; give its place "
-                     "(--place LAT,LON)");
+                     "the model does not state its place on earth, so the position of the sun is unknown; give the "
+                     "place (--place LAT,LON)");
     SVT_TRY(day, parseSunTime(sun.time, site->longitude));
     Sunlight light{sunPosition(*day, site->latitude, site->longitude), {}, site->latitude, site->longitude};
     const double azimuth = (light.position.azimuth + site->north) * kDegree,

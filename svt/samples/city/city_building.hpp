@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One building of a generated city: where its lot lies, and its shape in whole millimetres of the town's own plan.
+/// One building of a generated city: the place of its lot, and its shape in whole millimetres of the town's own plan.
 
 #include <svt/core/vec.hpp>
 #include <svt/samples/city_sample.hpp>
@@ -47,10 +47,10 @@ struct Building {
     int storeys = 1;
     bool isBroken = false;          ///< a face of the first body is missing
     std::string_view roof;          ///< "1000" flat, "1030" gable
-    std::string_view heightText{};  ///< in place of the height: a number that means that it is not known
+    std::string_view heightText{};  ///< in place of the height: a number that means that it is unknown
 };
 
-/// How the lots of a city lie.
+/// The arrangement of the lots of a city.
 struct Layout {
     static constexpr std::int64_t kLots = 16;  ///< of a block: two rows of eight
     std::int64_t columns = 1, rows = 1;        ///< blocks from west to east and from south to north
@@ -66,10 +66,10 @@ struct Layout {
 [[nodiscard]] Building makeBuilding(const CitySampleOptions& options, const Layout& layout, std::int64_t column,
                                     std::int64_t row, std::int64_t lot);
 
-/// An upright box.
+/// A vertical box.
 [[nodiscard]] Body box(Point low, Point high);
 
-/// Different points of all bodies that are no rooms.
+/// The number of different points of all bodies except rooms.
 [[nodiscard]] std::uint64_t vertexCount(const Building& building);
 
 }  // namespace svt::samples::city

@@ -132,7 +132,7 @@ void CityText::gmlBody(const Body& body, const std::string& id, const Building& 
             gmlSurface(body.faces[f], faceId(f), building.lod);
     }
     if (windows.empty()) return;
-    // They hang on one wall surface without geometry of its own, which both versions allow.
+    // They belong to one wall surface without geometry of its own, which both versions allow.
     const GmlElement property(sink_, "bldg:boundedBy", {}, "\n"), wall(sink_, "bldg:WallSurface", id + "_W");
     for (const std::size_t f : windows) gmlSurface(body.faces[f], faceId(f), building.lod);
 }

@@ -11,7 +11,7 @@ namespace svt::samples::city {
 
 class CityText {
 public:
-    /// Writes what stands before the first building.
+    /// Writes the text before the first building.
     CityText(const CitySampleOptions& options, int file, const SampleSink& sink);
     void write(const Building& building);
     void finish();
@@ -34,8 +34,8 @@ private:
     GmlText gml_;
 };
 
-/// The point of the map, in the units that the profile's numbers have: millimetres; thousandths of a US survey foot;
-/// 1e-9 degrees (longitude, latitude) and millimetres.
+/// The point of the map, in the units of the profile's numbers: millimetres; thousandths of a US survey foot; 1e-9
+/// degrees (longitude, latitude) and millimetres.
 [[nodiscard]] Point mapPoint(CityProfile profile, Point point);
 
 }  // namespace svt::samples::city

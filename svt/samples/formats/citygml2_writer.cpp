@@ -1,9 +1,9 @@
 // CityGML 2.0, LoD4. It has no constructive elements, storeys or units:
 //   full      walls, slabs, beams and roof members are (Int)BuildingInstallation with a solid and the attribute
-//             svtClass; doors and windows are openings whose surfaces enclose their solids
-//   thematic  the classical model: boundary surfaces, an outer hull made of them, rooms
+//             svtClass; doors and windows are openings whose surfaces enclose their solids.
+//   thematic  the classical model: boundary surfaces, an outer hull made of them, rooms.
 //   both      storeys are CityObjectGroups, units BuildingParts that contain their rooms
-//             and inner walls
+//             and inner walls.
 // A face shared by a room and an adjacent part is written once; the room uses it reversed (gml:OrientableSurface).
 #include <svt/samples/formats/gml_text.hpp>
 #include <svt/samples/formats/writers.hpp>
@@ -54,7 +54,7 @@ private:
         });
     }
 
-    // Of the building itself (unit -1) or of one unit.
+    // Writes an installation of the building itself (unit -1) or of one unit.
     void installationOfBuilding(const PlacedPlan& placed, int component, int unit, bool isOutside) {
         const Component& c = placed.component(component);
         const bool isElement = c.kind == Kind::Element && !isThematic_;

@@ -115,8 +115,8 @@ protected:
     CityGmlWriter(SampleSource& source, TextSink& out, std::string_view version)
         : source_(source), out_(out), gml_(out, version) {}
 
-    /// Writes the model. For each building, in document_, writeBuilding() writes its content and writeAfter() the features
-    /// that follow it.
+    /// Writes the model. For each building, in document_, writeBuilding() writes its content and writeAfter() the
+    /// features that follow it.
     /// \param isThematic  only outer faces have colours
     template <class WriteBuilding, class WriteAfter>
     void writeModel(std::initializer_list<std::string_view> prefixes, bool isThematic,

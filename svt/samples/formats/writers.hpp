@@ -16,8 +16,8 @@ void writeCityJson(SampleSource& source, TextSink& out);
 void writeCityJsonSeq(SampleSource& source, TextSink& out);
 void writeIfc(SampleSource& source, TextSink& out);  ///< ifc/ifc_writer.cpp
 
-/// The 16 numbers of an instance's transformation matrix, row by row, with `separator` between them: quarter turns, then
-/// the turn of the placement.
+/// The 16 numbers of an instance's transformation matrix, row by row, with `separator` between them: quarter turns,
+/// then the turn of the placement.
 [[nodiscard]] std::string matrixText(const PlacedPlan& placed, const Instance& instance, std::string_view separator);
 
 }  // namespace svt::samples

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The layers that walls, slabs and roofs of the samples are built of, and the axes along which they lie.
+/// The layers of walls, slabs and roofs of the samples, and the axes along which they lie.
 
 #include <svt/samples/ifc/ifc_records.hpp>
 #include <svt/samples/parts/plan.hpp>
@@ -19,17 +19,17 @@ struct LayerSpec {
     std::array<double, 3> color;
 };
 
-/// How a component is built up: what IfcMaterialLayerSetUsage says.
+/// The layers of a component: the content of IfcMaterialLayerSetUsage.
 struct LayeredBody {
     Frame frame;                    ///< axes of the product: layers lie along y of a wall, along z of a slab
-    bool isWall = false;            ///< AXIS2; else AXIS3
-    bool isPositive = true;         ///< the sense in which layers follow each other along the axis
-    double offset = 0;              ///< of the first layer's face on the axis, millimetres
-    double length = 0;              ///< of a wall along its x axis
-    std::vector<LayerSpec> layers;  ///< none: not built of layers
+    bool isWall = false;            ///< true: AXIS2; false: AXIS3
+    bool isPositive = true;         ///< direction of the sequence of layers along the axis
+    double offset = 0;              ///< position of the first layer's face on the axis, millimetres
+    double length = 0;              ///< length of a wall along its x axis
+    std::vector<LayerSpec> layers;  ///< empty: has no layers
 };
 
-/// The build-up of an element; walls from outside to inside where one side is outside.
+/// The layers of an element; walls with an outer side are listed from outside to inside.
 [[nodiscard]] LayeredBody layersOf(const Plan& plan, const Component& component);
 
 }  // namespace svt::samples

@@ -24,15 +24,15 @@ struct Frame {
     [[nodiscard]] Vec3d localDirection(Vec3d plan) const { return {dot(plan, x), dot(plan, y), dot(plan, z)}; }
 };
 
-/// A number with up to `decimals` decimals and the point that STEP wants: "4610.", "195.217215".
+/// A number with up to `decimals` decimals and the point that STEP requires: "4610.", "195.217215".
 [[nodiscard]] std::string stepNumber(double value, int decimals = 6);
-/// The same of numerator / denominator, rounded without any double.
+/// The same for numerator / denominator, rounded without floating-point arithmetic.
 [[nodiscard]] std::string stepRatio(std::int64_t numerator, std::int64_t denominator);
 /// 'text'. Texts of samples are ASCII without quotes.
 [[nodiscard]] std::string stepText(std::string_view text);
 
-/// A value of a record: text as it is, a double by stepNumber(), another record as "#12" or "$" for 0, records as a list
-/// "(#1,#2)".
+/// A value of a record: text as it is, a double by stepNumber(), another record as "#12" or "$" for 0, records as a
+/// list "(#1,#2)".
 [[nodiscard]] inline std::string stepValue(std::string_view text) { return std::string(text); }
 [[nodiscard]] inline std::string stepValue(double number) { return stepNumber(number); }
 [[nodiscard]] inline std::string stepValue(int record) { return record == 0 ? "$" : "#" + std::to_string(record); }
@@ -44,14 +44,14 @@ template <class... Values>
     ((text += (text.empty() ? "" : ",") + stepValue(values)), ...);
     return text;
 }
-/// A GlobalId (22 characters) that depends on `key` alone.
+/// A GlobalId (22 characters) that depends only on `key`.
 [[nodiscard]] std::string globalId(std::string_view key);
 
 class IfcRecords {
 public:
     explicit IfcRecords(TextSink& out) : out_(out) {}
 
-    /// Writes `#n=TYPE(values);`. \return n, beginning with 1
+    /// Writes `#n=TYPE(values);`. \return n, starting with 1
     template <class... Values>
     int add(std::string_view type, const Values&... values) {
         return addText(type, stepValues(values...));

@@ -1,6 +1,6 @@
 // IFC4. Bodies are parametric: walls, slabs and rooms are extrusions; doors and windows fill openings that void their
-// wall; what passes through another component is a boolean difference. The plan stands in the project by placements in
-// millimetres, and on the map by IfcMapConversion.
+// wall. Passages of one component through another are boolean differences. Placements in millimetres position the plan
+// in the project; IfcMapConversion positions it on the map.
 #include <svt/samples/formats/writers.hpp>
 
 #include <svt/samples/ifc/ifc_bodies.hpp>
@@ -55,8 +55,8 @@ bool isSwingDoor(const Component& component) {
     return component.kind == Kind::Door && component.function == "door" && component.solids.size() == 2;
 }
 
-// Axes of a door: x along it, y to the side with which its leaf is flush, where it opens to. The hinges are on the left as
-// one looks that way, at the origin.
+// Axes of a door: x along it, y to the side with which its leaf is flush, where it opens to. The hinges are on the left
+// as one looks that way, at the origin.
 Frame doorFrame(const Component& component) {
     const Box3d all = samples::boundsOf(component.solids[0]), leaf = samples::boundsOf(component.solids[1]);
     const bool isAlongX = all.size().x > all.size().y;
@@ -179,7 +179,7 @@ private:
         return storeys;
     }
 
-    // What stands in a storey or room.
+    // The components in a storey or room.
     void relate(std::size_t space, std::vector<int>& outside) {
         const std::vector<Component>& all = placed_->plan->components;
         std::vector<int> spaces, elements;
@@ -217,7 +217,7 @@ private:
         if (!layers.layers.empty()) layerUsage(c, layers);
     }
 
-    // Pieces that are cut out of an element, but for those where another element passes through.
+    // Pieces that are cut out of an element, except where another element passes through.
     [[nodiscard]] std::vector<bool> openingsOf(std::size_t c) const {
         const std::vector<Component>& all = placed_->plan->components;
         const Component& component = all[c];
@@ -376,7 +376,7 @@ private:
         defineBy("quantities", quantities, c);
     }
 
-    // What is built of layers has them as its material instead.
+    // A component with layers has them as its material instead.
     void material(std::size_t c, const std::string& name) {
         if (!layersOf(*placed_->plan, placed_->plan->components[c]).layers.empty()) return;
         associate(c, records_.shared("IFCMATERIAL", stepText(name), "$,$"));
@@ -418,7 +418,7 @@ private:
     int body_ = 0, axis_ = 0, site_ = 0, sitePlace_ = 0;
     std::map<std::string_view, int> layerMaterials_;
 
-    // Of the building and plan that are written.
+    // Data of the current building and plan.
     Document document_;
     const PlacedPlan* placed_ = nullptr;
     std::vector<int> ifc_, storeyPlace_;  // by component

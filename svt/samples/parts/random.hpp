@@ -16,7 +16,7 @@ namespace svt::samples {
     return word ^ word >> 31;
 }
 
-/// Random numbers that depend on nothing but their key (splitmix64: Steele, Lea, Flood 2014).
+/// Random numbers that depend only on their key (splitmix64: Steele, Lea, Flood 2014).
 class Random {
 public:
     explicit constexpr Random(std::uint64_t key) noexcept : state_(key) {}

@@ -112,7 +112,7 @@ struct Boundary {
 /// The closed boundary of `solid` as maximal planar faces, split where the neighbour changes.
 /// Rings contain every vertex of the cell complex on them; simplify() removes the redundant ones.
 /// \param neighbors  solids with Axis::X that do not overlap `solid`; those that do not touch it are ignored
-/// Cost: O(planes^3) of the solid and what touches it.
+/// Cost: O(planes^3) for the planes of the solid and of touching solids.
 [[nodiscard]] Boundary boundary(const Solid& solid, std::span<const Neighbor> neighbors);
 
 /// Adds the vertices at which rings of `face` change direction to `corners`.

@@ -25,7 +25,7 @@
 namespace svt::writers {
 namespace {
 
-/// Scalars of a label and of all below it: what encloses the ranges of its parts.
+/// Scalars of a label and of all labels below it: the range that encloses those of its parts.
 struct ScalarRange {
     volume::Scalar first = 0, last = 0;  // 0: none
 };
@@ -75,7 +75,7 @@ std::string_view textureName(TextureKind kind) {
                                         : "ComposedTexture3D";
 }
 
-/// From the member of the model to what all kinds of texture have.
+/// The beginning of a texture: from the member of the model to the elements that all kinds of texture share.
 std::string beginningOfTexture(const volume::SemanticVolume& volume, int bits, const ModelDocument& document,
                                TextureKind kind) {
     const volume::Grid& grid = volume.grid;
@@ -163,9 +163,11 @@ Result<ModelDocument> documentFor(const volume::SemanticVolume& volume, const Vo
 }
 
 /// Beside the document it writes `<stem>.labels.nrrd`, or `<stem>_slices/0000.png` and so on.
-/// \return bytes of the document, or BadArgument (a turned grid, which the extension cannot hold; another version than the
-///         model's; a model with a volume; too many voxels), CannotOpen, UnknownFormat (a model that is no CityGML in
-///         UTF-8), CannotWrite, DiskFull, WouldDestroy, Cancelled
+/// \return size of the document, bytes; or
+///         - BadArgument    a rotated grid, which the extension cannot store; another version than the model's; a model
+///                          that already has a volume; too many voxels.
+///         - UnknownFormat  the model is not CityGML in UTF-8.
+///         - CannotOpen, CannotWrite, DiskFull, WouldDestroy, Cancelled
 Result<std::uint64_t> writeAde(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const VolumeWriteOptions& options) {
     SVT_TRY(bits, checkedSampleBits(volume));

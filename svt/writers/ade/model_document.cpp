@@ -63,17 +63,18 @@ Result<ModelDocument> ModelDocument::open(const std::filesystem::path& path) {
         text.substr(close).find("CityModel") == std::string_view::npos)
         return documentError(
             path, Code::UnknownFormat,
-            "the model is no CityGML document in UTF-8 that ends with its CityModel; leave it out, then "
-            "features are written without geometry");
+            "the model is not a CityGML document in UTF-8 that ends with its CityModel; leave it out to "
+            "write features without geometry");
     if (text.find("urn:svt:citygml:ade:") != std::string_view::npos)
-        return documentError(path, Code::BadArgument, "the model holds a volume already; give the model without it");
+        return documentError(path, Code::BadArgument, "the model already contains a volume; give the model without it");
     ModelDocument document;
     const auto has = [&](std::string_view version) {
         return head.find(fmt::format("{}{}", kCityGml, version)) != std::string_view::npos;
     };
     document.isFirstVersion_ = has("1.0");
     if (!has("1.0") && !has("2.0") && !has("3.0"))
-        return documentError(path, Code::UnknownVersion, "the model is no CityGML 1.0, 2.0 or 3.0");
+        return documentError(path, Code::UnknownVersion,
+                             "the model is not CityGML 1.0, 2.0 or 3.0; convert it, or leave it out");
     document.version_ = has("3.0") ? CityGmlVersion::V3 : CityGmlVersion::V2;
     document.cut_ = close;
     document.mapped_.emplace(std::move(*mapped));

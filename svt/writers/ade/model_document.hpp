@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The document around a volume: that of a model, in which a place is found for the volume, or a plain one.
+/// The document around a volume: the document of a model, into which the volume is inserted, or a plain one.
 
 #include <svt/core/file.hpp>
 #include <svt/core/result.hpp>
@@ -18,10 +18,10 @@ enum class CityGmlVersion : std::uint8_t { V2, V3 };
 /// The namespace of the extension.
 [[nodiscard]] std::string_view adeNamespace(CityGmlVersion version) noexcept;
 
-/// A document in two halves, between which the appearance is written.
+/// A document in two halves; the appearance is written between them.
 class ModelDocument {
 public:
-    /// The document of a model. \return it, or CannotOpen, UnknownFormat, BadArgument (it has a volume already)
+    /// Opens a model. \return its document, or CannotOpen, UnknownFormat, BadArgument (it already has a volume)
     [[nodiscard]] static Result<ModelDocument> open(const std::filesystem::path& path);
     /// Features as buildings and generic objects, without geometry.
     [[nodiscard]] static ModelDocument plain(const volume::SemanticVolume& volume, CityGmlVersion version);
@@ -37,13 +37,13 @@ private:
     std::string begin_, end_;  // of a plain document
     std::size_t cut_ = 0;      // of a mapped one
     CityGmlVersion version_ = CityGmlVersion::V3;
-    bool isFirstVersion_ = false;  // CityGML 1.0, of which namespaces are replaced
+    bool isFirstVersion_ = false;  // CityGML 1.0, whose namespaces are replaced
 };
 
-/// "#id" as a reference, with what a URI has no place for as %XX.
+/// "#id" as a reference; characters that a URI does not allow become %XX.
 [[nodiscard]] std::string referenceTo(std::string_view id);
 
-/// A gml:id for the id of a label: itself if XML allows it, else "label-NUMBER".
+/// A gml:id for the id of a label: itself if XML allows it, otherwise "label-NUMBER".
 [[nodiscard]] std::string gmlId(std::string_view id, std::size_t number);
 
 }  // namespace svt::writers

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A folder that appears when all of its files are written.
+/// A folder that appears only when all of its files are written.
 
 #include <svt/core/file.hpp>
 #include <svt/core/result.hpp>
@@ -12,8 +12,8 @@
 
 namespace svt::writers {
 
-/// A folder under another name (`.part`) beside its place, which it takes in commit(); without that it is removed. A
-/// folder that is there is never replaced.
+/// A folder under a temporary name (`.part`) beside its final place. commit() renames it; without commit() it is
+/// removed. An existing folder is never replaced.
 class NewFolder {
 public:
     explicit NewFolder(std::filesystem::path place);
@@ -23,7 +23,7 @@ public:
 
     /// \return nothing, or WouldDestroy, CannotWrite
     [[nodiscard]] Result<void> create();
-    /// Writes a file; `name` may have folders, with '/'. \return nothing, or DiskFull, CannotWrite
+    /// Writes a file; `name` may contain folders, with '/'. \return success, or DiskFull, CannotWrite
     [[nodiscard]] Result<void> write(const std::string& name, std::string_view text);
     /// \return bytes of all files, or CannotWrite
     [[nodiscard]] Result<std::uint64_t> commit();

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Text or bytes that are collected and go to a file in pieces of a megabyte; UTF-8 that is valid.
+/// Collects text or bytes and writes them to a file in pieces of a megabyte. Also makes text valid UTF-8.
 
 #include <svt/core/bytes.hpp>
 #include <svt/core/file.hpp>
@@ -16,7 +16,7 @@ class PieceWriter {
 public:
     explicit PieceWriter(AtomicFile& file) : file_(file) {}
     std::string text;
-    /// Writes what has been collected, where it is a megabyte or the last of it.
+    /// Writes the collected bytes if they are a megabyte or more, or the last ones.
     Result<void> flush(bool isLast = false) {
         if (text.size() < (std::size_t{1} << 20) && !isLast) return {};
         auto done = file_.write(text);
@@ -28,7 +28,7 @@ private:
     AtomicFile& file_;
 };
 
-/// `text` with '?' for each byte that belongs to no character.
+/// `text` with '?' for each byte that is not part of a character.
 [[nodiscard]] inline std::string validText(std::string_view text) {
     std::string valid;
     while (!text.empty()) {

@@ -11,11 +11,11 @@
 
 namespace svt::writers {
 
-/// A band of a level: all samples along x, file rows along y and z; what lies beyond the volume is background.
+/// A band of a level: all samples along x, file rows along y and z; samples beyond the volume are background.
 template <class T>
 class SampleBand {
 public:
-    /// \param side  samples along y and z, from j and k on
+    /// \param side  number of samples along y and z, from j and k
     SampleBand(const volume::ColumnVolume& columns, std::int32_t j, std::int32_t k, std::int32_t side, int threads)
         : dimension_(columns.dimension()),
           box_{j, std::min(j + side, dimension_.y), k, std::min(k + side, dimension_.z)},
@@ -23,7 +23,7 @@ public:
         volume::copyBox<T>(columns, box_, samples_, threads);
     }
 
-    /// The chunk of `side` samples whose first one is (i, j, k) of the volume; empty: all is background.
+    /// The chunk of `side` samples whose first one is (i, j, k) of the volume; empty if all are background.
     [[nodiscard]] std::vector<T> chunk(std::int32_t i, std::int32_t j, std::int32_t k, std::int32_t side) const {
         std::vector<T> out;
         const std::int32_t width = std::min(side, dimension_.x - i);
@@ -42,7 +42,7 @@ public:
         return out;
     }
 
-    /// The samples of `size` from i on, and from the first ones of the band along y and z; they lie in the volume.
+    /// The samples of `size` from i, and from the first ones of the band along y and z. They must lie in the volume.
     [[nodiscard]] std::vector<T> clipped(std::int32_t i, Vec3i size) const {
         std::vector<T> out;
         out.reserve(std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z));

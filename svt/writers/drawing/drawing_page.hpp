@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The page of a section drawing that stands alone: the drawing with its dimensions, margins, and a title below it.
+/// The page of a single section drawing: the drawing with its dimensions, margins, and a title below it.
 
 #include <svt/core/result.hpp>
 #include <svt/drawing/section_drawing.hpp>
@@ -10,8 +10,8 @@ namespace svt::writers {
 /// Millimetres on paper, from the upper left corner.
 struct DrawingPage {
     static constexpr double kMargin = 10, kTitleHeight = 24;
-    drawing::PlanePoint low, high;         ///< corners of what is drawn, in the drawing
-    double scale = 100, millimetres = 10;  ///< 100 draws 1 m as 10 mm; the latter on paper per metre
+    drawing::PlanePoint low, high;         ///< corners of the drawn area, in the drawing
+    double scale = 100, millimetres = 10;  ///< 100 draws 1 m as 10 mm; millimetres on paper per metre
     double width = 0, height = 0;          ///< of the page
     double left = 0, top = 0;              ///< of the drawing without dimensions
     /// Fields of the scale bar: four of a rounded length, 5 to 12.5 mm each.

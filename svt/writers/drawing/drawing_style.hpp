@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How a section drawing looks on paper, whatever it is written to: which lines are bold, which hatch fills what.
+/// The style of a section drawing on paper, the same for all formats: line widths and hatches.
 
 #include <svt/drawing/hatches.hpp>
 #include <svt/drawing/section_drawing.hpp>
@@ -12,7 +12,7 @@
 
 namespace svt::writers {
 
-/// A tile of a hatch, millimetres on paper, after ISO 128-3 and DIN 1356-1.
+/// A tile of a hatch, millimetres on paper, according to ISO 128-3 and DIN 1356-1.
 struct HatchTile {
     render::Hatch hatch;
     double width, height;
@@ -23,7 +23,7 @@ struct HatchTile {
 };
 [[nodiscard]] std::span<const HatchTile> hatchTiles() noexcept;
 
-/// Lower left and upper right corner of all that is drawn; both zero where nothing is.
+/// Lower left and upper right corner of the drawing; both zero if it is empty.
 [[nodiscard]] std::pair<drawing::PlanePoint, drawing::PlanePoint> drawnBox(const drawing::SectionDrawing& drawing);
 
 class DrawingStyle {
@@ -32,10 +32,10 @@ public:
     DrawingStyle(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume, double millimetres);
 
     [[nodiscard]] render::Hatch hatchOf(std::uint32_t label) const noexcept { return hatches_[label]; }
-    /// Rooms, units, storeys, and what is not drawn.
+    /// Whether a label is a room, unit or storey, or not drawn.
     [[nodiscard]] bool isSpace(std::uint32_t label) const noexcept;
-    /// Cut load-bearing or enclosing parts have bold outlines. Fillings, furniture and parts only a line or two thick
-    /// have thin ones.
+    /// Cut load-bearing or enclosing parts have bold outlines. Fillings, furniture and parts that are only one or two
+    /// lines thick have thin ones.
     [[nodiscard]] bool isBold(std::uint32_t label) const noexcept;
     /// Thin between two cut parts and around fillings and furniture.
     [[nodiscard]] bool isBoldBetween(std::uint32_t left, std::uint32_t right) const noexcept;

@@ -13,7 +13,7 @@
 
 namespace svt::writers {
 
-/// `value` with at most `decimals` decimals, without trailing zeros; never "-0".
+/// `value` with up to `decimals` decimals, without trailing zeros; never "-0".
 [[nodiscard]] std::string shortNumber(double value, int decimals);
 
 /// The coordinates of a vector, each as by shortNumber().
@@ -25,13 +25,14 @@ namespace svt::writers {
 /// "visible", "hidden" or "above".
 [[nodiscard]] std::string_view beyondName(drawing::BeyondKind kind) noexcept;
 
-/// Whether a drawing shows the model from outside: an upright plane that cuts nothing, and lines behind it.
+/// Whether a drawing shows the model from outside: a vertical plane that cuts nothing, and lines behind it.
 [[nodiscard]] bool isElevation(const drawing::SectionDrawing& drawing, const volume::Grid& grid) noexcept;
 
 /// The nearest of eight directions: "north" for y of world space, "north-east", ...
 [[nodiscard]] std::string_view compassName(Vec3d direction) noexcept;
 
-/// "Elevation from the south", "Plan at z = 1.2 m", "Section at y = 5 m", "Section 0.6, 0.8, 0, -3": metres from the grid's lower corner.
+/// "Elevation from the south", "Plan at z = 1.2 m", "Section at y = 5 m", "Section 0.6, 0.8, 0, -3": metres from the
+/// grid's lower corner.
 [[nodiscard]] std::string planeText(const drawing::SectionDrawing& drawing, const volume::Grid& grid);
 
 /// True if the section plane is horizontal.

@@ -177,7 +177,7 @@ private:
     void begin(const char* type, std::string_view layer, const char* subclass) {
         out_.add({{0, type}, {5, file_.newHandle()}, {330, owner_}, {100, "AcDbEntity"}, {8, layer}, {100, subclass}});
     }
-    // What is drawn meanwhile becomes the content of a block.
+    // The output of `draw` becomes the content of a block.
     template <class Draw>
     void addBlock(DxfBlock block, const Draw& draw) {
         const std::string before = out_.take();

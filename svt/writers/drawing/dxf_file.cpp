@@ -32,7 +32,7 @@ const std::string& DxfFile::layer(const std::string& name, int color, const char
 }
 
 std::string DxfFile::write(std::span<const std::string> comments, const DxfView& view, std::string_view entities) {
-    // The header tells the next free handle, so it is written last.
+    // The header contains the next free handle, so it is written last.
     tables(view);
     out_.add({{0, "SECTION"}, {2, "BLOCKS"}});
     block({kModelSpace, "2A", "2B", "*Model_Space"});

@@ -16,13 +16,13 @@ struct DxfLineType {
     std::vector<double> dashes;  ///< metres; gaps are below zero
 };
 
-/// The view that a program shows first.
+/// The initial view in a program.
 struct DxfView {
     Vec3d low, high, center;
     double width = 0, height = 0;  ///< metres
 };
 
-/// Entities with a name, such as a door. An anonymous block says how a dimension looks.
+/// Entities with a name, such as a door. An anonymous block draws a dimension.
 struct DxfBlock {
     std::string record, begin, end;  ///< handles
     std::string name, entities{};
@@ -31,12 +31,12 @@ struct DxfBlock {
 
 class DxfFile {
 public:
-    static constexpr const char* kModelSpace = "1A";  ///< handle of the block of all entities that are in no other
+    static constexpr const char* kModelSpace = "1A";  ///< handle of the block of all entities outside of other blocks
 
     /// Handles below 0x100 are reserved for the fixed parts.
     [[nodiscard]] std::string newHandle() { return fmt::format("{:X}", nextHandle_++); }
     [[nodiscard]] DxfBlock newBlock(std::string name, bool isAnonymous);
-    /// The name of a layer, which is added to the table where it is new.
+    /// The name of a layer, which is added to the table if it is new.
     const std::string& layer(const std::string& name, int color, const char* lineType = "Continuous", int width = -3);
     void add(DxfBlock block) { blocks_.push_back(std::move(block)); }
     void add(DxfLineType type) { lineTypes_.push_back(std::move(type)); }

@@ -22,20 +22,20 @@ struct DxfHatch {
     const char* name;
     std::span<const DxfHatchLine> lines;
 };
-/// The pattern that stands for a hatch; nullptr for none.
+/// The pattern for a hatch; nullptr for none.
 [[nodiscard]] const DxfHatch* dxfHatchOf(render::Hatch hatch) noexcept;
 
-/// What a layer holds, in the names of ISO 13567-2: the field "presentation".
+/// The content of a layer, as in the names of ISO 13567-2: the field "presentation".
 enum class DxfContent : char { Element = 'E', Hatch = 'H', Text = 'T', Dimension = 'D' };
 
-/// The layer of a component: its `ifcType`, else its class, with its function where that is a word:
-/// `IfcWall`, `BuildingConstructiveElement_wall`, `Door`.
+/// The layer of a component: its `ifcType`, otherwise its class, with its function if that is a word: `IfcWall`,
+/// `BuildingConstructiveElement_wall`, `Door`.
 [[nodiscard]] std::string dxfLayerOf(const volume::Label& label);
 
-/// The layer of a component after ISO 13567-2, ten characters: agent `A-`, element by the table of CI/SfB (`21----` external
-/// walls), presentation (`E-`).
+/// The layer of a component according to ISO 13567-2, ten characters: agent `A-`, element by the table of CI/SfB
+/// (`21----` external walls), presentation (`E-`).
 [[nodiscard]] std::string isoLayerOf(const volume::Label& label, DxfContent content);
-/// The same for content that is of no component: texts, dimensions.
+/// The same for content that does not belong to a component: texts, dimensions.
 [[nodiscard]] std::string isoLayerOf(DxfContent content);
 
 }  // namespace svt::writers

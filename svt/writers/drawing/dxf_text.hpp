@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The text of a DXF: groups of a code and a value, each on a line.
+/// The text of a DXF: groups of a code and a value, on separate lines.
 
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>

@@ -98,7 +98,7 @@ private:
                multiLine(lines) + "]}";
     }
 
-    // What stands beyond the cut: a feature per component and kind of line.
+    // Adds lines beyond the cut: one feature per component and kind of line.
     void addBeyond() {
         const std::vector<drawing::BeyondLine>& all = drawing_.beyond;
         for (std::size_t n = 0; n < all.size();) {

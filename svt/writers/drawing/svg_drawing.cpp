@@ -179,7 +179,7 @@ private:
         }
     }
 
-    // What stands behind the plane, and above it: one group per kind, one path per component.
+    // Adds lines behind the plane, and above it: one group per kind, one path per component.
     void addBeyond() {
         const std::vector<drawing::BeyondLine>& lines = drawing_.beyond;
         for (std::size_t n = 0; n < lines.size();) {
@@ -197,7 +197,7 @@ private:
         }
     }
 
-    // Objects without inside: as bold as what they stand for, once on top of all borders.
+    // Objects without an interior: as bold as the parts that they represent, once, on top of all borders.
     void addLines() {
         if (drawing_.lines.empty()) return;
         svg_ += layer("lines", "Lines");

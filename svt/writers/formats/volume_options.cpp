@@ -33,8 +33,8 @@ record::Members<VolumeWriteOptions> membersOf(const VolumeWriteOptions*) noexcep
                                              {.group = "Output", .option = "--encoding"}),
         member<&All::texture>(
             "texture",
-            "samples of X3D and of CityGML: pixel (numbers in the document), image (an NRRD beside it) or composed "
-            "(PNG slices beside it); of X3D also atlas (one PNG of colours beside it, as X3DOM shows volumes)",
+            "samples of X3D and CityGML: pixel (numbers in the document), image (an NRRD file beside it) or composed "
+            "(PNG slices beside it); only X3D: atlas (one PNG of colours beside it, for X3DOM)",
             {.group = "Output", .option = "--texture"}),
         member<&All::cityGml>("cityGml", "CityGML with the volume"),
         member<&All::zarr>("zarr", "Zarr"),
@@ -42,11 +42,11 @@ record::Members<VolumeWriteOptions> membersOf(const VolumeWriteOptions*) noexcep
         member<&All::tileset>("tileset", "3D Tiles"),
         member<&All::vdb>("vdb", "OpenVDB"),
         member<&All::maxVoxels>("maxVoxels",
-                                "most samples that a document is to hold as numbers, most voxels of a .vox",
+                                "maximum number of samples as numbers in a document, or of voxels in a .vox",
                                 {.least = 1, .most = 1e12, .group = "Output", .option = "--max-voxels"}),
         member<&All::boxes>("boxes", "FDS and lists of boxes"),
         member<&All::faces>("faces",
-                            "slopes of a .glb: planes (flat, as far as the volume knows them) or voxels (stairs)",
+                            "slopes of a .glb: planes (flat, where the volume stores planes) or voxels (stairs)",
                             {.group = "Output", .option = "--faces"}),
     };
     return kMembers;

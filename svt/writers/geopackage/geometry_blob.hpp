@@ -14,7 +14,7 @@
 
 namespace svt::writers {
 
-using MapPoint = std::array<double, 2>;  ///< east and north, or to the right and up
+using MapPoint = std::array<double, 2>;  ///< east and north, or right and up
 
 struct MapBounds {
     double minX = 1e300, minY = 1e300, maxX = -1e300, maxY = -1e300;
@@ -56,7 +56,7 @@ public:
         beginLine(WkbType::LineString);
         addPoints(points, 0);
     }
-    /// \param ring  the first point not repeated
+    /// \param ring  without repeating the first point
     void addRing(std::span<const MapPoint> ring) { addPoints(ring, 1); }
     void addPolygon(std::span<const MapPoint> ring) {
         begin(WkbType::Polygon, 1);

@@ -22,11 +22,11 @@ public:
     /// The EPSG code of the CRS, or kCartesian.
     [[nodiscard]] std::int64_t reference() const noexcept { return reference_; }
 
-    /// Creates a table with a key `fid`, a geometry `geom` of that type, and columns in SQL.
+    /// Creates a table with a key `fid`, a geometry `geom` of the given type, and columns in SQL.
     void createFeatures(const std::string& name, const char* geometryType, const std::string& columns);
     /// Creates the same table without a geometry.
     void createTable(const std::string& name, const std::string& columns);
-    /// Adds a row; its first cell is the key, empty for the next number. Errors are returned by finish().
+    /// Adds a row; its first cell is the key, or empty for the next number. finish() returns errors.
     void insert(std::string_view table, std::span<const Cell> row) { database_->insert(table, row); }
     /// Adds a table of features to the package's contents. \param bounds  its extent; empty: none
     void describeFeatures(const std::string& name, const char* geometryType, std::int64_t reference,

@@ -10,7 +10,7 @@ namespace {
 constexpr const char* kLibrary = "libsqlite3.so.0";
 constexpr int kSqliteOk = 0, kSqliteDone = 101;
 
-// Of SQLite's C interface (sqlite.org/c3ref), which has not changed since 2004; serialize is of 3.23.
+// Part of SQLite's C interface (sqlite.org/c3ref), which has not changed since 2004; serialize exists since 3.23.
 struct Sqlite {
     int (*open)(const char*, void**) = nullptr;
     int (*close)(void*) = nullptr;

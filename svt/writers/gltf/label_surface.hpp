@@ -25,7 +25,7 @@ struct LabelSurface {
     /// Twice the position in voxels from the volume's lower corner: the corner (i, j, k) of voxel (i, j, k) is at
     /// (2 i, 2 j, 2 k), its center at (2 i + 1, ...).
     std::vector<Vec3i> vertices;
-    std::uint32_t cornerCount = 0;  ///< these come first and are corners of voxels; the others are centers of fans
+    std::uint32_t cornerCount = 0;  ///< number of voxel corners, which come first; the others are centers of fans
     std::vector<std::array<std::uint32_t, 4>> middles;  ///< of each fan center: the corners of its rectangle
     /// Counter-clockwise from outside.
     std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -37,7 +37,7 @@ struct SurfaceOptions {
     const Progress* progress = nullptr;                   ///< stage "surface"
 };
 
-/// The surface between each label and everything outside it, ascending by label; labels without voxels have none.
+/// The surface between each label and everything outside it, ascending by label; labels without voxels have no surface.
 /// Every edge of a label's surface is used equally often in both directions: twice in total, or four times where voxels
 /// of the label touch only along an edge. There is one vertex per position, except for fan centers.
 /// \param labelOfScalar  entry s owns scalar s, volume::kNoLabel for none

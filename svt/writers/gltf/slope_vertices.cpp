@@ -57,7 +57,7 @@ std::optional<Vec3d> stepOnto(std::span<const BrickPlane> planes, Vec3d point, s
     for (std::size_t p = 0; p < count; ++p)
         for (std::size_t q = 0; q < count; ++q) row[p][q] = dot(normal[p], normal[q]);
     for (std::size_t p = 0; p < count; ++p) {
-        // What is left of a square of a normal when the others are taken out: 0 where planes are parallel.
+        // The remaining squared length of a normal after projecting out the others: 0 if planes are parallel.
         if (!(row[p][p] > (p == 0 ? 1e-6 : 1e-3 * dot(normal[p], normal[p])))) return std::nullopt;
         for (std::size_t q = 0; q < count; ++q) {
             if (q == p) continue;

@@ -25,10 +25,10 @@ public:
         : bricks_(bricks), labelOfScalar_(labelOfScalar) {}
 
     /// Position of the corner (i, j, k) of voxel (i, j, k), in voxels from the volume's lower corner. The voxels around
-    /// the corner with different labels are examined in pairs. If a plane of their brick or of an adjacent brick
-    /// separates a pair, and the code of that brick classifies both voxels correctly, the corner moves to that plane,
-    /// or to the line where two such planes meet; any other separation fixes the corner along that axis. A corner that
-    /// would move by more than a voxel, or that more than two planes separate, does not move.
+    /// the corner with different labels are examined in pairs. A plane of their brick or of an adjacent brick counts if
+    /// it separates a pair and the brick's code classifies both voxels correctly. The corner moves to such a plane, or
+    /// to the line where two of them meet. Any other separation fixes the corner along its axis. A corner that would
+    /// move by more than a voxel, or that more than two planes separate, does not move.
     [[nodiscard]] Vec3d place(Vec3i corner) const;
 
 private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where the vertices of label surfaces are, for all formats of triangles.
+/// Positions of the vertices of label surfaces, for all formats of triangles.
 
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
@@ -16,7 +16,7 @@ namespace svt::writers {
 /// Metres from the grid's lower corner, the outer corner of sample (0, 0, 0), along the grid's axes.
 using Positions = std::vector<Vec3f>;
 
-/// The least and the greatest coordinates of positions, of which there is at least one.
+/// The smallest and largest coordinates of positions; at least one position is required.
 struct Extent {
     Vec3f min, max;
 };

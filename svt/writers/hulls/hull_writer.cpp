@@ -1,13 +1,13 @@
 /// \file
-/// Writes the surface of each label as triangles in the plain formats that CAD, print and mesh programs read. The surfaces
-/// are those of a .glb (see GlbOptions::faces): closed for each label.
+/// Writes the surface of each label as triangles in the plain formats that CAD, print and mesh programs read. The
+/// surfaces are those of a .glb (see GlbOptions::faces): closed for each label.
 ///
-/// - OBJ: an object per label, named by its id, a group by its class, a material by its colour in `<stem>.mtl` beside it;
-///   world coordinates, metres.
-/// - PLY: binary, world coordinates as doubles; each face has `label` (its number in the table) and colour; comments tell
-///   id, class and name of each label.
-/// - STL: binary, no names; coordinates are 32-bit floats, so they are metres from the lower corner of the grid, along world
-///   axes; the header of 80 bytes tells where that is.
+/// - OBJ: one object per label, named by its id, in a group named by its class. Materials by colour are in `<stem>.mtl`
+///   beside it. World coordinates, metres.
+/// - PLY: binary, world coordinates as doubles. Each face has `label` (its number in the table) and colour. Comments
+///   list id, class and name of each label.
+/// - STL: binary, without names. Coordinates are 32-bit floats, so they are metres from the lower corner of the grid,
+///   along world axes. The header of 80 bytes states the position of this corner.
 
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
@@ -141,8 +141,8 @@ Result<void> writeStl(const LabelHulls& hulls, PieceWriter& out) {
 }
 
 /// Writes one file (OBJ: two), all or nothing. Equal volumes give equal bytes.
-/// \return bytes, or NothingSelected if no label has voxels, GridTooLarge for too many triangles, CannotWrite, DiskFull,
-///         WouldDestroy (something else beside the OBJ), Cancelled
+/// \return bytes, or NothingSelected if no label has voxels, GridTooLarge for too many triangles, CannotWrite,
+///         DiskFull, WouldDestroy (something else beside the OBJ), Cancelled
 template <HullFormat format>
 Result<std::uint64_t> writeHulls(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                  const VolumeWriteOptions& options) {
@@ -181,7 +181,7 @@ extern const VolumeFormat kPly{.name = "ply",
 
 extern const VolumeFormat kStl{.name = "stl",
                                .endings = ".stl",
-                               .holds = "STL, binary: triangles alone",
+                               .holds = "STL, binary: only triangles",
                                .readers = "printers, CAD, simulation",
                                .content = FileContent::Unknown,
                                .write = writeHulls<HullFormat::Stl>};

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The surfaces of all labels with their vertices in place: what every format of triangles is written from.
+/// The surfaces of all labels with final positions of vertices: the source of all formats of triangles.
 
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -15,8 +15,8 @@
 namespace svt::writers {
 
 struct LabelHulls {
-    std::vector<LabelSurface> surfaces;  ///< ascending by label, those with voxels alone
-    std::vector<Positions> positions;    ///< of the vertices of each
+    std::vector<LabelSurface> surfaces;  ///< ascending by label; only labels with voxels
+    std::vector<Positions> positions;    ///< positions of the vertices of each surface
     const volume::SemanticVolume* volume = nullptr;
 
     /// World directions, metres from the lower corner of the grid.

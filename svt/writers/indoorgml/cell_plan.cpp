@@ -213,8 +213,8 @@ private:
         }
     }
 
-    // In walls across the grid, boxes do not fit between the stairs of rooms: the voxels of a door are its cell, if more rooms
-    // touch them than a box has reached.
+    // In walls across the grid, boxes do not fit between the stairs of rooms: the voxels of a door are its cell, if
+    // more rooms touch them than a box has reached.
     bool addVoxelDoor(std::uint32_t label, const std::vector<Box3d>& rooms, std::size_t reached) {
         std::vector<CellBody> pieces = piecesOf(shapes_[label]);
         if (pieces.empty()) return false;

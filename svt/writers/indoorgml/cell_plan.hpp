@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// The cell spaces of a volume, their common faces and what leads from one into another: what an IndoorGML document says.
+/// The cell spaces of a volume, their common faces, and the transitions between them: the content of an IndoorGML
+/// document.
 
 #include <svt/writers/indoorgml/doorway.hpp>
 #include <svt/writers/volume_formats.hpp>
@@ -13,11 +14,11 @@ namespace svt::writers::indoor {
 
 struct Cell {
     std::uint32_t label = 0;
-    std::string id;         ///< an XML name, unique; that of the label where it is one
+    std::string id;         ///< a unique XML name; the id of the label if it is an XML name
     std::string_view kind;  ///< class of the navigation module, or CellSpace
     std::string storey;     ///< its name, or empty
     CellBody body;
-    Vec3d inner{};  ///< where its state is
+    Vec3d inner{};  ///< position of its state
     std::vector<std::size_t> boundaries, transitions;
 };
 
@@ -35,7 +36,7 @@ struct Transition {
     std::vector<Vec3d> line;  ///< from state to state, through the face
 };
 
-/// Places as of CellShape.
+/// Places are those of CellShape.
 struct CellPlan {
     std::vector<Cell> cells;  ///< rooms, then doors, each in the order of labels
     std::vector<Boundary> boundaries;

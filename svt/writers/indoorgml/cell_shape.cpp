@@ -137,8 +137,8 @@ private:
         return found == triangleOf_.end() ? kNone : found->second;
     }
 
-    // A sliver closes the gap between a long edge and points on it: it belongs to the face that has the long edge, which
-    // so gets these points.
+    // A sliver closes the gap between a long edge and points on it: it belongs to the face that has the long edge,
+    // which so gets these points.
     void placeSlivers(const std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& seeds) {
         for (bool isChanged = true; isChanged;) {
             isChanged = false;
@@ -249,7 +249,7 @@ double volumeOf(const CellShape& shape) {
 }
 
 bool encloses(const CellShape& shape, Vec3d p) {
-    // Slightly oblique, so that it meets no edge of what is built upright.
+    // Slightly oblique, so that it meets no edge of vertical parts.
     const Vec3d along{0.0123571, 0.0456127, 1};
     bool isInside = false;
     for (std::size_t t = 0; t < shape.triangles.size(); ++t) {
@@ -335,7 +335,7 @@ Vec3d innerPoint(const CellBody& body) {
         if (!isInside(body, p)) return;
         double distance = distanceTo(body.shell, p);
         for (const CellShape& cavity : body.cavities) distance = std::min(distance, distanceTo(cavity, p));
-        // Of equally good points the first one.
+        // The first of equally good points wins.
         if (distance <= farthest + 1e-9) return;
         farthest = distance;
         best = p;
@@ -349,7 +349,7 @@ Vec3d innerPoint(const CellBody& body) {
                           box.min.z + size.z * height});
         if (farthest > 0) return best;
     }
-    // Thin and bent: behind the middle of a triangle, as deep as half of what is there.
+    // Thin and bent bodies: points behind the centre of a triangle, at decreasing depths.
     for (std::size_t t = 0; t < body.shell.triangles.size(); ++t) {
         const Vec3d normal = normalized(normalOf(body.shell, t));
         const Vec3d middle = (body.shell.corner(t, 0) + body.shell.corner(t, 1) + body.shell.corner(t, 2)) / 3;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Closed bodies of cell spaces, as triangles: those of kept meshes, or the faces of voxels.
+/// Closed bodies of cell spaces, as triangles: those of stored meshes, or the faces of voxels.
 
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
@@ -26,17 +26,17 @@ struct CellShape {
 /// Every edge is used equally often in both directions, and there is one.
 [[nodiscard]] bool isClosed(const CellShape& shape);
 
-/// What a closed shape encloses, m3; negative if its triangles look inwards.
+/// The volume of a closed shape, m3; negative if its triangles face inwards.
 [[nodiscard]] double volumeOf(const CellShape& shape);
 
-/// True if `p` is enclosed, by the parity of a ray; for a point on the surface either.
+/// True if `p` is enclosed, by the parity of a ray. The result for a point on the surface is unspecified.
 [[nodiscard]] bool encloses(const CellShape& shape, Vec3d p);
 
-/// The kept mesh of a label; empty if there is none.
+/// The stored mesh of a label; empty if there is none.
 [[nodiscard]] CellShape keptMesh(const volume::SemanticVolume& volume, std::uint32_t label);
 
 /// The faces of the voxels of labels, closed.
-/// \param ownerOf  per label: the label whose voxels its own are, volume::kNoLabel: none
+/// \param ownerOf  per label: the label to which its voxels belong, volume::kNoLabel: none
 /// \return per label its shape, empty for labels that own none; or an error of labelSurfaces()
 [[nodiscard]] Result<std::vector<CellShape>> voxelShapes(const volume::SemanticVolume& volume,
                                                          const std::vector<std::uint32_t>& ownerOf, int threads,
@@ -54,11 +54,11 @@ struct CellBody {
 /// A polygon of a shape: rings of points, the first the exterior one.
 using FaceRings = std::vector<std::vector<std::uint32_t>>;
 
-/// Triangles that lie in one plane (up to 20 micrometres) and hang together as one polygon with holes, so that every edge
-/// of a polygon is an edge of another one; where rings would touch themselves, the triangles.
+/// Merges connected triangles in one plane (within 20 micrometres) to one polygon with holes, so that every edge of a
+/// polygon is an edge of another one. If rings would touch themselves, the triangles are kept.
 [[nodiscard]] std::vector<FaceRings> facesOf(const CellShape& shape);
 
-/// A point well inside of a body: of a lattice of points in it, the one farthest from its surface.
+/// A point well inside of a body: the point of a lattice in it that is farthest from its surface.
 [[nodiscard]] Vec3d innerPoint(const CellBody& body);
 
 }  // namespace svt::writers::indoor

@@ -11,7 +11,7 @@ namespace {
 using volume::kNoLabel;
 
 constexpr double kOnFace = 1e-5;  // metres
-constexpr double kBite = 0.0005;  // metres; half of what counts as an overlap
+constexpr double kBite = 0.0005;  // metres; half the depth that counts as an overlap
 constexpr double kPi = 3.14159265358979323846;
 
 // The part of a convex polygon where dot(p, normal) <= limit.
@@ -33,7 +33,7 @@ Vec3d areaVector(const FacePiece& polygon) {
     return sum * 0.5;
 }
 
-// Upright axes of a door: through it, along it, and up, with what it takes of each.
+// Axes of a door: through it, along it, and up, with its extent along each.
 struct DoorFrame {
     std::array<Vec3d, 3> axes{};
     Vec3d low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
@@ -88,7 +88,8 @@ DoorFrame frameOf(const CellShape& door) {
     return frame;
 }
 
-// What of a triangle lies before the rectangle of the door, made smaller by `margin`, and looks at the door from one side.
+// The part of a triangle in front of the rectangle of the door, reduced by `margin`. Empty unless the triangle faces
+// the door from this side.
 FacePiece beforeDoor(const DoorFrame& frame, const CellShape& shape, std::size_t t, int side, double margin) {
     FacePiece piece{shape.corner(t, 0), shape.corner(t, 1), shape.corner(t, 2)};
     const Vec3d through = side == 0 ? frame.axes[0] : -frame.axes[0];

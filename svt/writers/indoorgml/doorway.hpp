@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// Doors as cell spaces: the space through the wall that a door stands in, from the room before it to that behind it.
+/// Doors as cell spaces: the space through the wall of a door, from the room in front of it to the room behind it.
 ///
 ///      room a             room a
 ///     _______________    _______________
 ///     #### leaf #####    ####|     |####     the box around the leaf, stretched along its thin side to the rooms that
-///     ####======#####    ####| box |####     are near enough, with nothing but air and the door between
+///     ####======#####    ####| box |####     are near enough, with only air and the door between
 ///     ####      #####    ####|     |####
 ///     ---------------    ---------------
 ///      room b             room b
@@ -20,7 +20,7 @@
 
 namespace svt::writers::indoor {
 
-/// How far the faces of a door may stand back behind those of its wall, metres.
+/// Largest distance from the faces of a door to those of its wall, metres.
 inline constexpr double kReveal = 0.8;
 
 /// A convex part of a common face, counter-clockwise seen from the cell that comes first.
@@ -28,13 +28,13 @@ using FacePiece = std::vector<Vec3d>;
 
 struct Doorway {
     CellShape shape;  ///< a box
-    /// The rooms that its ends touch, with the common face; none where they touch along edges only.
+    /// The rooms that its ends touch, with the common face; none if they touch only along edges.
     struct Contact {
-        std::size_t room = 0;  ///< into the list of rooms
+        std::size_t room = 0;  ///< index into the list of rooms
         std::vector<FacePiece> pieces;
     };
     std::vector<Contact> contacts;
-    /// Per end whether a room is there.
+    /// Per end, whether it touches a room.
     std::array<bool, 2> hasRoom{};
 };
 

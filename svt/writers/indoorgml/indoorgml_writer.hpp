@@ -4,15 +4,17 @@
 ///
 /// | of the volume                       | in IndoorGML                                                            |
 /// |-------------------------------------|-------------------------------------------------------------------------|
-/// | room                                | GeneralSpace (or the class that a file of IndoorGML had) with a Solid: its kept mesh where that is closed, else the faces of its voxels and those of what stands in it; a room in several pieces is several cells |
+/// | room | GeneralSpace (or the class from an IndoorGML file) with a Solid: its mesh if that is closed, otherwise the
+/// faces of its voxels and of the objects in it; a room in several pieces is several cells |
 /// | door with a room at one end or both | AnchorSpace or ConnectionSpace: a box through the wall, see doorway.hpp |
-/// | faces that two cells have in common | CellSpaceBoundary, NavigableBoundary where one can walk through         |
-/// | door and room; rooms with an upright common face | Transition, its weight the length of its line in metres    |
+/// | faces that two cells have in common | CellSpaceBoundary, or NavigableBoundary for passages |
+/// | door and room; rooms with a vertical common face | Transition; its weight is the length of its line in metres |
 /// | name, storey                        | name, description `storey="EG"`                                         |
-/// | attributes class, function, usage   | those of the navigation module; else "unknown"                          |
-/// | id, source                          | gml:id where it is an XML name; externalReference                       |
+/// | attributes class, function, usage | those of the navigation module; otherwise "unknown" |
+/// | id, source | gml:id if it is an XML name; externalReference |
 ///
-/// One layer; states lie well inside of their cells. Coordinates are those of the volume's CRS, to a tenth of a micrometre.
+/// One layer; states lie well inside of their cells. Coordinates are those of the volume's CRS, to a tenth of a
+/// micrometre.
 
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// How formats show labels and models: names, colours, and the corner of the grid.
+/// The names and colours of labels and models in all formats, and the corner of the grid.
 
 #include <svt/volume/semantic_volume.hpp>
 
@@ -11,11 +11,11 @@
 
 namespace svt::writers {
 
-/// The name of a feature; its id where it has none.
+/// The name of a feature, or its id if it has no name.
 [[nodiscard]] inline const std::string& shownName(const volume::Label& label) noexcept {
     return label.name.empty() ? label.id : label.name;
 }
-/// The name of a model; its source where it has none.
+/// The name of a model, or its source if it has no name.
 [[nodiscard]] inline const std::string& shownName(const volume::SemanticVolume& volume) noexcept {
     return volume.modelName.empty() ? volume.source : volume.modelName;
 }
@@ -25,7 +25,7 @@ namespace svt::writers {
     return grid.worldFromIndex({-0.5, -0.5, -0.5});
 }
 
-/// The colour of a scalar: that of its phase, where its label has a pattern, else that of the label.
+/// The colour of a scalar: that of its phase if its label has a pattern, otherwise that of the label.
 [[nodiscard]] inline Vec3f colorOf(const volume::LabelTable& labels, const volume::Label& label,
                                    volume::Scalar scalar) noexcept {
     return labels.phaseColors.empty() || label.count == 1 ? label.color : labels.phaseColors[scalar];
@@ -49,7 +49,7 @@ namespace svt::writers {
 [[nodiscard]] inline double linearChannel(float value) noexcept {
     return value <= 0.04045f ? value / 12.92 : std::pow((double(value) + 0.055) / 1.055, 2.4);
 }
-/// The same, rounded to four decimals: files are equal even where math libraries differ in the last bit.
+/// The same, rounded to four decimals, so that files are equal even if math libraries differ in the last bit.
 [[nodiscard]] inline double roundedLinearChannel(float value) noexcept {
     return std::round(linearChannel(value) * 1e4) / 1e4;
 }

@@ -1,10 +1,10 @@
 /// \file
 /// Writes a semantic volume as NIfTI (.nii, .nii.gz), which nibabel, ITK, 3D Slicer, FSL and SPM read.
 ///
-/// Samples as they are, x fastest, then y, then z; unit metre; the sform matrix leads from index to world space (east is
-/// "right", north "anterior", up "superior"). NIfTI-1 where its 16-bit sizes and 32-bit floats say enough, NIfTI-2
-/// (64 bits) where they would move a sample by a hundredth of a voxel, as coordinates of most CRSs do. Three comments (code
-/// 6) hold `svt.json` and `labels.json` of a `.svt` and their seal, so that the file can become a volume again.
+/// Samples as they are, x fastest, then y, then z; unit metre; the sform matrix leads from index to world space (east
+/// is "right", north "anterior", up "superior"). NIfTI-1 where its 16-bit sizes and 32-bit floats say enough, NIfTI-2
+/// (64 bits) where they would move a sample by a hundredth of a voxel, as coordinates of most CRSs do. Three comments
+/// (code 6) hold `svt.json` and `labels.json` of a `.svt` and their seal, so that the file can become a volume again.
 
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>

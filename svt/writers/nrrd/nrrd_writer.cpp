@@ -44,8 +44,8 @@ std::string tagText(std::string_view text) {
     return tag;
 }
 
-/// The keys of 3D Slicer: one segment for each label with voxels. Slicer shows id, name, colour and tags, and takes what
-/// it does not know along.
+/// The keys of 3D Slicer: one segment for each label with voxels. Slicer shows id, name, colour and tags, and takes
+/// what it does not know along.
 void appendSegments(std::string& header, const volume::SemanticVolume& volume) {
     const auto boxes = analyze::labelBoxes(volume.columns, volume.labels);
     std::size_t segment = 0;

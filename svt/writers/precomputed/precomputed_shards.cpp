@@ -36,7 +36,7 @@ std::vector<std::byte> packedChunk(const volume::ColumnVolume& columns, Vec3i pl
     return gzipBytes(std::as_bytes(std::span(words)));
 }
 
-/// The index of a minishard: codes, places and sizes of its chunks, each told by the difference to the one before.
+/// The index of a minishard: codes, places and sizes of its chunks, each stored as the difference to the previous one.
 std::vector<std::byte> packedIndex(std::span<const ChunkPlace> chunks, std::span<const std::uint64_t> sizes,
                                    std::uint64_t begin) {
     std::string codes, starts, lengths;
@@ -49,7 +49,8 @@ std::vector<std::byte> packedIndex(std::span<const ChunkPlace> chunks, std::span
     return gzipBytes(std::as_bytes(std::span(index)));
 }
 
-/// A shard: where the indices of its minishards are, its chunks, these indices. Places count from behind the first part.
+/// A shard: where the indices of its minishards are, its chunks, these indices. Places count from behind the first
+/// part.
 std::string shardBytes(std::span<const ChunkPlace> chunks, const std::vector<std::vector<std::byte>>& packed,
                        const ShardBits& bits) {
     std::string data;

@@ -6,11 +6,11 @@
 
 namespace svt::writers {
 
-/// Where a drawing stands on its sheet.
+/// The place of a drawing on its sheet.
 struct DrawingPlace {
-    PaperPoint corner;        ///< of the drawing's lower left corner
+    PaperPoint corner;        ///< position of the drawing's lower left corner
     drawing::PlanePoint low;  ///< that corner, in the drawing
-    double millimetres = 10;  ///< on paper per metre
+    double millimetres = 10;  ///< millimetres on paper per metre
 
     [[nodiscard]] PaperPoint onPaper(drawing::PlanePoint p) const noexcept {
         return {corner.x + (p.u - low.u) * millimetres, corner.y - (p.v - low.v) * millimetres};

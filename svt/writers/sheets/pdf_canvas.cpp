@@ -139,7 +139,8 @@ const Result<Cairo>& loadedCairo() {
 constexpr double kPointsPerMillimetre = 72 / 25.4;
 constexpr double kTileUnits = 100;  // of a tile's surface per millimetre: its extent is rounded to whole units
 
-// One for the whole program, never released: cairo keeps fonts that were used, and may look at them until the program ends.
+// One for the whole program, never released: cairo keeps fonts that were used, and may look at them until the program
+// ends.
 FT_Face embeddedFace() {
     static FT_Library library = nullptr;
     static const FT_Face face = [] {
@@ -267,7 +268,8 @@ public:
     }
 
 private:
-    // Pages of cairo are parts of a sheet, if there are layers, or else sheets; one begins with what is drawn first.
+    // Pages of cairo are parts of a sheet if there are layers, otherwise sheets. The first drawing operation begins a
+    // page.
     void openPart() {
         if (isPartOpen_) return;
         parts_.push_back({isSheetNew_, hasLayers_ ? layer_ : std::string()});

@@ -11,11 +11,11 @@
 namespace svt::writers {
 namespace {
 
-// Of qpdf 12 and 11.
+// The libraries of qpdf 12 and 11.
 constexpr const char* kLibraries[] = {"libqpdf.so.30", "libqpdf.so.29"};
 constexpr int kTrue = 1, kGenerateObjectStreams = 2;
 
-// qpdf's C interface (qpdf-c.h) as far as it is used; the same since qpdf 10.2. Objects are numbers.
+// The used part of qpdf's C interface (qpdf-c.h), unchanged since qpdf 10.2. Objects are numbers.
 struct Qpdf {
     void* (*init)() = nullptr;
     void (*cleanup)(void**) = nullptr;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a sheet is drawn on: paper in millimetres, x to the right and y downwards from the upper left corner. One
+/// The drawing surface of a sheet: paper in millimetres, x to the right and y downwards from the upper left corner. One
 /// implementation per format.
 
 #include <svt/writers/drawing/drawing_style.hpp>
@@ -28,7 +28,7 @@ struct LineStyle {
     double width = 0.25;  ///< millimetres
     LineType type = LineType::Continuous;
 };
-/// Lengths of dashes and gaps by turns, in widths of the line; empty for continuous lines.
+/// Alternating lengths of dashes and gaps, in widths of the line; empty for continuous lines.
 [[nodiscard]] std::span<const double> dashesOf(LineType type) noexcept;
 
 enum class TextAnchor : std::uint8_t { Start, Middle, End };
@@ -42,7 +42,7 @@ struct PaperText {
 };
 /// Width of a text in DejaVu Sans, millimetres.
 [[nodiscard]] double widthOnPaper(std::string_view text, double size);
-/// The text, or its beginning and an ellipsis where it is wider.
+/// The text, or its beginning and an ellipsis if it is wider.
 [[nodiscard]] std::string shortened(const std::string& text, double size, double width);
 
 class SheetCanvas {
@@ -53,7 +53,7 @@ public:
     /// Layers do not nest.
     virtual void beginLayer(std::string_view name) = 0;
     virtual void endLayer() = 0;
-    /// Fills what an odd number of paths encloses. \param color  "#rrggbb"
+    /// Fills the area that an odd number of paths encloses. \param color "#rrggbb"
     virtual void fill(const std::vector<PaperPath>& paths, std::string_view color) = 0;
     virtual void hatch(const std::vector<PaperPath>& paths, const HatchTile& tile) = 0;
     virtual void stroke(const std::vector<PaperPath>& paths, const LineStyle& style) = 0;

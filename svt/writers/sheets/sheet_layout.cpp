@@ -42,7 +42,7 @@ ViewMargins marginsOf(const drawing::SectionDrawing& drawing) {
             dimensionReach(drawing, DimensionSide::Above), dimensionReach(drawing, DimensionSide::Below)};
 }
 
-// Of rows of a sheet: the views [first, end) and the height with all margins.
+// A row of a sheet: the views [first, end), and its size with all margins.
 struct SheetRow {
     std::size_t first = 0, end = 0;
     double width = 0, height = 0;

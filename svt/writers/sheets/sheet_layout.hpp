@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Which view stands where on which sheet, at which scale.
+/// The place of each view: its sheet, position and scale.
 
 #include <svt/writers/sheet_writer.hpp>
 #include <svt/writers/sheets/drawing_painter.hpp>
@@ -16,26 +16,26 @@ struct SheetPaper {
     std::string name;
     double width = 420, height = 297;
     double left = 20, top = 10, right = 410, bottom = 287;  ///< of the frame
-    /// The block stands at the lower right; views stand above the strip beside it.
+    /// The block is at the lower right; views are above the strip beside it.
     static constexpr double kTitleWidth = 180, kTitleHeight = 36;
 };
 
-/// Room around a drawing that dimensions take, millimetres.
+/// Space for dimensions around a drawing, millimetres.
 struct ViewMargins {
     double left = 0, right = 0, above = 0, below = 0;
 };
 
 struct PlacedView {
-    std::size_t view = 0;  ///< of SheetContent
+    std::size_t view = 0;  ///< index into SheetContent::views
     DrawingPlace place;
     double width = 0, height = 0;  ///< of the drawing, millimetres
     ViewMargins margins;
 };
 /// Rows of a table on a sheet, below its title and headings.
 struct PlacedTable {
-    std::size_t table = 0;  ///< of SheetContent
+    std::size_t table = 0;  ///< index into SheetContent::tables
     std::size_t firstRow = 0, endRow = 0;
-    double left = 0, top = 0;     ///< millimetres, of the title
+    double left = 0, top = 0;     ///< position of the title, millimetres
     std::vector<double> columns;  ///< widths, millimetres
     static constexpr double kTitle = 8, kRow = 5, kText = 2.5;
     [[nodiscard]] double width() const noexcept;
@@ -50,12 +50,12 @@ struct Sheet {
 };
 struct SheetLayout {
     SheetPaper paper;
-    double scale = 100;  ///< of views whose group has none of its own
+    double scale = 100;  ///< scale of views whose group does not set one
     std::vector<Sheet> sheets;
 };
 
-/// Lays out views in rows, each kind or group on sheets of its own. Views without lines are left out. Then tables from the top in
-/// columns; long ones go on beside or on the next sheet.
+/// Lays out views in rows, each kind or group on separate sheets. Views without lines are omitted. Tables follow from
+/// the top in columns; long tables continue in the next column or on the next sheet.
 /// \return the layout, or BadArgument, see makeSvgSheets()
 [[nodiscard]] Result<SheetLayout> layOutSheets(const SheetContent& content, const SheetOptions& options);
 

@@ -54,7 +54,7 @@ enum class SheetWord : std::uint8_t {
 /// "Elevation from the north", "Ansicht von Norden".
 [[nodiscard]] std::string elevationText(std::string_view side, SheetLanguage language);
 
-/// A number with so many decimals, and a comma in German.
+/// A number with the given number of decimals, with a comma in German.
 [[nodiscard]] std::string numberText(double value, int decimals, SheetLanguage language);
 
 }  // namespace svt::writers

@@ -20,7 +20,7 @@ public:
     void stroke(const std::vector<PaperPath>& paths, const LineStyle& style) override;
     void text(const PaperText& text) override;
 
-    /// The documents of all sheets that were ended.
+    /// The documents of all finished sheets.
     [[nodiscard]] std::vector<std::string> takeDocuments() { return std::move(documents_); }
 
 private:

@@ -147,15 +147,14 @@ std::string makeGraphMl(const volume::SemanticVolume& volume, int threads) {
     return xml += "</graph>\n</graphml>\n";
 }
 
-extern const VolumeFormat kAdjacency{
-    .name = "adjacency",
-    .endings = ".adjacency.json",
-    .holds = "what touches what, and what lies between rooms and outside, layer by layer",
-    .readers = "energy and acoustic models",
-    .content = FileContent::PlainJson,
-    .write = [](const auto& volume, const auto& path, const auto& options) {
-        return writeFileAtomically(path, makeAdjacencyJson(volume, options.threads));
-    }};
+extern const VolumeFormat kAdjacency{.name = "adjacency",
+                                     .endings = ".adjacency.json",
+                                     .holds = "contacts of components, and the layers between rooms and outside",
+                                     .readers = "energy and acoustic models",
+                                     .content = FileContent::PlainJson,
+                                     .write = [](const auto& volume, const auto& path, const auto& options) {
+                                         return writeFileAtomically(path, makeAdjacencyJson(volume, options.threads));
+                                     }};
 
 extern const VolumeFormat kGraphMl{.name = "graphml",
                                    .endings = ".graphml",

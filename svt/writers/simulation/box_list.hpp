@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Components as boxes, for solvers that have a format of their own.
+/// Components as boxes, for solvers with their own formats.
 
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -10,12 +10,12 @@
 
 namespace svt::writers {
 
-/// A line per box: what it belongs to, its samples [begin, end), its corners in metres along the grid's axes from the
-/// lower corner of the first voxel. CSV with a header line.
+/// CSV with a header line and one line per box: its group, its samples [begin, end), its corners in metres along the
+/// grid's axes from the lower corner of the first voxel.
 /// \return the table, or the error of solidBoxes()
 [[nodiscard]] Result<std::string> makeBoxTable(const volume::SemanticVolume& volume, const VolumeWriteOptions& options);
 
-/// The same as JSON: "grid" with what places it in the world, "groups", "boxes".
+/// The same as JSON: "grid" with its place in the world, "groups", "boxes".
 [[nodiscard]] Result<std::string> makeBoxJson(const volume::SemanticVolume& volume, const VolumeWriteOptions& options);
 
 }  // namespace svt::writers

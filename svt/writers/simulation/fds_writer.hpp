@@ -12,10 +12,11 @@
 
 namespace svt::writers {
 
-/// One MESH, grown to numbers of cells that have no prime factor over 5, which the pressure solver wants; its sides but
-/// the bottom open; one SURF and the OBSTs of each group; options.boxes.holes as OBST and HOLE, options.boxes.vents as OBST with VENTs
-/// on both sides. Metres along the grid's axes from its lower corner, for FDS takes no world coordinates.
-/// \param name  of the simulation, from which CHID is made
+/// Writes one MESH, and one SURF and the OBSTs of each group. The MESH is enlarged to numbers of cells without prime
+/// factors over 5, which the pressure solver requires. All of its sides except the bottom are open. Components of
+/// options.boxes.holes become OBST and HOLE, those of options.boxes.vents OBST with VENTs on both sides. Coordinates
+/// are metres along the grid's axes from its lower corner, because FDS does not use world coordinates.
+/// \param name  name of the simulation, from which CHID is made
 /// \return the document, ASCII, or the error of solidBoxes()
 [[nodiscard]] Result<std::string> makeFds(const volume::SemanticVolume& volume, std::string_view name,
                                           const VolumeWriteOptions& options);

@@ -30,7 +30,7 @@ bool isAir(const Label& label, bool belongsToSpace) {
     return belongsToSpace && (model::isSpace(label.className) || model::isBoundarySurface(label.className));
 }
 
-// Which labels a query selects; none for an empty one.
+// The labels that a query selects; an empty query selects none.
 Result<std::vector<bool>> selectedBy(const std::string& query, const volume::LabelTable& labels) {
     std::vector<bool> isSelected(labels.labels.size());
     if (query.empty()) return isSelected;
@@ -88,9 +88,10 @@ Result<SolidBoxes> solidBoxes(const volume::SemanticVolume& volume, const Volume
 record::Members<BoxWriteOptions> membersOf(const BoxWriteOptions*) noexcept {
     using All = BoxWriteOptions;
     static constexpr record::Member<All> kMembers[] = {
-        record::member<&All::mergeBy>("merge", "of an .fds and of lists of boxes: what becomes boxes together",
-                                      {.group = "Output", .option = "--merge"}),
-        record::member<&All::maxBoxes>("maxBoxes", "of an .fds and of lists of boxes: more are refused",
+        record::member<&All::mergeBy>(
+            "merge", "of an .fds and of lists of boxes: components that are merged into boxes together",
+            {.group = "Output", .option = "--merge"}),
+        record::member<&All::maxBoxes>("maxBoxes", "of an .fds and of lists of boxes: maximum number of boxes",
                                        {.least = 1, .most = 1e8, .group = "Output", .option = "--max-boxes"}),
         record::member<&All::holes>("holes", "of an .fds: components that are open, such as doors",
                                     {.value = "QUERY", .group = "Output", .option = "--holes"}),

@@ -8,7 +8,7 @@
 
 namespace svt::writers {
 
-/// The value with its own type; null for nothing and blobs.
+/// The value with its own type; null for empty cells and blobs.
 [[nodiscard]] inline nlohmann::ordered_json cellJson(const Cell& cell) {
     return std::visit(
         [](const auto& value) -> nlohmann::ordered_json {

@@ -53,7 +53,7 @@ double realOf(const Cell& cell) {
     return std::get<double>(cell.value);
 }
 
-/// Which cells have a value, as one bit-packed run.
+/// Flags of cells that have a value, as one bit-packed run.
 std::string definitionLevels(std::span<const Row> rows, std::size_t column) {
     std::string run;
     appendVarint(run, (rows.size() + 7) / 8 << 1 | 1);

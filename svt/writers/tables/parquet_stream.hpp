@@ -27,8 +27,8 @@ public:
     explicit ParquetStream(std::vector<ParquetColumn> columns) : columns_(std::move(columns)) {}
 
     [[nodiscard]] std::string begin();
-    /// \param rows  cells of the types of their columns; of Text any but blobs, of Number numbers of any type
-    /// \return the bytes, none without rows; or GridTooLarge where a column would have 2 GiB
+    /// \param rows  cells of the types of their columns; Text accepts all types except blobs, Number all numbers
+    /// \return the bytes, none without rows; or GridTooLarge if a column would have 2 GiB
     [[nodiscard]] Result<std::string> group(std::span<const Row> rows);
     /// \param texts  key/value metadata
     [[nodiscard]] std::string end(std::span<const std::pair<std::string, std::string>> texts) const;

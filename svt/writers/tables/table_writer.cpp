@@ -1,6 +1,6 @@
 /// \file
-/// Writes the objects of a volume, and their contacts, as tables: CSV or Parquet for spreadsheets, pandas and databases.
-/// Metres.
+/// Writes the objects of a volume, and their contacts, as tables: CSV or Parquet for spreadsheets, pandas and
+/// databases. Metres.
 
 #include <svt/analyze/label_measures.hpp>
 #include <svt/core/file.hpp>
@@ -65,9 +65,10 @@ Table emptyTable(std::span<const char* const> names, const volume::SemanticVolum
     return table;
 }
 
-/// One row per label in table order: number, id, class, name, parent's id, scalars, voxels, volume (m3), surface and
-/// its part that touches background (m2), box of its voxels along world axes (m), colour, opacity, filling, then each
-/// attribute that some label has, named `attribute:NAME`, with its unit in brackets where all have the same.
+/// One row per label in table order. Columns are number, id, class, name, parent's id, scalars, voxels, volume (m3),
+/// surface and its part that touches background (m2), box of its voxels along world axes (m), colour, opacity, filling.
+/// Then follows each attribute of any label, named `attribute:NAME`, with its unit in brackets if all labels have the
+/// same unit.
 /// Cost: that of analyze::findContacts().
 Table makeObjectTable(const volume::SemanticVolume& volume, int threads) {
     const auto contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, threads);

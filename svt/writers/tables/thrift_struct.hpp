@@ -12,7 +12,7 @@
 
 namespace svt::writers {
 
-/// Fields in ascending order of their ids. A struct is ended by end().
+/// Fields in ascending order of their ids. end() ends a struct.
 class ThriftStruct {
 public:
     ThriftStruct& number32(int id, std::int32_t value) { return begin(id, 5).zigzag(value); }

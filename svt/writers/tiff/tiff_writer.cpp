@@ -2,11 +2,11 @@
 /// Writes a semantic volume as a TIFF stack (.tif, .ome.tif), which Fiji/ImageJ, tifffile, napari and GDAL read.
 ///
 /// A page is a slice k; its rows are j, its pixels i. Rows are not reversed, so viewers show north at the bottom.
-/// Samples of 8, 16 or 32 bits, unsigned; BigTIFF from 4 GB on. The first page tells spacing and unit: as ImageJ's
-/// text, or as OME-XML where the name ends in .ome.tif; ImageJ itself has no whole numbers of 32 bits, so for these its
-/// text is left out. The matrix of GeoTIFF (ModelTransformation, tag 34264) leads from pixel (i, j, k) to world space,
-/// where a sample is a point. Private tags 65080, 65081 and 65082 hold `svt.json` and `labels.json` of a `.svt` and
-/// their seal, so that the file can become a volume again.
+/// Samples are unsigned, with 8, 16 or 32 bits. Files from 4 GB are BigTIFF. The first page states spacing and unit: as
+/// ImageJ's text, or as OME-XML if the name ends in .ome.tif. ImageJ does not support 32-bit integers, so files with
+/// these have no ImageJ text. The matrix of GeoTIFF (ModelTransformation, tag 34264) maps pixel (i, j, k) to world
+/// space, where a sample is a point. Private tags 65080, 65081 and 65082 contain `svt.json` and `labels.json` of a
+/// `.svt` and their seal, so that the file can become a volume again.
 
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
@@ -76,7 +76,7 @@ TiffField resolutionField(std::uint16_t tag, double spacing) {
 std::string omeXml(const volume::SemanticVolume& volume, int bits) {
     const Vec3i dimension = volume.grid.dimension();
     const Vec3d spacing = volume.grid.spacing();
-    // Names are valid UTF-8 in a volume; an XML declaration of it is part of what readers look for.
+    // Names are valid UTF-8 in a volume; readers look for an XML declaration of the encoding.
     return fmt::format(
         R"(<?xml version="1.0" encoding="UTF-8"?><OME xmlns="http://www.openmicroscopy.org/Schemas/OME/2016-06" )"
         R"(xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:schemaLocation="http://www.openmicroscopy.org/)"
@@ -95,7 +95,7 @@ std::string imageJText(const volume::SemanticVolume& volume) {
                        slices, volume.grid.spacing().z, volume.labels.scalarCount() - 1);
 }
 
-/// What the first page has besides.
+/// Additional fields of the first page.
 std::vector<TiffField> volumeFields(const volume::SemanticVolume& volume, TiffMetadata metadata, int bits) {
     std::vector<TiffField> fields;
     if (metadata == TiffMetadata::Ome) fields.push_back(textField(270, omeXml(volume, bits)));
@@ -113,7 +113,7 @@ std::vector<TiffField> volumeFields(const volume::SemanticVolume& volume, TiffMe
     return fields;
 }
 
-/// Where everything stands: head, pages, what does not fit into the pages' fields, strips.
+/// The layout of the file: head, pages, values that do not fit into the pages' fields, strips.
 class TiffLayout {
 public:
     TiffLayout(const volume::SemanticVolume& volume, int bits, TiffMetadata metadata, std::uint64_t rowsPerStrip,

@@ -20,7 +20,7 @@ namespace {
 
 using volume::kNoLabel;
 
-/// What a row of the table tells of a building, beside its label.
+/// Data of a building for a row of the table, besides its label.
 struct Building {
     const volume::Label* label = nullptr;
     double volume = 0, lowest = 0, highest = 0;
@@ -81,7 +81,7 @@ nlohmann::ordered_json tableOf(const std::vector<Building>& buildings, GltfBuffe
     table.numbers("height", "metres from the lowest to the highest voxel", heights);
     table.numbers("lowest", "metres above datum", lowest);
     table.strings("attributes", "attributes of the building as JSON", attributes);
-    return table.extension("building", "a building, or what stands somewhere in coarse content");
+    return table.extension("building", "a building, or all features of a place in coarse content");
 }
 
 class Tileset final : public CityTileset {

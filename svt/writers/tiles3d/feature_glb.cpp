@@ -60,7 +60,7 @@ GltfJson primitiveOf(const FlatMesh& mesh, std::size_t features, std::size_t mat
             {"extensions", {{"EXT_mesh_features", {{"featureIds", ids}}}}}};
 }
 
-/// The same in 20 bytes a vertex. \param node  receives the scale of the places, and is moved to their lower corner
+/// The same in 20 bytes per vertex. \param node receives the scale of the places, and is moved to their lower corner
 GltfJson quantizedPrimitive(const FlatMesh& mesh, std::size_t features, GltfBuffer& buffer, GltfJson& accessors,
                             GltfJson& node) {
     constexpr int kShortType = 5123, kSignedByteType = 5120;
@@ -248,7 +248,8 @@ FeatureTexts featureTexts(const volume::SemanticVolume& volume) {
     const auto& labels = volume.labels.labels;
     const auto rows = analyze::queryRows(volume.labels);
     FeatureTexts texts{std::vector<std::string>(labels.size()), analyze::ownVolumes(volume.labels, volume.grid)};
-    // Parents stand before their children, groups anywhere: what the parent belongs to, or a group that is a storey.
+    // Parents precede their children; groups may be anywhere. The storey is a group of the label, or the storey of its
+    // parent.
     for (std::size_t l = 0; l < labels.size(); ++l) {
         if (model::query::isStorey(rows[l])) {
             texts.storeys[l] = shownName(labels[l]);

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A tile's content: hulls of labels as one .glb whose vertices tell which feature they belong to (EXT_mesh_features),
-/// and a table with a row for each feature (EXT_structural_metadata).
+/// A tile's content: hulls of labels as one .glb whose vertices reference their features (EXT_mesh_features), and a
+/// table with one row per feature (EXT_structural_metadata).
 
 #include <svt/writers/hulls/label_hulls.hpp>
 #include <svt/writers/tiles3d/property_table.hpp>
@@ -18,16 +18,16 @@
 
 namespace svt::writers {
 
-/// What the rows of the table tell, one entry for each label.
+/// Texts for the rows of the table, one entry per label.
 struct FeatureTexts {
-    std::vector<std::string> storeys;  ///< name or id of the storey that a label belongs to; may be empty
+    std::vector<std::string> storeys;  ///< name or id of the storey of a label; may be empty
     std::vector<double> volumes;       ///< m3
 };
 [[nodiscard]] FeatureTexts featureTexts(const volume::SemanticVolume& volume);
 
-/// Surfaces [begin, end) as a .glb, y up, metres from the lower corner of the grid; feature n is surface begin + n. Faces
-/// are flat: a vertex has the normal of its face, and is stored for each of them.
-/// \return the file; or GridTooLarge where it would reach the limit of 4 GiB
+/// Surfaces [begin, end) as a .glb, y up, metres from the lower corner of the grid; feature n is surface begin + n.
+/// Shading is flat: a vertex has the normal of its face, and is stored once per face.
+/// \return the file, or GridTooLarge if it would reach the limit of 4 GiB
 [[nodiscard]] Result<std::string> makeFeatureGlb(const LabelHulls& hulls, std::size_t begin, std::size_t end,
                                                  const FeatureTexts& texts);
 
@@ -40,8 +40,8 @@ struct FlatMesh {
     std::vector<float> features;
     std::vector<std::uint32_t> indices;
 
-    /// Appends a surface without its triangles that have no area.
-    /// \param places   of its vertices, world directions, metres
+    /// Appends a surface without triangles of zero area.
+    /// \param places   positions of its vertices, world directions, metres
     /// \param colorOf  takes the normal of a face
     void append(const LabelSurface& surface, std::span<const Vec3d> places, float feature,
                 const std::function<VertexColor(Vec3d)>& colorOf);
@@ -49,29 +49,30 @@ struct FlatMesh {
     [[nodiscard]] std::uint64_t sizeBytes() const noexcept { return positions.size() * 32 + indices.size() * 4; }
 };
 
-/// A vertex colour of glTF, which has them linear, of a colour in sRGB.
+/// Converts a colour from sRGB to a vertex colour of glTF, which is linear.
 [[nodiscard]] VertexColor linearColor(Vec3f color, float opacity) noexcept;
 
-/// A direction of the world (z up) as glTF has it (y up).
+/// Converts a direction of the world (z up) to glTF (y up).
 [[nodiscard]] Vec3f withYUp(Vec3d v) noexcept;
 
-/// How vertices are stored.
+/// The storage of vertices.
 enum class VertexStorage {
-    Full,      ///< 32 bytes: places and normals as floats
-    Quantized  ///< 20 bytes: places in 65535 steps of the longest side, normals in 127 (KHR_mesh_quantization); indices
-               ///< of two bytes where these suffice
+    Full,  ///< 32 bytes: places and normals as floats
+    /// 20 bytes: places in 65535 steps of the longest side, normals in 127 (KHR_mesh_quantization). Indices have two
+    /// bytes if possible.
+    Quantized
 };
 
-/// Meshes as a .glb, each a primitive with a material, and the table of their features.
-/// \param clear     blended; may be empty, as `opaque`; none where quantized
+/// Writes meshes as a .glb, each a primitive with a material, and the table of their features.
+/// \param clear     blended; may be empty, as may `opaque`; not available if quantized
 /// \param metadata  adds columns to the buffer, and returns the extension EXT_structural_metadata
-/// \param place     of the meshes, world directions, metres
-/// \return the file; GridTooLarge where it would reach the limit of 4 GiB; NothingSelected without triangles
+/// \param place     position of the meshes, world directions, metres
+/// \return the file; GridTooLarge if it would reach the limit of 4 GiB; NothingSelected without triangles
 [[nodiscard]] Result<std::string> makeMeshGlb(const FlatMesh& opaque, const FlatMesh& clear, std::size_t features,
                                               const std::function<nlohmann::ordered_json(GltfBuffer&)>& metadata,
                                               Vec3d place, VertexStorage storage);
 
-/// A .glb of a document and its one buffer, which begins at a multiple of 8 bytes.
+/// A .glb of a document and its only buffer, which begins at a multiple of 8 bytes.
 [[nodiscard]] std::string asGlbFile(const nlohmann::ordered_json& json, const std::string& binary);
 
 /// The box around surfaces [begin, end), world directions, metres from the lower corner.

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Places of a projection in the frame of a tileset, by a lattice of exact places on the globe.
+/// Converts places of a projection to the frame of a tileset, with a lattice of exact places on the globe.
 ///
-///     +---+---+---+    corners: projected exactly, with the direction upwards there
+///     +---+---+---+    corners: projected exactly, with the upward direction there
 ///     |   | . |   |    between them: linear in plan, and along the upward direction in height
 ///     +---+---+---+    cells of 256 m miss the globe by 1 mm
 ///
@@ -25,7 +25,7 @@ namespace svt::writers {
 /// The lattice of a rectangle. Threads: reads only.
 class GlobePatch {
 public:
-    /// World space to the frame of the tileset; beyond the rectangle, its outer cells are continued.
+    /// Converts from world space to the frame of the tileset. Beyond the rectangle, its outer cells are continued.
     [[nodiscard]] Vec3d place(Vec3d world) const noexcept;
 
 private:
@@ -39,11 +39,11 @@ private:
     std::vector<Corner> corners_;
 };
 
-/// Exact places, computed once each.
+/// Exact places, each computed once.
 class GlobeLattice {
 public:
     /// \param reference  world space; the origin of the frame
-    /// \return CannotProject, BadArgument: as frameOfVolume()
+    /// \return CannotProject, BadArgument: like frameOfVolume()
     [[nodiscard]] static Result<std::unique_ptr<GlobeLattice>> create(const std::string& crsName, Vec3d reference,
                                                                       const VolumeWriteOptions& options);
 

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// A property table of EXT_structural_metadata: columns of strings and numbers in a binary buffer, each row a component.
+/// A property table of EXT_structural_metadata: columns of strings and numbers in a binary buffer, one row per
+/// component.
 
 #include <svt/volume/label_table.hpp>
 

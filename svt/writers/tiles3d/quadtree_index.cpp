@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Which tiles exist: a constant for none, else a bit for each.
+// Flags of existing tiles: a constant if there are none, otherwise one bit per tile.
 Json availability(const std::vector<bool>& bits, GltfBuffer& buffer) {
     const auto count = std::count(bits.begin(), bits.end(), true);
     if (count == 0) return {{"constant", 0}};
@@ -48,7 +48,8 @@ void QuadtreeIndex::add(QuadtreeNode node, const Box3d& box, double error) {
 }
 
 void QuadtreeIndex::close() {
-    // From the finest level up; what is added stands on coarser levels, so before what is still to come.
+    // From the finest level up. New squares are on coarser levels, which precede the current position in the map and
+    // are visited later.
     if (squares_.empty()) return;
     for (int level = squares_.rbegin()->first.first; level > 0; --level) {
         const auto end = squares_.lower_bound({level + 1, 0});

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The squares of a quadtree that exist, and the files that list them: subtrees of 3D Tiles 1.1 (implicit tiling), each of
-/// some levels.
+/// The existing squares of a quadtree, and the files that list them: subtrees of 3D Tiles 1.1 (implicit tiling), each
+/// with several levels.
 
 #include <svt/core/vec.hpp>
 #include <svt/writers/city_tileset.hpp>
@@ -16,14 +16,14 @@
 
 namespace svt::writers {
 
-/// Squares with content and all around them.
+/// Squares with content, and all squares that contain them.
 class QuadtreeIndex {
 public:
     static constexpr int kSubtreeLevels = 5;
 
     struct Square {
-        Box3d box;         ///< of its content and of all below it
-        double error = 0;  ///< of its content, or the largest below it
+        Box3d box;         ///< box of its content and of all squares below it
+        double error = 0;  ///< error of its content, or the largest below it
         bool hasContent = false;
     };
 
@@ -31,9 +31,9 @@ public:
     [[nodiscard]] bool isEmpty() const noexcept { return squares_.empty(); }
     [[nodiscard]] const Square& root() const { return squares_.begin()->second; }
 
-    /// Boxes and errors of squares grow to those below them. To be called once, after the last add().
+    /// Extends boxes and errors of squares by those below them. Must be called once, after the last add().
     void close();
-    /// Hands over all subtrees: the square at the top, and the file.
+    /// Passes all subtrees to the caller: the square at the top, and the file.
     [[nodiscard]] Result<void> forEachSubtree(
         const std::function<Result<void>(QuadtreeNode, const std::string&)>& take) const;
 

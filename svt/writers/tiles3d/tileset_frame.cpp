@@ -45,7 +45,7 @@ TilesetJson boundingVolume(const Box3d& box) {
     return {{"box", {centre.x, centre.y, centre.z, half.x, 0, 0, 0, half.y, 0, 0, 0, half.z}}};
 }
 
-/// Of a matrix whose columns are the axes and the origin.
+/// Values of a matrix whose columns are the axes and the origin.
 TilesetJson transformOf(const crs::GlobeFrame& frame) {
     TilesetJson matrix = TilesetJson::array();
     for (const Vec3d axis : frame.axes)

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What tilesets of surfaces and of voxels have in common: the place on the globe, and how it is told.
+/// The common part of tilesets of surfaces and of voxels: the place on the globe, and its JSON.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -15,7 +15,7 @@ namespace svt::writers {
 using TilesetJson = nlohmann::ordered_json;
 
 /// The frame at `corner`, by the options or the CRS of the volume.
-/// \return the frame, or CannotProject, BadArgument for a place that is none
+/// \return the frame, or CannotProject, BadArgument for an invalid place
 [[nodiscard]] Result<crs::GlobeFrame> frameOfVolume(const volume::SemanticVolume& volume, Vec3d corner,
                                                     const VolumeWriteOptions& options);
 

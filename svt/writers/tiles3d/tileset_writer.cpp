@@ -1,15 +1,15 @@
 /// \file
-/// Writes the hulls of components as 3D Tiles 1.1, which Cesium, Unreal, Unity and ArcGIS put on the globe: a folder with
-/// `tileset.json` and tiles of some hundred thousand triangles, `0.glb`, `1.glb`, ...
+/// Writes the hulls of components as 3D Tiles 1.1, which Cesium, Unreal, Unity and ArcGIS show on the globe: a folder
+/// with `tileset.json` and tiles of some hundred thousand triangles, `0.glb`, `1.glb`, ...
 ///
-/// A vertex tells its component (EXT_mesh_features), and a table tells id, name, class, parent, storey, volume, scalars and
-/// attributes of each (EXT_structural_metadata).
+/// Vertices reference their component (EXT_mesh_features). A table contains id, name, class, parent, storey, volume,
+/// scalars and attributes of each component (EXT_structural_metadata).
 ///
 /// Place: `root.transform` takes metres from the grid's lower corner (x, y, z of the world) to metres from the earth's
-/// centre (EPSG:4978). By the CRS of the volume: along the axes of the projection, with its scale, so that each point is
-/// where the projection has it. Heights count as those over the ellipsoid; where they are over the sea,
-/// TilesetWriteOptions::lift adds the height of the geoid. Or by TilesetWriteOptions::place: x is east, y is north.
-/// `asset.extras` has corner and CRS.
+/// centre (EPSG:4978). If the place comes from the CRS of the volume, the frame has the axes and the scale of the
+/// projection, so that each point is at its projected place. Heights count as heights over the ellipsoid. If they are
+/// above sea level, TilesetWriteOptions::lift adds the height of the geoid. If TilesetWriteOptions::place is set, x is
+/// east and y is north. `asset.extras` has corner and CRS.
 
 #include <svt/record/record.hpp>
 #include <svt/writers/dense/new_folder.hpp>
@@ -29,8 +29,9 @@ constexpr std::uint64_t kTileTriangles = 300'000;
 
 /// Writes a folder that appears when all of it is written; one that is there is not replaced. Equal volumes give equal
 /// bytes. Memory: that of labelSurfaces(), and one tile.
-/// \return bytes of all files, or CannotProject (a volume without a CRS and no place, or a CRS that PROJ cannot convert),
-///         BadArgument for an invalid place, NothingSelected, GridTooLarge, WouldDestroy, CannotWrite, Cancelled
+/// \return bytes of all files, or CannotProject (a volume without a CRS and no place, or a CRS that PROJ cannot
+///         convert), BadArgument for an invalid place, NothingSelected, GridTooLarge, WouldDestroy, CannotWrite,
+///         Cancelled
 Result<std::uint64_t> writeTileset(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                    const VolumeWriteOptions& options) {
     if (options.tileset.hasVoxels) return writeVoxelTileset(volume, path, options);

@@ -141,7 +141,8 @@ std::vector<std::uint32_t> looksOf(const volume::LabelTable& labels) {
     return looks;
 }
 
-/// Writes the tiles, finest first, and which there are: those that are not empty, and those around them on coarser levels.
+/// Writes the tiles, finest first, and which there are: those that are not empty, and those around them on coarser
+/// levels.
 Result<std::vector<bool>> writeTiles(const volume::SemanticVolume& volume, const Octree& octree,
                                      const VolumeWriteOptions& options, NewFolder& folder) {
     const std::vector<std::uint32_t> looks = looksOf(volume.labels);

@@ -45,8 +45,8 @@ struct BandBox {
     }
 };
 
-/// The samples that can have a distance within the band: those that are inside, and what is around them.
-/// \param there  the samples of the volume, beyond which all is outside
+/// The samples that can have a distance within the band: samples inside, and their surroundings.
+/// \param there  the samples of the volume; all samples beyond are outside
 BandBox bandBoxOf(const std::vector<volume::Scalar>& samples, const BandBox& there, const std::vector<bool>& isInside) {
     BandBox box;
     for (std::size_t z = there.begin[2]; z < there.end[2]; ++z)
@@ -180,7 +180,7 @@ bool VdbLevelSet::distances(Vec3i block, std::vector<float>& values) const {
     const BandBox box = bandBoxOf(samples, there, isInside_);
     if (box.isEmpty()) return false;
     std::vector<bool> isIn(box.count());
-    std::array<std::vector<float>, 2> squares;  // to what is outside, inside
+    std::array<std::vector<float>, 2> squares;  // squared distances to the outside, to the inside
     for (auto& some : squares) some.assign(box.count(), kFar);
     std::size_t sample = 0;
     for (std::size_t z = box.begin[2]; z < box.end[2]; ++z)

@@ -1,10 +1,11 @@
 #pragma once
 /// \file
-/// One tree of an OpenVDB file whose values are signed distances to the surface of some scalars' voxels: negative inside, active
-/// within three samples of the surface (OpenVDB's narrow band), and that much elsewhere.
+/// One tree of an OpenVDB file whose values are signed distances to the surface of some scalars' voxels: negative
+/// inside, and active within three samples of the surface (OpenVDB's narrow band). Elsewhere the value is the width of
+/// the band.
 ///
-/// The surface is that of the voxels as cubes, and the distance is exact: to the nearest cube of the other side. It grows
-/// along each axis alone, so three passes over lines find it (Felzenszwalb and Huttenlocher 2012, within the band).
+/// The surface is that of the voxels as cubes. The distance to the nearest cube of the other side is exact. It is
+/// separable by axis, so three passes over lines compute it (Felzenszwalb and Huttenlocher 2012, within the band).
 
 #include <svt/writers/vdb/vdb_tree.hpp>
 
@@ -19,11 +20,11 @@ public:
     static constexpr std::int32_t kHalfWidth = 3;  ///< samples
 
     /// \param blocks    must outlive the tree
-    /// \param isInside  of each scalar
+    /// \param isInside  one flag per scalar
     /// \param spacing   metres, the same along all axes
     VdbLevelSet(const VdbBlocks& blocks, std::vector<bool> isInside, double spacing);
 
-    /// Passes over the samples of blocks that the band may touch. \param topology, buffers  may be empty
+    /// Visits the samples of blocks that the band may touch. \param topology, buffers may be empty
     /// \return nothing, or Cancelled, or the first error of a sink
     [[nodiscard]] Result<void> write(const VdbSink& topology, const VdbSink& buffers) const;
 

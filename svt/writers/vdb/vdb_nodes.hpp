@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the nodes of an OpenVDB tree are written with: masks, numbers, values.
+/// Building blocks for the nodes of an OpenVDB tree: masks, numbers, values.
 
 #include <svt/core/bytes.hpp>
 
@@ -24,8 +24,8 @@ struct NodeMask {
     void set(std::size_t bit) noexcept { words[bit / 64] |= std::uint64_t{1} << (bit % 64); }
 };
 
-/// The active values of a node: a byte that says that all others are background, then the values, compressed by zlib where
-/// that makes them smaller.
+/// The active values of a node: a byte that marks all others as background, then the values, compressed by zlib if that
+/// makes them smaller.
 void putValues(VdbBytes& to, std::span<const std::uint32_t> active);
 
 /// All values of a node, active or not, in the same way.

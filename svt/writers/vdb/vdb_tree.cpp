@@ -170,7 +170,7 @@ void VdbTree::readBlock(Vec3i block, std::vector<std::uint32_t>& values) const {
     for (std::uint32_t& value : values) value = valueOf_[value];
 }
 
-/// Calls visit(number, block, state, value) for what is not empty, in the file's order: z fastest.
+/// Calls visit(number, block, state, value) for non-empty children, in the file's order: z fastest.
 template <class Visit>
 Result<void> VdbTree::forEachChild(const Upper& upper, const Visit& visit) const {
     const Vec3i count = blocks_.count();

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// One tree of an OpenVDB file (5-4-3: 4096^3, 128^3 and 8^3 samples) from the columns of a volume, block by block. What
-/// the file has: which nodes there are, with their uniform tiles (topology), then the values of the leaves (buffers).
+/// One tree of an OpenVDB file (5-4-3: 4096^3, 128^3 and 8^3 samples) from the columns of a volume, block by block. The
+/// file contains the existing nodes with their uniform tiles (topology), then the values of the leaves (buffers).
 
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
@@ -16,7 +16,7 @@
 
 namespace svt::writers {
 
-/// Which scalars stand in each block of 128^3 samples.
+/// The scalars in each block of 128^3 samples.
 class VdbBlocks {
 public:
     static constexpr std::int32_t kSide = 128;
@@ -27,7 +27,7 @@ public:
 
     [[nodiscard]] Vec3i count() const noexcept { return count_; }
     [[nodiscard]] Vec3i dimension() const noexcept { return columns_.dimension(); }
-    /// Background is among them where it stands in the block.
+    /// Includes background if it is in the block.
     [[nodiscard]] std::span<const volume::Scalar> scalars(Vec3i block) const { return scalars_[index(block)]; }
     /// The samples of a block and of `margin` around it, x fastest; those beyond the volume are background.
     void samples(Vec3i block, std::int32_t margin, std::vector<volume::Scalar>& out) const;
@@ -55,11 +55,11 @@ using VdbSink = std::function<Result<void>(std::span<const std::byte>)>;
 class VdbTree {
 public:
     /// \param blocks   must outlive the tree
-    /// \param valueOf  bits of the value (an integer or a float of 32 bits) of each scalar
+    /// \param valueOf  bits of the value (a 32-bit integer or float) of each scalar
     VdbTree(const VdbBlocks& blocks, std::vector<std::uint32_t> valueOf);
 
     [[nodiscard]] bool isEmpty() const noexcept { return roots_.empty(); }
-    /// Passes over the samples once. \param topology, buffers  may be empty: then that part is not made
+    /// Visits the samples once. \param topology, buffers may be empty: then that part is not made
     /// \return nothing, or Cancelled, or the first error of a sink
     [[nodiscard]] Result<void> write(const VdbSink& topology, const VdbSink& buffers) const;
 

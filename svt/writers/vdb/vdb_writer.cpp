@@ -1,17 +1,18 @@
 /// \file
-/// Writes a volume as OpenVDB (.vdb, version 224 of the file format), which Blender, Houdini, Maya, Unreal and the OpenVDB
-/// library open.
+/// Writes a volume as OpenVDB (.vdb, version 224 of the file format), which Blender, Houdini, Maya, Unreal and the
+/// OpenVDB library open.
 ///
-/// Grid `label`: the scalar of each voxel, active where it is not background; a float, since some programs read no
-/// grids of whole numbers. Then a grid for each class of features with voxels, named by the class (Float, a fog
-/// volume): 1 in its voxels, 0 elsewhere. Uniform cubes of 8 and 128 samples are tiles. A voxel's centre is at its
-/// whole index, and the transform leads to world coordinates in metres, also of a turned grid. The metadata of the file
-/// have `svt.json` and `labels.json` of a `.svt`, and `crs`.
+/// Grid `label`: the scalar of each voxel, active if it is not background; a float, because some programs cannot read
+/// integer grids. Then one grid per class of features with voxels, named by the class (Float, a fog volume): 1 in its
+/// voxels, 0 elsewhere. Uniform cubes of 8 and 128 samples are tiles. A voxel's centre is at its whole index, and the
+/// transform maps to world coordinates in metres, also for a rotated grid. The metadata of the file contain `svt.json`
+/// and `labels.json` of a `.svt`, and `crs`.
 ///
-/// Or each class is a level set: signed distances in metres to the surface of its voxels, negative inside, within three
-/// samples of it; only for voxels that are cubes. Programs make meshes of these, offset them and combine them.
+/// Optionally, each class is a level set: signed distances in metres to the surface of its voxels, negative inside,
+/// within three samples of it. Level sets require cubic voxels. Programs convert them to meshes, offset and combine
+/// them.
 ///
-/// Written from the format as the OpenVDB library reads it (openvdb/io, openvdb/tree, version 10), without the library.
+/// Implements the format as the OpenVDB library reads it (openvdb/io, openvdb/tree, version 10), without the library.
 
 #include <svt/core/file.hpp>
 #include <svt/record/record.hpp>
@@ -80,7 +81,7 @@ struct VdbGrid {
     }
 };
 
-/// What is in front of the tree of a grid.
+/// The bytes before the tree of a grid.
 std::string gridHead(const VdbGrid& grid, const volume::Grid& samples) {
     std::string bytes;
     appendBytes(bytes, kZip | kActiveMask);
@@ -88,7 +89,7 @@ std::string gridHead(const VdbGrid& grid, const volume::Grid& samples) {
     return bytes + vdbTransform(samples);
 }
 
-/// The bytes of a part of a grid: counted, and kept where they are few.
+/// The bytes of a part of a grid: counted, and kept if they are few.
 struct VdbPart {
     std::uint64_t size = 0;
     std::string kept;
@@ -105,7 +106,8 @@ struct VdbPart {
     }
 };
 
-/// Writes a grid behind its descriptor, which has to tell where its parts begin: what is not kept is made twice.
+/// Writes a grid behind its descriptor, which must contain the positions of its parts. Parts that are not kept are made
+/// twice.
 Result<void> writeGrid(const VdbGrid& grid, const volume::Grid& samples, AtomicFile& file) {
     const std::string head = gridHead(grid, samples);
     VdbPart topology, buffers;
@@ -159,18 +161,19 @@ Result<void> checkCubes(const volume::Grid& grid) {
                     spacing.x, spacing.y, spacing.z));
 }
 
-/// Writes one file, all or nothing. Equal volumes give equal bytes. Memory: some blocks of 128^3 samples. Cost: the samples
-/// of each block are unrolled once, and once more for each grid with active voxels there; three times if the grid has more
-/// than 64 MB.
+/// Writes one file, all or nothing. Equal volumes give equal bytes. Memory: some blocks of 128^3 samples. Cost: the
+/// samples of each block are unrolled once, and once more for each grid with active voxels there; three times if the
+/// grid has more than 64 MB.
 /// \return bytes, or NothingSelected if no label has voxels, CannotWrite, DiskFull, Cancelled; BadArgument as
 ///         checkedSampleBits(), for more than 2^24 scalars, and for level sets of voxels that are not cubes
 Result<std::uint64_t> writeVdb(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const VolumeWriteOptions& options) {
     SVT_DO(checkedSampleBits(volume));
     if (volume.labels.scalarCount() > kMostScalars)
-        return Error(Code::BadArgument,
-                     fmt::format("{} scalars are more than the {} that a float of OpenVDB tells apart",
-                                 volume.labels.scalarCount(), kMostScalars));
+        return Error(
+            Code::BadArgument,
+            fmt::format("the volume has {} scalars, but a float of OpenVDB distinguishes only {}; write another format",
+                        volume.labels.scalarCount(), kMostScalars));
     if (options.vdb.hasLevelSets) SVT_DO(checkCubes(volume.grid));
     SVT_TRY(blocks, VdbBlocks::of(volume.columns, options.threads, options.progress));
     const std::vector<VdbGrid> grids = gridsOf(volume, *blocks, options.vdb.hasLevelSets);
@@ -179,7 +182,7 @@ Result<std::uint64_t> writeVdb(const volume::SemanticVolume& volume, const std::
     std::string head;
     appendBytes(head, kMagic);
     for (const std::uint32_t number : {kFileVersion, kLibraryMajor, kLibraryMinor}) appendBytes(head, number);
-    appendBytes(head, std::int8_t{1});  // grids tell where they begin
+    appendBytes(head, std::int8_t{1});  // grids have offsets
     head += kUuid;
     head += vdbMetadata({{"creator", "svt"},
                          {"crs", validText(volume.crsName)},

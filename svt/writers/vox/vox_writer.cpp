@@ -1,11 +1,11 @@
 /// \file
 /// Writes a volume for MagicaVoxel (.vox, version 150 with the scene graph), which voxel editors and game engines open.
 ///
-/// A group for each label with voxels, named by its name or id, with its voxels in models of at most 256 x 256 x 256,
-/// the format's limit; a model is cut to what the label has there. z is up. The root has the attributes `svt_spacing`
+/// One group per label with voxels, with its name or id. Its voxels are in models of up to 256 x 256 x 256, the
+/// format's limit; a model is cropped to the voxels of the label. z is up. The root has the attributes `svt_spacing`
 /// (size of a voxel, metres), `svt_origin` (world coordinates of the first sample) and `svt_crs` (their CRS). The
-/// palette has the colours of the labels with their opacity; of more than 255 the most frequent ones, the others become
-/// the nearest of them.
+/// palette contains the colours of the labels with their opacity. If there are more than 255, it contains the most
+/// frequent ones, and others are replaced by the nearest.
 
 #include <svt/analyze/scalar_boxes.hpp>
 #include <svt/volume/dense.hpp>
@@ -279,10 +279,10 @@ private:
     std::vector<std::uint32_t> samples_;
 };
 
-/// Writes one file, all or nothing. Equal volumes give equal bytes. Memory: a box of 256 x 256 x 256 samples; the voxels
-/// are unrolled twice.
-/// \return bytes, or BadArgument for more voxels than VolumeWriteOptions::maxVoxels, NothingSelected if no label has voxels,
-///         CannotWrite, DiskFull, Cancelled
+/// Writes one file, all or nothing. Equal volumes give equal bytes. Memory: a box of 256 x 256 x 256 samples; the
+/// voxels are unrolled twice.
+/// \return bytes, or BadArgument for more voxels than VolumeWriteOptions::maxVoxels, NothingSelected if no label has
+///         voxels, CannotWrite, DiskFull, Cancelled
 Result<std::uint64_t> writeVox(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const VolumeWriteOptions& options) {
     SVT_DO(checkedSampleBits(volume));

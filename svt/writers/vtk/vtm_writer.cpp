@@ -20,8 +20,8 @@ namespace svt::writers {
 namespace {
 
 /// Writes the levels first, then the file that names them; each all or nothing. Equal volumes give equal bytes.
-/// \return bytes of all files, or WouldDestroy (something else beside it), CannotWrite, DiskFull, Cancelled; BadArgument as
-///         checkedSampleBits()
+/// \return bytes of all files, or WouldDestroy (something else beside it), CannotWrite, DiskFull, Cancelled;
+///         BadArgument as checkedSampleBits()
 Result<std::uint64_t> writeVtm(const volume::SemanticVolume& volume, const std::filesystem::path& path,
                                const VolumeWriteOptions& options) {
     SVT_DO(checkedSampleBits(volume));

@@ -64,8 +64,8 @@ Result<void> checkSibling(const fs::path& file, std::string_view begin) {
     const auto there = FileBytes::read(file);
     if (there && (there->bytes().empty() || there->text().starts_with(begin))) return {};
     return Error(Code::WouldDestroy,
-                 "the file is to hold the samples beside the document, and what is there is something else; give the "
-                 "document another name, or remove the file",
+                 "the samples beside the document need this file name, but the existing file has other content; give "
+                 "the document another name, or remove the file",
                  Place{file.string(), 0, 0, {}});
 }
 
@@ -74,7 +74,7 @@ Result<void> writePixelNumbers(const volume::SemanticVolume& volume, int bits, c
     const auto width = static_cast<std::size_t>(volume.grid.dimension().x);
     std::string text;
     return streamSamples(volume.columns, bits, options, [&](std::span<const std::byte> bytes) -> Result<void> {
-        // Of some MB at a time: a number takes up to eleven characters.
+        // Slabs have some MB: a number takes up to eleven characters.
         const std::size_t count = bytes.size() / std::size_t(bits / 8);
         for (std::size_t begin = 0; begin < count; begin += width) {
             text += '\n';

@@ -1,15 +1,15 @@
 /// \file
-/// Writes a semantic volume as X3D 4.0 (ISO/IEC 19775-1, components Texturing3D and VolumeRendering): the 3D texture that
-/// the paper calls a semantic volume texture, as the voxels of a SegmentedVolumeData. X_ITE and Castle show it.
+/// Writes a semantic volume as X3D 4.0 (ISO/IEC 19775-1, components Texturing3D and VolumeRendering): the 3D texture
+/// that the paper calls a semantic volume texture, as the voxels of a SegmentedVolumeData. X_ITE and Castle show it.
 ///
-/// An X3D texture has bytes, so a voxel is a colour: red is the code of its look (3 times its number in the palette), green
-/// the low byte of the scalar, blue the high byte. The transfer function, from red to colour and opacity, is the picture of
-/// 256 x 1 pixels of an OpacityMapVolumeStyle. Of more than 84 looks, further ones are shown as the nearest.
-/// Samples are never interpolated (NEAREST_PIXEL). The volume stands in metres with y up, its lower corner at the origin;
-/// the world coordinates of that corner, the CRS and the range of scalars of each feature are metadata.
+/// An X3D texture has bytes, so a voxel is a colour: red is the code of its look (3 times its number in the palette),
+/// green the low byte of the scalar, blue the high byte. The transfer function, from red to colour and opacity, is the
+/// picture of 256 x 1 pixels of an OpacityMapVolumeStyle. Looks beyond 84 are replaced by the nearest. Samples are
+/// never interpolated (NEAREST_PIXEL). Coordinates are metres with y up, and the lower corner of the volume is at the
+/// origin. The world coordinates of this corner, the CRS and the range of scalars of each feature are metadata.
 ///
-/// The fourth kind is not of the standard: an ImageTextureAtlas, one picture of all slices, which is all that X3DOM shows as a
-/// volume. It has colours, not labels, and no features.
+/// The fourth kind is not part of the standard: an ImageTextureAtlas, one picture of all slices, the only form of
+/// volume that X3DOM shows. It has colours instead of labels, and no features.
 
 #include <svt/core/text.hpp>
 #include <svt/writers/dense/gzip_writer.hpp>
@@ -38,8 +38,8 @@ struct Palette {
     std::vector<std::uint32_t> looks{0};  ///< entry 0: background
     std::vector<std::uint32_t> lookOfScalar;
 
-    /// The code of a look: three apart, so that a viewer that interpolates on the way to the transfer function, as X_ITE
-    /// does with its own one in front, still meets the right entry.
+    /// The code of a look: three apart, so that a viewer that interpolates on the way to the transfer function, as
+    /// X_ITE does with its own one in front, still meets the right entry.
     static constexpr std::uint32_t kStep = 3;
     static constexpr std::size_t kMaxLooks = 85;  // codes 0, 3, ..., 252
 };
@@ -72,7 +72,8 @@ Palette paletteOf(const volume::LabelTable& labels) {
     return palette;
 }
 
-/// What a voxel of each scalar is: red the code of its look, green the low byte of the scalar, blue the high byte.
+/// The colour of a voxel of each scalar: red is the code of its look, green the low byte of the scalar, blue the high
+/// byte.
 std::vector<std::uint32_t> codesOf(const Palette& palette) {
     std::vector<std::uint32_t> codes;
     for (std::uint32_t s = 0; s < palette.lookOfScalar.size(); ++s)
@@ -170,9 +171,9 @@ std::string endOfX3d(const Palette& palette) {
         transferFunction(palette), kNearest);
 }
 
-/// The nodes of X3DOM, which X_ITE knows too. X3DOM mixes neighbouring slices, so numbers of looks would become others on
-/// the way to a transfer function; colours become colours between them. Each of its steps through the volume is opaque by
-/// opacityFactor, which is that number of steps; it takes the red channel for opacity.
+/// The nodes of X3DOM, which X_ITE knows too. X3DOM mixes neighbouring slices, so numbers of looks would become others
+/// on the way to a transfer function; colours become colours between them. Each of its steps through the volume is
+/// opaque by opacityFactor, which is that number of steps; it takes the red channel for opacity.
 Result<std::string> writeAtlasScene(const volume::SemanticVolume& volume, int bits, const Palette& palette,
                                     const std::filesystem::path& path, const VolumeWriteOptions& options) {
     std::vector<std::uint32_t> lookOf;

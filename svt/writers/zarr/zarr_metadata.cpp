@@ -20,7 +20,7 @@ Json multiscales(const volume::SemanticVolume& volume, std::span<const volume::G
     Json datasets = Json::array();
     const volume::Grid& whole = levels.front();
     for (std::size_t l = 0; l < levels.size(); ++l) {
-        // Of a turned grid: along its axes, from where the first sample is.
+        // The position in a rotated grid is along its axes, from its first sample.
         const Vec3d place = levels[l].isAxisParallel()
                                 ? levels[l].origin()
                                 : scaled(whole.indexFromWorld(levels[l].origin()), whole.spacing());
@@ -48,7 +48,7 @@ Json imageLabel(const volume::LabelTable& table) {
     return Json{{"colors", colors}, {"properties", properties}};
 }
 
-/// ASCII alone: zarr-python reads no other characters.
+/// Only ASCII, because zarr-python reads no other characters.
 std::string dumped(const Json& json) { return json.dump(1, ' ', true, Json::error_handler_t::replace) + "\n"; }
 
 }  // namespace
