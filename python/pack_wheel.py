@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Packs the module that was built as a wheel, without any other tool and without the network: a ZIP with the package and
-three texts about it (PEP 427). Equal contents give equal bytes.
+"""Packs the built module as a wheel, without other tools and without the network: a ZIP with the package and three text
+files about it (PEP 427). Equal contents give equal bytes.
 
     python/pack_wheel.py BUILD_FOLDER OUTPUT_FOLDER VERSION
 """
@@ -13,7 +13,7 @@ import zipfile
 
 
 def tag() -> str:
-    """Of this interpreter and machine: "cp311-cp311-linux_x86_64"."""
+    """The tag of this interpreter and machine, such as "cp311-cp311-linux_x86_64"."""
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
     return f"{python}-{python}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
 

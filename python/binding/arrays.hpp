@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Arrays of numpy on memory of the library, and points of numpy as the library reads them: without copies.
+/// Numpy arrays on memory of the library, and points in numpy arrays for the library, both without copies.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -26,7 +26,7 @@ template <class T>
     return py::array_t<T>(static_cast<py::ssize_t>(memory.size()), memory.data(), owner);
 }
 
-/// An array that shows memory of `owner`, and cannot be written to.
+/// A read-only array on memory of `owner`.
 template <class T>
 [[nodiscard]] py::array_t<T> viewOf(std::vector<py::ssize_t> shape, const T* memory, const py::object& owner) {
     py::array_t<T> view(std::move(shape), memory, owner);
@@ -39,14 +39,14 @@ using PointArray = py::array_t<double, py::array::c_style | py::array::forcecast
 
 static_assert(sizeof(Vec3d) == 3 * sizeof(double));
 
-/// The points of an array, without a copy. Throws ValueError where the last axis has no three numbers.
+/// The points of an array, without a copy. Throws ValueError if the last axis does not have three numbers.
 [[nodiscard]] inline std::span<const Vec3d> pointsOf(const PointArray& array, std::string_view name) {
     if (array.ndim() == 0 || array.shape(array.ndim() - 1) != 3)
         throw py::value_error(std::string(name) + ": expected an array of points, whose last axis is x, y, z");
     return {reinterpret_cast<const Vec3d*>(array.data()), static_cast<std::size_t>(array.size() / 3)};
 }
 
-/// The shape of what has one value per point.
+/// The shape of an array with one value per point.
 [[nodiscard]] inline std::vector<py::ssize_t> shapeOfPoints(const PointArray& array) {
     return {array.shape(), array.shape() + array.ndim() - 1};
 }

@@ -1,4 +1,4 @@
-// Models: reading, and building volumes of them.
+// Models: reading, and building volumes from them.
 #include "bindings.hpp"
 #include "keywords.hpp"
 #include "long_call.hpp"
@@ -33,15 +33,16 @@ std::shared_ptr<ModelObject> readModel(const Paths& paths, const py::dict& given
     return read;
 }
 
-/// The options of `svt build` that say how a model becomes a volume, from keywords.
+/// The options of `svt build` for converting a model to a volume, from keywords.
 pipeline::BuildOptions buildOptions(const py::dict& given, const std::vector<std::string>& vectors,
                                     const SharedVolume& gridOf) {
     auto options = fromKeywords<pipeline::BuildOptions>(given);
-    // As the command does: meshes are kept where they can be, unless asked for or against.
+    // Like the command: meshes are kept if possible, unless `vectors` is given.
     if (vectors.empty()) options.vectors = {.meshes = true, .isRequired = false};
     for (const std::string& kind : vectors) {
         if (kind != "edges" && kind != "meshes" && kind != "none")
-            throw Failure(Error(Code::BadArgument, "vectors: '" + kind + "' is none of 'edges', 'meshes' and 'none'"));
+            throw Failure(
+                Error(Code::BadArgument, "vectors: '" + kind + "' is unknown; expected 'edges', 'meshes' or 'none'"));
         options.vectors.edges = options.vectors.edges || kind == "edges";
         options.vectors.meshes = options.vectors.meshes || kind == "meshes";
     }
@@ -71,7 +72,7 @@ SharedVolume buildModel(const std::shared_ptr<ModelObject>& read, const py::dict
     Diagnostics findings = read->findings;
     auto built = longCall(report, [&](const Progress* progress) {
         options.progress = progress;
-        // buildVolume() adds features for caps; the model of the caller stays as it was read.
+        // buildVolume() adds features for caps; the model of the caller does not change.
         model::BuildingModel copy = read->model;
         return pipeline::buildVolume(copy, options, &findings);
     });
@@ -94,7 +95,7 @@ void bindFeatures(py::module_& module) {
             "id", [](const FeatureReference& f) { return textOf(f.get().id); }, "Id in the file; unique in the model.")
         .def_property_readonly(
             "class_name", [](const FeatureReference& f) { return textOf(f.get().className); },
-            "Class as CityGML 3.0 names it, such as 'BuildingRoom'.")
+            "Class by its name in CityGML 3.0, such as 'BuildingRoom'.")
         .def_property_readonly(
             "name", [](const FeatureReference& f) { return textOf(f.get().name); }, "Name, or ''.")
         .def_property_readonly(

@@ -1,4 +1,4 @@
-// Pictures: frames whose buffers numpy sees as they are, and PNG.
+// Pictures: frames, whose buffers numpy uses without copies, and PNG.
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "keywords.hpp"
@@ -36,7 +36,7 @@ SharedFrame draw(const SharedVolume& volume, const py::dict& given, const py::ob
     auto painting = longCall(report, [&](const Progress* progress) {
         render::CastOptions casting;
         casting.progress = progress;
-        casting.isAdaptive = true;  // as the command, whose pictures these are
+        casting.isAdaptive = true;  // like the command, so that pictures are equal
         return volume->paint(scene, casting, made->notes);
     });
     made->frame = std::move(painting.frame);
@@ -74,7 +74,7 @@ template <class T, class Pixel>
 py::array_t<T> bufferOf(const py::object& self, const image::Image<Pixel>& image, bool hasChannels) {
     std::vector<py::ssize_t> shape{image.height(), image.width()};
     if (hasChannels) shape.push_back(py::ssize_t(sizeof(Pixel) / sizeof(T)));
-    // The frame belongs to this object alone, so whoever has it may write.
+    // The frame belongs only to this object, so its owner may write to it.
     return py::array_t<T>(shape, reinterpret_cast<const T*>(image.pixels().data()), self);
 }
 

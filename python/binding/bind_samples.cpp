@@ -1,4 +1,4 @@
-// What a volume says as numbers: dense arrays, labels at points, labels along rays, contacts.
+// Numeric queries of a volume: dense arrays, labels at points, labels along rays, contacts.
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "long_call.hpp"
@@ -26,11 +26,11 @@ IndexBox samplesIn(const volume::Grid& grid, const std::optional<WorldBox>& box)
 template <class T>
 py::array denseOf(const volume::ColumnVolume& columns, const IndexBox& box) {
     const Vec3i size = box.end - box.begin;
-    // Memory of numpy, which asks for large pages.
+    // Memory of numpy, which requests large pages.
     py::array_t<T> array({py::ssize_t(size.z), py::ssize_t(size.y), py::ssize_t(size.x)});
     const std::span<T> out(array.mutable_data(), static_cast<std::size_t>(array.size()));
     runLong(py::none(), [&](const Progress* progress) {
-        // In slabs, so that Ctrl-C is heard; large enough that each column is searched few times.
+        // In slabs, so that Ctrl-C has an effect; large enough that each column is searched few times.
         constexpr std::int32_t kSlices = 256;
         const std::size_t slice = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
         for (std::int32_t k = 0; k < size.z && !Progress::isCancelled(progress); k += kSlices) {
@@ -53,7 +53,7 @@ py::array dense(const SharedVolume& volume, const std::optional<WorldBox>& box) 
     }
 }
 
-/// Work on so few points or rays is over before another thread has begun.
+/// Up to this number of points or rays, the work ends before another thread has started.
 constexpr std::size_t kFew = 10000;
 
 py::array_t<volume::Scalar> sampleScalars(const SharedVolume& volume, const PointArray& points) {
@@ -83,7 +83,7 @@ py::tuple rays(const SharedVolume& volume, const PointArray& origins, const Poin
     return py::make_tuple(arrayOf(std::move(found.start)), arrayOf(std::move(found.intervals)));
 }
 
-/// A contact as numpy shows it: b is -1 for background.
+/// A row of the numpy array of contacts: b is -1 for background.
 struct ContactRow {
     std::int32_t a, b;
     double area;

@@ -76,7 +76,7 @@ py::list linesOf(const py::object& self) {
     return lines;
 }
 
-/// The drawing in a format; also written to `path`, all or nothing, unless that is None. Bytes, since DXF has a code page.
+/// The drawing in a format, also written atomically to `path` unless it is None. Bytes, because DXF has a code page.
 py::bytes writeAs(const SectionObject& section, const std::string& format, double scale,
                   const std::optional<std::filesystem::path>& path) {
     const std::string text = longCall(py::none(), [&](const Progress*) -> Result<std::string> {

@@ -1,4 +1,4 @@
-// Volumes: what they are, their labels, files, parts.
+// Volumes: properties, labels, files, parts.
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "keywords.hpp"
@@ -60,7 +60,7 @@ SharedVolume openVolume(const Path& path, const Path& labels, const py::object& 
             return volume_readers::readLabelVolume(path, {labels, 0, progress, &findings});
         if (!labels.empty())
             return Error(Code::BadArgument,
-                         "labels names the values of a label volume, and this file is none; leave it out",
+                         "labels names the values of a label volume, but this file is not one; leave it out",
                          Place{path.string(), 0, 0, {}});
         return volume::readSvt(path);
     });
@@ -100,7 +100,7 @@ SharedVolume volumeOfArray(const py::array& samples, const std::array<double, 3>
     return std::make_shared<VolumeObject>(std::move(made));
 }
 
-/// The options of `svt convert` that say what is written.
+/// The options of `svt convert` for the part and the format of the output.
 struct SaveOptions {
     frontend::VolumePart part;
     writers::VolumeWriteOptions write;
@@ -133,7 +133,7 @@ std::vector<std::uint32_t> query(const SharedVolume& volume, const std::string& 
     return valueOf(analyze::selectLabels(rows, text));
 }
 
-/// What `svt convert` writes with --box, --select and --level.
+/// The same part as `svt convert` with --box, --select and --level.
 SharedVolume partOf(const SharedVolume& whole, const std::optional<std::array<double, 6>>& box,
                     const std::optional<std::string>& select, int level, const py::object& report) {
     frontend::VolumePart part;
@@ -147,17 +147,17 @@ SharedVolume partOf(const SharedVolume& whole, const std::optional<std::array<do
 void bindLabelMeasures(py::class_<LabelReference>& label) {
     label
         .def_property_readonly(
-            "voxels", [](const LabelReference& l) { return l.get().voxels; }, "Number of voxels that it owns.")
+            "voxels", [](const LabelReference& l) { return l.get().voxels; }, "Number of its voxels.")
         .def_property_readonly(
             "volume", [](const LabelReference& l) { return l.get().volume; },
             "Volume in m3: of its closed mesh; of its voxels for bodies; 0 for surfaces.")
         .def_property_readonly(
             "voxel_volume",
             [](const LabelReference& l) { return double(l.get().voxels) * l.volume->volume().grid.voxelVolume(); },
-            "Volume of the voxels that it owns, m3.")
+            "Volume of its voxels, m3.")
         .def_property_readonly(
             "area", [](const LabelReference& l) { return measuresOf(l.volume).labels[l.index].area; },
-            "Surface of its voxels in m2. The first one of a volume measures all.")
+            "Surface of its voxels in m2. The first access in a volume measures all labels.")
         .def_property_readonly(
             "outside_area", [](const LabelReference& l) { return measuresOf(l.volume).labels[l.index].outsideArea; },
             "The part of `area` that touches background, m2.")
@@ -168,7 +168,7 @@ void bindLabelMeasures(py::class_<LabelReference>& label) {
 }
 
 void bindLabels(py::module_& module) {
-    py::class_<LabelReference> label(module, "Label", "A component of a volume: what a scalar stands for.");
+    py::class_<LabelReference> label(module, "Label", "A component of a volume, with one or more scalars.");
     label
         .def_property_readonly(
             "index", [](const LabelReference& l) { return l.index; }, "Number in Volume.labels.")
@@ -176,7 +176,7 @@ void bindLabels(py::module_& module) {
             "id", [](const LabelReference& l) { return textOf(l.get().id); }, "Id in the model.")
         .def_property_readonly(
             "class_name", [](const LabelReference& l) { return textOf(l.get().className); },
-            "Class as CityGML 3.0 names it, such as 'BuildingRoom'.")
+            "Class by its name in CityGML 3.0, such as 'BuildingRoom'.")
         .def_property_readonly(
             "name", [](const LabelReference& l) { return textOf(l.get().name); }, "Name, or ''.")
         .def_property_readonly(
@@ -213,13 +213,13 @@ void bindLabels(py::module_& module) {
             "The values of its samples in Volume.dense(), a range; empty without voxels.")
         .def_property_readonly(
             "filling", [](const LabelReference& l) { return std::string(fillingName(l.get().filling)); },
-            "How it got its voxels: 'solid', 'surface', 'body', ...")
+            "Method by which it got its voxels: 'solid', 'surface', 'body', ...")
         .def_property_readonly(
             "color", [](const LabelReference& l) { return toPython(toDouble(l.get().color)); },
             "Colour: red, green, blue as sRGB, 0 to 1.")
         .def_property_readonly(
             "opacity", [](const LabelReference& l) { return double(l.get().opacity); },
-            "Share of light that one metre of it stops, 0 to 1; 1: a surface.")
+            "Share of light that one metre of it stops, 0 to 1; 1: opaque.")
         .def("__eq__", [](const LabelReference& a,
                           const LabelReference& b) { return a.volume == b.volume && a.index == b.index; })
         .def("__eq__", [](const LabelReference&, const py::object&) { return false; })

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// What each source adds to the module svt._native. The classes and calls of users stand in python/svt.
+/// The functions by which each source extends the module svt._native. The classes and functions for users are in
+/// python/svt.
 
 #include "failure.hpp"
 
@@ -9,7 +10,7 @@
 
 namespace svt::python {
 
-/// A model that was read, and what was found in it.
+/// A model with the findings of reading it.
 struct ModelObject {
     model::BuildingModel model;
     Diagnostics findings;

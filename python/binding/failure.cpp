@@ -15,11 +15,11 @@ py::object placeOf(const Place& place) {
 
 bool isLowerCase(char c) { return isLetter(c) && lowerAscii(c) == c; }
 
-// Messages name options as the command has them, "--min-area 3"; in Python they are keywords, "min_area 3". What is told to
-// be typed, 'svt build --vectors edges', stays.
+// Messages name options in the syntax of the command, "--min-area 3"; in Python they are keywords, "min_area 3". Quoted
+// commands, 'svt build --vectors edges', do not change.
 std::string inKeywords(const std::string& message) {
     std::string text;
-    std::size_t typed = 0;  // end of what is told to be typed
+    std::size_t typed = 0;  // end of the quoted command
     for (std::size_t at = 0; at < message.size(); ++at) {
         if (message.compare(at, 5, "'svt ") == 0) typed = message.find('\'', at + 1);
         const bool isOption = (typed == 0 || at > typed) && message.compare(at, 2, "--") == 0 &&

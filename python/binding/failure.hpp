@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Errors of the library as exceptions of Python: svt.Error with code, place and message (python/svt/errors.py); findings and
-/// attributes as objects of Python.
+/// Errors of the library as Python exceptions: svt.Error with code, place and message (python/svt/errors.py). Findings
+/// and attributes as Python objects.
 
 #include <svt/core/attribute.hpp>
 #include <svt/core/diagnostics.hpp>
@@ -18,7 +18,7 @@ namespace svt::python {
 
 namespace py = pybind11;
 
-/// Thrown by the binding alone; the translator of registerFailures() makes a svt.Error of it.
+/// Only the binding throws this exception; the translator of registerFailures() converts it to svt.Error.
 class Failure : public std::exception {
 public:
     explicit Failure(Error error) : error_(std::move(error)) {}
@@ -29,7 +29,7 @@ private:
     Error error_;
 };
 
-/// The value, or the error thrown.
+/// The value; throws the error as Failure.
 template <class T>
 T valueOf(Result<T> result) {
     if (!result) throw Failure(result.error());
@@ -41,7 +41,7 @@ void registerFailures();
 /// The findings as a list of svt.Finding. Needs the GIL.
 [[nodiscard]] py::list toPython(const Diagnostics& findings);
 
-/// Text as Python has it; bytes that are no UTF-8, which a file name may hold, become U+FFFD. Needs the GIL.
+/// Text as a Python string. Bytes that are not UTF-8, as in some file names, become U+FFFD. Needs the GIL.
 [[nodiscard]] py::str textOf(std::string_view text);
 
 /// Attributes by name. Needs the GIL.

@@ -12,7 +12,7 @@
 namespace svt::python {
 namespace {
 
-// Options of the process, which a module does not set for whoever imports it.
+// Options of the process. A module does not set them for the program that imports it.
 bool isOfProcess(const Option& option) { return longName(option) == "--memory" || longName(option) == "--quiet"; }
 
 std::string keywordOf(const Option& option) {
@@ -22,7 +22,7 @@ std::string keywordOf(const Option& option) {
     return name;
 }
 
-// One value as it would be written on the command line. Paths are what os.fspath() says.
+// One value in the syntax of the command line. Paths are converted by os.fspath().
 std::string valueTextOf(const py::handle& value) {
     const py::object fspath = py::module_::import("os").attr("fspath");
     if (py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__")) return py::str(fspath(value));
@@ -32,7 +32,7 @@ std::string valueTextOf(const py::handle& value) {
         return joined;
     }
     if (py::hasattr(value, "item") && !PyFloat_Check(value.ptr()))
-        return valueTextOf(value.attr("item")());  // of numpy
+        return valueTextOf(value.attr("item")());  // a numpy scalar
     return py::str(value);
 }
 
@@ -64,9 +64,9 @@ std::vector<std::string> valuesFor(const Option& option, const std::string& keyw
     const std::vector<std::string> texts = textsOf(value);
     if (texts.size() > 1 && !option.mayRepeat)
         throw badValue(keyword,
-                       fmt::format("{} values, and it takes one; for several numbers give a tuple", texts.size()));
+                       fmt::format("{} values, but one is expected; give several numbers as a tuple", texts.size()));
     for (const std::string& text : texts) {
-        // True stands for an option without a value; an empty text is a fault.
+        // True means an option without a value; an empty text is an error.
         const std::string fault = text.empty() ? faultOf(option, text) : frontend::faultOfValues(option, text);
         if (!fault.empty()) throw badValue(keyword, fault);
         for (std::string& part : frontend::valuesOf(option, text)) values.push_back(std::move(part));

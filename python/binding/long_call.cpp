@@ -10,7 +10,7 @@
 namespace svt::python {
 namespace {
 
-// What the working thread and the calling one share.
+// State that the working thread and the calling thread share.
 struct Shared {
     std::mutex mutex;
     std::condition_variable changed;
@@ -19,7 +19,7 @@ struct Shared {
     std::exception_ptr thrown;
 };
 
-// Called with the GIL. Exceptions of Python leave it as py::error_already_set.
+// Requires the GIL. Throws Python exceptions as py::error_already_set.
 void tell(const py::object& report, std::deque<std::pair<std::string, double>>& reports) {
     for (const auto& [stage, fraction] : reports) report(stage, fraction);
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();

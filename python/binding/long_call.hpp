@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Long work without the GIL, so that other threads of Python go on. The work runs on a thread of its own, while the
-/// calling one hands progress to Python and looks for Ctrl-C a few times a second: Python runs the handlers of signals on its
-/// main thread alone, and a thread of the library's pool is not that one.
+/// Long work without the GIL, so that other Python threads continue. The work runs on a separate thread. The calling
+/// thread reports progress to Python and checks for Ctrl-C several times per second. Python runs signal handlers only
+/// on its main thread, which is not a thread of the library's pool.
 
 #include "failure.hpp"
 
@@ -14,12 +14,13 @@
 
 namespace svt::python {
 
-/// Runs `work` and returns when it has ended, also where it was told to stop.
-/// \param report  None, or what is called with (stage, fraction) on the calling thread; an exception of it stops the work
-/// Throws what `report`, a handler of a signal (KeyboardInterrupt) or `work` throw, in this order.
+/// Runs `work` and returns when it has ended, even if it was cancelled.
+/// \param report  None, or a function that gets (stage, fraction) on the calling thread; an exception from it stops the
+///                work
+/// Throws the exception of `report`, of a signal handler (KeyboardInterrupt) or of `work`, in this order.
 void runLong(const py::object& report, const std::function<void(const Progress*)>& work);
 
-/// The same for work that gives a Result; its error is thrown as Failure.
+/// The same for work that returns a Result; its error is thrown as Failure.
 template <class Work>
 auto longCall(const py::object& report, const Work& work) {
     using Returned = decltype(work(static_cast<const Progress*>(nullptr)));

@@ -1,8 +1,8 @@
-// The extension module svt._native. What users see stands in python/svt, with docstrings.
+// The extension module svt._native. The interface for users is in python/svt, with docstrings.
 #include "bindings.hpp"
 
 PYBIND11_MODULE(_native, module) {
-    module.doc() = "What python/svt is made of: calls of the library. Not for use by others.";
+    module.doc() = "Internal functions of the library for the package svt. Import svt instead.";
     module.attr("version") = SVT_VERSION;
     svt::python::registerFailures();
     svt::python::bindModels(module);

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What Python holds as a volume: the volume itself, which never changes, and what is made of it when it is first needed.
+/// A volume in Python: the volume itself, which never changes, and data derived from it on first use.
 
 #include <svt/analyze/contacts.hpp>
 #include <svt/analyze/label_measures.hpp>
@@ -18,8 +18,8 @@
 
 namespace svt::python {
 
-/// Shared by all objects of Python that refer to the volume. Safe to use from several threads; the calls that make something
-/// must not hold the GIL, since they wait for each other.
+/// Shared by all Python objects that refer to the volume. Safe to use from several threads. Calls that derive data
+/// must not hold the GIL, because they wait for each other.
 class VolumeObject {
 public:
     explicit VolumeObject(volume::SemanticVolume made, Diagnostics found = {})
@@ -43,7 +43,7 @@ public:
     /// Contacts and areas of all labels. Cost: analyze::findContacts() once.
     [[nodiscard]] const Measures& measures();
 
-    /// Draws; one picture at a time.
+    /// Draws a picture; one at a time.
     [[nodiscard]] Result<illustrate::Painting> paint(const illustrate::Scene& scene, const render::CastOptions& options,
                                                      std::vector<std::string>& nothing);
 

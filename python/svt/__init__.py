@@ -1,4 +1,4 @@
-"""Semantic volume textures of building models: read, build, ask, cut and draw.
+"""Semantic volume textures of building models: read, build, query, cut and draw.
 
     import svt
     v = svt.build("house.gml", spacing=0.02)
@@ -8,8 +8,8 @@
     v.section("z=1.2").polygons
     image = v.render(size=(1280, 720), section="y<4")
 
-Lengths are metres, points are in the model's coordinates, arrays of samples are indexed [k, j, i] (z, y, x). Long work
-leaves the interpreter to other threads, and Ctrl-C ends it. Errors are :class:`svt.Error` with a stable code.
+Lengths are in metres, points are in the model's coordinates, arrays of samples are indexed [k, j, i] (z, y, x). Long
+work releases the interpreter for other threads, and Ctrl-C ends it. Errors are :class:`svt.Error` with a stable code.
 """
 from . import _native
 from ._native import Feature, Label

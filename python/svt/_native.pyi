@@ -1,4 +1,4 @@
-"""The calls of the library that python/svt is made of. Users take what `import svt` gives."""
+"""Internal functions of the library for the package svt. Import svt instead."""
 from typing import Any, Optional
 
 import numpy as np
@@ -42,7 +42,7 @@ class Model:
     def feature(self, index: int) -> Feature: ...
 
 class Label:
-    """A component of a volume: what a scalar stands for."""
+    """A component of a volume, with one or more scalars."""
 
     @property
     def index(self) -> int: ...

@@ -1,4 +1,4 @@
-"""Cities: folders of tiles that `svt city` makes, drawn tile by tile."""
+"""Cities: folders of tiles made by `svt city`, drawn tile by tile."""
 from __future__ import annotations
 
 import os
@@ -21,12 +21,12 @@ class City:
     path
         The folder or address.
     memory
-        MB that tiles of a picture may take. With less, far buildings are coarser.
+        Memory limit for the tiles of a picture, in MB. With less memory, distant buildings are coarser.
 
     Raises
     ------
     svt.Error
-        E601 to E610, when a file of the city is missing or damaged.
+        E601 to E610 if a file of the city is missing or damaged.
     """
 
     def __init__(self, path: PathLike, *, memory: float = 1000) -> None:

@@ -1,11 +1,11 @@
-"""What can go wrong, and what was found: the stable codes of docs/errors, with the place in the input."""
+"""Errors and findings: the stable codes of docs/errors, with the place in the input."""
 from __future__ import annotations
 
 from typing import NamedTuple
 
 
 class Place(NamedTuple):
-    """Where in the input; empty or 0 where it is not known."""
+    """A place in the input. Unknown members are empty or 0."""
 
     file: str = ""
     line: int = 0
@@ -29,13 +29,13 @@ class Error(Exception):
     Attributes
     ----------
     code : str
-        Stable, such as 'E901'. docs/errors has a page for each: when it comes, an example, what to do.
+        Stable, such as 'E901'. docs/errors has a page for each code: cause, example and remedy.
     name : str
         The code in words, such as 'BadQuery'.
     message : str
-        What was found, what was expected and what to do.
+        The found and the expected value, and the remedy.
     place : Place
-        Where in the input.
+        The place in the input.
     page : str
         The page of the code in the documentation.
     """
@@ -57,7 +57,7 @@ class Error(Exception):
 
 
 class Finding(NamedTuple):
-    """Something that did not stop the work: a dangling link, an open shell, a face that was left out."""
+    """A problem that did not stop the work: a dangling link, an open shell, a face that was left out."""
 
     severity: str  #: 'note', 'warning' or 'error'
     code: str  #: such as 'E207'

@@ -1,4 +1,4 @@
-"""The labels of a volume: which component a sample belongs to."""
+"""The labels of a volume: the components to which samples belong."""
 from __future__ import annotations
 
 import difflib
@@ -14,7 +14,8 @@ from . import _native
 class Labels(Sequence):
     """All labels of a volume, in the order of the tree: a sequence of :class:`svt.Label`.
 
-    ``labels[3]`` is the fourth label, ``labels["Unterzug-1"]`` the one with that id, or else the only one with that name.
+    ``labels[3]`` is the fourth label. ``labels["Unterzug-1"]`` is the label with that id, or else the only one with
+    that name.
     """
 
     def __init__(self, native: _native.Volume) -> None:
@@ -48,7 +49,7 @@ class Labels(Sequence):
     def of_scalar(self) -> np.ndarray:
         """Label of each scalar: int32 array, entry s is the index of the label that owns scalar s, -1 for background.
 
-        ``v.labels.of_scalar[v.dense()]`` is the label of every sample. Read-only, made once.
+        ``v.labels.of_scalar[v.dense()]`` is the label of every sample. Read-only, computed once.
         """
         if self._of_scalar is None:
             self._of_scalar = _native.label_of_scalar(self._native)

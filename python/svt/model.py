@@ -10,7 +10,7 @@ from . import _native
 from .errors import Finding
 
 PathLike = Union[str, "os.PathLike[str]"]
-#: Called with the stage ('read', 'voxelize', ...) and the fraction of it that is done, 0 to 1, on the calling thread.
+#: A function that gets the stage ('read', 'voxelize', ...) and its finished fraction, 0 to 1, on the calling thread.
 Progress = Optional[Callable[[str, float], object]]
 
 
@@ -23,7 +23,7 @@ def paths_of(paths: PathLike | Sequence[PathLike]) -> list[str]:
 class Model(Sequence):
     """A building model: a sequence of its features, parents before children.
 
-    Made by :func:`svt.read`; goes into :func:`svt.build`, which leaves it as it is.
+    Made by :func:`svt.read`. :func:`svt.build` takes a model and does not change it.
     """
 
     def __init__(self, native: _native.Model) -> None:
@@ -50,12 +50,12 @@ class Model(Sequence):
 
     @property
     def format(self) -> str:
-        """What was read, such as 'CityGML 3.0'."""
+        """Format of the file, such as 'CityGML 3.0'."""
         return self._native.format
 
     @property
     def source(self) -> str:
-        """Path as it was given."""
+        """Path as given."""
         return self._native.source
 
     @property
@@ -65,7 +65,7 @@ class Model(Sequence):
 
     @property
     def findings(self) -> list[Finding]:
-        """What was found while reading, in order."""
+        """Findings of reading, in order."""
         return self._native.findings
 
     def __repr__(self) -> str:
@@ -82,29 +82,29 @@ def read(
     layers: bool = False,
     progress: Progress = None,
 ) -> Model:
-    """Read a model: CityGML, CityJSON, CityJSONSeq or IFC, plain or gzip; the content tells which.
+    """Read a model: CityGML, CityJSON, CityJSONSeq or IFC, plain or gzip. The content determines the format.
 
     Parameters
     ----------
     paths
         A file, or several that together are one model.
     crs
-        EPSG code of a projection in metres that the model is brought to, such as 25832; default: as the file has it.
+        EPSG code of a projection in metres to which the model is transformed, such as 25832; default: that of the file.
     keep_far_features
         Keep features that lie far away from all others.
     allow_truncated
-        Read a file that was cut off (IFC, CityJSONSeq) up to the cut; a finding says so.
+        Read a file that was cut off (IFC, CityJSONSeq) up to the cut; a finding reports it.
     extrude_footprints
-        Make bodies of footprints that have a height as attribute.
+        Make solids from footprints that have a height as attribute.
     layers
         IFC: split walls and slabs into the layers of their material.
     progress
-        Called with (stage, fraction).
+        A function that gets (stage, fraction).
 
     Raises
     ------
     svt.Error
-        E101 to E137, when the file cannot be read.
+        E101 to E137 if the file cannot be read.
     """
     options = {
         "crs": crs or None,
@@ -117,16 +117,16 @@ def read(
 
 
 def sample(kind: str = "house", path: PathLike | None = None, *, seed: int = 1) -> str:
-    """The text of a model that the library generates itself (CityGML 3.0), for trials without a file.
+    """The text of a generated model (CityGML 3.0), for trials without a file.
 
     Parameters
     ----------
     kind
         'house' (furnished), 'tower' (flats and owners) or 'district'.
     path
-        Where to write it as well.
+        File that the text is also written to.
     seed
-        Owners of the tower, houses of the district.
+        Seed for the owners of the tower and the houses of the district.
     """
     text = _native.sample(kind, seed)
     if path is not None:

@@ -1,4 +1,4 @@
-"""Pictures: what a pixel shows, and PNG."""
+"""Pictures with the label and depth of each pixel, and PNG."""
 from __future__ import annotations
 
 import os
@@ -10,16 +10,16 @@ from .model import PathLike
 
 
 class Frame:
-    """A picture of a volume with what each pixel shows. Made by :meth:`svt.Volume.frame`. Row 0 is the top.
+    """A picture of a volume with the scalar and depth of each pixel, from :meth:`svt.Volume.frame`. Row 0 is the top.
 
     Attributes
     ----------
     color : ndarray (height, width, 4) uint8
         Red, green, blue (sRGB) and alpha, not premultiplied.
     scalar : ndarray (height, width) uint32
-        What the ray through the pixel's centre meets first, as in Volume.dense(); 0: background.
+        The first scalar that the ray through the pixel's centre meets, as in Volume.dense(); 0: background.
     depth : ndarray (height, width) float32
-        Metres along the view direction to where that begins; inf: background.
+        Distance to that scalar along the view direction, metres; inf: background.
     notes : list of str
         Queries that selected nothing.
 
@@ -45,12 +45,12 @@ class Frame:
 
 
 def write_png(path: PathLike, pixels: np.ndarray, dpi: int = 0) -> None:
-    """Write an array (height, width, 4 or 3 or none) of uint8 as PNG; without channels it is gray.
+    """Write an array of uint8 as PNG: shape (height, width, 4), (height, width, 3), or (height, width) for gray.
 
     Parameters
     ----------
     dpi
-        Pixels per inch that the file names; 0: none.
+        Pixels per inch to store in the file; 0: none.
     """
     _native.write_png(os.fspath(path), rgba_of(pixels), dpi)
 

@@ -1,4 +1,4 @@
-"""Section drawings: what a plane cuts, as polygons with exact areas."""
+"""Section drawings: the parts that a plane cuts, as polygons with exact areas."""
 from __future__ import annotations
 
 import json
@@ -15,7 +15,7 @@ from .model import PathLike
 class Polygon:
     """A polygon of one component in a section.
 
-    ``shapely.geometry.shape(polygon)`` is the same for Shapely: coordinates are metres along the section's axes u and v.
+    ``shapely.geometry.shape(polygon)`` converts it for Shapely. Coordinates are metres along the section's axes.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class Polygon:
 
 
 class Component:
-    """What a plane cuts of one label.
+    """The part of one label that a plane cuts.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ class Component:
     is_exact : bool
         Cut from the model's mesh, not from voxels.
     line_length : float
-        Of a label without inside, which is cut in lines: metres.
+        Length of the lines for a label without inside, metres.
     """
 
     def __init__(self, section: _native.Section, volume: _native.Volume, number: int) -> None:
@@ -96,7 +96,7 @@ class Section:
 
     @property
     def components(self) -> list[Component]:
-        """What is cut, one entry per label, in the order of the labels."""
+        """Cut components, one per label, in the order of the labels."""
         return [Component(self._native, self._volume, n) for n in range(self._native.component_count)]
 
     @property
@@ -111,12 +111,12 @@ class Section:
 
     @property
     def area(self) -> float:
-        """Of all components, m2."""
+        """Area of all components, m2."""
         return self._native.area
 
     @property
     def is_exact(self) -> bool:
-        """Whether meshes were cut; else all is drawn from voxels."""
+        """Whether meshes were cut; otherwise voxels."""
         return self._native.is_exact
 
     @property
@@ -125,7 +125,7 @@ class Section:
 
     @property
     def findings(self) -> list[Finding]:
-        """What a reader of the drawing should know: uncertain areas, a plane in faces."""
+        """Findings about the drawing: uncertain areas, a plane that coincides with faces."""
         return self._native.findings
 
     def world(self, points: np.ndarray) -> np.ndarray:
@@ -138,23 +138,24 @@ class Section:
         return self._native.write(kind, scale, None if path is None else os.fspath(path)).decode(encoding, "replace")
 
     def to_svg(self, path: PathLike | None = None, scale: float = 100) -> str:
-        """The drawing to scale as SVG: `scale` 100 draws 1 m as 10 mm. Returned, and written to `path` if that is given."""
+        """The drawing to scale as SVG: `scale` 100 draws 1 m as 10 mm. Also written to `path` if given."""
         return self._text("svg", path, scale)
 
     def to_dxf(self, path: PathLike | None = None) -> str:
-        """The drawing as DXF, in metres along u and v; a layer per class. As `to_svg`; the file is in code page 1252."""
+        """The drawing as DXF, in metres along u and v, with a layer per class. Also written to `path` if given, in code
+        page 1252."""
         return self._text("dxf", path, encoding="cp1252")
 
     def to_geojson(self, path: PathLike | None = None) -> str:
-        """The drawing as GeoJSON, in the model's coordinates. As `to_svg`."""
+        """The drawing as GeoJSON, in the model's coordinates. Also written to `path` if given."""
         return self._text("geojson", path)
 
     def to_csv(self, path: PathLike | None = None) -> str:
-        """The areas as a table. As `to_svg`."""
+        """The areas as a CSV table. Also written to `path` if given."""
         return self._text("csv", path)
 
     def to_dict(self) -> dict:
-        """The plane and the areas, as `svt section --json` prints them."""
+        """The plane and the areas: the output of `svt section --json`."""
         return json.loads(self._text("json", None))
 
     def _repr_svg_(self) -> str:

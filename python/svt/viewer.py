@@ -1,4 +1,4 @@
-"""The page that shows volumes, served by the command."""
+"""The interactive page for volumes, served by the command."""
 from __future__ import annotations
 
 import atexit
@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 
 
 def find_command() -> str:
-    """The `svt` command: $SVT_COMMAND, or that of the path."""
+    """The `svt` command: $SVT_COMMAND, or the one found in PATH."""
     command = os.environ.get("SVT_COMMAND") or shutil.which("svt")
     if not command:
         raise Error(
             "E101",
             "CannotOpen",
-            "the command svt is missing, which serves the page; install the package svt, or name it in SVT_COMMAND",
+            "the command svt, which serves the page, is missing; install the package svt, or set SVT_COMMAND",
             Place(),
         )
     return command
@@ -45,12 +45,12 @@ def _stop(process: subprocess.Popen, folder: str | None) -> None:
 
 
 class View:
-    """A page that shows a volume, until it is closed, forgotten or Python ends. A notebook shows it in its place.
+    """A page that shows a volume until it is closed, this object is deleted, or Python ends. Notebooks embed the page.
 
     Attributes
     ----------
     address : str
-        Of this machine alone, such as 'http://127.0.0.1:41234/'.
+        An address that only this machine can reach, such as 'http://127.0.0.1:41234/'.
     """
 
     def __init__(self, volume: Volume, height: int = 600, browser: bool = False) -> None:
@@ -73,7 +73,7 @@ class View:
         if not self.address:
             said = process.stderr.read().strip().splitlines()
             _stop(process, folder)
-            raise Error("E101", "CannotOpen", said[-1] if said else "svt view ended without a word", Place())
+            raise Error("E101", "CannotOpen", said[-1] if said else "svt view ended without a message", Place())
         self._end = weakref.finalize(self, _stop, process, folder)
         atexit.register(self._end)
 

@@ -1,4 +1,4 @@
-"""Semantic volumes: for every point of a building, which component it belongs to."""
+"""Semantic volumes: the component of a building at each point."""
 from __future__ import annotations
 
 import base64
@@ -30,19 +30,19 @@ def _box_of(box: Box) -> list[float]:
 
 
 class Runs(Sequence):
-    """What rays go through. ``runs[r]`` are the runs of ray r: a structured array with the fields
+    """Runs of labels along rays. ``runs[r]`` are the runs of ray r: a structured array with the fields
 
     - ``label`` (uint32): index in Volume.labels,
     - ``enter``, ``leave`` (float64): metres from the origin of the ray.
 
-    Background is left out; a label that a ray enters again is listed again.
+    Background is left out. A label that a ray enters twice is listed twice.
 
     Attributes
     ----------
     all : structured ndarray
-        The runs of all rays, one ray behind the other. Not a copy.
+        The runs of all rays, ordered by ray. Not a copy.
     start : ndarray (rays + 1) uint64
-        Those of ray r are all[start[r]:start[r + 1]].
+        The runs of ray r are all[start[r]:start[r + 1]].
     """
 
     def __init__(self, start: np.ndarray, runs: np.ndarray) -> None:
@@ -63,7 +63,7 @@ class Runs(Sequence):
 
     @property
     def ray(self) -> np.ndarray:
-        """For each run of `all` the ray that it belongs to: int64 array."""
+        """The ray of each run of `all`: int64 array."""
         return np.repeat(np.arange(len(self)), np.diff(self.start.astype(np.int64)))
 
     def __repr__(self) -> str:
@@ -71,18 +71,18 @@ class Runs(Sequence):
 
 
 class Volume:
-    """A semantic volume: a grid of samples, and the label that each belongs to. It never changes.
+    """A semantic volume: a grid of samples with the label of each. It never changes.
 
-    Made by :func:`svt.build`, :func:`svt.open` and :meth:`from_dense`. Points are in world space, the coordinates of the
-    model, in metres. Sample (i, j, k) is at origin + i * spacing[0] * axes[0] + j * spacing[1] * axes[1] + k * spacing[2] *
-    axes[2], the centre of its voxel. Arrays of samples are indexed [k, j, i].
+    Made by :func:`svt.build`, :func:`svt.open` and :meth:`from_dense`. Points are in world space, the coordinates of
+    the model, in metres. Sample (i, j, k) is at origin + i * spacing[0] * axes[0] + j * spacing[1] * axes[1] + k *
+    spacing[2] * axes[2], the centre of its voxel. Arrays of samples are indexed [k, j, i].
     """
 
     def __init__(self, native: _native.Volume) -> None:
         self._native = native
         self._labels: Labels | None = None
 
-    # What it is
+    # Properties
 
     @property
     def dimension(self) -> tuple[int, int, int]:
@@ -106,7 +106,7 @@ class Volume:
 
     @property
     def voxel_volume(self) -> float:
-        """Of one voxel, m3."""
+        """Volume of one voxel, m3."""
         x, y, z = self.spacing
         return x * y * z
 
@@ -122,7 +122,7 @@ class Volume:
 
     @property
     def size_bytes(self) -> int:
-        """Memory that the samples take: runs of equal labels, each column stored once."""
+        """Memory of the samples in bytes: runs of equal labels, each column stored once."""
         return self._native.size_bytes
 
     @property
@@ -149,7 +149,7 @@ class Volume:
 
     @property
     def findings(self) -> list[Finding]:
-        """What was found while it was built; empty for a volume that was opened."""
+        """Findings of the build; empty for a volume that was opened."""
         return self._native.findings
 
     @property
@@ -166,7 +166,7 @@ class Volume:
         return np.array([corners.min(axis=0), corners.max(axis=0)])
 
     def world(self, index: Any) -> np.ndarray:
-        """World points of sample positions: array (..., 3) of i, j, k, whole or not, to (..., 3) of x, y, z in metres."""
+        """World points of sample positions: array (..., 3) of i, j, k (may be fractions) to (..., 3) in metres."""
         return _native.world_from_index(self._native, index)
 
     def index(self, points: Any) -> np.ndarray:
@@ -174,40 +174,41 @@ class Volume:
         return _native.index_from_world(self._native, points)
 
     def info(self) -> dict:
-        """Grid, labels and overlaps as plain data: what `svt info --json` prints (docs/user/json.md)."""
+        """Grid, labels and overlaps as plain data: the output of `svt info --json` (docs/user/json.md)."""
         return json.loads(self._native.info_json())
 
-    # Questions
+    # Queries
 
     def query(self, text: str) -> list[_native.Label]:
-        """The labels that a query selects, such as ``'class=BuildingRoom and volume>20'``; none is an answer, too.
+        """The labels that a query selects, such as ``'class=BuildingRoom and volume>20'``. The list may be empty.
 
-        The language: docs/user/query-language.md. Raises svt.Error E901 where the text is no query.
+        The language: docs/user/query-language.md. Raises svt.Error E901 if the text is not a query.
         """
         return [self._native.label(index) for index in self._native.query(text)]
 
     def dense(self, box: Box | None = None, level: int = 0) -> np.ndarray:
-        """The scalars of the samples as an array, 0 for background: what `svt convert` writes as NRRD.
+        """The scalars of the samples as an array, 0 for background. `svt convert` writes the same values as NRRD.
 
         Parameters
         ----------
         box
-            World box in metres, bounds included: only the samples in it. :meth:`samples_in` tells which these are.
+            World box in metres, bounds included: only the samples in it. :meth:`samples_in` returns their indices.
         level
             0 to 6: cells of 2**level samples along each axis, each with the label that fills most of it.
 
         Returns
         -------
         ndarray (nz, ny, nx) of uint8, uint16 or uint32
-            C order, x fastest: a[k, j, i] is sample (i, j, k). ``a.T`` is the same memory as a[i, j, k]. It is written once,
-            straight from the runs of labels, and belongs to the caller. ``labels.of_scalar[a]`` are indices of labels.
+            C order, x fastest: a[k, j, i] is sample (i, j, k). ``a.T`` is the same memory as a[i, j, k]. The array is
+            written once, directly from the runs of labels, and belongs to the caller. ``labels.of_scalar[a]`` are
+            indices of labels.
         """
         if level:
             return self.part(box=box, level=level).dense()
         return _native.dense(self._native, None if box is None else _box_of(box))
 
     def samples_in(self, box: Box) -> tuple[tuple[int, int, int], tuple[int, int, int]]:
-        """The samples whose positions lie in a world box (metres, bounds included): first and one past the last, (i, j, k)."""
+        """The samples in a world box (metres, bounds included): the first one and one past the last, each (i, j, k)."""
         return _native.samples_in(self._native, _box_of(box))
 
     def sample(self, points: Any, *, scalars: bool = False) -> np.ndarray:
@@ -216,34 +217,34 @@ class Volume:
         Parameters
         ----------
         points : array (..., 3)
-            World space, metres. An array of float64 in C order is read as it is, without a copy.
+            World space, metres. An array of float64 in C order is read without a copy.
         scalars
-            Give scalars as in dense() instead of labels.
+            Return scalars as in dense() instead of labels.
 
         Returns
         -------
         ndarray (...) of int32
-            Index in `labels`, -1 where there is none; with `scalars` uint32, 0 where there is none. A point belongs to the
-            voxel that it lies in.
+            Index in `labels`, -1 for background; with `scalars` uint32, 0 for background. A point belongs to the voxel
+            that contains it.
         """
         found = _native.sample_scalars(self._native, points)
         return found if scalars else self.labels.of_scalar[found]
 
     def rays(self, origins: Any, directions: Any, *, progress: Progress = None) -> Runs:
-        """The labels that rays go through, with where they enter and leave them.
+        """The labels along rays, with the distances at which the rays enter and leave them.
 
         Parameters
         ----------
         origins : array (N, 3)
             World space, metres; may lie inside.
         directions : array (N, 3) or (3,)
-            Any length but zero; a single one holds for all rays.
+            Any length except zero; a single direction applies to all rays.
         """
         return Runs(*_native.rays(self._native, np.atleast_2d(origins), directions, progress))
 
     def contacts(self) -> np.ndarray:
-        """Which labels touch, and the areas: structured array with the fields ``a`` and ``b`` (int32, indices of labels, a <
-        b; b is -1 for background) and ``area`` (m2). The first call measures, later ones do not."""
+        """Pairs of labels that touch, with their contact areas: structured array with the fields ``a`` and ``b``
+        (int32, indices of labels, a < b; b is -1 for background) and ``area`` (m2). Only the first call measures."""
         return _native.contacts(self._native)
 
     # Drawings and pictures
@@ -260,23 +261,23 @@ class Volume:
         meshes: bool = True,
         progress: Progress = None,
     ) -> Section:
-        """What a plane cuts, as polygons.
+        """The section of the volume by a plane, as polygons.
 
         Parameters
         ----------
         plane
-            ``'z=1.2'`` (metres above the lowest samples; x and y too), ``'z<1.2'`` (the other side), ``'storey=EG+1.1'``, or
-            ``'A,B,C,D'``; default: 1.1 m above the lowest floor.
+            ``'z=1.2'`` (metres above the lowest samples; x and y too), ``'z<1.2'`` (the other side),
+            ``'storey=EG+1.1'``, or ``'A,B,C,D'``; default: 1.1 m above the lowest floor.
         show, hide
-            Queries: only what these select, or without it.
+            Queries: draw only the features that `show` selects, and not those that `hide` selects.
         spaces
             Also rooms, units and storeys.
         min_area
-            Leave out polygons that are smaller, m2.
+            Leave out smaller polygons, m2.
         tolerance
-            Largest deviation of a border, metres; default: exact where the volume keeps meshes.
+            Largest deviation of a border, metres; default: exact if the volume stores meshes.
         meshes
-            Cut the meshes that the volume keeps; False: the voxels.
+            Cut the meshes that the volume stores; False: the voxels.
         """
         native = _native.section(
             self._native, plane, _list_of(show), _list_of(hide), spaces, min_area, tolerance, meshes, progress
@@ -291,9 +292,9 @@ class Volume:
         return self.frame(progress=progress, **options).color
 
     def view(self, *, height: int = 600, browser: bool = False) -> View:
-        """Show the volume on the interactive page, served by `svt view`. Embedded in a notebook, `height` pixels high.
+        """Show the volume on the interactive page, served by `svt view`. In a notebook it is `height` pixels high.
 
-        Keep the result: when it is closed or forgotten, the page ends.
+        Keep the result: the page ends when the result is closed or deleted.
         """
         return View(self, height, browser)
 
@@ -302,8 +303,8 @@ class Volume:
     def part(
         self, *, box: Box | None = None, select: str | None = None, level: int = 0, progress: Progress = None
     ) -> Volume:
-        """A part of the volume as a volume, as `svt convert` makes it: the samples in a world box, the labels that a query
-        selects, a coarse level. Labels keep their numbers."""
+        """A part of the volume as a volume, like the output of `svt convert`: the samples in a world box, the labels
+        that a query selects, a coarse level. Labels keep their numbers."""
         return Volume(self._native.part(None if box is None else _box_of(box), select, level, progress))
 
     def save(self, path: PathLike, *, progress: Progress = None, **options: Any) -> int:
@@ -330,12 +331,12 @@ class Volume:
         Parameters
         ----------
         array : ndarray (nz, ny, nx) of bool or whole numbers up to 32 bits
-            a[k, j, i] is sample (i, j, k); 0 is background. In C order and of 8, 16 or 32 bits it is read as it is; else it is
-            copied.
+            a[k, j, i] is sample (i, j, k); 0 is background. An array in C order with 8, 16 or 32 bits is read without a
+            copy. Other arrays are copied.
         labels
-            What the values are: None (each value is a label), the labels of another volume (values are its scalars), a mapping
-            from value to name or to a dict with any of id, class, name, parent, color, opacity, attributes; or a sequence of
-            such dicts with a value (a number or a range [first, last]) each, as docs/user/build.md has them.
+            Meaning of the values. None: each value is a label. Labels of another volume: values are its scalars. A
+            mapping from value to name, or to a dict with any of id, class, name, parent, color, opacity, attributes. Or
+            a sequence of such dicts, each with a value (a number or a range [first, last]); see docs/user/build.md.
         spacing
             Metres between samples: one number, or along x, y, z.
         origin
@@ -343,20 +344,20 @@ class Volume:
         axes
             Unit vectors along which i, j and k grow: a rotation.
         like
-            A volume of the same dimension, whose grid and CRS are taken.
+            A volume of the same dimension. The new volume has its grid and CRS.
         """
         array = np.asarray(array)
         if array.dtype == bool:
             array = array.astype(np.uint8)
         if array.dtype.kind not in "iu":
-            raise TypeError(f"labels are whole numbers, found {array.dtype}")
+            raise TypeError(f"labels must be whole numbers, found {array.dtype}")
         if array.dtype.itemsize > 4:
             if array.size and (array.min() < 0 or array.max() > 0xFFFFFFFF):
-                raise ValueError("labels of more than 32 bits, or below 0")
+                raise ValueError("labels must be numbers of 0 to 4294967295")
             array = array.astype(np.uint32)
         if like is not None:
             if array.shape != like.shape:
-                raise ValueError(f"an array of {array.shape}, and the grid is that of {like.shape}")
+                raise ValueError(f"the array has the shape {array.shape}, but the volume in `like` has {like.shape}")
             spacing, origin, axes, crs = like.spacing, like.origin, like.axes, crs or like.crs
         if isinstance(spacing, (int, float)):
             spacing = (spacing,) * 3
@@ -415,7 +416,7 @@ def _table_of(labels: Any) -> str:
             return value.item()
         if isinstance(value, range):
             return [value.start, value.stop - 1]
-        raise TypeError(f"labels: {type(value).__name__} is no text, number, list or dict")
+        raise TypeError(f"labels: {type(value).__name__} is not a text, number, list or dict")
 
     entries = [dict(entry) for entry in labels]
     for entry in entries:
@@ -431,7 +432,7 @@ def open(path: PathLike, *, labels: PathLike = "", progress: Progress = None) ->
     Parameters
     ----------
     labels
-        For a label volume: a table (JSON) that says which label each value is; see docs/user/build.md.
+        For a label volume: a table (JSON) with the label of each value; see docs/user/build.md.
     """
     return Volume(_native.open(os.fspath(path), os.fspath(labels), progress))
 
@@ -456,20 +457,20 @@ def _indented(text: str, blanks: int) -> str:
     return "".join(" " * blanks + line + "\n" for line in text.splitlines())
 
 
-# The options are those of the command, and so is what is said of them.
+# Options and their descriptions are those of the command.
 build.__doc__ = f"""Build a volume from a model.
 
     Parameters
     ----------
     model
-        What svt.read() gave, a path or several. A path saves a copy of the model.
+        A model from svt.read(), a path, or several paths. Paths avoid a copy of the model.
     vectors
-        What is kept of the model's geometry beside the voxels: 'meshes' (default, where they can be: sections are exact),
+        Geometry of the model to store in addition to the voxels: 'meshes' (default if possible; sections are exact),
         'edges' (lines in pictures), both, or 'none'.
     grid_of
-        A volume whose grid is taken.
+        A volume whose grid is used.
     progress
-        Called with (stage, fraction) on the calling thread; an exception of it stops the work, and so does Ctrl-C.
+        A function that gets (stage, fraction) on the calling thread. An exception from it, or Ctrl-C, stops the work.
 
     Options of `svt build`, as keywords; a tuple for several numbers:
 
@@ -479,28 +480,29 @@ build.__doc__ = f"""Build a volume from a model.
     Volume
         Its findings are those of reading and building.
     """
-Volume.render.__doc__ = f"""A picture: array (height, width, 4) of uint8, red, green, blue (sRGB) and alpha; row 0 is the top.
+Volume.render.__doc__ = f"""A picture: array (height, width, 4) of uint8: red, green, blue (sRGB), alpha; row 0 on top.
 
-        The options are those of `svt render` with '_' for '-', and the pictures are the same. A tuple is for several numbers
-        (``size=(1280, 720)``), a list for an option that is given several times (``hide=['class=BuildingRoom', 'name~Dach']``), a
-        dict for queries with a value (``opacity={{'class=BuildingRoom': 0.2}}``).
+        The options are those of `svt render` with '_' for '-', and the pictures are the same. Use a tuple for several
+        numbers (``size=(1280, 720)``), a list for a repeated option (``hide=['class=BuildingRoom', 'name~Dach']``), and
+        a dict for queries with a value (``opacity={{'class=BuildingRoom': 0.2}}``).
 
 {_indented(_native.draw_keywords(), 8)}"""
-Volume.save.__doc__ = f"""Write the volume. The ending tells the format: `.svt`, and all of `svt convert` (.nrrd, .vti, ...).
+Volume.save.__doc__ = f"""Write the volume. The ending determines the format: `.svt`, or one of `svt convert`.
 
         Parameters
         ----------
         path
-            A file, or a folder for formats that are one.
+            A file, or a folder for formats that consist of a folder.
         progress
-            Called with (stage, fraction) on the calling thread; an exception of it stops the work, and so does Ctrl-C.
+            A function that gets (stage, fraction) on the calling thread. An exception from it, or Ctrl-C, stops the
+            work.
 
-        Options of `svt convert`, as keywords; a tuple for several numbers, such as ``place=(49.1, 8.44, 110)``. A part
-        (`select`, `box`, `level`) is written of a `.svt`, too.
+        Options of `svt convert`, as keywords; use a tuple for several numbers, such as ``place=(49.1, 8.44, 110)``. The
+        options `select`, `box` and `level` select a part, for `.svt` as well.
 
 {_indented(_native.save_keywords(), 8)}
         Returns
         -------
         int
-            Bytes written. All or nothing: a file that was there is kept where writing fails.
+            Number of bytes written. If writing fails, an existing file is kept.
         """

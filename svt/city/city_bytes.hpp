@@ -1,12 +1,12 @@
 #pragma once
 /// \file
-/// Bytes of a city that somebody else fetches: a page, whose requests end long after the call that needs them.
+/// Bytes of a city that the caller fetches. For web pages, whose requests end long after the call that needs the bytes.
 ///
 ///     call --reads--> CityBytes --has it not--> the call fails; wanted() names the range
 ///      ^                                                          |
 ///      '---- again ---- give(), or refuse() <---- fetched by the caller
 ///
-/// Each call goes as far as it can, so that all ranges which do not depend on each other are asked for together.
+/// Each call continues as far as it can, so that all independent ranges are requested together.
 
 #include <svt/core/result.hpp>
 
@@ -23,7 +23,7 @@ class Store;
 /// Not thread-safe.
 class CityBytes {
 public:
-    /// Of a file such as "packs/00000.svtp".
+    /// A range of bytes in a file such as "packs/00000.svtp".
     struct Range {
         std::string name;
         std::uint64_t offset = 0, size = 0;
@@ -35,20 +35,20 @@ public:
 
     CityBytes();
 
-    /// For City::open(). A range that is not here is an error there; `packs.bin`, whose digests of whole packs nobody
-    /// compares who reads ranges, is empty.
+    /// The store for City::open(). Reading a range that was not given is an error. `packs.bin` is empty: it holds
+    /// digests of whole packs, which a reader of ranges cannot compare.
     [[nodiscard]] std::shared_ptr<const Store> store() const;
 
-    /// What was read and is not here, since the last call; ordered, each once.
+    /// Ranges that were read but not given, since the last call; ordered, each once.
     [[nodiscard]] std::vector<Range> wanted();
-    /// Whether wanted() has any.
+    /// Whether wanted() would return a range.
     [[nodiscard]] bool isWanting() const noexcept;
-    /// \param bytes  of the range; fewer where the file ends in it
-    /// \param total  size of the file; 0: there is none
+    /// \param bytes  of the range; fewer if the file ends within it
+    /// \param total  size of the file; 0: the file does not exist
     void give(const Range& range, std::string bytes, std::uint64_t total);
-    /// The range cannot be had: reading it is an error with this message.
+    /// Marks a range as unavailable: reading it is an error with this message.
     void refuse(const Range& range, std::string message);
-    /// Forgets bytes of packs, and what was refused. What is known of the index and the ids stays.
+    /// Forgets bytes of packs and refused ranges. Keeps the bytes of other files, such as the index and the ids.
     void forget();
 
 private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A city on disk as a whole: merged from its packs, and asked for tiles, boxes and ids. docs/formats/city.md specifies
+/// A whole city on disk: merged from its packs, and searched by tile, box and id. docs/formats/city.md specifies
 /// city.json, index.bin and ids.bin.
 
 #include <svt/city/city_pack.hpp>
@@ -19,8 +19,8 @@ namespace svt::city {
 
 class Store;
 
-/// Where a tile stands at one level of detail. Of details 2 and up the tile is a square of 1024 * 2^level samples
-/// (tileSide()), and the coarsest detail is one tile that may reach over its square.
+/// The place of a tile's volume at one level of detail. At details 2 and up, the tile is a square of 1024 * 2^level
+/// samples (tileSide()). The coarsest detail is one tile that may reach over its square.
 struct IndexEntry {
     TileKey tile;
     int detail = 0;
@@ -33,33 +33,34 @@ struct IndexEntry {
     [[nodiscard]] bool hasRectangle() const noexcept { return rectangle[0] < rectangle[2]; }
 };
 
-/// A rectangle (west, south, east, north) without bounds, for which City::find() finds all tiles.
+/// A rectangle (west, south, east, north) without bounds: City::find() finds all tiles in it.
 inline constexpr std::array<double, 4> kEverywhere{
     -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
     std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
-/// How far a building may reach over the square of its tile, in metres: its middle is inside.
+/// Maximum distance that a building may reach over the square of its tile, in metres. The middle of its box is inside.
 inline constexpr double kMostReach = 500;
 
-/// What is done of a plan.
+/// The finished part of a plan.
 struct CityStatus {
     std::uint32_t packs = 0;
-    std::vector<std::uint32_t> missing;  ///< packs without a report that fits, or with another size
+    std::vector<std::uint32_t> missing;  ///< packs without a matching report, or with another size
     std::uint64_t bytes = 0, buildings = 0;
     std::vector<SkippedFeature> skipped;
 };
-/// \param isProven  whether the SHA-256 of each pack is compared, too
+/// \param isProven  whether the SHA-256 of each pack is compared as well
 [[nodiscard]] CityStatus cityStatus(const std::filesystem::path& folder, const Plan& plan, bool isProven);
 
-/// Merges the packs of a plan that are there: makes the coarse levels (city_levels.hpp) in packs behind those of the plan;
-/// writes packs.bin, index.bin, ids.bin and, last, city.json. Copies no pack.
+/// Merges the existing packs of a plan. Makes the coarse levels (city_levels.hpp) in packs numbered after those of the
+/// plan. Writes packs.bin, index.bin, ids.bin and, last, city.json. Copies no pack.
 /// \param threads  0: all cores; the result does not depend on it
-/// \return what is merged and what is missing, or BadPack, CannotWrite, DiskFull; CityIncomplete if no pack is done
-/// Memory: 80 bytes a tile, 24 a building, and 2 MB a tile along the border of what is done: 4 sqrt(tiles) MB.
+/// \return the merged and the missing parts, or BadPack, CannotWrite, DiskFull; CityIncomplete if no pack is done
+/// Memory: 80 bytes per tile, 24 per building, and 2 MB per tile along the border of the finished part: 4 sqrt(n) MB
+/// for n tiles.
 [[nodiscard]] Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& plan, int threads = 0,
                                            const Progress* progress = nullptr);
 
-/// What city.json tells of the files beside it.
+/// Sizes and digests that city.json states for the files next to it.
 struct CityProof {
     struct File {
         std::uint64_t bytes = 0;
@@ -73,18 +74,18 @@ struct CityProof {
 /// A merged city.
 class City {
 public:
-    /// Of city.json. Older ones are read, too.
+    /// Version of city.json. Older versions are read as well.
     static constexpr int kVersion = 2;
 
-    /// Reads city.json and the root of the index, and proves what it reads: city.json by its digest, in a folder index.bin,
-    /// ids.bin and packs.bin by size and SHA-256 (of files over 64 MiB the size alone). The files of a server, and larger
-    /// ones, are proven page by page when they are read. Cities of earlier programs have no digests: only their pages are
-    /// proven.
-    /// \param folder  or the address of one (http://, https://), which is read by requests for ranges
-    /// \return the city, or BadCity where one of them is missing or damaged; PlanVersion; CannotOpen where a server does
-    ///         not answer, or not with the ranges that are asked for
+    /// Reads city.json and the root of the index, and verifies them. city.json is verified by its digest. In a folder,
+    /// index.bin, ids.bin and packs.bin are verified by size and SHA-256; files over 64 MiB only by size. Those and the
+    /// files of a server are verified page by page when they are read. Cities of earlier programs have no digests: only
+    /// their pages are verified.
+    /// \param folder  a folder, or the address of one (http://, https://), which is read by requests for ranges
+    /// \return the city, or BadCity if one of the files is missing or damaged; PlanVersion; CannotOpen if a server does
+    ///         not answer, or answers with other ranges than requested
     [[nodiscard]] static Result<City> open(const std::filesystem::path& folder);
-    /// The same of files that are open. \param folder  for messages
+    /// The same for an open store. \param folder  for messages
     [[nodiscard]] static Result<City> open(std::shared_ptr<const Store> store, const std::filesystem::path& folder);
 
     [[nodiscard]] double spacing() const noexcept { return spacing_; }
@@ -99,30 +100,30 @@ public:
     [[nodiscard]] const Box3d& box() const noexcept { return box_; }
     /// The coarsest level of detail: one tile.
     [[nodiscard]] int topDetail() const noexcept { return top_.detail; }
-    /// Its tile, which city.json names, so that it is there without a look into the index.
+    /// The tile of topDetail(). city.json names it, so it is known without the index.
     [[nodiscard]] const IndexEntry& top() const noexcept { return top_; }
-    /// Classes of the buildings, as far as city.json lists them.
+    /// A class of buildings that city.json lists.
     struct Class {
         std::string name;
         std::string color;  ///< "#rrggbb", by default
         std::uint64_t buildings = 0;
-        /// Classes of their parts (RoofSurface), and colours.
+        /// Classes of their parts (such as RoofSurface), and colours.
         std::vector<std::pair<std::string, std::string>> parts;
     };
     [[nodiscard]] const std::vector<Class>& classes() const noexcept { return classes_; }
 
-    /// Entries of a level of detail whose tiles meet [west, south, east, north] (metres); all for kEverywhere.
-    /// Reads only the pages of the index that meet it.
+    /// Entries of a level of detail whose tiles meet the rectangle [west, south, east, north] (metres); all for
+    /// kEverywhere. Reads only the pages of the index that meet the rectangle.
     [[nodiscard]] Result<std::vector<IndexEntry>> find(int detail, const std::array<double, 4>& rectangle) const;
-    /// Where buildings with an id stand: tile and label of detail 0. Reads the fence and one or two pages of ids.bin.
+    /// A building with an id: its tile, and its label at detail 0. Reads the fence and one or two pages of ids.bin.
     struct Place {
         TileKey tile;
         std::uint32_t label = 0;
     };
     [[nodiscard]] Result<std::vector<Place>> find(const std::string& id) const;
 
-    /// The volume of an entry. Reads its bytes alone. May be called from several threads.
-    /// \return the volume, or BadPack where it is damaged or that of another tile; CannotOpen, BadCity of servers
+    /// The volume of an entry. Reads only its bytes. May be called from several threads.
+    /// \return the volume, or BadPack if it is damaged or belongs to another tile; CannotOpen or BadCity for servers
     [[nodiscard]] Result<volume::SemanticVolume> read(const IndexEntry& entry) const;
     /// The bytes of an entry: a `.svt` file. \return the bytes, or BadPack, CannotOpen, BadCity
     [[nodiscard]] Result<std::string> readBytes(const IndexEntry& entry) const;
@@ -160,12 +161,13 @@ struct Extract {
     int detail = 0;
 };
 
-/// Puts parts of a city together on its lattice. Of buildings by id, the samples around them and their labels alone. Samples of one tile are those of its member; where several tiles fill a
-/// sample, the first along the Morton curve has it.
+/// Joins the selected parts of a city into one volume on its lattice. With ids: only the labels of these buildings,
+/// cropped to the samples around them. Samples of a single tile equal those of its member. Where several tiles fill a
+/// sample, the first tile along the Morton curve determines it.
 /// \return the volume, or NothingSelected, BadArgument, GridTooLarge, BadPack, BadCity
 [[nodiscard]] Result<volume::SemanticVolume> extractVolume(const City& city, const Extract& extract);
 
-/// The whole city at the finest detail that keeps both limits; at the coarsest one if none does.
+/// The whole city at the finest detail within both limits; at the coarsest detail if none is.
 /// \param mostBytes    of all members of the detail
 /// \param mostSamples  along the longer side of the city
 /// \return the volume, or an error of City::find() or extractVolume()

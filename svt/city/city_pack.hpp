@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Packs: files of some thousand buildings, whose members are complete `.svt` files, one for each tile and level of
+/// Packs: files with some thousand buildings. Their members are complete `.svt` files, one for each tile and level of
 /// detail. docs/formats/city.md specifies them to the bit.
 
 #include <svt/city/city_plan.hpp>
@@ -27,23 +27,23 @@ struct PackBuilding {
 /// A volume in a pack.
 struct PackMember {
     TileKey tile;
-    int detail = 0;  ///< 0: all labels at the spacing of the city; 1: one label a building at twice the spacing
+    int detail = 0;  ///< 0: all labels at the spacing of the city; 1: one label per building at twice the spacing
     std::uint64_t offset = 0, size = 0;
     Box3d box;                            ///< of the samples, world space
-    std::vector<PackBuilding> buildings;  ///< of detail 0, in the order of labels; empty of others
+    std::vector<PackBuilding> buildings;  ///< of detail 0, in the order of labels; empty at other details
 };
 
 /// A pack that is open for reading.
 class Pack {
 public:
-    /// Opens a pack and reads its directory, whose checksum is checked.
-    /// \return the pack, or CannotOpen; BadPack if it is damaged, none, or of other content (\param content: its
-    ///         digest, Plan::packDigests; empty: any)
+    /// Opens a pack, reads its directory and verifies the checksum of the directory.
+    /// \param content  expected digest of the content (Plan::packDigests); empty: any
+    /// \return the pack, or CannotOpen; BadPack if the file is damaged, is not a pack, or has other content
     [[nodiscard]] static Result<Pack> open(const std::filesystem::path& path, const std::string& content);
 
     [[nodiscard]] const std::vector<PackMember>& members() const noexcept { return members_; }
-    /// The volume of a member, whose bytes are those of a `.svt` file.
-    /// \return the volume, or BadPack that tells what is wrong with it; CannotOpen
+    /// The volume of a member. The bytes of a member are those of a `.svt` file.
+    /// \return the volume, or BadPack, which names the damage; CannotOpen
     [[nodiscard]] Result<volume::SemanticVolume> read(const PackMember& member) const;
 
 private:
@@ -61,7 +61,7 @@ struct SkippedFeature {
     friend bool operator==(const SkippedFeature&, const SkippedFeature&) = default;
 };
 
-/// What is said of a pack that is done.
+/// The report of a finished pack.
 struct PackReport {
     std::uint32_t pack = 0;
     std::string content;  ///< Plan::packDigests
@@ -73,25 +73,27 @@ struct PackReport {
 /// How packs are built.
 struct PackOptions {
     int threads = 1;
-    double tileSeconds = 120;  ///< what a tile may take before its features are tried one by one
+    double tileSeconds = 120;  ///< time limit of a tile; beyond it, its features are tried one by one
     double featureSeconds = 20;
     const Progress* progress = nullptr;
-    /// Called before a feature's model is made, with its text; tests let it crash or hang.
+    /// A function that gets a feature's text before its model is made. Tests let it crash or hang.
     std::function<void(std::string_view)> beforeFeature;
 };
 
 [[nodiscard]] std::filesystem::path packPath(const std::filesystem::path& folder, std::uint32_t pack);
 
-/// Builds a pack of a plan, unless it is there and proven: its report has the digest of its content, and the file the SHA-256
-/// of the report. The work is done in processes of their own: one that crashes, or takes too long for a tile, ends alone;
-/// then the features of that tile are tried one by one, and those that fail are left out and reported. Requires that this
-/// process has started no threads (see inOwnProcess()); on systems without processes a crash is one.
-/// \return the report, or BadPlan, InputChanged, CannotOpen, CannotWrite, DiskFull; TaskFailed where even the tried
-///         features come to no end
+/// Builds a pack of a plan, unless it exists and is proven: its report has the digest of its content, and the file has
+/// the SHA-256 of the report.
+///
+/// The work is done in separate processes. If one crashes or exceeds the time for a tile, the features of the tile are
+/// tried one by one. Features that fail are left out and reported. Requires that this process has started no threads
+/// (see inOwnProcess()). On systems without processes, a crash ends this process.
+/// \return the report, or BadPlan, InputChanged, CannotOpen, CannotWrite, DiskFull; TaskFailed if the pack cannot be
+///         built even after its features were tried one by one
 [[nodiscard]] Result<PackReport> runPack(const std::filesystem::path& folder, const Plan& plan, std::uint32_t pack,
                                          const PackOptions& options);
 
-/// The report of a pack that is done. \param isProven  whether the SHA-256 of the file is computed and compared, too
+/// The report of a finished pack. \param isProven  whether the SHA-256 of the file is computed and compared as well
 /// \return the report, or CityIncomplete
 [[nodiscard]] Result<PackReport> provenReport(const std::filesystem::path& folder, const Plan& plan, std::uint32_t pack,
                                               bool isProven);

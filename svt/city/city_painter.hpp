@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Pictures of a city. The command draws with CityPainter, which chooses and reads tiles for each camera. The page fetches
-/// tiles itself and joins them by joinTiles(). So one scene has the same styles in both.
+/// Pictures of a city. The command draws with CityPainter, which chooses and reads tiles for each camera. The page
+/// fetches tiles itself and joins them with joinTiles(). A scene therefore has the same styles in both.
 
 #include <svt/city/city_view.hpp>
 #include <svt/illustrate/scene_painter.hpp>
@@ -12,11 +12,11 @@
 
 namespace svt::city {
 
-/// Tiles with one table of labels, as they are drawn.
+/// Tiles with one table of labels, ready to be drawn.
 struct JoinedTiles {
     volume::SemanticVolume frame;  ///< frameVolume(), with the classes of the city and the labels of all parts
     std::vector<volume::SemanticVolume> parts;  ///< of readTiles()
-    bool hasNear = false;                       ///< the slopes of the last part are seen: see ChosenTiles::near
+    bool hasNear = false;                       ///< slopes of the last part are visible: see ChosenTiles::near
     /// Labels of coarse details, which take their styles from the classes that they cover.
     std::vector<illustrate::ScenePainter::StyleMixture> mixtures;
 
@@ -36,12 +36,12 @@ struct JoinedTiles {
 /// \return the view, or an error of makeFrameSpec()
 [[nodiscard]] Result<CameraView> viewOf(const illustrate::Scene& scene, const volume::SemanticVolume& frame);
 
-/// Whether a scene can be drawn of a city, whose parts are read tile by tile.
+/// Checks that a scene can be drawn for a city, whose parts are read tile by tile.
 /// \return success, or BadArgument for a member that needs a whole model: explode, insets, or lines or meshes of a pass
 [[nodiscard]] Result<void> checkCityScene(const illustrate::Scene& scene);
 
 struct CityPaintOptions {
-    std::uint64_t memoryBytes = 1'000'000'000;  ///< that tiles may take; with less they are coarser
+    std::uint64_t memoryBytes = 1'000'000'000;  ///< limit for tiles; a lower limit makes them coarser
     int threads = 0;                            ///< 0: all cores
     const Progress* progress = nullptr;
 };
@@ -52,11 +52,12 @@ public:
     /// \return the painter, or an error of frameVolume()
     [[nodiscard]] static Result<CityPainter> make(City city, const CityPaintOptions& options);
 
-    /// What cameras, planes and regions refer to: the box of the city.
+    /// The box of the city: cameras, planes and regions refer to it.
     [[nodiscard]] const volume::SemanticVolume& frame() const noexcept { return frame_; }
 
-    /// Reads what the scene shows, and draws it. A camera that looks around "id=ID" shows this building.
-    /// \return the picture, or an error of checkCityScene(), makeFrameSpec(), readTiles(), castRays(); BadArgument for a
+    /// Reads the visible tiles of a scene and draws them. A camera around the query "id=ID" shows this building.
+    /// \return the picture, or an error of checkCityScene(), makeFrameSpec(), readTiles(), castRays(); BadArgument for
+    ///         a
     ///         camera around another query
     [[nodiscard]] Result<illustrate::Painting> paint(illustrate::Scene scene, const render::CastOptions& options);
 
@@ -78,7 +79,7 @@ private:
     volume::SemanticVolume frame_;
     CityPaintOptions options_;
     ChosenTiles chosen_;
-    std::vector<IndexEntry> leftOut_;  // chosen, but behind what is seen
+    std::vector<IndexEntry> leftOut_;  // chosen, but hidden by other tiles
     std::vector<std::string> nothing_;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// All tiles of a city, read one after the other: damaged tiles, sections, and pairs of buildings that claim the same
-/// space.
+/// Passes over all tiles of a city, one after the other: damaged tiles, sections, and pairs of buildings that claim the
+/// same space.
 
 #include <svt/city/city_folder.hpp>
 #include <svt/core/diagnostics.hpp>
@@ -16,10 +16,10 @@
 
 namespace svt::city {
 
-/// Reads the tiles of detail 0, so that memory is that of one tile for each thread.
+/// Reads the tiles of detail 0. Memory: one tile per thread.
 /// \param rectangle  west, south, east, north in metres
 /// \param threads    0: all cores
-/// \param work       called in the order of tiles, never twice at once; an error ends it
+/// \param work       called in the order of tiles, never twice at once; an error ends the pass
 /// \param isWanted   tiles that are read; null: all
 /// \return nothing, or an error of City::find(), City::read() or `work`; Cancelled
 [[nodiscard]] Result<void> forEachTile(const City& city, const std::array<double, 4>& rectangle, int threads,
@@ -30,23 +30,24 @@ namespace svt::city {
 /// Counts of the tiles of a city.
 struct TileCheck {
     std::uint64_t tiles = 0, damaged = 0;
-    std::uint64_t buildings = 0, solids = 0, open = 0;  ///< of detail 0; open: solids whose shell had holes
+    std::uint64_t buildings = 0, solids = 0, open = 0;  ///< at detail 0; open: solids whose shell had holes
 };
-/// Reads all tiles of all details. Tiles that are damaged, shells that had holes, missing packs, features that were left
-/// out and a wrong number of buildings are findings.
+/// Reads all tiles of all details. Findings are damaged tiles, shells that had holes, missing packs, features that were
+/// left out, and a wrong number of buildings.
 /// \return the counts, or an error of City::find(); Cancelled
 [[nodiscard]] Result<TileCheck> checkTiles(const City& city, const Progress* progress, Diagnostics& findings);
 
-/// A drawing, and a volume with the labels that it names and the grid that its coordinates refer to.
+/// A drawing, and a volume with its labels and the grid that its coordinates refer to.
 struct CitySection {
     drawing::SectionDrawing drawing;
     volume::SemanticVolume volume;
 };
 
-/// Cuts the tiles of a city that a plane meets, one after the other. A building is whole in its tile, so nothing has a seam.
+/// Cuts the tiles of a city that a plane meets, one after the other. Each building is complete in its tile, so there
+/// are no seams.
 /// \param plane  see parseSectionPlane(); positions refer to the box of the city
 /// \return the section, or an error of forEachTile(), frameVolume(), parseSectionPlane(), drawSection()
-/// Memory: that of one tile for each thread, and the drawing.
+/// Memory: one tile per thread, and the drawing.
 [[nodiscard]] Result<CitySection> cutCity(const City& city, const std::string& plane,
                                           const drawing::SectionOptions& options, const Progress* progress);
 
@@ -60,11 +61,11 @@ struct CityOverlap {
     std::string tiles;  ///< one, or two with a blank between them
 };
 
-/// Pairs of different buildings (labels without parent) that claim a sample of detail 0. The query selects at least one of
-/// the two, or something below it. The build of a tile counted the samples of its pairs; for pairs of two tiles, all
-/// samples that both fill count.
+/// Pairs of different buildings (labels without parent) that claim a sample of detail 0. The query selects at least one
+/// of the two, or something below it. Samples of pairs within a tile were counted when the tile was built. For pairs
+/// from two tiles, all samples that both fill count.
 /// \return the pairs, or an error of City::find(), City::read() or the query; Cancelled
-/// Cost: each tile is read once, and again for each neighbour that it reaches over to and that is not in memory.
+/// Cost: each tile is read once, and again for each neighbour that it overlaps and that is no longer in memory.
 [[nodiscard]] Result<std::vector<CityOverlap>> cityOverlaps(const City& city, const std::string& query,
                                                             const Progress* progress);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Measures of features of one volume, each with all features below it: the rows of `svt query` on cities.
+/// Measures of the features of one volume, each including all features below it: the rows of `svt query` for cities.
 
 #include <svt/drawing/section_plane.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -16,20 +16,20 @@ namespace svt::city {
 /// A feature and all below it.
 struct FeatureRow {
     std::uint32_t label = 0;
-    std::optional<double> volume;  ///< m3: of its solid; else of the solids below it; none: no solids
+    std::optional<double> volume;  ///< m3: of its solid, else of the solids below it; empty: no solids
     std::uint64_t voxels = 0;
     double area = 0;                             ///< m2 in plan: of the columns of samples that it fills
     double lowest = 0, highest = 0;              ///< of its voxels, metres above datum; meaningless without voxels
-    bool isOpen = false;                         ///< a shell of it or below it is not closed in the model
+    bool isOpen = false;                         ///< its shell, or one below it, is not closed in the model
     bool isCut = false;                          ///< by the plane
     std::vector<std::array<double, 2>> outline;  ///< convex, around its voxels in plan; counter-clockwise
 };
 
-/// Whether the shell of a solid is open in the model, and was closed or filled all the same.
+/// Whether the shell of a solid is open in the model, and was nevertheless closed or filled.
 [[nodiscard]] bool isOpenShell(const volume::Label& label) noexcept;
 
 /// \param selected  labels, ascending
-/// \param plane     that cuts, at the accuracy of voxels; null: none
+/// \param plane     cutting plane, at the accuracy of voxels; null: none
 /// Cost: O(columns + runs * depth of the tree)
 [[nodiscard]] std::vector<FeatureRow> featureRows(const volume::SemanticVolume& volume,
                                                   std::span<const std::uint32_t> selected,

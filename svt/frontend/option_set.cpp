@@ -11,7 +11,7 @@
 namespace svt::frontend {
 namespace {
 
-// Takes the fields that an option leaves empty, and its unit, range and counts, from a member of a scene.
+// Fills the empty fields of an option, and its unit, range and counts, from a member of a scene.
 void fillFrom(Option& option, const Option& member) {
     const auto fill = [](auto& own, const auto& other, bool isOwn) {
         if (!isOwn) own = other;
@@ -30,7 +30,7 @@ void fillFrom(Option& option, const Option& member) {
     option.mayRepeat = member.mayRepeat;
 }
 
-// The name of the option of a member; empty: the member is no option.
+// The name of the option of a member; empty: the member is not an option.
 std::string_view optionName(const Option& member) noexcept {
     if (!member.option.empty()) return member.option;
     const std::string_view name = member.name.substr(member.name.rfind('/') + 1);
@@ -91,7 +91,7 @@ std::string valueText(const Option& option) {
 std::string descriptionOf(const Option& option) {
     std::string text(option.help);
     if (!option.unit.empty()) text += fmt::format(", {}", option.unit);
-    // A range that only keeps out sizes beyond any computer does not help people.
+    // A range that only excludes sizes beyond any computer does not help users.
     if (const std::string range = rangeText(option); option.choices.empty() && !range.empty() && option.most < 1e9)
         text += fmt::format(", {}", range);
     if (!option.byDefault.empty()) text += fmt::format("; default: {}", option.byDefault);

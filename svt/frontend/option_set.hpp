@@ -1,12 +1,11 @@
 #pragma once
-/// \file
-/// The options that the members of a struct declare (svt/record). A command line or keywords give their values, and
-/// setOptions() sets the members. A member is an option if its declaration has Option::option, if its name begins with a
-/// dash, or if it is an argument of the struct itself.
+/// \file The options that the members of a struct declare (svt/record). A command line or keywords give their values,
+/// and setOptions() sets the members. A member is an option if its declaration has Option::option, if its name begins
+/// with a dash, or if it is an argument of the struct itself.
 ///
 ///     record::Members<Wash> membersOf(const Wash*) noexcept {
 ///         static constexpr record::Member<Wash> kMembers[] = {
-///             member<&Wash::input>("input", "what is washed", {.isRequired = true}),
+///             member<&Wash::input>("input", "clothes to wash", {.isRequired = true}),
 ///             member<&Wash::heat>("--heat", "of the water", {.unit = "degrees", .least = 0, .most = 95}),
 ///             part<&Wash::drying>("drying", "Drum|--fan")};  // options of another struct, by group or name
 ///         return kMembers;
@@ -28,19 +27,19 @@ struct BoundOption : Option {
     std::string_view pointer;  ///< of the member: "/drying/heat"
 };
 
-/// An option with its given values; a flag has none.
+/// An option with its given values; empty for a flag.
 struct GivenOption {
     const BoundOption* option = nullptr;
     std::vector<std::string> values;
 };
 
-/// The options of a struct, in the order of its members. Those that set a member of a scene stand before the first
-/// option of their group.
+/// The options of a struct, in the order of its members. Options that set a member of a scene come before the other
+/// options of their group.
 template <record::Recorded T>
 [[nodiscard]] std::span<const BoundOption> optionsOf();
 
 /// Sets the members that the options are bound to.
-/// \return nothing, or an error that names the option; BadArgument unless its member says otherwise
+/// \return nothing, or an error that names the option; BadArgument unless its member declares another code
 template <record::Recorded T>
 [[nodiscard]] Result<void> setOptions(T& to, std::span<const GivenOption> given);
 
@@ -63,7 +62,7 @@ template <auto... Fields>
 /// The placeholder of an option's value in help: "QUERY", "NUMBER", "thin|conservative"; empty for flags.
 [[nodiscard]] std::string valueText(const Option& option);
 
-/// The values of "a,b,c" for an option that takes several; for others the whole text is one value.
+/// The values of "a,b,c" for an option with several values; for others the whole text is one value.
 [[nodiscard]] std::vector<std::string> valuesOf(const Option& option, const std::string& text);
 
 /// The first fault among the values of a text for an option; empty: none.

@@ -21,7 +21,7 @@ using record::Faults, record::Json, record::member;
 
 constexpr int kUsualDpi = 300;
 
-// The members of a scene that options set. They are kept as they are given, since the scene is read later.
+// The members of a scene that options set. They are stored as given, because the scene is read later.
 struct GivenMembers {
     static constexpr bool kHasDefault = false;
     static constexpr void describe(Option& option) { option.kind = OptionKind::Object; }
@@ -85,7 +85,7 @@ struct SectionEnds {
     std::string moving;  // one of those that move; empty: none
 };
 
-// "z=0..6" goes from z=0 to z=6; other texts stay.
+// "z=0..6" moves from z=0 to z=6; other texts do not move.
 Result<SectionEnds> endsOf(const std::vector<std::string>& sections) {
     SectionEnds ends;
     for (const std::string& text : sections) {
@@ -230,8 +230,8 @@ Result<Scene> SceneOptions::toScene(std::optional<int> pictures) const {
     const bool isSeries = pictures.value_or(2) > 1;
     if (!ends->moving.empty() && !isSeries)
         return Error(Code::BadArgument,
-                     fmt::format("--section '{}' moves; --frames says in how many pictures, 2 or more; a film "
-                                 "(-o P.webm) has them anyway",
+                     fmt::format("--section '{}' moves; give the number of pictures with --frames, 2 or more, or "
+                                 "write a film (-o P.webm)",
                                  ends->moving));
     auto scene = stillScene(file, ends->first, isSeries);
     if (!scene || ends->moving.empty()) return scene;
@@ -252,10 +252,10 @@ Result<Scene> SceneOptions::stillScene(Scene scene, const std::vector<std::strin
         if (auto parsed = parseSize(*size, dpi.value_or(kUsualDpi), scene); !parsed) return parsed.error();
     for (const illustrate::GivenMember& given : members)
         if (auto done = setSceneMember(scene, given); !done) return done.error();
-    // A series is seen by one camera, whatever each of its pictures shows.
+    // All pictures of a series have one camera.
     if (isSeries && !isGiven("/camera/fit")) scene.camera.fit = illustrate::Fit::All;
     if (scene.sun && scene.sun->time.empty())
-        return Error(Code::BadArgument, "--place says where the sun shines; --sun says when");
+        return Error(Code::BadArgument, "--place is only used for the position of the sun; give the time with --sun");
     if (scene.motion && !scene.motion->keys.empty() && scene.motion->keys.back().at > scene.motion->seconds)
         return Error(Code::BadArgument, fmt::format("--seconds {} ends before the last key of the scene, at {} s",
                                                     scene.motion->seconds, scene.motion->keys.back().at));
@@ -281,25 +281,25 @@ record::Members<SceneOptions> membersOf(const SceneOptions*) noexcept {
             "metres from the lower corner; z=0..6 moves in films and with --frames",
             {.value = "PLANE", .group = "Cut"}),
         member<&Scene::cut>("--cut", "", {.group = "Cut", .like = "/passes/*/cut"}),
-        member<&Scene::lens>("--lens", "S-Lens: in this region the model is cut by --section, the rest is the context",
+        member<&Scene::lens>("--lens", "S-Lens: --section cuts the model only in this region; the rest is the context",
                              {.value = "REGION", .group = "Illustrate", .excludes = "--highlight|--cutaway"}),
         member<&Scene::highlights>("--highlight",
-                                   "light the selected, whatever stands in front; the rest is the context",
+                                   "light the selected features, even behind others; the rest is the context",
                                    {.value = "QUERY", .group = "Illustrate", .excludes = "--lens|--cutaway"}),
-        member<&Scene::cutaway>("--cutaway", "take away what hides the selected, and no more than that",
+        member<&Scene::cutaway>("--cutaway", "remove only the parts that hide the selected features",
                                 {.value = "QUERY", .group = "Illustrate", .excludes = "--lens|--highlight"}),
-        member<&Scene::context>("--context", "what is around a lens or highlight", {.group = "Illustrate"}),
+        member<&Scene::context>("--context", "surroundings of a lens or highlight", {.group = "Illustrate"}),
         member<&Scene::contextLevel>("--context-level",
                                      "level of detail of the context of a lens, highlight or cutaway, 0 is the finest",
                                      {.group = "Illustrate", .like = "/passes/*/level"}),
         member<&Scene::insets>(
-            "--inset", "draw what the query selects once more, larger, in a corner, with a frame that shows where",
+            "--inset", "draw the selected features again, larger, in a corner, with a frame that marks their place",
             {.value = "QUERY", .group = "Illustrate"}),
         member<&Scene::hasCells>("--cells", "", {.group = "Illustrate", .like = "/passes/*/cells"}),
         member<&Scene::wireframe>(
             "--wireframe",
-            "draw the edges of what the query selects, at their depth inside the volume; without a query: of all that "
-            "is visible",
+            "draw the edges of the selected features, at their depth inside the volume; without a query: of all "
+            "visible features",
             {.value = "QUERY", .group = "Lines", .leastCount = 0}),
         member<&Scene::hiddenLines>("--hidden-lines", "", {.group = "Lines", .like = "/passes/*/lines/*/hidden"}),
         member<&Scene::wireWidth>("--wire-width", "width of the edges",

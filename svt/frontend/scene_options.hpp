@@ -17,7 +17,7 @@ namespace svt::frontend {
 /// Options not given are taken from the scene file, or else from the scene's defaults.
 struct SceneOptions {
     std::filesystem::path sceneFile;
-    std::vector<illustrate::GivenMember> members;  ///< of the scene, as they were given
+    std::vector<illustrate::GivenMember> members;  ///< of the scene, as given
     std::optional<std::string> size, wireframe, wireColor;
     std::vector<std::string> color, opacity, hatchOf, sections, highlights, insets;
     std::string cut, lens, cutaway;
@@ -31,7 +31,7 @@ struct SceneOptions {
     [[nodiscard]] int printedDpi() const;
     /// Whether an option sets that member of the scene.
     [[nodiscard]] bool isGiven(std::string_view member) const;
-    /// The scene. Sections such as z=0..6 are keys of its motion: the plane is at its end in the last picture.
+    /// The scene. Sections such as z=0..6 become keys of its motion: the plane is at its end in the last picture.
     /// \param pictures  drawn one by one; none: a film
     [[nodiscard]] Result<illustrate::Scene> toScene(std::optional<int> pictures) const;
 

@@ -12,7 +12,7 @@ record::Members<VolumePart> membersOf(const VolumePart*) noexcept {
     using All = VolumePart;
     static constexpr record::Member<All> kMembers[] = {
         record::member<&All::select>("--select",
-                                     "only the voxels of what the query selects; the rest becomes background",
+                                     "only the voxels of the selected features; the rest becomes background",
                                      {.value = "QUERY", .group = "Part"}),
         record::memberAs<record::Numbers<6>, &All::box>(
             "--box", "only the samples in this box of world coordinates",

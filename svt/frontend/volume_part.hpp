@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The part of a volume that is written: of `svt convert`, and of Volume.part() and Volume.save() in Python.
+/// Selection of a part of a volume: for `svt convert`, and for Volume.part() and Volume.save() in Python.
 
 #include <svt/core/result.hpp>
 #include <svt/record/members.hpp>
@@ -18,7 +18,7 @@ struct VolumePart {
 
     /// True for a part of the volume, or a coarser one.
     [[nodiscard]] bool isPart() const noexcept { return !box.empty() || !select.empty() || level > 0; }
-    /// The box of the volume, then the labels of the selection, then the level.
+    /// Crops the volume to the box, then selects labels, then makes the level.
     /// \param threads  maximum; 0: all cores
     /// \return the part, or BadQuery, NothingSelected, or an error of volume::volumeIn() or coarseVolume()
     [[nodiscard]] Result<volume::SemanticVolume> of(volume::SemanticVolume volume, int threads) const;

@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// A model file as a row of features that can be read alone: buildings one after the other, or chosen ones by where
-/// they stand. Memory does not grow with the file, but for CityJSON in one document, whose vertices stand apart.
+/// A model file as a sequence of features that can be read individually: in order, or selected ones by their position
+/// in the file. Memory does not grow with the file, except for CityJSON in one document, whose vertices are stored
+/// apart from the features.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/result.hpp>
@@ -19,7 +20,7 @@
 
 namespace svt::readers {
 
-/// What a file is cut into.
+/// The units into which a file is cut.
 enum class FeatureFormat : std::uint8_t {
     CityGml,      ///< members of the CityModel (cityObjectMember, featureMember)
     CityJsonSeq,  ///< lines
@@ -27,29 +28,29 @@ enum class FeatureFormat : std::uint8_t {
     Whole         ///< one feature: IFC, IndoorGML
 };
 
-/// Where a feature stands in the file's text (unpacked, where it is gzip data).
+/// The position of a feature in the text of the file (in the unpacked text of a gzip file).
 struct FeatureSpan {
     std::uint64_t begin = 0;
-    std::uint64_t size = 0;  ///< of CityJson: of the object without parent alone
+    std::uint64_t size = 0;  ///< for CityJson: only of the object without parent
     friend bool operator==(const FeatureSpan&, const FeatureSpan&) = default;
 };
 
-/// A feature as text: of CityGML the member, of CityJSON and CityJSONSeq a CityJSONFeature.
+/// A feature as text: the member of CityGML, or a CityJSONFeature for CityJSON and CityJSONSeq.
 struct FeatureText {
     FeatureSpan span;
-    std::string_view text;   ///< valid until the file is asked for another one
-    std::uint64_t line = 0;  ///< of the file, where the text begins; 0: unknown, as in CityJSON
+    std::string_view text;   ///< valid until the next feature is read
+    std::uint64_t line = 0;  ///< line of the file where the text begins; 0: unknown, as in CityJSON
 };
 
 /// Threads: an object is used by one thread at a time.
 class FeatureFile {
 public:
-    /// The longest text of a feature that is read.
+    /// Maximum size of a feature's text.
     static constexpr std::uint64_t kMaxFeatureBytes = std::uint64_t{1} << 30;
 
-    /// Opens a file and reads what stands before its features: the root with its namespaces, the envelope with the CRS;
-    /// metadata, transform and templates of CityJSON. Appearances of CityGML models are left out.
-    /// \return the file, or as readModel(); BadEncoding for UTF-16, which is not cut
+    /// Opens a file and reads its head: the root with its namespaces and the envelope with the CRS, or metadata,
+    /// transform and templates of CityJSON. Appearances of CityGML models are left out.
+    /// \return the file, or an error of readModel(); BadEncoding for UTF-16, which cannot be cut
     [[nodiscard]] static Result<FeatureFile> open(const std::filesystem::path& path, const ReadOptions& options = {});
 
     FeatureFile(FeatureFile&&) noexcept;
@@ -57,31 +58,31 @@ public:
     ~FeatureFile();
 
     [[nodiscard]] FeatureFormat format() const noexcept;
-    /// Whether the last feature that next() gave is a line of CityJSONSeq that was cut off.
+    /// Whether the last feature from next() is a line of CityJSONSeq that was cut off.
     [[nodiscard]] bool isTruncated() const noexcept;
-    /// What stands before the features and is read with each of them; empty of Whole.
+    /// The text before the features, which is read with each of them; empty for Whole.
     [[nodiscard]] std::string head() const;
-    /// Bytes of the file that have been read, as a share of all: 0..1.
+    /// Share of the file's bytes that has been read, 0..1.
     [[nodiscard]] double progress() const noexcept;
 
     /// The next feature, in the order of the file.
-    /// \return false at the end; BadXml, BadJson, DtdRefused, Truncated (a last line of CityJSONSeq that is cut off, without
-    ///         allowTruncated of the options of open(); read() reports it with it), CannotOpen (damaged gzip data), InputTooBig
+    /// \return false at the end; BadXml, BadJson, DtdRefused, CannotOpen (damaged gzip data), InputTooBig; Truncated if
+    ///         the last line of CityJSONSeq is cut off and allowTruncated was not set in open() (with it, read()
+    ///         reports the cut)
     Result<bool> next(FeatureText& feature);
 
-    /// Hands over the features that stand at `spans` (ascending by `begin`), with their number in `spans`. May be called
-    /// instead of next(), not after it. Cost: the bytes of these features; of gzip data all up to the last.
-    /// \return InputChanged where no feature stands at a span; the error of `take`; as next()
+    /// Passes the features at `spans` (ascending by `begin`) to `take`, with their number in `spans`. Call it instead
+    /// of next(), not after it. Cost: the bytes of these features; for gzip data, all bytes up to the last feature.
+    /// \return InputChanged if a span does not hold a feature; an error of `take` or of next()
     Result<void> pick(std::span<const FeatureSpan> spans,
                       const std::function<Result<void>(std::size_t, std::string_view)>& take);
 
-    /// Reads features as one model. It is what the reader of the whole file would make of them, but for what refers
-    /// from one to another feature: such references are findings (DanglingReference), and axisOrder of the options
-    /// should be that of the whole.
-    /// \param features   texts as next() and pick() give them
-    /// \param featureOf  receives for each of model.roots the number of its feature; may be null
-    /// \param lines      line of each feature in the file, for features and findings of the model; empty: their lines
-    ///                   are of no use
+    /// Reads features as one model. The result is that of reading the whole file, except for references between
+    /// features, which are findings (DanglingReference). Set axisOrder of the options to that of the whole file.
+    /// \param features   texts from next() or pick()
+    /// \param featureOf  receives the number of the feature for each of model.roots; may be null
+    /// \param lines      line of each feature in the file, for features and findings of the model; empty: lines are not
+    ///                   needed
     [[nodiscard]] Result<model::BuildingModel> read(std::span<const std::string_view> features,
                                                     const ReadOptions& options, Diagnostics* diagnostics,
                                                     std::vector<std::uint32_t>* featureOf = nullptr,

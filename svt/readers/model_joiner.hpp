@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The models of several files as one.
+/// Joins the models of several files.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/result.hpp>
@@ -21,7 +21,7 @@ struct NamedBytes {
     std::span<const std::byte> bytes;
 };
 
-/// Reads all files into one model, as ModelJoiner does. Coordinates in degrees or feet in a later file are projected to the
+/// Reads all files into one model with ModelJoiner. Coordinates in degrees or feet in a later file are projected to the
 /// CRS of the first.
 /// \param log  receives the findings; may be null
 /// \return the model, or an error of readModel(); BadArgument if there is no file
@@ -31,14 +31,14 @@ struct NamedBytes {
                                                       Diagnostics* log);
 
 /// Takes models one after the other. An id that an earlier model has gets `@` and the number of the model (1-based) as
-/// suffix. That, and CRSs that differ, are warnings.
+/// suffix. Renamed ids and different CRSs are warnings.
 class ModelJoiner {
 public:
     /// \param log  receives the warnings; may be null
     explicit ModelJoiner(Diagnostics* log) : log_(log) {}
 
-    /// The first model is taken as it is; later ones are appended. Cost: O(features of `from`), once more for the first
-    /// model when the second one comes.
+    /// Adds a model. The first one is not changed; later ones are appended. Cost: O(features of `from`), plus
+    /// O(features of the first model) when the second one is added.
     void add(model::BuildingModel from);
     /// Number of models.
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
@@ -52,7 +52,7 @@ private:
 
     Diagnostics* log_;
     model::BuildingModel all_;
-    std::unordered_set<std::string> known_;  // ids of all_; empty as long as there is one model
+    std::unordered_set<std::string> known_;  // ids of all_; empty while there is only one model
     std::size_t count_ = 0, lookups_ = 0;
 };
 

@@ -16,10 +16,10 @@
 
 namespace svt::readers {
 
-/// A format, declared beside its reader. readModel() tries formats() in order and uses the first that matches.
+/// A format, declared next to its reader. readModel() tries formats() in order and uses the first that matches.
 struct Format {
     std::string_view name;     ///< "citygml"; unique
-    std::string_view endings;  ///< of its files, lower case, '|' between them: ".gml|.xml". Detection ignores them.
+    std::string_view endings;  ///< of its files, lower case, separated by '|': ".gml|.xml". Detection ignores them.
     std::string_view holds;    ///< content, for messages and the manual: "CityGML 1.0 to 3.0"
     /// Whether a file with these first bytes (up to 1 MiB) has this format.
     bool (*looksLike)(std::span<const std::byte> head) noexcept;
@@ -30,19 +30,21 @@ struct Format {
 /// All readable formats.
 [[nodiscard]] std::span<const Format> formats() noexcept;
 
-/// The endings of all formats, each once, in their order. The only list of them: commands, folders of cities and the page
-/// take it.
+/// The endings of all formats, each once, in their order. The only list of endings: commands, folders of cities and the
+/// page use it.
 [[nodiscard]] std::vector<std::string_view> modelEndings();
-/// Whether a file's name ends as a model's does, in any case, or so with ".gz" behind it.
+/// Whether a file name has one of modelEndings(), optionally followed by ".gz", in upper or lower case.
 [[nodiscard]] bool hasModelEnding(const std::filesystem::path& path);
 
 /// Reads a model file; gzip files are decompressed first. The attribute `svtClass` of a feature replaces its
 /// class: a way to express BuildingConstructiveElement in formats that lack it.
 /// \param diagnostics  receives findings that did not stop reading; may be null
-/// \return the model; CannotOpen (missing, unreadable, a folder, a size that changes, damaged gzip), UnknownFormat, InputTooBig for more
-///         than options.maxBytes, for gzip data that unpack to more than a third of the memory or to 100 times their
-///         size, and for files that take more memory than there is; or an error of the reader of the format
-/// Cost: the file is in memory beside its model; see the readers. What other programs do to it meanwhile does not matter.
+/// \return the model; CannotOpen (missing, unreadable, a folder, a changing size, damaged gzip data), UnknownFormat,
+///         InputTooBig, or an error of the reader of the format. InputTooBig: more than options.maxBytes; gzip data
+///         that unpack to more than a third of the memory or to 100 times their size; files that need more than the
+///         available memory.
+/// Cost: the file is in memory together with its model; see the readers. Changes that other programs make to the file
+/// meanwhile have no effect.
 [[nodiscard]] Result<model::BuildingModel> readModel(const std::filesystem::path& path, const ReadOptions& options = {},
                                                      Diagnostics* diagnostics = nullptr);
 

@@ -15,15 +15,15 @@ struct ReadOptions {
     int threads = 0;                                   ///< 0: all cores; the result does not depend on it
     const Progress* progress = nullptr;                ///< may be null
 
-    /// EPSG code of a projection in metres that the model is to be in; 0: as the file has it, or where that is not in
-    /// metres, `likelyCrs`.
+    /// EPSG code of a projection in metres for the model; 0: the CRS of the file, or `likelyCrs` if that is not in
+    /// metres.
     int crs = 0;
-    int likelyCrs = 0;  ///< where coordinates must be projected: to this code if possible; 0: the usual one
-    /// Order of the axes: 0: decided by name and coordinates; +1: east first, -1: north first, whatever they say. For parts
-    /// of a file, in which the order was decided for the whole.
+    int likelyCrs = 0;  ///< preferred EPSG code if coordinates must be projected; 0: the usual one
+    /// Order of the axes. 0: determined by name and coordinates. +1: east first, -1: north first, regardless of both;
+    /// for parts of a file whose order was determined for the whole file.
     int axisOrder = 0;
     bool keepFarFeatures = false;    ///< features far away from all others are not left out
-    bool extrudeFootprints = false;  ///< footprints with a height as attribute become bodies
+    bool extrudeFootprints = false;  ///< footprints with a height as attribute become solids
     bool allowTruncated = false;     ///< read a file that was cut off up to the cut (IFC, CityJSONSeq)
     bool splitLayers = false;        ///< IFC: walls and slabs become the layers of their material
 };

@@ -37,7 +37,8 @@ private:
 /// The hash of an id in ids.bin: the first eight bytes of its SHA-256, big-endian.
 [[nodiscard]] std::uint64_t idHash(std::string_view id);
 
-/// A hash of a feature's text, eight bytes at a time; tells changed files and replicas (beside the id), never a result.
+/// A hash of a feature's text, eight bytes at a time. It detects changed files and replicas (together with the id); no
+/// result depends on it.
 [[nodiscard]] std::uint64_t contentHash(std::string_view text);
 
 }  // namespace svt::city

@@ -63,8 +63,8 @@ Result<std::vector<IndexEntry>> entriesOf(const City& city, const Extract& extra
         for (const City::Place& place : *places) tiles.push_back(place.tile);
     }
     if (!tiles.empty() && !extract.hasBox && extract.detail < kFirstClassDetail) {
-        // Reads only the pages of the index around these tiles. The survey counts geometry that a tile may lack, such as
-        // another level of detail, so samples may also lie beside the square.
+        // Reads only the pages of the index around these tiles. The survey counts geometry that a tile may lack, such
+        // as another level of detail, so samples may also lie beside the square.
         rectangle = {rectangle[2], rectangle[3], rectangle[0], rectangle[1]};
         for (const TileKey& tile : tiles) {
             const double side = tileSide(tile, extract.detail, city.spacing());

@@ -85,7 +85,7 @@ private:
         return scratch.whole;
     }
 
-    // Lays the runs of a part under those that are there.
+    // Adds the runs of a part where no earlier part fills the column.
     static void lay(const Part& part, std::span<const Run> runs, Scratch& scratch) {
         auto& [whole, next] = scratch;
         if (runs.size() == 1 && runs[0].scalar == 0) return;

@@ -30,7 +30,7 @@ LevelBuilder::LevelBuilder(std::span<const ColumnRange> members, double spacing,
         own.range ? own.range->add(below) : void(own.range = below);
     };
     for (const ColumnRange& member : members_) open(tileOf(member), member);
-    // A finer detail stands before the ones that are made of it.
+    // Finer details come before the ones that are made from them.
     for (int detail = kFirstClassDetail; detail < top_; ++detail)
         for (auto at = open_.lower_bound({detail, 0, {}}); at != open_.end() && at->first.detail == detail; ++at)
             open(above(at->first), *at->second.range);
@@ -118,7 +118,7 @@ Result<void> LevelBuilder::add(std::span<const volume::SemanticVolume> volumes,
 
 Result<void> LevelBuilder::giveInOrder(const std::function<Result<void>(LevelMember)>& give) {
     for (auto at = waiting_.begin(); at != waiting_.end();) {
-        // All before it of its detail are given away, which takes them out of open_.
+        // All tiles before it in its detail were returned and are no longer in open_.
         const auto first = open_.lower_bound({at->first.detail, 0, {}});
         if (first->first < at->first) {
             at = waiting_.lower_bound({at->first.detail + 1, 0, {}});

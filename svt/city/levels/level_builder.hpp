@@ -13,7 +13,7 @@
 
 namespace svt::city {
 
-/// Columns of detail 1, [first, last] along each axis, where a member may be filled, and its tile.
+/// Columns of detail 1, [first, last] along each axis, that a member may fill, and its tile.
 struct ColumnRange {
     std::array<std::int64_t, 2> first{}, last{};
     TileKey tile{};
@@ -30,18 +30,18 @@ struct LevelMember {
 /// The detail whose single tile holds the whole city: the first where `whole` has at most 256 columns along each axis.
 [[nodiscard]] int topDetail(const ColumnRange& whole) noexcept;
 
-/// A tile has all of the members below it, so that no building is cut: it may reach over its square. Tiles are open from the
-/// first member below them to the last one; then they become a `.svt`, and are added to the
-/// tile above. So memory is that of the tiles along the border of what is done: some 5 MB each.
+/// A tile has all of the members below it, so that no building is cut: it may reach over its square. Tiles are open
+/// from the first member below them to the last one. Then they become a `.svt` and are added to the tile above.
+/// Memory: the tiles along the border of the finished part, about 5 MB each.
 class LevelBuilder {
 public:
-    /// \param members  where each member lies, in the order in which they come; at least one
+    /// \param members  columns of each member, in the order in which they are added; at least one
     LevelBuilder(std::span<const ColumnRange> members, double spacing, std::string crsName, int threads);
 
     [[nodiscard]] int top() const noexcept { return top_; }
     [[nodiscard]] const LevelClasses& classes() const noexcept { return classes_; }
 
-    /// Adds the next members. Gives away finished tiles, those of a detail along the Morton curve.
+    /// Adds the next members. Returns finished tiles, those of one detail along the Morton curve.
     [[nodiscard]] Result<void> add(std::span<const volume::SemanticVolume> volumes,
                                    const std::function<Result<void>(LevelMember)>& give);
 

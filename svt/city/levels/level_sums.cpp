@@ -13,7 +13,7 @@ using volume::Scalar;
 
 std::int64_t floorDiv(std::int64_t a, std::int64_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
-// Samples of detail 1 that are one of `detail` along z, as a power of two.
+// Number of samples of detail 1 in one sample of `detail` along z, as a power of two.
 int heightShift(int detail, double spacing) {
     int shift = 0;
     while (shift < detail - 2 && 2 * spacing * std::ldexp(1.0, shift + 1) <= 4) ++shift;
@@ -23,7 +23,7 @@ int heightShift(int detail, double spacing) {
 // Classes of a column and their eighths, the largest first.
 using Coverage = std::vector<std::pair<std::uint32_t, int>>;
 
-// What a tile's columns look like before they are numbered.
+// The classes of a tile's column before scalars are assigned.
 struct Look {
     Coverage roof, side;  // of the highest sample, and of those below it
     std::int64_t low = 0, top = 0;
@@ -83,7 +83,7 @@ private:
 
     using Areas = std::vector<std::pair<std::uint64_t, std::uint32_t>>;
 
-    // What a column has of classes, the most first, equally frequent ones by name.
+    // Areas of the classes of a column, the largest first, equal ones by name.
     [[nodiscard]] Areas areasAt(const LevelSums::ByClass& from, std::size_t n) const {
         Areas areas;
         for (const auto& [number, all] : from)
@@ -100,7 +100,7 @@ private:
         if (areas.empty()) return;
         std::int64_t area = 0;
         for (const auto& entry : areas) area += static_cast<std::int64_t>(entry.first);
-        // The middle between samples counts up.
+        // The middle between samples is rounded up.
         const std::int64_t step = std::int64_t{1} << shift_;
         const auto mean = [&](std::int64_t sum) { return floorDiv(2 * sum + area * step, 2 * area * step); };
         look.low = mean(sums_.low[n]);
@@ -114,7 +114,7 @@ private:
         look.side = sides.empty() ? look.roof : coverage(sides, faces);
     }
 
-    // \param whole  what counts as all eighths
+    // \param whole  area that corresponds to all eighths
     [[nodiscard]] Coverage coverage(const Areas& areas, double whole) const {
         constexpr std::size_t kMost = 4;
         if (sums_.detail == kFirstClassDetail) return {{areas[0].second, kCoverageSteps}};
@@ -126,7 +126,7 @@ private:
                                 std::max(1, static_cast<int>(std::floor(kCoverageSteps * share + 0.5))));
             sum += result.back().second;
         }
-        // Nothing vanishes, and together they cover a column at most: the first of the largest gives way.
+        // Each class keeps at least an eighth, and the sum is at most a column: the first of the largest is reduced.
         for (; sum > kCoverageSteps; --sum)
             --std::max_element(result.begin(), result.end(), [](const auto& a, const auto& b) {
                   return a.second < b.second;
@@ -142,8 +142,8 @@ private:
         return id;
     }
 
-    // A label for each class of buildings, and below it one for each mixture that occurs of whose parts the first is of such
-    // buildings, by id. At detail 2 the class alone is that label itself.
+    // A label for each class of buildings. Below it, by id, a label for each mixture whose first class is one of such
+    // buildings or of their parts. At detail 2, a column with the class itself uses the label of the class.
     void number(volume::LabelTable& table) {
         std::map<std::pair<std::string, std::string>, const Coverage*> sorted;
         for (const auto& [coverage, scalar] : scalarOf_) {
@@ -271,7 +271,7 @@ std::vector<std::pair<std::string, int>> coverageOf(const volume::Label& label) 
 
 std::uint32_t LevelClasses::add(const volume::Label& root, const volume::Label& label) {
     const bool isRoot = &root == &label;
-    // A blank class has a name, too, so that no label is without id.
+    // An empty class gets a name as well, so that each label has an id.
     const std::string& own = root.className.empty() ? std::string("Feature") : root.className;
     const std::string name = isRoot ? own : own + "/" + label.className;
     const auto [at, isNew] = numberOf.emplace(name, static_cast<std::uint32_t>(names.size()));
@@ -315,7 +315,8 @@ std::vector<std::uint64_t>& LevelSums::ofClass(ByClass& all, std::uint32_t numbe
 
 namespace {
 
-// Calls face(scalar, count) for the filled samples of a column below `end` beside which `other` is empty.
+// Calls face(scalar, count) for the filled samples of a column below `end` where the neighbouring column `other` is
+// empty.
 template <class Face>
 void forFaces(std::span<const Run> runs, std::span<const Run> other, std::uint32_t end, const Face& face) {
     std::uint32_t from = 0;

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What a tile of a coarse level is made of: sums over columns of detail 1. They are whole numbers that are only ever
-/// added, so the level does not depend on the order of what was added.
+/// Sums over columns of detail 1, from which a tile of a coarse level is made. They are whole numbers and are only
+/// added, so the level does not depend on the order of additions.
 
 #include <svt/city/city_levels.hpp>
 #include <svt/core/result.hpp>
@@ -15,13 +15,13 @@
 
 namespace svt::city {
 
-/// What a city is made of, numbered as it was met: classes of buildings ("Building"), and below them those of their parts
-/// ("Building/RoofSurface"). The colour is that of the first label.
+/// Classes of a city, numbered in the order in which they were found: classes of buildings ("Building"), and classes of
+/// their parts ("Building/RoofSurface"). The colour is that of the first label.
 struct LevelClasses {
     std::vector<std::string> names;  ///< as above
     std::vector<std::string> roots;  ///< the class of the building
     std::vector<Vec3f> colors;
-    std::vector<std::uint64_t> buildings;  ///< 0 of parts
+    std::vector<std::uint64_t> buildings;  ///< 0 for parts
     std::map<std::string, std::uint32_t> numberOf;
 
     /// \param root  the building that the label is, or is a part of
@@ -47,13 +47,13 @@ struct LevelSums {
     std::vector<std::int64_t> low, top;  ///< sums of samples of detail 1
     using ByClass = std::map<std::uint32_t, std::vector<std::uint64_t>>;
     ByClass areaOf;  ///< columns of detail 1 whose highest sample is of the class
-    ByClass sideOf;  ///< faces of samples of detail 1 below the highest one, beside which nothing is in the same member
+    ByClass sideOf;  ///< faces of samples of detail 1 below the highest one that have no neighbour in the same member
 
     LevelSums(int detail, std::array<std::int64_t, 2> first, std::array<std::int32_t, 2> size);
     void add(const LevelSource& source);
-    /// Adds columns of the detail before.
+    /// Adds columns of the next finer detail.
     void add(const LevelSums& finer);
-    /// The level as a volume; without columns where nothing is filled.
+    /// The level as a volume; without columns if nothing is filled.
     [[nodiscard]] Result<volume::SemanticVolume> volume(double spacing, const LevelClasses& classes,
                                                         const std::string& crsName) const;
 

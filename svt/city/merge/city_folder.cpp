@@ -103,7 +103,7 @@ Result<City> City::open(std::shared_ptr<const Store> store, const std::filesyste
 Result<void> City::readJson(const std::string& text) {
     try {
         const auto json = nlohmann::json::parse(text);
-        if (json.at("format") != "svt-city") return damaged("city.json", "this is no city");
+        if (json.at("format") != "svt-city") return damaged("city.json", "this is not a city");
         if (const int version = json.at("version").get<int>(); version < 1 || version > kVersion)
             return Error(Code::PlanVersion, "the city has a version that this program does not know",
                          {(folder_ / "city.json").string(), 0, 0, {}});
@@ -159,7 +159,7 @@ Result<void> City::readRoot() {
 
 Result<void> City::readPackSizes() {
     SVT_TRY(sizes, store_->read("packs.bin", 0, std::size_t{packs_} * kPackEntry));
-    // Nobody gives a page the digests of whole packs.
+    // A web page does not get the digests of whole packs.
     if (proof_ && !sizes->empty() && hexOf(digestOf(*sizes)) != proof_->packs.sha256)
         return damaged("packs.bin", "the file is damaged or of another merge: its digest is not the one of city.json");
     for (ByteReader packs(*sizes); packs.left() >= kPackEntry; packs.skip(kPackEntry - 8))
@@ -192,7 +192,7 @@ Result<std::vector<IndexEntry>> City::find(int detail, const std::array<double, 
         }
         SVT_TRY(bytes, store_->read("index.bin", kIndexHead + root_.size() + ref.offset, ref.size));
         const auto below = idHash(*bytes) == ref.checksum ? takeRefs(*bytes) : std::nullopt;
-        // A page stands before those that refer to it, so this ends.
+        // A page comes before those that refer to it, so this ends.
         const bool isBefore =
             below && std::all_of(below->begin(), below->end(), [&](const PageRef& b) { return b.offset < ref.offset; });
         if (!isBefore) return damaged("index.bin", fmt::format("the page at byte {} is damaged", ref.offset));
@@ -202,7 +202,7 @@ Result<std::vector<IndexEntry>> City::find(int detail, const std::array<double, 
         if (entry.hasRectangle())
             return !meets(rectangle, entry.rectangle[0], entry.rectangle[1], entry.rectangle[2], entry.rectangle[3]);
         const double side = tileSide(entry.tile, entry.detail, spacing_);
-        // What stands over the border of its tile is found by the pages alone.
+        // Only the pages know which buildings reach over the border of their tile.
         return !meets(rectangle, (entry.tile.x - 1) * side, (entry.tile.y - 1) * side, (entry.tile.x + 2) * side,
                       (entry.tile.y + 2) * side);
     });
@@ -257,7 +257,7 @@ Result<std::string> City::readBytes(const IndexEntry& entry) const {
     SVT_TRY(bytes, store_->read(name, entry.offset, entry.size));
     SVT_TRY(size, store_->size(name));
     if (entry.pack < packSizes_.size() && *size != packSizes_[entry.pack])
-        return badMember(store_->place(name), entry, "the pack is not as long as when the city was merged");
+        return badMember(store_->place(name), entry, "the size of the pack changed since the merge");
     if (bytes->size() != entry.size)
         return badMember(store_->place(name), entry, "the pack is missing or ends before it");
     return bytes;

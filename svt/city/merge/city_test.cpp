@@ -8,6 +8,7 @@
 #include <svt/city/store/store.hpp>
 #include <svt/city/tile/tile_builder.hpp>
 #include <svt/core/temporary_folder_test.hpp>
+#include <svt/readers/read_model.hpp>
 #include <svt/samples/city_sample.hpp>
 #include <svt/volume/svt_file.hpp>
 
@@ -655,14 +656,22 @@ TEST_F(SmallCity, ReadsCitiesOfEarlierProgramsWhichTellNoDigests) {
 
 TEST(CityInputs, AreAllFilesThatReadersTake) {
     const test::TemporaryFolder folder;
-    for (const char* name : {"a.gml", "b.ifczip", "c.CityJSON", "d.ifc.gz", "readme.txt", "e.zip"})
-        test::writeText(folder / name, "");
+    std::vector<std::string> taken{"c.CityJSON"};
+    for (const std::string_view ending : readers::modelEndings()) {
+        taken.push_back("a" + std::string(ending));
+        taken.push_back("b" + std::string(ending) + ".gz");
+    }
+    ASSERT_EQ(taken.size(), 17u);
+    for (const std::string& name : taken) test::writeText(folder / name, "");
+    for (const char* name : {"readme.txt", "e.zip", "gml", "f.gml.zip", "g.gz"}) test::writeText(folder / name, "");
     const std::filesystem::path input = folder.path();
     const auto files = cityInputs(std::span(&input, 1));
     ASSERT_TRUE(files) << files.error().toString();
     std::vector<std::string> names;
     for (const std::filesystem::path& file : *files) names.push_back(file.filename().string());
-    EXPECT_EQ(names, (std::vector<std::string>{"a.gml", "b.ifczip", "c.CityJSON", "d.ifc.gz"}));
+    std::sort(names.begin(), names.end());
+    std::sort(taken.begin(), taken.end());
+    EXPECT_EQ(names, taken);
 }
 
 }  // namespace

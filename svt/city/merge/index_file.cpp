@@ -43,7 +43,7 @@ void appendEntry(std::string& to, const IndexEntry& entry, const IndexEntry& bef
     appendVarint(to, entry.buildings);
 }
 
-// Where samples lie: the corner from that of the entry before, and the size.
+// Rectangle of samples: the corner relative to that of the entry before, and the size.
 void appendRectangle(std::string& to, const std::array<std::int32_t, 4>& own,
                      const std::array<std::int32_t, 4>& before) {
     appendSigned(to, std::int64_t{own[0]} - before[0]);
@@ -71,7 +71,7 @@ void appendRef(std::string& to, const PageRef& ref) {
     appendBytes(to, ref.size, ref.offset, ref.rectangle, ref.lowest, ref.highest, ref.members, ref.checksum);
 }
 
-// \param below  what a page of one reference or entry would have
+// \param below  content of a page with one reference or entry
 void widen(PageRef& ref, const PageRef& below, bool isFirst) {
     if (isFirst) {
         ref.rectangle = below.rectangle;
@@ -85,7 +85,7 @@ void widen(PageRef& ref, const PageRef& below, bool isFirst) {
     ref.members += below.members;
 }
 
-// Pages, one after the other, with offsets from the begin of the first.
+// Pages, one after the other, with offsets from the start of the first.
 struct Pages {
     std::string bytes;
     std::vector<PageRef> refs;
@@ -127,7 +127,7 @@ void addLeaves(const std::vector<PlacedEntry>& entries, Pages& pages) {
     }
 }
 
-// Pages of references, until the root can hold what is left.
+// Pages of references, until the rest fits into the root.
 void addInner(Pages& pages) {
     while (pages.refs.size() > kRefsOfPage) {
         const std::vector<PageRef> below = std::move(pages.refs);

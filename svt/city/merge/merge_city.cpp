@@ -31,7 +31,7 @@ struct Merging {
     std::string packs;                // packs.bin
     Box3d box;
     std::uint64_t tiles = 0;
-    // Of the coarse levels.
+    // The coarse levels.
     std::uint32_t packCount = 0;
     std::uint64_t levelBytes = 0;
     int top = 0;
@@ -283,6 +283,7 @@ Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& pl
     if (status.missing.size() == plan.packs)
         return Error(Code::CityIncomplete, "no pack of the city is done; run its tasks first (svt city run)",
                      {folder.string(), 0, 0, {}});
+    for (const char* name : {"packs.bin", "index.bin", "ids.bin", "city.json"}) SVT_DO(checkNoStream(folder / name));
     Merging merged;
     std::size_t missing = 0;
     for (std::uint32_t number = 0; number < plan.packs; ++number) {

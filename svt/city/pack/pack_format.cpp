@@ -54,6 +54,7 @@ bool takeMember(ByteReader& from, std::uint64_t bodyEnd, PackMember& member) {
 Result<PackWriter> PackWriter::create(const std::filesystem::path& path, const std::string& content) {
     std::error_code failed;
     std::filesystem::create_directories(path.parent_path(), failed);
+    SVT_DO(checkNoStream(path));
     SVT_TRY(file, AtomicFile::create(path));
     PackWriter writer(std::move(*file));
     std::string head(kHead);

@@ -58,7 +58,7 @@ Result<void> CityPainter::lookAround(illustrate::Scene& scene) const {
 
 namespace {
 
-// Where a surface hides all that is behind it: the depths of a picture, infinity where what is seen is translucent.
+// Depths of surfaces that hide everything behind them: the depths of a picture, infinity at translucent surfaces.
 std::vector<float> hidingDepths(const render::Frame& frame, const render::FrameSpec& spec) {
     std::vector<bool> isTranslucent;
     for (const render::Pass& pass : spec.passes) {
@@ -77,7 +77,7 @@ std::vector<float> hidingDepths(const render::Frame& frame, const render::FrameS
 
 }  // namespace
 
-// Reads what is chosen.
+// Reads the chosen tiles.
 Result<JoinedTiles> CityPainter::read() const {
     SVT_TRY(parts, readTiles(city_, chosen_, options_.threads, options_.progress));
     return joinTiles(city_, frame_, chosen_, std::move(*parts));
@@ -93,7 +93,8 @@ Result<illustrate::Painting> CityPainter::draw(const illustrate::Scene& scene, c
     return painter.paint(scene, options);
 }
 
-// Draws what is nearest small and plain, and leaves out of the choice what is behind it. In a street that is most of a city.
+// Draws the nearest tiles small and plain, and removes the tiles behind them from the choice. In a street, that is most
+// of a city.
 Result<void> CityPainter::leaveOutHidden(illustrate::Scene scene, const CameraView& view,
                                          const render::CastOptions& options) {
     constexpr double kShare = 0.15;
@@ -133,7 +134,8 @@ Result<void> CityPainter::leaveOutHidden(illustrate::Scene scene, const CameraVi
     return {};
 }
 
-// Takes back what was left out, but could be seen in a picture that is drawn without it. \return whether there is any
+// Restores tiles that were left out but could be visible in the picture drawn without them. \return whether there are
+// any
 bool CityPainter::takeBack(const CameraView& view, const illustrate::Painting& painting) {
     const std::vector<float> depth = hidingDepths(painting.frame, painting.spec);
     const SeenDepths seen{painting.spec.width, painting.spec.height, depth};

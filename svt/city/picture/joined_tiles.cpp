@@ -13,7 +13,7 @@ namespace {
 using Mixture = illustrate::ScenePainter::StyleMixture;
 using Shares = std::vector<std::pair<std::string, int>>;  // of coverageOf()
 
-// What the labels of coarse parts cover, by the id of the label.
+// Coverage of the labels of coarse parts, by the id of the label.
 std::map<std::string, Shares> coverages(const City& city, const std::vector<volume::SemanticVolume>& parts) {
     std::map<std::string, Shares> coverage;
     const double finest = spacingOf(kFirstClassDetail + 1, city.spacing()).x;

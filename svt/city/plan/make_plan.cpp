@@ -107,7 +107,8 @@ private:
         }
     }
 
-    // A pack is a square of the quadtree with little enough work, or a tile: so tiles of another district do not move it.
+    // A pack is a square of the quadtree with little enough work, or a tile: so tiles of another district do not move
+    // it.
     static void packSquare(Plan& plan, std::size_t begin, std::size_t end, int level) {
         std::uint64_t cost = 0;
         for (std::size_t n = begin; n < end; ++n) cost += plan.tiles[n].cost;
@@ -191,6 +192,8 @@ private:
 Result<void> writePlan(const std::filesystem::path& folder, const Survey& survey, const Tiling& tiling, Plan& plan) {
     std::error_code failed;
     std::filesystem::create_directories(folder / "plan", failed);
+    for (const char* name : {"features.bin", "tiles.bin", "packs.bin", "plan.json"})
+        SVT_DO(checkNoStream(folder / "plan" / name));
     SVT_TRY(features, AtomicFile::create(folder / "plan" / "features.bin"));
     Sha256 featureSum;
     PackDigests packDigests(plan);
@@ -236,8 +239,8 @@ Result<std::vector<std::filesystem::path>> cityInputs(std::span<const std::files
         std::vector<fs::path> below;
         for (fs::recursive_directory_iterator entry(input, failed), end; !failed && entry != end;
              entry.increment(failed))
-            if (entry->is_regular_file(failed) && readers::hasModelEnding(entry->path()))
-                below.push_back(entry->path());
+            // An entry that is not a regular file is not left out silently: reading it is an error.
+            if (readers::hasModelEnding(entry->path()) && !entry->is_directory(failed)) below.push_back(entry->path());
         if (failed || below.empty())
             return Error(Code::CannotOpen,
                          fmt::format("the folder cannot be read, or has no file that ends as a model does ({}, each "

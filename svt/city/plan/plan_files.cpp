@@ -84,7 +84,8 @@ Result<TileKey> TileKey::fromString(const std::string& text, int most) {
     number(key.x, '/');
     number(key.y, '\0');
     if (!isGood || key.level < 0 || key.level > most)
-        return Error(Code::BadArgument, fmt::format("'{}' is no tile; expected LEVEL/X/Y, such as 10/390/5812", text));
+        return Error(Code::BadArgument,
+                     fmt::format("'{}' is not a tile; expected LEVEL/X/Y, such as 10/390/5812", text));
     return key;
 }
 

@@ -13,7 +13,7 @@ namespace svt::city {
 namespace {
 
 constexpr std::size_t kBatchBytes = std::size_t{4} << 20;
-// What a building takes, measured on LoD2: most of it by its points, the rest by its surface in voxels.
+// Time per building, measured on LoD2: most of it depends on its points, the rest on its surface in voxels.
 constexpr double kMicrosecondsEach = 600, kMicrosecondsPerPoint = 5, kMicrosecondsPerThousandVoxels = 20;
 
 struct Batch {
@@ -22,7 +22,7 @@ struct Batch {
     std::size_t bytes = 0;
 };
 
-// What the model of a batch says of one of its features.
+// Data about a feature from the model of its batch.
 struct Found {
     Box3d box;
     std::string id;
@@ -88,7 +88,7 @@ private:
     Result<void> decide(const readers::FeatureFile& file, const Batch& batch) {
         isDecided_ = true;
         const auto first = file.read(viewsOf(batch), reading(), nullptr);
-        if (!first) return {};  // told of each feature
+        if (!first) return {};  // reported for each feature
         entry_.axisOrder = first->crs.axesSwapped ? -1 : 1;
         if (survey_.crs == 0) {
             survey_.crs = first->crs.epsg;
@@ -198,8 +198,8 @@ private:
         if (linked_ != 0)
             diagnostics_.add(
                 Severity::Warning, Code::LinkedFeature,
-                fmt::format("{} references lead to what does not stand in the feature that has them; it is "
-                            "read without",
+                fmt::format("{} references lead out of the features that have them; these are read without the "
+                            "targets",
                             linked_),
                 {path_.string(), 0, 0, {}});
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// One pass over the features of a file: where each stands, where it lies, what it costs.
+/// One pass over the features of a file: bytes, position and cost of each.
 
 #include <svt/city/city_plan.hpp>
 
@@ -8,7 +8,7 @@
 
 namespace svt::city {
 
-/// A feature between survey and tiles. 48 bytes, for there are millions.
+/// A feature between survey and tiles. 48 bytes, because there are millions.
 struct Surveyed {
     std::uint64_t begin = 0, size = 0, contentHash = 0, idHash = 0;
     std::int32_t x = 0, y = 0;  ///< middle of its box, centimetres
@@ -31,7 +31,8 @@ struct Survey {
 Result<void> surveyFile(const std::filesystem::path& path, const PlanOptions& options, Survey& survey,
                         Diagnostics& diagnostics);
 
-/// The plan of what was surveyed, written into `folder`/plan. Memory: 4 bytes a feature beside the survey.
+/// Makes the plan of the surveyed features and writes it into `folder`/plan. Memory: 4 bytes per feature in addition to
+/// the survey.
 [[nodiscard]] Result<Plan> planSurveyed(const Survey& survey, const std::filesystem::path& folder,
                                         const PlanOptions& options, Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-// A plan in place of another: what is built of both is kept.
+// Replaces a plan with another and keeps the built packs that both have.
 #include <svt/city/base/sha256.hpp>
 #include <svt/city/city_pack.hpp>
 #include <svt/city/pack/pack_format.hpp>
@@ -71,7 +71,7 @@ Error cannotMove(const fs::path& path) {
     return {Code::CannotWrite, "a pack that stays cannot get its new name", {path.string(), 0, 0, {}}};
 }
 
-// Packs of the plan before get names of their content, those of no use go.
+// Names packs of the previous plan after their content, and removes unused ones.
 Result<void> putAside(const fs::path& folder, const Plan& before, const Plan& now) {
     std::error_code failed;
     const std::vector<std::string> wanted = [&] {
@@ -103,6 +103,7 @@ Result<std::uint64_t> takeBack(const fs::path& folder, const Plan& now) {
             auto report = readReport(reportAside);
             if (!failed && report) {
                 report->pack = pack;
+                SVT_DO(checkNoStream(reportPath(folder, pack)));
                 SVT_TRY(written, writeFileAtomically(reportPath(folder, pack), reportJson(*report)));
                 fs::remove(reportAside, failed);
             }
@@ -136,11 +137,12 @@ Result<Plan> updatePlan(std::span<const fs::path> files, const fs::path& folder,
                         Diagnostics& diagnostics, PlanChanges& changes) {
     auto before = readPlan(folder, {});
     std::error_code failed;
-    // An update that was killed between its files leaves no plan that can be read; what it put aside is taken back.
+    // After an update that was killed between its files, the plan is unreadable; packs that it put aside are taken
+    // back.
     if (!before && !fs::exists(folder / "plan", failed)) return before.error();
     if (!before) before = Plan();
     SVT_TRY(contentBefore, contentOf(folder, *before));
-    // The new plan is made beside the old one, which stays where anything fails.
+    // The new plan is made next to the old one, which stays if an error occurs.
     const fs::path aside = folder / "plan-new";
     fs::remove_all(aside, failed);
     auto now = makePlan(files, aside, options, diagnostics);
@@ -156,7 +158,7 @@ Result<Plan> updatePlan(std::span<const fs::path> files, const fs::path& folder,
             changes.keptPacks += provenReport(folder, *now, pack, false) ? 1 : 0;
         return now;
     }
-    // Until all is merged again there is no city.
+    // Until the next merge there is no city.
     fs::remove(folder / "city.json", failed);
     SVT_DO(putAside(folder, *before, *now));
     for (const char* name : {"features.bin", "tiles.bin", "packs.bin", "plan.json"}) {

@@ -70,10 +70,10 @@ const Result<Curl>& loadedCurl() {
     return curl;
 }
 
-// What a server answers.
+// The answer of a server.
 struct Answer {
     std::string body, contentRange, retryAfter;
-    std::size_t most = 0;  // more is not taken
+    std::size_t most = 0;  // largest accepted size
     bool isTooLong = false;
     long status = 0;
 };
@@ -156,7 +156,7 @@ public:
     std::string place(const std::string& name) const override { return address_ + "/" + name; }
 
 private:
-    // Whether a request is worth sending again, and what the server says of the time.
+    // Whether a request is worth sending again, and the time that the server asks for.
     struct Retry {
         bool isUseful = false;
         std::string after;
@@ -183,16 +183,19 @@ private:
         retry.isUseful = (failed != 0 && !answer.isTooLong) || answer.status == 429 || answer.status >= 500;
         retry.after = answer.retryAfter;
         if (answer.status == 404 || answer.status == 410 || answer.status == 416) return std::string();
+        if (failed != 0 && !answer.isTooLong && answer.status != 0)
+            return wrong(name, fmt::format("the answer of the server breaks off after {} bytes ({}); try it later",
+                                           answer.body.size(), curl.textOf(failed)));
         if (failed != 0 && !answer.isTooLong)
             return wrong(name, fmt::format("the server does not answer ({}); try it later, or check the address",
                                            curl.textOf(failed)));
         return checked(name, offset, size, std::move(answer));
     }
 
-    // The body of an answer, if it is what was asked for.
+    // The body of an answer, if it is the requested range.
     Result<std::string> checked(const std::string& name, std::uint64_t offset, std::size_t size, Answer answer) const {
         if (answer.status == 200) {
-            // Of a file that is no longer than what was asked for, all is as good as a range.
+            // A complete file is accepted if it is not longer than the requested range.
             if (offset == 0 && !answer.isTooLong) return remembered(name, answer.body.size(), std::move(answer.body));
             return wrong(name,
                          "the server sends whole files where a range is asked for; a city needs one with range "
@@ -206,8 +209,8 @@ private:
             range.last - range.first + 1 != answer.body.size() ||
             (answer.body.size() < size && range.last + 1 != range.total))
             return wrong(name,
-                         fmt::format("asked for bytes {} to {}, the server sent {} bytes as '{}'; it is no good for "
-                                     "ranges: use another one, or a copy on this machine",
+                         fmt::format("asked for bytes {} to {}, the server sent {} bytes as '{}'; it does not support "
+                                     "ranges: use another server, or a copy on this machine",
                                      offset, offset + size - 1, answer.body.size(), answer.contentRange));
         return remembered(name, range.total, std::move(answer.body));
     }

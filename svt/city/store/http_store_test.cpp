@@ -141,7 +141,7 @@ TEST(HttpStore, NamesServersThatLie) {
          {lie("bytes 0-99/1000", 100), lie("bytes 100-199/1000", 90), lie("bytes 100-149/1000", 50), lie("", 100),
           lie("bytes 100-199", 100), lie("bytes 100-199/*", 100), lie("bytes 100-199/150", 100),
           lie("bytes 199-100/1000", 100), lie("bytes 100-99999999999999999999999/1000", 100)})
-        EXPECT_NE(fault.find("it is no good for ranges"), std::string::npos) << fault;
+        EXPECT_NE(fault.find("it does not support ranges"), std::string::npos) << fault;
     // More than was asked for is not read to its end.
     const std::string fault = faultOf([&](std::size_t, std::size_t) {
         return answerOf(206, textOf(1 << 20), "Content-Range: bytes 100-199/1048676\r\n");
@@ -188,6 +188,54 @@ TEST(HttpStore, TriesAgainLaterEachTimeAndGivesUp) {
         EXPECT_EQ(server.requests(), 3 + kMostAttempts);
         EXPECT_EQ(time.waits, (std::vector<double>{0.25, 0.5, 1}));
     }
+}
+
+// The begin of an answer, whose head promises `missing` bytes more; the connection is closed then.
+std::string brokenOff(std::string answer, std::size_t missing) {
+    answer.resize(answer.size() - missing);
+    return answer;
+}
+
+TEST(HttpStore, ABodyThatBreaksOffIsAskedForAgain) {
+    const std::string text = textOf(1000);
+    const auto chunked = [&](std::size_t first, std::size_t last) {
+        return fmt::format(
+            "HTTP/1.1 206 X\r\nTransfer-Encoding: chunked\r\nContent-Range: bytes {}-{}/{}\r\n\r\n20\r\n{}\r\n", first,
+            last, text.size(), text.substr(first, 32));
+    };
+    for (const bool isChunked : {false, true}) {
+        int failures = 2;
+        const TinyServer server([&](std::size_t first, std::size_t last) {
+            if (failures-- <= 0) return rangeOf(text, first, last);
+            return isChunked ? chunked(first, last) : brokenOff(rangeOf(text, first, last), 40);
+        });
+        TestClock time;
+        const auto store = openHttpStore(server.address(), {}, time.clock());
+        const auto bytes = store->read("index.bin", 100, 100);
+        ASSERT_TRUE(bytes) << bytes.error().toString();
+        EXPECT_EQ(*bytes, text.substr(100, 100)) << "nothing of the answers before";
+        EXPECT_EQ(server.requests(), 3);
+        EXPECT_EQ(time.waits, (std::vector<double>{0.25, 0.5}));
+        failures = 100;
+        const auto never = store->read("index.bin", 100, 100);
+        ASSERT_FALSE(never);
+        EXPECT_EQ(server.requests(), 3 + kMostAttempts);
+        EXPECT_EQ(never.error().where().file, server.address() + "index.bin");
+        EXPECT_NE(never.error().message().find("breaks off after"), std::string::npos) << never.error().message();
+    }
+}
+
+TEST(HttpStore, AWholeFileThatBreaksOffIsAskedForAgain) {
+    const std::string text = textOf(50);
+    int failures = 1;
+    const TinyServer server([&](std::size_t, std::size_t) {
+        return failures-- > 0 ? brokenOff(answerOf(200, text), 20) : answerOf(200, text);
+    });
+    TestClock time;
+    const auto bytes = openHttpStore(server.address(), {}, time.clock())->read("city.json", 0, 100);
+    ASSERT_TRUE(bytes) << bytes.error().toString();
+    EXPECT_EQ(*bytes, text);
+    EXPECT_EQ(server.requests(), 2);
 }
 
 TEST(HttpStore, RefusalsAreNotTriedAgain) {

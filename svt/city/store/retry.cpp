@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kFirstRetrySeconds = 0.25;
 
-// "Sun, 06 Nov 1994 08:49:37 GMT", the only form of a date that servers may send.
+// "Sun, 06 Nov 1994 08:49:37 GMT", the only format of a date that servers may send.
 std::optional<std::int64_t> secondsOfDate(std::string_view text) {
     constexpr std::array<std::string_view, 12> kMonths{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                                        "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
@@ -41,7 +41,7 @@ std::optional<std::int64_t> secondsOfDate(std::string_view text) {
     return ((days * 24 + hour) * 60 + minute) * 60 + second;
 }
 
-// What a server asks for; 0: nothing that can be read.
+// The time that a server asks for; 0: no readable time.
 double askedSeconds(std::string_view retryAfter, std::int64_t now) {
     std::uint32_t seconds = 0;
     const char* const end = retryAfter.data() + retryAfter.size();

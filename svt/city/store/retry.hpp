@@ -8,7 +8,7 @@
 
 namespace svt::city {
 
-/// How long a store waits, and what time it is. Tests give their own.
+/// The clock and the waiting function of a store. Tests replace them.
 struct RetryClock {
     std::function<void(double seconds)> wait;
     std::function<std::int64_t()> now;  ///< seconds since 1970 in UTC
@@ -19,13 +19,14 @@ struct RetryClock {
 
 /// Requests for one range, the first one included.
 constexpr int kMostAttempts = 4;
-/// A store does not wait longer than this on behalf of a server.
+/// Longest time that a store waits if a server asks for it.
 constexpr double kLongestRetrySeconds = 60;
 
-/// Seconds until the next request: 0.25, 0.5, 1, ... after the first, second, third attempt; longer where the server
+/// Seconds until the next request: 0.25, 0.5, 1, ... after the first, second, third attempt; longer if the server
 /// asks for it.
 /// \param attempt     number of requests so far, from 1
-/// \param retryAfter  value of the header Retry-After: seconds or a date (RFC 9110, 10.2.3); empty or malformed: ignored
+/// \param retryAfter  value of the header Retry-After: seconds or a date (RFC 9110, 10.2.3); empty or malformed:
+///                    ignored
 /// \param now         seconds since 1970 in UTC
 [[nodiscard]] double retrySeconds(int attempt, std::string_view retryAfter, std::int64_t now);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where the files of a city are read from: a folder, or a server that answers HTTP requests for ranges.
+/// The source of a city's files: a folder, or a server that answers HTTP requests for ranges.
 
 #include <svt/city/store/retry.hpp>
 #include <svt/core/result.hpp>
@@ -17,25 +17,26 @@ class Store {
 public:
     virtual ~Store() = default;
 
-    /// Bytes [offset, offset + size) of a file, such as "packs/00000.svtp"; fewer where it ends, none where it is missing.
-    /// \return the bytes; CannotOpen where a server gives none or other ones, or a file cannot be read; BadCity where it
-    ///         changed meanwhile
+    /// Bytes [offset, offset + size) of a file, such as "packs/00000.svtp"; fewer at the end of the file, none if it is
+    /// missing.
+    /// \return the bytes; CannotOpen if a server sends no bytes or other ones, or a file cannot be read; BadCity if the
+    ///         file changed meanwhile
     [[nodiscard]] virtual Result<std::string> read(const std::string& name, std::uint64_t offset,
                                                    std::size_t size) const = 0;
-    /// Bytes of a file; 0 where it is missing.
+    /// Size of a file in bytes; 0 if it is missing.
     [[nodiscard]] virtual Result<std::uint64_t> size(const std::string& name) const = 0;
-    /// Whether files are on this machine, so that all of a file can be read.
+    /// Whether files are on this machine, so that whole files can be read.
     [[nodiscard]] virtual bool isLocal() const noexcept { return false; }
-    /// The file in messages.
+    /// The name of the file in messages.
     [[nodiscard]] virtual std::string place(const std::string& name) const = 0;
 };
 
-/// What was asked of a server.
+/// Requests to a server.
 struct Traffic {
     std::uint64_t requests = 0, bytes = 0;
 };
 
-/// Whether a location is an address, not a folder.
+/// Whether a location is an address and not a folder.
 [[nodiscard]] bool isAddress(const std::string& location) noexcept;
 
 /// Opens a folder or an address. Nothing is read.
@@ -43,8 +44,8 @@ struct Traffic {
 
 /// The files below an address, by requests for single ranges (libcurl, which is loaded with the first one).
 ///
-/// A server must answer with the range that was asked for (206 and Content-Range). One that sends whole files, other
-/// ranges or fewer bytes is named, and not read on; so is a file whose size changes between two requests.
+/// A server must answer with the requested range (206 and Content-Range). Whole files, other ranges and fewer bytes are
+/// errors that name the server. A change of a file's size between two requests is an error as well.
 ///
 /// Requests without an answer, and those with status 429 or 500 and up, are sent again after retrySeconds(), up to
 /// kMostAttempts times.

@@ -31,7 +31,7 @@ public:
         try {
             thread_ = std::thread([this] { run(); });
         } catch (const std::system_error&) {
-            // Without threads (WebAssembly) nobody watches.
+            // Without threads (WebAssembly), nothing watches the time.
         }
     }
     ~Watch() {
@@ -68,7 +68,7 @@ private:
     std::thread thread_;
 };
 
-// What a process says: "tile 12", "feature 40", "failed 40 reason", "error 501 text", "done".
+// The messages of a process: "tile 12", "feature 40", "failed 40 reason", "error 501 text", "done".
 struct Said {
     std::optional<std::size_t> tile;       // the last one begun
     std::optional<std::uint32_t> feature;  // likewise
@@ -119,7 +119,7 @@ public:
         : folder_(folder), plan_(plan), pack_(pack), options_(options) {}
 
     Result<PackReport> run() {
-        // Each round that fails leaves out a feature at least, or a tile.
+        // Each round that fails leaves out at least a feature, or a tile.
         const auto [first, last] = plan_.tilesOf(pack_);
         const std::size_t rounds = 2 * (last - first) + 2;
         for (std::size_t round = 0; round < rounds; ++round) {
@@ -149,7 +149,7 @@ private:
             Code::TaskFailed, fmt::format("pack {} could not be built: {}", pack_, why), {folder_.string(), 0, 0, {}}};
     }
 
-    // Says "@done" where the work came to its end, "@error" for what is no matter of features; else nothing more.
+    // Prints "@done" at the end of the work, "@error" for errors that do not depend on features; otherwise nothing.
     template <class Work>
     static void guarded(const Say& say, Work&& work) {
         try {
@@ -202,6 +202,7 @@ private:
         for (const auto& [feature, reason] : skips_) report.skipped.push_back(features->skipped(feature, reason));
         std::error_code ignored;
         std::filesystem::create_directories(folder_ / "reports", ignored);
+        SVT_DO(checkNoStream(reportPath(folder_, pack_)));
         SVT_TRY(written, writeFileAtomically(reportPath(folder_, pack_), reportJson(report)));
         return true;
     }
@@ -224,7 +225,8 @@ private:
         return {};
     }
 
-    // Tries the features of a tile one by one, and leaves out those that fail; the whole tile where none fails alone.
+    // Tries the features of a tile one by one, and leaves out those that fail. If none fails by itself, leaves out the
+    // tile.
     Result<void> tryTile(std::size_t tile, const std::string& fault) {
         const std::size_t before = skips_.size();
         std::uint32_t from = 0;
@@ -246,8 +248,8 @@ private:
         for (std::size_t n = 0; n < features->size(); ++n)
             skips_.emplace(
                 static_cast<std::uint32_t>(offset + n),
-                fmt::format("the tile that it belongs to cannot be built ({}), although each of its features "
-                            "can alone",
+                fmt::format("its tile cannot be built ({}), although each feature of the tile can be built by "
+                            "itself",
                             fault));
         return {};
     }

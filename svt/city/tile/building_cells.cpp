@@ -15,7 +15,7 @@ using volume::Label;
 using volume::Run;
 using volume::Scalar;
 
-// The table of detail 1, and what each scalar of detail 0 is in it. Scalar 0 is nothing.
+// The table of detail 1, and the scalar in it for each scalar of detail 0. Scalar 0 is background.
 struct Parts {
     volume::LabelTable table;
     std::vector<Scalar> partOf;  // by scalar of detail 0
@@ -64,7 +64,7 @@ Parts partsOf(const volume::LabelTable& from) {
     return parts;
 }
 
-// What of its 8 samples a cell shows.
+// The dominant scalar of a cell's 8 samples.
 class Cell {
 public:
     explicit Cell(const std::vector<Scalar>& bodyOf) : bodyOf_(bodyOf) {}
@@ -181,7 +181,7 @@ private:
         Cell cell(parts_.bodyOf);
         for (std::uint32_t k = 0; k < height;) {
             cell.clear();
-            std::uint32_t same = top;  // all columns stay what they are up to there
+            std::uint32_t same = top;  // up to here, no column changes
             for (std::size_t c = 0; c < count; ++c) {
                 const Run& low = walks[c].runAt(2 * k);
                 same = std::min(same, low.end);

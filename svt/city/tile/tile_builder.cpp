@@ -80,7 +80,7 @@ Result<model::BuildingModel> PackFeatures::model(std::span<const std::uint32_t> 
         options.crs = plan_->files[file].crs;
         options.axisOrder = plan_->files[file].axisOrder;
         options.keepFarFeatures = true;
-        options.allowTruncated = true;  // the plan has what of the file is to be read
+        options.allowTruncated = true;  // the plan determines the parts of the file that are read
         SVT_TRY(model, files_.at(file).read(views, options, nullptr));
         joiner.add(std::move(*model));
     }
@@ -120,7 +120,7 @@ Result<std::optional<BuiltTile>> buildTile(const PackFeatures& features, std::sp
     SVT_TRY(built, pipeline::buildVolume(*model, building));
     BuiltTile tile;
     tile.full = std::move(built->volume);
-    // Names of files on the machine that built are no part of a city.
+    // File names of the machine that built the tile do not belong into a city.
     tile.full.source.clear();
     SVT_TRY(buildings, buildingsOf(tile.full, threads));
     tile.buildings = std::move(*buildings);

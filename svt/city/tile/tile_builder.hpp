@@ -17,7 +17,7 @@ namespace svt::city {
 class PackFeatures {
 public:
     /// Reads the text of all features of a pack, each file once.
-    /// \return the features, or InputChanged where a text is not the one that was planned; as FeatureFile
+    /// \return the features, or InputChanged if a text differs from the planned one; or an error of FeatureFile
     [[nodiscard]] static Result<PackFeatures> read(const std::filesystem::path& folder, const Plan& plan,
                                                    std::uint32_t pack);
 
@@ -48,13 +48,14 @@ struct BuiltTile {
 };
 
 /// Builds features as a tile of the city.
-/// \return the tile; nothing where no voxel is filled; or the error of a stage
+/// \return the tile; nothing if no voxel is filled; or the error of a stage
 [[nodiscard]] Result<std::optional<BuiltTile>> buildTile(const PackFeatures& features,
                                                          std::span<const std::uint32_t> chosen,
                                                          const CityOptions& options, int threads);
 
-/// One label a root of the tree, and below it one a class of what it is made of, at twice the spacing: of the root that fills
-/// most of what is filled of a cell the class that fills most, its own body only where nothing else of it is there.
+/// Coarsens to twice the spacing, with one label per building (a root of the tree) and, below it, one per class of its
+/// parts. Each cell takes the dominant building, then the dominant class of its parts. The building's own body is taken
+/// only where no other part of it is in the cell.
 [[nodiscard]] Result<volume::SemanticVolume> buildingsOf(const volume::SemanticVolume& full, int threads);
 
 /// The grid of the city's lattice around a box: samples at (n + 1/2) * spacing, from a multiple of four on.

@@ -84,7 +84,7 @@ private:
         return detail;
     }
 
-    // The square of a tile, or all around it.
+    // The square of a tile, or a square around it.
     void add(const IndexEntry& entry, bool isOwn) {
         const std::int64_t side = std::int64_t{1} << entry.tile.level;
         const std::int64_t x = entry.tile.x * side - west_, y = entry.tile.y * side - south_;

@@ -25,7 +25,7 @@ constexpr double kMostPixels = 256;
 
 double voxelOf(const City& city, int detail) { return spacingOf(detail, city.spacing()).x; }
 
-// Where the samples of an entry lie.
+// The box of an entry's samples.
 Box3d boxOf(const City& city, const IndexEntry& entry) {
     if (entry.detail == city.topDetail()) return city.box();
     const double low = entry.lowest, high = entry.highest;
@@ -37,7 +37,7 @@ Box3d boxOf(const City& city, const IndexEntry& entry) {
             {(entry.tile.x + 1) * side + around, (entry.tile.y + 1) * side + around, high}};
 }
 
-// The box of an entry with the shadow that it may throw upon the lowest ground.
+// The box of an entry with the shadow that it may cast on the lowest ground.
 Box3d boxWithShadow(const City& city, const CameraView& view, const IndexEntry& entry) {
     Box3d box = boxOf(city, entry);
     const Vec3d light = view.towardsLight;
@@ -64,8 +64,8 @@ double distanceFrom(Vec3d eye, const Box3d& box) {
     return length(nearest - eye);
 }
 
-// How many pixels a voxel of an entry is wide where it is nearest to the eye; not where its depth is least, which may be
-// aside.
+// Width in pixels of a voxel of an entry at its distance from the eye. The distance counts, not the depth, which can be
+// smaller at the side of the view.
 double pixelsOf(const City& city, const CameraView& view, const IndexEntry& entry) {
     const double pixel = view.isPerspective ? view.pixel * distanceFrom(view.eye, boxOf(city, entry)) : view.pixel;
     return voxelOf(city, entry.detail) / std::max(pixel, 1e-12);
@@ -113,8 +113,8 @@ public:
     }
 
 private:
-    // The tiles of the next finer detail that take the place of `entries`, and are needed: those that belong to them, so that
-    // each building is drawn once, and whole.
+    // The needed tiles of the next finer detail that replace `entries`: those that belong to them, so that each
+    // building is drawn once, and complete.
     Result<std::vector<IndexEntry>> below(const std::vector<IndexEntry>& entries) const {
         std::vector<IndexEntry> found;
         if (entries.empty()) return found;
@@ -136,7 +136,7 @@ private:
         return found;
     }
 
-    // Whether some of a box is in the picture, or the shadow that it may throw upon the lowest ground.
+    // Whether part of a box is in the picture, or part of the shadow that it may cast on the lowest ground.
     [[nodiscard]] bool isNeeded(const IndexEntry& entry) const { return isSeen(boxWithShadow(city_, view_, entry)); }
 
     // Whether no plane of the picture's frustum has all of a box at its outer side.
@@ -285,7 +285,7 @@ Result<std::vector<volume::SemanticVolume>> readTiles(const City& city, const Ch
 
 Result<volume::SemanticVolume> frameVolume(const City& city) {
     const Box3d& box = city.box();
-    // So many that a camera which is fitted to its voxels fits the city.
+    // Enough samples that a camera fitted to the voxels fits the city.
     constexpr Vec3i kSamples{129, 129, 33};
     Vec3d spacing = box.max - box.min;
     for (int axis = 0; axis < 3; ++axis) spacing[axis] = std::max(spacing[axis] / (kSamples[axis] - 1), 1e-3);

@@ -99,7 +99,7 @@ private:
         }
     }
 
-    // "parent/WallSurface[2]": the second WallSurface of its parent, counted among all features of that class.
+    // "parent/WallSurface[2]": the second WallSurface of its parent, counted among all features of the class.
     void makeMissingIds() {
         std::unordered_set<std::string> used;
         std::size_t missing = 0;
@@ -245,12 +245,13 @@ private:
 
     void noteUndeclared() {
         for (const Part::Prefix& prefix : part_.undeclared)
-            report(Severity::Warning, Code::BadXml,
-                   fmt::format(
-                       "the prefix '{0}' at <{1}> is not declared (xmlns:{0}), so names with it are in no namespace: "
-                       "what they stand for is not known, and may be missing from the model",
-                       prefix.name, prefix.element),
-                   prefix.offset, {});
+            report(
+                Severity::Warning, Code::BadXml,
+                fmt::format(
+                    "the prefix '{0}' at <{1}> is not declared (xmlns:{0}), so names with it do not have a namespace: "
+                    "their meaning is unknown, and they may be missing from the model",
+                    prefix.name, prefix.element),
+                prefix.offset, {});
     }
 
     void noteEmpty() {
@@ -271,7 +272,7 @@ private:
                              {facts_.fileName, 0, 0, {}});
     }
 
-    // A model of footprints has no volume, however many walls it names.
+    // A model of footprints has no volume, even if it names walls.
     Result<void> checkHeights() {
         if (part_.flatRings == 0) return {};
         const Place first{facts_.fileName, facts_.lineOf(part_.firstFlat), 0, {}};

@@ -23,7 +23,7 @@ struct DocumentFacts {
 };
 
 /// \return the model; an error of georeference(); NoHeights; InputTooBig if references expand to a model
-///         out of proportion to the file size
+///         that is too large for the size of the file
 Result<model::BuildingModel> assemble(Part&& part, const DocumentFacts& facts, const ReadOptions& options,
                                       Diagnostics& diagnostics);
 

@@ -78,7 +78,7 @@ void noteBadReferences(string_view content, std::uint64_t begin, Part& part) {
         if (after == from || after == end || *after != ';' || (!isTooLarge && isXmlCharacter(code))) continue;
         part.findings.add(
             Severity::Warning, Code::BadXml,
-            fmt::format("the reference '{}' is no character that XML allows: the id or text that holds it is "
+            fmt::format("the reference '{}' is not a character that XML allows: the id or text that holds it is "
                         "damaged, or ends there",
                         content.substr(at, static_cast<std::size_t>(after + 1 - content.data()) - at).substr(0, 40)),
             begin + at);
@@ -96,7 +96,7 @@ Part parseChunk(string_view document, string_view rootTag, const xml::Chunk& chu
     const string_view content = document.substr(chunk.content.begin, chunk.content.size());
     if (const std::size_t bad = xml::firstBadUtf8(content); bad != string_view::npos) {
         fail(Code::BadEncoding,
-             fmt::format("the byte 0x{:02X} is no valid UTF-8; the file may be in another encoding than it declares",
+             fmt::format("the byte 0x{:02X} is not valid UTF-8; the file may be in another encoding than it declares",
                          static_cast<unsigned char>(content[bad])),
              chunk.content.begin + bad);
         return part;

@@ -1,9 +1,9 @@
 #pragma once
 /// \file
 /// Reads the parsed children of a CityModel into a part: features, attributes, appearances.
-/// Follows the rules of GML rather than a list of classes: properties are lowerCamel, objects
-/// UpperCamel, and an object within a property of a feature is itself a feature unless it is
-/// geometry or a known data type. Modules and ADEs therefore need no code of their own.
+/// Follows the rules of GML instead of a list of classes. Properties are lowerCamel, objects are UpperCamel. An object
+/// within a property of a feature is itself a feature unless it is geometry or a known data type. Modules and ADEs
+/// therefore need no special code.
 
 #include <svt/readers/citygml/citygml_part.hpp>
 #include <svt/readers/citygml/gml_geometry.hpp>

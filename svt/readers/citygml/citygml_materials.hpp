@@ -11,7 +11,7 @@ namespace svt::readers::citygml {
 /// Sets Polygon::material for the targets of the materials of one theme: the first theme of the file that has
 /// materials. A material of a polygon takes precedence over one of its surface, that over one of its feature; among
 /// equals the later takes precedence.
-/// \param materials  receives the materials of that theme, without duplicates
+/// \param materials  receives the materials of the theme, without duplicates
 void applyMaterials(Part& part, const References& references, GeometryResolver& resolver,
                     const GeometriesByFeature& geometries, std::vector<model::Material>& materials);
 

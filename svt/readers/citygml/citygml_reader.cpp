@@ -168,7 +168,7 @@ private:
         for (citygml::Finding& finding : part.findings.items)
             diagnostics_.add(finding.severity, finding.code, std::move(finding.message),
                              {fileName_, lines_.lineOf(finding.offset), 0, std::move(finding.id)});
-        // The kept findings fill the list of that code, so these are only counted.
+        // The kept findings already fill the list of their code, so these are only counted.
         for (const citygml::Findings::Count& count : part.findings.counts)
             for (std::size_t i = 0; i < count.dropped; ++i) diagnostics_.add(count.severity, count.code, {});
         whole_.join(std::move(part));

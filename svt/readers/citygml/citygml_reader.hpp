@@ -3,14 +3,15 @@
 /// Reads CityGML 1.0, 2.0 and 3.0 into the semantic tree.
 ///
 /// Mapping:
-///  - an object with geometry or parts is a feature, whatever its module or ADE; the enclosing object is its parent;
-///  - a reference to a feature (rooms of a storey, members of a group) is a membership. Its role is the role of the
-///    group member if the file has one, else the name of the property ("buildingRoom");
-///  - properties and generic attributes are attributes; parts of a value are named "name/part" ("height" and
-///    "height/status"), members of a generic set "set/name";
-///  - lodN properties are geometries of level N; shared polygons are one polygon with several uses; an
-///    ImplicitGeometry is instantiated at its location. Curves, points and textures are skipped;
-///  - a feature without gml:id is named after its path: "Building[1]/BuildingRoom[2]";
+///  - An object with geometry or parts is a feature, regardless of its module or ADE. The enclosing object is its
+///    parent.
+///  - A reference to a feature (rooms of a storey, members of a group) is a membership. Its role is the role of the
+///    group member if the file has one, else the name of the property ("buildingRoom").
+///  - Properties and generic attributes are attributes. Parts of a value are named "name/part" ("height" and
+///    "height/status"), members of a generic set "set/name".
+///  - lodN properties are geometries of level N. Shared polygons are one polygon with several uses. An
+///    ImplicitGeometry is instantiated at its location. Curves, points and textures are skipped.
+///  - A feature without gml:id is named after its path: "Building[1]/BuildingRoom[2]".
 ///  - Polygon::material follows the first theme of the file that has X3DMaterials.
 
 #include <svt/core/diagnostics.hpp>
@@ -38,7 +39,7 @@ namespace svt::readers {
 /// \return the model, or BadXml with line and column (truncated files included), DtdRefused, BadEncoding,
 ///         UnknownFormat, UnknownVersion, InputTooBig (bytes, depth, multiplying references), GeographicCrs or
 ///         Cancelled
-/// Cost: linear in bytes. Memory: the model, and for UTF-8 the parsed form of some megabytes of the file at a time
+/// Cost: linear in bytes. Memory: the model, and for UTF-8 the parsed tree of some megabytes of the file at a time
 /// (or of the largest part of one feature, if that is more). Threads: pieces of the file are parsed in parallel and
 /// joined in document order; the result does not depend on their number.
 [[nodiscard]] Result<model::BuildingModel> readCityGml(std::span<const std::byte> bytes, std::string_view name,

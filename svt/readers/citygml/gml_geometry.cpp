@@ -404,7 +404,7 @@ bool GeometryReader::finishRing(model::Polygon& polygon, pugi::xml_node at, bool
                    fmt::format("a ring of {} points, fewer than three of them distinct", points_.size()), at);
         return false;
     }
-    constexpr double kOnePoint = 0.001;  // metres; ends as near as this are meant to be one point
+    constexpr double kOnePoint = 0.001;  // metres; ends within this distance are meant to be one point
     if (!isClosed && !isPatch && length(points_.front() - points_.back()) > kOnePoint)
         part_.findings.add(
             Severity::Warning, Code::RingNotClosed,

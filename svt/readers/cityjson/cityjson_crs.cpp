@@ -9,7 +9,7 @@ void readMetadata(const std::optional<json::element>& metadata, model::BuildingM
     if (!metadata || metadata->is_null()) return;
     const auto object = asObject(*metadata);
     if (!object) {
-        diagnostics.add(Severity::Warning, Code::BadValue, "'metadata' is no JSON object; left out",
+        diagnostics.add(Severity::Warning, Code::BadValue, "'metadata' is not a JSON object; left out",
                         {std::string(file), 0, 0, {}});
         return;
     }

@@ -15,9 +15,9 @@ namespace svt::readers::cityjson {
 void readMetadata(const std::optional<json::element>& metadata, model::BuildingModel& model, std::string_view file,
                   Diagnostics& diagnostics);
 
-/// Brings the coordinates of `model` to metres east, north, up; see georeference(). CityJSON does not define the order of
-/// axes and files have east first, so projected coordinates are swapped only if their magnitude proves that north comes
-/// first; degrees also by what the faces say.
+/// Converts the coordinates of `model` to metres east, north, up; see georeference(). CityJSON does not define the
+/// order of axes, and files have east first. Projected coordinates are therefore swapped only if their magnitude proves
+/// that north comes first; degrees also if the orientation of faces proves it.
 /// \param anchors  see GivenCrs
 [[nodiscard]] Result<void> settleCrs(model::BuildingModel& model, std::string_view file, std::span<const Vec3d> anchors,
                                      const ReadOptions& options, Diagnostics& diagnostics);

@@ -82,7 +82,7 @@ public:
             if (const auto members = asObject(geometry))
                 read(*members);
             else
-                report(Code::BadJson, "is no JSON object; left out");
+                report(Code::BadJson, "is not a JSON object; left out");
             ++geometryNumber_;
         }
         giveSurfacesOrder();
@@ -128,7 +128,7 @@ private:
                           fmt::format("refers to template {}, the file has {}; left out",
                                       index ? fmt::format("{}", *index) : "(none)", templates.geometries.size()));
         const auto geometry = asObject(templates.geometries[static_cast<std::size_t>(*index)]);
-        if (!geometry) return report(Code::BadJson, "refers to a template that is no JSON object; left out");
+        if (!geometry) return report(Code::BadJson, "refers to a template that is not a JSON object; left out");
         const std::string_view type = textMember(*geometry, "type");
         if (type == "GeometryInstance")
             return report(Code::ReferenceCycle, "refers to a template that is an instance itself; left out");
@@ -231,7 +231,7 @@ private:
             lod = asNumber(*value).value_or(-1);
         }
         if (lod >= 0 && lod < 100) return lod;
-        report(Code::BadValue, "has a 'lod' that is no level of detail; taken as not stated");
+        report(Code::BadValue, "has a 'lod' that is not a level of detail; ignored");
         return -1;
     }
 
@@ -373,7 +373,7 @@ private:
         const auto index = asInteger(*value);
         if (index && *index >= 0 && static_cast<std::uint64_t>(*index) < materialEnd_ - materialBegin_)
             return static_cast<std::int32_t>(materialBegin_ + static_cast<std::size_t>(*index));
-        // Only a colour is lost: no defect of the model's bodies.
+        // Only a colour is lost; the solids of the model are not affected.
         add(Code::BadIndex,
             fmt::format("geometry {} refers to a material that does not exist; there are {}", geometryNumber_,
                         materialEnd_ - materialBegin_),
@@ -401,7 +401,7 @@ private:
         if (!surfaces) return report(Code::BadValue, "has 'semantics' without an array 'surfaces'; left out");
         for (const json::element item : *surfaces) {
             const auto members = asObject(item);
-            if (!members) report(Code::BadValue, "has a semantic surface that is no JSON object; left out");
+            if (!members) report(Code::BadValue, "has a semantic surface that is not a JSON object; left out");
             drafts_.push_back({members.value_or(json::object()), kNoSurface, false, {}});
             if (!members) drafts_.back().parent = kNotAnObject;
         }
@@ -409,7 +409,7 @@ private:
         readSurfaceParents();
     }
 
-    /// `parent` of the child takes precedence; `children` of the parent is used if the child has none.
+    /// `parent` of the child takes precedence; `children` of the parent is used if the child does not have `parent`.
     void readSurfaceParents() {
         const auto count = static_cast<std::int64_t>(drafts_.size());
         const auto isUsable = [&](std::optional<std::int64_t> index) {
@@ -519,7 +519,7 @@ private:
         if (count == 0) return;
         std::vector<std::int32_t> parents(count);
         for (std::size_t i = 0; i < count; ++i) parents[i] = object_.surfaces[i].parent;
-        // Surfaces shared by id between two geometries can form a cycle that neither has alone.
+        // Surfaces shared by id between two geometries can form a cycle that neither geometry has by itself.
         for (const std::int32_t i : breakCycles(parents)) {
             reportPart(Code::ReferenceCycle,
                        fmt::format("semantic surface '{}'", shortened(object_.surfaces[i].feature.id)),

@@ -25,7 +25,7 @@ bool isTooLarge(std::string_view number) noexcept {
     }
     double value = 0;
     if (std::from_chars(begin, end, value).ec == std::errc()) return !std::isfinite(value);
-    // Out of range means too large or too small: the decimal exponent of the first significant digit tells which.
+    // Out of range means too large or too small; the decimal exponent of the first significant digit decides.
     long exponent = 0;
     const std::size_t mark = number.find_first_of("eE");
     const std::string_view mantissa = number.substr(0, mark);
@@ -54,7 +54,7 @@ public:
         // A text truncated inside a character is reported as truncated.
         const bool isCutOff = fault && fault->offset >= text_.size() && bad + 4 > text_.size();
         if (bad == std::string_view::npos || isCutOff) return fault;
-        return JsonFault{bad, Code::BadEncoding, "a byte that is no valid UTF-8; save the file as UTF-8"};
+        return JsonFault{bad, Code::BadEncoding, "a byte that is not valid UTF-8; save the file as UTF-8"};
     }
 
 private:

@@ -23,7 +23,7 @@ namespace json = simdjson::dom;
 struct JsonFault {
     std::size_t offset = 0;
     Code code = Code::BadJson;  ///< BadJson, BadEncoding or InputTooBig (depth)
-    std::string message;        ///< what was found and what was expected
+    std::string message;        ///< the found and the expected text
 };
 
 /// Half-open byte range of a text.

@@ -72,7 +72,7 @@ private:
         return found == indexOfId_.end() ? kNone : found->second;
     }
 
-    /// `parents` of the child takes precedence; `children` of the parent is used if the child has none.
+    /// `parents` of the child takes precedence; `children` of the parent is used if the child does not have `parents`.
     void findParents() {
         parents_.assign(objects_.size(), kNone);
         for (std::size_t i = 0; i < objects_.size(); ++i)

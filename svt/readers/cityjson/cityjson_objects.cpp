@@ -114,8 +114,8 @@ std::vector<std::string> readIds(json::object object, std::string_view key, Pars
     if (!value || value->is_null()) return ids;
     const auto array = asArray(*value);
     if (!array) {
-        parsed.diagnostics.add(Severity::Warning, Code::BadValue, fmt::format("'{}' is no array of ids; left out", key),
-                               place);
+        parsed.diagnostics.add(Severity::Warning, Code::BadValue,
+                               fmt::format("'{}' is not an array of ids; left out", key), place);
         return ids;
     }
     for (const json::element item : *array) {
@@ -123,7 +123,7 @@ std::vector<std::string> readIds(json::object object, std::string_view key, Pars
             ids.emplace_back(*id);
         else
             parsed.diagnostics.add(Severity::Warning, Code::BadValue,
-                                   fmt::format("an entry of '{}' is no text; left out", key), place);
+                                   fmt::format("an entry of '{}' is not a text; left out", key), place);
     }
     return ids;
 }
@@ -164,7 +164,7 @@ void readType(json::object object, ParsedObject& parsed, const Place& place) {
     const bool isExtension = type->front() == '+';
     if (!isExtension && std::find(kObjectTypes.begin(), kObjectTypes.end(), *type) == kObjectTypes.end())
         parsed.diagnostics.add(Severity::Note, Code::UnknownElement,
-                               fmt::format("'{}' is no type of CityJSON; kept under this name", shortened(*type)),
+                               fmt::format("'{}' is not a type of CityJSON; kept under this name", shortened(*type)),
                                place);
 }
 
@@ -196,7 +196,7 @@ ParsedObject readCityObject(std::string_view id, json::element value, const Text
     const Place place{std::string(context.origin.file), parsed.feature.line, 0, shortened(id)};
     const auto object = asObject(value);
     if (!object) {
-        parsed.diagnostics.add(Severity::Warning, Code::BadJson, "a city object that is no JSON object; kept empty",
+        parsed.diagnostics.add(Severity::Warning, Code::BadJson, "a city object that is not a JSON object; kept empty",
                                place);
         parsed.feature.className = "GenericOccupiedSpace";
         return parsed;
@@ -212,7 +212,8 @@ ParsedObject readCityObject(std::string_view id, json::element value, const Text
             if (const auto attributes = asObject(member))
                 appendAttributes(*attributes, {}, parsed.feature.attributes);
             else if (!member.is_null())
-                parsed.diagnostics.add(Severity::Warning, Code::BadValue, "'attributes' is no object; left out", place);
+                parsed.diagnostics.add(Severity::Warning, Code::BadValue, "'attributes' is not an object; left out",
+                                       place);
         } else if (key == "address") {
             readAddresses(member, parsed.feature.attributes);
         } else if (!key.empty() && key.front() == '+') {
@@ -221,7 +222,8 @@ ParsedObject readCityObject(std::string_view id, json::element value, const Text
             if (const auto geometries = asArray(member))
                 readGeometries(*geometries, context, parsed);
             else
-                parsed.diagnostics.add(Severity::Warning, Code::BadValue, "'geometry' is no array; left out", place);
+                parsed.diagnostics.add(Severity::Warning, Code::BadValue, "'geometry' is not an array; left out",
+                                       place);
         }
     }
     parsed.feature.name = nameOf(parsed.feature.attributes);

@@ -37,7 +37,7 @@ struct TextContext {
 
 /// A semantic surface that has polygons, or an ancestor of one.
 struct SemanticSurface {
-    model::Feature feature;            ///< id empty if the file gives none; parent and children unused
+    model::Feature feature;            ///< id empty if the file does not give one; parent and children unused
     std::int32_t parent = kNoSurface;  ///< into ParsedObject::surfaces
 };
 

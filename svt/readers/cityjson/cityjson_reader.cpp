@@ -180,7 +180,8 @@ private:
         if (Progress::isCancelled(options_.progress)) return cancelled();
         Progress::tell(options_.progress, "read", hasLines ? 0 : 0.5);
         const auto object = asObject(*root);
-        if (!object) return Error(Code::BadJson, "the text is no JSON object; expected a CityJSON object", place(line));
+        if (!object)
+            return Error(Code::BadJson, "the text is not a JSON object; expected a CityJSON object", place(line));
         const RootMembers members(*object, place(0), diagnostics_);
         const auto type = asString(members.type);
         if (type == "CityJSONFeature")
@@ -204,10 +205,10 @@ private:
 
         const auto cityObjects = asObject(members.cityObjects);
         if (!cityObjects)
-            return Error(Code::BadJson, "the member 'CityObjects' is absent or no JSON object", place(line));
+            return Error(Code::BadJson, "the member 'CityObjects' is absent or not a JSON object", place(line));
         const auto vertices = asArray(members.vertices);
         if (!vertices && !(hasLines && cityObjects->size() == 0))
-            return Error(Code::BadJson, "the member 'vertices' is absent or no array", place(line));
+            return Error(Code::BadJson, "the member 'vertices' is absent or not an array", place(line));
         std::vector<Vec3d> points;
         if (vertices) points = readVertices(*vertices, transform_);
         return readObjects(*cityObjects, contextOf(origin, points));
@@ -294,7 +295,7 @@ private:
         return {};
     }
 
-    /// A sequence is cut off where its last line is, which then has no line break either.
+    /// A sequence is cut off if its last line is; that line also lacks a line break.
     Result<void> checkEnd(std::uint64_t headLine) {
         const std::size_t begin = rest_.rfind('\n') + 1;
         if (!isCutOff(rest_.substr(begin))) return {};

@@ -3,17 +3,17 @@
 /// Reads CityJSON 1.0, 1.1 and 2.0 and CityJSONSeq into the semantic tree.
 ///
 /// Mapping:
-///  - a city object is a feature; the first of its `parents` that is not a CityObjectGroup is its parent; all
-///    further parents and all groups are memberships (`children_roles` gives the role);
-///  - a geometry is one solid or surface of its object, at its own lod; a GeometryInstance is instantiated;
-///    MultiPoint and MultiLineString bound no volume and are skipped;
-///  - a semantic surface with polygons becomes a child feature that uses the same polygons, like a CityGML
-///    boundary surface. Its id is its member "id", else "<object>/<type>[n]", n counted from 1 per type;
-///  - nested attributes are named "outer/inner", arrays are compact JSON text, {"value", "uom"} is a measure,
-///    the members of an address are named "address/...";
-///  - Polygon::material follows the theme `default-theme-material`; a geometry without that theme follows its
-///    first theme in alphabetical order. Textures are skipped;
-///  - x is east and y north, as is usual in files; they are swapped only if the CRS and the magnitude of the
+///  - A city object is a feature. The first of its `parents` that is not a CityObjectGroup is its parent. All
+///    further parents and all groups are memberships (`children_roles` gives the role).
+///  - A geometry is one solid or surface of its object, at its own lod. A GeometryInstance is instantiated.
+///    MultiPoint and MultiLineString do not bound a volume and are skipped.
+///  - A semantic surface with polygons becomes a child feature that uses the same polygons, like a CityGML
+///    boundary surface. Its id is its member "id", else "<object>/<type>[n]", n counted from 1 per type.
+///  - Nested attributes are named "outer/inner", arrays are compact JSON text, {"value", "uom"} is a measure,
+///    the members of an address are named "address/...".
+///  - Polygon::material follows the theme `default-theme-material`. A geometry without that theme follows its
+///    first theme in alphabetical order. Textures are skipped.
+///  - x is east and y north, as is usual in files. They are swapped only if the CRS and the magnitude of the
 ///    coordinates prove the opposite.
 
 #include <svt/core/diagnostics.hpp>
@@ -37,10 +37,10 @@ namespace svt::readers {
 /// \param bytes  UTF-8, a byte order mark allowed; one JSON text may have up to 4 GiB less one byte
 /// \param name   path or name for messages
 /// \param diagnostics  receives findings in file order; may be null
-/// \return the model (without features where CityObjects is empty), or BadJson with line and column, BadEncoding,
-///         Truncated (a sequence whose last line is cut off, without options.allowTruncated; a finding with it),
-///         UnknownVersion, BadValue (transform), GeographicCrs, InputTooBig (bytes, depth, instanced templates,
-///         polygons) or Cancelled
+/// \return the model (without features if CityObjects is empty), or BadJson with line and column, BadEncoding,
+///         Truncated, UnknownVersion, BadValue (transform), GeographicCrs, InputTooBig (bytes, depth, instanced
+///         templates, polygons) or Cancelled. Truncated means that the last line of a sequence is cut off; with
+///         options.allowTruncated it is a finding.
 /// Cost: linear in bytes; peak memory up to about 15 times the largest JSON text, in addition to
 /// the model. Threads: objects and lines are read in parallel and joined in file order.
 [[nodiscard]] Result<model::BuildingModel> readCityJson(std::span<const std::byte> bytes, std::string_view name,

@@ -29,9 +29,9 @@ struct FeatureFile::State {
     bool allowsTruncated = false, isTruncated = false;
     TextStream stream;
     GmlMembers gml{{}};
-    std::string head;                 // of CityJSON: its line
+    std::string head;                 // for CityJSON: a line
     std::string unpacked;             // CityJSON of a gzip file
-    std::optional<FileBytes> mapped;  // CityJSON, and what is one feature
+    std::optional<FileBytes> mapped;  // CityJSON, and files that are one feature
     std::optional<JsonObjects> objects;
     std::size_t nextObject = 0;
     std::string line;
@@ -206,7 +206,7 @@ Result<bool> FeatureFile::next(FeatureText& feature) {
     return true;
 }
 
-// The member or line that stands at `span`.
+// The member or line at `span`.
 Result<FeatureText> FeatureFile::State::memberAt(const FeatureSpan& span) {
     if (pending && pending->span == span) return *pending;
     pending.reset();  // its text goes with the window
@@ -260,7 +260,7 @@ Result<void> FeatureFile::pick(std::span<const FeatureSpan> spans,
 
 namespace {
 
-// Lines of a document made of features, as lines of the file that they are from.
+// Converts lines of a document made of features to lines of the original file.
 class LineMap {
 public:
     // `first`: line of the document where the first feature begins.

@@ -60,8 +60,8 @@ Result<bool> GmlMembers::has(TextStream& stream, std::size_t at, string_view tex
     return stream.window().substr(at, text.size()) == text;
 }
 
-// Position of the next character that is neither blank nor in a comment or processing instruction; the end of the window
-// at the end of the text.
+// Position of the next character that is neither blank nor in a comment or processing instruction; the end of the
+// window at the end of the text.
 Result<std::size_t> GmlMembers::skipBlanks(TextStream& stream, std::size_t at) {
     while (true) {
         while (at < stream.window().size() && isBlank(stream.window()[at])) ++at;
@@ -175,7 +175,7 @@ Result<bool> GmlMembers::next(TextStream& stream, FeatureText& feature) {
         SVT_TRY(member, memberHere(stream));
         feature = *member;
         const string_view name = xml::splitName(tagNameAt(feature.text, 1)).localName;
-        // What stands behind the first feature tells nothing of those before.
+        // Members after the first feature do not apply to earlier features.
         if (!hasFeatures_ && belongsToHead(name) && head_.size() + feature.text.size() < kMaxHeadBytes) {
             head_ += feature.text;
             countHead();

@@ -20,7 +20,7 @@ Error badJson(const std::string& fileName, std::string_view what) {
     return {Code::BadJson, fmt::format("the CityJSON object {}", what), {fileName, 0, 0, {}}};
 }
 
-// The appearance without what textures need.
+// The appearance without members for textures.
 std::string plainAppearance(string_view text) {
     std::string members;
     forEachMember(text, 0, [&](string_view key, std::size_t begin, std::size_t end) {
@@ -30,10 +30,10 @@ std::string plainAppearance(string_view text) {
     return "{" + members + "}";
 }
 
-// Of the text of a member that is to stand in one line.
+// The text of a member without line breaks.
 std::string inOneLine(std::string text) {
     for (char& c : text)
-        if (c == '\n' || c == '\r') c = ' ';  // within a string they would be no JSON
+        if (c == '\n' || c == '\r') c = ' ';  // within a string they would not be valid JSON
     return text;
 }
 
@@ -70,7 +70,8 @@ Result<JsonObjects> JsonObjects::open(string_view text, const std::string& fileN
         if (result.vertexCount_++ % kMark == 0) result.vertexMarks_.push_back(begin);
     });
     if (lastObject == kNoJson || lastVertex == kNoJson)
-        return badJson(fileName, "has a member 'CityObjects' that is no object, or 'vertices' that is no array");
+        return badJson(fileName,
+                       "has a member 'CityObjects' that is not an object, or 'vertices' that is not an array");
     result.connect();
     return result;
 }
@@ -84,7 +85,7 @@ void JsonObjects::connect() {
             if (key != "\"parents\"") return;
             forEachElement(text_, begin, [&](std::size_t first, std::size_t last) {
                 const auto parent = numberOf.find(text_.substr(first, last - first));
-                // The first parent that exists has it; others refer to it.
+                // It belongs to the first existing parent; others refer to it.
                 if (parent == numberOf.end() || parent->second == o || objects_[o].hasParent) return;
                 objects_[o].hasParent = true;
                 objects_[parent->second].children.push_back(o);
@@ -153,7 +154,7 @@ std::string JsonObjects::line(std::size_t top) const {
     Numbers numbers;
     const Object& first = objects_[tops_[top]];
     std::string text = fmt::format(R"({{"type":"CityJSONFeature","id":{},"CityObjects":{{)", first.key);
-    // Parents that refer to each other have none without parent, so this ends.
+    // Objects whose parents form a cycle are not below an object without parent, so this ends.
     std::vector<std::uint32_t> open{tops_[top]};
     for (bool isFirst = true; !open.empty(); isFirst = false) {
         const Object& object = objects_[open.back()];
@@ -169,7 +170,7 @@ std::string JsonObjects::line(std::size_t top) const {
         if (v != 0) text += ',';
         text += vertex(used[v]);
     }
-    // A number that is no vertex of the document must be none of the feature: it has more digits than those.
+    // A number that is not a vertex of the document must not become a vertex of the feature: it has more digits.
     return inOneLine(text + "]}");
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// A CityJSON document as CityJSONFeatures: each object without parent with all below it, and the vertices that they use.
+/// A CityJSON document as CityJSONFeatures: each object without parent, with all objects below it and the vertices that
+/// they use.
 
 #include <svt/core/result.hpp>
 #include <svt/readers/feature_file.hpp>
@@ -12,14 +13,14 @@
 
 namespace svt::readers::features {
 
-/// The header of CityJSONSeq that this document's members without objects, vertices and textures make; a line.
+/// The header of a CityJSONSeq, as a line: the members of a document except for objects, vertices and textures.
 /// \param object  a CityJSON object
 [[nodiscard]] Result<std::string> headOf(std::string_view object, const std::string& fileName);
 
 class JsonObjects {
 public:
     /// \param text  a CityJSON document; must outlive the object
-    /// Memory: about 100 bytes an object, half a byte a vertex.
+    /// Memory: about 100 bytes per object, half a byte per vertex.
     [[nodiscard]] static Result<JsonObjects> open(std::string_view text, const std::string& fileName);
 
     /// Objects without parent (or whose parents are missing), in the order of the text.

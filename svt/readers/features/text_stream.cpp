@@ -37,7 +37,7 @@ Result<TextStream> TextStream::open(const std::filesystem::path& path) {
 }
 
 Result<bool> TextStream::more() {
-    // As readModel() has it: models unpack to 5 to 50 times their size.
+    // The same limit as in readModel(): models unpack to 5 to 50 times their size.
     constexpr std::uint64_t kMaxRatio = 100, kFreeBytes = std::uint64_t{64} << 20;
     if (isEnd_) return false;
     if (buffer_.size() - front_ > FeatureFile::kMaxFeatureBytes)

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The text of a file from its begin to its end through a window, unpacked where it is gzip data.
+/// The text of a file from start to end through a window; gzip data are unpacked.
 
 #include <svt/core/deflate.hpp>
 #include <svt/core/result.hpp>
@@ -18,7 +18,7 @@ public:
     /// \return CannotOpen
     [[nodiscard]] static Result<TextStream> open(const std::filesystem::path& path);
 
-    /// What is in the window; begins at offset base().
+    /// The text in the window; begins at offset base().
     [[nodiscard]] std::string_view window() const noexcept { return std::string_view(buffer_).substr(front_); }
     [[nodiscard]] std::uint64_t base() const noexcept { return base_; }
     /// The line at base(), from 1; 0 after seek(): unknown.
@@ -27,10 +27,10 @@ public:
     [[nodiscard]] double progress() const noexcept { return size_ == 0 ? 1 : double(taken_) / double(size_); }
 
     /// Reads more into the window.
-    /// \return false at the end of the text; CannotOpen for damaged data, InputTooBig for what unpacks to too much or a
-    ///         window beyond FeatureFile::kMaxFeatureBytes
+    /// \return false at the end of the text; CannotOpen for damaged data; InputTooBig for data that unpack to too much,
+    ///         or for a window beyond FeatureFile::kMaxFeatureBytes
     Result<bool> more();
-    /// Forgets what stands before `offset` (>= base()).
+    /// Forgets the text before `offset` (>= base()).
     void discard(std::uint64_t offset);
     /// Moves the window of a file that is not packed to an offset, and empties it.
     void seek(std::uint64_t offset);

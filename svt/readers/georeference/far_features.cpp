@@ -85,7 +85,7 @@ std::size_t leaveOutFarFeatures(model::BuildingModel& model, Vec3d metresPerUnit
         const FeatureIndex root = roots[centre.feature];
         model.features[centre.feature].geometries.clear();
         const bool isWhole = far[root] == all[root];
-        if (isWhole && all[root] == 0) continue;  // told with its first part
+        if (isWhole && all[root] == 0) continue;  // reported with its first part
         const model::Feature& told = model.features[isWhole ? root : centre.feature];
         diagnostics.add(
             Severity::Warning, Code::FarFeature,

@@ -102,7 +102,7 @@ private:
                 for (const Vec3d& point : line.points) box_.add(point);
     }
 
-    // Shapes that the reader has placed by adding their metres to degrees.
+    // Shapes that the reader placed by adding metres to degrees.
     void placeInDegrees(bool isNorthFirst) {
         for (std::size_t i = 0; i < isUsed_.size(); ++i) {
             const Vec3d anchor = given_.anchors[i];
@@ -151,8 +151,8 @@ private:
             return Error(
                 Code::GeographicCrs,
                 fmt::format("the coordinates look like degrees (x {:.6f} to {:.6f}, y {:.6f} to {:.6f}), but the "
-                            "name of their CRS, '{}', does not say which; name it in the file (such as "
-                            "EPSG:4326), or project the file to metres first",
+                            "name of their CRS, '{}', is not known. Name the CRS in the file (such as EPSG:4326), or "
+                            "project the file to metres first",
                             box_.min.x, box_.max.x, box_.min.y, box_.max.y, given_.name.substr(0, 200)),
                 given_.place);
         if (facts.isDegrees && !isDegrees)  // the name is wrong

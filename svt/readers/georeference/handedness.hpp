@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Whether the faces of a model look outward in the order of its axes: what tells north first from east first.
+/// Whether the faces of a model look outward in the order of its axes. This distinguishes north first from east first.
 
 #include <svt/model/building_model.hpp>
 

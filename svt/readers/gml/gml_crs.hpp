@@ -30,7 +30,7 @@ struct AxisDecision {
     std::string remark;         ///< an inconsistency between name and coordinates, or empty
 };
 
-/// Decides by code and form of the name (URN and URL forms imply the authority's axis order, EPSG:n does not).
+/// Decides by the code and the format of the name (URNs and URLs imply the authority's axis order, EPSG:n does not).
 /// Many files break that rule, so the coordinates take precedence if conclusive: by magnitude or the area of use of the
 /// CRS, else by handedness.
 /// \param box         of the coordinates as given in the file; may be empty

@@ -130,8 +130,9 @@ private:
     void reportStructure() {
         for (const std::string& circle : structure_.circles)
             warn(Code::ReferenceCycle,
-                 fmt::format("products contain, cut or fill each other in a circle: {}; what closes it is left out",
-                             circle),
+                 fmt::format(
+                     "products contain, cut or fill each other in a circle: {}; the closing reference is left out",
+                     circle),
                  place());
         for (const auto& [type, count] : structure_.unknownClasses)
             note(
@@ -143,7 +144,8 @@ private:
     void reportCircles() {
         for (const ReadGuard::Circle& circle : file_.guard().circles())
             warn(Code::ReferenceCycle,
-                 fmt::format("records refer to each other in a circle: {}; what closes it is left out", circle.text),
+                 fmt::format("records refer to each other in a circle: {}; the closing reference is left out",
+                             circle.text),
                  place(lineOf(circle.first)));
     }
 
@@ -219,8 +221,8 @@ private:
         featureOf_[number] = model_.addFeature(std::move(feature), parent);
     }
 
-    // A door (IFC4), its type, or its style (IFC2x3) states the operation. The door opens to the side of the y axis of its
-    // placement.
+    // A door (IFC4), its type, or its style (IFC2x3) states the operation. The door opens to the side of the y axis of
+    // its placement.
     void addDoorOperation(RecordIndex door, const Properties& properties, model::Feature& feature) const {
         const auto known = [](string_view operation) { return operation.size() > 1 && operation != "NOTDEFINED"; };
         string_view operation = file_.fieldsOf(door)[at::Door::OperationType].enumeration();
@@ -408,7 +410,7 @@ private:
         const auto added = structure_.projections.find(product.record);
         if (openings.empty() && added == structure_.projections.end()) return;
         if (!(std::abs(placement.determinant()) > 1e-12)) {
-            shape.leftOut.push_back("its openings, for its placement has no volume");
+            shape.leftOut.push_back("its openings, because its placement has no volume");
             return;
         }
         const Transform intoProduct = placement.inverse();
@@ -442,7 +444,8 @@ private:
         addGeometry(model_.features[featureOf_[number]], shape.bodies, placement, material);
     }
 
-    // Layers inherit the attributes of their wall, except for measures and materials, so that queries for walls find them.
+    // Layers inherit the attributes of their wall, except for measures and materials, so that queries for walls find
+    // them.
     static std::vector<Attribute> layerAttributes(const std::vector<Attribute>& ofProduct) {
         constexpr string_view kOwn[] = {"material", "materialLayers", "tag", "layer", "thickness", "function"};
         std::vector<Attribute> attributes;
@@ -453,7 +456,7 @@ private:
         return attributes;
     }
 
-    // Adds layers as features below the product; false where it has none, or the body cannot be split.
+    // Adds layers as features below the product; false if it does not have layers, or the body cannot be split.
     bool splitProduct(std::size_t number, const Shape& shape, const Transform& placement, const Styles& styles,
                       const Properties& properties, std::int32_t material) {
         const RecordIndex record = structure_.products[number].record;
@@ -481,7 +484,7 @@ private:
         ++split_;
         if (layered->moved > 0)
             report(fmt::format("has its layers beside its body; they were moved onto it, by {:.4g} m", layered->moved));
-        if (!layered->rest.empty()) report("is thicker than its layers; what is beside them belongs to no layer");
+        if (!layered->rest.empty()) report("is thicker than its layers; the rest does not belong to a layer");
         addGeometry(model_.features[product], layered->rest, placement, material);
         for (std::size_t i = 0; i < layered->layers.size(); ++i) {
             LayerPart& layer = layered->layers[i];

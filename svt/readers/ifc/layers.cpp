@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTolerance = 0.001;  // metres that a body may be thicker than its layers
 constexpr double kNoBody = 1e-6;      // metres: thinner layers are foils
-constexpr double kStraight = 1e-4;    // metres that a point of an axis may lie beside the line
+constexpr double kStraight = 1e-4;    // metres, maximum distance of a point of an axis from the line
 constexpr std::size_t kMaxLayers = 256;
 
 using Polygons = std::vector<model::Polygon>;
@@ -67,7 +67,7 @@ std::optional<Stack> wallStack(const IfcFile& file, RecordIndex definition, std:
     return stack;
 }
 
-// The direction in which the first extrusion of the body goes, and where it begins.
+// The direction of the first extrusion of the body, and its start.
 std::optional<Stack> extrusionStack(const IfcFile& file, RecordIndex definition) {
     for (const RecordIndex representation : file.representations(definition)) {
         const Fields fields = file.fieldsOf(representation);

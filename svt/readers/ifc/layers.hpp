@@ -35,11 +35,12 @@ struct LayeredShape {
 
 /// Splits a shape by the IfcMaterialLayerSetUsage of its product.
 ///
-/// Layers of a wall are parallel to its representation Axis if that is a straight line. Layers of a slab follow the direction
-/// of its extrusion if the slab is not as thick as the layers along z. The outermost layers take up to a millimetre more than
-/// their thickness. Layers that the usage puts beside a body of their thickness are moved onto it.
+/// Layers of a wall are parallel to its representation Axis if that is a straight line. Layers of a slab follow the
+/// direction of its extrusion if the slab is not as thick as the layers along z. The outermost layers take up to a
+/// millimetre more than their thickness. Layers that the usage places next to a body of the same thickness are moved
+/// onto it.
 /// \param definition  IfcProductDefinitionShape of the product, for its axis
-/// \return nothing where the product is not made of two or more layers
+/// \return nothing if the product does not consist of two or more layers
 [[nodiscard]] std::optional<LayeredShape> splitIntoLayers(const IfcFile& file, const Properties& properties,
                                                           RecordIndex product, RecordIndex definition,
                                                           const Shape& shape);

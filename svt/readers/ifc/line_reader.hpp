@@ -9,8 +9,8 @@
 
 namespace svt::readers::ifc {
 
-/// The curves of all representations, of curve sets and geometric sets, borders of filled areas, edges, and those of mapped
-/// items.
+/// The curves of all representations, of curve sets and geometric sets, borders of filled areas, edges, and those of
+/// mapped items.
 /// \param definition  IfcProductDefinitionShape
 /// \param leftOut     receives items that are unreadable or not lines (texts, points); each once
 /// \return lines of at least two points, in the axes of the product, metres

@@ -198,7 +198,7 @@ void Properties::appendProperty(const std::string& prefix, RecordIndex property,
     }
 }
 
-// The materials that a material definition is made of.
+// The materials of a material definition.
 std::vector<Properties::MaterialPart> Properties::parts(RecordIndex definition) const {
     ReadGuard::Scope scope(file_.guard());
     if (!scope.enter(definition)) return {};

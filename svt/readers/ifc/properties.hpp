@@ -15,13 +15,13 @@ namespace svt::readers::ifc {
 /// Elements of an attribute in the budget of a file: the number of points that take the same memory.
 [[nodiscard]] std::uint64_t elementsOf(const Attribute& attribute) noexcept;
 
-/// Which sets, types, materials and classifications each object has. Made once from the relations of a file.
+/// Sets, types, materials and classifications of each object. Made once from the relations of a file.
 class Properties {
 public:
     Properties(const IfcFile& file, const Units& units);
 
-    /// Attributes of an object beside its own: `Pset_WallCommon.IsExternal`, `BaseQuantities.NetVolume`, `type`, `material`,
-    /// `materialLayers`, `classification`. A property of the object takes the place of one of its type.
+    /// Attributes of an object in addition to its own: `Pset_WallCommon.IsExternal`, `BaseQuantities.NetVolume`,
+    /// `type`, `material`, `materialLayers`, `classification`. A property of the object replaces one of its type.
     void append(RecordIndex object, std::vector<Attribute>& attributes) const;
 
     /// Types that define an object.

@@ -119,7 +119,7 @@ private:
         if (isPart) isPart_[c] = true;
     }
 
-    // Reports the circle that the parents of a product lead into.
+    // Reports the circle to which the parents of a product lead.
     void reportCircle(std::size_t product) {
         std::vector<RecordIndex> path;
         std::unordered_map<std::size_t, std::size_t> steps;

@@ -27,7 +27,7 @@ struct Structure {
     std::vector<std::size_t> order;  ///< products that become features, parents before their children
     std::unordered_map<RecordIndex, std::vector<RecordIndex>> openings;     ///< product -> openings cut out of it
     std::unordered_map<RecordIndex, std::vector<RecordIndex>> projections;  ///< product -> bodies added to it
-    std::unordered_map<RecordIndex, RecordIndex> filled;  ///< door, window -> product that it stands in
+    std::unordered_map<RecordIndex, RecordIndex> filled;                    ///< door, window -> product that it fills
     struct Group {
         RecordIndex record = kNoRecord;
         std::vector<std::size_t> members;

@@ -96,7 +96,8 @@ MapPlace readMapPlace(const IfcFile& file, RecordIndex project) {
     if (record == file.step().records().size()) return place;
     const Fields conversion = file.fieldsOf(record);
     const Fields crs = file.fieldsOf(file.follow(conversion[at::CoordinateOperation::TargetCRS]));
-    // Eastings and heights are in the unit of the map. Scale converts project lengths, which are metres here, to that unit.
+    // Eastings and heights are in the unit of the map. Scale converts project lengths, which are metres here, to that
+    // unit.
     const double mapUnit = unitFactor(file, file.follow(crs[at::ProjectedCRS::MapUnit])).value_or(file.lengthUnit);
     const bool isShift = file.entityOf(record) == Entity::RigidOperation;
     // The coordinates of a shift may be angles, which give no place in metres.

@@ -14,11 +14,11 @@ struct Units {
     double length = 1, area = 1, volume = 1, angle = 1, mass = 1, time = 1;
 };
 
-/// The units of the project: SI with prefixes, and units defined by conversion. A missing or invalid unit becomes the SI
-/// unit, with a finding (BadValue) for lengths.
+/// The units of the project: SI with prefixes, and units defined by conversion. A missing or invalid unit becomes the
+/// SI unit, with a finding (BadValue) for lengths.
 [[nodiscard]] Units readUnits(const IfcFile& file, RecordIndex project, const Place& place, Diagnostics& diagnostics);
 
-/// How the coordinates of the project become those of a map.
+/// The conversion of project coordinates to map coordinates.
 struct MapPlace {
     Transform mapFromProject;
     std::string crs;                         ///< name of IfcProjectedCRS, such as EPSG:25832; empty: none

@@ -16,7 +16,8 @@ struct KnotVector {
 
     [[nodiscard]] double begin() const noexcept { return knots[degree]; }
     [[nodiscard]] double end() const noexcept { return knots[count]; }
-    /// The basis functions that are not zero at t, clamped to [begin, end]: those of the points first .. first + degree.
+    /// The basis functions that are not zero at t, clamped to [begin, end]: those of the points first .. first +
+    /// degree.
     /// \param values  receives degree + 1 numbers  \return first
     std::size_t basis(double t, std::vector<double>& values) const;
 };

@@ -26,8 +26,8 @@ struct Spline {
     [[nodiscard]] double sizeV() const { return (surface.v.end() - surface.v.begin()) * scaleV; }
     [[nodiscard]] Vec3d gridParameter(int i, int j) const { return {sizeU() * i / kGrid, sizeV() * j / kGrid, 0}; }
 
-    // The foot of a point on the surface, by Gauss-Newton from the nearest point of the grid; nothing if it is farther than
-    // a centimetre.
+    // The foot of a point on the surface, by Gauss-Newton from the nearest point of the grid; nothing if it is farther
+    // than a centimetre.
     [[nodiscard]] std::optional<Vec3d> parameters(Vec3d p) const {
         std::size_t nearest = 0;
         for (std::size_t n = 1; n < grid.size(); ++n)
@@ -217,7 +217,8 @@ int splineStrips(const Spline& spline, bool isAlongU) {
                 for (const double share : {0.25, 0.5, 0.75})
                     worst = std::max(worst, length(point((i + share) / count) - (a + (b - a) * share)));
             }
-        // Comparing points at equal shares overestimates the error, since a shift along the chord is not an error of shape.
+        // Comparing points at equal shares overestimates the error, since a shift along the chord is not an error of
+        // shape.
         if (worst <= kChordError) return count;
     }
     return kMaxSplineStrips;

@@ -19,7 +19,7 @@ void appendPart(const std::vector<Vec3d>& part, std::vector<Vec3d>& points) {
         if (points.empty() || length(p - points.back()) > 1e-9) points.push_back(p);
 }
 
-// Arc through three points; a straight line where they lie on one.
+// Arc through three points; a straight line if they are collinear.
 void appendArcThrough(Vec3d a, Vec3d b, Vec3d c, std::vector<Vec3d>& points) {
     const Vec3d ab = b - a, ac = c - a, normal = cross(ab, ac);
     const double area = dot(normal, normal);
@@ -155,8 +155,8 @@ bool isOnSurface(Entity entity) noexcept {
     return entity == Entity::SurfaceCurve || entity == Entity::SeamCurve || entity == Entity::IntersectionCurve;
 }
 
-// readCurveBetween() with the points of the curve, or none to read them. Reading a curve only once keeps a chain of curves
-// that trim each other from doubling the work at each level.
+// readCurveBetween() with the points of the curve, or none to read them. Reading a curve only once keeps a chain of
+// curves that trim each other from doubling the work at each level.
 bool readBetween(const IfcFile& file, RecordIndex curve, std::vector<Vec3d> whole, Vec3d from, Vec3d to, bool isForward,
                  std::vector<Vec3d>& points, std::string& why) {
     ReadGuard::Scope scope(file.guard());

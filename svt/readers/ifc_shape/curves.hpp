@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Curves as polylines. Arcs are cut so that no chord is farther from its arc than kChordError, with at least kMinSegments
-/// and at most kMaxSegments to a full turn; all points lie on the arc.
+/// Curves as polylines. Arcs are cut so that no chord is farther from its arc than kChordError, with at least
+/// kMinSegments and at most kMaxSegments per full turn; all points lie on the arc.
 
 #include <svt/readers/ifc_shape/ifc_file.hpp>
 
@@ -22,14 +22,15 @@ struct SineCosine {
 /// Segments for an arc: at least one. \param radius metres \param angle radians, of any sign
 [[nodiscard]] int arcSegments(double radius, double angle, int minSegments = kMinSegments) noexcept;
 
-/// Points of an arc of an ellipse, with both ends. \param axes  x and y are taken times the radii
+/// Points of an arc of an ellipse, with both ends. \param axes  x and y are multiplied by the radii
 void appendArc(const Transform& axes, double radiusX, double radiusY, double from, double to,
                std::vector<Vec3d>& points);
 
-/// Points of a curve in its order; of a closed one the last equals the first.
-/// Reads polylines, indexed poly curves, composite and trimmed curves, circles, ellipses, B-splines, and the 3D curve of a
-/// curve on a surface. Metres; curves in 2D have z = 0.
-/// \return false for a curve with a part of unknown kind, invalid values, or a limit of file.guard(); `why` names the reason
+/// Points of a curve in its order; the last point of a closed curve equals the first. Reads polylines, indexed poly
+/// curves, composite and trimmed curves, circles, ellipses, B-splines, and the 3D curve of a curve on a surface.
+/// Metres; curves in 2D have z = 0.
+/// \return false for a curve with a part of unknown kind, invalid values, or a limit of file.guard(); `why` names the
+///         reason
 [[nodiscard]] bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points, std::string& why);
 
 /// Points of the part of a curve between two points on it, as an edge uses it. Lines are two points.

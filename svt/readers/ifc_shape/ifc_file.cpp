@@ -123,8 +123,8 @@ Transform IfcFile::axes(RecordIndex record) const {
     }
 }
 
-// ISO 10303-42, base_axis: the second axis is made orthogonal to the first, and the third to both, but each keeps the side
-// that the file gives it, so a mirrored operator stays mirrored.
+// ISO 10303-42, base_axis: the second axis is made orthogonal to the first, and the third to both, but each keeps the
+// side that the file gives it, so a mirrored operator stays mirrored.
 Transform IfcFile::transformation(Value reference) const {
     namespace op = at::CartesianTransformationOperator3DnonUniform;
     const RecordIndex record = follow(reference);
@@ -217,8 +217,8 @@ bool IfcFile::readGridAxis(RecordIndex axis, double offset, Vec3d& from, Vec3d& 
     return true;
 }
 
-// Axes at a distance along a curve: x along it, z as far up as possible, unless the placement has axes of its own. Offsets
-// go to the left, upwards and ahead.
+// Axes at a distance along a curve: x along it, z as far up as possible, unless the placement has axes of its own.
+// Offsets go to the left, upwards and ahead.
 std::optional<Transform> IfcFile::linearAxes(RecordIndex relative) const {
     if (entityOf(relative) != Entity::Axis2PlacementLinear) return std::nullopt;
     namespace expression = at::PointByDistanceExpression;

@@ -31,7 +31,7 @@ inline constexpr std::size_t kMaxLeftOut = 1000;
 class Fields {
 public:
     explicit Fields(std::string_view values) noexcept;
-    /// Nothing where the record has no such attribute.
+    /// Nothing if the record has no such attribute.
     [[nodiscard]] Value operator[](AttributePosition attribute) const noexcept {
         return attribute.number < count_ ? values_[attribute.number] : Value();
     }
@@ -55,7 +55,7 @@ public:
             return Fields(std::string_view());
         return Fields(step_.valuesOf(step_.records()[record]));
     }
-    /// Limits the reading of a file: every function that follows references from record to record asks it.
+    /// Limits the reading of a file: every function that follows references from record to record checks it.
     [[nodiscard]] ReadGuard& guard() const noexcept { return guard_; }
     /// Type name as in the file, such as IFCPOLYLINE; empty for kNoRecord.
     [[nodiscard]] std::string_view typeName(RecordIndex record) const noexcept {
@@ -90,7 +90,7 @@ public:
     [[nodiscard]] double metres(Value length, double otherwise = 0) const noexcept;
     [[nodiscard]] double radians(Value angle, double otherwise = 0) const noexcept;
     [[nodiscard]] std::optional<Vec3d> coordinates(Value list) const noexcept;  ///< (1.,2.,3.), in metres
-    /// IfcCartesianPointList2D or 3D; nothing where one of its items is not a point.
+    /// IfcCartesianPointList2D or 3D; nothing if one of its items is not a point.
     [[nodiscard]] std::optional<std::vector<Vec3d>> pointList(Value reference) const;
     [[nodiscard]] std::optional<Vec3d> point(RecordIndex record) const noexcept;  ///< IfcCartesianPoint
     [[nodiscard]] std::optional<Vec3d> point(Value reference) const { return point(follow(reference)); }

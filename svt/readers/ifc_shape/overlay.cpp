@@ -53,7 +53,8 @@ public:
             const Vertex from = welder_.add(s.from), to = welder_.add(s.to);
             addEdge(edges, from, to, s.channel, s.count);
         }
-        // Points where two edges cross are snapped, which bends the edges a little: a second pass finds what that changed.
+        // Points where two edges cross are snapped, which bends the edges a little: a second pass finds what that
+        // changed.
         edges = split(edges);
         edges = split(edges);
         for (auto& [key, nets] : edges) {
@@ -195,7 +196,7 @@ private:
                 if (next == directed.size()) break;
                 e = next;
             }
-            // Left open where rounding broke the loop; the closing test of the result tells.
+            // Left open if rounding broke the loop; the closing test of the result detects it.
             if (directed[e].second != directed[start].first) continue;
             plane::splitAtRepeats(
                 ring, [](Vertex v) { return v; }, [&](Ring part) { rings.push_back(std::move(part)); });
@@ -203,7 +204,7 @@ private:
         group(rings, state, faces);
     }
 
-    // Of the unused edges that leave the end of `e`, the first one clockwise from the way back: the region on the left
+    // The first unused edge clockwise from the way back among those that leave the end of `e`. The region on the left
     // stays on the left and never crosses itself.
     [[nodiscard]] std::size_t nextEdge(const std::vector<std::pair<Vertex, Vertex>>& directed,
                                        const std::vector<bool>& isUsed, std::size_t e) const {

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Regions of a plane from the loops of several closed curves: the boundary of whatever a function of their winding
-/// numbers says. One step of solid_boolean.hpp.
+/// Regions of a plane from the loops of several closed curves. A function of the winding numbers determines the
+/// regions. One step of solid_boolean.hpp.
 
 #include <svt/core/vec.hpp>
 
@@ -19,7 +19,7 @@ inline constexpr double kSnap = 1e-5;
 struct OverlaySegment {
     Vec3d from, to;
     std::uint32_t channel = 0;
-    std::int32_t count = 1;  ///< how often
+    std::int32_t count = 1;  ///< multiplicity
 };
 
 /// Exterior ring counter-clockwise, holes clockwise, z = 0.
@@ -33,8 +33,7 @@ struct OverlayFace {
 /// \param channelCount  channels are numbered below it
 /// \param stateOf       state of a cell with these winding numbers, one per channel; 0: nothing
 /// \return the regions of states other than 0, each ring in the order in which it was found
-/// \param budget      steps that may still be taken, which is made less; where it does not suffice nothing is returned,
-///                     and it is 0
+/// \param budget      remaining steps, reduced by those taken; if it does not suffice, nothing is returned, and it is 0
 /// Cost: O(n^2) for n pieces after cutting, with a small constant.
 [[nodiscard]] std::vector<OverlayFace> overlay(
     std::span<const OverlaySegment> segments, std::uint32_t channelCount,

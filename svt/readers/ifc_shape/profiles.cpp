@@ -60,8 +60,8 @@ Ring ellipse(double radiusX, double radiusY) {
     return ring;
 }
 
-// I and asymmetric I: the flanges have their own width, thickness and fillets. A slope inclines the inner face of a flange,
-// whose thickness is measured in the middle between web and edge.
+// I and asymmetric I: the flanges have their own width, thickness and fillets. A slope inclines the inner face of a
+// flange, whose thickness is measured in the middle between web and edge.
 struct Flange {
     double width, thickness, fillet, edge, slope;
 };

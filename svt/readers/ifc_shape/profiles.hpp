@@ -10,7 +10,8 @@
 
 namespace svt::readers::ifc {
 
-/// One area of a profile, metres, z = 0. The outer ring is counter-clockwise, the holes are clockwise; no closing point.
+/// One area of a profile, metres, z = 0. The outer ring is counter-clockwise, the holes are clockwise; no closing
+/// point.
 struct Region {
     std::vector<Vec3d> outer;
     std::vector<std::vector<Vec3d>> holes;
@@ -35,7 +36,8 @@ struct Region {
     }
 };
 
-/// The areas of a profile: one, but for composite profiles. Reads all profiles of IFC2x3 to IFC4.3 that bound an area.
+/// The areas of a profile: one, or several for composite profiles. Reads all profiles of IFC2x3 to IFC4.3 that bound an
+/// area.
 /// \return false for an unknown kind, invalid values, or a limit of file.guard(); `why` names the reason
 [[nodiscard]] bool readProfile(const IfcFile& file, RecordIndex profile, std::vector<Region>& regions,
                                std::string& why);

@@ -299,7 +299,7 @@ void ShapeReader::readMap(RecordIndex map) {
         for (Body& body : made) body = transformed(body, origin.inverse());
     leaveOutMissing();
     std::swap(outside, leftOut_);
-    // Keeps a map only if the budget of this product sufficed, for other products use it too.
+    // Keeps a map only if the budget of this product sufficed, because other products use it too.
     if (file_.guard().isSpent()) return leaveOut(file_.guard().whatIsSpent());
     leftOutOfMap_[map] = std::move(outside);
     mapped_.emplace(map, std::make_shared<const Bodies>(std::move(made)));
@@ -472,7 +472,8 @@ bool ShapeReader::addRuledFace(const std::vector<std::vector<Vec3d>>& rings, con
 
 void ShapeReader::readFaceSet(RecordIndex item, const Fields& fields, Bodies& bodies) {
     const auto points = file_.pointList(fields[at::TessellatedFaceSet::Coordinates]);
-    if (!points) return leaveOut(fmt::format("an {} with a point that is no three numbers", file_.typeName(item)));
+    if (!points)
+        return leaveOut(fmt::format("an {} with a point that does not have three numbers", file_.typeName(item)));
     bool isWrong = false;
     const auto ringOf = [&](Value numbers) {
         std::vector<Vec3d> ring;
@@ -596,8 +597,8 @@ bool ShapeReader::readChain(const Fields& fields, Chain& chain, ReadGuard::Scope
     return true;
 }
 
-// ((a - b) - c) - d is a - (b, c, d), and unions likewise. So a chain of any length, such as some programs write for the
-// openings of a wall, is evaluated at once.
+// ((a - b) - c) - d is a - (b, c, d), and unions likewise. So a chain of any length, such as some programs write for
+// the openings of a wall, is evaluated in one step.
 void ShapeReader::readBoolean(const Fields& fields, Bodies& bodies) {
     const std::string_view op = fields[at::BooleanResult::Operator].enumeration();
     ReadGuard::Scope scope(file_.guard());

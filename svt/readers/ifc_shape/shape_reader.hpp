@@ -14,7 +14,7 @@
 
 namespace svt::readers::ifc {
 
-/// The shape of a product as far as it was read, in its own axes.
+/// The readable part of a product's shape, in the axes of the product.
 struct Shape {
     std::vector<Body> bodies;
     std::vector<std::string> leftOut;  ///< parts not read or not applied, and the reasons; each once
@@ -29,8 +29,8 @@ public:
     ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem,
                 std::unordered_map<RecordIndex, std::vector<std::int32_t>> materialOfFaces = {});
 
-    /// The body of a product: the representation Body, else the next best one; at worst a bounding box, with an entry in
-    /// `leftOut`.
+    /// The body of a product: the representation Body, else the next best one; at worst a bounding box, with an entry
+    /// in `leftOut`.
     /// \param definition  IfcProductDefinitionShape
     [[nodiscard]] Shape readShape(RecordIndex definition);
 

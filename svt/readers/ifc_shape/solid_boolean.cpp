@@ -184,7 +184,7 @@ private:
         }
     }
 
-    // Of one operand alone, as they are.
+    // Keeps the faces of a single operand unchanged.
     void keepFaces(const Plane& plane) {
         for (const auto& [o, f] : plane.faces) {
             std::vector<std::vector<Vec3d>> rings;

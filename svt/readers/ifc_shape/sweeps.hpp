@@ -12,7 +12,7 @@ namespace svt::readers::ifc {
 inline constexpr int kMaxDiskSegments = 64;  ///< of the section of a bar
 
 /// The prism between a region and its copy moved by `sweep`, which may point to either side of z = 0.
-/// \return the closed faces; none where `sweep` lies in the plane of the region
+/// \return the closed faces; none if `sweep` lies in the plane of the region
 [[nodiscard]] std::vector<model::Polygon> extrude(const Region& region, Vec3d sweep);
 
 /// The body between a region and another one at the distance `sweep`. Side faces that are not flat become triangles.
@@ -32,7 +32,7 @@ inline constexpr int kMaxDiskSegments = 64;  ///< of the section of a bar
 /// A region carried along a line, its plane across the line and its x axis as near to `reference` as that allows, with
 /// mitred corners.
 /// \param line  at least two points; a closed one ends at its first
-/// \return the closed faces; none where the line has no length
+/// \return the closed faces; none if the line has no length
 [[nodiscard]] std::vector<model::Polygon> sweepAlong(const Region& region, std::vector<Vec3d> line, Vec3d reference);
 
 /// The body through regions in space, from the first to the last. Side faces that are not flat become triangles.

@@ -28,8 +28,8 @@ struct Transform {
     friend bool operator==(const Transform&, const Transform&) = default;
 };
 
-/// Axes at right angles from a z axis and a hint for x, as IfcBuildAxes and IfcFirstProjAxis say; both need not be of unit
-/// length. A hint along z is replaced.
+/// Axes at right angles from a z axis and a hint for x, by IfcBuildAxes and IfcFirstProjAxis. Both may have any length.
+/// A hint along z is replaced.
 [[nodiscard]] inline Transform axesFrom(Vec3d origin, Vec3d z, Vec3d xHint) noexcept {
     Transform axes;
     axes.origin = origin;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Points that lie within a distance of each other as one.
+/// Merges points that lie within a distance of each other.
 
 #include <svt/plane/welder.hpp>
 
@@ -8,12 +8,13 @@
 
 namespace svt::readers::ifc {
 
-/// Numbers points; one within `distance` (along each axis) of an earlier one gets its number. The first of several stands.
+/// Numbers points. A point within `distance` (along each axis) of an earlier one gets its number; the first point
+/// determines the position.
 class Welder {
 public:
     explicit Welder(double distance) : distance_(distance) {}
 
-    /// Cost: O(1) but for many points in one cell.
+    /// Cost: O(1) unless many points are in one cell.
     std::uint32_t add(Vec3d p) {
         const plane::Cell cell{cellOf(p.x), cellOf(p.y), cellOf(p.z)}, next{1, 1, 1};
         return points_.add(p, cell, cell - next, cell + next, [&](std::uint32_t n, std::uint32_t best) {

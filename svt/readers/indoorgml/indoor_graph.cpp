@@ -19,7 +19,7 @@ using model::kNoFeature;
 using pugi::xml_node;
 using std::string_view;
 
-// A reference as the file has it.
+// A reference in the file.
 struct Link {
     std::string id;    // empty: none within this file
     std::string text;  // as written
@@ -195,7 +195,7 @@ private:
             const std::string id(attributeOf(node, "id"));
             if (state == nullptr)
                 report(Code::DualityBroken, node, cell,
-                       fmt::format("its duality '{}' is no state of this file", link->second.text));
+                       fmt::format("its duality '{}' is not a state of this file", link->second.text));
             else if (!state->duality || state->duality->id != id)
                 report(Code::DualityBroken, node, cell,
                        fmt::format("its duality is the state '{}', whose duality is {}", state->id,
@@ -217,7 +217,7 @@ private:
             state.cell = cellOf(state.duality->id);
             if (state.cell == kNoFeature)
                 report(Code::DualityBroken, state.node, state.feature,
-                       fmt::format("its duality '{}' is no cell space of this file", state.duality->text));
+                       fmt::format("its duality '{}' is not a cell space of this file", state.duality->text));
             else if (!isContradicted(state))
                 feature.attributes.push_back({"duality", model_.features[state.cell].id, ""});
         }
@@ -225,7 +225,7 @@ private:
             const auto found = transitionOfId_.find(link.id);
             if (found == transitionOfId_.end()) {
                 report(Code::DualityBroken, link.node, state.feature,
-                       fmt::format("it connects '{}', which is no transition of this file", link.text));
+                       fmt::format("it connects '{}', which is not a transition of this file", link.text));
                 continue;
             }
             const auto& ends = transitions_[found->second].ends;
@@ -246,7 +246,7 @@ private:
             const State* state = stateOf(transition.ends[e]);
             if (state == nullptr) {
                 report(Code::DualityBroken, transition.node, transition.feature,
-                       fmt::format("it connects '{}', which is no state of this file", transition.ends[e].text));
+                       fmt::format("it connects '{}', which is not a state of this file", transition.ends[e].text));
                 continue;
             }
             if (e < 2)
@@ -257,7 +257,7 @@ private:
         for (const Link& link : linksOf(transition.node, "duality")) {
             if (!document_.hasId(link.id))
                 report(Code::DanglingReference, transition.node, transition.feature,
-                       fmt::format("its duality '{}' is nothing in this file", link.text));
+                       fmt::format("its duality '{}' is not in this file", link.text));
             else
                 model_.features[transition.feature].attributes.push_back({"duality", link.id, ""});
         }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The dual space of IndoorGML: states and transitions as features with lines, and whether their links hold.
+/// The dual space of IndoorGML: states and transitions as features with lines, and checks of their links.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/model/building_model.hpp>
@@ -15,7 +15,7 @@
 
 namespace svt::readers::indoor {
 
-/// What the graph needs of the document that it stands in.
+/// Data of the document that the graph needs.
 struct GraphDocument {
     pugi::xml_node root;
     std::vector<std::pair<pugi::xml_node, model::FeatureIndex>> cells;      ///< in document order
@@ -35,8 +35,8 @@ struct GraphDocument {
 /// | InterLayerConnection | the same, with `layers`                                   | straight, from state to state |
 ///
 /// and to cell spaces `state` (ids of their states) and `connectsTo` (ids of the cell spaces beyond).
-/// Findings: DualityBroken for links between cell spaces, states and transitions without a target, or that the other
-/// side does not return; BadCoordinate; DanglingReference for other links.
+/// Findings: DualityBroken for links between cell spaces, states and transitions that have no target or that the target
+/// does not return; BadCoordinate; DanglingReference for other links.
 void addGraph(const GraphDocument& document, model::BuildingModel& model, Diagnostics& diagnostics);
 
 }  // namespace svt::readers::indoor

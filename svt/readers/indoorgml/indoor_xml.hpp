@@ -22,7 +22,7 @@ namespace svt::readers::indoor {
     return localName == "Transition" || localName == "Edge";
 }
 
-/// The next node in document order; below `top` alone. Not recursive: nesting may be as deep as the file likes.
+/// The next node in document order, only below `top`. Not recursive, so nesting may have any depth.
 [[nodiscard]] pugi::xml_node nextNode(pugi::xml_node node, pugi::xml_node top, bool goesDown = true);
 
 /// The value of an attribute by its local name, without blanks around it; empty if there is none.

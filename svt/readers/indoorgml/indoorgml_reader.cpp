@@ -30,12 +30,13 @@ using indoor::target;
 using pugi::xml_node;
 using std::string_view;
 
-// Whether what is below a cell space belongs to something else, which has a geometry of its own.
+// Whether an element below a cell space is another object with its own geometry.
 bool isOther(string_view name) {
     return isCellSpace(name) || name.ends_with("Boundary") || indoor::isState(name) || indoor::isTransition(name);
 }
 
-// What writers put into descriptions for want of elements: storey="EG":usage="office". False for plain text.
+// Attributes that programs write into descriptions because there are no elements for them: storey="EG":usage="office".
+// False for plain text.
 bool addNamedValues(string_view text, std::vector<Attribute>& attributes) {
     std::vector<Attribute> found;
     while (!text.empty()) {
@@ -92,7 +93,7 @@ public:
     }
 
 private:
-    // Mostly asked for in the order of the document: counts on from the last one.
+    // Mostly called in document order: continues from the previous position.
     [[nodiscard]] Place placeOf(xml_node node, std::string id = {}) {
         const auto offset = std::min(std::size_t(std::max<std::ptrdiff_t>(0, node.offset_debug())), text_.size());
         if (offset < countedTo_) {
@@ -148,7 +149,7 @@ private:
         if (!id.empty()) cellOfId_.emplace(id, index);
     }
 
-    // All solids of a cell space, but not of what is nested in it.
+    // All solids of a cell space, without those of nested objects.
     void readSolids(xml_node cell, const std::string& id, model::Geometry& geometry) {
         for (xml_node node = nextNode(cell, cell); node;) {
             const string_view name = localName(node);
@@ -168,7 +169,7 @@ private:
         }
     }
 
-    // Polygons below a node, also those that are referred to.
+    // Polygons below a node, including referenced ones.
     void readPolygons(xml_node top, const std::string& id, std::vector<model::SurfaceUse>& uses) {
         for (xml_node node = nextNode(top, top); node;) {
             const string_view name = localName(node);

@@ -48,7 +48,7 @@ void MissingRecords::report(std::string_view name, Diagnostics& diagnostics) con
     std::size_t count = 0;
     for (const Value reference : sorted) {
         const RecordIndex index = file_.recordHolding(reference.text());
-        // Words that would not be kept are not made: a list of a million such references is one long record.
+        // Texts that would not be kept are not made: a list of a million such references is one long record.
         if (index == kNoRecord || ++count > Diagnostics::kKeptPerCode) {
             diagnostics.add(Severity::Warning, Code::DanglingReference, "");
             continue;

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// References to records that a STEP file lacks. They are noted where references are followed, so that no caller has to
-/// look: whoever reads a product takes what was missing for it, and the file's reader reports them all.
+/// References to records that a STEP file lacks. The functions that follow references note them, so callers need not
+/// check. The reader of a product takes the notes for that product, and the reader of the file reports all of them.
 ///
 ///     #201=IFCAXIS2PLACEMENT3D(#9999,#11,$);
 ///      |                        `--- leads nowhere: attribute 1 of #201
@@ -17,22 +17,24 @@
 
 namespace svt::readers::step {
 
-/// Threads: to be used by one at a time.
+/// Threads: not thread-safe.
 class MissingRecords {
 public:
-    /// Of these, each counts once. A file with more has some counted again, each time that they are followed.
+    /// Maximum number of references that are remembered, so that each counts once. Further ones count each time that
+    /// they are followed.
     static constexpr std::size_t kMaxKnown = 100'000;
-    /// What take() returns at most.
+    /// Maximum number of texts that take() returns.
     static constexpr std::size_t kMaxTaken = 20;
 
     explicit MissingRecords(const StepFile& file) : file_(file) {}
 
-    /// \param reference  a value of a record of the file, as Fields or a cursor gave it
+    /// \param reference  a value of a record of the file, from Fields or a cursor
     void note(Value reference);
 
     /// Whether something was noted since the last take() or drop().
     [[nodiscard]] bool isAny() const noexcept { return !recent_.empty(); }
-    /// What was noted since the last call, in words, each once: "#9999, to which attribute 1 of #201 IFCWALL refers".
+    /// The references noted since the last call, as text, each once: "#9999, to which attribute 1 of #201 IFCWALL
+    /// refers".
     [[nodiscard]] std::vector<std::string> take();
     /// Drops the notes since the last take(); report() still has them.
     void drop() noexcept { recent_.clear(); }

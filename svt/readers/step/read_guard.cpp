@@ -7,12 +7,13 @@
 namespace svt::readers::step {
 namespace {
 
-constexpr std::size_t kMaxDepth = 96;      // calls within each other
-constexpr std::size_t kMaxPath = 10'000;   // records within each other, as of booleans in a row and placements
-constexpr std::size_t kMaxCircles = 1000;  // as many findings as are kept of one code
+constexpr std::size_t kMaxDepth = 96;      // nested calls
+constexpr std::size_t kMaxPath = 10'000;   // nested records, such as chains of booleans and placements
+constexpr std::size_t kMaxCircles = 1000;  // the number of findings that are kept per code
 constexpr std::size_t kMaxNamed = 12;      // records of a circle
 
-// A product has half of what is free of the file, so that one that is too large does not take the others with it.
+// A product gets half of the file's free budget, so that a product that is too large does not prevent reading the
+// others.
 constexpr std::uint64_t kFreeSteps = 600'000'000, kStepsPerByte = 4000;
 constexpr std::uint64_t kFreeElements = 1'000'000, kElementsPerByte = 32, kMostElements = 200'000'000;
 
@@ -56,7 +57,7 @@ bool ReadGuard::push(RecordIndex record) {
         return false;
     }
     if (depth_ > kMaxDepth || path_.size() >= kMaxPath) {
-        why_ = fmt::format("what nests deeper than {} levels, with the record {}",
+        why_ = fmt::format("records nested deeper than {} levels, with the record {}",
                            depth_ > kMaxDepth ? kMaxDepth : kMaxPath, nameOf(record));
         return false;
     }

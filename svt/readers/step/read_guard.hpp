@@ -1,11 +1,11 @@
 #pragma once
 /// \file
-/// What an IFC file may ask of its reader. A record of some bytes may be referred to any number of times, also by itself, so
-/// that a small file could stand for a model without end. One guard for all that is read of a file:
+/// Limits on the work and memory that an IFC file may cause. A small record may be referenced any number of times, even
+/// by itself, so a small file could describe an infinite model. One guard limits all reading of a file:
 ///
-///     Scope     the records that are being read, one within the other; one that comes again closes a circle
-///     steps     bytes of records that are cut into values, pairs of edges that are held against each other, ...
-///     elements  points of curves, profiles and faces, and attributes: what takes memory
+///     Scope     the nested records that are being read. A record that occurs again closes a circle.
+///     steps     bytes of records that are cut into values, pairs of edges that are compared, ...
+///     elements  points of curves, profiles and faces, and attributes; a measure of memory.
 ///
 /// Steps and elements have a limit for the file and one for each product. Both grow with the size of the file.
 
@@ -31,13 +31,13 @@ public:
         Scope(const Scope&) = delete;
         Scope& operator=(const Scope&) = delete;
 
-        /// The record is read from now on, until the scope ends or leave(); kNoRecord is none.
-        /// \return false where it must not be: it is being read already, nests too deep, or the budget is spent; then why()
-        ///         says which, and a circle is kept for circles()
+        /// Marks a record as being read until the scope ends or leave() is called; kNoRecord is ignored.
+        /// \return false if the record must not be read: it is being read already, is nested too deeply, or the budget
+        ///         is spent. Then why() gives the reason, and a circle is stored for circles()
         [[nodiscard]] bool enter(RecordIndex record);
         /// The same, with the reason in `why`.
         [[nodiscard]] bool enter(RecordIndex record, std::string& why);
-        /// The record entered last is read no more.
+        /// Ends the reading of the record entered last.
         void leave() noexcept;
         [[nodiscard]] const std::string& why() const noexcept { return guard_.why_; }
 
@@ -56,15 +56,16 @@ public:
     /// Text of a circle. \param records  at least one; each refers to the next
     [[nodiscard]] std::string nameCircle(std::vector<RecordIndex> records) const;
 
-    /// Takes from the budgets of the product and of the file. \return whether both still last
+    /// Takes from the budgets of the product and of the file. \return whether both suffice
     bool takeSteps(std::uint64_t count) noexcept { return steps_.take(count, isInProduct_) && !isSpent(); }
     bool takeElements(std::uint64_t count) noexcept { return elements_.take(count, isInProduct_) && !isSpent(); }
-    /// Whether so many elements are left. If not, the budget counts as spent: what is about to be made is not.
+    /// Whether this number of elements is left. If not, the budget counts as spent, because the caller cannot make its
+    /// result.
     [[nodiscard]] bool affords(std::uint64_t elements) noexcept;
     /// Steps that are left.
     [[nodiscard]] std::uint64_t stepsLeft() const noexcept { return steps_.left(isInProduct_); }
 
-    /// What follows belongs to one product, with a budget of its own; until endProduct().
+    /// Begins the reading of one product with a separate budget; until endProduct().
     void beginProduct() noexcept;
     void endProduct() noexcept { isInProduct_ = false; }
 

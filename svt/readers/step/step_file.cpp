@@ -23,7 +23,7 @@ bool isTypeLetter(char c) noexcept { return isLetter(c) || isDigit(c) || c == '_
 
 }  // namespace
 
-// Goes through the text once. Positions are offsets; `end_` is one behind the last byte.
+// Passes over the text once. Positions are offsets; `end_` is one past the last byte.
 class StepFile::Scanner {
 public:
     Scanner(StepFile& file, string_view name, Diagnostics& diagnostics)
@@ -57,7 +57,8 @@ private:
         return std::min(at, text_.size());
     }
 
-    // Behind the next ';' outside of strings and comments; for what is no record: END-ISO-10303-21, DATA, ENDSEC.
+    // Position after the next ';' outside of strings and comments; for statements other than records: END-ISO-10303-21,
+    // DATA, ENDSEC.
     [[nodiscard]] std::size_t skipStatement(std::size_t at) const noexcept {
         const std::size_t start = at;
         for (; at < text_.size(); ++at) {
@@ -71,8 +72,8 @@ private:
         return nextRecordLine(start);
     }
 
-    // Offset of the quote that closes the string that opens at `at`; npos where none does before a line that begins like a
-    // record. Strings do not go over the end of a line (ISO 10303-21, 6.4.3), but some writers break them.
+    // Offset of the quote that closes the string that opens at `at`; npos where none does before a line that begins
+    // like a record. Strings do not go over the end of a line (ISO 10303-21, 6.4.3), but some writers break them.
     [[nodiscard]] std::size_t endOfString(std::size_t at) const noexcept {
         for (++at; at < text_.size(); ++at) {
             const char c = text_[at];
@@ -156,7 +157,7 @@ private:
         const std::size_t close = findClosingBracket(values);
         if (close == string_view::npos) return lose(start, id, "does not end: a quote or a bracket is missing");
         if (close - values > std::numeric_limits<std::uint32_t>::max()) return lose(start, id, "is longer than 4 GiB");
-        // Complex instances, #1=(A() B()), do not occur in IFC but for units of other schemas.
+        // Complex instances, #1=(A() B()), do not occur in IFC, except for units of other schemas.
         if (!type.empty())
             file_.records_.push_back(
                 {values, static_cast<std::uint32_t>(close - values), static_cast<std::uint32_t>(id), typeNumber(type)});
@@ -216,7 +217,7 @@ Result<StepFile> StepFile::scan(string_view text, string_view name, Diagnostics&
     file.text_ = text;
     const std::size_t begin = text.find_first_not_of(" \t\r\n");
     if (begin == string_view::npos || !text.substr(begin).starts_with("ISO-10303-21"))
-        return Error(Code::BadStep, "the file does not begin with 'ISO-10303-21;', so it is no STEP file",
+        return Error(Code::BadStep, "the file does not begin with 'ISO-10303-21;', so it is not a STEP file",
                      {std::string(name), 1, 0, {}});
     SVT_DO(Scanner(file, name, diagnostics).run());
     if (file.records_.empty())
@@ -233,7 +234,7 @@ void StepFile::makeIndex(string_view name, Diagnostics& diagnostics) {
     for (const Record& record : records_) highest = std::max(highest, record.id);
     const auto tell = [&](RecordIndex second) {
         diagnostics.add(Severity::Warning, Code::DuplicateId,
-                        fmt::format("the record #{} stands twice; the first counts", records_[second].id),
+                        fmt::format("the record #{} occurs twice; the first counts", records_[second].id),
                         {std::string(name), lineOf(records_[second]), 0, {}});
     };
     if (highest / 8 <= records_.size()) {

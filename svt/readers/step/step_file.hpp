@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// A STEP physical file (ISO 10303-21, "clear text encoding") as an index of its records. Nothing is copied: a record is
-/// a span of the text, and its values are cut out of it when they are asked for.
+/// A STEP physical file (ISO 10303-21, "clear text encoding") as an index of its records. Nothing is copied: a record
+/// is a span of the text, and its values are cut out of it on request.
 ///
 ///     #12= IFCWALL('2XPyKWY018sA1ygZKgQPtU',#5,'Wall',$,$,#30,#40,$);
 ///      |   |       `--- values: step_value.hpp
@@ -31,13 +31,14 @@ struct Record {
 
 class StepFile {
 public:
-    /// Finds all records. Text within strings and comments is passed over. A record that cannot be read, such as one with
-    /// a quote that is never closed, is left out with a finding (BadRecord), and reading goes on at the next line that
+    /// Finds all records. Text within strings and comments is skipped. A record that cannot be read, such as one with
+    /// a quote that is never closed, is left out with a finding (BadRecord). Reading continues at the next line that
     /// begins with `#<number>=`.
     /// \param text  must live as long as the result
     /// \param name  for messages
-    /// \return BadStep where the text is no STEP file or has no record; InputTooBig for more than 2^31 records
-    /// Cost: one pass, above 500 MB/s; 24 bytes for each record.
+    /// \return the file; BadStep if the text is not a STEP file or has no record; InputTooBig for more than 2^31
+    ///         records
+    /// Cost: one pass, above 500 MB/s; 24 bytes per record.
     [[nodiscard]] static Result<StepFile> scan(std::string_view text, std::string_view name, Diagnostics& diagnostics);
 
     [[nodiscard]] const std::vector<Record>& records() const noexcept {
@@ -51,20 +52,20 @@ public:
     [[nodiscard]] std::string_view valuesOf(const Record& record) const noexcept {
         return text_.substr(record.values, record.size);
     }
-    /// The record with this id, or kNoRecord. Of several with one id the first counts. Cost: O(1) for files numbered
+    /// The record with this id, or kNoRecord; the first one if several have the id. Cost: O(1) for files numbered
     /// without large gaps, else O(log n).
     [[nodiscard]] RecordIndex find(std::uint32_t id) const noexcept;
 
-    /// The record whose values hold `part` of the text, a view of it; kNoRecord where none does. Cost: O(log n).
+    /// The record whose values hold `part`, a view of the text; kNoRecord if no record does. Cost: O(log n).
     [[nodiscard]] RecordIndex recordHolding(std::string_view part) const noexcept;
 
-    /// 1-based line in which a record stands. Cost: the first call counts all lines.
+    /// 1-based line of a record. Cost: the first call counts all lines.
     [[nodiscard]] std::uint64_t lineOf(const Record& record) const;
 
     /// Whether the text ends without END-ISO-10303-21: a part of the file is missing.
     [[nodiscard]] bool isTruncated() const noexcept { return isTruncated_; }
 
-    /// The names in FILE_SCHEMA, upper case as in the file: "IFC4X3_ADD2". Empty where the header has none.
+    /// The names in FILE_SCHEMA, upper case as in the file: "IFC4X3_ADD2". Empty if the header does not have any.
     [[nodiscard]] const std::string& schema() const noexcept { return schema_; }
 
 private:

@@ -41,7 +41,7 @@ bool isCharacter(std::int64_t code) noexcept {
     return code >= 0 && code <= 0x10FFFF && (code < 0xD800 || code >= 0xE000);
 }
 
-// \X2\ or \X4\ at `at`: appends its characters and returns the offset behind \X0\; 0 where it is no such escape.
+// \X2\ or \X4\ at `at`: appends its characters and returns the offset after \X0\; 0 if there is no such escape.
 std::size_t decodeWide(string_view text, std::size_t at, std::string& to) {
     const std::size_t digits = text[at + 2] == '2' ? 4 : 8;
     std::string decoded;
@@ -63,7 +63,7 @@ std::size_t decodeWide(string_view text, std::size_t at, std::string& to) {
     return i + 4;
 }
 
-// A backslash at `at`: appends what it stands for and returns the offset behind it.
+// A backslash at `at`: appends the character of the escape and returns the offset after the escape.
 std::size_t decodeEscape(string_view text, std::size_t at, std::string& to) {
     const string_view rest = text.substr(at);
     if (rest.starts_with("\\\\")) {

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Values of a STEP record, cut out of the text when they are asked for.
+/// Values of a STEP record, cut out of the text on request.
 ///
 ///     '2XPy',#5,(1.,2.),$,.T.,IFCLABEL('x')     the values of a record
 ///       |    |     |    |  |       `--- a typed value: typeName() and inner()
@@ -32,10 +32,10 @@ public:
 
     /// Id of the record that a reference names.
     [[nodiscard]] std::optional<std::uint32_t> reference() const noexcept;
-    /// A finite number; of a typed value, that within.
+    /// A finite number; for a typed value, the number within it.
     [[nodiscard]] std::optional<double> number() const noexcept;
     [[nodiscard]] std::optional<std::int64_t> integer() const noexcept;
-    /// A string with its escapes taken out, as UTF-8.
+    /// A string with its escapes decoded, as UTF-8.
     [[nodiscard]] std::optional<std::string> string() const;
     /// The name between the dots of an enumeration: "T", "ELEMENT"; empty for anything else.
     [[nodiscard]] std::string_view enumeration() const noexcept;
@@ -49,12 +49,12 @@ private:
     std::string_view text_;
 };
 
-/// Goes through the values of a record or list, one by one.
+/// Iterates over the values of a record or list.
 class ValueCursor {
 public:
-    /// \param text  what stands between the brackets
+    /// \param text  the text between the brackets
     explicit ValueCursor(std::string_view text) noexcept : rest_(text) {}
-    /// Of the items of a list; of no items for another value.
+    /// Iterates over the items of a list; no items for another value.
     explicit ValueCursor(Value list) noexcept;
     /// The next value; false at the end. Cost: O(its bytes).
     bool next(Value& value) noexcept;
@@ -69,9 +69,10 @@ private:
 /// The items of a list; none for another value.
 [[nodiscard]] std::vector<Value> itemsOf(Value list);
 
-/// Text of a STEP string: '' is a quote, \\ a backslash, \X\hh a byte of ISO 8859-1, \S\c the same plus 128 (of the part of
-/// ISO 8859 that \P.\ chose), \X2\hhhh...\X0\ UTF-16, \X4\hhhhhhhh...\X0\ UTF-32. Bytes beyond ASCII, which are not allowed
-/// but common, are taken as UTF-8, or where they are none as ISO 8859-1. A wrong escape is kept as it stands.
+/// Text of a STEP string. Escapes: '' is a quote, \\ a backslash, \X\hh a byte of ISO 8859-1, \S\c the same plus 128
+/// (of the part of ISO 8859 that \P.\ chose), \X2\hhhh...\X0\ UTF-16, \X4\hhhhhhhh...\X0\ UTF-32. Bytes beyond ASCII
+/// are not allowed but common. They are read as UTF-8, or as ISO 8859-1 if they are not valid UTF-8. An invalid escape
+/// is kept unchanged.
 /// \param quoted  without the quotes around it
 [[nodiscard]] std::string decodeString(std::string_view quoted);
 

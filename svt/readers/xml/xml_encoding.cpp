@@ -88,7 +88,7 @@ Result<Utf8Text> fromOther(string_view, const std::string& encoding, string_view
                                              encoding.substr(0, 40)));
 }
 #else
-// Encodings that iconv is asked for: those of text, where ASCII is ASCII; not the stateful ones.
+// Encodings for iconv: text encodings that extend ASCII, without stateful ones.
 bool isForIconv(string_view encoding) noexcept {
     constexpr string_view kFamilies[] = {"iso-8859-", "iso8859-",  "windows-", "cp",       "koi8-",
                                          "shift_jis", "shift-jis", "sjis",     "euc-",     "gbk",
@@ -120,7 +120,7 @@ Result<Utf8Text> fromOther(string_view bytes, const std::string& encoding, strin
         const std::size_t before = left;
         const bool isDone = iconv(converter, &from, &left, &to, &room) != static_cast<std::size_t>(-1);
         text.owned.append(block.data(), block.size() - room);
-        // A full block is no failure; what makes no progress is.
+        // A full block is not a failure; a call without progress is.
         isGood = isDone || (left < before && room < 16);
     }
     iconv_close(converter);

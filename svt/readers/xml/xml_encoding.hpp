@@ -18,8 +18,8 @@ struct Utf8Text {
     [[nodiscard]] std::string_view view() const noexcept { return owned.empty() ? text : std::string_view(owned); }
 };
 
-/// UTF-8 is passed on unchecked (see firstBadUtf8); UTF-16, ISO-8859-1, ISO-8859-15 and Windows-1252 are converted, and
-/// other encodings of ASCII's kin by iconv, where the system has it (not in WebAssembly).
+/// Converts UTF-16, ISO-8859-1, ISO-8859-15 and Windows-1252; iconv converts other encodings that extend ASCII, if the
+/// system has it (not in WebAssembly). UTF-8 is not checked here (see firstBadUtf8).
 /// \return the text, or BadEncoding for any other declared encoding and for bytes that are not valid in it
 Result<Utf8Text> toUtf8(std::span<const std::byte> bytes, std::string_view fileName);
 

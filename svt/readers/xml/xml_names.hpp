@@ -31,7 +31,7 @@ enum class Vocabulary : std::uint8_t {
 
 [[nodiscard]] Vocabulary vocabularyOf(std::string_view uri) noexcept;
 
-/// 1, 2 or 3 if `uri` is the core namespace of that CityGML version, else 0.
+/// 1, 2 or 3 if `uri` is the core namespace of this CityGML version, else 0.
 [[nodiscard]] int cityGmlVersion(std::string_view uri) noexcept;
 
 /// An element with its resolved name. Views into the document.

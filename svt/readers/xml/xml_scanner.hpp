@@ -21,9 +21,9 @@ struct Range {
     [[nodiscard]] std::uint64_t size() const noexcept { return end - begin; }
 };
 
-/// A piece of the content of the root. Cuts lie between children of the root where possible, and one or two
-/// levels below (between children of a child of the root, or of a grandchild) if a child is
-/// too large, so a file with one huge building is cut too:
+/// A piece of the content of the root. Cuts lie between children of the root if possible. If a child is too large, cuts
+/// lie one or two levels below, between its children or grandchildren. A file with one huge building is therefore cut
+/// as well:
 ///
 ///     <CityModel> <member> <Building> ... | ... </Building> </member> <member> ... | ... </CityModel>
 ///                 `------- open ---------'     open tags of the second chunk: <member> <Building>
