@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return failOfMemory();
     } catch (const std::system_error& error) {
-        // What fmt throws where stdout cannot be written. That its reader has gone (svt query ... | head) is no error.
+        // fmt throws this if stdout cannot be written. A closed reader (svt query ... | head) is not an error.
         if (error.code() == std::errc::broken_pipe) return kNoReader;
         // No memory for the stack of a thread.
         if (error.code() == std::errc::resource_unavailable_try_again || error.code() == std::errc::not_enough_memory)

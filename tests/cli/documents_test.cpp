@@ -2,11 +2,15 @@
 // run line by line in one folder per document; lines that do not start with the command (or with build/release/bin/svt)
 // are skipped. A server command runs until it has printed its address, and must then end successfully when stopped.
 // The example of a page in docs/errors is run as a whole, and must print the message that the page shows.
+// Links, sources, commands and options that any page of the tree names are there.
 #include "run_command.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
 #include <sstream>
 
 namespace svt::test {
@@ -206,24 +210,290 @@ INSTANTIATE_TEST_SUITE_P(Documents, ErrorPage, ::testing::ValuesIn(errorPages())
 
 TEST(Documents, MostErrorPagesHaveCommands) { EXPECT_GT(errorPages().size(), 40u); }
 
-void expectLinksLeadToFiles(const fs::path& page) {
-    const std::string text = readText(page);
-    for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
-        std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
-        if (target.rfind("http", 0) == 0) continue;
-        target = target.substr(0, target.find('#'));
-        if (target.empty()) continue;
-        EXPECT_TRUE(fs::exists(page.parent_path() / target)) << page << ": " << target;
+// A piece of a page: of its text, or of its code. A block of code gives one for each line, with the lines that continue it.
+struct Piece {
+    int line = 0;
+    std::string text;
+    bool isCode = false;
+};
+
+// Splits a line of text at its code in backticks, which may have several on each side.
+void addPieces(int line, const std::string& text, std::vector<Piece>& pieces) {
+    std::size_t from = 0;
+    while (from < text.size()) {
+        const std::size_t begin = std::min(text.find('`', from), text.size());
+        const std::size_t code = std::min(text.find_first_not_of('`', begin), text.size());
+        const std::size_t end = text.find(text.substr(begin, code - begin), code);
+        if (begin == text.size() || end == std::string::npos) break;
+        pieces.push_back({line, text.substr(from, begin - from), false});
+        pieces.push_back({line, text.substr(code, end - code), true});
+        from = end + (code - begin);
     }
+    pieces.push_back({line, text.substr(from), false});
 }
 
-TEST(Documents, EveryLinkLeadsToAFile) {
-    for (const char* folder : {"docs/user", "docs/errors"}) {
-        const fs::path docs = fs::path(sourceRoot()) / folder;
-        if (!fs::exists(docs)) GTEST_SKIP() << "there is no " << folder;
-        for (const auto& entry : fs::directory_iterator(docs))
-            if (entry.path().extension() == ".md") expectLinksLeadToFiles(entry.path());
+std::vector<Piece> piecesOf(const fs::path& page) {
+    std::ifstream in(page);
+    std::vector<Piece> pieces;
+    bool isBlock = false, isContinued = false;
+    int number = 0;
+    for (std::string line; std::getline(in, line);) {
+        ++number;
+        if (line.find("```") == line.find_first_not_of(' ') && line.find("```") != std::string::npos) {
+            isBlock = !isBlock;
+            isContinued = false;
+            continue;
+        }
+        if (!isBlock) {
+            addPieces(number, line, pieces);
+            continue;
+        }
+        const bool continues = line.ends_with('\\');
+        if (continues) line.pop_back();
+        if (isContinued)
+            pieces.back().text += line;
+        else
+            pieces.push_back({number, line, true});
+        isContinued = continues;
     }
+    return pieces;
+}
+
+// The folders of the tree that have sources or pages.
+constexpr std::string_view kFoldersOfTheTree[] = {"apps",   "bench",   "cmake", "docs",  "examples",
+                                                  "python", "scripts", "svt",   "tests", "web"};
+
+// All files of these folders and those at the top, but for packages of others.
+const std::vector<fs::path>& filesOfTheTree() {
+    static const std::vector<fs::path> files = [] {
+        std::vector<fs::path> found;
+        for (const auto& entry : fs::directory_iterator(sourceRoot()))
+            if (entry.is_regular_file()) found.push_back(entry.path());
+        for (const std::string_view folder : kFoldersOfTheTree)
+            for (fs::recursive_directory_iterator at(sourceRoot() / fs::path(folder)), end; at != end; ++at) {
+                if (at->path().filename() == "node_modules") at.disable_recursion_pending();
+                if (at->is_regular_file()) found.push_back(at->path());
+            }
+        std::sort(found.begin(), found.end());
+        return found;
+    }();
+    return files;
+}
+
+// The pages of the tree; the log of changes names what there is no more.
+const std::vector<fs::path>& allPages() {
+    static const std::vector<fs::path> pages = [] {
+        std::vector<fs::path> found;
+        for (const fs::path& file : filesOfTheTree())
+            if (file.extension() == ".md" && file.filename() != "CHANGELOG.md") found.push_back(file);
+        return found;
+    }();
+    return pages;
+}
+
+std::string placeOf(const fs::path& page, const Piece& piece) {
+    return page.lexically_relative(sourceRoot()).string() + ":" + std::to_string(piece.line) + ": ";
+}
+
+// What a heading is called in links: "Two *words*, here" -> "two-words-here".
+std::string anchorOf(const std::string& heading) {
+    std::string anchor;
+    for (const char c : heading.substr(std::min(heading.find_first_not_of("# "), heading.size()))) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == ' ')
+            anchor += '-';
+        else if (byte >= 0x80 || std::isalnum(byte) != 0 || c == '-' || c == '_')
+            anchor += static_cast<char>(std::tolower(byte));
+    }
+    return anchor;
+}
+
+bool hasHeading(const fs::path& page, const std::string& anchor) {
+    std::ifstream in(page);
+    for (std::string line; std::getline(in, line);)
+        if (line.starts_with('#') && anchorOf(line) == anchor) return true;
+    return false;
+}
+
+// Links to files that are not there, and to headings that a page does not have.
+std::vector<std::string> faultsOfLinks(const fs::path& page, int& count) {
+    std::vector<std::string> faults;
+    std::string text;
+    for (const Piece& piece : piecesOf(page))
+        if (!piece.isCode) text += piece.text + "\n";
+    for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 2)) {
+        const std::string target = text.substr(at + 2, text.find(')', at) - at - 2);
+        if (target.starts_with("http")) continue;
+        ++count;
+        const std::size_t hash = std::min(target.find('#'), target.size());
+        const fs::path file = hash == 0 ? page : page.parent_path() / target.substr(0, hash);
+        const bool isGood = fs::exists(file) && (hash == target.size() || hasHeading(file, target.substr(hash + 1)));
+        if (!isGood) faults.push_back(page.lexically_relative(sourceRoot()).string() + ": " + target);
+    }
+    return faults;
+}
+
+// Names of files in code. What has a bracket, a star or a word in capitals stands for many.
+std::vector<std::string> namesIn(const std::string& code) {
+    constexpr std::string_view kPunctuation = "_./*{}<>,-";
+    std::vector<std::string> names;
+    const auto isOfName = [&](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || kPunctuation.find(c) != std::string_view::npos;
+    };
+    for (auto at = code.begin(); at != code.end();) {
+        const auto begin = std::find_if(at, code.end(), isOfName);
+        at = std::find_if_not(begin, code.end(), isOfName);
+        std::string name(begin, at);
+        while (name.ends_with('.') || name.ends_with(',')) name.pop_back();
+        const std::string stem = name.substr(name.rfind('/') + 1).substr(0, name.substr(name.rfind('/') + 1).find('.'));
+        const bool isPattern = name.find_first_of("*{<") != std::string::npos ||
+                               (name.find(".md") == std::string::npos &&
+                                stem.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ_") == std::string::npos);
+        if (!name.empty() && !isPattern) names.push_back(std::move(name));
+    }
+    return names;
+}
+
+// Sources and folders that code names and the tree does not have.
+std::vector<std::string> faultsOfNames(const fs::path& page, int& count) {
+    static const std::set<std::string> kEnds = [] {
+        std::set<std::string> ends;  // of the paths of all files, whole parts
+        for (const fs::path& file : filesOfTheTree()) {
+            const std::string path = file.lexically_relative(sourceRoot()).generic_string();
+            for (std::size_t at = 0;; at = path.find('/', at) + 1) {
+                ends.insert(path.substr(at));
+                if (path.find('/', at) == std::string::npos) break;
+            }
+        }
+        return ends;
+    }();
+    constexpr std::string_view kSources[] = {".cpp", ".hpp", ".sh", ".py", ".pyi", ".ts", ".mjs", ".glsl", ".cmake"};
+    std::vector<std::string> faults;
+    for (const Piece& piece : piecesOf(page)) {
+        if (!piece.isCode) continue;
+        for (const std::string& name : namesIn(piece.text)) {
+            const std::string top = name.substr(0, std::min(name.find('/'), name.size()));
+            const bool isInTree = name.size() > top.size() + 1 &&
+                                  std::ranges::find(kFoldersOfTheTree, top) != std::end(kFoldersOfTheTree);
+            const bool isSource = std::ranges::find(kSources, fs::path(name).extension()) != std::end(kSources);
+            if (!isInTree && (!isSource || name.starts_with('_'))) continue;
+            ++count;
+            if (fs::exists(sourceRoot() / fs::path(name)) || fs::exists(page.parent_path() / name) ||
+                kEnds.contains(name))
+                continue;
+            faults.push_back(placeOf(page, piece) + name);
+        }
+    }
+    return faults;
+}
+
+// The options of each command, with those that all have.
+const std::map<std::string, std::set<std::string>>& knownOptions() {
+    static const std::map<std::string, std::set<std::string>> known = [] {
+        std::map<std::string, std::set<std::string>> options;
+        const TemporaryFolder folder;
+        const nlohmann::json described = runSvtForJson(folder.path(), {"describe", "json"});
+        for (const auto& command : described.at("commands")) {
+            auto& names = options[command.at("name")];
+            names = {"-h", "--help"};
+            for (const auto& option : command.at("options")) {
+                std::istringstream in(option.at("name").get<std::string>());
+                for (std::string name; std::getline(in, name, ',');) names.insert(name);
+            }
+        }
+        return options;
+    }();
+    return known;
+}
+
+std::vector<std::string> wordsOf(const std::string& text) {
+    std::istringstream in(text);
+    return {std::istream_iterator<std::string>(in), {}};
+}
+
+// "--axes" of "[--axes=world]"; empty where a word is no option.
+std::string optionOf(std::string word) {
+    word.erase(0, std::min(word.find_first_not_of("[("), word.size()));
+    const std::size_t dashes = std::min(word.find_first_not_of('-'), word.size());
+    if (dashes == 0 || dashes > 2 || dashes == word.size() ||
+        std::isalpha(static_cast<unsigned char>(word[dashes])) == 0)
+        return {};
+    const auto isOfOption = [](char c) { return c == '-' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+    return {word.begin(), std::find_if_not(word.begin(), word.end(), isOfOption)};
+}
+
+// Commands and options of `svt` in one command line that it does not have.
+void checkCommand(const std::vector<std::string>& words, const std::string& place, int& count,
+                  std::vector<std::string>& faults) {
+    const auto& known = knownOptions();
+    std::size_t at = 0;
+    while (at < words.size() && (words[at] == "$" || words[at].find('=') != std::string::npos)) ++at;
+    if (at + 1 >= words.size() || fs::path(words[at]).filename() != "svt") return;
+    std::string command = words[at + 1];
+    if (at + 2 < words.size() && known.contains(command + "-" + words[at + 2])) command += "-" + words[at + 2];
+    if (command.find_first_not_of("abcdefghijklmnopqrstuvwxyz-") != std::string::npos || command.starts_with('-'))
+        return;  // `svt <command>`, `svt --version`
+    ++count;
+    const auto begins = [&](const auto& each) { return each.first.starts_with(command + "-"); };
+    if (!known.contains(command)) {
+        if (std::none_of(known.begin(), known.end(), begins)) faults.push_back(place + "svt " + command);
+        return;
+    }
+    for (std::size_t n = at + 2; n < words.size() && words[n] != "--" && !words[n].starts_with('#'); ++n)
+        if (const std::string option = optionOf(words[n]); !option.empty() && !known.at(command).contains(option))
+            faults.push_back(place + "svt " + command + " " + option);
+}
+
+// Lines with another exit code than 0 show what is wrong.
+std::vector<std::string> faultsOfCommands(const fs::path& page, int& count) {
+    std::vector<std::string> faults;
+    for (const Piece& piece : piecesOf(page)) {
+        if (!piece.isCode || piece.text.find("# exit 2") != std::string::npos) continue;
+        for (std::size_t from = 0; from <= piece.text.size();) {
+            const std::size_t end = std::min(piece.text.find_first_of("|;&", from), piece.text.size());
+            checkCommand(wordsOf(piece.text.substr(from, end - from)), placeOf(page, piece), count, faults);
+            from = end + 1;
+        }
+    }
+    return faults;
+}
+
+using FaultsOfPage = std::vector<std::string> (*)(const fs::path&, int&);
+
+// Expects no fault in any page, and that more than `least` was looked at.
+void expectNoFaults(FaultsOfPage faultsOf, int least) {
+    int count = 0;
+    for (const fs::path& page : allPages())
+        for (const std::string& fault : faultsOf(page, count)) ADD_FAILURE() << fault;
+    EXPECT_GT(count, least) << "the pages were not read";
+}
+
+TEST(Documents, EveryLinkLeadsToAFileOrHeading) { expectNoFaults(faultsOfLinks, 300); }
+
+TEST(Documents, EverySourceThatIsNamedIsThere) { expectNoFaults(faultsOfNames, 300); }
+
+TEST(Documents, EveryCommandAndOptionThatIsShownExists) { expectNoFaults(faultsOfCommands, 300); }
+
+TEST(Documents, WhatIsStaleIsFound) {
+    const TemporaryFolder folder;
+    writeText(
+        folder / "page.md",
+        "# Some *words*, here\n[a](page.md#some-words-here) [b](page.md#others) [c](gone.md) `[d](e)`\n"
+        "`svt/core/file.hpp`, `svt/core/gone.hpp`, ``core/file.hpp``, `gone.cpp` and `<name>_test.cpp`; "
+        "`scripts/gone`\n"
+        "`svt info house.svt --json`, `svt info --gone`, `svt city plan a --update --gone`, `svt gone a`, `svt city`\n"
+        "```sh\nsvt build a.gml -o a.svt \\\n  --gone=1 -x\nsvt city run a -- --time=1 | svt info --tree --gone2\n"
+        "svt build --gone  # exit 2\n```\n");
+    const fs::path page = folder / "page.md";
+    const std::string name = page.lexically_relative(sourceRoot()).string();
+    using Texts = std::vector<std::string>;
+    int count = 0;
+    EXPECT_EQ(faultsOfLinks(page, count), (Texts{name + ": page.md#others", name + ": gone.md"}));
+    EXPECT_EQ(faultsOfNames(page, count),
+              (Texts{name + ":3: svt/core/gone.hpp", name + ":3: gone.cpp", name + ":3: scripts/gone"}));
+    EXPECT_EQ(faultsOfCommands(page, count),
+              (Texts{name + ":4: svt info --gone", name + ":4: svt city-plan --gone", name + ":4: svt gone",
+                     name + ":6: svt build --gone", name + ":6: svt build -x", name + ":8: svt info --gone2"}));
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ TEST_F(Outputs, AFileOfAnotherKindStays) {
     writeText(folder / "my.json", R"({"rules": []})");
     fs::copy_file(folder / "two.svt", folder / "scene.json");
     fs::copy_file(folder / "two.svt", folder / "p_0001.png");
-    expectRefused(render("two.svt", "notes.png"), "E408.*writes a PNG picture, and what is there is a text file");
+    expectRefused(render("two.svt", "notes.png"), "E408.*writes a PNG picture, but the existing file is a text file");
     expectRefused({"build", "two.gml", "-o", "photo.svt"}, "E408.*a PNG picture");
     expectRefused({"build", "two.gml", "-o", "archive.svt"}, "E408.*a ZIP archive");
     expectRefused(render("two.svt", "q.png", {"--write-scene", "scene.json"}), "E408.*scene.json.*a volume");
@@ -226,7 +226,7 @@ TEST_F(Outputs, LeftoversOfAKilledCommandGo) {
 
 TEST_F(Outputs, OptionsForModelsAreToldWhereAVolumeIsGiven) {
     expectRefused({"info", "two.svt", "--spacing", "0.1"},
-                  "E904 BadArgument: two.svt: --spacing says how a model becomes a volume", kUsage);
+                  "E904 BadArgument: two.svt: --spacing is for building a volume from a model", kUsage);
     expectRefused(render("two.svt", "p.png", {"--lod", "2"}), "E904.*--lod", kUsage);
     expectRefused({"query", "two.svt", "all", "--dimension", "10"}, "E904.*--dimension", kUsage);
     expectRefused({"convert", "two.svt", "o.glb", "--no-bodies"}, "E904.*--no-bodies", kUsage);

@@ -384,8 +384,8 @@ TEST_F(SmallHouse, NamesWithoutRoomAreCounted) {
                                              "--size", "160x90",    "--names", "all"};
     const CommandResult result = runSvt(folder.path(), arguments);
     EXPECT_EQ(result.exitCode, 0) << result.toString();
-    EXPECT_NE(result.err.find("found no place; a larger --size"), std::string::npos) << result.toString();
-    EXPECT_NE(result.err.find("of what is not seen are left out"), std::string::npos) << result.toString();
+    EXPECT_NE(result.err.find("do not fit; choose a larger --size"), std::string::npos) << result.toString();
+    EXPECT_NE(result.err.find("hidden features are not labelled"), std::string::npos) << result.toString();
 }
 
 TEST_F(SmallHouse, TargetsOfACutawayThatAreNotSeenAreNamed) {
@@ -399,7 +399,7 @@ TEST_F(SmallHouse, TargetsOfACutawayThatAreNotSeenAreNamed) {
     EXPECT_EQ(notesOf({"id=house_chimney"}).find("cutaway:"), std::string::npos);
     EXPECT_NE(notesOf({"id=house_chimney", "--hide", "id=house_chimney"}).find("cutaway: 1 of 1 are not seen"),
               std::string::npos);
-    EXPECT_NE(notesOf({"all"}).find("are not seen, behind other targets"), std::string::npos);
+    EXPECT_NE(notesOf({"all"}).find("are not visible, behind other targets"), std::string::npos);
 }
 
 // A member of a scene asks for no less than the option does.
@@ -574,7 +574,8 @@ TEST(Motion, FilmsThatCannotBeAreRefusedBeforeTheWork) {
     refused({"--turn", "360", "--labels", "l.png"}, "not for films");
     const CommandResult still = runSvt(folder.path(), {"render", "house.gml", "-o", "p.png", "--turn", "90"});
     EXPECT_NE(still.exitCode, 0);
-    EXPECT_NE(still.err.find("--turn moves the camera; --frames"), std::string::npos) << still.toString();
+    EXPECT_NE(still.err.find("--turn moves the camera, which needs several pictures"), std::string::npos)
+        << still.toString();
     const std::string path = std::getenv("PATH");
     setenv("PATH", "/nowhere", 1);
     refused({"--turn", "360"}, "ffmpeg, which is not installed");

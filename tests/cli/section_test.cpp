@@ -344,7 +344,7 @@ TEST(Section, ErrorsSayWhatToDo) {
         {{"-o", "d.svg", "--plane", "storey=EG+1"}, 2, "E902|storey"},
         {{"-o", "d.svg", "--scale", "1:0"}, 2, "--scale '1:0'.*1:N"},
         {{"-o", "d.svg", "--scale", "nan"}, 2, "--scale 'nan'"},
-        {{"-o", "d.svg", "--hide", "all"}, 2, "E503 BadSection.*cuts nothing that is shown"},
+        {{"-o", "d.svg", "--hide", "all"}, 2, "E503 BadSection.*cuts no visible feature"},
         {{"-o", "d.svg", "--hide", "class="}, 2, "E901 BadQuery"},
         {{"-o", "d.svg", "--min-area", "-1"}, 2, "min-area"},
         {{"-o", "d.svg", "--elevation", "up"}, 2, "elevation"},

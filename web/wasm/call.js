@@ -5,7 +5,7 @@ Module["call"] = (name, args, bytes) => {
   const held = [];
   const hold = (size) => {
     const at = _malloc(size);
-    if (at === 0) throw { code: "E104", message: "the file and what is made of it need more memory than a page has" };
+    if (at === 0) throw { code: "E104", message: "the file and its volume need more memory than a page has" };
     held.push(at);
     return at;
   };
@@ -21,7 +21,7 @@ Module["call"] = (name, args, bytes) => {
     if (bytes) HEAPU8.set(bytes, data);
     const failed = _svt_call(holdText(name), holdText(JSON.stringify(args)), data, size);
     const at = _svt_reply();
-    // Memory that threads share is refused by much of what a browser does with bytes.
+    // Many functions of browsers refuse memory that threads share.
     const isShared = !(HEAPU8.buffer instanceof ArrayBuffer);
     const reply = isShared ? HEAPU8.slice(at, at + _svt_reply_size()) : HEAPU8.subarray(at, at + _svt_reply_size());
     if (failed) throw JSON.parse(new TextDecoder().decode(reply));

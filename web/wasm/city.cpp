@@ -10,7 +10,7 @@
 namespace svt::web {
 namespace {
 
-// FNV-1a of where the tiles stand.
+// FNV-1a of the places of the tiles.
 std::string keyOf(const std::vector<city::IndexEntry>& entries) {
     std::uint64_t hash = 0xcbf29ce484222325u;
     for (const city::IndexEntry& entry : entries)
@@ -44,14 +44,14 @@ Result<CityPage::Look> CityPage::look(const CityWish& wish) {
     look.pixels = chosen->pixels * std::max(1.0, wish.pixels);
     look.key = keyOf(chosen->entries);
     if (look.key == wish.shown) return look;
-    // All of them are asked for before any is decoded.
+    // Requests all tiles before decoding any.
     std::optional<Error> missing;
     for (const city::IndexEntry& entry : chosen->entries)
         if (auto read = city_->readBytes(entry); !read) missing = read.error();
     if (missing && bytes_.isWanting()) return *missing;
     auto parts = city::readTiles(*city_, *chosen);
     if (!parts) {
-        // What is damaged or cannot be had is left out.
+        // Leaves out tiles that are damaged or unavailable.
         std::erase_if(chosen->entries, [&](const city::IndexEntry& entry) {
             const auto volume = city_->read(entry);
             if (!volume) look.lacks.push_back(volume.error().where().toString() + ": " + volume.error().message());
@@ -78,7 +78,7 @@ Result<illustrate::SceneCamera> CityPage::find(const std::string& id, const illu
     city::Extract building;
     building.ids.push_back(id);
     SVT_TRY(part, city::extractVolume(*city_, building));
-    // The whole part: all voxels of a building may belong to features below it.
+    // Shows the whole part, because all voxels of a building may belong to features below it.
     SVT_TRY(camera, illustrate::makeView("", "", now, aspect, *part, &frame_.grid));
     camera->around = "id=" + id;
     return camera;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A city whose bytes the page fetches: the session of what a camera sees of it.
+/// A city whose bytes the page fetches: makes a session of the tiles that a camera sees.
 
 #include "session.hpp"
 
@@ -15,35 +15,36 @@
 
 namespace svt::web {
 
-/// What a picture of a city needs.
+/// A request for a picture of a city.
 struct CityWish {
     std::optional<illustrate::Scene> scene;  ///< none: the one tile of the coarsest detail
-    double pixels = 1;                       ///< voxels may be as wide
-    std::uint64_t memoryBytes = 0;           ///< of decoded tiles
-    std::string shown;                       ///< Look::key of what is seen already
+    double pixels = 1;                       ///< maximum width of voxels, in pixels
+    std::uint64_t memoryBytes = 0;           ///< limit for decoded tiles
+    std::string shown;                       ///< Look::key of the tiles that are already visible
 };
 
-/// Calls that need bytes return nothing, and wanted() names them: give them, and call again.
+/// Makes sessions and cameras of a city. A call that needs bytes returns an error, and CityBytes::wanted() lists them:
+/// give them to bytes(), and call again.
 class CityPage {
 public:
     city::CityBytes& bytes() noexcept { return bytes_; }
 
     struct Look {
-        std::unique_ptr<Session> session;  ///< null: what is seen already will do
-        std::string key;                   ///< of the tiles that were chosen
+        std::unique_ptr<Session> session;  ///< null: the visible tiles are sufficient
+        std::string key;                   ///< of the chosen tiles
         std::size_t tiles = 0;
-        std::uint64_t bytes = 0;         ///< of the tiles' members
-        double pixels = 1;               ///< voxels are at most as wide; more than wished for where memory is short
-        int finest = 0, coarsest = 0;    ///< details
-        std::vector<std::string> lacks;  ///< tiles that cannot be had: why
+        std::uint64_t bytes = 0;       ///< of the tiles' members
+        double pixels = 1;             ///< largest width of voxels, in pixels; over CityWish::pixels if memory is short
+        int finest = 0, coarsest = 0;  ///< details
+        std::vector<std::string> lacks;  ///< the reason for each unavailable tile
     };
     /// Chooses, reads and joins tiles.
-    /// \return what is seen, or an error of City::open(), makeFrameSpec(), chooseTiles(), joinLabels(). If wanted() is
-    ///         not empty after an error, bytes are needed
+    /// \return the visible part, or an error of City::open(), makeFrameSpec(), chooseTiles(), joinLabels(). If wanted()
+    ///         is not empty after an error, the call needs bytes
     [[nodiscard]] Result<Look> look(const CityWish& wish);
 
     /// A camera that shows the building with an id, from the direction of `now`.
-    /// \return the camera; NothingSelected if there is none; else as look()
+    /// \return the camera; NothingSelected if there is no such building; else as look()
     [[nodiscard]] Result<illustrate::SceneCamera> find(const std::string& id, const illustrate::SceneCamera& now,
                                                        double aspect);
     [[nodiscard]] const std::optional<city::City>& city() const noexcept { return city_; }

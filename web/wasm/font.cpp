@@ -19,7 +19,7 @@ bool isSet = false;
 Result<void> setFont(std::span<const std::byte> file) {
     if (file.size() != sizeof svt_font)
         return Error(Code::BadArgument, fmt::format("the font has {} bytes; expected the DejaVuSans.ttf of {} bytes "
-                                                    "that stands beside the module",
+                                                    "next to the module",
                                                     file.size(), sizeof svt_font));
     std::transform(file.begin(), file.end(), svt_font, [](std::byte b) { return static_cast<unsigned char>(b); });
     isSet = true;

@@ -46,7 +46,7 @@ requires is_unbounded_array_v<T> unique_ptr<T> make_unique_for_overwrite(size_t 
     return unique_ptr<T>(new remove_extent_t<T>[count]);
 }
 
-/// The algorithms of ranges, with projections, over what begin() and end() take.
+/// The algorithms of ranges, with projections, over types that begin() and end() take.
 namespace ranges {
 
 template <class Less, class Projection>

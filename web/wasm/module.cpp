@@ -86,13 +86,14 @@ private:
     std::span<const std::byte> bytes_;
 };
 
-// Ghost if the page gives none.
+// The context of a page's argument; Ghost by default.
 illustrate::Context contextOf(const Json& value) {
     const auto known = fromName<illustrate::Context>(value.is_string() ? value.get<std::string>() : std::string());
     return known.value_or(illustrate::Context::Ghost);
 }
 
-// (name, or names) and, for several, (sizes in bytes); {draft, memory}; the files' bytes one after the other -> VolumeInfo
+// (name, or names) and, for several, (sizes in bytes); {draft, memory}; the concatenated bytes of the files ->
+// VolumeInfo
 Result<Reply> open(const Arguments& arguments) {
     Progress progress;
     progress.report = [](std::string_view stage, double done) {
@@ -120,7 +121,7 @@ Result<Reply> open(const Arguments& arguments) {
     return Reply(infoOf(*session));
 }
 
-// (file name) and a table's bytes -> nothing: features get owners
+// (file name) and a table's bytes -> nothing; features get owners
 Result<Reply> owners(const Arguments& arguments) {
     const auto bytes = arguments.bytes();
     const std::string_view table(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -135,21 +136,21 @@ Result<Vec3d> pointAt(const Arguments& arguments, std::size_t n) {
 }
 Json jsonOf(Vec3d p) { return Json::array({p.x, p.y, p.z}); }
 
-// (point) -> the eye of who stands near it, or null
+// (point) -> the eye of a person standing near it, or null
 Result<Reply> stand(const Arguments& arguments) {
     SVT_TRY(wanted, pointAt(arguments, 0));
     const auto place = standingPlace(*session, *wanted);
     return Reply((place ? jsonOf(*place) : Json(nullptr)).dump());
 }
 
-// (eye, step) -> the eye after it
+// (eye, step) -> the eye after the step
 Result<Reply> step(const Arguments& arguments) {
     SVT_TRY(eye, pointAt(arguments, 0), by = pointAt(arguments, 1));
     if (!by) return by.error();
     return Reply(jsonOf(afterStep(*session, *eye, *by)).dump());
 }
 
-// (scene) -> [{text, by}]: its section planes that lie in faces of the model, and how far they are moved
+// (scene) -> [{text, by}]: its section planes that lie in faces of the model, with the distance that they are moved
 Result<Reply> movedPlanes(const Arguments& arguments) {
     SVT_TRY(scene, arguments.scene(0));
     Json list = Json::array();
@@ -164,7 +165,7 @@ Result<Reply> font(const Arguments& arguments) {
     return Reply(std::string("null"));
 }
 
-// (scene) -> what the colours of its colorBy mean: {title, isRamp, low, high, entries: [{text, count}], missing}
+// (scene) -> the meaning of the colours of its colorBy: {title, isRamp, low, high, entries: [{text, count}], missing}
 Result<Reply> legend(const Arguments& arguments) {
     SVT_TRY(scene, arguments.scene(0));
     illustrate::ColorScale scale;
@@ -181,7 +182,7 @@ Result<Reply> legend(const Arguments& arguments) {
                      .dump());
 }
 
-// (scene, width, height, whether a draft will do) -> RGBA, row by row from the top
+// (scene, width, height, whether a draft is sufficient) -> RGBA, row by row from the top
 Result<Reply> draw(const Arguments& arguments) {
     SVT_TRY(scene, arguments.picture(0));
     scene->width = arguments.pixels(1);
@@ -251,7 +252,7 @@ Result<Reply> view(const Arguments& arguments) {
     return Reply(cameraText(*camera));
 }
 
-// Bytes that are needed first, as {needs: [[file, offset, size], ...]}; null: none are.
+// Bytes that are needed first, as {needs: [[file, offset, size], ...]}, or null.
 Json needsJson() {
     Json list = Json::array();
     for (const city::CityBytes::Range& range : cityPage->bytes().wanted())
@@ -259,7 +260,8 @@ Json needsJson() {
     return list.empty() ? Json(nullptr) : Json{{"needs", std::move(list)}};
 }
 
-// ([[file, offset, size, bytes given, size of the file, why not], ...]) and the bytes, one after the other -> nothing
+// ([[file, offset, size, bytes given, size of the file, reason for missing bytes], ...]) and the concatenated bytes ->
+// nothing
 Result<Reply> cityGive(const Arguments& arguments) {
     std::size_t at = 0;
     const auto bytes = arguments.bytes();
@@ -279,8 +281,9 @@ Result<Reply> cityGive(const Arguments& arguments) {
     return Reply(std::string("null"));
 }
 
-// (whether another city begins, scene or null, width, height, {pixels, memory, shown}) -> {needs}, or {info (null: nothing new),
-// key, tiles, bytes, pixels, finest, coarsest, lacks, heap}: then what the scene shows of the city is open
+// (whether another city begins, scene or null, width, height, {pixels, memory, shown}) -> {needs}, or {info (null:
+// nothing new), key, tiles, bytes, pixels, finest, coarsest, lacks, heap}: then the part of the city that the scene
+// shows is open
 Result<Reply> cityLook(const Arguments& arguments) {
     if (!cityPage || arguments.at(0) == true) cityPage = std::make_unique<CityPage>();
     CityWish wish;
@@ -310,7 +313,7 @@ Result<Reply> cityLook(const Arguments& arguments) {
     return Reply(reply.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-// () -> nothing: another worker shows the city now
+// () -> nothing; another worker shows the city now
 Result<Reply> cityDrop(const Arguments&) {
     session.reset();
     return Reply(std::string("null"));
@@ -352,11 +355,11 @@ Result<Reply> drawing(const Arguments& arguments) {
     SVT_TRY(drawn, drawing::drawSection(volume, *plane, options));
     if (drawn->components.empty() && drawn->beyond.empty())
         return Error(Code::BadSection,
-                     fmt::format("the plane '{}' cuts nothing that is shown; move it", arguments.text(0)));
+                     fmt::format("the plane '{}' cuts no visible feature; move it", arguments.text(0)));
     return replyOf(writers::makeDrawing(*drawn, volume, arguments.text(1)));
 }
 
-// ("en" or "de") -> the sheets as `svt sheets --svg` writes them: SVG documents. Needs the font.
+// ("en" or "de") -> the sheets of `svt sheets --svg`: SVG documents. Needs the font.
 Result<Reply> sheets(const Arguments& arguments) {
     if (!hasFont()) return Error(Code::BadArgument, "sheets cannot be drawn without their font; give it first");
     const volume::SemanticVolume& volume = session->volume();
@@ -367,7 +370,7 @@ Result<Reply> sheets(const Arguments& arguments) {
     return Reply(Json(*made).dump());
 }
 
-// () -> how many threads work together; those beside this one are started. 1 in the module without threads
+// () -> the number of threads that work together; starts the further ones. 1 in the module without threads
 Result<Reply> threads(const Arguments&) {
     const int count = hardwareThreads();
     parallelFor(static_cast<std::size_t>(count), 1, 0, [](std::size_t, std::size_t) {});
@@ -425,7 +428,7 @@ Result<Reply> runGuarded(std::string_view name, std::string_view json, std::span
     } catch (const std::bad_alloc&) {
         return Error(Code::InputTooBig,
                      "this needs more than the 2 GB of memory that a page has; build the volume with a coarser spacing "
-                     "by the command, or draw a smaller picture");
+                     "with the command, or draw a smaller picture");
     } catch (const std::exception& defect) {
         return Error(Code::Internal, defect.what());
     }

@@ -41,7 +41,7 @@ Json storeysJson(const volume::SemanticVolume& volume) {
         list.push_back({{"id", label.id}, {"name", label.name}, {"floor", storey.floor}, {"top", storey.top}});
     }
     if (!list.empty()) return list;
-    // Without storeys, what rooms and slabs tell.
+    // Without storeys, derives levels from rooms and slabs.
     const auto levels = drawing::findLevels(volume);
     const double top = (volume.grid.dimension().z - 1) * volume.grid.spacing().z;
     for (std::size_t n = 0; n < levels.size(); ++n)
@@ -52,7 +52,7 @@ Json storeysJson(const volume::SemanticVolume& volume) {
     return list;
 }
 
-// The type that the model's own format gives a feature: IfcWall.
+// The type of a feature in the model's own format: IfcWall.
 std::string typeOf(const volume::Label& label) {
     for (const Attribute& attribute : label.attributes)
         if (const auto* text = std::get_if<std::string>(&attribute.value); text && attribute.name == "ifcType")
@@ -60,7 +60,7 @@ std::string typeOf(const volume::Label& label) {
     return {};
 }
 
-// Names of all attributes, those of most features first.
+// Names of all attributes, the most frequent ones first.
 Json attributeNames(const volume::LabelTable& table) {
     std::map<std::string, std::size_t> counts;
     for (const volume::Label& label : table.labels)
@@ -113,7 +113,7 @@ Vec3d worldSize(const volume::Grid& grid) {
     return size;
 }
 
-// Bounding box of a feature's voxels; if it has none, of those of its descendants.
+// Bounding box of a feature's voxels, or of those of its descendants if the feature lacks voxels.
 Box3d boxOf(Session& session, std::uint32_t index) {
     const volume::SemanticVolume& volume = session.volume();
     analyze::SampleBox box = session.measures()[index].box;
@@ -177,7 +177,7 @@ std::string propertiesIn(Session& session, std::uint32_t index, Vec3d by) {
     for (const Attribute& attribute : found->attributes)
         json["attributes"][attribute.name] =
             attribute.unit.empty() ? toText(attribute.value) : toText(attribute.value) + " " + attribute.unit;
-    // Numbers once more as such, for readers who write them with a comma.
+    // Repeats numbers as numbers, for languages with a decimal comma.
     json["numbers"] = Json::object();
     for (const Attribute& attribute : found->attributes)
         if (const auto* number = std::get_if<double>(&attribute.value))

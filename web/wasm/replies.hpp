@@ -16,14 +16,14 @@ namespace svt::web {
 /// FeatureProperties, or NothingSelected if no feature has that id.
 [[nodiscard]] Result<std::string> propertiesOf(Session& session, const std::string& id);
 /// Pick or null
-/// \param reach  metres within which a corner or else an edge of the model is snapped to; 0: no snapping
+/// \param reach  maximum distance, metres, to snap to a corner or else an edge of the model; 0: no snapping
 [[nodiscard]] std::string pickOf(Session& session, double x, double y, double reach);
 /// Stretch[]
 [[nodiscard]] Result<std::string> intervalsOf(Session& session, double x, double y);
 /// string[]: ids
 [[nodiscard]] Result<std::string> selectionOf(const Session& session, const std::string& query);
-/// string[]: ids of the features one of whose attributes contains each of the words in its name or value; ASCII letters
-/// of any case
+/// string[]: ids of features with an attribute that contains all words in its name or value. Upper and lower case ASCII
+/// letters are equal.
 [[nodiscard]] std::string attributesFoundIn(const Session& session, const std::string& words);
 /// EngineError
 [[nodiscard]] std::string errorOf(const Error& error);

@@ -20,7 +20,7 @@
 namespace svt::web {
 namespace {
 
-// Of a draft: coarse enough to be made at once.
+// Size of a draft, which is built immediately.
 constexpr std::uint64_t kDraftBytes = 40'000'000;
 
 struct Loaded {
@@ -89,7 +89,7 @@ Session::Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findin
 Session::Session(city::JoinedTiles tiles) : volume_(std::move(tiles.frame)), isOfParts_(true), painter_(volume_) {
     painter_.tolerateNothing(&nothing_);
     tiles.addTo(painter_);
-    details_ = std::move(tiles.parts);  // the parts themselves, which the painter refers to, stay where they are
+    details_ = std::move(tiles.parts);  // the painter refers to the parts themselves, which do not move
     labelOfScalar_ = volume_.labels.labelOfScalar();
 }
 
@@ -117,7 +117,7 @@ Result<illustrate::SceneCamera> Session::view(const std::string& query, const st
         const volume::SemanticVolume& part = volumeOf(label);
         if (&part != &volume_) return illustrate::makeView(query, preset, now, aspect(), part, &volume_.grid);
     }
-    return Error(Code::NothingSelected, "what is selected is not among what is seen here");
+    return Error(Code::NothingSelected, "the selected features are not visible here");
 }
 
 std::unique_ptr<Session> Session::around(std::uint32_t label) const {
@@ -258,7 +258,7 @@ bool Session::isSeenThrough(volume::Scalar scalar) const {
     return scalar != 0 && std::any_of(lastSpec_->passes.begin(), lastSpec_->passes.end(), isGlass);
 }
 
-// Casts the ray alone. Its clips are those of the picture: regions of the picture, such as a lens, are cones in space.
+// Casts only this ray. Its clips are those of the picture: regions of the picture, such as a lens, are cones in space.
 std::optional<Picked> Session::behindGlass(const render::ViewRay& ray) {
     render::FrameSpec spec = *lastSpec_;
     for (render::Pass& pass : spec.passes) pass.lines.clear();

@@ -36,43 +36,44 @@ using readers::NamedBytes;
 struct OpenOptions {
     /// Coarse voxels without edges, for a first picture. No difference for `.svt`.
     bool isDraft = false;
-    /// Bytes that a volume may take whose spacing nobody asked for; 0: as for `svt build`.
+    /// Size limit of a volume without a given spacing, bytes; 0: as for `svt build`.
     std::uint64_t memoryBytes = 0;
 };
 
 class Session {
 public:
-    /// Opens one or several files: a `.svt`, or a model, whose feature edges are kept. Several models become one, as by
-    /// `svt build A B`; with a `.svt` among them, the first file is drawn with the others as by `svt render --with`.
+    /// Opens one or several files: a `.svt`, or a model, whose feature edges are stored. Several models become one, as
+    /// in `svt build A B`. With a `.svt` among them, the first file is drawn with the others as in `svt render --with`.
     /// \return the session, or an error of readSvt(), readModel(), buildVolume() or joinLabels()
     [[nodiscard]] static Result<std::unique_ptr<Session>> open(std::span<const NamedBytes> files,
                                                                const OpenOptions& options, const Progress* progress);
 
-    /// What is seen of a city.
+    /// A session of the visible part of a city.
     [[nodiscard]] static std::unique_ptr<Session> ofTiles(city::JoinedTiles tiles);
     /// Whether the volume is a frame around parts.
     [[nodiscard]] bool isOfParts() const noexcept { return isOfParts_; }
     /// The volume in which a label has its voxels. Cost of parts: O(runs).
     [[nodiscard]] const volume::SemanticVolume& volumeOf(std::uint32_t label) const;
-    /// A camera that shows what a query selects, see illustrate::makeView().
+    /// A camera that shows the selection of a query, see illustrate::makeView().
     [[nodiscard]] Result<illustrate::SceneCamera> view(const std::string& query, const std::string& preset,
                                                        const illustrate::SceneCamera& now) const;
 
     [[nodiscard]] const volume::SemanticVolume& volume() const noexcept { return volume_; }
     /// Findings of building the volume from a model.
     [[nodiscard]] const Diagnostics& findings() const noexcept { return findings_; }
-    /// Why the volume has the spacing that it has; empty where it was not built here.
+    /// The reason for the spacing of the volume; empty if it was not built here.
     [[nodiscard]] const std::string& spacingReason() const noexcept { return spacingReason_; }
-    /// Number of volumes that are drawn with the first.
+    /// Number of volumes that are drawn together with the first.
     [[nodiscard]] std::size_t details() const noexcept { return isOfParts_ ? 0 : details_.size(); }
 
-    /// Gives the features their owners, as attributes `owner`; those of a table before are forgotten.
+    /// Sets the owners of features, as attributes `owner`, and removes those of an earlier table.
     /// \param table  CSV, see analyze::parseOwners()
     /// \return an error of parseOwners(); the features then have no owners
     [[nodiscard]] Result<void> setOwners(std::string_view table, std::string_view file);
 
-    /// Whether one can be at a point, metres from the grid's lower corner along world axes: in the air of a room, outside,
-    /// in a door, or in what the last picture does not draw at all. Cost: O(log runs of a column).
+    /// Whether a person can be at a point: in the air of a room, outside, in a door, or in features that the last
+    /// picture does not draw at all. Cost: O(log runs of a column).
+    /// \param point  metres from the grid's lower corner along world axes
     [[nodiscard]] bool isAir(Vec3d point) const;
     /// Whether a point is in a room.
     [[nodiscard]] bool isInRoom(Vec3d point) const;
@@ -90,20 +91,20 @@ public:
     void dropGl();
     /// Width by height of the last picture; 16 : 9 before the first.
     [[nodiscard]] double aspect() const noexcept;
-    /// The same as a PNG; does not replace the last picture for pick() and along().
+    /// A picture as PNG; does not replace the last picture for pick() and along().
     [[nodiscard]] Result<std::vector<std::byte>> picture(const illustrate::Scene& scene);
 
     /// The scalars of such a picture, as written by `svt render --labels`.
     [[nodiscard]] Result<std::vector<std::byte>> labels(const illustrate::Scene& scene);
 
     /// \param x, y  fractions of the last picture's width and height
-    /// \return what the eye takes there: the first object behind which less than half of what lies further is seen, or
-    ///         the first of all where there is none; or nothing
+    /// \return the object that a person sees at this position: the first object that hides more than half of everything
+    ///         behind it, else the first object; or nothing
     [[nodiscard]] std::optional<Picked> pick(double x, double y);
     /// All intervals along the ray through a position of the last picture, nearest first.
     [[nodiscard]] Result<std::vector<render::LabelInterval>> along(double x, double y);
 
-    /// A feature of parts with what is around it, as a volume of its own; null where it has no voxels of its own.
+    /// A feature of a city with its surroundings, as a separate volume; null if the feature lacks own voxels.
     [[nodiscard]] std::unique_ptr<Session> around(std::uint32_t label) const;
     /// Contacts between features; computed on first use.
     [[nodiscard]] const std::vector<analyze::Contact>& contacts();
@@ -124,7 +125,7 @@ private:
     Diagnostics findings_;
     std::string spacingReason_;
     bool hasOwners_ = false, isOfParts_ = false;
-    std::vector<std::string> nothing_;  // queries that select nothing of what is seen of a city
+    std::vector<std::string> nothing_;  // queries that select no visible feature of a city
     illustrate::ScenePainter painter_;
     std::optional<render::FrameSpec> lastSpec_;
     std::vector<illustrate::VolumeForm> lastForms_;

@@ -18,11 +18,11 @@ export interface SvtModuleOptions {
   onProgress?: (step: string, done: number) => void;
   /** svt.wasm, if already loaded; else it is fetched from the folder of svt.js. */
   wasmBinary?: ArrayBuffer;
-  /** Where files of the module are, by name; else in the folder of svt.js. */
+  /** The address of a file of the module, by name; else in the folder of svt.js. */
   locateFile?: (name: string) => string;
-  /** Where svt_threads.js is, for its threads; else beside svt_threads.worker.js. */
+  /** The address of svt_threads.js, for its threads; else next to svt_threads.worker.js. */
   mainScriptUrlOrBlob?: string;
-  /** Instantiates the module, if it is already being compiled, and passes the instance on. */
+  /** Instantiates a module whose compilation has begun, and passes the instance on. */
   instantiateWasm?: (imports: WebAssembly.Imports, receive: (instance: WebAssembly.Instance, module: WebAssembly.Module) => void) => object;
 }
 

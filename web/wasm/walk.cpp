@@ -9,9 +9,9 @@ namespace {
 
 constexpr double kBodyRadius = 0.22;   // metres
 constexpr double kHighestStep = 0.45;  // metres
-constexpr double kStride = 0.08;       // metres: longer steps are taken in several
+constexpr double kStride = 0.08;       // metres; longer steps are divided
 
-// Whether a body has room whose eye is there: around it, from the highest step to above the head.
+// Whether a body with this eye has room around it, from the highest step to above the head.
 bool hasRoom(const Session& session, Vec3d eye) {
     for (const double below : {kEyeHeight - kHighestStep - 0.05, 0.8, 0.4, 0.0, -0.1}) {
         const Vec3d middle{eye.x, eye.y, eye.z - below};
@@ -25,7 +25,7 @@ bool hasRoom(const Session& session, Vec3d eye) {
     return true;
 }
 
-// The height of the floor below the eye, from a high step above the feet to as far below them.
+// The height of the floor below the eye, from kHighestStep above the feet to kHighestStep below them.
 std::optional<double> floorBelow(const Session& session, Vec3d eye) {
     constexpr double kFine = 0.02;
     const double feet = eye.z - kEyeHeight;
@@ -35,7 +35,7 @@ std::optional<double> floorBelow(const Session& session, Vec3d eye) {
 }
 
 std::optional<Vec3d> standingAt(const Session& session, Vec3d eye) {
-    // A floor a little higher or lower than the level's will do.
+    // Accepts a floor slightly higher or lower than that of the level.
     for (const double offset : {0.0, 0.4, -0.4, 0.8, -0.8, 1.2, -1.2}) {
         Vec3d at{eye.x, eye.y, eye.z + offset};
         const auto floor = floorBelow(session, at);
@@ -46,7 +46,7 @@ std::optional<Vec3d> standingAt(const Session& session, Vec3d eye) {
     return std::nullopt;
 }
 
-// One short step: whole, else along one axis; then onto the floor.
+// One short step: the whole step, or else along one axis; then onto the floor.
 Vec3d shortStep(const Session& session, Vec3d eye, Vec3d step) {
     const bool wasStuck = !hasRoom(session, eye);
     const bool stood = floorBelow(session, eye).has_value();

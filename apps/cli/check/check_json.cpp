@@ -57,11 +57,11 @@ std::string val3dityPlace(const model::BuildingModel& model, const Finding& find
     return id;
 }
 
-// Findings of readers by root feature; those of no known feature are of the data set.
+// Findings of readers by root feature; findings without a known feature belong to the data set.
 struct ErrorsByRoot {
     std::map<model::FeatureIndex, Json> errors;
     Json ofDataset = Json::array();
-    Json others = Json::array();  // those that val3dity does not look for
+    Json others = Json::array();  // those that val3dity does not test
     std::map<std::string, std::size_t> otherCounts;
     std::set<int> all;
 };

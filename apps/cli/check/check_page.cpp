@@ -16,15 +16,15 @@ using validate::Finding;
 
 constexpr std::size_t kMaxPictures = 50;
 constexpr std::size_t kMaxEdges = 6000;   // in one picture
-constexpr std::size_t kMaxAround = 3000;  // lines of the building around the defect; without it if it has more
-constexpr double kSide = 360;             // of a picture, pixels
+constexpr std::size_t kMaxAround = 3000;  // lines of the building around the defect; a building with more is not drawn
+constexpr double kSide = 360;             // side of a picture, pixels
 
 struct FlatPoint {
     double u = 0, v = 0;
 };
 using FlatLine = std::array<FlatPoint, 2>;
 
-// Seen from the south-west and above, parallel lines stay parallel: u to the right, v downwards.
+// A parallel projection from the south-west and above: u to the right, v downwards.
 FlatPoint flat(Vec3d p) {
     constexpr double kCos = 0.8660254037844386, kSin = 0.5;
     return {(p.x - p.y) * kCos, (p.x + p.y) * -kSin * 0.6 - p.z};
@@ -90,7 +90,7 @@ public:
         std::string path;
         for (const FlatLine& line : lines) {
             const FlatPoint a = pixel(line[0]), b = pixel(line[1]);
-            constexpr double kFar = 20 * kSide;  // what is far outside would only overflow
+            constexpr double kFar = 20 * kSide;  // lines farther outside are dropped
             if (std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) > kFar) continue;
             path += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", a.u, a.v, b.u, b.v);
         }
@@ -116,7 +116,7 @@ private:
     std::string text_;
 };
 
-// The defect in its building, and from near. Without a geometry the building alone is drawn.
+// The defect in its building, and a close-up. Without a geometry, only the building is drawn.
 std::string picturesOf(const model::BuildingModel& model, const Finding& finding, double lod) {
     const model::Feature& feature = model.features[finding.feature];
     const Vec3d origin{std::floor(finding.at.x), std::floor(finding.at.y), std::floor(finding.at.z)};
@@ -145,15 +145,15 @@ std::string picturesOf(const model::BuildingModel& model, const Finding& finding
     far.add(edges, "edge");
     far.add(marks, "mark");
     far.addRing(at);
-    // A mark as large as the whole shows nothing more from near; then around the place itself.
+    // A close-up of a mark as large as the whole would show nothing more; then the close-up is around the place itself.
     const bool isSmall = near.size() < 0.5 * whole.size() && near.size() > 0;
     const double size = isSmall ? std::max(near.size() * 1.6, 0.002 * whole.size()) : 0.1 * whole.size();
     Picture close(isSmall ? middle(near) : at, size);
     close.add(edges, "edge");
     close.add(marks, "mark");
     close.addRing(at);
-    return far.svg("the whole") + fmt::format("<figure>{}<figcaption>{:.3g} m wide</figcaption></figure>",
-                                              close.svg("the defect from near"), size);
+    return far.svg("whole feature") + fmt::format("<figure>{}<figcaption>{:.3g} m wide</figcaption></figure>",
+                                                  close.svg("close-up of the defect"), size);
 }
 
 constexpr std::string_view kHead = R"(<!doctype html>
@@ -192,7 +192,7 @@ std::string findingSection(const model::BuildingModel& model, const Finding& fin
     return text + "</section>\n";
 }
 
-// Where a shell leaks, and what closes it; empty where the finding is of no mesh, or of one without leaks.
+// The leaks of a shell and the caps that close them; empty if the finding has no mesh, or a mesh without leaks.
 std::string pictureOfLeak(const Checked& checked, const OtherFinding& other) {
     const Code code = other.item->code;
     if (code != Code::ShellCapped && code != Code::WindingFilled && code != Code::FacesComplemented) return {};
@@ -225,11 +225,11 @@ std::string otherSection(const Checked& checked, const OtherFinding& other, bool
     return text + "</section>\n";
 }
 
-// All findings of one code: those of the tests, and those of readers and of closing.
+// All findings of one code, from the tests, from readers and from closing.
 struct Kind {
     std::size_t tested = 0;
     std::vector<OtherFinding> others;
-    std::size_t otherCount = 0;  // with those that are only counted
+    std::size_t otherCount = 0;  // of `others`, and of further findings that are only counted
 };
 
 std::map<Code, Kind> kindsOf(const Checked& checked, const std::vector<OtherFinding>& others) {
@@ -258,7 +258,7 @@ std::string kindsTable(const std::map<Code, Kind>& kinds) {
     return text + "</table>\n";
 }
 
-// How many findings each building has, most first.
+// The number of findings per building, most first.
 std::string placesTable(const Checked& checked, const std::vector<OtherFinding>& others) {
     constexpr std::size_t kMostPlaces = 100;
     std::map<model::FeatureIndex, std::map<Code, std::size_t>> places;
@@ -291,11 +291,12 @@ std::string placesTable(const Checked& checked, const std::vector<OtherFinding>&
             isKnown ? xmlAttribute(checked.model.features[rows[r].feature].id) : "", rows[r].count, rows[r].codes);
     }
     text += "</table>\n";
-    if (rows.size() > kMostPlaces) text += fmt::format("<p>{} more have fewer.</p>\n", rows.size() - kMostPlaces);
+    if (rows.size() > kMostPlaces)
+        text += fmt::format("<p>{} more features have fewer findings.</p>\n", rows.size() - kMostPlaces);
     return text;
 }
 
-// A chapter for each kind. The pictures are shared out among the kinds, so that a frequent one does not take them all.
+// A chapter per kind. Each kind gets a share of the pictures, so that a frequent kind does not take them all.
 std::string chapters(const Checked& checked, const std::map<Code, Kind>& kinds) {
     const std::size_t each = kinds.empty() ? 0 : std::max<std::size_t>(1, kMaxPictures / kinds.size());
     std::string text;
@@ -312,7 +313,7 @@ std::string chapters(const Checked& checked, const std::map<Code, Kind>& kinds) 
             if (finding.code == code) text += findingSection(checked.model, finding, takesPicture());
         for (const OtherFinding& other : kind.others) text += otherSection(checked, other, takesPicture());
         const std::size_t all = kind.tested + kind.otherCount;
-        if (ofKind < all) text += fmt::format("<p>{} more are only counted.</p>\n", all - ofKind);
+        if (ofKind < all) text += fmt::format("<p>{} more findings are counted, but not listed.</p>\n", all - ofKind);
     }
     return text;
 }
@@ -330,7 +331,8 @@ std::string htmlReport(const Checked& checked, const std::string& inputFile) {
                                 : "<b class=\"bad\">Some geometries are not valid.</b>",
                         others.empty() ? "" : " <b class=\"bad\">Reading or closing found defects.</b>");
     text += fmt::format(
-        "<p>{} polygons tested; points closer than {} m are one, polygons may deviate by {} m and {} degrees.</p>\n",
+        "<p>{} polygons tested; points closer than {} m count as one, polygons may deviate by {} m and {} "
+        "degrees.</p>\n",
         report.polygonCount, checked.options.snap, checked.options.planarity, checked.options.normalsDegrees);
     text += countsTable("features", report.features) + countsTable("geometries", report.primitives);
     if (!kinds.empty()) text += kindsTable(kinds) + placesTable(checked, others) + chapters(checked, kinds);

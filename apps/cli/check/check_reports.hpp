@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What `svt check` reports of a validation: JSON of its own and of val3dity, messages, a page with pictures.
+/// Reports of `svt check` on a validation: JSON of its own and of val3dity, messages, a page with pictures.
 
 #include <apps/cli/output/json_output.hpp>
 
@@ -13,7 +13,7 @@
 
 namespace svt::cli {
 
-/// A model, what was found in it, and by which tolerances.
+/// A model, the findings in it, and the tolerances of the tests.
 struct Checked {
     const model::BuildingModel& model;
     const validate::ValidationReport& report;
@@ -25,18 +25,19 @@ struct Checked {
 /// Keys `valid`, `findings`, `counts`, `features`, `primitives`, `polygons` of the JSON of `svt check`.
 void addValidationJson(Json& json, const Checked& checked);
 
-/// The report as val3dity writes it; keys `other_findings` and `other_counts` have what it does not look for.
+/// The report in the format of val3dity; keys `other_findings` and `other_counts` have the findings that val3dity does
+/// not test.
 /// \param inputFile as named by the user
 [[nodiscard]] Json val3dityJson(const Checked& checked, const std::string& inputFile);
 
-/// Adds each finding as a warning, but those that are there already by code and id.
+/// Adds each finding as a warning, except findings whose code and id are already present.
 void addFindings(Diagnostics& diagnostics, const Checked& checked);
 
-/// The page of `--report`: counts by kind and by place, all findings by kind, with pictures. One file, nothing loaded
-/// from elsewhere.
+/// The page of `--report`: counts by kind and by place, and all findings by kind, with pictures. A single file that
+/// loads nothing else.
 [[nodiscard]] std::string htmlReport(const Checked& checked, const std::string& inputFile);
 
-/// Where a finding is: id of its polygon, "polygon 12" where that has none, else empty.
+/// The place of a finding: the id of its polygon, "polygon 12" if the polygon lacks an id, or empty without a polygon.
 [[nodiscard]] std::string polygonName(const model::BuildingModel& model, const validate::Finding& finding);
 
 }  // namespace svt::cli

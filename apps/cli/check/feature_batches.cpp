@@ -29,7 +29,7 @@ public:
     BatchReader(FeatureFile file, readers::ReadOptions options,
                 const std::function<Result<void>(model::BuildingModel&, Diagnostics&)>& take)
         : file_(std::move(file)), options_(options), progress_(options_.progress), take_(take) {
-        options_.progress = nullptr;  // it would begin anew with each batch
+        options_.progress = nullptr;  // it would restart with each batch
         options_.keepFarFeatures = true;
     }
 
@@ -58,14 +58,14 @@ private:
         Diagnostics findings;
         const std::vector<std::string_view> texts(batch.texts.begin(), batch.texts.end());
         auto model = file_.read(texts, options_, &findings, nullptr, batch.lines);
-        // The reader of the whole file says it better.
+        // The reader of the whole file has a better message.
         if (!model && model.error().code() != Code::EmptyModel) return false;
         if (findings.count(Code::DanglingReference) != 0) return false;
         Progress::tell(progress_, "check", file_.progress());
         if (Progress::isCancelled(progress_)) return Error(Code::Cancelled, "stopped while checking");
         if (!model) return true;
         isEmpty_ = false;
-        if (options_.axisOrder == 0) {  // what the first batch decides holds for all
+        if (options_.axisOrder == 0) {  // the first batch decides for all
             options_.axisOrder = model->crs.axesSwapped ? -1 : 1;
             if (model->crs.epsg != 0) options_.crs = model->crs.epsg;
         }
@@ -75,7 +75,7 @@ private:
         return true;
     }
 
-    // What is told of the file as a whole is told once.
+    // Reports a finding about the whole file once.
     void dropRepeated(Diagnostics& findings) {
         Diagnostics once;
         for (const Diagnostic& item : findings.items()) {
@@ -86,7 +86,7 @@ private:
         if (once.items().size() != findings.items().size()) findings = std::move(once);
     }
 
-    // Ids that an earlier batch has; those of one batch are found by its reader.
+    // Ids that occur in an earlier batch. The reader of a batch finds duplicates within it.
     void findDuplicates(const model::BuildingModel& model, Diagnostics& findings) {
         std::vector<std::uint64_t> own;
         for (const model::Feature& feature : model.features) {

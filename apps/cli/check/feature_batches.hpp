@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// A large file as models of a few features each, so that a check takes the memory of one of them.
+/// Reads a large file as models of a few features each, so that a check takes the memory of one such model.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/result.hpp>
@@ -13,17 +13,17 @@
 
 namespace svt::cli {
 
-/// Whether a file is so large that it should be read in batches: from 64 MiB on, from 6 MiB where its name ends in .gz.
+/// Whether a file is large enough to be read in batches: from 64 MiB on, or from 6 MiB if its name ends in .gz.
 [[nodiscard]] bool isWorthBatches(const std::filesystem::path& file);
 
-/// Reads a file feature by feature, some 16 MiB of them at a time, in the order of the file.
+/// Reads a file in batches of about 16 MiB of features, in the order of the file.
 ///
-/// What a reader of the whole file would tell is told, but for features far away from all others. Faces of adjoining
-/// features close a shell only within a batch.
-/// \param take  receives each model and what was found while it was read; an error ends the work
-/// \return true; false where features refer to each other: the file has to be read whole, what `take` has done is of no
-///         use; or the first error
-/// Cost: that of reading the file. Memory: that of a batch, and 16 bytes a feature.
+/// Reports the same findings as a reader of the whole file, except features far away from all others. Faces of
+/// adjoining features close a shell only within a batch.
+/// \param take  receives each model and the findings of its reader; an error ends the work
+/// \return true; or the first error; or false if the whole file must be read at once. Then the results of `take` are
+///         useless. Reasons: features refer to each other, the format has no batches, or a batch cannot be read.
+/// Cost: that of reading the file. Memory: that of a batch, and 16 bytes per feature.
 [[nodiscard]] Result<bool> forEachBatch(const std::filesystem::path& file, readers::ReadOptions options,
                                         const std::function<Result<void>(model::BuildingModel&, Diagnostics&)>& take);
 

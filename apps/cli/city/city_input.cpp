@@ -31,11 +31,11 @@ Result<int> printCity(const std::filesystem::path& folder, bool json) {
                {"plan", city->planDigest()}});
         return kDone;
     }
-    fmt::print("{} buildings in {} tiles and {} packs, {:.1f} MB ({:.0f} bytes a building); {} features left out\n",
+    fmt::print("{} buildings in {} tiles and {} packs, {:.1f} MB ({:.0f} bytes per building); {} features left out\n",
                city->buildings(), city->tiles(), city->packs(), double(city->packBytes()) / 1e6,
                double(city->packBytes()) / double(std::max<std::uint64_t>(1, city->buildings())),
                city->skippedFeatures());
-    fmt::print("spacing {:g} m, and {:g} m with one label a building; by class {:g} to {:g} m (detail 2 to {}); {}\n",
+    fmt::print("spacing {:g} m, and {:g} m with one label per building; by class {:g} to {:g} m (detail 2 to {}); {}\n",
                city->spacing(), 2 * city->spacing(), 4 * city->spacing(),
                city::spacingOf(city->topDetail(), city->spacing()).x, city->topDetail(),
                city->crsName().empty() ? "no CRS" : city->crsName());

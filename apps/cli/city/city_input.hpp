@@ -13,7 +13,7 @@
 
 namespace svt::cli {
 
-/// Prints what a city has, for `svt info` and `svt city info`. \return the exit code
+/// Prints the figures of a city, for `svt info` and `svt city info`. \return the exit code
 [[nodiscard]] Result<int> printCity(const std::filesystem::path& folder, bool json);
 
 /// Memory that tiles may take: half of --memory, or 1 GB.

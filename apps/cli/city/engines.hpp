@@ -13,24 +13,24 @@
 
 namespace svt::cli {
 
-/// Text in single quotes for a shell; as it is where that means the same.
+/// Text in single quotes for a shell; without quotes if a shell reads it the same.
 [[nodiscard]] std::string shellQuoted(const std::string& text);
 
-/// "0-3,7": numbers as Slurm and people write them.
+/// "0-3,7": numbers as ranges, in the notation of Slurm.
 [[nodiscard]] std::string rangesOf(const std::vector<std::uint32_t>& numbers);
 
-/// What is to be run, and how.
+/// A city to build, and its options.
 struct EngineJob {
     std::filesystem::path folder;      ///< absolute
     std::vector<std::string> options;  ///< of the user, for sbatch or the YAML
     city::PackOptions packs;
 };
 
-/// The tasks of `tasks` that have a pack that is missing.
+/// The tasks with at least one missing pack, out of `tasks`.
 [[nodiscard]] std::vector<std::uint32_t> openTasks(const city::Plan& plan, const std::vector<std::uint32_t>& missing,
                                                    std::uint32_t tasks);
 
-/// How many tasks Slurm's arrays allow (MaxArraySize); that of the plan where the command is not there to be asked.
+/// The number of tasks that Slurm's arrays allow (MaxArraySize); that of the plan if Slurm's command is missing.
 [[nodiscard]] std::uint32_t slurmTasks(const city::Plan& plan);
 
 /// Arguments of sbatch for the array, and for the merge after it. \param job  number of the array's job
@@ -42,18 +42,18 @@ struct EngineJob {
 struct SlurmJobs {
     std::string array, merge;  ///< numbers
 };
-/// Submits both. \return their numbers, or TaskFailed with what Slurm says
+/// Submits both. \return their numbers, or TaskFailed with the messages of Slurm
 [[nodiscard]] Result<SlurmJobs> submitToSlurm(const EngineJob& job, const std::vector<std::uint32_t>& open,
                                               std::uint32_t tasks);
 
-/// The command that submits what is missing with the same options.
+/// The command that submits the missing tasks with the same options.
 [[nodiscard]] std::string resubmitLine(const std::filesystem::path& folder);
-/// Keeps the options for resubmitLine(), beside the reports.
+/// Stores the options for resubmitLine(), next to the reports.
 Result<void> keepOptions(const EngineJob& job, const SlurmJobs& jobs);
 
 /// An Indexed Job for all tasks and a Job for the merge. Options: image=, claim=, mount=, namespace=, cpu=, memory=,
 /// parallelism=.
-/// \return YAML, or BadArgument for another option, or where files of the plan lie outside of what is mounted
+/// \return YAML, or BadArgument for another option, or if files of the plan lie outside of the mounted folder
 [[nodiscard]] Result<std::string> kubernetesJobs(const EngineJob& job, const city::Plan& plan);
 
 }  // namespace svt::cli

@@ -61,7 +61,7 @@ CellType typeOf(const AttributeValue& value) {
     return std::holds_alternative<double>(value) ? CellType::Number : CellType::Text;
 }
 
-// Volumes one after the other: the tiles of a city, or one volume.
+// A series of volumes: the tiles of a city, or one volume.
 class Source {
 public:
     explicit Source(const FeatureQuery& query) : query_(query) {}
@@ -78,7 +78,7 @@ public:
         frame_ = std::move(*loaded);
         return {};
     }
-    // What positions refer to.
+    // The volume whose frame positions refer to.
     [[nodiscard]] const volume::SemanticVolume& frame() const noexcept { return frame_; }
 
     Result<void> forEach(const std::function<Result<void>(const volume::SemanticVolume&)>& work) const {
@@ -86,7 +86,7 @@ public:
         const TerminalProgress progress;
         return city::forEachTile(*city_, rectangleOf(query_.box), query_.build.threads, progress.get(), work);
     }
-    // The same of label tables alone, without their columns.
+    // The same with only label tables, without columns.
     Result<void> forEachTable(const std::function<Result<void>(const volume::LabelTable&)>& work) const {
         if (!city_) return work(frame_.labels);
         SVT_TRY(entries, city_->find(0, rectangleOf(query_.box)));
@@ -144,7 +144,7 @@ private:
         return selected;
     }
 
-    // The columns of attributes must be known before the first row.
+    // Collects the columns of attributes, which must be known before the first row.
     Result<void> beginFile() {
         std::map<std::string, CellType> attributes;
         const auto add = [&](const volume::LabelTable& labels) -> Result<void> {
@@ -162,7 +162,7 @@ private:
         SVT_DO(source_.forEachTable(add));
         columns_ = ownColumns();
         for (const auto& [name, type] : attributes) {
-            // Names of columns are not told apart by case, and one table has each once.
+            // Names of columns must differ by more than case, and be unique in a table.
             const bool isOwn = std::any_of(columns_.begin(), columns_.end(), [&, &wanted = name](const auto& column) {
                 return equalsIgnoringCase(column.name, wanted) || equalsIgnoringCase(wanted, "fid") ||
                        equalsIgnoringCase(wanted, "geom");
@@ -255,7 +255,7 @@ private:
         if (largest_.size() > wanted()) largest_.resize(wanted());
     }
 
-    // A row into the file, or as a line.
+    // Writes a row to the file, or prints it as a line.
     Result<void> give(const Kept& kept) {
         if (layer_) return layer_->add(kept.cells, kept.outline);
         if (!keys_.empty()) return {};
@@ -265,7 +265,7 @@ private:
         return {};
     }
 
-    // Rows so far, so that memory does not grow with them.
+    // Prints the rows so far, so that memory does not grow with their number.
     void printTable() {
         table_.columns = ownColumns();
         print(table_, query_.form, !isBegun_);
@@ -286,7 +286,7 @@ private:
         }
         print(table, query_.form);
         const auto noteMissing = [](std::uint64_t count, const char* measure, const char* basis) {
-            if (count > 0) note(fmt::format("the sums of {} lack {} features without {}", measure, count, basis));
+            if (count > 0) note(fmt::format("the sums of {} exclude {} features without {}", measure, count, basis));
         };
         noteMissing(withoutVolume_, "volume", "solids");
         noteMissing(withoutVoxels_, "area", "voxels");

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Questions of many features, answered tile by tile: rows into a file, sums by attribute, the largest. Of a city, or of
-/// one volume.
+/// Answers questions on many features of a city or volume, tile by tile: rows into a file, sums by attribute, the
+/// largest features.
 
 #include <apps/cli/output/table.hpp>
 
@@ -23,7 +23,7 @@ struct FeatureQuery {
     TableForm form = TableForm::Text;
     pipeline::BuildOptions build;
 
-    /// Whether an option is given that only this answers.
+    /// Whether an option is given that only runFeatureQuery() answers.
     [[nodiscard]] bool isAsked() const {
         return !output.empty() || !box.empty() || !by.empty() || !cut.empty() || !sort.empty() || first > 0 || leaks;
     }

@@ -12,7 +12,7 @@
 namespace svt::cli {
 namespace {
 
-// A text as YAML: JSON's strings are those of YAML in double quotes.
+// A text as YAML: strings of JSON are double-quoted strings of YAML.
 std::string yaml(const std::string& text) {
     return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
@@ -50,7 +50,7 @@ Result<Settings> settingsOf(const EngineJob& job) {
     return settings;
 }
 
-// What both jobs share, from `template` on. \param command  a line of the shell
+// The part of both jobs from `template` on. \param command  a command line for the shell
 std::string podTemplate(const Settings& settings, const std::string& command) {
     return fmt::format(R"(  template:
     spec:
@@ -88,11 +88,12 @@ Result<std::string> kubernetesJobs(const EngineJob& job, const city::Plan& plan)
     for (const std::filesystem::path& path : needed)
         if (!isBelow(path, mount))
             return Error(Code::BadArgument,
-                         fmt::format("mount={}: what pods see of the claim has to hold the city and all of its files, "
-                                     "under the same names; this one lies elsewhere",
+                         fmt::format("mount={}: pods cannot read this path, because it lies outside of the mounted "
+                                     "folder; mount a folder that contains the city and all of its files, under the "
+                                     "same names",
                                      mount.string()),
                          {path.string(), 0, 0, {}});
-    // The plan's digest keeps jobs of different plans apart.
+    // The plan's digest distinguishes jobs of different plans.
     const std::string name = "svt-city-" + plan.digest.substr(0, 10), folder = shellQuoted(job.folder.string());
     const std::string task =
         fmt::format("exec svt city task {} \"$JOB_COMPLETION_INDEX\" --of {} --tile-seconds {} --feature-seconds {}",
@@ -100,11 +101,12 @@ Result<std::string> kubernetesJobs(const EngineJob& job, const city::Plan& plan)
     const std::string space =
         settings->at("namespace").empty() ? "" : " --namespace " + shellQuoted(settings->at("namespace"));
     std::string text = fmt::format(
-        "# kubectl apply -f FILE runs the tasks. When they are done, the merge takes what is there and names what is\n"
-        "# missing; both may be run again, and do nothing twice:\n"
+        "# kubectl apply -f FILE runs the tasks. A failed task is tried up to three more times and does not stop "
+        "other\n"
+        "# tasks (Kubernetes 1.29 or newer). The merge joins the finished packs and lists missing ones. Both can be\n"
+        "# repeated, and skip finished work. To start the merge:\n"
         "#   kubectl wait{0} --for=condition=complete --timeout=24h job/{1}\n"
-        "#   kubectl patch{0} job/{1}-merge -p '{{\"spec\":{{\"suspend\":false}}}}'\n"
-        "# A task that fails is tried three times more and keeps no other from running (Kubernetes 1.29 or newer).\n",
+        "#   kubectl patch{0} job/{1}-merge -p '{{\"spec\":{{\"suspend\":false}}}}'\n",
         space, name);
     text += head(*settings, name);
     text += fmt::format(

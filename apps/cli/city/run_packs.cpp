@@ -14,7 +14,7 @@
 namespace svt::cli {
 namespace {
 
-// A task that hangs is ended by its own process; these keep nothing from working.
+// A process ends its own task if that hangs. These limits are high enough to have no effect.
 constexpr serve::ChildLimits kNoLimits{std::uint64_t{1} << 46, 30.0 * 24 * 3600, std::uint64_t{1} << 46};
 
 }  // namespace
@@ -51,7 +51,7 @@ std::vector<FailedPack> runPacks(const std::filesystem::path& folder, const city
 }
 
 ToolAnswer runTool(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
-    // The shell finds the program, and brings stdout to where it is kept.
+    // The shell finds the program, and redirects stdout to stderr, which runChild() stores.
     std::vector<std::string> call{"/bin/sh", "-c", "exec \"$@\" >&2", "sh"};
     call.insert(call.end(), arguments.begin(), arguments.end());
     const serve::ChildResult result = runChild(call, folder, kNoLimits, Progress());

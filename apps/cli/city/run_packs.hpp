@@ -16,22 +16,22 @@ namespace svt::cli {
 /// A pack that could not be built.
 struct FailedPack {
     std::uint32_t pack = 0;
-    std::string messages;  ///< of its process
+    std::string messages;  ///< the output of its process
 };
 
-/// Builds packs [first, last), each in a process of its own (`svt city-task`), `jobs` at a time; without processes one
-/// after the other in this one.
-/// \param jobs  0: one for each core
-/// \return those that failed, in order
+/// Builds all packs of the plan, each in a separate process (`svt city-task`), `jobs` at a time. If no process can be
+/// started, builds them one by one in this process.
+/// \param jobs  0: one per core
+/// \return the failed packs, in order
 [[nodiscard]] std::vector<FailedPack> runPacks(const std::filesystem::path& folder, const city::Plan& plan, int jobs,
                                                const city::PackOptions& options, const Progress* progress);
 
-/// What another program said.
+/// The result of another program.
 struct ToolAnswer {
-    int exitCode = -1;  ///< 127 where it is not there
+    int exitCode = -1;  ///< 127 if the program is missing
     std::string text;   ///< the last 64 KiB of stdout and stderr
 };
-/// Runs a program by its name and waits for it. Under Node.js no program is there.
+/// Runs a program by its name and waits for it. Under Node.js, every program counts as missing.
 [[nodiscard]] ToolAnswer runTool(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 
 }  // namespace svt::cli

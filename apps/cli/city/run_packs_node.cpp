@@ -1,4 +1,4 @@
-// Under Node.js, where a program starts no other one.
+// Under Node.js, where a program cannot start others.
 #include <apps/cli/city/run_packs.hpp>
 
 namespace svt::cli {
@@ -19,7 +19,7 @@ std::vector<FailedPack> runPacks(const std::filesystem::path& folder, const city
 ToolAnswer runTool(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
     static_cast<void>(arguments);
     static_cast<void>(folder);
-    return {127, "no other program can be started here"};
+    return {127, "other programs cannot be started under Node.js"};
 }
 
 }  // namespace svt::cli

@@ -12,11 +12,11 @@
 namespace svt::cli {
 namespace {
 
-constexpr int kAtATime = 64;  // elements of an array that run together
+constexpr int kAtATime = 64;  // elements of an array that run at the same time
 
 std::filesystem::path optionsFile(const std::filesystem::path& folder) { return folder / "reports" / "slurm.json"; }
 
-// The last line of what sbatch --parsable said that is a job: "17" or "17;cluster".
+// The last line of the output of sbatch --parsable that is a job: "17" or "17;cluster".
 std::string jobOf(const std::string& text) {
     std::string found;
     for (std::size_t at = 0; at < text.size();) {
@@ -35,9 +35,9 @@ Result<std::string> submit(const std::vector<std::string>& arguments, const std:
     std::string said = answer.text;
     while (said.ends_with('\n')) said.pop_back();
     return Error(Code::TaskFailed,
-                 fmt::format("sbatch took no job ({}); nothing is lost, and 'svt city run' without --engine builds the "
-                             "city on this machine",
-                             said.empty() ? "it is not there or said nothing" : said));
+                 fmt::format("sbatch did not accept the job ({}); finished packs are kept, and 'svt city run' without "
+                             "--engine builds the city on this machine",
+                             said.empty() ? "it is not installed, or printed nothing" : said));
 }
 
 std::vector<std::string> common(const EngineJob& job, const char* name, const char* log) {
@@ -107,7 +107,7 @@ std::vector<std::string> slurmArray(const EngineJob& job, const std::vector<std:
 std::vector<std::string> slurmMerge(const EngineJob& job, const std::string& array) {
     std::vector<std::string> arguments = common(job, "svt-city-merge", "merge_%j.txt");
     arguments.emplace_back("--requeue");
-    // After any end, so that what is there can be used, and what is missing is named.
+    // Also after failed tasks, so that the finished packs can be used and the missing ones are listed.
     arguments.push_back(fmt::format("--dependency=afterany:{}", array));
     arguments.push_back(fmt::format("--wrap=exec {} city merge {}", program(), shellQuoted(job.folder.string())));
     return arguments;

@@ -30,7 +30,7 @@ struct BuildArguments {
     std::vector<double> box;
     bool json = false, verbose = false, strict = false;
 
-    // Meshes are kept where they can be, unless asked for or against.
+    // By default, meshes are stored if possible.
     BuildArguments() { build.vectors = {.meshes = true, .isRequired = false}; }
 };
 
@@ -44,7 +44,7 @@ void printSummary(const pipeline::BuildOutput& built, std::uint64_t fileBytes, c
         fmt::print("spacing: {}; --spacing or --dimension gives another\n", choice->reason);
 }
 
-// Null where the grid was asked for.
+// Null if options define the grid.
 Json chosenSpacingJson(const std::optional<pipeline::SpacingChoice>& choice) {
     if (!choice) return nullptr;
     return {{"spacing", choice->spacing},
@@ -67,7 +67,7 @@ std::string ifcTypeOf(const volume::Label& label) {
     return {};
 }
 
-// Which products of IFC files were read, in part or not; null for models of other formats.
+// The products of IFC files that were read, read in part or skipped; null for models of other formats.
 Json productsJson(const volume::LabelTable& table, const Diagnostics& diagnostics) {
     std::map<std::string, std::string> typeOf;
     std::size_t withShape = 0;
@@ -86,21 +86,20 @@ Json productsJson(const volume::LabelTable& table, const Diagnostics& diagnostic
     return {{"read", withShape}, {"partial", std::move(partial)}, {"skipped", std::move(skipped)}};
 }
 
-// A label volume of another program becomes a volume as it is; models are voxelized.
+// Takes a label volume of another program unchanged; voxelizes models.
 Result<pipeline::BuildOutput> builtOf(const BuildArguments& arguments, const pipeline::BuildOptions& options,
                                       Diagnostics& diagnostics) {
     const bool isVolume =
         arguments.inputs.size() == 1 && volume_readers::looksLikeLabelVolume(arguments.inputs.front());
     if (!isVolume && !arguments.labels.empty())
-        return Error(
-            Code::BadArgument,
-            "--labels names the values of one label volume (NRRD, VTI, NIfTI, TIFF), and the input is none; leave "
-            "it out");
+        return Error(Code::BadArgument,
+                     "--labels describes the values of a label volume (NRRD, VTI, NIfTI, TIFF), but the input is not a "
+                     "single label volume; omit --labels");
     if (!isVolume) return pipeline::buildVolume(arguments.inputs, options, &diagnostics);
     if (options.dimension || options.spacing || options.grid || options.axes != pipeline::AxesKind::World)
         return Error(Code::BadArgument,
-                     "the input is a label volume, which has its grid; leave out --dimension, --spacing, --axes and "
-                     "--grid-of, or make it coarser by svt convert --level");
+                     "the input is a label volume, which has its own grid; leave out --dimension, --spacing, --axes "
+                     "and --grid-of, or make it coarser with svt convert --level");
     const auto start = std::chrono::steady_clock::now();
     SVT_TRY(read, volume_readers::readLabelVolume(arguments.inputs.front(),
                                                   {arguments.labels, 0, options.progress, &diagnostics}));
@@ -110,7 +109,7 @@ Result<pipeline::BuildOutput> builtOf(const BuildArguments& arguments, const pip
     return output;
 }
 
-// What --box and --only leave of a volume: its samples there, and the selected components in the box around them.
+// Reduces a volume to the samples in --box, and to the components that --only selects, in the box around them.
 Result<void> takePart(const BuildArguments& arguments, volume::SemanticVolume& volume) {
     if (arguments.box.size() == 6) {
         const auto& b = arguments.box;
@@ -119,9 +118,9 @@ Result<void> takePart(const BuildArguments& arguments, volume::SemanticVolume& v
     }
     if (arguments.only.empty()) return {};
     SVT_TRY(labels, analyze::selectLabels(volume.labels, arguments.only));
-    SVT_DO(analyze::boxAround(*labels, volume, fmt::format("what --only '{}' selects", arguments.only)));
+    SVT_DO(analyze::boxAround(*labels, volume, fmt::format("the selection of --only '{}'", arguments.only)));
     SVT_TRY(selected, volume::selectedVolume(volume, *labels));
-    // One more sample on each side, as a build has it.
+    // One more sample on each side, as in a build.
     SVT_TRY(cropped, volume::croppedVolume(*selected, volume::samplesAround(selected->columns)));
     volume = std::move(*cropped);
     return {};
@@ -184,7 +183,7 @@ int runBuild(const BuildArguments& arguments) {
     return kDone;
 }
 
-// The kept vector parts, as a list of names.
+// The stored vector parts, as a list of names.
 struct VectorNames : record::PlainCodec<VectorNames, pipeline::VectorChoice> {
     static void read(record::Faults&, const Json& json, const std::string&, const Option&, pipeline::VectorChoice& to) {
         const auto has = [&](const char* kind) { return std::ranges::find(json, kind) != json.end(); };
@@ -207,20 +206,20 @@ Members<BuildArguments> membersOf(const BuildArguments*) noexcept {
         member<&All::only>("--only", "keep only the voxels that the query selects, in the box around them",
                            {.value = "QUERY", .group = "Part"}),
         worldBox<&All::box>("keep only the samples in this box of world coordinates", "Part"),
-        member<&All::labels>(
-            "--labels", "of a label volume: a table (JSON) that says which label each value is",
-            {.value = "FILE", .otherwise = "what the file tells, else a label per value", .file = FileUse::OtherInput}),
-        member<&All::gridOf>("--grid-of",
-                             "samples where this volume has them, so that the two can be compared voxel by voxel",
+        member<&All::labels>("--labels", "for a label volume: a table (JSON) with the label of each value",
+                             {.value = "FILE",
+                              .otherwise = "the labels in the file, else one label per value",
+                              .file = FileUse::OtherInput}),
+        member<&All::gridOf>("--grid-of", "use the grid of this volume, so that both can be compared voxel by voxel",
                              {.value = "F.svt", .group = "Grid", .file = FileUse::OtherInput}),
         part<&All::build>("build", "Model|Style|Voxels"),
         memberAs<VectorNames, &All::build, &pipeline::BuildOptions::vectors>(
             "--vectors",
-            "edges: keep the feature edges beside the meshes, to be drawn inside the volume; none: no meshes either, "
-            "so that sections are cut from voxels",
+            "edges: store feature edges in addition to the meshes, to draw them inside the volume; none: store no "
+            "meshes, so that sections are cut from voxels",
             {.choices = "edges|meshes|none", .byDefault = "meshes", .group = "Output", .count = 2}),
         jsonOption<&All::json>("print figures as JSON on stdout"),
-        member<&All::strict>("--strict", "exit 4 where the model has defects; the volume is written all the same",
+        member<&All::strict>("--strict", "exit 4 if the model has defects; the volume is written nevertheless",
                              {.group = "Output"}),
         quietOption<All>(),
         verboseOption<&All::verbose>(),

@@ -32,12 +32,12 @@ struct CheckArguments {
     std::filesystem::path report;
     ReportFormat format = ReportFormat::Text;
     validate::ValidateOptions validation;
-    pipeline::BuildOptions build;  // only its options of reading, and the level of detail
+    pipeline::BuildOptions build;  // only its options for reading, and the level of detail
     bool json = false, verbose = false;
 };
 
-// Why the volume of an object cannot be told although its mesh is closed; Internal: it can. A polygon that is not valid
-// leaves the volume of the closed mesh as it is.
+// The reason why the volume of an object is unknown although its mesh is closed; Internal: it is known. An invalid
+// polygon does not change the volume of the closed mesh.
 Code whyNoVolume(const model::BuildingModel& model, const validate::ValidationReport& report,
                  const mesh::ObjectMesh& object) {
     const model::Feature& feature = model.features[object.feature];
@@ -131,7 +131,7 @@ void printJson(const Checked& checked, const mesh::MeshSet& scene, const Diagnos
     print(json);
 }
 
-// What the last lines of the text count.
+// The totals in the last lines of the text.
 struct Totals {
     std::size_t objects = 0, solids = 0, leaking = 0, tight = 0, geometries = 0, valid = 0, polygons = 0;
 };
@@ -158,7 +158,7 @@ void printTotals(const Totals& totals) {
     fmt::print("{} geometries of {} polygons: {} are valid\n", totals.geometries, totals.polygons, totals.valid);
 }
 
-// The tests by ISO 19107, then what meshes say of the same model. Findings of both go to `diagnostics`.
+// Runs the tests by ISO 19107, then builds the meshes of the same model. Findings of both go to `diagnostics`.
 Result<void> checkModel(const model::BuildingModel& model, const CheckArguments& arguments, const Progress* progress,
                         Diagnostics& diagnostics, const std::function<Result<void>(const Checked&)>& use) {
     validate::ValidateOptions validation = arguments.validation;
@@ -175,7 +175,7 @@ Result<void> checkModel(const model::BuildingModel& model, const CheckArguments&
     return use(checked);
 }
 
-// A file of its own, that goes when it is closed.
+// A temporary file that is deleted when it is closed.
 class TemporaryText {
 public:
     TemporaryText() : file_(std::tmpfile()) {}
@@ -185,13 +185,14 @@ public:
     TemporaryText(const TemporaryText&) = delete;
     TemporaryText& operator=(const TemporaryText&) = delete;
     [[nodiscard]] std::FILE* get() const noexcept { return file_; }
-    // Writes all of it to stdout; false if it could not be kept, as on a full disk.
+    // Copies the file to stdout; false if the file is incomplete, as on a full disk.
     [[nodiscard]] bool print() const {
         if (std::fflush(file_) != 0 || std::ferror(file_) != 0) return false;
         std::rewind(file_);
         char buffer[1 << 16];
         for (std::size_t size = 0; (size = std::fread(buffer, 1, sizeof buffer, file_)) != 0;)
-            if (std::fwrite(buffer, 1, size, stdout) != size) return true;  // a closed reader is no error of ours
+            if (std::fwrite(buffer, 1, size, stdout) != size)
+                return true;  // the reader of stdout is gone: not an error of the file
         return std::ferror(file_) == 0;
     }
 
@@ -286,10 +287,10 @@ Members<CheckArguments> membersOf(const CheckArguments*) noexcept {
                              {.value = "FILE", .isRequired = true, .file = FileUse::Model}),
         part<&All::build>("build", "--lod|--crs|--keep-far-features|--extrude-footprints|--allow-truncated"),
         member<&All::validation, &ValidateOptions::planarity>(
-            "--planarity", "how far a point may lie from the plane of its polygon",
+            "--planarity", "maximum distance of a point from the plane of its polygon",
             {.unit = "m", .least = 1e-6, .most = 1000, .group = "Tolerances"}),
         member<&All::validation, &ValidateOptions::overlap>(
-            "--overlap", "leave solids be that overlap by up to twice this",
+            "--overlap", "tolerate overlaps of solids up to twice this distance",
             {.unit = "m",
              .least = 0,
              .most = 1000,
@@ -297,7 +298,7 @@ Members<CheckArguments> membersOf(const CheckArguments*) noexcept {
              .group = "Tolerances"}),
         member<&All::report>("--report", "also write a page with counts, findings and a picture of each defect",
                              {.value = "R.html", .group = "Output", .file = FileUse::Output, .formats = "html"}),
-        member<&All::format>("--format", "what to print on stdout: text, JSON, or JSON as val3dity reports it",
+        member<&All::format>("--format", "format on stdout: text, JSON, or the JSON report of val3dity",
                              {.group = "Output"}),
         jsonOption<&All::json>(),
         part<&All::build>("build", "--memory"),
@@ -310,6 +311,6 @@ Members<CheckArguments> membersOf(const CheckArguments*) noexcept {
 }  // namespace
 
 extern const CommandText kCheckCommand = commandOf<CheckArguments, runCheck>(
-    "check", "Test a model: open shells, dangling links, bad faces; exit 4 where something is wrong");
+    "check", "Test a model: open shells, dangling links, bad faces; exit 4 if something is wrong");
 
 }  // namespace svt::cli

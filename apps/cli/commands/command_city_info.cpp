@@ -44,7 +44,7 @@ Result<int> runCityExtract(const CityExtractArguments& arguments) {
                          "--box: the first three numbers are the lower corner, the last three the "
                          "upper one");
     if (extract.tiles.empty() && extract.ids.empty() && !extract.hasBox)
-        return Error(Code::BadArgument, "say what to extract: --tile, --box or --id");
+        return Error(Code::BadArgument, "nothing to extract; give --tile, --box or --id");
     SVT_TRY(city, city::City::open(arguments.folder));
     SVT_TRY(volume, city::extractVolume(*city, extract));
     SVT_TRY(bytes, volume::writeSvt(*volume, arguments.output));
@@ -73,8 +73,8 @@ Members<CityExtractArguments> membersOf(const CityExtractArguments*) noexcept {
         worldBox<&All::box>("lower and upper corner in the CRS of the city", "Part", "X,Y,Z,X,Y,Z"),
         member<&All::detail>(
             "--detail",
-            "0: all labels; 1: one label a building, at twice the spacing; 2: one label a class, at four times; 3 and "
-            "up: mixtures of classes, each at twice the spacing of the one before",
+            "0: all labels; 1: one label per building, at twice the spacing; 2: one label per class, at four times; 3 "
+            "and up: mixtures of classes, each at twice the spacing of the previous detail",
             {.least = 0, .most = 26, .group = "Part"}),
         quietOption<All>(),
     };
@@ -86,7 +86,7 @@ Result<int> runCityInfo(const CityInfoArguments& arguments) { return printCity(a
 }  // namespace
 
 extern const CommandText kCityInfoCommand =
-    commandOf<CityInfoArguments, runCityInfo>("city-info", "Show what is inside a city");
+    commandOf<CityInfoArguments, runCityInfo>("city-info", "Show the contents of a city");
 extern const CommandText kCityExtractCommand =
     commandOf<CityExtractArguments, runCityExtract>("city-extract", "Write a part of a city as a volume (.svt)");
 

@@ -17,7 +17,7 @@ struct CityPlanArguments {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path output;
     city::PlanOptions options;
-    pipeline::BuildOptions build;  // only its options of reading, and the level of detail
+    pipeline::BuildOptions build;  // only its options for reading, and the level of detail
     bool verbose = false, isUpdate = false;
 };
 
@@ -60,17 +60,17 @@ Members<CityPlanArguments> membersOf(const CityPlanArguments*) noexcept {
         member<&All::output>("-o,--output", "the folder of the city",
                              {.value = "DIR", .isRequired = true, .file = FileUse::OutputFolder}),
         member<&All::options, &PlanOptions::city, &CityOptions::spacing>(
-            "--spacing", "distance of samples of the finest level",
+            "--spacing", "distance between samples of the finest level",
             {.unit = "metres", .least = 0.001, .most = 100, .group = "Grid"}),
         part<&All::build>("build", "--lod|--crs|--allow-truncated"),
         member<&All::options, &PlanOptions::tasks>(
-            "--tasks", "number of tasks that a cluster is to run; the city does not depend on it",
-            {.least = 1, .most = 1000000, .otherwise = "some 5 minutes each, at most 1000", .group = "Work"}),
+            "--tasks", "number of tasks for a cluster; the city does not depend on it",
+            {.least = 1, .most = 1000000, .otherwise = "about 5 minutes each, up to 1000", .group = "Work"}),
         member<&All::options, &PlanOptions::city, &CityOptions::packSeconds>(
-            "--pack-seconds", "expected work in a pack, the smallest part that is built, proven and built again",
+            "--pack-seconds", "expected work per pack, the smallest part that is built, verified and rebuilt",
             {.unit = "seconds", .least = 0.01, .most = 3600, .group = "Work"}),
         member<&All::isUpdate>("--update",
-                               "the folder has a plan: say which tiles change, and keep packs whose content stays",
+                               "update the plan of the folder: report changed tiles, and keep unchanged packs",
                                {.group = "Work"}),
         threadsOption<&All::options, &PlanOptions::threads>(),
         quietOption<All>(),
@@ -81,7 +81,7 @@ Members<CityPlanArguments> membersOf(const CityPlanArguments*) noexcept {
 
 }  // namespace
 
-extern const CommandText kCityPlanCommand = commandOf<CityPlanArguments, runCityPlan>(
-    "city-plan", "Plan a city of many files: which features make which tiles");
+extern const CommandText kCityPlanCommand =
+    commandOf<CityPlanArguments, runCityPlan>("city-plan", "Plan a city of many files: assign features to tiles");
 
 }  // namespace svt::cli

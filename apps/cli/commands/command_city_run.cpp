@@ -57,7 +57,7 @@ void tellSkipped(const std::vector<city::SkippedFeature>& skipped) {
     printDiagnostics(findings, skipped.size() <= kShown);
 }
 
-// The reasons of some; status names all that are missing.
+// Prints the reasons of the first failures; tellMissing() lists all missing packs.
 void tellFailed(const std::vector<FailedPack>& failed) {
     constexpr std::size_t kShown = 8;
     for (std::size_t n = 0; n < std::min(kShown, failed.size()); ++n) {
@@ -123,8 +123,8 @@ Result<int> runCityRun(const CityRunArguments& arguments) {
     std::optional<TerminalProgress> progress(std::in_place);
     const auto failed = runPacks(arguments.folder, *plan, arguments.jobs, arguments.packs, progress->get());
     if (Progress::isCancelled(progress->get()))
-        return Error(Code::Cancelled, "stopped; what is done stays, and the same command goes on from there");
-    // Whatever happened, so that what is done can be used.
+        return Error(Code::Cancelled, "stopped; finished packs stay, and the same command continues from there");
+    // Also after failures, so that the finished packs can be used.
     const auto merged = city::mergeCity(arguments.folder, *plan, arguments.jobs, progress->get());
     progress.reset();
     tellFailed(failed);
@@ -141,7 +141,8 @@ Result<int> runCityTask(const CityTaskArguments& arguments) {
     SVT_TRY(plan, city::readPlan(arguments.folder, programOfCity()));
     const std::uint32_t tasks = arguments.tasks == 0 ? plan->tasks : arguments.tasks;
     if (arguments.task >= tasks)
-        return Error(Code::BadArgument, fmt::format("task {}: there are {}, numbered from 0", arguments.task, tasks));
+        return Error(Code::BadArgument,
+                     fmt::format("task {}: there are {} tasks, numbered from 0", arguments.task, tasks));
     int worst = kDone;
     const auto [first, last] = plan->packsOf(arguments.task, tasks);
     for (std::uint32_t pack = first; pack < last; ++pack) {
@@ -190,7 +191,7 @@ Result<int> runCityStatus(const CityStatusArguments& arguments) {
 template <class All>
 constexpr auto tileSeconds() {
     return member<&All::packs, &city::PackOptions::tileSeconds>(
-        "--tile-seconds", "what a tile may take before its features are tried one by one",
+        "--tile-seconds", "time limit of a tile; over it, its features are tried one by one",
         {.unit = "seconds", .least = 0.1, .most = 1000000, .group = "Limits"});
 }
 template <class All>
@@ -210,11 +211,11 @@ Members<CityRunArguments> membersOf(const CityRunArguments*) noexcept {
                               {.value = "OPTION"}),
         member<&All::engine>(
             "--engine",
-            "where: on this machine; as a job array of Slurm; as an Indexed Job of Kubernetes, which is printed",
+            "place of the build: this machine; a job array of Slurm; an Indexed Job of Kubernetes, which is printed",
             {.group = "Work"}),
-        member<&All::isPrinted>("--print", "print what would be submitted, and do nothing", {.group = "Work"}),
-        member<&All::jobs>("--jobs", "packs that are built at a time; the city does not depend on it",
-                           {.least = 0, .most = 1024, .otherwise = "one for each core", .group = "Work"}),
+        member<&All::isPrinted>("--print", "print the jobs instead of submitting them", {.group = "Work"}),
+        member<&All::jobs>("--jobs", "number of packs that are built at the same time; the city does not depend on it",
+                           {.least = 0, .most = 1024, .otherwise = "one per core", .group = "Work"}),
         tileSeconds<All>(),
         featureSeconds<All>(),
         quietOption<All>(),
@@ -245,7 +246,7 @@ Members<CityStatusArguments> membersOf(const CityStatusArguments*) noexcept {
         cityFolder<&All::folder>(),
         jsonOption<&All::json>(),
         member<&All::isProven>("--proven",
-                               "read all packs and compare their SHA-256 with the reports, not their sizes alone"),
+                               "read all packs and compare their SHA-256 with the reports, not only their sizes"),
         quietOption<All>(),
     };
     return kMembers;
@@ -260,12 +261,12 @@ Members<CityMergeArguments> membersOf(const CityMergeArguments*) noexcept {
 }  // namespace
 
 extern const CommandText kCityRunCommand =
-    commandOf<CityRunArguments, runCityRun>("city-run", "Build all of a city that is not built yet, and merge it");
+    commandOf<CityRunArguments, runCityRun>("city-run", "Build the missing packs of a city, and merge them");
 extern const CommandText kCityTaskCommand =
     commandOf<CityTaskArguments, runCityTask>("city-task", "Build one task's share of a city");
 extern const CommandText kCityStatusCommand =
     commandOf<CityStatusArguments, runCityStatus>("city-status", "Report the built part of a city, and the next step");
 extern const CommandText kCityMergeCommand =
-    commandOf<CityMergeArguments, runCityMerge>("city-merge", "Make the index of a city of all that is built");
+    commandOf<CityMergeArguments, runCityMerge>("city-merge", "Make the index of all finished packs of a city");
 
 }  // namespace svt::cli

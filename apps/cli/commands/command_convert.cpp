@@ -29,7 +29,7 @@ struct ConvertArguments {
     pipeline::BuildOptions build;
 };
 
-// A row a feature, of all or of those that are selected.
+// Writes one row per feature: all features, or the selected ones.
 Result<int> convertToTable(const ConvertArguments& arguments) {
     FeatureQuery query;
     query.input = arguments.input;
@@ -48,12 +48,12 @@ Result<int> convertCity(const ConvertArguments& arguments) {
     if (name == "objects" || name == "objectparquet") return convertToTable(arguments);
     if (name != "tileset")
         return Error(Code::BadArgument,
-                     "a city becomes 3D Tiles (.3dtiles) or a table of its buildings (.csv, .geojson, .gpkg, "
-                     ".parquet) here; svt city extract takes a part, which becomes any format");
+                     "a city can only be converted to 3D Tiles (.3dtiles) or a table of its buildings (.csv, .geojson, "
+                     ".gpkg, .parquet); for other formats, take a part with svt city extract, and convert that");
     const bool isPart = !arguments.part.select.empty() || !arguments.part.box.empty() || arguments.part.level > 1;
     if (isPart || arguments.write.tileset.hasVoxels)
         return Error(Code::BadArgument,
-                     "--select, --box, --voxels and a --level over 1 are for the volume of a part; take it by svt "
+                     "--select, --box, --voxels and a --level over 1 need one volume; take a part of the city with svt "
                      "city extract, and convert that");
     SVT_TRY(city, city::City::open(arguments.input));
     const TerminalProgress progress;
@@ -68,7 +68,7 @@ Result<int> runConvert(const ConvertArguments& arguments) {
     if (isCity(arguments.input)) return convertCity(arguments);
     const TerminalProgress progress;
     pipeline::BuildOptions build = arguments.build;
-    // Of rooms, the bodies as the model has them.
+    // IndoorGML gets the bodies of rooms from the model.
     const writers::VolumeFormat* format = writers::volumeFormatOf(arguments.output);
     if (format != nullptr && format->name == "indoorgml") build.vectors = {.meshes = true, .isRequired = false};
     SVT_TRY(volume, loadVolume(arguments.input, build, progress.get(), false));
@@ -84,7 +84,7 @@ Result<int> runConvert(const ConvertArguments& arguments) {
     return kDone;
 }
 
-// The formats of the output: writers::volumeFormats(), and tables with a row a feature (writers::FeatureLayer).
+// The formats of the output: writers::volumeFormats(), and tables with one row per feature (writers::FeatureLayer).
 struct Outputs {
     std::string names, help;
 

@@ -31,7 +31,7 @@ struct DescribeArguments {
     std::string command;
 };
 
-// What a command does with the file that an option names.
+// The use of the file that an option names.
 std::string_view fileText(FileUse use) noexcept {
     switch (use) {
         case FileUse::None: return {};
@@ -126,6 +126,6 @@ Members<DescribeArguments> membersOf(const DescribeArguments*) noexcept {
 }  // namespace
 
 extern const CommandText kDescribeCommand =
-    commandOf<DescribeArguments, runDescribe>("describe", "Print what the command offers, for other programs");
+    commandOf<DescribeArguments, runDescribe>("describe", "Print all commands and options, for other programs");
 
 }  // namespace svt::cli

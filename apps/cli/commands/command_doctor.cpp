@@ -15,7 +15,7 @@ struct DoctorArguments {
     bool json = false;
 };
 
-// Prints answers as they come, so that a crash shows how far the program got; JSON comes at the end.
+// Prints each answer at once, so that a crash shows how far the program got; prints JSON at the end.
 class Report {
 public:
     explicit Report(bool isJson) : isJson_(isJson) { json_["state"] = nullptr; }

@@ -84,6 +84,6 @@ Members<InfoArguments> membersOf(const InfoArguments*) noexcept {
 }  // namespace
 
 extern const CommandText kInfoCommand =
-    commandOf<InfoArguments, runInfo>("info", "Show what is inside a volume or model");
+    commandOf<InfoArguments, runInfo>("info", "Show the contents of a volume, model or city");
 
 }  // namespace svt::cli

@@ -35,7 +35,7 @@ Result<int> runPublish(const PublishArguments& arguments) {
         std::any_of(models->begin(), models->end(), [](const serve::SiteModel& model) { return !model.city.empty(); });
     if (!isQuiet())
         fmt::print("{}: {} files, {:.1f} kB; {} shows it\n", arguments.output.string(), site->resources().size(),
-                   double(*bytes) / 1000, hasCity ? "a web server that knows range requests" : "any web server");
+                   double(*bytes) / 1000, hasCity ? "a web server with range requests" : "any web server");
     return kDone;
 }
 
@@ -45,10 +45,11 @@ Members<PublishArguments> membersOf(const PublishArguments*) noexcept {
         siteInputs<&All::inputs>(),
         member<&All::output>("-o,--output", "the folder to write",
                              {.value = "DIR", .isRequired = true, .file = FileUse::OutputFolder}),
-        member<&All::mayReplace>("--force", "write into a folder that is not empty; what is not of the page stays"),
-        member<&All::address>("--url",
-                              "where the page will be, such as https://example.org/house/, for previews of links to it",
-                              {.value = "URL"}),
+        member<&All::mayReplace>("--force",
+                                 "write into a folder that is not empty; files that are not part of the page stay"),
+        member<&All::address>(
+            "--url", "address of the published page, such as https://example.org/house/, for previews of links to it",
+            {.value = "URL"}),
         quietOption<All>(),
         part<&All::site>("site"),
     };

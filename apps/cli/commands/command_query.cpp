@@ -83,7 +83,7 @@ Result<int> printReport(const volume::SemanticVolume& volume, const Labels& sele
     SVT_TRY(table, makeReport(volume, selected, arguments, progress->get()));
     if (Progress::isCancelled(progress->get())) return Error(Code::Cancelled, "the report was stopped");
     progress.reset();
-    if (table->rows.empty() && !selected.empty()) note("the report is empty: it has nothing of what the query selects");
+    if (table->rows.empty() && !selected.empty()) note("the report is empty: it has no rows for the selected features");
     print(*table, arguments.form());
     return kDone;
 }
@@ -112,21 +112,21 @@ Result<int> runCityOverlaps(const QueryArguments& arguments) {
                      {"voxels", ""}, {"volume", "m3"},  {"tiles", "in tiles"}};
     for (const auto& [a, b, voxels, volume, tiles] : *overlaps)
         table.rows.push_back({a.id, a.name, b.id, b.name, voxels, volume, tiles});
-    if (table.rows.empty()) note("no two buildings of what the query selects claim the same space");
+    if (table.rows.empty()) note("no two selected buildings claim the same space");
     print(table, arguments.form());
     return kDone;
 }
 
-// Of a city, or with options that are answered feature by feature.
+// Queries a city, or a volume with options that are answered feature by feature.
 Result<int> runFeatures(const QueryArguments& arguments) {
     if (isCity(arguments.input) && arguments.overlaps && !arguments.features.isAsked())
         return runCityOverlaps(arguments);
     if (arguments.reportCount() > 0)
         return Error(Code::BadArgument,
                      isCity(arguments.input)
-                         ? "reports are of one volume; take a part of the city (svt city extract), or leave out "
+                         ? "reports need one volume; take a part of the city (svt city extract), or leave out "
                            "--with, --neighbours, --along, --gaps, --areas, --owners and --parcels"
-                         : "-o, --box, --by, --cut, --sort, --first and --leaks go without reports; leave out "
+                         : "-o, --box, --by, --cut, --sort, --first and --leaks exclude reports; leave out "
                            "--with, --neighbours, --along, --overlaps, --gaps, --areas, --owners and --parcels");
     FeatureQuery query = arguments.features;
     query.input = arguments.input;
@@ -149,7 +149,7 @@ Result<int> runQuery(const QueryArguments& arguments) {
     SVT_TRY(volume, loadVolume(arguments.input, build, TerminalProgress().get(), false));
     auto selected = analyze::selectLabels(volume->labels, arguments.query);
     if (!selected && selected.error().code() == Code::NothingSelected) {
-        // An answer, not an error: the query is well formed, and there is no such feature.
+        // An answer, not an error: the query is valid, but selects no feature.
         note(selected.error().message());
         selected = Labels();
     }
@@ -168,20 +168,19 @@ Members<QueryArguments> membersOf(const QueryArguments*) noexcept {
         member<&All::with>("--with",
                            "more columns, any of volume (by voxels), surface (m2) and box, such as volume,surface",
                            {.value = "LIST", .group = "Report"}),
-        member<&All::neighbors>("--neighbours", "what each feature touches, with the shared area", {.group = "Report"}),
-        member<&All::along>("--along",
-                            "what lies along a ray: a point in metres from the lower corner, and a direction",
+        member<&All::neighbors>("--neighbours", "neighbours of each feature, with the shared area",
+                                {.group = "Report"}),
+        member<&All::along>("--along", "features along a ray: a point in metres from the lower corner, and a direction",
                             {.value = "X,Y,Z:DX,DY,DZ", .group = "Report"}),
         member<&All::overlaps>("--overlaps", "space that two features claim", {.group = "Report"}),
         member<&All::gaps>("--gaps", "enclosed air that belongs to no feature", {.group = "Report"}),
-        member<&All::areas>(
-            "--areas", "rooms with area, height and volume, then floor areas after DIN 277-1 of each storey and in all",
-            {.group = "Report"}),
-        member<&All::owners>("--owners",
-                             "who owns what: a table of feature and owner; walls between owners are divided",
+        member<&All::areas>("--areas",
+                            "rooms with area, height and volume, then floor areas by DIN 277-1 per storey and in total",
+                            {.group = "Report"}),
+        member<&All::owners>("--owners", "ownership: a table of feature and owner; walls between owners are divided",
                              {.value = "T.csv", .group = "Report", .file = FileUse::OtherInput}),
         member<&All::parcels>("--parcels",
-                              "how much of each feature lies in which parcel: a volume on the same grid, or a model",
+                              "share of each feature per parcel; the parcels are a volume on the same grid, or a model",
                               {.value = "FILE", .group = "Report", .file = FileUse::ModelOrVolume}),
         member<&All::features, &FeatureQuery::output>(
             "-o,--output", "write rows with outline, height, volume and attributes: .csv, .geojson, .gpkg or .parquet",
@@ -203,7 +202,7 @@ Members<QueryArguments> membersOf(const QueryArguments*) noexcept {
             "--first", "maximum number of rows",
             {.least = 1, .most = 1000000, .otherwise = "all; 100 with --sort", .group = "Features"}),
         member<&All::features, &FeatureQuery::leaks>(
-            "--leaks", "only solids whose shell has holes in the model, which were closed or filled all the same",
+            "--leaks", "only solids whose shell has holes in the model, which the build closed or filled",
             {.group = "Features"}),
         member<&All::json>("--json", "print rows as JSON on stdout", {.group = "Output", .excludes = "--csv"}),
         member<&All::csv>("--csv", "print rows as CSV on stdout", {.group = "Output"}),
@@ -216,6 +215,6 @@ Members<QueryArguments> membersOf(const QueryArguments*) noexcept {
 }  // namespace
 
 extern const CommandText kQueryCommand =
-    commandOf<QueryArguments, runQuery>("query", "List the features that a query selects, and what is around them");
+    commandOf<QueryArguments, runQuery>("query", "List the features that a query selects, and their surroundings");
 
 }  // namespace svt::cli

@@ -56,7 +56,7 @@ public:
     Result<render::Frame> draw(std::span<const render::DrawnVolume> volumes, const render::FrameSpec& spec) {
         if (volumes.size() > 1 || volumes[0].level() != nullptr)
             return Error(Code::BadFrame,
-                         "--gl draws one volume at its finest level, and the passes of this scene draw others; leave "
+                         "--gl draws one volume at its finest level, but the passes of this scene draw others; leave "
                          "out --gl");
         if (!context_) {
             unlimitMemory();  // drivers reserve what they never use
@@ -79,13 +79,13 @@ private:
     const volume::BrickVolume* drawn_ = nullptr;
 };
 
-// Takes the finest level for every pass that names none, as OpenGL does.
+// Sets the finest level, the only one of OpenGL, for every pass without a level.
 void takeFinest(illustrate::Scene& scene) {
     for (illustrate::ScenePass& pass : scene.passes)
         if (!pass.form.level) pass.form.level = 0;
 }
 
-// What is drawn of a scene, and when: pictures one by one, or a film.
+// The pictures of a scene and their times: separate files, or a film.
 struct Series {
     int count = 1;
     double seconds = 0;  ///< between two pictures
@@ -99,17 +99,17 @@ Result<Series> seriesOf(const RenderArguments& arguments, const illustrate::Scen
     if (!isFilm(arguments.output)) {
         if (arguments.frames == 1 && arguments.scene.isGiven("/motion/turn"))
             return Error(Code::BadArgument,
-                         "--turn moves the camera; --frames says in how many pictures, 2 or more; a film "
-                         "(-o P.webm) has them anyway");
+                         "--turn moves the camera, which needs several pictures; give --frames N with N from 2, or "
+                         "write a film (-o P.webm)");
         series.count = arguments.frames;
-        // The last picture shows the end; of a camera that only goes around it would be the first again.
+        // The last picture shows the end. If the camera only goes around, the end would repeat the first picture.
         const int steps = motion.keys.empty() && motion.turn != 0 ? series.count : std::max(1, series.count - 1);
         series.seconds = motion.seconds / steps;
         return series;
     }
     if (arguments.frames != 1)
         return Error(Code::BadArgument,
-                     "--frames is for pictures one by one; --seconds and --rate say how many a film has");
+                     "--frames is for separate pictures; --seconds and --rate give the number of pictures of a film");
     if (!arguments.labelOutput.empty() || !arguments.depthOutput.empty())
         return Error(Code::BadArgument, "--labels and --depth are for PNG, not for films");
     if (motion.turn == 0 && motion.keys.empty())
@@ -135,7 +135,7 @@ Result<void> writeBuffers(const render::Frame& frame, const RenderArguments& arg
     return {};
 }
 
-// Whether nothing of the model is in a picture: no label, and no line or veil either, which would vary along a row.
+// Whether a picture shows no part of the model: no label, and no line or veil, which would vary along a row.
 bool isEmpty(const render::Frame& frame) {
     for (std::int32_t y = 0; y < frame.color.height(); ++y)
         for (std::int32_t x = 0; x < frame.color.width(); ++x)
@@ -152,7 +152,7 @@ pipeline::BuildOptions withVectors(pipeline::BuildOptions build, const illustrat
     return build;
 }
 
-// Gives the volume the owners of its labels, and loads the volumes that are drawn with it.
+// Adds the owners of labels to the volume, and loads the volumes that are drawn with it.
 Result<std::vector<volume::SemanticVolume>> addInputs(const RenderArguments& arguments, const Progress* progress,
                                                       Diagnostics& diagnostics, volume::SemanticVolume& volume) {
     std::vector<volume::SemanticVolume> details;
@@ -170,7 +170,7 @@ Result<std::vector<volume::SemanticVolume>> addInputs(const RenderArguments& arg
     return details;
 }
 
-// Tells which targets of a cutaway are not seen.
+// Lists the targets of a cutaway that are not visible.
 void noteCutaway(const std::string& query, const volume::SemanticVolume& volume, const render::Frame& frame) {
     if (query.empty()) return;
     const auto selected = analyze::selectLabels(volume.labels, query);
@@ -188,11 +188,11 @@ void noteCutaway(const std::string& query, const volume::SemanticVolume& volume,
     if (hidden.empty()) return;
     const std::size_t count = hidden.size();
     if (count > 5) hidden.resize(5);
-    note(fmt::format("cutaway: {} of {} are not seen, behind other targets or outside of the picture: {}{}", count,
+    note(fmt::format("cutaway: {} of {} are not visible, behind other targets or outside of the picture: {}{}", count,
                      selected->size(), fmt::join(hidden, ", "), count > 5 ? ", ..." : ""));
 }
 
-// Tells where the sun stands: a picture from a wrong hour looks as good as one from the right one.
+// Prints the position of the sun: a picture does not show that its hour is wrong.
 void noteSun(const illustrate::Scene& scene, const volume::SemanticVolume& volume) {
     if (!scene.sun) return;
     const auto light = illustrate::sunlightOf(*scene.sun, volume);
@@ -200,21 +200,20 @@ void noteSun(const illustrate::Scene& scene, const volume::SemanticVolume& volum
     const auto& [azimuth, elevation] = light->position;
     note(fmt::format("sun: {:.1f} degrees {} the horizon, azimuth {:.1f}, at {:.4f}, {:.4f}{}", std::abs(elevation),
                      elevation > 0 ? "above" : "below", azimuth, light->latitude, light->longitude,
-                     elevation > 0 ? "" : "; the picture has the light of the sky alone"));
+                     elevation > 0 ? "" : "; the picture has only the light of the sky"));
 }
 
-// Tells which names are missing in a picture, and why.
+// Prints the number of names that are missing in a picture, and the reason.
 void noteNames(const illustrate::Painting::Names& names) {
-    if (names.hidden != 0) note(fmt::format("names: {} of what is not seen are left out", names.hidden));
+    if (names.hidden != 0) note(fmt::format("names: {} hidden features are not labelled", names.hidden));
     if (names.withoutRoom != 0)
-        note(fmt::format("names: {} found no place; a larger --size or a narrower --names makes room",
-                         names.withoutRoom));
+        note(fmt::format("names: {} do not fit; choose a larger --size or a narrower --names", names.withoutRoom));
 }
 
-// Tells which section planes are drawn elsewhere than they are asked for, and why.
+// Lists the section planes that are moved, and the reason.
 void noteMovedPlanes(const illustrate::Scene& scene, const volume::SemanticVolume& volume) {
     for (const illustrate::MovedPlane& plane : illustrate::planesInFaces(scene, volume))
-        note(fmt::format("the plane '{}' lies in faces of the model; it is moved by {:g} mm to the side that is kept",
+        note(fmt::format("the plane '{}' lies in faces of the model; it is moved by {:g} mm to the kept side",
                          plane.text, std::round(1e4 * plane.by) / 10));
 }
 
@@ -238,7 +237,7 @@ Result<void> writeLineView(const RenderArguments& arguments, const drawing::Line
     return {};
 }
 
-// What line drawings do not have, whether an option asks for it or a scene file.
+// Refuses parts of a scene that line drawings do not support, from options and from scene files.
 Result<void> checkForLines(const RenderArguments& arguments, const illustrate::Scene& scene) {
     const bool hasCells = std::ranges::any_of(scene.passes, [](const auto& pass) { return pass.form.hasCells; });
     const std::pair<bool, const char*> needs[] = {{!arguments.with.empty(), "--with"},
@@ -251,14 +250,14 @@ Result<void> checkForLines(const RenderArguments& arguments, const illustrate::S
         if (isGiven) found.push_back(option);
     if (found.empty()) return {};
     return Error(Code::BadArgument,
-                 fmt::format("line drawings do not have {}; leave it out, or write a .png", fmt::join(found, ", ")));
+                 fmt::format("line drawings do not support {}; leave it out, or write a .png", fmt::join(found, ", ")));
 }
 
 // Draws and writes the picture of a scene.
 using DrawPicture = std::function<Result<void>(illustrate::Scene& scene, int number)>;
 
 // Draws and writes all pictures of a series, then the scene itself.
-// \param frame  what cameras, planes and regions refer to
+// \param frame  the volume that cameras, planes and regions refer to
 Result<int> drawSeries(const RenderArguments& arguments, Series& series, const illustrate::Scene& moving,
                        const volume::SemanticVolume& frame, TerminalProgress& progress, const DrawPicture& draw) {
     for (int number = 0; number < series.count; ++number) {
@@ -284,7 +283,7 @@ Result<void> writePicture(const RenderArguments& arguments, Series& series, cons
     return series.film ? series.film->add(frame.color) : writeBuffers(frame, arguments, number);
 }
 
-// Lines instead of pixels: the scene's camera, what it shows, and the plane that cuts it.
+// Draws lines instead of pixels, from the scene's camera, visible features and cutting plane.
 Result<int> runLineDrawing(const RenderArguments& arguments, Series& series, const illustrate::Scene& moving) {
     if (arguments.gl || !arguments.labelOutput.empty() || !arguments.depthOutput.empty())
         return Error(Code::BadArgument, "--gl, --labels and --depth are for PNG, not for line drawings");
@@ -307,7 +306,7 @@ Result<int> runLineDrawing(const RenderArguments& arguments, Series& series, con
     return drawSeries(arguments, series, moving, *volume, progress, draw);
 }
 
-// Refuses what needs all of a model at once.
+// Refuses options that need all of a model at once.
 Result<void> checkForCity(const RenderArguments& arguments, const illustrate::Scene& scene) {
     const std::pair<bool, const char*> needs[] = {{isLineDrawing(arguments.output), "-o .svg or .pdf"},
                                                   {!arguments.with.empty(), "--with"},
@@ -321,7 +320,7 @@ Result<void> checkForCity(const RenderArguments& arguments, const illustrate::Sc
     return city::checkCityScene(scene);
 }
 
-// Pictures of a city: for each of them, its tiles are chosen and read.
+// Draws pictures of a city; chooses and reads the tiles for each picture.
 Result<int> runCityRender(const RenderArguments& arguments, Series& series, const illustrate::Scene& moving) {
     SVT_DO(checkForCity(arguments, moving));
     TerminalProgress progress;
@@ -335,8 +334,8 @@ Result<int> runCityRender(const RenderArguments& arguments, Series& series, cons
             noteSun(scene, painter->frame());
             for (const std::string& message : painter->nothing()) note(message);
             if (const double pixels = painter->chosen().pixels; pixels > 1)
-                note(
-                    fmt::format("memory: voxels are up to {:.1f} pixels wide; more --memory makes them finer", pixels));
+                note(fmt::format("memory: voxels are up to {:.1f} pixels wide; grant more --memory for finer ones",
+                                 pixels));
         }
         if (isEmpty(painting->frame)) note("nothing is visible");
         return writePicture(arguments, series, painting->frame, number);
@@ -344,7 +343,7 @@ Result<int> runCityRender(const RenderArguments& arguments, Series& series, cons
     return drawSeries(arguments, series, moving, painter->frame(), progress, draw);
 }
 
-// Pictures of one volume, with others that are drawn in place of its parts.
+// Draws pictures of one volume, and of others that replace its parts.
 Result<int> runVolumeRender(const RenderArguments& arguments, Series& series, const illustrate::Scene& moving) {
     Diagnostics diagnostics;
     TerminalProgress progress;
@@ -356,7 +355,7 @@ Result<int> runVolumeRender(const RenderArguments& arguments, Series& series, co
     if (!details) return details.error();
 
     illustrate::ScenePainter painter(*volume, arguments.build.threads);
-    // An answer, not an error, as for `svt query`: the query is well formed, and there is no such feature.
+    // An answer, not an error, as for `svt query`: the query is valid, but selects no feature.
     std::vector<std::string> nothing;
     painter.tolerateNothing(&nothing);
     painter.reportTo(progress.get());
@@ -410,20 +409,20 @@ Members<RenderArguments> membersOf(const RenderArguments*) noexcept {
                               .numberedBy = "--frames"}),
         part<&All::scene>("scene", "View|Cut|--lens|--highlight|--cutaway|--context|--context-level|--inset"),
         member<&All::with>("--with",
-                           "another volume of the model, such as a flat at a finer spacing, drawn in place of what it "
-                           "has of the first",
+                           "another volume of the model, such as a flat at a finer spacing; its features replace those "
+                           "of the first volume",
                            {.value = "F.svt", .group = "Illustrate", .file = FileUse::OtherInput}),
         part<&All::scene>("scene", "--cells"),
-        member<&All::owners>("--owners", "who owns what, for --color-by owner: a table of feature and owner",
+        member<&All::owners>("--owners", "ownership, for --color-by owner: a table of feature and owner",
                              {.value = "T.csv", .group = "Illustrate", .file = FileUse::OtherInput}),
         part<&All::scene>("scene", "Lines|Style|Scene"),
         member<&All::sceneOutput>(
-            "--write-scene", "also write the scene that these options make",
+            "--write-scene", "also write the scene of these options",
             {.value = "S.scene.json", .group = "Scene", .file = FileUse::Output, .formats = "scene"}),
         member<&All::frames>("--frames",
                              "number of pictures P_0000.png, ... of a section that moves, or of the scene's motion",
                              {.least = 1, .most = 10000, .group = "Motion"}),
-        member<&All::gl>("--gl", "draw by OpenGL ES 3.0, the finest level; needs a driver, but no display",
+        member<&All::gl>("--gl", "draw the finest level with OpenGL ES 3.0; needs a driver, but no display",
                          {.group = "Output", .excludes = "--level"}),
         member<&All::labelOutput>(
             "--labels", "also write the scalar of each pixel, 16-bit gray",

@@ -21,7 +21,7 @@ struct SampleArguments {
     samples::SampleOptions options;
 };
 
-// The ending is one of these, which is checked before.
+// The caller has checked that the ending is one of these.
 samples::SampleFormat formatOf(const SampleArguments& arguments) {
     using enum samples::SampleFormat;
     if (arguments.format) return *arguments.format;
@@ -61,7 +61,7 @@ Members<SampleArguments> membersOf(const SampleArguments*) noexcept {
              .file = FileUse::Output,
              .formats = "citygml|cityjson|cityjsonseq|ifc"}),
         member<&All::format>("--format", "format of the model", {.otherwise = "by extension"}),
-        member<&All::options, &SampleOptions::seed>("--seed", "decides owners and the houses of a district",
+        member<&All::options, &SampleOptions::seed>("--seed", "seed of owners and of the houses of a district",
                                                     {.least = 0}),
         member<&All::options, &SampleOptions::storeys>("--storeys", "tower: number of storeys",
                                                        {.least = 1, .most = 200}),
@@ -74,7 +74,7 @@ Members<SampleArguments> membersOf(const SampleArguments*) noexcept {
         member<&All::options, &SampleOptions::turnDegrees>(
             "--turn", "turn in plan", {.unit = "degrees counter-clockwise", .least = -360, .most = 360}),
         member<&All::options, &SampleOptions::thematic>("--thematic",
-                                                        "CityGML 2.0: walls only as surfaces, as LoD4 has them"),
+                                                        "CityGML 2.0: walls only as surfaces, as in LoD4"),
         quietOption<All>(),
     };
     return kMembers;

@@ -21,7 +21,9 @@ struct SampleCityArguments {
 };
 
 Result<samples::CitySampleCount> writeFile(const SampleCityArguments& arguments, int number, const Progress* progress) {
-    SVT_TRY(file, AtomicFile::create(arguments.output / citySampleFileName(arguments.options, number)));
+    const std::filesystem::path path = arguments.output / citySampleFileName(arguments.options, number);
+    SVT_DO(checkNoStream(path));
+    SVT_TRY(file, AtomicFile::create(path));
     std::optional<Error> failed;
     const auto count = writeCitySample(arguments.options, number, [&](std::string_view text) {
         auto done = Progress::isCancelled(progress) ? Result<void>(Error(Code::Cancelled, "stopped while writing"))
@@ -62,7 +64,7 @@ Result<int> runSampleCity(const SampleCityArguments& arguments) {
     if (failed) return *failed;
     if (!isQuiet())
         fmt::print(
-            "{}: {} files, {} buildings, of them {} replicas; {} shells lack a face; {:.1f} vertices a building\n",
+            "{}: {} files, {} buildings, of them {} replicas; {} shells lack a face; {:.1f} vertices per building\n",
             arguments.output.string(), arguments.options.files, all.buildings, all.replicas, all.broken,
             double(all.vertices) / double(all.buildings - all.replicas));
     return kDone;
@@ -73,13 +75,12 @@ Members<SampleCityArguments> membersOf(const SampleCityArguments*) noexcept {
     using samples::CitySampleOptions;
     static constexpr Member<All> kMembers[] = {
         member<&All::options, &CitySampleOptions::profile>(
-            "--profile", "whose files the city resembles: formats, versions, CRS and units"),
+            "--profile", "city whose files are imitated: formats, versions, CRS and units"),
         member<&All::options, &CitySampleOptions::buildings>(
-            "--buildings", "number of buildings, those that stand in two files counted once",
-            {.least = 1, .most = 100000000}),
+            "--buildings", "number of buildings; a building in two files counts once", {.least = 1, .most = 100000000}),
         member<&All::options, &CitySampleOptions::files>("--files", "number of files", {.least = 1, .most = 100000}),
-        member<&All::options, &CitySampleOptions::seed>("--seed", "decides all buildings", {.least = 0}),
-        member<&All::output>("-o,--output", "folder that the files are written into",
+        member<&All::options, &CitySampleOptions::seed>("--seed", "seed of all buildings", {.least = 0}),
+        member<&All::output>("-o,--output", "folder for the files",
                              {.value = "DIR", .isRequired = true, .file = FileUse::OutputFolder}),
         threadsOption<&All::threads>(),
         quietOption<All>(),

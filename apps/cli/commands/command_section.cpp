@@ -47,7 +47,7 @@ drawing::SectionOptions optionsOf(const SectionArguments& arguments, std::vector
     return options;
 }
 
-// Tells what was drawn and what was not, and writes it.
+// Prints the findings and writes the drawing.
 Result<int> writeSection(const SectionArguments& arguments, const drawing::SectionDrawing& drawing,
                          const volume::SemanticVolume& volume, const std::vector<std::string>& nothing, double scale) {
     Diagnostics findings;
@@ -58,7 +58,7 @@ Result<int> writeSection(const SectionArguments& arguments, const drawing::Secti
     if (isEmpty && !nothing.empty()) note("nothing is drawn");
     if (isEmpty && nothing.empty())
         return Error(Code::BadSection,
-                     fmt::format("the plane '{}' cuts nothing that is shown; move it, or see --show, --hide, "
+                     fmt::format("the plane '{}' cuts no visible feature; move it, or see --show, --hide, "
                                  "--no-rooms and --min-area",
                                  arguments.plane.empty() ? "1.1 m above the lowest floor" : arguments.plane));
     for (const auto& paths : {arguments.outputs, arguments.tables})
@@ -71,21 +71,21 @@ Result<int> writeSection(const SectionArguments& arguments, const drawing::Secti
     return kDone;
 }
 
-// Of a city: its tiles, one after the other, in one drawing.
+// Cuts the tiles of a city, one by one, into one drawing.
 Result<int> runCitySection(const SectionArguments& arguments, double scale) {
     if (arguments.plane.empty())
         return Error(Code::BadArgument,
-                     "a city is cut by a plane that --plane gives, such as 'z=abs(50)'; elevations are drawn of a "
-                     "part (svt city extract)");
+                     "a section of a city needs --plane, such as 'z=abs(50)'; for elevations, take a part of the city "
+                     "(svt city extract)");
     if (arguments.section.beyond.isAny() || arguments.section.dimensions)
         return Error(Code::BadArgument,
                      "--beyond, --hidden, --above and --dimensions need the meshes of a model, which a city does "
-                     "not keep; leave them out");
+                     "not store; leave them out");
     const TerminalProgress progress;
     std::vector<std::string> nothing;
     SVT_TRY(city, city::City::open(arguments.input));
     SVT_TRY(section, city::cutCity(*city, arguments.plane, optionsOf(arguments, nothing), progress.get()));
-    // Queries that find nothing in one tile may find something in others.
+    // A query without result in one tile may have one in others.
     if (!section->drawing.components.empty()) nothing.clear();
     std::sort(nothing.begin(), nothing.end());
     nothing.erase(std::unique(nothing.begin(), nothing.end()), nothing.end());
@@ -126,9 +126,8 @@ Members<SectionArguments> membersOf(const SectionArguments*) noexcept {
              .otherwise = "1.1 m above the floor of the lowest storey, or the middle",
              .group = "Drawing",
              .excludes = "--elevation"}),
-        memberAs<record::Choice, &All::elevation>(
-            "--elevation", "the outside, seen from there: what stands behind a plane before the model",
-            {.choices = "north|east|south|west", .group = "Drawing"}),
+        memberAs<record::Choice, &All::elevation>("--elevation", "draw the outside of the model, seen from this side",
+                                                  {.choices = "north|east|south|west", .group = "Drawing"}),
         part<&All::section>("section", "--beyond|--hidden|--above|--dimensions"),
         part<&All::dxf>("dxf"),
         memberAs<PaperScale, &All::scale>("--scale", "scale of the SVG: 1:50 draws 1 m as 20 mm",

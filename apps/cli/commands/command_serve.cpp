@@ -7,21 +7,21 @@ namespace svt::cli {
 Members<ServeArguments> membersOf(const ServeArguments*) noexcept {
     using All = ServeArguments;
     static constexpr Member<All> kMembers[] = {
-        member<&All::inputs>("input", "what the page opens: .svt or model files",
+        member<&All::inputs>("input", "inputs of the page: .svt, model files, or cities: their folders or addresses",
                              {.value = "FILE", .file = FileUse::ModelOrVolume}),
-        member<&All::port>("--port", "port to listen at; 0: any that is free",
+        member<&All::port>("--port", "port to listen on; 0: any free port",
                            {.least = 0, .most = 65535, .otherwise = "8080, or the next free one", .group = "Server"}),
-        member<&All::host>("--host",
-                           "address to listen at; others than 127.0.0.1 let other machines in, without password",
-                           {.value = "ADDRESS", .group = "Server"}),
-        member<&All::hostNames>("--allow-host", "a further name by which browsers may call this server",
+        member<&All::host>(
+            "--host", "address to listen on; other than 127.0.0.1, it gives other machines access without a password",
+            {.value = "ADDRESS", .group = "Server"}),
+        member<&All::hostNames>("--allow-host", "a further host name that browsers may use for this server",
                                 {.value = "NAME", .group = "Server"}),
         member<&All::allowUploads>("--allow-uploads", "convert models that the page sends", {.group = "Uploads"}),
-        member<&All::maxUploadMb>("--max-upload", "largest model that may be sent",
+        member<&All::maxUploadMb>("--max-upload", "maximum size of an uploaded model",
                                   {.unit = "MB", .least = 1, .most = 1048576, .group = "Uploads"}),
-        member<&All::convertMemoryMb>("--convert-memory", "memory that a conversion may use",
+        member<&All::convertMemoryMb>("--convert-memory", "memory limit of a conversion",
                                       {.unit = "MB", .least = 64, .most = 1048576, .group = "Uploads"}),
-        member<&All::convertSeconds>("--convert-seconds", "time that a conversion may take",
+        member<&All::convertSeconds>("--convert-seconds", "time limit of a conversion",
                                      {.unit = "seconds", .least = 0.1, .most = 86400, .group = "Uploads"}),
         quietOption<All>(),
         part<&All::site>("site"),
@@ -41,7 +41,7 @@ Members<ViewArguments> membersOf(const ViewArguments*) noexcept {
     using All = ViewArguments;
     static constexpr Member<All> kMembers[] = {
         siteInputs<&All::serve, &ServeArguments::inputs>(),
-        member<&All::serve, &ServeArguments::noBrowser>("--no-browser", "print the address, start no browser",
+        member<&All::serve, &ServeArguments::noBrowser>("--no-browser", "print the address without starting a browser",
                                                         {.group = "Page"}),
         quietOption<All>(),
         part<&All::serve, &ServeArguments::site>("site"),

@@ -29,7 +29,7 @@ struct SheetsArguments {
     pipeline::BuildOptions build;
 };
 
-// The set of the file, if one is given, changed by the options; its sheets are empty where the program is to choose.
+// The set of the file, if given, with the changes of the options. Without sheets, the program chooses them.
 Result<drawing::SheetSet> readSet(const SheetsArguments& arguments) {
     drawing::SheetSet set;
     if (!arguments.setFile.empty()) {
@@ -47,7 +47,7 @@ Result<drawing::SheetSet> readSet(const SheetsArguments& arguments) {
     return set;
 }
 
-// What is not exact, once for all views.
+// Prints the findings on inexact parts, once for all views.
 void printFindings(const writers::SheetContent& content, const volume::SemanticVolume& volume) {
     std::vector<const drawing::SectionDrawing*> drawings;
     for (const writers::DrawnView& view : content.views) drawings.push_back(&view.drawing);
@@ -63,7 +63,7 @@ Result<void> makeFolder(const std::filesystem::path& folder) {
     return {};
 }
 
-// "plan-1", "section-A", "elevation-north"; names of storeys may hold anything.
+// "plan-1", "section-1", "elevation-north". Names of storeys are not used, because they may have any characters.
 std::string fileNameOf(const writers::SheetContent& content, std::size_t number) {
     const drawing::SheetView& view = content.views[number].view;
     if (view.kind == drawing::ViewKind::Elevation) return "elevation-" + view.name;
@@ -77,6 +77,7 @@ Result<void> writeDxfFolder(const writers::SheetContent& content, const volume::
     SVT_DO(makeFolder(folder));
     for (std::size_t n = 0; n < content.views.size(); ++n) {
         const auto path = folder / (fileNameOf(content, n) + ".dxf");
+        SVT_DO(checkNoStream(path));
         SVT_DO(writers::writeDrawing(content.views[n].drawing, volume, path, {.dxf = options}));
     }
     return {};
@@ -84,9 +85,11 @@ Result<void> writeDxfFolder(const writers::SheetContent& content, const volume::
 
 Result<void> writeSvgFolder(const std::vector<std::string>& sheets, const std::filesystem::path& folder) {
     SVT_DO(makeFolder(folder));
-    for (std::size_t n = 0; n < sheets.size(); ++n)
-        if (auto written = writeFileAtomically(folder / fmt::format("sheet-{}.svg", n + 1), sheets[n]); !written)
-            return written.error();
+    for (std::size_t n = 0; n < sheets.size(); ++n) {
+        const auto path = folder / fmt::format("sheet-{}.svg", n + 1);
+        SVT_DO(checkNoStream(path));
+        SVT_DO(writeFileAtomically(path, sheets[n]));
+    }
     return {};
 }
 
@@ -133,17 +136,17 @@ Members<SheetsArguments> membersOf(const SheetsArguments*) noexcept {
     using All = SheetsArguments;
     using writers::DxfOptions;
     static constexpr Member<All> kMembers[] = {
-        modelInput<&All::input>(),
+        modelInput<&All::input>("a .svt or a model file"),
         member<&All::output>("-o,--output", "the sheets as one PDF, or the views as one GeoPackage (.gpkg)",
                              {.value = "P.pdf", .file = FileUse::Output, .formats = "pdf|gpkg"}),
         member<&All::folder>("--svg", "also write each sheet as sheet-N.svg",
                              {.value = "DIR", .file = FileUse::OutputFolder}),
         member<&All::dxfFolder>("--dxf", "also write each view as NAME.dxf, in metres",
                                 {.value = "DIR", .file = FileUse::OutputFolder}),
-        member<&All::setFile>("--from", "which views stand on which sheets; the other options change it",
+        member<&All::setFile>("--from", "the views of each sheet; other options change them",
                               {.value = "S.sheets.json", .group = "Sheets", .file = FileUse::OtherInput}),
         member<&All::setOutput>(
-            "--write-sheets", "also write which views stand on which sheets",
+            "--write-sheets", "also write the views of each sheet",
             {.value = "S.sheets.json", .group = "Sheets", .file = FileUse::Output, .formats = "sheets"}),
         memberAs<PaperScale, &All::scale>(
             "--scale", "scale of all views: 1:50 draws 1 m as 20 mm",
@@ -153,14 +156,15 @@ Members<SheetsArguments> membersOf(const SheetsArguments*) noexcept {
         memberAs<record::Choice, &All::paper>("--paper", "size of a sheet, landscape",
                                               {.choices = "A4|A3|A2|A1|A0", .otherwise = "A3", .group = "Sheets"}),
         member<&All::hide>("--hide", "leave out what the query selects", {.value = "QUERY", .group = "Sheets"}),
-        member<&All::dxf, &DxfOptions::isoLayers>("--iso-layers", "DXF: names of layers after ISO 13567",
+        member<&All::dxf, &DxfOptions::isoLayers>("--iso-layers", "DXF: names of layers by ISO 13567",
                                                   {.group = "Sheets"}),
         member<&All::dxf, &DxfOptions::world>(
-            "--world", "DXF: coordinates of the model's CRS; upright drawings stand in space", {.group = "Sheets"}),
-        member<&All::noAbove>("--no-above", "plans without what is above the cut", {.group = "Sheets"}),
-        member<&All::noDimensions>("--no-dimensions", "plans without chains of dimensions", {.group = "Sheets"}),
+            "--world", "DXF: coordinates of the model's CRS; sections and elevations are upright in space",
+            {.group = "Sheets"}),
+        member<&All::noAbove>("--no-above", "plans without parts above the cut", {.group = "Sheets"}),
+        member<&All::noDimensions>("--no-dimensions", "plans without dimension chains", {.group = "Sheets"}),
         member<&All::noTables>("--no-tables", "no tables of rooms, floor areas and components", {.group = "Sheets"}),
-        memberAs<record::Choice, &All::language>("--language", "of the words on sheets",
+        memberAs<record::Choice, &All::language>("--language", "language of the words on sheets",
                                                  {.choices = "en|de", .otherwise = "en", .group = "Sheets"}),
         member<&All::verbose>("--verbose", "show all findings", {.group = "Output"}),
         quietOption<All>(),

@@ -128,20 +128,19 @@ Result<int> runShell(const ShellArguments& arguments) {
 Members<ShellArguments> membersOf(const ShellArguments*) noexcept {
     using All = ShellArguments;
     static constexpr Member<All> kMembers[] = {
-        modelInput<&All::input>(),
+        modelInput<&All::input>("a .svt or a model file"),
         member<&All::output>("-o,--output",
-                             "what to write; the extension selects the format: .svt (volume) or .glb (triangles)",
+                             "file to write; the extension selects the format: .svt (volume) or .glb (triangles)",
                              {.value = "FILE", .file = FileUse::Output, .formats = "svt|glb"}),
-        member<&All::level>("--level", "whose hull stays", {.group = "Shell"}),
-        member<&All::of>("--of", "only the groups that have something of what the query selects",
-                         {.value = "QUERY", .group = "Shell"}),
+        member<&All::level>("--level", "level of the hulls", {.group = "Shell"}),
+        member<&All::of>("--of", "only groups that contain selected features", {.value = "QUERY", .group = "Shell"}),
         member<&All::shell, &illustrate::ShellOptions::thickness>(
             "--thickness", "thickness of the hull in metres, rounded up to voxels",
             {.value = "M", .least = 0, .otherwise = "two voxels", .group = "Shell"}),
         member<&All::shell, &illustrate::ShellOptions::labels>(
-            "--labels", "whose label the voxels keep: that of their component, or one per group", {.group = "Shell"}),
+            "--labels", "label of the voxels: that of their component, or one per group", {.group = "Shell"}),
         part<&All::write>("write", "--faces"),
-        member<&All::levels>("--levels", "list which levels the model has, as --level names them, and write nothing",
+        member<&All::levels>("--levels", "list the levels of the model, as named by --level, and write nothing",
                              {.group = "Output"}),
         jsonOption<&All::json>("print figures as JSON on stdout"),
         quietOption<All>(),
@@ -153,6 +152,6 @@ Members<ShellArguments> membersOf(const ShellArguments*) noexcept {
 }  // namespace
 
 extern const CommandText kShellCommand =
-    commandOf<ShellArguments, runShell>("shell", "Leave only the hull of rooms, flats, storeys or buildings");
+    commandOf<ShellArguments, runShell>("shell", "Reduce a volume to the hulls of rooms, flats, storeys or buildings");
 
 }  // namespace svt::cli

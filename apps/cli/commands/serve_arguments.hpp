@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// serve and view: their options, and what runs them. The program for Linux serves by itself, the one for Node.js lets
-/// Node.js serve.
+/// serve and view: their options and entry point. The program for Linux has its own server; the program for Node.js
+/// uses that of Node.js.
 
 #include <apps/cli/options/site_options.hpp>
 
@@ -17,12 +17,12 @@ struct ServeArguments {
     std::vector<std::filesystem::path> inputs;
     SiteArguments site;
     std::string host = "127.0.0.1";
-    std::optional<int> port;  ///< unset: wantedPort(), or the next that is free
+    std::optional<int> port;  ///< unset: wantedPort(), or the next free one
     std::vector<std::string> hostNames;
     bool allowUploads = false;
     std::uint64_t maxUploadMb = 200, convertMemoryMb = 2048;
     double convertSeconds = 120;
-    bool isView = false;  ///< a browser is opened, unless noBrowser
+    bool isView = false;  ///< opens a browser, unless noBrowser
     bool noBrowser = false;
 
     /// The port to listen at; 0: any.

@@ -51,7 +51,7 @@ serve::ConvertOptions convertOptions(const ServeArguments& arguments) {
     return options;
 }
 
-// What this server offers besides files; a published folder has no such resource.
+// The functions of this server besides files. A published folder has no such resource.
 std::string abilities(const ServeArguments& arguments) {
     Json json;
     json["picture"] = true;
@@ -62,12 +62,12 @@ std::string abilities(const ServeArguments& arguments) {
 
 void announce(const ServeArguments& arguments, const serve::ServerOptions& options, int port) {
     if (options.port != 0 && port != options.port)
-        note(fmt::format("port {} is taken; this is port {}", options.port, port));
+        note(fmt::format("port {} is in use; this is port {}", options.port, port));
     if (!serve::isLoopback(arguments.host))
         note(fmt::format(
-            "warning: everybody who reaches this machine at {} sees these models{}; the server has no password and no "
-            "encryption",
-            arguments.host, arguments.allowUploads ? " and may send files to be converted" : ""));
+            "warning: everyone with access to this machine at {} can see these models{}; the server has no password "
+            "and no encryption",
+            arguments.host, arguments.allowUploads ? " and can send files to be converted" : ""));
     const std::string address = addressOf(arguments.host, port);
     fmt::print("{}\n", address);
     std::fflush(stdout);
@@ -80,7 +80,7 @@ void announce(const ServeArguments& arguments, const serve::ServerOptions& optio
 
 Result<int> runServe(const ServeArguments& arguments) {
     if (arguments.inputs.empty() && !arguments.allowUploads)
-        return Error(Code::BadArgument, "nothing to show; give a .svt or a model file, or --allow-uploads");
+        return Error(Code::BadArgument, "nothing to show; give a .svt, a model file or a city, or --allow-uploads");
     SVT_TRY(viewer, arguments.site.viewerFolder());
     SVT_TRY(models, arguments.site.load(arguments.inputs));
     SVT_TRY(site, serve::viewerSite(*viewer, *models));

@@ -1,5 +1,5 @@
-// serve and view where the program runs under Node.js: the site is written into a temporary folder, which Node.js serves
-// when main() has returned (web/npm/lib/server.mjs). Models are drawn by the page alone, and none are converted.
+// serve and view under Node.js: the program writes the site into a temporary folder, which Node.js serves after main()
+// has returned (web/npm/lib/server.mjs). Only the page draws models. The server does not convert models.
 #include <apps/cli/commands/serve_arguments.hpp>
 #include <apps/cli/output/json_output.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -17,7 +17,8 @@ namespace svt::cli {
 Result<int> runServe(const ServeArguments& arguments) {
     if (arguments.allowUploads)
         return Error(Code::BadArgument, "--allow-uploads is not possible under Node.js; use the program for Linux");
-    if (arguments.inputs.empty()) return Error(Code::BadArgument, "nothing to show; give a .svt or a model file");
+    if (arguments.inputs.empty())
+        return Error(Code::BadArgument, "nothing to show; give a .svt, a model file or a city");
     SVT_TRY(viewer, arguments.site.viewerFolder());
     SVT_TRY(models, arguments.site.load(arguments.inputs));
     SVT_TRY(site, serve::viewerSite(*viewer, *models));

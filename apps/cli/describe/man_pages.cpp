@@ -23,7 +23,7 @@ constexpr std::string_view kExitCodes[][2] = {
     {"129, 130, 143", "ended by the signal HUP, INT or TERM"},
 };
 
-// Text as roff shows it: dashes that can be copied, no line that begins a request.
+// Text for roff: dashes that can be copied, and lines that do not begin a request.
 std::string roff(std::string_view text) {
     std::string result;
     for (const char c : text) {
@@ -89,10 +89,9 @@ std::string mainPage() {
     std::string page = header("svt", "semantic volume textures of building models");
     page += ".SH SYNOPSIS\n.B svt\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n";
     page +=
-        ".SH DESCRIPTION\nTurns a semantic building model (CityGML, CityJSON) into a volume in which every point knows "
-        "which "
-        "component it belongs to, and draws that volume cut open, answers queries about it and hands it on.\n.SH "
-        "COMMANDS\n";
+        ".SH DESCRIPTION\nConverts a semantic building model (CityGML, CityJSON, IFC, IndoorGML) to a volume that "
+        "stores the building component at every point. Draws that volume cut open, answers queries about it, and "
+        "converts it to other formats.\n.SH COMMANDS\n";
     for (const CommandText& command : commandTexts())
         page += fmt::format(".TP\n.BR svt\\-{} (1)\n{}\n", command.name, roff(command.help));
     page +=

@@ -39,7 +39,7 @@ void giveUp(Answer& answer, const Error& error) {
     answer.error = error;
 }
 
-// Files that can be written in a folder: by trying, since permissions say nothing of a disk that is read-only.
+// Tests whether a folder is writable by writing a file, because permissions do not show a read-only disk.
 void tryFolder(Answer& answer, const fs::path& folder, State otherwise) {
     constexpr std::uint64_t kLittle = 100'000'000;
     const auto free = freeBytes(folder);
@@ -48,7 +48,7 @@ void tryFolder(Answer& answer, const fs::path& folder, State otherwise) {
     answer.text = folder.string();
     if (free) answer.text += fmt::format(", {} free", bytesText(*free));
     if (file) {
-        if (free && *free < kLittle) warn(answer, "free some, or outputs may not fit");
+        if (free && *free < kLittle) warn(answer, "little space; free some, or outputs may not fit");
     } else if (otherwise == State::Error) {
         giveUp(answer, Error(file.error().code(), file.error().message(), Place{folder.string(), 0, 0, {}}));
         answer.text = folder.string() + ": " + answer.text;
@@ -72,7 +72,8 @@ Answer programAnswer() {
     answer.values = {
         {"version", versionNumber()}, {"commit", facts.commit}, {"compiler", facts.compiler},    {"kind", facts.kind},
         {"openGl", facts.openGl},     {"simdTargets", targets}, {"optimized", facts.isOptimized}};
-    if (!facts.isOptimized) warn(answer, "slow, since the compiler did not optimize; `make build` builds for speed");
+    if (!facts.isOptimized)
+        warn(answer, "slow, because the compiler did not optimize; `make build` builds an optimized program");
     return answer;
 }
 
@@ -168,7 +169,7 @@ Answer fontAnswer() {
     image::Image<image::Rgba8> picture = paper;
     image::drawText(picture, 2, 10, "svt", {});
     answer.values = {{"name", "DejaVu Sans"}, {"available", !(picture == paper)}};
-    if (picture == paper) warn(answer, "it draws nothing: pictures lack their names");
+    if (picture == paper) warn(answer, "it draws nothing: pictures have no names");
     return answer;
 }
 
@@ -229,7 +230,7 @@ Answer testOpenGlAnswer(const GlProbe& probe) {
         warn(answer, "draw without --gl");
         return answer;
     }
-    // Those at edges, where rounding decides.
+    // Pixels at edges may differ by rounding.
     const std::size_t few = probe.pixels / 1000;
     answer.text = fmt::format("the same picture by OpenGL in {:.3f} s, the first one in {:.3f} s", probe.seconds,
                               probe.firstSeconds);

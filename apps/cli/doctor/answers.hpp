@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What `svt doctor` answers: of each thing that the program needs or can use, whether it is there, and what to do.
+/// Answers of `svt doctor`: for each resource that the program needs or can use, its availability and a remedy.
 
 #include <apps/cli/doctor/gl_probe.hpp>
 #include <apps/cli/doctor/trial.hpp>
@@ -15,14 +15,14 @@ namespace svt::cli {
 
 enum class State : std::uint8_t {
     Ok,
-    Warning,  ///< something is missing that build and render do without
+    Warning,  ///< something is missing; build and render work without it
     Error     ///< build or render do not work
 };
 
 struct Answer {
     std::string key;     ///< in JSON
     std::string title;   ///< in text
-    std::string text{};  ///< one line: what was found; where something is missing, what to do
+    std::string text{};  ///< one line: the facts, and the remedy for missing parts
     Json values = Json::object();
     State state = State::Ok;
     std::optional<Error> error{};  ///< of State::Error

@@ -13,12 +13,12 @@
 namespace svt::cli {
 namespace {
 
-// A line of its own, whatever the driver has written before.
+// Prints a separate line, even if the driver has written an unfinished one.
 void tell(const Say& say, const Json& json) {
     say("\n" + json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-// Each finding is told at once, so that it stays where the next step crashes.
+// Reports each finding at once, so that it is kept if the next step crashes.
 void drawByGl(const Say& say) {
     const auto context = render_gl::EglContext::make();
     if (!context) return tell(say, {{"contextFault", context.error().message()}});
@@ -74,7 +74,7 @@ GlProbe probeGl() {
     probe.pixels = told.value("pixels", std::size_t{0});
     probe.differing = told.value("differing", std::size_t{0});
     if (!result.fault.empty()) {
-        // A driver that has drawn and fails while it is put away harms nobody.
+        // A driver that fails after drawing, while it is released, does no harm.
         const std::string fault = "the graphics driver failed: " + result.fault;
         if (!told.contains("renderer"))
             probe.contextFault = fault;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What `svt doctor` tries: the sample house as a coarse volume, and a small picture of it.
+/// Trial runs of `svt doctor`: the sample house as a coarse volume, and a small picture of it.
 
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -11,7 +11,7 @@ namespace svt::cli {
 
 struct TestVolume {
     volume::SemanticVolume volume;
-    double seconds = 0;  ///< from the bytes of the model on
+    double seconds = 0;  ///< reading and building
 };
 
 /// Reads the house from memory and builds it at 0.2 m. No file is touched.
@@ -20,7 +20,7 @@ struct TestVolume {
 
 struct TestPicture {
     render::Frame frame;
-    double firstSeconds = 0;  ///< with what is made once: bricks, programs of the graphics driver
+    double firstSeconds = 0;  ///< of the first picture, with one-time setup: bricks, shader programs
     double seconds = 0;       ///< of a second picture
 };
 
@@ -33,8 +33,8 @@ struct TestPicture {
 [[nodiscard]] Result<render::Frame> castByCpu(std::span<const render::DrawnVolume> volumes,
                                               const render::FrameSpec& spec);
 
-/// Pixels of two frames of equal size that show another label, or a colour over 3 of 255 apart, which is what
-/// render_gl::GlRenderer keeps but for a few pixels at edges.
+/// The number of pixels that differ between two frames of equal size: another label, or a colour that differs by more
+/// than 3 of 255. render_gl::GlRenderer stays within this bound, except for a few pixels at edges.
 [[nodiscard]] std::size_t differingPixels(const render::Frame& a, const render::Frame& b);
 
 }  // namespace svt::cli

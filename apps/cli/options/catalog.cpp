@@ -2,7 +2,7 @@
 
 namespace svt::cli {
 
-// Each is declared beside its code.
+// Each command is declared next to its code.
 extern const CommandText kSampleCommand, kSampleCityCommand, kBuildCommand, kInfoCommand, kCheckCommand, kRenderCommand,
     kSectionCommand, kSheetsCommand, kQueryCommand, kShellCommand, kConvertCommand, kServeCommand, kViewCommand,
     kPublishCommand, kCityPlanCommand, kCityRunCommand, kCityTaskCommand, kCityStatusCommand, kCityMergeCommand,

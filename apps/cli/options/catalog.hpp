@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// All commands and their options, each declared once. `svt describe` prints the table, from which the manual, the manual
-/// pages, the completions and the page's limits are made.
+/// All commands and their options, each declared once. `svt describe` prints the table, the source of the manual, the
+/// manual pages, the completions and the page's limits.
 
 #include <apps/cli/output/messages.hpp>
 

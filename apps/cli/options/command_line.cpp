@@ -1,4 +1,4 @@
-// The only file that knows the parser of command lines (CLI11).
+// The only file that uses the parser of command lines (CLI11).
 #include <apps/cli/options/command_line.hpp>
 #include <apps/cli/options/format_table.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -22,10 +22,10 @@
 namespace svt::cli {
 namespace {
 
-// What was given, by the option's number in its command.
+// The given values, by the option's number in its command.
 using Given = std::vector<std::vector<std::string>>;
 
-// One option of `command` in CLI11's terms; its values are held against the declaration and kept as texts.
+// Adds an option to CLI11's parser. Checks its values against the declaration and stores them as texts.
 CLI::Option* addOption(CLI::App& app, const Option& option, std::vector<std::string>& values) {
     const std::string name(option.name), description = frontend::descriptionOf(option);
     if (option.kind == OptionKind::Flag) return app.add_flag(name, description);
@@ -38,7 +38,7 @@ CLI::Option* addOption(CLI::App& app, const Option& option, std::vector<std::str
     } else {
         added->expected(1)->multi_option_policy(option.mayRepeat ? CLI::MultiOptionPolicy::TakeAll
                                                                  : CLI::MultiOptionPolicy::Throw);
-        // Else a "--" behind its value would be taken for the end of its values, not of the options.
+        // Otherwise CLI11 would take a "--" after its value as the end of its values, not of the options.
         if (!option.mayRepeat) added->allow_extra_args(false);
     }
     return added->check(
@@ -84,7 +84,7 @@ std::string suggestionFor(const CLI::App& app, const std::string& word) {
     return found.empty() ? "" : fmt::format("; did you mean {}?", found);
 }
 
-// Results that stdout cannot take (a full disk behind '>') must not pass for success.
+// Results that cannot be written to stdout (a full disk behind '>') must not count as success.
 int flushed(int exitCode) {
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exitCode;
     if (errno == EPIPE) return kNoReader;
@@ -106,7 +106,7 @@ std::vector<std::string> joinedWords(int argc, char** argv) {
     return words;
 }
 
-// The commands whose first word is `word`, one on a line; empty: there are none.
+// The commands whose first word is `word`, one per line; may be empty.
 std::string commandsBelow(std::string_view word) {
     std::string lines;
     for (const CommandText& text : commandTexts()) {
@@ -121,7 +121,7 @@ std::string commandsBelow(std::string_view word) {
 struct Parser {
     CLI::App app{"Semantic volume textures of building models: build, query and draw them", "svt"};
     std::map<std::string_view, Given> given;
-    std::string formats = "text";  // form of the table of formats
+    std::string formats = "text";  // notation of the table of formats
 
     Parser() {
         app.require_subcommand(0, 1);
@@ -138,7 +138,7 @@ struct Parser {
 };
 
 // CLI11 takes the word after "--look=" as its value, and reads "--wireframe ''" as "--wireframe".
-// \return the fault of the first such option; empty: there is none
+// \return the fault of the first such option; empty without a fault
 std::string faultOfEmptyValues(std::span<const std::string> words) {
     const auto text = std::ranges::find(commandTexts(), words.empty() ? "" : words.front(), &CommandText::name);
     if (text == commandTexts().end()) return {};

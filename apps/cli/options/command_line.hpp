@@ -9,11 +9,11 @@
 
 namespace svt::cli {
 
-/// Reads the command line and runs the command that it names; prints help, the version, or what is wrong with it.
+/// Reads the command line and runs the command that it names; prints help, the version, or a message on a wrong usage.
 /// \return the exit code
 int runCommandLine(int argc, char** argv);
 
-/// The help text of a command; of all where `command` is empty.
+/// The help text of a command; the list of all commands if `command` is empty.
 [[nodiscard]] std::string helpText(std::string_view command);
 
 }  // namespace svt::cli

@@ -24,7 +24,7 @@ void addOnce(std::vector<std::string>& to, std::string_view text) {
     if (std::ranges::find(to, text) == to.end()) to.emplace_back(text);
 }
 
-// Rows with one for each name.
+// Rows of the table, one per name.
 class FormatRows {
 public:
     FormatRow& at(std::string_view name, std::string_view endings, std::string_view holds) {

@@ -6,8 +6,8 @@
 
 namespace svt::cli {
 
-/// A row for each format: name, endings, kind of input that it is read as (model, volume, or empty), commands that write
-/// it, content, and programs that read it.
+/// One row per format: name, endings, kind of input (model, volume, or empty), commands that write it, content, and
+/// programs that read it.
 [[nodiscard]] writers::Table formatTable();
 
 }  // namespace svt::cli

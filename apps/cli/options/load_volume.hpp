@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The volume that a command works on.
+/// The input of a command as a volume.
 
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/progress.hpp>
@@ -12,11 +12,11 @@
 namespace svt::cli {
 
 /// Loads a volume from a `.svt`, or builds it from a model file.
-/// \param grid  of another volume, to build the model on; null: according to the options
+/// \param grid  the grid of another volume, to build the model on; null: according to the options
 [[nodiscard]] Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input,
                                                         const pipeline::BuildOptions& build, const Progress* progress,
                                                         Diagnostics& diagnostics, const volume::Grid* grid = nullptr);
-/// The same; also prints the findings. \param isVerbose  prints all of them
+/// The same, and prints the findings. \param isVerbose  prints all of them
 [[nodiscard]] Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input,
                                                         const pipeline::BuildOptions& build, const Progress* progress,
                                                         bool isVerbose, const volume::Grid* grid = nullptr);

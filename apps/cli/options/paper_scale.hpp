@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Scales of drawings as people write them.
+/// Scales of drawings, in the notation 1:N.
 
 #include <svt/record/record.hpp>
 

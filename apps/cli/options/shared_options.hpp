@@ -9,7 +9,7 @@ namespace svt::cli {
 using frontend::part;
 using record::Member, record::member, record::memberAs, record::Members;
 
-/// An option of the whole process: runCommandLine() applies it, and the arguments have no field for it.
+/// An option of the whole process. runCommandLine() applies it; the arguments have no field for it.
 template <class Arguments>
 struct OfProcess : record::Ignored<Arguments> {
     static constexpr void describe(Option& option) { option.kind = OptionKind::Flag; }
@@ -34,13 +34,13 @@ template <auto... Fields>
                              {.least = 0, .most = 1024, .otherwise = "all cores"});
 }
 template <auto Field>
-[[nodiscard]] constexpr auto modelInput() {
-    return member<Field>("input", "a .svt, a model file, or a city: its folder or address",
-                         {.value = "FILE", .isRequired = true, .file = FileUse::ModelOrVolume});
+[[nodiscard]] constexpr auto modelInput(
+    std::string_view help = "a .svt, a model file, or a city: its folder or address") {
+    return member<Field>("input", help, {.value = "FILE", .isRequired = true, .file = FileUse::ModelOrVolume});
 }
 template <auto... Fields>
 [[nodiscard]] constexpr auto siteInputs() {
-    return member<Fields...>("input", "what the page opens: .svt, model files, folders of cities",
+    return member<Fields...>("input", "inputs of the page: .svt, model files, or cities: their folders or addresses",
                              {.value = "FILE", .isRequired = true, .file = FileUse::ModelOrVolume});
 }
 template <auto Field>

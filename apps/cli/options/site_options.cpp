@@ -33,7 +33,7 @@ Result<FileBytes> built(const fs::path& input, const pipeline::BuildOptions& bui
         return Error(Code::CannotWrite, "there is no folder for temporary files; set TMPDIR to one");
     const fs::path file = folder.path() / "model.svt";
     SVT_DO(volume::writeSvt(*volume, file));
-    return FileBytes::map(file);  // nobody else knows it
+    return FileBytes::map(file);  // no other program uses the file
 }
 
 Result<serve::SiteModel> modelOf(const fs::path& input, const std::string& name, const pipeline::BuildOptions& build,
@@ -49,13 +49,13 @@ Result<volume::SemanticVolume> volumeOf(const serve::SiteModel& model) {
     return model.city.empty() ? volume::readSvt(model.svt.data, model.name) : pageVolume(model.city);
 }
 
-// Keeps one model at a time in memory, ready to draw.
+// Draws pictures of models; keeps one model at a time in memory.
 class Pictures {
 public:
     Pictures(std::vector<serve::SiteModel> models, int threads) : models_(std::move(models)), threads_(threads) {}
 
     serve::Reply paint(const serve::Request& request, const Progress& stop) {
-        // Values nested deeper than in any scene are dropped while parsing.
+        // The parser drops values that are nested deeper than in any scene.
         constexpr int kMaxDepth = 32;
         const auto isShallow = [](int depth, Json::parse_event_t, Json&) { return depth <= kMaxDepth; };
         const Json json = Json::parse(request.body, isShallow, false);
@@ -125,7 +125,7 @@ Members<SiteArguments> membersOf(const SiteArguments*) noexcept {
     static constexpr Member<All> kMembers[] = {
         member<&All::viewer>("--viewer", "folder of the page",
                              {.value = "DIR",
-                              .otherwise = "share/svt/viewer beside the program's folder",
+                              .otherwise = "share/svt/viewer next to the program's folder",
                               .group = "Page",
                               .file = FileUse::InputFolder}),
         verboseOption<&All::verbose>("Page"),
@@ -155,7 +155,7 @@ Result<serve::PagePreview> pagePreview(std::span<const serve::SiteModel> models,
     constexpr std::int32_t kWidth = 1200, kHeight = 630;
     serve::PagePreview preview;
     for (const serve::SiteModel& model : models) preview.title += (preview.title.empty() ? "" : ", ") + model.title;
-    preview.description = "A building model to look into, in three dimensions";
+    preview.description = "An interactive building model in three dimensions";
     if (!address.empty() && address.back() != '/') address += '/';
     preview.address = std::move(address);
     preview.size = {kWidth, kHeight, 0};

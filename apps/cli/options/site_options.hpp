@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Shared by serve and publish: the page, its models, and server-side pictures for browsers that cannot draw.
+/// Common parts of serve, view and publish: the page, its models, and server-side pictures for browsers that cannot
+/// draw.
 
 #include <apps/cli/output/messages.hpp>
 
@@ -17,7 +18,7 @@ namespace svt::cli {
 
 /// Options of the commands that create a site.
 struct SiteArguments {
-    std::filesystem::path viewer;  ///< folder of the page; empty: next to the program
+    std::filesystem::path viewer;  ///< folder of the page; empty: see findViewerFolder()
     pipeline::BuildOptions build;
     bool verbose = false;
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Where the files of the page are.
+/// The folder with the files of the page.
 
 #include <svt/core/result.hpp>
 
@@ -8,7 +8,7 @@
 
 namespace svt::cli {
 
-/// The folder of the page: `given`, or share/svt/viewer beside the program's folder where that is empty.
+/// The folder of the page: `given`, or share/svt/viewer next to the program's folder if `given` is empty.
 /// \return the folder, or CannotOpen if it has no page
 [[nodiscard]] Result<std::filesystem::path> findViewerFolder(const std::filesystem::path& given);
 

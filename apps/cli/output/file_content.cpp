@@ -105,7 +105,7 @@ FileContent contentOf(std::string_view head) {
     if (head.starts_with("\x5c\1\0\0"sv) || head.starts_with("\x1c\2\0\0n+2"sv)) return FileContent::Nifti;
     std::string plain;
     if (head.starts_with("\xff\xfe"sv) || head.starts_with("\xfe\xff"sv)) {
-        // UTF-16: what is looked for is ASCII.
+        // UTF-16: all searched texts are ASCII.
         std::copy_if(head.begin() + 2, head.end(), std::back_inserter(plain), [](char c) { return c != '\0'; });
         head = plain;
     } else if (head.starts_with("\xef\xbb\xbf"sv)) {

@@ -9,22 +9,22 @@
 
 namespace svt::cli {
 
-/// \param head  the first bytes of the file, a few KiB, or all of it
+/// The kind of a file. \param head  its first bytes, a few KiB, or all of it
 [[nodiscard]] FileContent contentOf(std::string_view head);
 
-/// The same of a regular file; Unknown if it cannot be read. Cost: 4 KiB are read.
+/// The same for a regular file; Unknown if it cannot be read. Cost: reads 4 KiB.
 [[nodiscard]] FileContent contentOf(const std::filesystem::path& file);
 
 /// A format of output.
 struct FileFormat {
-    std::string_view name;     ///< as Option::formats has it
+    std::string_view name;     ///< as in Option::formats
     std::string_view endings;  ///< ".gml|.xml"
-    FileContent content;       ///< kind of files that it may replace
-    std::string_view holds;    ///< content, for people
+    FileContent content;       ///< kind of existing files that it may replace
+    std::string_view holds;    ///< description of the content
     std::string_view readers;  ///< programs that read it; may be empty
 };
 
-/// The format of that name; null: none has it.
+/// The format with this name, or null.
 [[nodiscard]] const FileFormat* formatOfName(std::string_view name);
 
 }  // namespace svt::cli

@@ -24,7 +24,7 @@ struct Encoding {
     std::vector<std::string> arguments;
 };
 
-// Bytes that depend on pictures alone: no dates, no names of versions, one thread where more may give other bytes.
+// The bytes depend only on the pictures: no dates, no names of versions, and one thread if more may change the bytes.
 const Encoding* encodingOf(const fs::path& file) {
     const std::string even = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p";
     static const std::vector<Encoding> kEncodings{
@@ -54,8 +54,8 @@ Result<Film> Film::begin(const fs::path& output, int rate) {
     if (encoder.empty())
         return Error(
             Code::CannotWrite,
-            fmt::format("{}: films are encoded by ffmpeg, which is not installed (Debian: apt install ffmpeg); "
-                        "pictures one by one need no encoder: -o P.png --frames N",
+            fmt::format("{}: films need ffmpeg, which is not installed; install it (Debian: apt install ffmpeg), or "
+                        "write separate pictures: -o P.png --frames N",
                         output.string()));
     Film film(output, std::move(encoder), rate);
     if (film.folder_.path().empty())

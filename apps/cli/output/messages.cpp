@@ -73,7 +73,7 @@ void printDiagnostics(const Diagnostics& diagnostics, bool isVerbose) {
     TerminalProgress::hide();
     for (const Diagnostic& item : diagnostics.items()) {
         if (isQuiet() && item.severity != Severity::Error) continue;
-        // How much of a model was read is told in any case.
+        // The summary of read products is always printed.
         const bool isSummary = item.code == Code::ProductsRead;
         if (!isVerbose && !isSummary && (item.severity == Severity::Note || shown == kShown)) continue;
         if (!isSummary) ++shown;

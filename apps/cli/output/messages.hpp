@@ -20,30 +20,30 @@ enum Exit {
     kNoGraphics = 6,
     kLimit = 8,
     kCancelled = 9,
-    kNoReader = 141  ///< that of SIGPIPE, also where the signal is ignored or does not exist
+    kNoReader = 141  ///< that of SIGPIPE, even if the signal is ignored or does not exist
 };
 
 /// Exit code for an error code.
 [[nodiscard]] int exitCodeOf(Code code) noexcept;
 
-/// From now on only errors are printed to stderr, and no summary to stdout (--quiet).
+/// Implements --quiet: from now on, stderr gets only errors, and stdout gets no summary.
 void beQuiet() noexcept;
 [[nodiscard]] bool isQuiet() noexcept;
 
 /// Prints "svt: error ..." to stderr and returns the exit code.
 int fail(const Error& error);
 
-/// Prints a text to stderr, unchanged. Never throws: the command goes on where stderr is closed or full.
+/// Prints a text to stderr, unchanged. Never throws: the command continues if stderr is closed or full.
 void printMessage(std::string_view text) noexcept;
 
 /// Prints "svt: ..." to stderr, unless quiet.
 void note(std::string_view text);
 
-/// Says on stderr that the memory is used up: how much there is, who grants it, and what to do. Returns kLimit.
+/// Reports exhausted memory on stderr: its amount, the source of the limit, and remedies. Returns kLimit.
 int failOfMemory();
 
-/// Prints findings to stderr: all with --verbose, else up to a dozen errors and warnings and the number of the rest;
-/// where quiet, errors alone.
+/// Prints findings to stderr: with --verbose all, else up to a dozen errors and warnings and the number of the rest;
+/// with --quiet only errors.
 void printDiagnostics(const Diagnostics& diagnostics, bool isVerbose);
 
 }  // namespace svt::cli

@@ -1,4 +1,4 @@
-// Films where no program can be started.
+// Films on platforms that cannot start other programs.
 #include <apps/cli/output/film.hpp>
 
 namespace svt::cli {
@@ -12,8 +12,8 @@ Film::Film(std::filesystem::path, std::filesystem::path, int rate) : rate_(rate)
 
 Result<Film> Film::begin(const std::filesystem::path& output, int) {
     return Error(Code::CannotWrite, output.string() +
-                                        ": films are made by the native program; here, write pictures one by "
-                                        "one: -o P.png --frames N");
+                                        ": films need the native program; here, write separate pictures: -o "
+                                        "P.png --frames N");
 }
 Result<void> Film::add(const image::Image<image::Rgba8>&) { return {}; }
 Result<void> Film::finish(const Progress*) { return {}; }

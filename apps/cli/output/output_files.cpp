@@ -30,8 +30,8 @@ struct OutputFile {
     fs::path path;
     std::string_view option;
     std::vector<const FileFormat*> formats;  // empty: a folder
-    bool isFirst = true;                     // of files with numbers
-    bool mayLackEnding = false;              // it is the first of its formats then
+    bool isFirst = true;                     // of numbered files
+    bool mayLackEnding = false;              // without an ending, the first format applies
 };
 
 Error errorAt(const fs::path& path, Code code, std::string message) {
@@ -58,7 +58,7 @@ std::vector<Input> inputsOf(std::span<const GivenOption> given) {
     return inputs;
 }
 
-// The formats that an option may write; --format leaves one of them.
+// The formats that an option may write; with --format only that one.
 std::vector<const FileFormat*> formatsOf(const Option& option, std::string_view chosen) {
     std::vector<const FileFormat*> formats;
     while (!chosen.empty() && chosen.back() >= '0' && chosen.back() <= '9') chosen.remove_suffix(1);
@@ -85,7 +85,7 @@ std::vector<OutputFile> outputsOf(std::span<const GivenOption> given) {
     return outputs;
 }
 
-// A pipe gives its bytes once, a device may give them without end; opening a pipe may wait forever.
+// A pipe gives its bytes only once, a device may never end, and opening a pipe may wait forever.
 std::string_view nameOfStream(fs::file_type type) noexcept {
     switch (type) {
         case fs::file_type::fifo: return "a pipe";
@@ -96,7 +96,7 @@ std::string_view nameOfStream(fs::file_type type) noexcept {
     }
 }
 
-// Inputs are files, and folders where an option takes them. What is missing is reported by who reads it.
+// Inputs are files, or folders if an option takes them. The readers report missing files.
 Result<void> checkInputs(std::span<const GivenOption> given) {
     for (const auto& [option, values] : given) {
         const FileUse use = option->file;
@@ -128,7 +128,7 @@ bool isRegular(const fs::path& path) {
     return fs::is_regular_file(path, ignored);
 }
 
-// A device, a pipe or a socket, which is written as it is.
+// Whether a path is a device, a pipe or a socket, which is written directly.
 bool isStream(const fs::path& path) {
     std::error_code ignored;
     return !nameOfStream(fs::status(path, ignored).type()).empty();
@@ -160,7 +160,7 @@ Result<void> checkEnding(const OutputFile& output, bool mayChooseFormat) {
                                                 fmt::join(endings, ", "), mayChooseFormat ? ", or --format" : ""));
 }
 
-// No output is an input, and no two outputs are one file.
+// An output must not be an input, nor the file of another output.
 Result<void> checkMeetings(const std::vector<Input>& inputs, const std::vector<OutputFile>& outputs) {
     std::map<std::string, const Input*> read;
     std::error_code ignored;
@@ -177,7 +177,7 @@ Result<void> checkMeetings(const std::vector<Input>& inputs, const std::vector<O
                                        output.option, found->second->use));
         if (const auto [other, isNew] = written.emplace(std::move(identity), &output); !isNew)
             return errorAt(output.path, Code::WouldDestroy,
-                           fmt::format("'{}' and '{}' ({}) are one file; give two names", output.option,
+                           fmt::format("'{}' and '{}' ({}) are the same file; give two names", output.option,
                                        other->second->option, other->second->path.string()));
         if (!output.formats.empty()) continue;
         for (const Input& input : inputs)
@@ -205,11 +205,11 @@ Result<void> checkContent(const OutputFile& output) {
         wanted = nameOf(format->content);
     }
     return errorAt(output.path, Code::WouldDestroy,
-                   fmt::format("'{}' writes {}, and what is there is {}; give another name, or remove the file",
+                   fmt::format("'{}' writes {}, but the existing file is {}; give another name, or remove the file",
                                output.option, wanted, nameOf(content)));
 }
 
-// A folder is tried by a file in it, or in the nearest folder above that exists.
+// Tests a folder with a file in it, or in the nearest existing folder above.
 Result<void> checkFolder(const fs::path& folder) {
     std::error_code ignored;
     fs::path at = fs::absolute(folder, ignored);
@@ -220,7 +220,7 @@ Result<void> checkFolder(const fs::path& folder) {
     return checkWritable(at / "index.html");
 }
 
-// Options that say how a model becomes a volume have no meaning where there are volumes alone.
+// Options on building a volume from a model have no meaning if all inputs are volumes.
 Result<void> checkMeaning(std::span<const GivenOption> given, const std::vector<Input>& inputs) {
     const Input* volume = nullptr;
     for (const Input& input : inputs) {
@@ -232,8 +232,8 @@ Result<void> checkMeaning(std::span<const GivenOption> given, const std::vector<
     for (const GivenOption& option : given)
         if (option.option->isForModels)
             return errorAt(volume->path, Code::BadArgument,
-                           fmt::format("{} says how a model becomes a volume, and this is a volume already; leave it "
-                                       "out, or give the model",
+                           fmt::format("{} is for building a volume from a model, but this file is a volume already; "
+                                       "leave it out, or give the model",
                                        longName(*option.option)));
     return {};
 }
@@ -270,7 +270,7 @@ Result<void> checkFiles(std::span<const GivenOption> given) {
     std::error_code ignored;
     for (const OutputFile& output : outputs) {
         SVT_DO(checkContent(output));
-        // Of numbered files in one folder one is tried, and what is there already.
+        // Tests only the first of numbered files in a folder, and the existing ones.
         if (!output.isFirst && !fs::exists(output.path, ignored)) continue;
         SVT_DO(output.formats.empty() ? checkFolder(output.path) : checkWritable(output.path));
     }

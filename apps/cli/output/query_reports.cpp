@@ -20,7 +20,7 @@ bool isIn(const Labels& selected, std::uint32_t label) {
     return std::binary_search(selected.begin(), selected.end(), label);
 }
 
-// Id, class and name of a label, or nulls for background.
+// Adds id, class and name of a label, or nulls for background.
 void addNames(Row& row, const volume::LabelTable& table, std::uint32_t label) {
     if (label == volume::kNoLabel) {
         row.insert(row.end(), 3, nullptr);

@@ -35,7 +35,7 @@ struct With {
                                      const illustrate::PickRay& ray, int threads);
 [[nodiscard]] Table overlapTable(const volume::SemanticVolume& volume, const Labels& selected);
 [[nodiscard]] Table gapTable(const volume::SemanticVolume& volume, const Labels& selected);
-/// Rooms of the selected features, and the floor areas of storeys and in all, which count all rooms.
+/// Rooms of the selected features, and floor areas per storey and in total; the areas count all rooms.
 [[nodiscard]] Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& selected, int threads);
 [[nodiscard]] Result<Table> parcelTable(const volume::SemanticVolume& volume, const Labels& selected,
                                         const volume::SemanticVolume& parcels, int threads);

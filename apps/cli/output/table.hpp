@@ -13,7 +13,7 @@ using writers::Table;
 
 enum class TableForm : std::uint8_t { Text, Csv, JsonRows };
 
-/// Prints a table on stdout. \param hasHeader  of CSV: false for rows that follow others
+/// Prints a table on stdout. \param hasHeader  for CSV; false: rows that continue a table
 void print(const Table& table, TableForm form, bool hasHeader = true);
 
 }  // namespace svt::cli

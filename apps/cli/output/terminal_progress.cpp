@@ -38,7 +38,7 @@ void onInterrupt(int) {
     std::signal(SIGINT, formerHandler);  // a second Ctrl-C ends the program
 }
 
-// Unless the shell of a job in the background has it ignored.
+// Handles Ctrl-C, unless the process ignores it as a background job of a shell.
 void takeInterrupts() {
     formerHandler = std::signal(SIGINT, SIG_IGN);
     if (formerHandler != SIG_IGN) std::signal(SIGINT, onInterrupt);
@@ -52,7 +52,7 @@ std::string durationText(double seconds) {
     return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-// Calls a function every kInterval until it is destroyed. WebAssembly has no threads: there a line is drawn with reports.
+// Calls a function every kInterval until it is destroyed. WebAssembly has no threads; there, reports draw the line.
 #ifndef __EMSCRIPTEN__
 class Ticker {
 public:
@@ -74,7 +74,7 @@ private:
     std::mutex mutex_;
     std::condition_variable end_;
     bool isEnded_ = false;
-    std::thread thread_;  // last, for it uses the others
+    std::thread thread_;  // last, because it uses the others
 };
 constexpr bool hasTicker = true;
 #else
@@ -152,7 +152,7 @@ private:
     double fraction_ = 0;
     int part_ = 0, parts_ = 1;
     Clock::time_point start_ = Clock::now(), stageStart_ = start_, drawn_ = start_;
-    std::size_t width_ = 0;  // of what stands on the terminal
+    std::size_t width_ = 0;  // of the text on the terminal
     std::optional<Ticker> ticker_{std::in_place, [this] {
                                       const std::lock_guard lock(mutex_);
                                       draw();

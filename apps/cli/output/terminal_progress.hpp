@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a command is at, for a person at a terminal.
+/// The progress of a command, on a terminal.
 
 #include <svt/core/progress.hpp>
 
@@ -8,10 +8,10 @@
 
 namespace svt::cli {
 
-/// A line on stderr, if that is a terminal and the command is not quiet, from the first second on: the stage, what share
-/// of it is done, how long it has taken, and how long it will take if it goes on so. The line is drawn by a thread of its
-/// own, so that a stage that reports nothing shows its time. Ctrl-C cancels; a second one ends the program at once. One
-/// at a time.
+/// Shows a line on stderr after the first second, if stderr is a terminal and the command is not quiet. The line has
+/// the stage, its finished share, the elapsed time, and the expected remaining time. A separate thread draws the line,
+/// so that a stage without reports still shows its time. Ctrl-C cancels; a second Ctrl-C ends the program at once. Only
+/// one object may exist at a time.
 class TerminalProgress {
 public:
     TerminalProgress();
@@ -20,16 +20,16 @@ public:
     TerminalProgress& operator=(const TerminalProgress&) = delete;
     [[nodiscard]] const Progress* get() const noexcept { return &progress_; }
 
-    /// What is reported from now on is part `index` of `count` equal parts of its stage, such as a picture of several.
+    /// Following reports belong to part `index` of `count` equal parts of their stage, such as one of several pictures.
     void beginPart(int index, int count);
 
-    /// Takes the line from the terminal, so that a message can be printed; it comes back with the next report.
+    /// Removes the line from the terminal, so that a message can be printed. The line returns with the next report.
     static void hide();
 
 private:
     class Line;
     Progress progress_;
-    std::unique_ptr<Line> line_;  // null: nobody watches; after what it looks at
+    std::unique_ptr<Line> line_;  // null: nothing is shown; declared after progress_, which it refers to
 };
 
 }  // namespace svt::cli

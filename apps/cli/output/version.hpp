@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What this program was built from and for.
+/// Version and build of this program.
 
 #include <string>
 #include <string_view>
@@ -10,9 +10,9 @@ namespace svt::cli {
 /// "0.1.0".
 [[nodiscard]] std::string_view versionNumber() noexcept;
 
-/// The rest of what can be told of a build.
+/// Facts about a build, besides its version.
 struct BuildFacts {
-    std::string_view commit;   ///< "3cedf5d2a1b0", with "-dirty" where files were changed; "unknown" without Git
+    std::string_view commit;   ///< "3cedf5d2a1b0", with "-dirty" if files were changed; "unknown" without Git
     std::string compiler;      ///< "GCC 12.2.0"
     std::string_view kind;     ///< "Release"
     std::string_view openGl;   ///< "OpenGL ES 3.0 by EGL", "none"
@@ -20,10 +20,10 @@ struct BuildFacts {
 };
 [[nodiscard]] BuildFacts buildFacts();
 
-/// What `svt --version` prints: version, commit, compiler, SIMD instruction set, OpenGL.
+/// The text of `svt --version`: version, commit, compiler, SIMD instruction set, OpenGL.
 [[nodiscard]] std::string versionText();
 
-/// The version of this program as plans of cities name it.
+/// The version of this program in the form that plans of cities use.
 [[nodiscard]] std::string programOfCity();
 
 }  // namespace svt::cli

@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// The command svt: the program of apps/cli as WebAssembly, with the files of this system.
+// The command svt: the program of apps/cli as WebAssembly, with access to the files of this system.
 import { spawn } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -34,14 +34,14 @@ const command = await createSvtCommand({
   wasmBinary: readFileSync(new URL("../lib/svt_node.wasm", import.meta.url)),
   host: {
     isWindows,
-    // Not process.stderr.isTTY: to look at it makes a pipe non-blocking, and with 2>&1 stdout too.
+    // Not process.stderr.isTTY: reading it makes a pipe non-blocking, and with 2>&1 stdout too.
     isErrorTerminal: tty.isatty(2),
-    // The page is looked for beside the program: ../share/svt/viewer.
+    // The command searches the page next to the program: ../share/svt/viewer.
     program: commandPath(path.resolve(fileURLToPath(import.meta.url)), isWindows),
     environment: commandEnvironment(process.env, os.tmpdir(), isWindows),
     path: (/** @type {string} */ given) => hostPath(given, process.cwd(), isWindows),
     writeAll,
-    // As the signal SIGPIPE ends a program: without a message, for nobody is there to read on.
+    // Ends without a message, like the signal SIGPIPE, because the reader of the output is gone.
     endWithoutReader: () => process.exit(141),
     serve: (/** @type {Parameters<typeof serve>[0]} */ orders) => {
       serving = serve(orders, openBrowser);

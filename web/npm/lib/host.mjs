@@ -1,27 +1,27 @@
-// What the WebAssembly command asks of Node.js: paths of this system, the terminal, pipes, the server.
+// Functions of Node.js for the WebAssembly command: paths of this system, the environment, and writing to pipes.
 import path from "node:path";
 
 /**
- * A path as the command sees it, as a path for Node.js.
+ * Converts a path of the command to a path for Node.js.
  *
- * The command knows only '/'. On Windows a path may begin with a drive ("C:/models/a.gml"), which the command takes for
- * a folder and may therefore put behind another one ("scenes/C:/models/a.gml"): what follows the last drive counts, for no
- * name contains a colon there. "//server/share/a.gml" is a network path.
+ * The command knows only '/'. On Windows a path may begin with a drive ("C:/models/a.gml"). The command treats a drive
+ * as a folder, and may append it to another folder ("scenes/C:/models/a.gml"). Therefore the part from the last drive
+ * on is used, because names on Windows cannot contain a colon. "//server/share/a.gml" is a network path.
  * @param {string} given
- * @param {string} folder  the current folder, as Node.js names it
+ * @param {string} folder  the current folder, in the notation of Node.js
  * @param {boolean} isWindows
  * @returns {string} absolute, "." and ".." resolved
  */
 export function hostPath(given, folder, isWindows) {
   if (!isWindows) return path.posix.resolve(folder, given);
   const drive = given.match(/.*(?:^|\/)([A-Za-z]:)(?=\/|$)(.*)/s);
-  // "C:" alone would be that drive's current folder.
+  // Without a slash, "C:" would be the drive's current folder.
   const whole = drive ? `${drive[1]}${drive[2] || "/"}` : given;
   return path.win32.resolve(folder, whole);
 }
 
 /**
- * A path of Node.js as the command wants it: with '/'.
+ * Converts a path of Node.js to a path of the command, with '/'.
  * @param {string} given
  * @param {boolean} isWindows
  */
@@ -30,7 +30,7 @@ export function commandPath(given, isWindows) {
 }
 
 /**
- * The environment for the command: its temporary folder is where this system has one.
+ * The environment of the command, with the temporary folder of this system.
  * @param {Record<string, string | undefined>} environment
  * @param {string} temporaryFolder  os.tmpdir()
  * @param {boolean} isWindows
@@ -41,9 +41,9 @@ export function commandEnvironment(environment, temporaryFolder, isWindows) {
 }
 
 /**
- * Writes all, however little is taken at once: a pipe takes at most what its buffer has room for, and where it is
- * non-blocking, none of it for a while (EAGAIN).
- * @param {(done: number) => number} writeSome  writes what comes after the first `done` bytes, returns how many it wrote
+ * Writes all bytes, in as many parts as needed: a pipe takes only as many bytes as its buffer has room for, and a
+ * non-blocking pipe may take none for a while (EAGAIN).
+ * @param {(done: number) => number} writeSome  writes bytes after the first `done` bytes, returns their number
  * @param {number} length  of all, in bytes
  * @param {(error: unknown) => boolean} isBusy  whether an error means to try again
  * @returns {number} length
@@ -55,7 +55,7 @@ export function writeAll(writeSome, length, isBusy) {
       done += writeSome(done);
     } catch (error) {
       if (!isBusy(error)) throw error;
-      // The command runs in one go, so nothing else could be done in the meantime.
+      // The command runs synchronously, so there is no other work to do meanwhile.
       Atomics.wait(new Int32Array(new SharedArrayBuffer(4)), 0, 0, 5 /* ms */);
     }
   }

@@ -1,9 +1,9 @@
-// Every path that the command opens goes through the host, which knows drives and backslashes (web/npm/lib/host.mjs).
+// The host converts every path that the command opens. It knows drives and backslashes (web/npm/lib/host.mjs).
 SYSCALLS.calculateAt = (_folder, path, allowEmpty) => {
   if (path === '' && !allowEmpty) throw new FS.ErrnoError(44 /* ENOENT */);
   return path === '' ? path : Module['host']['path'](path);
 };
-// The libc of the module takes a piece that was written in part for written in full.
+// The libc of the module treats a partial write as complete.
 const writeSome = FS.write;
 FS.write = (stream, buffer, offset, length, position, canOwn) => {
   const at = (done) => (position === undefined ? undefined : position + done);

@@ -1,4 +1,4 @@
-// Serves a folder that the command has written: the page with its models. Nothing else can be asked for.
+// Serves a folder that the command has written: the page with its models. Other files are not accessible.
 import { createHash } from "node:crypto";
 import { readdirSync, readFileSync, rmSync } from "node:fs";
 import http from "node:http";
@@ -18,7 +18,7 @@ const TYPES = {
 };
 
 /**
- * All files of a folder, read once: a request is looked up by its path and never joined to a folder.
+ * Reads all files of a folder once. Requests are looked up by path, which is never joined to a folder.
  * @param {string} folder
  * @returns {Map<string, {bytes: Buffer, type: string, tag: string}>} by path: "/index.html" also as "/"
  */
@@ -41,7 +41,7 @@ export function readSite(folder) {
 }
 
 /**
- * Whether a Host header is safe from pages that name this machine as theirs: an address, localhost, or a known name.
+ * Whether a Host header protects against DNS rebinding: an address, localhost, or a known name.
  * @param {string | undefined} header
  * @param {readonly string[]} names  in lower case
  */
@@ -54,8 +54,8 @@ export function isKnownHost(header, names) {
  * One range of bytes, "bytes=first-last", of content of `size` bytes.
  * @param {string | undefined} header
  * @param {number} size
- * @returns {{first: number, last: number} | "whole" | "none"} "whole": no range, several, or not one; "none": begins
- *   after the end
+ * @returns {{first: number, last: number} | "whole" | "none"} "whole": no range, several ranges, or an invalid one;
+ *   "none": begins after the end
  */
 export function byteRange(header, size) {
   const match = /^bytes=(\d*)-(\d*)$/.exec(header ?? "");
@@ -111,9 +111,9 @@ export function handler(site, hostNames) {
 }
 
 /**
- * Serves what the command has written, until Ctrl-C; then the folder is removed.
+ * Serves the folder that the command has written until Ctrl-C, then removes the folder.
  * @param {{folder: string, host: string, port: number, mayTakeOtherPort: boolean, hostNames: string[],
- *   opensBrowser: boolean}} orders  of apps/cli/commands/command_serve_node.cpp
+ *   opensBrowser: boolean}} orders  from apps/cli/commands/serve_node.cpp
  * @param {(address: string) => void} openBrowser
  * @returns {Promise<number>} the exit code
  */
@@ -133,12 +133,12 @@ export function serve(orders, openBrowser) {
         server.listen(port, orders.host);
         return;
       }
-      process.stderr.write(`svt: error E901 BadArgument: the server cannot listen at ${orders.host}:${port}: ${error.message}\n`);
+      process.stderr.write(`svt: error E904 BadArgument: the server cannot listen at ${orders.host}:${port}: ${error.message}\n`);
       end(1);
     });
     server.on("listening", () => {
       port = /** @type {net.AddressInfo} */ (server.address()).port;
-      if (orders.port !== 0 && port !== orders.port) process.stderr.write(`svt: port ${orders.port} is taken; this is port ${port}\n`);
+      if (orders.port !== 0 && port !== orders.port) process.stderr.write(`svt: port ${orders.port} is in use; this is port ${port}\n`);
       const name = net.isIPv6(orders.host) ? `[${orders.host}]` : orders.host === "0.0.0.0" ? "127.0.0.1" : orders.host;
       const address = `http://${name}:${port}/`;
       process.stdout.write(`${address}\n`);

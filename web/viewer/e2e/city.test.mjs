@@ -144,7 +144,7 @@ describe("A city on the page", () => {
     const properties = await inPage("s.selection.properties");
     assert.ok(properties.surface > 50 && properties.box.high[2] > properties.box.low[2], JSON.stringify(properties));
     await page.fill("#search", "nobody");
-    await page.getByText("looks for this id in all of the city").waitFor();
+    await page.getByText("to search for this id in the whole city").waitFor();
     await page.press("#search", "Enter");
     await page.getByText("the city has no building with the id 'nobody'").first().waitFor();
   });
@@ -176,7 +176,7 @@ describe("A city on the page", () => {
   it("names a server without ranges, and an index that is damaged", async () => {
     const whole = started(await serveCity((_path, _first, _last, _part, all) => ({ status: 200, body: all })));
     await open(whole.url);
-    await page.getByText("the server sends whole files where a part is asked for").first().waitFor();
+    await page.getByText("the server sends whole files instead of parts").first().waitFor();
     const damaged = started(
       await serveCity((path, _first, _last, part) =>
         path.endsWith("index.bin") ? { body: Buffer.concat([part.subarray(0, 50), Buffer.from([part[50] ^ 1]), part.subarray(51)]) } : null,

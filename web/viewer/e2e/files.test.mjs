@@ -17,7 +17,7 @@ describe("files", () => {
     for (const { name, bytes, expected } of [
       { name: "broken.svt", bytes: readFileSync(at("house.svt")).subarray(0, 5000), expected: /E4\d\d/ },
       { name: "noise.gml", bytes: Buffer.from("this is no XML"), expected: /E1\d\d/ },
-      { name: "picture.png", bytes: Buffer.from("x"), expected: /no volume and no building model.*\.ifc/ },
+      { name: "picture.png", bytes: Buffer.from("x"), expected: /not a volume or building model.*\.ifc/ },
     ]) {
       await drop(name, bytes);
       await visit.page.locator("#message").waitFor();
@@ -98,7 +98,7 @@ describe("files", () => {
     await inPage("s.view.set({ hide: ['class=BuildingRoom'] })");
     await tool("share");
     await visit.page.click("#copy-link");
-    await visit.page.locator("#message").getByText("the file itself is not part of it").waitFor();
+    await visit.page.locator("#message").getByText("The link does not contain").waitFor();
     const link = visit.page.url();
     assert.match(link, /[?&]file=own\.svt/);
     // Not kept: the link says what it needs, and shows the view once it has that.

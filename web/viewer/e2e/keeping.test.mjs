@@ -120,10 +120,10 @@ describe("keeping", () => {
     await visit.page.getByRole("button", { name: "Remove On paper" }).click();
     await visit.page.getByRole("button", { name: "Remove View 1" }).click();
     await visit.page.locator("#views-file").setInputFiles({ name: "views.json", mimeType: "application/json", buffer: bytes });
-    await visit.page.locator("#message").getByText("2 views added").waitFor();
+    await visit.page.locator("#message").getByText("2 bookmarks added").waitFor();
     assert.deepEqual(await names(), ["On paper", "View 1"]);
     await visit.page.locator("#views-file").setInputFiles({ name: "other.json", mimeType: "application/json", buffer: Buffer.from("{}") });
-    await visit.page.locator("#message").getByText("other.json contains no kept views.").waitFor();
+    await visit.page.locator("#message").getByText("other.json contains no bookmarks.").waitFor();
     await visit.page.reload();
     await firstImage();
     await tool("share");
@@ -175,7 +175,7 @@ describe("keeping", () => {
     const scene = JSON.parse(text);
     await visit.page.fill("#scene-json", "{");
     await visit.page.click("#apply-scene");
-    await visit.page.getByText("This is no JSON").waitFor();
+    await visit.page.getByText("This is not JSON").waitFor();
     await visit.page.fill("#scene-json", JSON.stringify({ ...scene, passes: [{ cut: 4 }] }));
     await visit.page.click("#apply-scene");
     await visit.page.getByText(/passes\/0\/cut/).waitFor();

@@ -71,7 +71,7 @@ describe("large models", () => {
     await visit.until("s.volume.file === 'district.gml' && !s.model.refining.isCoarse && s.picture.report");
     assert.ok((await inPage("s.volume.info.spacing[0]")) > usual, "coarser than without");
     await visit.page
-      .getByText(/Voxels of .*since by .* MB/)
+      .getByText(/Voxels of .*because at .* MB/)
       .first()
       .waitFor();
   });

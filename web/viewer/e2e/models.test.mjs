@@ -56,7 +56,7 @@ describe("planes in faces", () => {
     const told = spawnSync(command, ["render", at("house.svt"), "-o", at("p.png"), "--size", "320x180", "--section", plane.text], {
       encoding: "utf8",
     });
-    assert.match(told.stderr, /lies in faces of the model; it is moved by [\d.]+ mm to the side that is kept/);
+    assert.match(told.stderr, /lies in faces of the model; it is moved by [\d.]+ mm to the kept side/);
     const beside = spawnSync(
       command,
       ["render", at("house.svt"), "-o", at("q.png"), "--size", "320x180", "--section", `z>${(plane.at + 0.021).toFixed(4)}`],
@@ -139,7 +139,7 @@ describe("tables and several models", () => {
     const rooms = await inPage("s.volume.engine.select('class=BuildingRoom')");
     const table = `feature,owner\n${rooms.map((id, n) => `${id},${n % 2 ? "Ada" : "Bob"}`).join("\n")}\n`;
     await visit.choose({ name: "parcels.csv", bytes: Buffer.from(table) });
-    await visit.message("Owners are those of parcels.csv");
+    await visit.message("The owners are from parcels.csv");
     assert.equal((await visit.state()).colorBy, "owner");
     assert.deepEqual(
       (await inPage("s.volume.engine.select('owner=Ada and class=BuildingRoom')")).sort(),
@@ -154,7 +154,7 @@ describe("tables and several models", () => {
     );
     // Another table takes its place; a bad one says where.
     await visit.choose({ name: "other.csv", bytes: Buffer.from(`feature,owner\n${rooms[0]},Cleo\n`) });
-    await visit.message("Owners are those of other.csv");
+    await visit.message("The owners are from other.csv");
     assert.deepEqual(await inPage("s.volume.engine.select('owner=Ada').catch(() => [])"), []);
     await visit.settled();
     await visit.choose({ name: "bad.csv", bytes: Buffer.from("feature,owner\nno such thing,Ada\n") });

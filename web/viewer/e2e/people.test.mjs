@@ -114,7 +114,7 @@ describe("BCF 3.0", () => {
         .first()
         .click();
     await visit.page.locator("#views-file").setInputFiles({ name: "views.bcf", mimeType: "application/octet-stream", buffer: bytes });
-    await visit.message("2 views added");
+    await visit.message("2 bookmarks added");
     const back = await inPage(
       "document.querySelector('svt-app').shadowRoot.querySelector('svt-share-tool').shadowRoot.querySelector('svt-bookmark-list').views",
     );
@@ -178,12 +178,12 @@ describe("BCF 3.0", () => {
       at("foreign"),
     ]);
     await visit.page.locator("#views-file").setInputFiles(at("foreign.bcfzip"));
-    await visit.message("1 components of it are not in this model");
+    await visit.message("1 components of the file are not in this model");
     await visit.page.locator("svt-bookmark-list button.go[aria-label='From elsewhere']").waitFor();
     await visit.page
       .locator("#views-file")
       .setInputFiles({ name: "noise.bcf", mimeType: "application/octet-stream", buffer: Buffer.from("noise") });
-    await visit.message("noise.bcf is no BCF file that can be read");
+    await visit.message("noise.bcf is not a readable BCF file");
   });
 });
 
@@ -191,7 +191,7 @@ describe("links that cannot be made good", () => {
   it("say so", async () => {
     await visit.tool("share");
     await visit.page.click("#copy-link");
-    await visit.message("The address is one of this computer");
+    await visit.message("The address works only on this computer");
     await visit.page.goto("about:blank");
     await visit.page.goto(`${server.url}?model=house#view=damaged`);
     await visit.firstImage();

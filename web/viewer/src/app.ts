@@ -65,7 +65,7 @@ export class App extends Part {
   declare isDropping: boolean;
   /** The tool that the Tab key reaches. */
   declare dockAt: number;
-  /** Handlers for files, and for a model of the list. */
+  /** Handlers for files, and for a listed model. */
   onFiles: (files: File[]) => void = () => {};
   onModel: (name: string) => void = () => {};
   private seenSelection: unknown = null;
@@ -244,7 +244,7 @@ export class App extends Part {
     </div>`;
   }
 
-  /** The first picture of a large model, and what becomes of it. */
+  /** The state of a large model: its coarse first picture, and its refinement. */
   private coarse() {
     const { refining } = this.session.model;
     const { progress } = refining;
@@ -258,14 +258,14 @@ export class App extends Part {
 
   private status() {
     const { report } = this.session.picture;
-    // The legend of colours stands in the same corner.
+    // The legend of colours is in the same corner.
     if (!report) return nothing;
     if (this.session.view.now.colorBy) return this.scale();
     const { width, height, milliseconds, engine } = report;
     return html`<div class="status">${t(engine === "cpu" ? "cpuKind" : "glKind")}<br />${t("frame", { width, height, ms: number(milliseconds, 0) })}</div>`;
   }
 
-  /** The legend is drawn in the picture: the same as text. */
+  /** The legend of the picture, as text. */
   private scale() {
     const { scale } = this.session.picture;
     if (!scale) return nothing;
@@ -297,7 +297,7 @@ export class App extends Part {
     )}</div>`;
   }
 
-  /** Arrow keys move along the tools, which are one stop of the Tab key. */
+  /** Arrow keys move along the tools, which are a single stop of the Tab key. */
   private readonly dockKey = (event: KeyboardEvent): void => {
     const last = kTools.length - 1;
     const next = { ArrowRight: this.dockAt + 1, ArrowLeft: this.dockAt - 1, Home: 0, End: last }[event.key];
@@ -334,7 +334,7 @@ export class App extends Part {
     }
   }
 
-  /** Closes a tool, and ends what it does by itself: a lens that follows the mouse. */
+  /** Closes a tool, and ends its automatic actions: a lens that follows the mouse. */
   private endTool(tool: Tool): void {
     const { state } = this.session.view;
     this.useTool(tool);

@@ -14,7 +14,7 @@ export const appStyles = css`
   header button.bare { min-width: 36px; min-height: 36px; }
   main { position: relative; min-height: 0; min-width: 0; overflow: hidden; }
   wa-split-panel { position: absolute; inset: 0; --divider-width: 1px; --divider-hit-area: 12px; --min: 200px; --max: 50%; --wa-color-surface-border: var(--line); }
-  /* Until it comes, what it will say: half a pixel of the divider is the side's. */
+  /* The future layout, until the component loads: half a pixel of the divider belongs to the side. */
   wa-split-panel:not(:defined) { display: grid; grid-template: minmax(0, 1fr) / 309.5px minmax(0, 1fr); column-gap: 1px; }
   wa-split-panel[position-in-pixels="260"]:not(:defined) { grid-template-columns: 259.5px minmax(0, 1fr); }
   wa-split-panel[position-in-pixels="420"]:not(:defined) { grid-template-columns: 419.5px minmax(0, 1fr); }

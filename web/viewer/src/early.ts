@@ -1,4 +1,4 @@
-/** What a visit waits for, begun before anything else of the page is made ready: the library in its worker, and the list of models. */
+/** Starts the slowest parts of a visit before all other parts of the page: the library in its worker, and the list of models. */
 
 import { createEngine } from "./engine/client";
 import type { EngineKind } from "./engine";
@@ -11,7 +11,7 @@ export const creating = createEngine(canvas, wantedEngine());
 creating.catch(() => undefined);
 export const listing = readModels(new URLSearchParams(location.search).get("model"));
 
-/** `?engine=cpu` or `webgl2` selects one renderer; without it the faster one is determined. */
+/** `?engine=cpu` or `webgl2` selects one renderer; by default the page determines the faster one. */
 function wantedEngine(): EngineKind | null {
   const wanted = new URLSearchParams(location.search).get("engine");
   return wanted === "cpu" || wanted === "webgl2" ? wanted : null;

@@ -14,7 +14,7 @@ export type SceneCamera = NonNullable<Scene["camera"]>;
 export type CameraPreset = ChoiceOf<"/camera/preset">;
 export type ScenePass = NonNullable<Scene["passes"]>[number];
 export type ShellLevel = ChoiceOf<"/passes/*/shell">;
-/** How edges behind something opaque are drawn. */
+/** The drawing of edges behind something opaque. */
 export type HiddenLines = ChoiceOf<"/passes/*/lines/*/hidden">;
 export type SceneStyle = NonNullable<ScenePass["styles"]>[number];
 
@@ -59,16 +59,16 @@ export interface VolumeInfo {
   size: Point;
   /** The grid's axes in world axes; absent if they coincide. Sections along x, y and z follow the grid. */
   axes?: [Point, Point, Point];
-  /** Of the model; where it names none, levels found from rooms and slabs, with an empty id. */
+  /** Storeys of the model; without them, levels derived from rooms and slabs, with an empty id. */
   storeys: { id: string; name: string; floor: number; top: number }[];
-  /** Why a model was built with this spacing; empty for a `.svt`. */
+  /** The reason for the spacing of a model; empty for a `.svt`. */
   spacingReason: string;
-  /** Number of other volumes that are drawn with it. */
+  /** Number of other volumes that are drawn together with it. */
   details: number;
-  /** Names of attributes, those of most features first. */
+  /** Names of attributes, the most frequent ones first. */
   attributes: string[];
   features: Feature[];
-  /** Of a city, all of them, seen or not. */
+  /** Number of all buildings of a city, visible or not. */
   buildings?: number;
   /** Whether wireframes and meshes can be drawn. */
   hasEdges: boolean;
@@ -83,7 +83,7 @@ export interface FeatureProperties {
   class: string;
   name: string;
   attributes: Record<string, string>;
-  /** Those of the attributes that are measured or counted with fractions. */
+  /** Attributes that are measured, or counted with fractions. */
   numbers: Record<string, { value: number; unit: string }>;
   /** From voxels, m3; the model's own volume if its solid is closed. */
   voxelVolume: number;
@@ -100,9 +100,9 @@ export interface Pick {
   id: string;
   class: string;
   name: string;
-  /** Where the ray hits it. */
+  /** The point where the ray hits it. */
   point: Point;
-  /** The corner, or else the point of an edge of the model, within the reach that was asked for. */
+  /** The corner, or else the point of an edge of the model, within the requested reach. */
   snapped?: { point: Point; to: "corner" | "edge" };
 }
 
@@ -117,7 +117,7 @@ export interface Stretch {
 
 export type DrawingFormat = "svg" | "dxf" | "geojson" | "csv";
 
-/** What a drawing has beside the cut: what stands behind it, what is cut away, chains of dimensions (in plans). */
+/** Parts of a drawing beside the cut: edges behind it, parts that are cut away, dimension chains (in plans). */
 export interface DrawingParts {
   beyond: boolean;
   above: boolean;
@@ -148,37 +148,37 @@ export interface FileBytes {
 export interface OpenOptions {
   /** Models: coarse voxels without edges, for a first picture. */
   draft?: boolean;
-  /** Models: bytes that a volume may take whose spacing nobody asked for. */
+  /** Models: size limit of a volume without a given spacing, bytes. */
   memory?: number;
 }
 
-/** What is seen of a city, as tiles of several levels of detail. */
+/** The visible part of a city, as tiles of several levels of detail. */
 export interface CityLook {
-  /** null: what is seen already will do. */
+  /** null: the visible tiles are sufficient. */
   info: VolumeInfo | null;
-  /** Names the tiles that were chosen. */
+  /** Identifies the chosen tiles. */
   key: string;
   tiles: number;
-  /** Of the tiles' members. */
+  /** Size of the tiles' members. */
   bytes: number;
-  /** Voxels are at most so many pixels wide. */
+  /** Maximum width of voxels in pixels. */
   pixels: number;
   finest: number;
   coarsest: number;
-  /** Tiles that cannot be had: why. */
+  /** The reason for each unavailable tile. */
   lacks: string[];
   /** Bytes of the library's memory. */
   heap: number;
 }
 
 export interface CityOptions {
-  /** Voxels may be so many pixels wide. */
+  /** Permitted width of voxels in pixels. */
   pixels: number;
-  /** Bytes that decoded tiles may take, about. */
+  /** Approximate limit of decoded tiles, bytes. */
   memory: number;
-  /** CityLook.key of what is seen already. */
+  /** CityLook.key of the tiles that are already visible. */
   shown: string;
-  /** Leaves out the features, which cityInfo() gives: they may be tens of thousands. */
+  /** Omits the features, because there may be tens of thousands; cityInfo() returns them. */
   isMoving?: boolean;
 }
 
@@ -189,13 +189,13 @@ export interface CityBytes {
   ): Promise<{ range: readonly [file: string, offset: number, size: number]; bytes: Uint8Array; total: number; error: string | null }[]>;
 }
 
-/** A section plane that lies in faces of the model, and is drawn so many metres beside them on the side that is kept. */
+/** A section plane that lies in faces of the model, and is drawn `by` metres beside them, on the kept side. */
 export interface MovedPlane {
   text: string;
   by: number;
 }
 
-/** What the colours of `colorBy` mean: numbers from low to high, or entries. */
+/** The meaning of the colours of `colorBy`: numbers from low to high, or entries. */
 export interface ColorScale {
   title: string;
   isRamp: boolean;
@@ -210,22 +210,22 @@ export interface ColorScale {
 const call = <Signature extends (...args: never[]) => unknown>() => undefined as unknown as Signature;
 
 /**
- * The calls that the page passes to the worker as they are, by name. Those of the library are rows of `web/wasm/module.cpp`: a new
+ * The calls that the page passes to the worker unchanged, by name. Those of the library are rows of `web/wasm/module.cpp`: a new
  * call needs a row in each of the two tables. The worker becomes the owner of a buffer among the arguments.
  */
 export const kCalls = {
-  /** The scene with effects, as `svt render --lens/--highlight/--cutaway` make it. */
+  /** The scene with effects, as in `svt render --lens/--highlight/--cutaway`. */
   compose: call<(scene: Scene, effects: Effects) => Scene>(),
   /**
    * x and y in 0..1 of the last picture.
-   * @param reach  metres within which to snap to corners and edges of the model; 0: no snapping
+   * @param reach  maximum distance, metres, to snap to corners and edges of the model; 0: no snapping
    */
   pick: call<(x: number, y: number, reach?: number) => Pick | null>(),
   /** Everything along the ray through a pixel, nearest first, hidden or not. */
   along: call<(x: number, y: number) => Stretch[]>(),
   /** Ids of the features that a query selects. */
   select: call<(query: string) => string[]>(),
-  /** Ids of the features one of whose attributes contains all the words, in its name or value. */
+  /** Ids of features with an attribute that contains all words, in its name or value. */
   findInAttributes: call<(words: string) => string[]>(),
   properties: call<(id: string) => FeatureProperties>(),
   /**
@@ -237,17 +237,17 @@ export const kCalls = {
   picture: call<(scene: Scene) => ArrayBuffer>(),
   /** The section through the volume as drawn by `svt section`. */
   drawing: call<(plane: string, format: DrawingFormat, parts?: DrawingParts) => ArrayBuffer>(),
-  /** Gives features owners, as attributes `owner`, from a table (CSV); the table before is forgotten. */
+  /** Sets the owners of features, as attributes `owner`, from a table (CSV). Replaces an earlier table. */
   owners: call<(table: ArrayBuffer, fileName: string) => null>(),
-  /** The eye of who stands near a point, inside if possible; null: nowhere. */
+  /** The eye of a person standing near a point, inside if possible; null: there is no place to stand. */
   stand: call<(near: Point) => Point | null>(),
-  /** The eye after a step that glides along what is in the way. */
+  /** The eye after a step, which glides along obstacles. */
   step: call<(eye: Point, by: Point) => Point>(),
-  /** What the colours of a scene with colorBy mean. */
+  /** The meaning of the colours of a scene with colorBy. */
   legend: call<(scene: Scene) => ColorScale>(),
   /** The planes of the scene that lie in faces of the model. */
   movedPlanes: call<(scene: Scene) => MovedPlane[]>(),
-  /** Plans, sections, elevations and tables on sheets, as SVG documents; as by `svt sheets`. */
+  /** Plans, sections, elevations and tables on sheets, as SVG documents; as in `svt sheets`. */
   sheets: call<(language: "en" | "de") => string[]>(),
   /** The volume that followCity() has opened, with its features; null: nothing is open. The worker answers without the library. */
   cityInfo: call<() => VolumeInfo | null>(),
@@ -271,22 +271,22 @@ export const kCancelled = "cancelled";
 /** Rejected promises carry an EngineError. One volume is open at a time. */
 export interface Engine extends LibraryCalls {
   readonly kind: EngineKind;
-  /** Threads that draw together; 1 where the site does not isolate the page (COOP, COEP). */
+  /** Threads that draw together; 1 if the site does not isolate the page (COOP, COEP). */
   readonly threads: number;
 
   /** Opens files from their bytes, whose ownership is transferred: several models become one; other volumes are drawn with the first file. */
   open(files: FileBytes[], onProgress: (step: string, done: number) => void, options?: OpenOptions): Promise<VolumeInfo>;
-  /** Ends an opening; its promise is rejected with kCancelled. No volume is open then. */
+  /** Ends an opening, and rejects its promise with kCancelled. Afterwards, no volume is open. */
   cancel(): void;
 
-  /** Opens files beside what is open, which can be drawn and asked meanwhile, and is replaced at the end. */
+  /** Opens files while the open volume can still be drawn and queried, and replaces that volume at the end. */
   refine(files: FileBytes[], onProgress: (step: string, done: number) => void, options?: OpenOptions): Promise<VolumeInfo>;
-  /** Ends refine(); its promise is rejected with kCancelled. What was open stays. */
+  /** Ends refine(), and rejects its promise with kCancelled. The open volume stays. */
   cancelRefining(): void;
 
   /** Opens a city with the one tile of its coarsest detail. */
   openCity(files: CityBytes, options: CityOptions): Promise<CityLook>;
-  /** Fetches the tiles that a scene's camera sees, beside what is open, which can be drawn and asked meanwhile and is replaced at the end. */
+  /** Fetches the tiles that a scene's camera sees. Meanwhile the open tiles can be drawn and queried; they are replaced at the end. */
   followCity(files: CityBytes, scene: Scene, size: [number, number], options: CityOptions): Promise<CityLook>;
   /** A camera that shows a building of the open city. Reads two ranges of ids.bin, and the building's tile. */
   findInCity(files: CityBytes, id: string, camera: SceneCamera, aspect: number): Promise<SceneCamera>;

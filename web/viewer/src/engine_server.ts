@@ -7,7 +7,7 @@ import { callsBy, type Engine, type EngineError, type Scene } from "./engine";
 
 const kNotHere: EngineError = { code: "E904", message: "only pictures come from the server" };
 
-/** null: no such server. */
+/** The engine, or null without such a server. */
 export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Engine | null> {
   // The context type used by the engine in the worker: a canvas can have only one.
   const screen = canvas.getContext("bitmaprenderer");

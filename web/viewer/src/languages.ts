@@ -1,7 +1,7 @@
 /**
- * Languages beside English and German, from files beside the page: `languages/index.json` lists them
+ * Languages besides English and German, from files next to the page: `languages/index.json` lists them
  * (`{"languages": [{"code": "fr", "name": "Français"}]}`), `languages/fr.json` has the texts
- * (`{"texts": {"addPlane": "..."}, "classes": {"Window": "fenêtre"}}`). A file that is bad changes nothing.
+ * (`{"texts": {"addPlane": "..."}, "classes": {"Window": "fenêtre"}}`). An invalid file has no effect.
  */
 
 import { Observable } from "./observable";
@@ -18,7 +18,7 @@ const kBuiltIn: ListedLanguage[] = [
   { code: "de", name: "Deutsch" },
 ];
 
-/** `fr`, or nothing where it is no language tag: it becomes part of an address. */
+/** Whether a code is a language tag, such as `fr`: it becomes part of an address. */
 function isTag(code: unknown): code is string {
   try {
     return typeof code === "string" && /^[A-Za-z]{2,8}(-[A-Za-z0-9]{2,8})*$/.test(code) && Intl.getCanonicalLocales(code).length === 1;
@@ -44,7 +44,7 @@ async function moreLanguages(): Promise<ListedLanguage[]> {
   );
 }
 
-/** The texts of one of them; null if the file is none. */
+/** The texts of a language; null if the file is invalid. */
 async function textsOf(code: string): Promise<LanguageTexts | null> {
   const { texts, classes } = ((await fetched(code)) ?? {}) as { texts?: unknown; classes?: unknown };
   if (typeof texts !== "object" || texts === null) return null;
@@ -55,7 +55,7 @@ function strings(of: object): Record<string, string> {
   return Object.fromEntries(Object.entries(of).filter((entry): entry is [string, string] => typeof entry[1] === "string"));
 }
 
-/** The first that the browser asks for and that there is; null: neither of these. */
+/** The first available language that the browser prefers, or null. */
 function wantedOf(all: ListedLanguage[]): string | null {
   for (const tag of navigator.languages ?? [navigator.language]) {
     const found =
@@ -67,7 +67,7 @@ function wantedOf(all: ListedLanguage[]): string | null {
 }
 
 export class Languages extends Observable {
-  /** English and German, and what lies beside the page. */
+  /** English and German, and the languages next to the page. */
   all: ListedLanguage[] = kBuiltIn;
 
   constructor(private readonly messages: Messages) {
@@ -91,7 +91,7 @@ export class Languages extends Observable {
     else this.messages.tell(t("noLanguage", { name: `languages/${code}.json` }));
   }
 
-  /** Looks for more languages beside the page, and speaks the one that the address or the browser asks for. */
+  /** Searches for more languages next to the page, and selects the one of the address or of the browser. */
   async find(): Promise<void> {
     this.all = [...kBuiltIn, ...(await moreLanguages())];
     const asked = new URLSearchParams(location.search).get("language") ?? wantedOf(this.all);

@@ -1,4 +1,4 @@
-/** Start: engine and model are fetched at once, while the page is built. */
+/** Start: fetches engine and model at once, while the page is built. */
 
 import { canvas, creating, listing } from "./early";
 import "./ui/theme.css";
@@ -34,7 +34,7 @@ addEventListener("hashchange", () => void follow());
 void start();
 loadComponents();
 
-/** Splitters, sliders etc. are loaded after the first picture, which they would delay. */
+/** Loads splitters, sliders and similar parts after the first picture, which they would delay. */
 function loadComponents(): void {
   const isPast = new Promise((done) => setTimeout(done, kComponentsAfter));
   const isSeen = until(() => session.picture.report !== null || session.model.status === "empty");

@@ -1,10 +1,10 @@
-/** Observable state, by signals: an effect, or the rendering of a part, runs again when a value changes that it read. */
+/** Observable state with signals: an effect, or the rendering of a part, runs again when a value that it read changes. */
 
 import { batch, computed, effect, signal, untracked, type Signal } from "@preact/signals-core";
 
 export { batch, computed, effect, signal, untracked };
 
-/** An object with fields that are all observable, so that nobody can forget one. A getter depends on the fields that it reads. */
+/** An object whose fields are all observable, so that none can be forgotten. A getter depends on the fields that it reads. */
 export abstract class Observable {
   constructor() {
     const fields = new Map<PropertyKey, Signal<unknown>>();
@@ -23,7 +23,7 @@ export abstract class Observable {
   }
 }
 
-/** The members of an object that is replaced as a whole, each observable on its own. Each object must have the members of the first. */
+/** The members of an object that is replaced as a whole, each observable separately. Each object must have the members of the first. */
 export function membersOf<T extends object>(whole: () => T): Readonly<T> {
   const members = {} as T;
   for (const key of Object.keys(untracked(whole)) as (keyof T)[]) {

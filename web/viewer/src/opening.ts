@@ -13,12 +13,12 @@ export interface ModelList {
   chosen: ListedModel | null;
   /** Pending download of the chosen model. */
   bytes: Promise<Response> | null;
-  /** Those of a chosen city, of which the first are coming. */
+  /** The files of a chosen city, of which the first are being fetched. */
   files: CityFiles | null;
   note: string | null;
 }
 
-/** The models listed in `models.json` next to the page; the download of the chosen one starts at once. */
+/** The models in `models.json` next to the page; starts the download of the chosen one at once. */
 export async function readModels(wanted: string | null): Promise<ModelList> {
   const models = await listed();
   const chosen = models.find((model) => model.name === wanted) ?? models[0] ?? null;
@@ -46,7 +46,7 @@ function filesOf(model: ListedModel): CityFiles {
   return new CityFiles(new URL(model.file.replace(/\/*$/, "/"), location.href).href);
 }
 
-/** Opens a model or a city of the list. */
+/** Opens a listed model or city. */
 export async function openModel(
   session: Session,
   name: string,
@@ -98,10 +98,10 @@ async function received(response: Response, expected: number, signal: AbortSigna
   }
 }
 
-/** What the library reads: volumes and models; each also compressed by gzip. */
+/** File types that the library reads: volumes and models; each also compressed by gzip. */
 export const kFileKinds = [".svt", ...kModelEndings];
 
-/** Opens files of the user: several models become one, a table gives owners to what is open, or is opened with them. */
+/** Opens files of the user. Several models become one. A table gives owners to the open volume, or is opened with the files. */
 export async function openFiles(session: Session, files: File[]): Promise<void> {
   const tables = files.filter(({ name }) => /\.(csv|tsv)$/i.test(name)),
     models = files.filter((file) => !tables.includes(file));
@@ -120,7 +120,7 @@ export async function openFiles(session: Session, files: File[]): Promise<void> 
   }
 }
 
-/** Opens a file that was kept in this browser; false if it is not there any more. */
+/** Opens a file that was stored in this browser; false if it is no longer there. */
 export async function openKept(session: Session, name: string, state: ViewState | null): Promise<boolean> {
   const data = await keptFile(name);
   if (!data) return false;

@@ -1,6 +1,6 @@
 /**
- * All texts of the page, English and German side by side. `{x}` is a placeholder. Other languages come from files of the
- * same keys, see languages.ts.
+ * All texts of the page, English and German side by side. `{x}` is a placeholder. Other languages come from files with
+ * the same keys, see languages.ts.
  */
 
 import { kSceneMembers, type SceneMember, type Unit } from "./generated/scene_members";
@@ -21,24 +21,27 @@ const kTexts = {
   dropNow: ["Drop to open", "Loslassen zum Öffnen"],
   choose: ["Choose a file", "Datei wählen"],
   startFeatures: [
-    "Cut it along any plane, look through walls with a lens, ask for rooms and walls by name, and share what you see as a link.",
+    "Cut it along any plane, look through walls with a lens, find rooms and walls by name, and share the view as a link.",
     "Entlang jeder Ebene schneiden, mit einer Linse durch Wände sehen, Räume und Wände mit Namen suchen und die Ansicht als Link teilen.",
   ],
   starting: ["Starting", "Wird gestartet"],
   loadingFile: ["Loading {name}", "{name} wird geladen"],
   cityLacks: [
-    "{n} tiles of the city cannot be shown, the rest is here. {first}",
-    "{n} Kacheln der Stadt lassen sich nicht zeigen, der Rest ist da. {first}",
+    "{n} tiles of the city cannot be shown; all others are shown. {first}",
+    "{n} Kacheln der Stadt lassen sich nicht zeigen; alle anderen sind da. {first}",
   ],
   cityStopped: ["No finer tiles of the city", "Keine feineren Kacheln der Stadt"],
-  cityFind: ["Enter looks for this id in all of the city.", "Mit der Eingabetaste in der ganzen Stadt nach dieser Kennung suchen."],
+  cityFind: [
+    "Press Enter to search for this id in the whole city.",
+    "Mit der Eingabetaste in der ganzen Stadt nach dieser Kennung suchen.",
+  ],
   cityNoRanges: [
-    "{name}: the server sends whole files where a part is asked for. A city needs a server with range requests (svt serve, nginx, Apache, S3).",
-    "{name}: Der Server sendet ganze Dateien, wo ein Teil gefragt ist. Eine Stadt braucht einen Server mit Bereichsanfragen (svt serve, nginx, Apache, S3).",
+    "{name}: the server sends whole files instead of parts. A city needs a server with range requests (svt serve, nginx, Apache, S3).",
+    "{name}: Der Server sendet ganze Dateien statt Teilen. Eine Stadt braucht einen Server mit Bereichsanfragen (svt serve, nginx, Apache, S3).",
   ],
   cityWrongRange: [
-    "{name}: the server sent other bytes than were asked for, or not all of them.",
-    "{name}: Der Server sandte andere Bytes als gefragt, oder nicht alle.",
+    "{name}: the server sent other bytes than requested, or not all of them.",
+    "{name}: Der Server sandte andere Bytes als angefordert, oder nicht alle.",
   ],
   cityChanged: [
     "{name}: the city has changed since it was opened; load the page again.",
@@ -50,8 +53,8 @@ const kTexts = {
   stepOpen: ["Opening", "Wird geöffnet"],
   failedTitle: ["This file could not be opened", "Diese Datei konnte nicht geöffnet werden"],
   wrongKind: [
-    "{name} is no volume and no building model: those end with {kinds}, or with .gz after it.",
-    "{name} ist weder Volumen noch Gebäudemodell: Die enden auf {kinds}, oder danach auf .gz.",
+    "{name} is not a volume or building model. Their names end with {kinds}, optionally followed by .gz.",
+    "{name} ist weder Volumen noch Gebäudemodell. Deren Namen enden auf {kinds}, wahlweise gefolgt von .gz.",
   ],
   noModel: ["There is no model '{name}' here; the first one is shown.", "Hier gibt es kein Modell '{name}'; das erste wird gezeigt."],
   notLoaded: ["{name} could not be loaded ({status}).", "{name} konnte nicht geladen werden ({status})."],
@@ -60,7 +63,7 @@ const kTexts = {
     "Die Bibliothek läuft in diesem Browser nicht: Sie braucht WebAssembly mit SIMD (ab Chrome 91, Firefox 89, Safari 16.4).",
   ],
   serverPictures: [
-    "Pictures come from the server, since the library cannot run in this browser. Views, sections and looks work; tree and picking do not.",
+    "Pictures come from the server, because the library cannot run in this browser. Views, sections and looks work; tree and picking do not.",
     "Die Bilder kommen vom Server, weil die Bibliothek in diesem Browser nicht läuft. Ansichten, Schnitte und Stile gehen; Baum und Auswahl im Bild nicht.",
   ],
   cancel: ["Cancel", "Abbrechen"],
@@ -70,8 +73,8 @@ const kTexts = {
     "Dieser Link zeigt {name}, eine Datei, die er nicht enthält. {name} hier öffnen, um die Ansicht zu sehen.",
   ],
   linkNeedsFile: [
-    "Copied. The link opens this view where {name} is opened too: the file itself is not part of it.",
-    "Kopiert. Der Link öffnet diese Ansicht, wo auch {name} geöffnet wird: Die Datei selbst enthält er nicht.",
+    "Copied. The link does not contain {name}. To see the view, open that file there too.",
+    "Kopiert. Der Link enthält {name} nicht. Um die Ansicht zu sehen, auch dort diese Datei öffnen.",
   ],
   keepFile: ["Keep {name} in this browser", "{name} in diesem Browser behalten"],
   keepFileHint: [
@@ -97,11 +100,11 @@ const kTexts = {
   glKind: ["drawn with WebGL 2", "mit WebGL 2 gezeichnet"],
   frame: ["{width} × {height}, {ms} ms", "{width} × {height}, {ms} ms"],
   findings: ["{n} findings", "{n} Befunde"],
-  findingsTitle: ["What the model is like", "Zustand des Modells"],
+  findingsTitle: ["Findings in the model", "Befunde im Modell"],
   theme: ["Dark or light", "Dunkel oder hell"],
   language: ["DE, Deutsch", "EN, English"],
   languages: ["Language", "Sprache"],
-  noLanguage: ["{name} is no language file.", "{name} ist keine Sprachdatei."],
+  noLanguage: ["{name} is not a language file.", "{name} ist keine Sprachdatei."],
   helpTitle: ["Mouse, touch and keys", "Maus, Finger und Tasten"],
   help: ["Help", "Hilfe"],
   panelTree: ["Parts", "Teile"],
@@ -170,7 +173,7 @@ const kTexts = {
   share: ["Keep", "Sichern"],
 
   coarseNow: ["Coarse for now: {spacing} m", "Vorerst grob: {spacing} m"],
-  makingFiner: ["Made finer", "Wird verfeinert"],
+  makingFiner: ["Refining", "Wird verfeinert"],
   makeFiner: ["Make it finer", "Verfeinern"],
   stayCoarse: ["Leave it so", "So lassen"],
   staysCoarse: ["The picture stays coarse: {spacing} m from voxel to voxel.", "Das Bild bleibt grob: {spacing} m von Voxel zu Voxel."],
@@ -183,15 +186,15 @@ const kTexts = {
   stage_patterns: ["Patterns", "Muster"],
   stage_pack: ["Packing", "Wird verpackt"],
   ownersNeedModel: [
-    "{name} tells owners: open the model first, or drop both together.",
-    "{name} nennt Eigentümer: erst das Modell öffnen, oder beide zusammen fallen lassen.",
+    "{name} is a table of owners: open the model first, or drop both together.",
+    "{name} ist eine Tabelle von Eigentümern: erst das Modell öffnen, oder beide zusammen ablegen.",
   ],
   ownersGiven: [
-    "Owners are those of {name}; colours tell them. Queries: owner=NAME.",
+    "The owners are from {name}; colours show them. Queries: owner=NAME.",
     "Eigentümer nach {name}; die Farben zeigen sie. Abfragen: owner=NAME.",
   ],
   movedPlane: [
-    "{plane} lies in faces of the model and is drawn {mm} mm beside them, on the side that is kept.",
+    "{plane} lies in faces of the model and is drawn {mm} mm beside them, on the kept side.",
     "{plane} liegt in Flächen des Modells und ist {mm} mm daneben gezeichnet, auf der Seite, die bleibt.",
   ],
   level: ["Level at {height} m", "Ebene auf {height} m"],
@@ -227,8 +230,8 @@ const kTexts = {
   ],
   exportAs: ["Export as {format}", "Als {format} ausgeben"],
   sectionHint: [
-    "Take away what is beyond a plane. Drag its handle in the picture.",
-    "Nimmt weg, was jenseits einer Ebene liegt. Ihr Griff lässt sich im Bild ziehen.",
+    "Removes everything beyond a plane. Drag its handle in the picture.",
+    "Entfernt alles jenseits einer Ebene. Ihr Griff lässt sich im Bild ziehen.",
   ],
   handleLabel: ["Plane {n}: arrow keys move it", "Ebene {n}: Pfeiltasten verschieben sie"],
 
@@ -254,7 +257,7 @@ const kTexts = {
   focusOn: ["On", "Worauf"],
   focusQuery: ["Query (empty: the selection)", "Abfrage (leer: die Auswahl)"],
   focusEmpty: ["Select something, or write a query.", "Etwas auswählen oder eine Abfrage schreiben."],
-  margin: ["To spare", "Rand"],
+  margin: ["Margin", "Rand"],
   shell: ["Hulls only", "Nur Hüllen"],
   shellOff: ["All of it", "Alles"],
   shell_component: ["Components", "Bauteile"],
@@ -287,7 +290,7 @@ const kTexts = {
   legendMissing: ["without a value: {n}", "ohne Wert: {n}"],
 
   measureHint: [
-    "Click points in the picture. Near a corner or an edge of the model, the point is exactly there; with Ctrl it is not.",
+    "Click points in the picture. Near a corner or an edge of the model, the point snaps to it; with Ctrl it does not.",
     "Punkte im Bild anklicken. Nahe einer Ecke oder Kante des Modells liegt der Punkt genau dort; mit Strg nicht.",
   ],
   atCorner: ["at a corner", "an einer Ecke"],
@@ -312,27 +315,27 @@ const kTexts = {
   parallel: ["Parallel", "Parallel"],
   walk: ["Walk", "Gehen"],
   walkNowhere: ["There is no place to stand here.", "Hier ist kein Platz zum Stehen."],
-  bcfExport: ["Save these views as BCF 3.0", "Diese Ansichten als BCF 3.0 sichern"],
-  bcfMissing: ["{n} components of it are not in this model.", "{n} Bauteile daraus sind nicht in diesem Modell."],
-  notBcf: ["{name} is no BCF file that can be read: {error}.", "{name} ist keine lesbare BCF-Datei: {error}."],
+  bcfExport: ["Save the bookmarks as BCF 3.0", "Die Lesezeichen als BCF 3.0 sichern"],
+  bcfMissing: ["{n} components of the file are not in this model.", "{n} Bauteile daraus sind nicht in diesem Modell."],
+  notBcf: ["{name} is not a readable BCF file: {error}.", "{name} ist keine lesbare BCF-Datei: {error}."],
   walkHint: [
     "W A S D walk, around walls and up stairs; Q and E go down and up, dragging looks around, 0 ends it.",
     "W A S D gehen, an Wänden entlang und Treppen hinauf; Q und E runter und rauf, Ziehen blickt umher, 0 beendet es.",
   ],
   fieldOfView: ["Field of view", "Blickwinkel"],
 
-  bookmarks: ["Kept views", "Gesicherte Ansichten"],
-  keepView: ["Keep this view", "Ansicht sichern"],
+  bookmarks: ["Bookmarks", "Lesezeichen"],
+  keepView: ["Bookmark this view", "Lesezeichen setzen"],
   bookmarkName: ["View {n}", "Ansicht {n}"],
-  bookmarkRename: ["Name of the view", "Name der Ansicht"],
+  bookmarkRename: ["Name of the bookmark", "Name des Lesezeichens"],
   bookmarkRemove: ["Remove {name}", "{name} entfernen"],
   bookmarkExport: ["{name} as scene JSON", "{name} als Szenen-JSON"],
   bookmarkUp: ["{name} one place up", "{name} einen Platz nach oben"],
-  bookmarksExport: ["Save these views as a file", "Diese Ansichten als Datei sichern"],
-  bookmarksImport: ["Add views from a file (ours, or BCF)", "Ansichten aus einer Datei hinzufügen (eigene oder BCF)"],
-  bookmarksAdded: ["{n} views added", "{n} Ansichten hinzugefügt"],
-  noViews: ["{name} contains no kept views.", "{name} enthält keine gesicherten Ansichten."],
-  notKept: ["This browser keeps nothing for this page.", "Dieser Browser speichert nichts für diese Seite."],
+  bookmarksExport: ["Save the bookmarks as a file", "Die Lesezeichen als Datei sichern"],
+  bookmarksImport: ["Add bookmarks from a file (of this page, or BCF)", "Lesezeichen aus einer Datei hinzufügen (dieser Seite oder BCF)"],
+  bookmarksAdded: ["{n} bookmarks added", "{n} Lesezeichen hinzugefügt"],
+  noViews: ["{name} contains no bookmarks.", "{name} enthält keine Lesezeichen."],
+  notKept: ["This browser does not store data for this page.", "Dieser Browser speichert nichts für diese Seite."],
   passOn: ["Pass on", "Weitergeben"],
   copyLink: ["Copy link", "Link kopieren"],
   copyCommand: ["Copy command", "Befehl kopieren"],
@@ -358,18 +361,18 @@ const kTexts = {
   pictureSave: ["Save PNG", "PNG speichern"],
   pictureWorking: ["Drawing", "Wird gezeichnet"],
   linkOnThisMachine: [
-    "Copied. The address is one of this computer: others cannot open it.",
+    "Copied. The address works only on this computer: others cannot open it.",
     "Kopiert. Die Adresse gilt nur auf diesem Rechner: Andere können sie nicht öffnen.",
   ],
   linkTooLong: [
-    "Copied. The link has {n} characters; some programs shorten such links. A file of kept views is safer.",
-    "Kopiert. Der Link hat {n} Zeichen; manche Programme kürzen solche Links. Eine Datei gesicherter Ansichten ist sicherer.",
+    "Copied. The link has {n} characters; some programs shorten such links. A file of bookmarks is safer.",
+    "Kopiert. Der Link hat {n} Zeichen; manche Programme kürzen solche Links. Eine Datei mit Lesezeichen ist sicherer.",
   ],
   badLink: ["The link is damaged; the model is shown as it is.", "Der Link ist beschädigt; das Modell wird gezeigt, wie es ist."],
-  badJson: ["This is no JSON: {error}", "Das ist kein JSON: {error}"],
+  badJson: ["This is not JSON: {error}", "Das ist kein JSON: {error}"],
   pictureLabel: [
-    "Picture of {name}. Arrow keys turn, Shift and arrow keys move, plus and minus zoom, Enter selects what is in the middle.",
-    "Bild von {name}. Pfeiltasten drehen, Umschalt und Pfeiltasten verschieben, Plus und Minus zoomen, Eingabe wählt, was in der Mitte ist.",
+    "Picture of {name}. Arrow keys turn, Shift and arrow keys move, plus and minus zoom, Enter selects the object in the middle.",
+    "Bild von {name}. Pfeiltasten drehen, Umschalt und Pfeiltasten verschieben, Plus und Minus zoomen, Eingabe wählt das Objekt in der Mitte.",
   ],
 
   keyOrbit: ["Turn", "Drehen"],
@@ -382,8 +385,11 @@ const kTexts = {
   keyZoom: ["Zoom to the pointer", "Zum Zeiger zoomen"],
   keyZoomHow: ["wheel, pinch, + and −", "Mausrad, zwei Finger, + und −"],
   keyPick: ["Select", "Auswählen"],
-  keyPickHow: ["click; with Ctrl more than one; Enter: what is in the middle", "Klick; mit Strg mehrere; Eingabe: was in der Mitte ist"],
-  keyAlong: ["List what is behind a point", "Auflisten, was hinter einem Punkt liegt"],
+  keyPickHow: [
+    "click; with Ctrl more than one; Enter: the object in the middle",
+    "Klick; mit Strg mehrere; Eingabe: das Objekt in der Mitte",
+  ],
+  keyAlong: ["List everything behind a point", "Alles hinter einem Punkt auflisten"],
   keyAlongHow: ["Alt-click, long press, L", "Alt-Klick, langes Drücken, L"],
   keyFrame: ["Frame", "Heranholen"],
   keyFrameHow: ["double click, F", "Doppelklick, F"],
@@ -409,15 +415,15 @@ const kTexts = {
 } as const satisfies Record<string, readonly [string, string]>;
 
 /**
- * German for the help of scene members whose controls show it; the English is the declared one. A key that is not
- * declared does not compile, so that a help text that changes cannot leave an old translation behind.
+ * German help of scene members whose controls show it; the English help is the declared one. A key that is not declared
+ * does not compile, so that a change of a help text cannot leave an old translation behind.
  */
 export const kGermanHelp = {
-  "draw a scale bar; parallel projection only, since no other picture has one scale":
+  "draw a scale bar; parallel projection only, because no other picture has a single scale":
     "zeichnet einen Maßstab; nur bei Parallelprojektion, denn kein anderes Bild hat einen einzigen Maßstab",
   "draw an arrow to grid north (+y)": "zeichnet einen Pfeil nach Gitternord (+y)",
-  "colour what is seen by class, name, storey, volume, area of rooms, owner, voxels or an attribute, with a legend":
-    "färbt, was zu sehen ist, nach class, name, storey, volume, area (Fläche von Räumen), owner, voxels oder einem Attribut, mit Legende",
+  "colour visible components by class, name, storey, volume, area of rooms, owner, voxels or an attribute, with a legend":
+    "färbt sichtbare Bauteile nach class, name, storey, volume, area (Fläche von Räumen), owner, voxels oder einem Attribut, mit Legende",
   "width and height": "Breite und Höhe",
   "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)":
     "Farben, Linien und Schraffuren des ganzen Bildes: schlicht, Papier (für den Druck), Blaupause oder dunkel (für Folien)",
@@ -425,14 +431,14 @@ export const kGermanHelp = {
   "write a title into the picture": "schreibt einen Titel ins Bild",
   "parallel projection": "Parallelprojektion",
   "vertical field of view": "senkrechter Blickwinkel",
-  "hatch what is cut, by material or class": "schraffiert, was geschnitten ist, nach Material oder Klasse",
-  "name what is seen of the selected: inside it where the text fits, else at the sides of the picture, with leader lines":
-    "benennt, was von der Auswahl zu sehen ist: darin, wo der Text passt, sonst an den Seiten des Bildes, mit Hinweislinien",
+  "hatch cut faces, by material or class": "schraffiert Schnittflächen, nach Material oder Klasse",
+  "name the visible labels that the query selects: inside them if the text fits, otherwise at the sides of the picture, with leader lines":
+    "benennt die sichtbaren Teile der Auswahl: darin, wenn der Text passt, sonst an den Seiten des Bildes, mit Hinweislinien",
   "#rrggbb, #rgb or a colour name": "#rrggbb, #rgb oder ein englischer Farbname",
   "share of light stopped by 1 m; 1: solid, 0: hidden": "Anteil des Lichts, den 1 m aufhält; 1: undurchsichtig, 0: verborgen",
   "draw only the hulls of components, rooms, units, storeys or the building":
     "zeichnet nur die Hüllen von Bauteilen, Räumen, Wohnungen, Geschossen oder des Gebäudes",
-  "lines behind something opaque": "Linien hinter Undurchsichtigem",
+  "lines behind opaque objects": "Linien hinter Undurchsichtigem",
 } as const satisfies { [Help in HelpOf<SceneMember>]?: string };
 
 type HelpOf<Name extends SceneMember> = (typeof kSceneMembers)[Name]["help"];
@@ -443,7 +449,7 @@ export type TextKey = keyof typeof kTexts;
 /** `en`, `de`, or the code of a language file: a BCP 47 tag. */
 export type Language = string;
 
-/** Texts of another language, by key; help of scene members by its English text. What is missing is English. */
+/** Texts of another language, by key; help of scene members by its English text. Missing texts are English. */
 export interface LanguageTexts {
   texts: Record<string, string>;
   /** Words that find a class: `{"Window": "fenêtre"}`. */
@@ -478,7 +484,7 @@ export function t(key: TextKey, values: Record<string, string | number> = {}): s
   return text.replace(/\{(\w+)\}/g, (whole, name: string) => (name in values ? String(values[name]) : whole));
 }
 
-/** The English of all texts, which a language file translates. */
+/** The English of all texts, for translation in a language file. */
 export function template(): Record<string, string> {
   return Object.fromEntries([
     ...Object.entries(kTexts).map(([key, [english]]) => [key, english]),
@@ -486,7 +492,7 @@ export function template(): Record<string, string> {
   ]);
 }
 
-/** The name of a stage of the library; its own word where there is none. */
+/** The name of a stage of the library, or the library's own word. */
 export function stageText(stage: string): string {
   const key = `stage_${stage}`;
   return key in kTexts ? t(key as TextKey) : stage;
@@ -496,14 +502,14 @@ export function movedText(planes: { text: string; by: number }[]): string {
   return planes.map(({ text, by }) => t("movedPlane", { plane: text, mm: number(1000 * by, 1) })).join(" ");
 }
 
-/** The label of a control for a member of a scene; the words of its name where no text is given. */
+/** The label of a control for a member of a scene; without a text, the words of its name. */
 export function memberLabel(member: SceneMember): string {
   const name = member.slice(member.lastIndexOf("/") + 1);
   const words = name.replace(/[A-Z]/g, (letter) => ` ${letter.toLowerCase()}`);
   return `label_${name}` in kTexts ? t(`label_${name}` as TextKey) : words.charAt(0).toUpperCase() + words.slice(1);
 }
 
-/** What a member of a scene does, with its unit: the tooltip of its control. */
+/** The help of a member of a scene, with its unit: the tooltip of its control. */
 export function help(member: SceneMember): string {
   const declared: { help: string; unit?: Unit } = kSceneMembers[member];
   const german: Partial<Record<string, string>> = kGermanHelp;
@@ -516,7 +522,7 @@ export function help(member: SceneMember): string {
 export function number(value: number, digits: number): string {
   return value.toLocaleString(language(), { minimumFractionDigits: digits, maximumFractionDigits: digits });
 }
-/** A day, from ISO 8601, in the chosen language; other text as it is. */
+/** A day, from ISO 8601, in the chosen language; other text unchanged. */
 export function dateText(text: string): string {
   const found = /^(\d{4})-(\d\d)-(\d\d)(T[\d:.]+(Z|[+-][\d:]+)?)?$/.exec(text);
   const date = found && new Date(Date.UTC(Number(found[1]), Number(found[2]) - 1, Number(found[3])));

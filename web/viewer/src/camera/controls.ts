@@ -11,7 +11,7 @@ import { add, distance, dot, sub } from "./vec";
 const kTurnPerHeight = Math.PI;
 const kClickSlop = 5;
 const kLongPress = 550;
-/** Metres within which walking looks for room. */
+/** Metres within which walking searches for room. */
 const kFarLook = 8;
 
 export interface ControlsHost {
@@ -75,7 +75,7 @@ export class Controls {
     try {
       this.host.element.setPointerCapture(event.pointerId);
     } catch {
-      // It then moves the picture as long as it is above it.
+      // It then moves the picture only while it is above the picture.
     }
     this.fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     const isFirst = this.fingers.size === 1;
@@ -231,11 +231,11 @@ export class Controls {
     });
   }
 
-  /** As far as there is air, along what is in the way. */
+  /** Steps as far as there is air, and along obstacles. */
   private async stepTo(wanted: Camera): Promise<void> {
     const from = this.camera!;
     const eye = await this.session.volume.engine?.step(from.eye, sub(wanted.eye, from.eye)).catch(() => null);
-    // Meanwhile the view may have been turned, or walking ended.
+    // Meanwhile the view may have turned, or walking may have ended.
     const now = this.camera;
     if (!eye || !now || !this.session.view.isWalking) return;
     const by = sub(eye, from.eye);
@@ -243,14 +243,14 @@ export class Controls {
   }
 }
 
-/** Looks from where one stands to where there is most room. */
+/** Turns a standing camera to the direction with the most room. */
 export async function standAt(camera: Camera, eye: Point, step: (eye: Point, by: Point) => Promise<Point>): Promise<Camera> {
   const { forward } = basisOf(camera);
   const ahead = Math.atan2(forward[1], forward[0]);
   let best = ahead,
     most = -1;
   for (let n = 0; n < 8; ++n) {
-    // To and fro around the direction of the view, which wins where there is as much room.
+    // Alternates around the direction of the view, which has priority if the room is equal.
     const angle = ahead + ((n % 2 ? (n + 1) / 2 : -n / 2) * Math.PI) / 4;
     const end = await step(eye, [kFarLook * Math.cos(angle), kFarLook * Math.sin(angle), 0]).catch(() => eye);
     const room = Math.round((end[0] - eye[0]) * Math.cos(angle) + (end[1] - eye[1]) * Math.sin(angle));

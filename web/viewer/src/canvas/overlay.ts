@@ -1,4 +1,4 @@
-/** Drawn over the picture: section planes with their handles, the box of the selection, measured points. */
+/** Graphics over the picture: section planes with their handles, the box of the selection, measured points. */
 
 import { svg, nothing, type SVGTemplateResult } from "lit";
 import { project } from "../camera/camera";
@@ -73,11 +73,11 @@ export function measure(view: View): SVGTemplateResult | typeof nothing {
     ${dots.map((p) => svg`<circle class="dot" cx=${p.x} cy=${p.y} r="4"></circle>`)}${labels(view, texts)}`;
 }
 
-/** Room that the text of a label takes, pixels. */
+/** Size of a label with its text, pixels. */
 const kLabelWidth = 68,
   kLabelHeight = 16;
 
-/** Each at the middle of its points, below those that stand there already. */
+/** Places each label at the middle of its points, below labels that are already there. */
 function labels(view: View, texts: { of: Point[]; text: string }[]): SVGTemplateResult[] {
   const taken: Seen[] = [];
   return texts.map(({ of, text }) => {

@@ -13,9 +13,9 @@ import { dragged, rangeOf } from "../tools/plane_outline";
 import { compass, handleOf, measure, place, planes, selectionBox, type View } from "./overlay";
 
 const kHoverEvery = 80;
-/** Corners and edges so near to a click are meant by it. */
+/** Maximum distance from a click to a corner or an edge that it snaps to. */
 const kSnapPixels = 9;
-/** The splitters load after the first picture. Then panels pass through other sizes for some frames. */
+/** The splitters load after the first picture. Then panels have other sizes for some frames. */
 const kFramesToSettle = 8;
 const kSplitter = "wa-split-panel";
 
@@ -26,7 +26,7 @@ export class PictureView extends Part {
   /** CSS pixels. */
   declare size: [width: number, height: number];
   private readonly watched = new ResizeObserver(() => this.measureAfter(1));
-  /** Frames until the size is measured; 0: no measurement is due. */
+  /** Frames until the next measurement of the size; 0: no measurement. */
   private framesToMeasure = 0;
   private hoverTimer = 0;
   private hoverAt: { x: number; y: number } | null = null;
@@ -103,7 +103,7 @@ export class PictureView extends Part {
     this.stage.focus();
   }
 
-  /** Measures the size after some frames, and not before: a size may last only for a moment. */
+  /** Measures the size only after some frames, because a size may last only for a moment. */
   private measureAfter(frames: number): void {
     const isWaiting = this.framesToMeasure > 0;
     this.framesToMeasure = Math.max(this.framesToMeasure, frames);
@@ -146,7 +146,7 @@ export class PictureView extends Part {
     }
   }
 
-  /** Metres that a few pixels are where the camera looks. */
+  /** Metres of a few pixels at the camera's target. */
   private snapReach(): number {
     const camera = this.session.view.now.camera;
     if (!camera) return 0;
@@ -177,7 +177,7 @@ export class PictureView extends Part {
     if (!this.hoverTimer && this.hoverAt) this.hoverTimer = window.setTimeout(() => void this.readHover(), kHoverEvery);
   }
 
-  /** One request at a time, for the pointer position at that moment. */
+  /** Makes one request at a time, for the current position of the pointer. */
   private async readHover(): Promise<void> {
     const at = this.hoverAt;
     const { session } = this;

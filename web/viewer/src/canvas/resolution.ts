@@ -1,9 +1,9 @@
-/** Pixel budget of a moving picture, so that there are 25 frames a second: some milliseconds are the page's own. */
+/** Pixel budget of a moving picture for 25 frames per second; the page itself needs some milliseconds. */
 
 const kAim = 32,
   kFast = 26,
   kSlow = 38;
-/** So far off that one frame is sufficient evidence. */
+/** Limits at which one frame is sufficient evidence. */
 const kMuchTooFast = 12,
   kMuchTooSlow = 100;
 const kCoarsest = 0.2;

@@ -23,6 +23,12 @@ const busy =
 const bytes = (response: ServerResponse) =>
   void response.writeHead(206, { Connection: "close", "Content-Range": "bytes 0-3/100" }).end("abcd");
 
+/** Half of what its head promises. */
+const brokenOff = (response: ServerResponse) => {
+  response.writeHead(206, { Connection: "close", "Content-Range": "bytes 0-3/100", "Content-Length": "4" });
+  response.write("ab", () => response.destroy());
+};
+
 /** A city whose waits are noted, not waited for. */
 function cityAt(address: string): { files: CityFiles; waits: number[] } {
   const waits: number[] = [];
@@ -39,6 +45,22 @@ test("a busy server is asked again, later each time", async () => {
     expect(waits).toEqual([250, 500]);
     close();
   }
+});
+
+test("a body that breaks off is asked for again, and named where it always does", async () => {
+  const once = await serverOf(brokenOff, brokenOff, bytes);
+  const city = cityAt(once.address);
+  const [whole] = await city.files.get([["packs/00000.svtp", 0, 4]]);
+  expect(new TextDecoder().decode(whole!.bytes)).toBe("abcd");
+  expect(once.requests()).toBe(3);
+  expect(city.waits).toEqual([250, 500]);
+  close();
+
+  const always = await serverOf(brokenOff);
+  const [broken] = await cityAt(always.address).files.get([["packs/00000.svtp", 0, 4]]);
+  expect(broken!.error).toContain("packs/00000.svtp");
+  expect(broken!.bytes).toHaveLength(0);
+  expect(always.requests()).toBe(kMostAttempts);
 });
 
 test("what Retry-After says is waited for", async () => {

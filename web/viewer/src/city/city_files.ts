@@ -1,6 +1,6 @@
 /**
  * The files of a city on a web server, fetched by single ranges (docs/formats/city.md). Ranges that are near each other
- * are one request; what was fetched is kept up to a limit, so that several workers ask for nothing twice.
+ * are one request. Fetched ranges are kept up to a limit, so that several workers do not request them twice.
  */
 
 import { t } from "../texts";
@@ -8,11 +8,11 @@ import { kMostAttempts, retryMs } from "./retry";
 
 export type WantedRange = readonly [file: string, offset: number, size: number];
 
-/** Bytes of a range, fewer where the file ends in it; or why they cannot be had. */
+/** Bytes of a range, fewer if the file ends in it; or the reason why they are unavailable. */
 export interface GivenRange {
   range: WantedRange;
   bytes: Uint8Array;
-  /** Size of the file; 0: there is none. */
+  /** Size of the file; 0: the file does not exist. */
   total: number;
   error: string | null;
 }
@@ -36,18 +36,18 @@ interface Coming {
   answer: Promise<Answer>;
 }
 
-/** Bytes between two ranges that are fetched with them rather than by another request. */
+/** Maximum gap in bytes between two ranges that one request fetches. */
 const kGap = 32 << 10;
 const kLargestRequest = 1 << 20;
 const kAtOnce = 6;
-/** What a first request of these files brings: all of them, or what a first view needs. */
+/** Bytes of the first request of these files: the whole file, or the part for a first view. */
 const kBegin: Record<string, number> = { "index.bin": 48 << 10, "ids.bin": 64 << 10 };
 const kIndexAhead = 64 << 10;
-/** A server that does not tell (CORS) how long a file is. */
+/** The size of a file whose server does not send it (CORS). */
 const kUnknown = Number.MAX_SAFE_INTEGER;
 
 export class CityFiles {
-  /** What was asked for so far. */
+  /** The requests so far. */
   readonly traffic = { requests: 0, bytes: 0 };
   private blocks: Block[] = [];
   private coming: Coming[] = [];
@@ -55,14 +55,14 @@ export class CityFiles {
   private running = 0;
   private readonly waiting: (() => void)[] = [];
 
-  /** @param address  of the folder; @param keptBytes  limit of what is kept; @param wait  between two attempts */
+  /** @param address  of the folder; @param keptBytes  limit of stored bytes; @param wait  between two attempts */
   constructor(
     private readonly address: string,
     private readonly keptBytes = 16e6,
     private readonly wait = (ms: number) => new Promise<void>((done) => setTimeout(done, ms)),
   ) {}
 
-  /** Fetches what a first picture needs: city.json, then the begin of the index and the tile of the coarsest detail. */
+  /** Fetches the files for a first picture: city.json, then the begin of the index and the tile of the coarsest detail. */
   async begin(): Promise<void> {
     const json = await this.need("city.json", 0, 1 << 20);
     if (!json.block) return;
@@ -71,7 +71,7 @@ export class CityFiles {
       const pack = `packs/${String(top.pack).padStart(5, "0")}.svtp`;
       await Promise.all([this.need("index.bin", 0, kBegin["index.bin"]!), this.need(pack, top.offset, top.bytes)]);
     } catch {
-      // The library reads it again, and says what is wrong.
+      // The library reads it again, and reports the error.
     }
   }
 
@@ -86,7 +86,7 @@ export class CityFiles {
       if (found) return found;
       const [file, offset] = range;
       const own = answers.find((a) => a.file === file && a.offset <= offset && offset < a.offset + a.size)?.answer;
-      // A block may have been dropped again where more was asked for than is kept.
+      // A block may have been dropped again if the request exceeds the limit.
       return (
         (own?.block && partOf(own.block, range)) || {
           range,
@@ -111,7 +111,7 @@ export class CityFiles {
     return null;
   }
 
-  /** Drops what was not used for longest. */
+  /** Drops the least recently used blocks. */
   private trim(): void {
     let kept = this.blocks.reduce((sum, { bytes }) => sum + bytes.length, 0);
     this.blocks = this.blocks.filter((block) => {
@@ -197,7 +197,7 @@ export class CityFiles {
   }
 }
 
-/** Ranges as requests: near ones of a file together, and of indexes more than is asked for. */
+/** Ranges as requests: near ranges of a file together, and longer ranges of indexes. */
 function requestsFor(missing: readonly WantedRange[]): WantedRange[] {
   const ordered = [...missing].sort((a, b) => (a[0] < b[0] ? -1 : a[0] > b[0] ? 1 : a[1] - b[1]));
   const requests: [string, number, number][] = [];
@@ -225,7 +225,7 @@ function partOf(block: Block, range: WantedRange): GivenRange | null {
   };
 }
 
-/** The body; null where it is longer than `most`, of which no more is read. */
+/** The body; null if it is longer than `most`. Stops reading there. */
 async function atMost(response: Response, most: number): Promise<Uint8Array | null> {
   const reader = response.body!.getReader();
   const parts: Uint8Array<ArrayBuffer>[] = [];
@@ -241,11 +241,11 @@ async function atMost(response: Response, most: number): Promise<Uint8Array | nu
   }
 }
 
-/** Size of the file by what the server says of its answer; null: it sent another range than was asked for, or not all of it. */
+/** Size of the file by the headers of the response; null: the server sent another range than requested, or not all of it. */
 function totalOf(response: Response, offset: number, size: number, given: number): number | null {
   if (response.status === 200) return given;
   const text = response.headers.get("Content-Range");
-  // Servers elsewhere may not show it.
+  // Servers of other sites may not expose it.
   if (text === null) return given === size ? kUnknown : offset + given;
   const range = /^bytes (\d+)-(\d+)\/(\d+)$/.exec(text);
   if (!range) return null;

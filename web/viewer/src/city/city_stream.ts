@@ -1,6 +1,6 @@
 /**
- * A city that is open: one tile of it is the first picture; then the tiles that the camera sees are fetched, joined and
- * made ready in a second worker, which takes the place of the first. So pictures never wait for tiles.
+ * An open city. One tile is the first picture. Then a second worker fetches, joins and prepares the tiles that the camera
+ * sees, and replaces the first worker. So pictures never wait for tiles.
  */
 
 import type { CityLook, Engine, VolumeInfo } from "../engine";
@@ -12,28 +12,28 @@ import type { Camera } from "../state/view_state";
 import { t } from "../texts";
 import type { CityFiles } from "./city_files";
 
-/** Voxels may be so many pixels wide: of the first picture, of one that moves, of one that stands still. */
+/** Maximum width of voxels in pixels: in the first picture, in a moving one, in one at rest. */
 const kFirstPixels = 4,
   kMovingPixels = 2,
   kStillPixels = 1;
-/** Milliseconds after which a camera stands still, and between two looks while it moves. */
+/** Milliseconds after which a camera counts as at rest, and between two looks while it moves. */
 const kStillAfter = 250,
   kPause = 100;
-/** Of a phone, and of others: bytes that the page may take for the city. */
+/** Memory limits of the page for the city, bytes: on a phone, and on other devices. */
 const kPhone = 128e6,
   kDesk = 256e6;
-/** Share of them that the tiles of one worker may have when they are decoded; the rest is that of the other one, and of pictures. */
+/** Share of the limit for the decoded tiles of one worker; the rest is for the other worker and for pictures. */
 const kTileShare = 0.35;
 
 /**
- * waiting    for the first picture
- * following  tiles are being fetched, coarser ones while the camera moves
- * resting    the picture stays while the camera stays: all tiles are there, or cannot be fetched
- * ended      another model is open
+ * waiting: for the first picture.
+ * following: tiles are being fetched, coarser ones while the camera moves.
+ * resting: the picture stays while the camera stays, because all tiles are there, or cannot be fetched.
+ * ended: another model is open.
  */
 type Phase = "waiting" | "following" | "resting" | "ended";
 
-/** The camera and the size of the picture, and since when, in milliseconds of performance.now(). */
+/** The camera and the size of the picture, and the time of their last change, in milliseconds of performance.now(). */
 interface Place {
   camera: Camera | null;
   size: [number, number];
@@ -46,11 +46,11 @@ export interface CityHost extends ViewParts {
 }
 
 export class CityStream extends Observable {
-  /** What is seen now. */
+  /** The visible part of the city. */
   look: CityLook | null = null;
   private phase: Phase = "waiting";
   private place: Place | null = null;
-  /** The page shows only the coarsest tile yet. */
+  /** The page still shows only the coarsest tile. */
   private isFirst = true;
   /** The tiles on the page were opened while the camera moved, without their features. */
   private lacksFeatures = false;
@@ -64,7 +64,7 @@ export class CityStream extends Observable {
     super();
   }
 
-  /** Whether nothing finer is to come while the camera stays. */
+  /** Whether no finer tiles will follow while the camera stays. */
   get isComplete(): boolean {
     return this.phase === "resting";
   }
@@ -75,14 +75,14 @@ export class CityStream extends Observable {
     return this.host.volume.engine!;
   }
 
-  /** Opens it with its coarsest tile. */
+  /** Opens the city with its coarsest tile. */
   async open(): Promise<VolumeInfo> {
     const look = await this.engine.openCity(this.files, { pixels: 1, memory: memoryOfTiles(), shown: "" });
     this.take(look);
     return look.info!;
   }
 
-  /** Begins to follow the camera, once the first picture stands. */
+  /** Begins to follow the camera, after the first picture. */
   begin(): void {
     const { view, picture } = this.host;
     this.unwatch = effect(() => {
@@ -98,7 +98,7 @@ export class CityStream extends Observable {
     this.wake();
   }
 
-  /** Shows tiles that have taken the place of others; the view stays. */
+  /** Shows tiles that have replaced others; the view stays. */
   show(info: VolumeInfo): void {
     const { volume, view } = this.host;
     batch(() => {
@@ -107,7 +107,7 @@ export class CityStream extends Observable {
     });
   }
 
-  /** Looks for a building in all of the city, and goes there. */
+  /** Searches the whole city for a building, and moves the camera to it. */
   async find(id: string): Promise<void> {
     const { view, selection, messages } = this.host;
     const { scene } = view.describe(view.size, 1);
@@ -144,7 +144,7 @@ export class CityStream extends Observable {
     try {
       await this.fetch(pixels);
     } catch (error) {
-      // What stands stays; the next movement tries again.
+      // The visible tiles stay; the next movement tries again.
       if (!this.isEnded) this.host.messages.fail(error, t("cityStopped"));
       return true;
     }

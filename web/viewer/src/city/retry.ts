@@ -1,6 +1,6 @@
-/** When a failed request is sent again: later each time, or when the server asks for it. As svt/city/store/retry.hpp has it. */
+/** The time at which a failed request is repeated: later each time, or when the server asks for it; as in svt/city/store/retry.hpp. */
 
-/** Requests for one range, the first one included. */
+/** Maximum number of requests for one range, including the first one. */
 export const kMostAttempts = 4;
 const kFirstRetryMs = 250;
 /** The page does not wait longer than this on behalf of a server. */

@@ -1,4 +1,4 @@
-/** Calls of the library that need bytes of a city: they are fetched here, and the call is made again. */
+/** Calls of the library that need bytes of a city: fetches the bytes, and repeats the call. */
 
 import type { CityBytes } from "../engine";
 import type { Calls, CityNeeds, GivenRow } from "./protocol";
@@ -7,7 +7,7 @@ interface Asked {
   ask<N extends keyof Calls>(name: N, args: Calls[N]["args"], transfer?: Transferable[]): Promise<Calls[N]["result"]>;
 }
 
-/** A call goes from page to page of an index, which has few levels; then it asks for tiles. */
+/** A call reads page after page of an index, which has few levels; then it requests tiles. */
 const kMostRounds = 60;
 
 export async function withBytes<N extends "cityLook" | "cityFind">(

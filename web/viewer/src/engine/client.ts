@@ -41,7 +41,7 @@ class Connection {
   private readonly worker: Worker;
   private readonly waiting = new Map<number, Waiting>();
   private lastId = 0;
-  /** Whether it has ever answered: one that never did would fail again. */
+  /** Whether the worker has ever answered: one without any answer would fail again. */
   isAlive = false;
 
   /** @param died  called when the library has stopped; close() is up to the caller */
@@ -92,24 +92,24 @@ class Connection {
   }
 }
 
-/** `?threads=no` leaves them out, to compare. */
+/** `?threads=no` disables threads, for comparison. */
 function mayUseThreads(): boolean {
   return new URLSearchParams(location.search).get("threads") !== "no";
 }
 
-/** Pixels of a picture that nobody sees. */
+/** Pixels of an invisible picture. */
 const kUnseen = [48, 27] as const;
 
 const kGivenUp: EngineError = { code: kCancelled, message: kCancelled };
 
-/** All but the calls that are passed on as they are. */
+/** The calls that are not passed on unchanged. */
 class WorkerEngine {
   kind: EngineKind = "cpu";
   threads = 1;
   private main: Connection;
-  /** Opens a finer volume meanwhile. */
+  /** Worker that opens a finer volume meanwhile. */
   private second: Connection | null = null;
-  /** Has the open city, too, and prepares what of it is seen next. */
+  /** Second worker on the same city; prepares the next visible tiles. */
   private spare: Connection | null = null;
   private isDrawing = false;
   private nextDraw: WaitingDraw | null = null;
@@ -139,7 +139,7 @@ class WorkerEngine {
     return made;
   }
 
-  /** Passes a call on as it is. */
+  /** Passes a call on unchanged. */
   call(name: keyof LibraryCalls, args: unknown[]): Promise<unknown> {
     const buffers = args.filter((arg): arg is ArrayBuffer => arg instanceof ArrayBuffer);
     return this.main.ask(name, args as Calls[typeof name]["args"], buffers);
@@ -180,11 +180,11 @@ class WorkerEngine {
     try {
       look = await withBytes(spare, files, "cityLook", () => [false, scene, width, height, options]);
       if (!look.info || this.spare !== spare) return { ...look, info: null };
-      // Drawn once unseen, so that the first picture that is seen of it waits for no bricks.
+      // Draws once invisibly, so that the first visible picture does not wait for bricks.
       const { bitmap } = await spare.ask("draw", [scene, ...kUnseen]);
       bitmap.close();
     } catch (error) {
-      // Another one begins anew.
+      // A new worker starts from the beginning.
       if (this.spare === spare) this.endSpare();
       throw error;
     }
@@ -229,7 +229,7 @@ class WorkerEngine {
     });
   }
 
-  /** The worker cannot be interrupted: it is replaced. */
+  /** Replaces the worker, because it cannot be interrupted. */
   cancel(): void {
     this.cancelRefining();
     this.endSpare();
@@ -267,7 +267,7 @@ class WorkerEngine {
 
 /**
  * The library in its own worker, drawing into `canvas`. Rejects with an EngineError if it cannot run.
- * @param wanted  the renderer, for tests and measurements; else the faster one is determined, see drawer.ts
+ * @param wanted  the renderer, for tests and measurements; null: the faster one, see drawer.ts
  */
 export async function createEngine(canvas: HTMLCanvasElement, wanted: EngineKind | null = null): Promise<Engine> {
   const engine = new WorkerEngine(canvas, wanted);

@@ -1,7 +1,7 @@
 /**
- * Draws the open volume with the CPU caster or with WebGL2. Both give the same picture; the faster one is found by one
- * trial, when the page has been idle for a moment after its first picture: the last scene is drawn at a small size,
- * twice with WebGL2, since the first time compiles the shaders, and once with the CPU; the later times are compared. If
+ * Draws the open volume with the CPU caster or with WebGL2. Both give the same picture. A trial finds the faster one,
+ * when the page has been idle for a moment after its first picture. It draws the last scene at a small size, twice with
+ * WebGL2, because the first time compiles the shaders, and once with the CPU. The trial compares the later times. If
  * WebGL2 runs in software, which is slower (see web/wasm/README.md) and compiles shaders for seconds, there is no
  * trial.
  */
@@ -29,7 +29,7 @@ export class Drawer {
   private last: Last | null = null;
   private hasFont = false;
 
-  /** @param wanted  use only this renderer, where possible; else the faster one */
+  /** @param wanted  use only this renderer, if possible; null: the faster one */
   constructor(
     private readonly svt: SvtModule,
     private readonly wanted: EngineKind | null,
@@ -45,7 +45,7 @@ export class Drawer {
     return this.wanted === null && !this.isDecided && this.last !== null;
   }
   private isDecided = false;
-  /** The first picture of the volume; data needed for a moving picture of its size does not exist yet. */
+  /** The first picture of the volume; the data for a moving picture of its size is not prepared yet. */
   private draft: Last | null = null;
 
   async draw(scene: Scene, width: number, height: number): Promise<Drawn> {
@@ -78,7 +78,7 @@ export class Drawer {
     this.draft = null;
   }
 
-  /** Called when the page is idle: chooses the renderer, and prepares what the first movement would wait for. */
+  /** Called when the page is idle: chooses the renderer, and prepares the data for the first movement. */
   onIdle(): void {
     if (this.isTrialDue) this.decide();
     const draft = this.draft;

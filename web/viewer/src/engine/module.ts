@@ -1,5 +1,5 @@
 /**
- * Loads the library: with threads where the page is isolated from other sites (headers COOP and COEP), else without. Both
+ * Loads the library: with threads if the page is isolated from other sites (headers COOP and COEP), else without. Both
  * modules give the same results.
  */
 import createSvt, { type SvtModule, type SvtModuleOptions } from "../../../../build/web/svt.js";
@@ -17,7 +17,7 @@ type OnProgress = NonNullable<SvtModuleOptions["onProgress"]>;
 
 export async function loadModule(onProgress: OnProgress): Promise<SvtModule> {
   const hasThreads = self.crossOriginIsolated && navigator.hardwareConcurrency > 1 && self.name !== kWithoutThreads;
-  // Where a module with threads cannot run, such as for want of address space, the one without may.
+  // If the module with threads cannot run, for example without enough address space, the one without threads may.
   return hasThreads ? withThreads(onProgress).catch(() => withoutThreads(onProgress)) : withoutThreads(onProgress);
 }
 
@@ -26,7 +26,7 @@ async function withoutThreads(onProgress: OnProgress): Promise<SvtModule> {
 }
 
 async function withThreads(onProgress: OnProgress): Promise<SvtModule> {
-  // The compiler begins while the script is still coming.
+  // Compiles while the script is still loading.
   const compiling = compiled(kThreads["svt_threads.wasm"]!);
   compiling.catch(() => undefined);
   const { default: create } = (await import(/* @vite-ignore */ kThreads["svt_threads.js"]!.href)) as { default: typeof createSvt };
@@ -37,12 +37,12 @@ async function withThreads(onProgress: OnProgress): Promise<SvtModule> {
   });
 }
 
-/** Compiles while it is fetched; a server may name the wrong type, which only the slower way takes. */
+/** Compiles during the download. If a server sends the wrong type, compiles after the download, which is slower. */
 async function compiled(url: URL): Promise<WebAssembly.Module> {
   return WebAssembly.compileStreaming(fetch(url)).catch(async () => WebAssembly.compile(await (await fetch(url)).arrayBuffer()));
 }
 
-/** Emscripten's script would wait for ever for an instance that cannot be made: that is an error here. */
+/** Reports an error if the instance cannot be made. Emscripten's script would wait for it forever. */
 function made(create: typeof createSvt, module: WebAssembly.Module, options: SvtModuleOptions): Promise<SvtModule> {
   return new Promise((resolve, reject) => {
     const instantiateWasm: SvtModuleOptions["instantiateWasm"] = (imports, receive) => {

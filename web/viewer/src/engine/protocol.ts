@@ -13,10 +13,10 @@ import type {
   kCalls,
 } from "../engine";
 
-/** The name of a worker that is to use no threads. */
+/** The name of a worker that must not use threads. */
 export const kWithoutThreads = "svt without threads";
 
-/** Calls for which the worker or the client does more than one call of the library. */
+/** Calls for which the worker or the client makes several calls of the library. */
 interface OwnCalls {
   start(wanted: EngineKind | null): { kind: EngineKind; threads: number };
   open(files: FileBytes[], options: OpenOptions): VolumeInfo;
@@ -36,7 +36,7 @@ export interface CityNeeds {
   needs: [file: string, offset: number, size: number][];
 }
 
-/** A range, how many bytes of it are given, the size of the file, and why the range cannot be had. */
+/** A range, the number of its given bytes, the size of the file, and the reason if the range is unavailable. */
 export type GivenRow = [file: string, offset: number, size: number, given: number, total: number, error: string | null];
 
 export interface Drawn {

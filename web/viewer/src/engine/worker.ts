@@ -10,13 +10,13 @@ import type { Answer, CityNeeds, Request } from "./protocol";
 const idleMilliseconds = 700;
 
 const loaded = loadModule((step, done) => post({ id: current, step, done }));
-// Handled where it is awaited; an unhandled rejection must not end the worker.
+// The code that awaits it handles a rejection; an unhandled one must not end the worker.
 loaded.catch(() => undefined);
 
 let drawer: Drawer | null = null;
 /** Id of the current request. */
 let current = 0;
-/** What is open of a city. */
+/** The open part of a city. */
 let cityInfo: VolumeInfo | null = null;
 /** Failure of the library outside any request; reported to the next request. */
 let stopped: unknown = null;
@@ -29,7 +29,7 @@ function json<T>(reply: Uint8Array): T {
   return JSON.parse(new TextDecoder().decode(reply)) as T;
 }
 
-/** Copies the bytes, since the reply is in the module's memory. */
+/** Copies the bytes, because the reply is in the module's memory. */
 function copied(reply: Uint8Array): ArrayBuffer {
   return reply.slice().buffer as ArrayBuffer;
 }
@@ -72,7 +72,7 @@ async function answer(request: Request): Promise<void> {
       await drawerOf(svt).prepare(args[0]);
     // falls through
     case "drawing": {
-      // Numbers of dimensions are measured in it.
+      // The font determines the size of dimension numbers.
       if (name === "drawing" && args[2]?.dimensions) await drawerOf(svt).fetchFont();
       const bytes = copied(svt.call(name, args));
       return post({ id, result: bytes }, [bytes]);
@@ -108,7 +108,7 @@ function fail(id: number, error: unknown): void {
   post({ id, error: { code: "E999", message: `the library has stopped (${message}); open the model again` }, isDead: true });
 }
 
-// Requests are processed one by one in order, though some answers take several turns of the event loop.
+// Processes requests one by one in order, although some answers take several turns of the event loop.
 let queue = Promise.resolve();
 let idleTimer: ReturnType<typeof setTimeout> | undefined;
 self.onmessage = (event: MessageEvent<Request>) => {

@@ -37,7 +37,7 @@ export class Legend extends Part {
 }
 customElements.define("svt-legend", Legend);
 
-/** The most frequent first, as many as fit. */
+/** The most frequent colours first, as many as fit. */
 function mostUsed(colors: string[]): string[] {
   const uses = new Map<string, number>();
   for (const color of colors) uses.set(color, (uses.get(color) ?? 0) + 1);

@@ -146,7 +146,7 @@ export class PropertiesPanel extends Part {
 }
 customElements.define("svt-properties", PropertiesPanel);
 
-/** Numbers and days as the page's language writes them. */
+/** Numbers and days in the notation of the page's language. */
 function valueText(value: { value: number; unit: string } | undefined, text: string): string {
   if (!value) return dateText(text);
   const digits = /\.(\d+)/.exec(text)?.[1]?.length ?? 0;

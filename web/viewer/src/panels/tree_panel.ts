@@ -13,7 +13,7 @@ import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
 import { firstOpen, rowsOf, type Rows } from "./tree_rows";
 
-/** Pixels of a row: as high as a finger is wide, where there are fingers. */
+/** Height of a row in pixels: the width of a finger on touch screens. */
 const kRow = matchMedia("(max-width: 759px), (pointer: coarse)").matches ? 44 : 30;
 const kSpare = 6;
 /** Milliseconds after the last key. */
@@ -38,7 +38,7 @@ export class TreePanel extends Part {
   declare query: string;
   declare answer: string;
   declare error: string;
-  /** Features that the search finds by their attributes; they come a little later. */
+  /** Features that the search finds by their attributes; these results arrive slightly later. */
   declare byAttribute: ReadonlySet<number>;
   private attributeTimer = 0;
   /** Feature with keyboard focus. */
@@ -119,7 +119,7 @@ export class TreePanel extends Part {
     }
     if (this.seenIndex !== index) {
       this.seenIndex = index;
-      // Other tiles of a city: what is being looked for stays.
+      // Other tiles of a city: the search stays.
       const isSameCity = model.city !== null && this.seenCity === model.city;
       this.seenCity = model.city;
       this.open = firstOpen(index);

@@ -12,7 +12,7 @@ export interface Rows {
   isOpen(i: number): boolean;
 }
 
-/** Expands the top levels until there is something to see, but no more rows than fit. */
+/** Expands the top levels until there are rows to see, up to the number that fits. */
 export function firstOpen(index: FeatureIndex, atMost = 60): Set<number> {
   const open = new Set<number>();
   let rows = index.parent.reduce((n, parent) => n + (parent < 0 ? 1 : 0), 0);
@@ -32,7 +32,7 @@ export function childCount(index: FeatureIndex, i: number): number {
   return n;
 }
 
-/** @param also  features that a search finds by what is not in the index: their attributes */
+/** @param also  features that a search finds by their attributes, which are not in the index */
 export function rowsOf(index: FeatureIndex, open: ReadonlySet<number>, search: string, also: ReadonlySet<number> = new Set()): Rows {
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
   if (words.length) return found(index, words, also);
@@ -43,7 +43,7 @@ export function rowsOf(index: FeatureIndex, open: ReadonlySet<number>, search: s
 
 const kKnown = new Map<string, string>();
 
-/** Class, type, and words for both; few of them are different. */
+/** Class, type, and words for both; most features share them. */
 function wordsOf({ class: name, type = "" }: { class: string; type?: string }): string {
   const key = `${language()} ${name} ${type}`;
   let words = kKnown.get(key);

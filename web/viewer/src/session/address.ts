@@ -26,7 +26,7 @@ export class Address {
     this.timer = window.setTimeout(() => void this.write(), kWriteAfter);
   }
 
-  /** Updates it at once. */
+  /** Updates the address at once. */
   async write(): Promise<void> {
     const { view } = this;
     const { state } = view;
@@ -35,7 +35,7 @@ export class Address {
       const hash = await hashOf(await view.composed(view.size), state);
       if (view.state === state) history.replaceState(null, "", `${this.plain()}${hash}`);
     } catch {
-      // A view that cannot be drawn has no link; the picture already reported why.
+      // A view that cannot be drawn has no link; the picture has already reported the reason.
     }
   }
 

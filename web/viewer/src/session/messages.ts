@@ -1,4 +1,4 @@
-/** Messages to the user: one at a time, the progress of a long task, and words for a live region. */
+/** Messages to the user: one at a time, the progress of a long task, and text for a live region. */
 
 import { kCancelled, type EngineError } from "../engine";
 import { Observable } from "../observable";

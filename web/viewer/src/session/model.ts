@@ -1,4 +1,4 @@
-/** Opens models and cities, and opens a model again that the library has lost. */
+/** Opens models and cities, and reopens a model that the library has lost. */
 
 import { CityStream, type CityHost } from "../city/city_stream";
 import type { CityFiles } from "../city/city_files";
@@ -21,7 +21,7 @@ export interface Opening {
   abort: AbortController;
 }
 
-/** Milliseconds in which the library is not reopened twice. */
+/** Milliseconds until the library may be reopened again. */
 const kReopenAfter = 20_000;
 
 export class Model extends ViewPart {
@@ -30,7 +30,7 @@ export class Model extends ViewPart {
   opening: Opening | null = null;
   /** null: no city is open. */
   city: CityStream | null = null;
-  /** A view whose model is a file that is not here yet. */
+  /** A view whose model is a file that the user has not opened yet. */
   awaited: { file: string; state: ViewState | null } | null = null;
   readonly refining: Refining;
   readonly owners: Owners;
@@ -38,7 +38,7 @@ export class Model extends ViewPart {
   private source: Source | null = null;
   private openedWith: OpenOptions = {};
   private restartedAt = -Infinity;
-  /** The page shows a model that the library has not open any more. */
+  /** The page shows a model that is no longer open in the library. */
   private hasLostVolume = false;
   /** The library is reading the model that is being opened. */
   private isReading = false;
@@ -52,12 +52,12 @@ export class Model extends ViewPart {
     });
   }
 
-  /** The files of the open model; null if they cannot be had again. */
+  /** The files of the open model; null if they cannot be fetched again. */
   async filesAgain(): Promise<FileBytes[] | null> {
     return (await this.source?.().catch(() => null)) ?? null;
   }
 
-  /** Gives up the opening that is under way; the model before stays open. */
+  /** Cancels the current opening; the previous model stays open. */
   cancelOpening(): void {
     const { opening } = this;
     if (!opening) return;
@@ -77,10 +77,10 @@ export class Model extends ViewPart {
   }
 
   /**
-   * Fetches and opens a model, and gives up one that is still being opened. On failure, or when cancelled, the previous one stays open.
+   * Fetches and opens a model, and cancels an opening in progress. On failure or cancellation, the previous model stays open.
    * @param fetched  fetches the files, and reports its progress
    * @param again  fetches them again
-   * @param state  null: the view begins anew
+   * @param state  null: starts with a new view
    */
   open(name: string, fetched: (signal: AbortSignal) => Promise<FileBytes[]>, again: Source, state: ViewState | null): Promise<boolean> {
     return this.attempt(name, fetched, async (files) => {
@@ -106,7 +106,7 @@ export class Model extends ViewPart {
       },
       async () => {
         this.city?.end();
-        // The library has one city at a time: if this one fails, the one before must be opened again.
+        // The library has one city at a time: if this one fails, the previous one must be opened again.
         this.hasLostVolume ||= this.city !== null;
         const info = await city.open();
         this.city = city;
@@ -146,7 +146,7 @@ export class Model extends ViewPart {
     }
   }
 
-  /** Another model has taken the place of the one before. */
+  /** Another model has replaced the previous one. */
   private replace(info: VolumeInfo, from: { file: string; otherFiles: string[]; source: Source | null; state: ViewState | null }): void {
     this.hasLostVolume = false;
     this.source = from.source;
@@ -162,7 +162,7 @@ export class Model extends ViewPart {
       volume.take(info);
       this.parts.selection.forget();
       this.parts.picture.forget();
-      // Of a city, what is selected may not be seen yet.
+      // The selected features of a city may not be visible yet.
       view.begin({ ...state, selection: state.selection.filter((id) => volume.isCity || volume.index.byId.has(id)) });
       this.status = "ready";
     });
@@ -170,7 +170,7 @@ export class Model extends ViewPart {
     if (!view.state.camera) void view.fit(0);
   }
 
-  /** A finer volume of the same model has taken the place of the coarse one: the view and the selection stay. */
+  /** A finer volume of the same model has replaced the coarse one: the view and the selection stay. */
   private async takeFiner(info: VolumeInfo, memory: number): Promise<void> {
     const { volume } = this;
     const by = volume.info ? sub(volume.info.origin, info.origin) : ([0, 0, 0] as Point);
@@ -190,7 +190,7 @@ export class Model extends ViewPart {
     if (await this.bringBack()) this.messages.tell(t("reopened", { error: error.message }));
   }
 
-  /** Opens the model again that the library has lost. */
+  /** Reopens the model that the library has lost. */
   private async bringBack(): Promise<boolean> {
     const { city, source } = this;
     const { engine } = this.volume;

@@ -10,7 +10,7 @@ export interface ListedModel {
   file: string;
   bytes: number;
   title?: string;
-  /** A city, whose folder `file` is: it is fetched piece by piece. */
+  /** A city with the folder `file`, which is fetched in parts. */
   city?: boolean;
 }
 
@@ -30,13 +30,13 @@ export class OpenVolume extends Observable {
   isServerOnly = false;
   /** The models of the site. */
   models: ListedModel[] = [];
-  /** Name of the open model in `models`; empty: it is not among them. */
+  /** Name of the open model in `models`; empty: it is not one of them. */
   name = "";
   /** File name for generated commands. */
   file = "model.svt";
   /** Names of the files that were opened with it. */
   otherFiles: string[] = [];
-  /** It is a file of this computer, which no link leads to. */
+  /** It is a file of this computer, which links cannot open. */
   isLocal = false;
   /** null: nothing is open. */
   info: VolumeInfo | null = null;
@@ -51,7 +51,7 @@ export class OpenVolume extends Observable {
   get isCity(): boolean {
     return this.info?.buildings !== undefined;
   }
-  /** Where the open model of the site lies, relative to the page. */
+  /** The address of the open model of the site, relative to the page. */
   get address(): string {
     return this.models.find((model) => model.name === this.name)?.file ?? this.file;
   }

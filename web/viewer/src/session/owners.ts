@@ -1,14 +1,14 @@
-/** A table of owners or parcels (CSV) that was dropped on the page: features have owners by it, for colours and queries. */
+/** A table of owners or parcels (CSV) that was dropped on the page. It sets owners of features, for colours and queries. */
 
 import { t } from "../texts";
 import { ViewPart } from "./view_part";
 
 export class Owners extends ViewPart {
-  /** Its name; empty: none. */
+  /** Name of the table; empty: no table. */
   file = "";
   private table: ArrayBuffer | null = null;
 
-  /** Colours by it at once. Rejects with an error of the library that names the line. */
+  /** Applies a table, and colours features by it at once. Rejects with an error of the library that names the line. */
   async give(table: ArrayBuffer, file: string): Promise<void> {
     const { engine, info } = this.volume;
     if (!engine || !info) return this.messages.tell(t("ownersNeedModel", { name: file }));
@@ -20,7 +20,7 @@ export class Owners extends ViewPart {
     this.messages.tell(t("ownersGiven", { name: file }));
   }
 
-  /** To a volume that took the place of another one of the same model. */
+  /** Applies the table to a volume that replaced another one of the same model. */
   async giveAgain(): Promise<void> {
     if (!this.table) return;
     await this.volume.engine?.owners(this.table.slice(0), this.file).catch(() => this.forget());

@@ -1,6 +1,6 @@
 /**
- * Large models: a coarse volume is the first picture; a finer one is made in a second worker meanwhile, and takes its place
- * at the end. If the user stops that, or the memory is too small for it, the coarse one stays, with a message.
+ * Large models: a coarse volume is the first picture. Meanwhile a second worker builds a finer one, which replaces the
+ * coarse one at the end. If the user stops that, or the memory is not sufficient, the coarse one stays, with a message.
  */
 
 import { kCancelled } from "../engine";
@@ -15,7 +15,7 @@ export type Source = () => Promise<FileBytes[]>;
 
 /** The fine volume of a smaller model takes about as long as its draft. */
 const kLargeBytes = 8e6;
-/** Ratio by which gzip compresses models, about. */
+/** Approximate ratio by which gzip compresses models. */
 const kPacked = 10;
 
 export function wantsDraft(files: FileBytes[]): boolean {
@@ -24,7 +24,7 @@ export function wantsDraft(files: FileBytes[]): boolean {
   return bytes >= kLargeBytes;
 }
 
-/** Bytes that a volume built here may take: `?memory=MB`, or else a quarter of the device's memory, at most 1 GB. */
+/** Size limit of a volume built here, bytes: `?memory=MB`, or else a quarter of the device's memory, at most 1 GB. */
 export function memoryOfPage(): number {
   const asked = Number(new URLSearchParams(location.search).get("memory"));
   if (asked > 0) return Math.max(16, asked) * 1e6;
@@ -35,12 +35,12 @@ export function memoryOfPage(): number {
 export interface RefiningHost {
   /** Resolves when the page shows the coarse volume. Before, the second worker would slow down that picture. */
   firstPicture(): Promise<void>;
-  /** The finer volume has taken the place of the coarse one. */
+  /** The finer volume has replaced the coarse one. */
   take(info: VolumeInfo, memory: number): Promise<void>;
 }
 
 export class Refining extends Observable {
-  /** null: nothing is being made finer. */
+  /** null: no refinement is in progress. */
   progress: Progress | null = null;
   /** null: the open volume is fine, or no finer one is possible. */
   private wanted: { source: Source; memory: number } | null = null;
@@ -73,7 +73,7 @@ export class Refining extends Observable {
     if (this.wanted && !this.progress) this.begin(this.wanted.source, this.wanted.memory);
   }
 
-  /** Ends it, as another model is opened. */
+  /** Ends the refinement when another model is opened. */
   cancel(): void {
     this.wanted = null;
     this.end();

@@ -1,4 +1,4 @@
-/** What is selected, its properties, and what lies along a ray. */
+/** The selection, its properties, and the objects along a ray. */
 
 import type { Feature, FeatureProperties, Pick, Stretch } from "../engine";
 import { effect } from "../observable";
@@ -13,14 +13,14 @@ export interface AlongList {
 }
 
 export class Selection extends ViewPart {
-  /** Of the selected feature, if there is exactly one, once they have come. */
+  /** Properties of the selected feature, if there is exactly one; null until they arrive. */
   properties: FeatureProperties | null = null;
   along: AlongList | null = null;
 
   constructor(parts: ViewParts) {
     super(parts);
     effect(() => {
-      // After this turn, in which the page asks for the picture.
+      // After this turn, in which the page requests the picture.
       if (this.view.now.selection && this.volume.info) queueMicrotask(() => void this.read());
     });
   }
@@ -63,7 +63,7 @@ export class Selection extends ViewPart {
     }
   }
 
-  /** As another model is opened. */
+  /** Called when another model is opened. */
   forget(): void {
     this.along = null;
     this.properties = null;

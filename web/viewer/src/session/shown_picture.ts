@@ -1,4 +1,4 @@
-/** The picture on the page, which lags the view by a frame, and facts about it: its quality, planes and colours. */
+/** The picture on the page, which lags behind the view by a frame, and its quality, planes and colours. */
 
 import { PictureLoop, type Quality } from "../canvas/picture_loop";
 import type { ColorScale, Engine, EngineError, FrameReport, MovedPlane } from "../engine";
@@ -9,9 +9,9 @@ import { movedText } from "../texts";
 import { ViewPart, type ViewParts } from "./view_part";
 
 export class ShownPicture extends ViewPart {
-  /** null: the open model has none yet. */
+  /** null: the open model does not have a picture yet. */
   report: FrameReport | null = null;
-  /** null: another one is coming. */
+  /** null: another picture follows. */
   quality: Quality | null = null;
   camera: Camera | null = null;
   /** Section planes that are drawn beside faces of the model in which they lie. */
@@ -41,7 +41,7 @@ export class ShownPicture extends ViewPart {
     });
   }
 
-  /** As another model is opened. */
+  /** Called when another model is opened. */
   forget(): void {
     this.moved = [];
     this.seenSections = null;
@@ -63,7 +63,7 @@ export class ShownPicture extends ViewPart {
     if (quality === "fine") void this.findScale(state);
   }
 
-  /** Tells which planes lie in faces, once each time. */
+  /** Reports the planes that lie in faces, once per change. */
   private async findMoved({ sections }: ViewState): Promise<void> {
     const { engine } = this.volume;
     if (sections === this.seenSections || !engine) return;

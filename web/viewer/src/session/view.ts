@@ -1,4 +1,4 @@
-/** The view of the open model: its state, the steps to it, the flight of its camera, and its scene. */
+/** The view of the open model: its state, its undo steps, the animation of its camera, and its scene. */
 
 import { between, withProjection } from "../camera/camera";
 import type { CameraPreset, Samples, Scene, SceneCamera } from "../engine";
@@ -19,7 +19,7 @@ const kFlight = 350;
 
 export class View extends Observable {
   state: ViewState = initialState();
-  /** The members of `state`, each observable on its own: a part that shows the look does not render again as the camera moves. */
+  /** The members of `state`, each observable separately: a part that shows the look does not render again when the camera moves. */
   readonly now = membersOf(() => this.state);
   /** The projection of the camera, which does not change as the camera moves. */
   readonly projection = membersOf(() => {
@@ -33,7 +33,7 @@ export class View extends Observable {
   tool: Tool | null = null;
   isWalking = false;
   isLegendShown = false;
-  /** Grows with each change after which the page draws the picture again. */
+  /** Grows with each change that redraws the picture. */
   revision = 0;
   private flight = 0;
   /** The view fitted to the whole building, and its aspect ratio; it is recomputed for another aspect ratio. */
@@ -46,7 +46,7 @@ export class View extends Observable {
     super();
   }
 
-  /** Of each feature, whether it is hidden. */
+  /** A flag per feature: whether it is hidden. */
   get hidden(): Uint8Array {
     return this.hiddenNow.value;
   }
@@ -56,12 +56,12 @@ export class View extends Observable {
 
   describe(size: [number, number], samples?: Samples): Described {
     const described = sceneOf(this.state, this.volume.box, size, samples);
-    // Tiles of a city are chosen by the pixel: levels of detail made of them would take time and memory for nothing.
+    // Tiles of a city fit the pixels. Levels of detail of the tiles would cost time and memory without benefit.
     if (this.volume.isCity) described.scene.passes = described.scene.passes!.map((pass) => ({ level: 0, ...pass }));
     return described;
   }
 
-  /** The scene as taken by `svt render --scene`, with effects. */
+  /** The scene for `svt render --scene`, with effects. */
   async composed(size: [number, number], samples?: Samples): Promise<Scene> {
     const { scene, effects } = this.describe(size, samples);
     const { engine } = this.volume;
@@ -81,7 +81,7 @@ export class View extends Observable {
     if (isDrawnDifferently(before, state)) this.redraw();
   }
 
-  /** The view of another model: no step leads back. */
+  /** Starts the view of another model, without an undo step. */
   begin(state: ViewState): void {
     this.history.clear();
     this.state = state;
@@ -127,7 +127,7 @@ export class View extends Observable {
     this.set({ hide: hideQueries(this.volume.index, flags, this.state.hide) });
   }
 
-  /** Moves to where the features of a query fill the picture; from a named view, or from the current direction. */
+  /** Moves the camera so that the features of a query fill the picture; from a named view, or from the current direction. */
   async goTo(query: string, preset: CameraPreset | null, isFollowed = true): Promise<void> {
     const { engine, info, isServerOnly, box } = this.volume;
     if (!engine || !info) return;
@@ -137,7 +137,7 @@ export class View extends Observable {
     const from: SceneCamera = seen ? sceneCamera(seen, box, this.aspect) : { preset: kSceneMembers["/camera/preset"].default };
     try {
       const found = await engine.view(query, preset, from);
-      // Fitting is no wish of the user, whose own choice meanwhile stays.
+      // Automatic fitting must not override a view that the user chose meanwhile.
       if (!isFollowed && this.state.camera !== now) return;
       this.moveToFound(found, now, isFollowed);
     } catch (error) {
@@ -176,7 +176,7 @@ export class View extends Observable {
     this.set({ camera });
   }
 
-  /** Shows the whole building; no step to take back. */
+  /** Shows the whole building, without an undo step. */
   async fit(aspect: number): Promise<void> {
     await this.goTo("", kSceneMembers["/camera/preset"].default, false);
     if (this.state.camera) this.fitted = { camera: this.state.camera, aspect };
@@ -205,7 +205,7 @@ function isDrawnDifferently(a: ViewState, b: ViewState): boolean {
   return false;
 }
 
-/** The name of a step: what it changed, the foremost of it. */
+/** The name of a step, by its most important change. */
 export function stepText(changed: Changed): string {
   return t(kStepNames[changed.find((key) => key !== "camera") ?? "camera"] ?? "look");
 }

@@ -1,6 +1,6 @@
 /**
- * Kept views as BCF 3.0 (buildingSMART, BCF-XML release 3.0), for issue lists of other programs: a topic for each view, with
- * camera, clipping planes, visibility, selection, colours and a picture. Positions are those of the model's own coordinates.
+ * Bookmarks as BCF 3.0 (buildingSMART, BCF-XML release 3.0), for issue lists of other programs: one topic per bookmark, with
+ * camera, clipping planes, visibility, selection, colours and a picture. Positions are in the model's own coordinates.
  */
 
 import type { Engine, Point, VolumeInfo } from "../engine";
@@ -15,7 +15,7 @@ import { isAllowed } from "./member_controls";
 import { ofClass, ofId } from "./queries";
 import { initialState, type Camera, type Section, type ViewState } from "./view_state";
 
-/** What a view refers to. */
+/** The model that a view refers to. */
 export interface BcfModel {
   engine: Engine;
   info: VolumeInfo;
@@ -28,14 +28,14 @@ export interface BcfModel {
 
 const kIfcId = /^[0-9A-Za-z_$]{22}$/;
 
-// eslint-disable-next-line no-control-regex -- these characters are what XML forbids
+// eslint-disable-next-line no-control-regex -- XML forbids these characters
 const escaped = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`).replace(/[\x00-\x08\x0b\x0c\x0e-\x1f]/g, " ");
 const element = (name: string, content: string) => `<${name}>${content}</${name}>`;
 const xyz = (name: string, p: Point) =>
   element(name, (["X", "Y", "Z"] as const).map((axis, i) => element(axis, String(Number(p[i]!.toFixed(9))))).join(""));
 const document = (root: string) => `<?xml version="1.0" encoding="UTF-8"?>\n${root}\n`;
 
-/** A GUID of the content, so that the same view has the same one each time: four FNV-1a sums of 32 bits, as UUID version 8. */
+/** A GUID of the content, so that the same view always has the same GUID: four FNV-1a sums of 32 bits, as UUID version 8. */
 function guidOf(text: string): string {
   const bytes = new TextEncoder().encode(text);
   const hex = [0, 1, 2, 3]
@@ -48,7 +48,7 @@ function guidOf(text: string): string {
   return [hex.slice(0, 8), hex.slice(8, 12), `8${hex.slice(13, 16)}`, `8${hex.slice(17, 20)}`, hex.slice(20)].join("-");
 }
 
-/** @param author  who made it; @param date  when; both are told in each topic */
+/** @param author  of all topics; @param date  of creation of all topics */
 export async function bcfOf(views: Bookmark[], model: BcfModel, author: string, date: Date): Promise<ArrayBuffer> {
   const files: { name: string; text: string | Uint8Array }[] = [
     { name: "bcf.version", text: document('<Version VersionId="3.0"/>') },
@@ -86,7 +86,7 @@ async function viewpoint(state: ViewState, model: BcfModel, guid: string): Promi
   return `<VisualizationInfo Guid="${guid}">${await components(state, model)}${cameraOf(state.camera, model)}${planes(state.sections, model)}</VisualizationInfo>`;
 }
 
-/** A query that selects nothing now hides nothing either. */
+/** A query that selects nothing now does not hide anything. */
 async function selected(model: BcfModel, queries: string[]): Promise<Set<string>> {
   const found = new Set<string>();
   for (const query of queries) for (const id of await model.engine.select(query).catch(() => [])) found.add(id);
@@ -149,7 +149,7 @@ function planes(sections: Section[], { info, box }: BcfModel): string {
   );
 }
 
-/** The views of a BCF file of version 2.1 or 3.0, and how many of its components the model lacks. Rejects what is none. */
+/** The views of a BCF file of version 2.1 or 3.0, and the number of its components that the model lacks. Rejects other files. */
 export async function viewsOfBcf(bytes: ArrayBuffer, model: BcfModel): Promise<{ views: Bookmark[]; missing: number }> {
   const files = await unzipped(bytes);
   const views: Bookmark[] = [];
@@ -159,7 +159,7 @@ export async function viewsOfBcf(bytes: ArrayBuffer, model: BcfModel): Promise<{
     const folder = name.slice(0, -"markup.bcf".length);
     const topic = parsed(content);
     const title = topic.querySelector("Topic > Title")?.textContent?.trim() || folder;
-    // In 2.1, viewpoints stand beside the topic.
+    // In 2.1, viewpoints are siblings of the topic.
     const points = [...topic.querySelectorAll("ViewPoint, Markup > Viewpoints")].filter((point) =>
       point.querySelector(":scope > Viewpoint"),
     );
@@ -251,7 +251,7 @@ function sectionOf(at: Point, direction: Point, box: Box): Section {
   };
 }
 
-/** All that the other picture shows is seen here too, where the pictures have different shapes. */
+/** The camera shows everything that the other picture shows, even if the pictures have different shapes. */
 function cameraIn(view: Document, { info, aspect, box }: BcfModel): Camera | null {
   const found = view.querySelector("PerspectiveCamera, OrthogonalCamera");
   const eye = pointIn(found, "CameraViewPoint"),

@@ -1,4 +1,4 @@
-/** Saved views, in the browser's local storage; each model has its own list. */
+/** Bookmarks: saved views in the browser's local storage; each model has its own list. */
 
 import type { Scene } from "../engine";
 import { restored } from "./link";
@@ -9,7 +9,7 @@ export interface Bookmark {
   state: ViewState;
   /** A small picture as a data URL. */
   picture?: string;
-  /** The day on which it was kept, ISO 8601. */
+  /** The day on which it was saved, ISO 8601. */
   date?: string;
 }
 
@@ -23,7 +23,7 @@ export function loadBookmarks(model: string, store: Storage = localStorage): Boo
   }
 }
 
-/** Those of a list from outside that are any. */
+/** The valid bookmarks of a list from outside. */
 function bookmarksOf(value: unknown): Bookmark[] {
   if (!Array.isArray(value)) return [];
   return value
@@ -38,12 +38,12 @@ function bookmarksOf(value: unknown): Bookmark[] {
 
 const kPicture = /^data:image\/(jpeg|png|webp);base64,[A-Za-z0-9+/=]+$/;
 
-/** Kept views as a file, for other browsers and people. */
+/** Bookmarks as a file, for other browsers and people. */
 export function bookmarkFile(model: string, views: Bookmark[]): string {
   return `${JSON.stringify({ format: "svt-views", version: 1, model, views }, null, 1)}\n`;
 }
 
-/** The views of such a file; null if it is none. */
+/** The bookmarks of such a file; null for other files. */
 export function bookmarksOfFile(text: string): Bookmark[] | null {
   try {
     const file = JSON.parse(text) as { format?: unknown; views?: unknown };
@@ -53,7 +53,7 @@ export function bookmarksOfFile(text: string): Bookmark[] | null {
   }
 }
 
-/** The list with its n-th view one place earlier. */
+/** The list with its n-th bookmark one place earlier. */
 export function movedUp(views: Bookmark[], n: number): Bookmark[] {
   if (n < 1 || n >= views.length) return views;
   const moved = [...views];
@@ -61,7 +61,7 @@ export function movedUp(views: Bookmark[], n: number): Bookmark[] {
   return moved;
 }
 
-/** False if the browser stores nothing. */
+/** False if the browser does not store data. */
 export function saveBookmarks(model: string, bookmarks: Bookmark[], store: Storage = localStorage): boolean {
   try {
     store.setItem(keyOf(model), JSON.stringify(bookmarks));

@@ -1,4 +1,4 @@
-/** A view as shell commands: `svt render` with options if they suffice, else with a scene file; before it, what makes or fetches its model. */
+/** A view as shell commands: they make or fetch its model, then run `svt render`, with options if these suffice, else with a scene file. */
 
 import type { Scene } from "../engine";
 import { kSceneMembers, type DeclaredMember, type SceneMember } from "../generated/scene_members";
@@ -17,17 +17,17 @@ function isExpressibleAsOptions(state: ViewState): boolean {
   return state.styles.every((style) => !style.hatch && !style.ghost);
 }
 
-/** What the reader of a command has, or fetches. */
+/** The inputs of a command, which its reader has or fetches. */
 export interface Inputs {
-  /** Names of the open files, the first one foremost. */
+  /** Names of the open files, the main one first. */
   files: string[];
   /** Name of the table of owners; empty: none. */
   owners: string;
-  /** Where the first file is fetched from; empty: the reader has it. */
+  /** Address of the first file; empty: the reader has the file. */
   address: string;
 }
 
-/** The commands that draw the view, in the order in which they run. */
+/** The commands that draw the view, in order. */
 export function commandOf(state: ViewState, { scene, effects }: Described, { files, owners, address }: Inputs): string {
   const [first = "", ...others] = files;
   const isJoined = others.length > 0 && !files.some((file) => /\.svt$/i.test(file));
@@ -58,7 +58,7 @@ function optionWords({ type, option = "", repeats, default: byDefault }: Declare
   return values.flatMap((one) => [option, Array.isArray(one) ? one.join(",") : String(one)]);
 }
 
-/** What is as a scene has it by default is left out: the options of `svt render` have these defaults, too. */
+/** Omits members with their default values: the options of `svt render` have the same defaults. */
 function options(state: ViewState, scene: Scene, effects: Described["effects"]): string[] {
   const words = ["--size", (scene.size ?? kSceneMembers["/size"].default).join("x")];
   const add = (option: string, ...values: string[]) => values.forEach((value) => words.push(option, value));
@@ -75,7 +75,7 @@ function options(state: ViewState, scene: Scene, effects: Described["effects"]):
   if (effects.cutaway) add("--cutaway", effects.cutaway.query);
   const context = effects.lens?.context ?? effects.highlight?.context;
   if (context && context !== "ghost") add("--context", context);
-  // Last, since its query is optional.
+  // Last, because its query is optional.
   if (state.wireframe) {
     if (state.wireframe !== kSceneMembers["/passes/*/lines/*/hidden"].default) add("--hidden-lines", state.wireframe);
     words.push("--wireframe");

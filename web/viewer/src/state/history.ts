@@ -3,7 +3,7 @@
 import { Observable } from "../observable";
 import type { ViewState } from "./view_state";
 
-/** What a step changed, for its name: the members of the view that were given. */
+/** The members of the view that a step changed, for its name. */
 export type Changed = (keyof ViewState)[];
 
 interface Step {
@@ -16,7 +16,7 @@ interface Step {
 
 const kSameStep = 800;
 const kMaxSteps = 200;
-/** Not steps of their own: the selection draws nothing, the picture's first camera is no choice. */
+/** Members without steps: the selection is not drawn, and the user does not choose the first camera of the picture. */
 const kUncounted = new Set<keyof ViewState>(["selection", "preset"]);
 
 export class History extends Observable {
@@ -39,7 +39,7 @@ export class History extends Observable {
     this.done = [...this.done, { before, after, changed, at: now }].slice(-kMaxSteps);
   }
 
-  /** What comes next is a step of its own. */
+  /** The next change begins a new step. */
   seal(): void {
     this.isSealed = true;
   }
@@ -58,7 +58,7 @@ export class History extends Observable {
     this.isSealed = true;
   }
 
-  /** What undo() and redo() would take back or repeat; null: nothing. */
+  /** The changes that undo() would revert and redo() would repeat; null: nothing. */
   get last(): Changed | null {
     return this.done.at(-1)?.changed ?? null;
   }
@@ -66,7 +66,7 @@ export class History extends Observable {
     return this.undone.at(-1)?.changed ?? null;
   }
 
-  /** The view before the last step, but with what no step counts as it is now; null if there is none. */
+  /** The view before the last step, keeping the current values of members without steps; null without a step. */
   undo(now: ViewState): ViewState | null {
     const step = this.done.at(-1);
     if (!step) return null;
@@ -86,7 +86,7 @@ export class History extends Observable {
   }
 }
 
-/** Only what the step changed: a lens that followed the mouse meanwhile stays where it is. */
+/** Restores only the changes of the step: a lens that followed the mouse meanwhile keeps its place. */
 function restoredTo(state: ViewState, changed: Changed, now: ViewState): ViewState {
   return { ...now, ...Object.fromEntries(changed.map((key) => [key, state[key]])) };
 }

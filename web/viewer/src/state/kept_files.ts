@@ -1,8 +1,8 @@
-/** Files of the user that the browser keeps on request, so that a reload and the user's own links find them. */
+/** Files of the user that the browser stores on request, so that a reload and the user's own links find them. */
 
 const kStore = "files";
 
-/** Null where the browser keeps nothing. */
+/** Null if the browser does not store data. */
 async function opened(): Promise<IDBDatabase | null> {
   return new Promise((resolve) => {
     try {
@@ -33,7 +33,7 @@ async function run<T>(mode: IDBTransactionMode, act: (store: IDBObjectStore) => 
   }
 }
 
-/** False if the browser has no room, or keeps nothing. */
+/** False if the browser has no room, or does not store data. */
 export async function keepFile(name: string, data: ArrayBuffer): Promise<boolean> {
   return (await run("readwrite", (store) => store.put(new Blob([data]), name))) !== null;
 }

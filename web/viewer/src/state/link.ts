@@ -51,7 +51,7 @@ export async function hashOf(scene: Scene, state: ViewState): Promise<string> {
   return `#scene=${await packed(scene)}&view=${await packed(changes(state))}`;
 }
 
-/** The state of a link; null if it has none. Rejects if it is damaged. */
+/** The state of a link; null if the link has no state. Rejects if it is damaged. */
 export async function stateOfHash(hash: string, base: ViewState): Promise<ViewState | null> {
   const parts = new URLSearchParams(hash.replace(/^#/, ""));
   const view = parts.get("view"),
@@ -76,7 +76,7 @@ export function restored(value: unknown): ViewState {
   const state: Record<string, unknown> = { ...initial };
   for (const key of Object.keys(initial))
     if (key in given && isLike(initial[key as keyof ViewState], given[key], key)) state[key] = given[key];
-  const picture = (typeof given.picture === "object" && given.picture) || given; // older links have these members themselves
+  const picture = (typeof given.picture === "object" && given.picture) || given; // older links have these members at the top level
   state.picture = Object.fromEntries(
     kPlainMembers
       .map((name) => [name.slice(1), (picture as Record<string, unknown>)[name.slice(1)]] as const)

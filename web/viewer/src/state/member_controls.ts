@@ -1,6 +1,6 @@
 /**
- * Ranges, choices and first values of controls that stand for a member of a scene. They are those of the declaration;
- * what the page narrows or sets otherwise on purpose stands here with its reason, and nowhere else.
+ * Ranges, choices and first values of controls that represent a member of a scene. They are those of the declaration.
+ * All intended differences are listed here, with their reasons.
  */
 
 import {
@@ -14,7 +14,7 @@ import {
 
 export interface MemberRange {
   member: SceneMemberWith<"minimum" | "maximum">;
-  /** Of the control alone; a scene may have any value of the range. */
+  /** Only for the control; a scene may have any value of the range. */
   step: number;
   /** Narrower than declared. */
   minimum?: number;
@@ -23,13 +23,13 @@ export interface MemberRange {
 
 export const kRanges = {
   opacity: { member: "/passes/*/styles/*/opacity", step: 0.01 },
-  // Below, the picture is as good as parallel, which the page has as a projection of its own; above, what lies at the
-  // borders of the picture is stretched out of shape.
+  // Below, the picture is almost parallel, and the page has a separate parallel projection. Above, objects at the borders
+  // of the picture are distorted.
   fieldOfView: { member: "/camera/fieldOfView", step: 1, minimum: 10, maximum: 100 },
   pictureSide: { member: "/size", step: 1 },
 } as const satisfies Record<string, MemberRange>;
 
-/** What a control lets choose. */
+/** The values that a control offers. */
 export function rangeOfControl(control: keyof typeof kRanges): { minimum: number; maximum: number; step: number } {
   const { member, step, minimum, maximum }: MemberRange = kRanges[control];
   const declared = kSceneMembers[member];
@@ -42,7 +42,7 @@ export function isAllowed(member: SceneMemberWith<"minimum" | "maximum">, value:
   return value >= minimum && value <= maximum;
 }
 
-/** Why a plain member of the picture has no control made from its declaration. */
+/** The reasons why plain members of the picture do not have a control made from their declaration. */
 const kWithoutPlainControl: Partial<Record<SceneMember, string>> = {
   "/colorBy": "offers the attributes of the model",
   "/explode": "features are picked where they stand",
@@ -68,13 +68,13 @@ export function isValueOf(name: SceneMember, value: unknown): boolean {
   return typeof value === "number" && value >= minimum && value <= maximum;
 }
 
-/** Named views on buttons, in the order of the keys 1 to 7; the other slanted ones are a turn of the mouse away. */
+/** Named views on buttons, in the order of the keys 1 to 7. A turn with the mouse gives the other slanted ones. */
 export const kViews = ["iso", "front", "right", "back", "left", "top", "bottom"] as const satisfies readonly ChoiceOf<"/camera/preset">[];
 
-/** Where the page begins with another value than a scene that says nothing. */
+/** First values of the page that differ from the defaults of a scene. */
 export const kOtherFirstValues = {
-  // A picture that is kept goes into documents and slides, so it is as large as the screens that show those.
+  // Saved pictures are for documents and slides, so they are as large as screens.
   pictureSize: { member: "/size", value: [1920, 1080] },
-  // Who walks stands amidst the rooms, where the declared angle shows a piece of one wall.
+  // A walking person is inside rooms, where the declared angle shows only a part of one wall.
   walkingFieldOfView: { member: "/camera/fieldOfView", value: 65 },
 } as const satisfies Record<string, { member: SceneMember; value: unknown }>;

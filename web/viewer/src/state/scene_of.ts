@@ -1,4 +1,4 @@
-/** State to scene: a pure function, the only place that determines what is drawn. */
+/** State to scene: a pure function, the only place that determines the picture. */
 
 import type { CameraPreset, Effects, Point, Samples, Scene, SceneCamera, ScenePass } from "../engine";
 import { parallelZoom, type Box } from "../camera/camera";
@@ -39,7 +39,7 @@ export function cutOf(sections: Section[]): string {
   return sections.map(regionOf).join(" or ");
 }
 
-/** The queries for highlight or cutaway; none: nothing to show. */
+/** The queries for highlight or cutaway; empty: nothing to show. */
 export function focusQueries(state: ViewState): string[] {
   return state.focus.query.trim() !== "" ? [state.focus.query.trim()] : state.selection.map(ofId);
 }

@@ -4,7 +4,7 @@ import type { CameraPreset, Context, HiddenLines, Look, Point, Scene, SceneStyle
 import { kSceneMembers, type DeclaredMember, type SceneMember } from "../generated/scene_members";
 import type { PlainMember } from "./member_controls";
 
-/** z is up, except in views straight down or up: there it is the grid's y axis. */
+/** The up direction is z, except in views straight down or up: there it is the grid's y axis. */
 export interface Camera {
   eye: Point;
   target: Point;
@@ -17,7 +17,7 @@ export interface Camera {
 
 export type SectionAxis = "x" | "y" | "z" | "free";
 
-/** A plane that removes what is beyond it. */
+/** A plane that removes everything beyond it. */
 export interface Section {
   axis: SectionAxis;
   /** Metres from the grid's lower corner along the plane's normal. */
@@ -72,9 +72,9 @@ export interface ViewState {
   wireframe: HiddenLines | null;
   /** Names of selected features beside the picture. */
   names: boolean;
-  /** What colours and a legend in the picture tell: class, storey, volume, an attribute, ...; empty: nothing. */
+  /** The meaning of colours and legend in the picture: class, storey, volume, an attribute, ...; empty: no colouring. */
   colorBy: string;
-  /** Members of the scene that have no control of their own; those with their defaults are absent. */
+  /** Members of the scene without a separate control; members with their defaults are absent. */
   picture: Partial<Pick<Scene, PlainMember>>;
   /** Ids. */
   selection: string[];
@@ -117,7 +117,7 @@ export function withStyle(styles: SceneStyle[], select: string, change: Partial<
   return Object.keys(after).length > 1 ? [...others, after] : others;
 }
 
-/** Sets a plain member of the picture; its default, or a text without characters, takes it out. */
+/** Sets a plain member of the picture; its default, or an empty text, removes it. */
 export function withMember(picture: ViewState["picture"], name: SceneMember, value: unknown): ViewState["picture"] {
   const { default: byDefault = "" }: DeclaredMember = kSceneMembers[name];
   const key = name.slice(1);

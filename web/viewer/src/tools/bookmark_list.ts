@@ -1,4 +1,4 @@
-/** Kept views: their list with pictures and names, which can be changed, ordered, and passed on as a file. */
+/** Bookmarks: a list with pictures and names, which can be changed, ordered, and passed on as a file. */
 
 import { css, html, nothing } from "lit";
 import { bookmarkFile, bookmarksOfFile, loadBookmarks, movedUp, pretty, saveBookmarks, type Bookmark } from "../state/bookmarks";
@@ -15,7 +15,7 @@ const kPicture: [number, number] = [112, 70];
 
 export class BookmarkList extends Part {
   static override properties = { ...Part.properties, size: { attribute: false }, views: { state: true } };
-  /** Of the pictures that scenes ask for. */
+  /** Size of the pictures in exported scenes. */
   declare size: [number, number];
   declare views: Bookmark[];
   private viewsOf = "";

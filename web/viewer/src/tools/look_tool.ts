@@ -12,7 +12,7 @@ import { controls, Part } from "../ui/part";
 const kLooks = kSceneMembers["/look"].choices;
 const kLines = ["off", ...kSceneMembers["/passes/*/lines/*/hidden"].choices] as const;
 
-/** Suggested; attributes of the model are possible, too. */
+/** Suggested keys; attributes of the model are possible, too. */
 const kColorKeys = ["class", "name", "storey", "volume", "area"] as const;
 
 export class LookTool extends Part {

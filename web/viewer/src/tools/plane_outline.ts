@@ -63,7 +63,7 @@ export function keptInside(section: Section, box: Box): Section {
   return { ...section, at: Math.min(high - inset, Math.max(low + inset, section.at)) };
 }
 
-/** The plane, or one beside it where it would lie on one of the others. */
+/** The plane, or one beside it if it would coincide with one of the others. */
 export function keptApart(section: Section, others: Section[], box: Box): Section {
   const [low, high] = rangeOf(section, box);
   const step = (high - low) / 8;
@@ -73,7 +73,7 @@ export function keptApart(section: Section, others: Section[], box: Box): Sectio
         other.axis === section.axis && other.turn === section.turn && other.tilt === section.tilt && Math.abs(other.at - at) < step / 2,
     );
   for (let n = 0; n < 8; ++n) {
-    // To and fro around where it would lie: 0, +1, -1, +2, ...
+    // Alternates around its original place: 0, +1, -1, +2, ...
     const at = Number((section.at + (n % 2 ? (n + 1) / 2 : -n / 2) * step).toFixed(2));
     if (at > low && at < high && !isTaken(at)) return { ...section, at };
   }

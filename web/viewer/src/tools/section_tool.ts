@@ -13,19 +13,19 @@ import { keptApart, rangeOf } from "./plane_outline";
 const kAxes: SectionAxis[] = ["x", "y", "z", "free"];
 const kFormats = ["svg", "dxf", "png", "geojson", "csv"] as const;
 type FileFormat = (typeof kFormats)[number];
-/** Pixels of a PNG for each CSS pixel of its SVG: 300 to the inch. */
+/** Pixels of a PNG per CSS pixel of its SVG: 300 per inch. */
 const kPngScale = 300 / 96;
 const kParts = [
   ["beyond", "drawBeyond"],
   ["above", "drawAbove"],
   ["dimensions", "drawDimensions"],
 ] as const;
-/** Height at which plans are cut: above the floor, over window sills. */
+/** Height of the cut of plans above the floor: over window sills. */
 const kPlanHeight = 1.1;
-/** More storeys than these, as a district has, are a list. */
+/** A larger number of storeys, as in a district, is shown as a list. */
 const kMostChips = 14;
 
-/** Storeys, or levels that the model does not name; those of several buildings with the same name and height are one. */
+/** Storeys, or levels that the model does not name. Storeys of several buildings with the same name and height are one entry. */
 function levelsOf(storeys: VolumeInfo["storeys"]): { name: string; floor: number }[] {
   const levels = storeys.map(({ name, id, floor }) => ({ name: name || id || t("level", { height: number(floor, 2) }), floor }));
   const once = levels.filter(
@@ -36,7 +36,7 @@ function levelsOf(storeys: VolumeInfo["storeys"]): { name: string; floor: number
 }
 
 export class SectionTool extends Part {
-  /** What the next drawings have beside the cut. */
+  /** The parts of the next drawings beside the cut. */
   private parts: DrawingParts = { beyond: false, above: false, dimensions: false };
   private isDrawing = false;
 
@@ -158,7 +158,7 @@ export class SectionTool extends Part {
       ${typeof text === "string" ? html`<output>${text}</output>` : text}</div>`;
   }
 
-  /** The position in the model's own coordinates, where the plane is at right angles to one of their axes. */
+  /** The position in the model's own coordinates, if the plane is perpendicular to one of their axes. */
   private inTheWorld(section: Section, n: number) {
     const { info } = this.session.volume;
     const axis = { x: 0, y: 1, z: 2, free: -1 }[section.axis];
@@ -173,7 +173,7 @@ export class SectionTool extends Part {
   private typed(n: number, value: number): void {
     const [low, high] = rangeOf(this.session.view.now.sections[n]!, this.session.volume.box);
     if (Number.isFinite(value)) this.change(n, { at: Math.min(high, Math.max(low, value)) });
-    this.requestUpdate(); // what was typed and not taken is put back
+    this.requestUpdate(); // resets the text of a refused value
   }
 
   private add(): void {

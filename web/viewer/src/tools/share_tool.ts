@@ -1,4 +1,4 @@
-/** Saving a view: kept views, link, command, scene file, picture. */
+/** Saving a view: bookmarks, link, command, scene file, picture. */
 
 import { css, html, nothing } from "lit";
 import type { Scene } from "../engine";
@@ -190,7 +190,7 @@ export class ShareTool extends Part {
 }
 customElements.define("svt-share-tool", ShareTool);
 
-/** Characters that every program passes on. */
+/** Number of characters of a link that all programs pass on. */
 const kLongLink = 2000;
 
 function isOfThisMachine({ protocol, hostname }: Location): boolean {

@@ -15,7 +15,7 @@ import { controls, Part } from "../ui/part";
 /** Metres from the floor to the eye. */
 const kEyeHeight = 1.65;
 
-/** Walking begins where there is air, on the storey whose heights the view's target is in; else on the lowest. */
+/** Walking begins in air, on the storey that contains the height of the view's target; else on the lowest. */
 export function setWalking(session: Session, isWalking: boolean): void {
   session.view.isWalking = isWalking;
   if (!session.view.now.camera) return;

@@ -2,7 +2,7 @@
 
 const kGroups = "[role=radiogroup], [role=toolbar]";
 
-/** True if the key moved the focus; among choices, what is reached is chosen. */
+/** True if the key moved the focus. A choice that gets the focus is chosen. */
 export function movedByArrow(event: KeyboardEvent): boolean {
   const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
   const ends = { Home: 0, End: -1 }[event.key];

@@ -30,7 +30,7 @@ export async function copy(text: string): Promise<boolean> {
   }
 }
 
-/** An SVG as a picture; `scale` pixels for each of its CSS pixels. */
+/** An SVG as a picture, with `scale` pixels per CSS pixel. */
 export async function pngOf(svg: ArrayBuffer, scale: number): Promise<ArrayBuffer> {
   const url = URL.createObjectURL(new Blob([svg], { type: kKinds["svg"]! }));
   try {
@@ -85,10 +85,10 @@ export function zipOf(files: { name: string; text: string | Uint8Array }[]): Arr
   return all.buffer;
 }
 
-/** Bytes that an archive may have when unpacked. */
+/** Size limit of an unpacked archive, bytes. */
 const kMostUnpacked = 64 << 20;
 
-/** The files of a ZIP archive, stored or deflated, by name. Rejects what is none, or is too big. */
+/** The files of a ZIP archive, stored or deflated, by name. Rejects other files, and archives that are too big. */
 export async function unzipped(bytes: ArrayBuffer): Promise<Map<string, Uint8Array>> {
   const view = new DataView(bytes);
   let end = bytes.byteLength - 22;

@@ -1,4 +1,4 @@
-/** A slider for a member of a scene: its range is the declared one, its tooltip the declared help. */
+/** A slider for a member of a scene, with the declared range, and the declared help as its tooltip. */
 
 import { html } from "lit";
 import { kRanges, rangeOfControl } from "../state/member_controls";

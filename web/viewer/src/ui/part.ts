@@ -1,4 +1,4 @@
-/** A part of the page. It renders again when an observable value changes that its last rendering read. */
+/** A part of the page. It renders again when an observable value that its last rendering read changes. */
 
 import { css, LitElement } from "lit";
 import { effect } from "../observable";
@@ -18,7 +18,7 @@ export abstract class Part extends LitElement {
       isRendered = true;
       super.performUpdate();
     });
-    // A part that was removed before its rendering observes nothing.
+    // A part that was removed before its rendering does not observe anything.
     if (!this.isConnected) this.unwatch();
   }
 
