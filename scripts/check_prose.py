@@ -201,7 +201,7 @@ def comment_passages(text: str) -> Iterator[Passage]:
                 if block:
                     yield Passage(first, " ".join(block))
                 block = []
-            words = re.sub(r"\\(?:param|tparam) [\w, ]*\w\s{0,2}|\\(?:return|file)|@\w+", "", words).strip()
+            words = re.sub(r"\\(?:param|tparam) \w+(?:, \w+)*|\\(?:return|file)|@\w+", "", words).strip()
             if words and re.match(r"[\w`(\"'<#-]", words):
                 if not block:
                     first = number

@@ -73,8 +73,8 @@ CHECKS = {
     "mutants": Check("scripts/setup.sh && scripts/mutants.py --changed --count 10", 25),
     "packages": Check(
         "scripts/setup.sh packages && make -s package && scripts/test_deb.sh && scripts/test_package.sh && "
-        "make -s npm && scripts/test_npm.sh build/release/bin/svt",
-        30,
+        "make -s npm && scripts/test_npm.sh build/release/bin/svt && scripts/test_reproducible.sh",
+        45,
     ),
 }
 
