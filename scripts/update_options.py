@@ -23,7 +23,7 @@ PLAIN_KINDS = {"whole": "whole number", "number": "number", "text": "text"}
 PAGE_ENDINGS = """\
 /**
  * The endings of model files, as the readers of the library declare them.
- * Written by scripts/update_options.py; a change by hand is lost.
+ * scripts/update_options.py generates this file; manual changes are lost.
  */
 
 export const kModelEndings = %s as const;
@@ -31,7 +31,7 @@ export const kModelEndings = %s as const;
 PAGE_MEMBERS_BEGIN = """\
 /**
  * The members of a scene as svt/illustrate/scene/scene_members.cpp declares them, by JSON pointer with * for any index.
- * Written by scripts/update_options.py; a change by hand is lost.
+ * scripts/update_options.py generates this file; manual changes are lost.
  */
 
 export const kSceneMembers = {
@@ -44,7 +44,7 @@ export interface Scene %s
 
 export type SceneMember = keyof typeof kSceneMembers;
 
-/** All that a declaration may say. */
+/** The members of a declaration. */
 export interface DeclaredMember {
   readonly type: "flag" | "whole" | "number" | "text" | "object" | "list";
   readonly unit?: string;
@@ -54,7 +54,7 @@ export interface DeclaredMember {
   readonly default?: string | number | boolean | readonly number[];
   /** Takes an array of such values. */
   readonly repeats?: true;
-  /** Of `svt render`, with its heading in help. */
+  /** The option of `svt render` for this member; `group` is its heading in help. */
   readonly option?: string;
   readonly group?: string;
   readonly help: string;
@@ -205,7 +205,7 @@ def scene_schema(described: dict) -> str:
     schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "SVT scene",
-        "description": "What a picture shows, in queries and regions (docs/user/query-language.md, docs/user/regions.md). "
+        "description": "The content of a picture, in queries and regions (docs/user/query-language.md, docs/user/regions.md). "
         "`svt render --scene` draws it, `--write-scene` writes one. Lengths are metres.",
     }
     return json.dumps(schema | object_schema(members, ""), indent=2, ensure_ascii=False) + "\n"
@@ -216,7 +216,7 @@ def sheets_schema(described: dict) -> str:
     schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "SVT sheets",
-        "description": "Which drawings stand on which sheets of paper. `svt sheets --from` draws them, `--write-sheets` "
+        "description": "The drawings on each sheet of paper. `svt sheets --from` draws them, `--write-sheets` "
         "writes one. Lengths are metres.",
     }
     return json.dumps(schema | object_schema(members, ""), indent=2, ensure_ascii=False) + "\n"

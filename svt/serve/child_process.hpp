@@ -24,9 +24,10 @@ struct ChildResult {
     std::string messages;  ///< the last 64 KiB of its stderr
 };
 
-/// Runs `arguments[0]` (a path) in `folder` and waits for it to end. It gets no input and its stdout is discarded. It
-/// is killed with all its descendants when its time is over or `stop` requests it; when this thread ends, it is killed
-/// alone. Beyond the limits of memory and file size its allocations and writes fail.
+/// Runs `arguments[0]` (a path) in `folder` and waits for it to end. The program gets no input and its stdout is
+/// discarded. When its time is over or `stop` requests it, the program is killed with all its descendants. When this
+/// thread ends, only the program itself is killed. Beyond the limits of memory and file size its allocations and writes
+/// fail.
 [[nodiscard]] ChildResult runChild(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                                    const ChildLimits& limits, const Progress& stop);
 

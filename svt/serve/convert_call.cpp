@@ -70,7 +70,7 @@ Reply convert(const ConvertOptions& options, const Request& request, const Progr
     if (folder.path().empty() || error)
         return Reply::error(503, codeTag(Code::DiskFull), "no space is left for the model");
     std::vector<std::string> arguments = options.command;
-    // No model has such a name, for fileName() leaves no dot in front.
+    // No model has such a name, because fileName() removes leading dots.
     const std::string volume = ".volume.svt";
     arguments.insert(arguments.end(), {name, "-o", volume});
     arguments.insert(arguments.end(), options.options.begin(), options.options.end());

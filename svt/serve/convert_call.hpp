@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// The HTTP call that converts a model to a volume: POST with the model as body, `?name=house.gml`. Another program
-/// does the conversion, under resource limits, since models from clients are untrusted.
+/// does the conversion under resource limits, because models from clients are untrusted.
 
 #include <svt/serve/child_process.hpp>
 #include <svt/serve/http_server.hpp>

@@ -18,12 +18,12 @@
 
 namespace svt::serve {
 
-/// Bytes and what holds them: memory, or a file that is read in parts. Cheap to copy.
+/// Bytes with their owner: memory, or a file that is read in parts. Cheap to copy.
 struct Bytes {
-    std::span<const std::byte> data;  ///< empty where a file holds them
+    std::span<const std::byte> data;  ///< empty if a file holds them
     std::shared_ptr<const void> owner;
     std::shared_ptr<const PartFile> file = nullptr;
-    std::uint64_t fileOffset = 0, fileSize = 0;  ///< of the bytes in the file
+    std::uint64_t fileOffset = 0, fileSize = 0;  ///< position and size in the file
 
     [[nodiscard]] static Bytes of(std::string text);
     [[nodiscard]] static Bytes of(FileBytes file);
@@ -32,13 +32,13 @@ struct Bytes {
     [[nodiscard]] std::uint64_t size() const noexcept { return file ? fileSize : data.size(); }
     /// `count` bytes from `first` on; they must be there.
     [[nodiscard]] Bytes part(std::uint64_t first, std::uint64_t count) const;
-    /// The bytes from `first` on, at most `most` of them; not all of a file at once.
-    /// \param buffer  receives those of a file; keep it as long as the result
-    /// \return the bytes, or CannotOpen where another program shortened the file
+    /// Reads up to `most` bytes from `first` on. Read large files in several calls.
+    /// \param buffer  receives bytes of a file; keep it as long as the result
+    /// \return the bytes, or CannotOpen if another program shortened the file
     [[nodiscard]] Result<std::string_view> read(std::uint64_t first, std::size_t most, std::string& buffer) const;
-    /// \return nothing, or CannotOpen where another program changed the file since it was opened
+    /// \return nothing, or CannotOpen if another program changed the file since it was opened
     [[nodiscard]] Result<void> checkUnchanged() const { return file ? file->checkUnchanged() : Result<void>(); }
-    /// Of bytes in memory.
+    /// The bytes as text; only for bytes in memory.
     [[nodiscard]] std::string_view text() const noexcept {
         return {reinterpret_cast<const char*>(data.data()), data.size()};
     }
@@ -94,9 +94,9 @@ inline constexpr std::size_t kMaxHeaders = 100;
 
 /// Parses a head.
 /// \param text  from the request line to the empty line, inclusive
-/// \return the head; 400 for malformed or ambiguous input (bare line feeds, folded lines, several lengths or
-///         hosts, a target that is not a path), 411 for a body of unknown length, 414 for a request line over 8 KiB,
-///         431 for more than 100 headers, 505 for another version of HTTP
+/// \return the head, or an error. 400: malformed or ambiguous input (bare line feeds, folded lines, several lengths or
+///         hosts, a target that is not a path). 411: a body of unknown length. 414: a request line over 8 KiB. 431:
+///         more than 100 headers. 505: another version of HTTP
 [[nodiscard]] std::variant<Head, HeadError> parseHead(std::string_view text);
 
 /// Decodes %XX.

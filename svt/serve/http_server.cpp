@@ -479,7 +479,8 @@ private:
     void dispatch(Connection& connection) {
         const Request& request = connection.head.request;
         if (!isKnownHost(request.header("host"), options_.hostNames))
-            return reply(connection, Reply::refusal(421, "this server is not known by that name (see --allow-host)"),
+            return reply(connection,
+                         Reply::refusal(421, "the server does not accept this host name; add it with --allow-host"),
                          false);
         for (Worker& worker : workers_)
             if (worker.route.path == request.path) return admit(connection, worker);
@@ -586,7 +587,7 @@ private:
         write(connection);
     }
 
-    // What of the reply is sent next. What the socket does not take of a file is read again.
+    // The next part of the reply. Bytes of a file that the socket does not take are read again.
     Result<std::string_view> nextPart(const Connection& connection) {
         constexpr std::size_t kAtOnce = std::size_t{1} << 20;  // then the other connections get their turn
         constexpr std::size_t kOfFile = std::size_t{1} << 18;  // about as much as a socket takes
@@ -639,7 +640,7 @@ private:
     std::list<Worker> workers_;
     std::list<Connection> connections_;
     std::vector<pollfd> polls_;
-    std::string fileBuffer_;  // what is sent of a file
+    std::string fileBuffer_;  // the part of a file to send
     Time now_ = Clock::now(), acceptFrom_ = now_, stopAt_ = now_;
     std::atomic<bool> isStopAsked_{false};
     bool isStopping_ = false;

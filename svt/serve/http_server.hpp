@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// An HTTP/1.1 server for a static site and a few calls, built for public networks: a single thread handles all I/O
-/// without blocking, so a slow client occupies a connection but no thread; all resources of a client are limited.
+/// An HTTP/1.1 server for a static site and a few calls, built for public networks. A single thread handles all I/O
+/// without blocking, so a slow client occupies a connection but no thread. All resources of a client are limited.
 
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
@@ -19,8 +19,8 @@ namespace svt::serve {
 /// A call: POST to a path, handled by a function on its own thread.
 struct Route {
     std::string path;
-    /// Called for one request at a time. `stop.cancel` is set when the client disconnects or the server stops; the
-    /// return value is then discarded.
+    /// Handles one request at a time. `stop.cancel` is set when the client disconnects or the server stops; the return
+    /// value is then discarded.
     std::function<Reply(const Request& request, const Progress& stop)> handle;
     std::uint64_t maxBodyBytes = 1 << 20;
     int queueLength = 4;        ///< queue length, beyond the request in progress; further requests get 503
@@ -43,9 +43,10 @@ struct ServerOptions {
     std::filesystem::path bodyFolder;  ///< folder for body files; needed by routes that use them
 };
 
-/// Rejected, closing the connection: a head over 16 KiB (431), a request line over 8 KiB (414), a body over the limit
-/// of its route (413), an unknown Host (421), a call from a page of another site (403). At the connection limit, the
-/// connection that has waited longest for its client is closed; if none is waiting, a new one gets 503.
+/// Rejects requests and closes their connection for a head over 16 KiB (431), a request line over 8 KiB (414), a body
+/// over the limit of its route (413), an unknown Host (421), a call from a page of another site (403). At the
+/// connection limit, the connection that has waited longest for its client is closed; if none is waiting, a new one
+/// gets 503.
 class HttpServer {
 public:
     static constexpr std::size_t kMaxHeadBytes = 16 * 1024;
@@ -59,8 +60,9 @@ public:
     ~HttpServer();
 
     [[nodiscard]] int port() const noexcept;
-    /// Replies until stop(). Memory: 17 KiB per connection, plus the bodies of calls (`queueLength` + 1 per route). Files of
-    /// the site are read in parts; a connection whose file another program shortens is closed within the reply.
+    /// Replies until stop(). Memory: 17 KiB per connection, plus the bodies of calls (`queueLength` + 1 per route).
+    /// Files of the site are read in parts; if another program shortens a file, its connection is closed within the
+    /// reply.
     void run();
     /// Ends run() within stopSeconds plus the time handlers take to react to their `stop`. May be called from any
     /// thread and from a signal handler.

@@ -46,7 +46,8 @@ constexpr Type kOtherType{"", "application/octet-stream", false};
 constexpr std::size_t kMinCompressed = 1000;
 constexpr std::size_t kFilePiece = std::size_t{1} << 20;
 
-// As the server's, see http_server.cpp, but for what only a header can say: who may embed the page.
+// The policy of the server (http_server.cpp), without the directive that only a header can set: which pages may embed
+// this one.
 std::string pagePolicy(const std::string& origins) {
     return "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; style-src 'self'; "
            "img-src 'self' data: blob:; font-src 'self'; connect-src 'self'" +
@@ -170,7 +171,7 @@ Error cannotOpen(const fs::path& path, std::string message) {
 Result<std::vector<Found>> filesOf(const fs::path& folder) {
     std::error_code error;
     const fs::path root = fs::canonical(folder, error);
-    if (error || !fs::is_directory(root, error)) return cannotOpen(folder, "this is no folder; check the spelling");
+    if (error || !fs::is_directory(root, error)) return cannotOpen(folder, "this is not a folder; check the spelling");
     std::vector<Found> found;
     auto at = fs::recursive_directory_iterator(root, error);
     for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
@@ -205,7 +206,7 @@ struct Staging {
     }
 };
 
-// Not while a signal removes the folder above.
+// Does not create folders while the handling of a signal removes the folder above.
 std::error_code makeFolders(const fs::path& folder) {
     std::error_code error;
     static_cast<void>(Unfinished::path([&] {
@@ -230,7 +231,8 @@ Result<void> moveInto(const fs::path& staging, const fs::path& folder, const std
     return {};
 }
 
-// "https://example.org:8080" of "https://example.org:8080/town"; empty of a folder, and of what no policy may have.
+// "https://example.org:8080" of "https://example.org:8080/town"; empty for a folder, and for an address that a policy
+// cannot contain.
 std::string originOf(const std::string& location) {
     if (!location.starts_with("http://") && !location.starts_with("https://")) return {};
     const std::string origin = location.substr(0, location.find_first_of("/?#", location.find("//") + 2));
@@ -253,7 +255,7 @@ Result<nlohmann::ordered_json> addCity(Site& site, const SiteModel& model) {
         {"name", model.name}, {"file", file}, {"bytes", 0}, {"title", model.title}, {"city", true}};
 }
 
-// What a path is answered with. Cost: that of compressing.
+// The resource for a path. Cost: that of compressing.
 Result<Resource> resourceOf(const std::string& path, Bytes bytes) {
     const Type& type = typeOf(path);
     SVT_TRY(hash, hashOf(bytes));

@@ -2,7 +2,8 @@
 /// \file
 /// The content to serve: a table from path to bytes, complete before the first request. Request paths are only looked
 /// up in this table and never joined to a folder, so path traversal is impossible. Large files stay on the disk and are
-/// read in parts: one that is replaced by rename is served as it was, one that is changed in place no longer.
+/// read in parts. A file that is replaced by rename is served as it was; a file that is changed in place is no longer
+/// served.
 
 #include <svt/core/result.hpp>
 #include <svt/core/vec.hpp>
@@ -37,7 +38,7 @@ public:
     /// compressed here, once. Cost: 1 s per 50 MB of those, 1 s per GB of others.
     /// \param bytes  in memory
     void add(const std::string& path, Bytes bytes);
-    /// The same for bytes in a file too, which are read once, in parts, and not compressed.
+    /// Like add(), but also takes bytes in a file. Those are read once, in parts, and are not compressed.
     /// \return CannotOpen if another program changes the file meanwhile
     [[nodiscard]] Result<void> addStored(const std::string& path, Bytes bytes);
 
@@ -48,15 +49,15 @@ public:
 
     /// Null if the path does not exist.
     [[nodiscard]] const Resource* find(std::string_view path) const noexcept;
-    /// The reply to a GET or HEAD: 200, 206 for a single range, 304, 404, 416; 405 for other methods; 500 if another program
-    /// changed the file of the resource, so that the tag of its content is no longer true.
+    /// The reply to a GET or HEAD: 200, 206 for a single range, 304, 404, 416; 405 for other methods; 500 if another
+    /// program changed the file of the resource, because the tag of its content is then wrong.
     [[nodiscard]] Reply reply(const Request& request) const;
 
     [[nodiscard]] const std::map<std::string, Resource, std::less<>>& resources() const noexcept { return resources_; }
 
     /// Lets the page fetch from another server: "https://example.org".
     void allowOrigin(const std::string& origin);
-    /// All of them, each with a blank before it.
+    /// All allowed origins, each with a blank before it.
     [[nodiscard]] const std::string& origins() const noexcept { return origins_; }
 
 private:
@@ -68,20 +69,21 @@ private:
 struct SiteModel {
     std::string name;   ///< used in links; see uniqueNames()
     std::string title;  ///< display name
-    Bytes svt;          ///< empty of a city
-    /// Folder or address (http://, https://) of a city, which the page fetches piece by piece; else empty.
+    Bytes svt;          ///< empty for a city
+    /// Folder or address (http://, https://) of a city, which the page fetches in parts; else empty.
     std::string city = {};
     /// Files of a city's folder, by names relative to it; none at an address.
     std::vector<std::pair<std::string, Bytes>> cityFiles = {};
 };
 
-/// The page of `viewer` with its data: the files of that folder, `/models/NAME.svt`, and `/models.json`, which lists
-/// them in order as {"models": [{"name", "file", "bytes", "title"}]}. The files of a city stand in `/models/NAME/`, which
-/// is its `file`, with `"city": true`; a city at an address has that address, whose server the page may then ask.
+/// The page in the folder `viewer` with its data: the files of the folder, `/models/NAME.svt`, and `/models.json`,
+/// which lists the models in order as {"models": [{"name", "file", "bytes", "title"}]}. The files of a city are in
+/// `/models/NAME/`; this path is its `file`, with `"city": true`. For a city at an address, `file` is the address, and
+/// the page may fetch from its server.
 /// \return the site, or the errors of addFolder() and addStored(), or CannotOpen if the folder has no index.html
 [[nodiscard]] Result<Site> viewerSite(const std::filesystem::path& viewer, std::span<const SiteModel> models);
 
-/// What other sites and chat programs show of a link to a page (Open Graph).
+/// The preview that other sites and chat programs show for a link to a page (Open Graph).
 struct PagePreview {
     std::string title, description;
     std::string address;  ///< of the published page, with "https://" and a slash at its end; empty: unknown
@@ -89,19 +91,19 @@ struct PagePreview {
     Vec3i size;           ///< of the picture, pixels; z is not used
 };
 
-/// Gives the page what no header of a file host would: a Content-Security-Policy that allows its own scripts, models and
-/// pictures alone, and the tags of a preview, with `/preview.png`. Previews need a whole address to find the picture; without
-/// `address` it is relative, which some programs do not follow.
+/// Adds to the page the data that file hosts do not send as headers: a Content-Security-Policy that allows only its own
+/// scripts, models and pictures, and the tags of a preview, with `/preview.png`. Previews need an absolute address to
+/// find the picture; without `address` it is relative, which some programs do not follow.
 /// \return CannotOpen if /index.html has no <head>
 [[nodiscard]] Result<void> addPageHead(Site& site, PagePreview preview);
 
 /// Model names derived from file names: without folder and extensions, only letters, digits, '.', '_' and '-', made
 /// unique by numbers.
-/// \param extensions  of models, lower case, with the dot; ".gz", and ".city" of "a.city.json", are left out as well
+/// \param extensions  of models, lower case, with the dot; ".gz", and ".city" of "a.city.json", are removed as well
 [[nodiscard]] std::vector<std::string> uniqueNames(std::span<const std::filesystem::path> files,
                                                    std::span<const std::string_view> extensions);
 
-/// Whether writeSite() may write into a folder: it is not there, is empty, or mayReplace.
+/// Checks whether writeSite() may write into a folder: it does not exist, it is empty, or `mayReplace` is true.
 /// \return nothing, or CannotWrite
 [[nodiscard]] Result<void> checkSiteFolder(const std::filesystem::path& folder, bool mayReplace);
 

@@ -401,6 +401,7 @@ const std::map<std::string, std::set<std::string>>& knownOptions() {
                 for (std::string name; std::getline(in, name, ',');) names.insert(name);
             }
         }
+        EXPECT_GT(options.size(), 10u) << described.dump().substr(0, 300);
         return options;
     }();
     return known;

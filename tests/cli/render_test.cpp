@@ -397,7 +397,7 @@ TEST_F(SmallHouse, TargetsOfACutawayThatAreNotSeenAreNamed) {
         return result.err;
     };
     EXPECT_EQ(notesOf({"id=house_chimney"}).find("cutaway:"), std::string::npos);
-    EXPECT_NE(notesOf({"id=house_chimney", "--hide", "id=house_chimney"}).find("cutaway: 1 of 1 are not seen"),
+    EXPECT_NE(notesOf({"id=house_chimney", "--hide", "id=house_chimney"}).find("cutaway: 1 of 1 are not visible"),
               std::string::npos);
     EXPECT_NE(notesOf({"all"}).find("are not visible, behind other targets"), std::string::npos);
 }

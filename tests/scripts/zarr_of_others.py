@@ -131,7 +131,7 @@ def main():
         ("bz2", {"compressor": numcodecs.BZ2()}, "bz2"),
         ("blosclz", {"compressor": blosc("blosclz")}, "BloscLZ"),
         ("filters", {"filters": [numcodecs.Delta("<u2")]}, "filters"),
-        ("float", {"dtype": "<f4"}, "no labels"),
+        ("float", {"dtype": "<f4"}, "cannot be labels"),
         ("flat", {"shape": (40, 70), "chunks": (20, 20)}, "three sizes"),
     ):
         path = os.path.join(FOLDER, name + ".zarr")
@@ -144,7 +144,7 @@ def main():
         path = os.path.join(FOLDER, f"path{n}.zarr")
         zarr.open_group(path, mode="w")
         open(os.path.join(path, ".zattrs"), "w").write(text.replace('"fine/0"', json.dumps(name)))
-        refuse(path, "no folder in this one")
+        refuse(path, "not a folder in this one")
     path = os.path.join(FOLDER, "link.zarr")
     zarr.open_group(path, mode="w")
     open(os.path.join(path, ".zattrs"), "w").write(text)

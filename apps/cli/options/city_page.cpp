@@ -9,10 +9,10 @@
 namespace svt::cli {
 
 bool isCity(const std::filesystem::path& input) {
-    // As it was given: the generic form has but one slash behind "http:".
+    // Uses the text as given, because the generic form has only one slash after "http:".
     const std::string text = input.string();
     if (text.starts_with("http://") || text.starts_with("https://")) return true;
-    // What is there and is no file is an error of who opens the city.
+    // City::open() reports the error if city.json exists but cannot be read as a file.
     std::error_code ignored;
     const std::filesystem::file_status status = std::filesystem::status(input / "city.json", ignored);
     return std::filesystem::exists(status) && !std::filesystem::is_directory(status);
@@ -35,7 +35,7 @@ Result<serve::SiteModel> cityModel(const std::filesystem::path& input, const std
     std::sort(files.begin(), files.end());
     SVT_TRY(head, FileBytes::read(input / "city.json"));
     model.cityFiles.emplace_back("city.json", serve::Bytes::of(std::move(*head)));
-    // All of a city may be larger than memory: its files stay open, and are read in parts.
+    // A city may be larger than memory, so its files stay open and are read in parts.
     allowMoreOpenFiles(files.size());
     for (const std::string& file : files) {
         SVT_TRY(parts, PartFile::open(input / file));
@@ -45,7 +45,7 @@ Result<serve::SiteModel> cityModel(const std::filesystem::path& input, const std
 }
 
 Result<volume::SemanticVolume> pageVolume(const std::filesystem::path& folder) {
-    // Of the members: about as much as the page loads in some seconds, and draws within its memory.
+    // Limit of the bytes of all members: about as much as the page loads in a few seconds and draws within its memory.
     constexpr std::uint64_t kMostBytes = 6'000'000;
     constexpr double kMostSamples = 8192;
     SVT_TRY(city, city::City::open(folder));

@@ -17,7 +17,7 @@ namespace svt::cli {
 /// \return the model, or an error of City::open(); CannotOpen for a pack that cannot be read
 [[nodiscard]] Result<serve::SiteModel> cityModel(const std::filesystem::path& input, const std::string& name);
 
-/// All of a city as one volume of some megabytes: for previews, and for server-side pictures.
+/// The whole city as one volume of a few megabytes, for previews and server-side pictures.
 /// \return the volume, or an error of City::open(), extractVolume()
 [[nodiscard]] Result<volume::SemanticVolume> pageVolume(const std::filesystem::path& folder);
 

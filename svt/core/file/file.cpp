@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kBufferBytes = 256 * 1024;
-/// Of one write(): more at once takes Linux three to five times as long on ext4 (2.6 GB by 14 MB each: 4 to 10 s; by 1 MB: 1.5
-/// to 2.4 s).
+/// Limit of one write(). Larger calls take Linux three to five times as long on ext4 (2.6 GB in calls of 14 MB: 4 to 10
+/// s; in calls of 1 MB: 1.5 to 2.4 s).
 constexpr std::size_t kMaxWriteBytes = std::size_t{1} << 20;
 
 std::string systemReason(int systemError) { return std::generic_category().message(systemError); }
@@ -74,7 +74,7 @@ Error cannotWrite(const fs::path& path, int systemError) {
     }
 }
 
-/// Where no file can be made beside `target`, to which `given` leads.
+/// The error if no file can be created next to `target`, to which `given` leads.
 Error cannotMake(const fs::path& given, const fs::path& target, int systemError) {
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     std::error_code ignored;
@@ -98,7 +98,7 @@ int openDescriptor(const char* path, int flags) noexcept {
     }
 }
 
-/// Closes what it was given.
+/// Closes its descriptor on destruction.
 class Descriptor {
 public:
     explicit Descriptor(int descriptor) noexcept : descriptor_(descriptor) {}
@@ -110,7 +110,7 @@ private:
     int descriptor_;
 };
 
-/// Opens a regular file for reading and tells its size.
+/// Opens a regular file for reading and determines its size.
 Result<int> openInput(const fs::path& path, std::uint64_t maxBytes, std::uint64_t& size) {
     // Without O_NONBLOCK, opening a pipe without a writer would block forever.
     const int descriptor = openDescriptor(path.c_str(), O_RDONLY | O_NONBLOCK);
@@ -279,7 +279,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
     if (target.empty() || !target.has_filename())
         return cannotWrite(target, Code::CannotWrite, "the name of the output file is empty");
 
-    // Asked before links are followed by name: that of /dev/stdout may lead to a pipe, which has none.
+    // Checked before links are followed by name: the link /dev/stdout may lead to a pipe, which has no name.
     struct stat status {};
     bool exists = ::stat(target.c_str(), &status) == 0;
     if (exists && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
@@ -326,7 +326,7 @@ AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
 AtomicFile::~AtomicFile() { discard(); }
 
 void AtomicFile::discard() noexcept {
-    // Removed while it is locked; Windows, where no file is locked, removes no open file.
+    // The file is removed while it is locked. Windows has no locks and cannot remove an open file.
     const auto close = [this] {
         if (descriptor_ >= 0) ::close(descriptor_);
         descriptor_ = -1;

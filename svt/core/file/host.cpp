@@ -11,7 +11,7 @@
 #ifdef __EMSCRIPTEN__
 #include <emscripten.h>
 
-// What Node.js knows of the system; web/npm/lib/host.mjs. The module of a page has no such host.
+// Facts about the system from Node.js: web/npm/lib/host.mjs. The module of a page has no such host.
 // clang-format off
 EM_JS(int, svtHostIsErrorTerminal, (), { return Module["host"] && Module["host"]["isErrorTerminal"] ? 1 : 0; })
 EM_JS(int, svtHostIsWindows, (), { return Module["host"] && Module["host"]["isWindows"] ? 1 : 0; })

@@ -18,12 +18,12 @@ Error cannotWriteTo(const fs::path& path, Code code, std::string message) {
     return Error(code, std::move(message), Place{path.string(), 0, 0, {}});
 }
 
-/// What is left for this user where `path` is; kLeastSpace where it is not known.
+/// Bytes available to this user on the file system of `path`; kLeastSpace if unknown.
 std::uintmax_t spaceLeft(const fs::path& path) {
     std::error_code error;
     const fs::path folder = withoutLinks(path).parent_path();
     const fs::space_info space = fs::space(folder.empty() ? fs::path(".") : folder, error);
-    // File systems that hold no files of their own, and some of networks, say that they have no space at all.
+    // File systems without files of their own, and some network file systems, report that they have no space at all.
     if (error || space.capacity == 0) return kLeastSpace;
     return ::geteuid() == 0 ? space.free : space.available;
 }
@@ -46,17 +46,17 @@ std::string fileIdentity(const fs::path& path) {
 Result<void> checkWritable(const fs::path& target) {
     struct stat status {};
     if (::stat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) {
-        // Opening a pipe, its reader would take the end of the check for the end of the file.
+        // A pipe is not opened, because its reader would take the end of the check for the end of the file.
         if (::access(target.c_str(), W_OK) == 0) return {};
         return cannotWriteTo(target, Code::CannotWrite,
                              "no permission to write here; change the permissions or choose another name");
     }
-    // Only the attempt tells what permissions, read-only file systems and the like allow.
+    // Only an attempt shows whether permissions, read-only file systems and the like allow writing.
     SVT_DO(AtomicFile::create(target));
     if (const std::uintmax_t space = spaceLeft(target); space < kLeastSpace)
         return cannotWriteTo(
             target, Code::DiskFull,
-            fmt::format("no space is left on the disk but for {} bytes; free some or choose another folder", space));
+            fmt::format("no space is left on the disk (only {} bytes); free some or choose another folder", space));
     return {};
 }
 

@@ -108,8 +108,8 @@ int openTemporaryFile(const fs::path& folder, TemporaryFile& file) {
         });
         if (descriptor < 0 && reason == EEXIST) continue;
         if (descriptor < 0) return reason;
-        // Between open() and the lock, removeLeftovers() of another writer may have found the file: then that one holds
-        // the lock, or has removed the name, and this one takes the next.
+        // Between open() and the lock, removeLeftovers() of another writer may have found the file. Then the other
+        // writer holds the lock or has removed the name, and this writer takes the next name.
         const Lock lock = tryLock(descriptor);
         if (lock == Lock::Impossible || (lock == Lock::Held && isNameOf(path, descriptor))) {
             file = {descriptor, std::move(path), std::move(unfinished)};
@@ -127,7 +127,7 @@ std::size_t removeLeftovers(const fs::path& folder) {
         if (!isTemporaryName(path.filename().native())) continue;
         const int descriptor = openRetrying(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
         if (descriptor < 0) continue;
-        // Who has the lock and finds the name unchanged is alone with a file whose writer is gone.
+        // If the lock is held and the name is unchanged, the writer is gone and no other process uses the file.
         if (tryLock(descriptor) == Lock::Held && isNameOf(path, descriptor)) removed += ::unlink(path.c_str()) == 0;
         ::close(descriptor);
     }

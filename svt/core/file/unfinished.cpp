@@ -46,11 +46,11 @@ struct Item {
     int process = 0;  // 0: a path
 };
 
-// What is unfinished, and the thread that waits for a signal:
+// The unfinished paths and processes, and the thread that waits for a signal:
 //
 //     signal --> onSignal() --byte--> pipe --> watch(): lock, clean up, end
 //
-// The thread takes the mutex for good, so that no other thread makes anything new until the process ends.
+// The thread takes the mutex and never releases it, so that no other thread adds an item until the process ends.
 struct Registry {
     std::mutex mutex;
     std::map<std::uint64_t, Item> items;
@@ -84,7 +84,7 @@ void onSignal(int signal) {
 void onPipe(int signal, siginfo_t* info, void* /*context*/) {
     const int error = errno;
     const bool isOfThisThread = info->si_pid == ::getpid();
-    // After its write the thread would go on with an error, and exit before the signal has ended the process.
+    // Otherwise the thread would continue with an error after its write, and exit before the signal ends the process.
     if (wakeWatch(signal) && isOfThisThread)
         for (;;) ::pause();
     errno = error;
@@ -131,7 +131,7 @@ void watch(Registry& watched) {
     ::sigemptyset(&one);
     ::sigaddset(&one, signal);
     ::pthread_sigmask(SIG_UNBLOCK, &one, nullptr);
-    // Again where another thread has just set a handler.
+    // Repeated in case another thread has just set a handler.
     for (;;) {
         ::signal(signal, SIG_DFL);
         ::kill(::getpid(), signal);
@@ -139,8 +139,8 @@ void watch(Registry& watched) {
     }
 }
 
-// Requires the lock. Called before anything is made: a signal waits for the lock then. Without a thread a signal ends
-// the process at once, as it does by default.
+// Requires the lock. The caller starts the thread before it creates anything, so a signal waits for the lock. Without a
+// thread a signal ends the process at once, as it does by default.
 void startWatching(Registry& own) noexcept {
     // The usual 8 MB would count against a limit of memory.
     constexpr std::size_t kStackBytes = std::size_t{512} << 10;
@@ -156,7 +156,8 @@ void startWatching(Registry& own) noexcept {
     };
     if (::pthread_create(&thread, &attributes, run, &own) == 0) {
         own.wake = own.pipe[1];
-        // A thread that starts holds locks of the allocator. A copy of the process made meanwhile would never release them.
+        // A starting thread holds locks of the allocator. A copy of the process made meanwhile would never release
+        // them.
         own.isWatched.wait(false);
     }
     ::pthread_attr_destroy(&attributes);

@@ -18,7 +18,7 @@ std::string firstLine(const fs::path& file) {
     return line;
 }
 
-// "max" and "-1", which stand for no limit, are no such numbers.
+// Empty for "max" and "-1", which mean no limit.
 std::optional<std::uint64_t> wholeNumber(std::string_view text) { return parseInteger<std::uint64_t>(text); }
 
 template <class T>
@@ -26,7 +26,7 @@ void lower(std::optional<T>& limit, std::optional<T> other) {
     if (other && (!limit || *other < *limit)) limit = other;
 }
 
-// Microseconds of each period, of all cores together.
+// Both in microseconds; the quota is the time per period on all cores together.
 std::optional<double> coresOf(std::string_view quota, std::string_view period) {
     const auto granted = wholeNumber(quota), whole = wholeNumber(period);
     if (!granted || !whole || *whole == 0) return {};

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Limits of control groups, by which containers and service managers share a machine. Plain files on Linux.
+/// Limits of control groups, with which containers and service managers share a machine. Plain files on Linux.
 
 #include <cstdint>
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace svt {
 
-/// Empty: no limit, or none that can be read.
+/// An empty member means no limit, or no readable limit.
 struct ControlGroupLimits {
     std::optional<std::uint64_t> memoryBytes;
     std::optional<double> cores;  ///< cores' worth of time

@@ -38,7 +38,7 @@ void writeAll(int to, std::string_view text) {
 }
 
 [[noreturn]] void workInCopy(int out, const std::function<void(const Say&)>& work) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // without the process that waits nobody would end what hangs
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // otherwise a hanging child would outlive its parent
     const rlimit none{0, 0};
     ::setrlimit(RLIMIT_CORE, &none);  // a crash is expected, and no reason to write a file
     if (const int nothing = ::open("/dev/null", O_WRONLY); nothing >= 0) ::dup2(nothing, STDOUT_FILENO);
@@ -49,7 +49,7 @@ void writeAll(int to, std::string_view text) {
     } catch (...) {
         code = EXIT_FAILURE;
     }
-    // Not exit(): the objects and buffers of the process that waits are not to be closed twice.
+    // Not exit(), so that the objects and buffers of the waiting process are not closed twice.
     ::_exit(code);
 }
 
@@ -74,7 +74,7 @@ bool readAll(int from, double seconds, std::string& text) {
 struct OwnLimit {
     std::string by;  // empty: it is that of the machine
     std::uint64_t bytes = 0;
-    rlim_t before = RLIM_INFINITY;  // what it was
+    rlim_t before = RLIM_INFINITY;  // the limit before
     bool isSet = false;
 };
 
@@ -192,7 +192,7 @@ OwnProcessResult inOwnProcess(double seconds, const std::function<void(const Say
     OwnProcessResult result;
     std::array<int, 2> pipe{};
     if (::pipe(pipe.data()) != 0) return {{}, "no pipe could be made"};
-    std::fflush(nullptr);  // what is buffered belongs to this process alone
+    std::fflush(nullptr);  // so that the child does not inherit buffered output
     pid_t child = -1;
     Unfinished unfinished = Unfinished::process([&] {
         child = ::fork();

@@ -15,9 +15,9 @@ namespace svt::mesh {
 
 /// Removes T-junctions: splits triangles at ends of open edges that lie within `distance` (metres) of another open
 /// edge, in at most 8 rounds. Adds no points; the triangles cover the same area as before.
-/// \param isUnfinished  set to true if points still lie on edges after the last round, or if splitting stopped because
-///                      too many points lie on edges: over 16 per open edge and over a million in a round, or over
-///                      `mostCuts` in all rounds; may be null
+/// \param isUnfinished  set to true if points still lie on edges at the end; may be null. Splitting stops after the last
+///                      round. It also stops at too many points on edges: over 16 per open edge and over a million
+///                      in a round, or over `mostCuts` in all rounds.
 /// \return count of splits
 /// Cost: O(n log n) in the open edges and splits.
 std::uint32_t cutAtTJunctions(std::vector<Vec3d>& vertices, std::vector<Triangle>& triangles, double distance,

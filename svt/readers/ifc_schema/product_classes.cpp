@@ -33,24 +33,33 @@ constexpr Group kGroups[] = {
     {"Window", ProductKind::Element, "Window WindowStandardCase"},
     {"BuildingFurniture", ProductKind::Element, "FurnishingElement Furniture SystemFurnitureElement"},
     {kElement, ProductKind::Element,
+     // Elements of buildings.
      "Wall WallStandardCase WallElementedCase Slab SlabStandardCase SlabElementedCase Beam BeamStandardCase Column "
      "ColumnStandardCase Member MemberStandardCase Plate PlateStandardCase Roof Stair StairFlight Ramp RampFlight "
      "CurtainWall Footing Pile Covering Chimney BuildingElement BuiltElement BuildingElementProxy "
+     // Parts, foundations, reinforcement and accessories.
      "BuildingElementComponent BuildingElementPart ElementAssembly DeepFoundation CaissonFoundation "
      "ReinforcingElement ReinforcingBar ReinforcingMesh Tendon TendonAnchor TendonConduit DiscreteAccessory Fastener "
-     "MechanicalFastener VibrationIsolator VibrationDamper ImpactProtectionDevice Bearing EarthworksElement "
-     "EarthworksFill ReinforcedSoil Kerb Pavement Course MooringDevice NavigationElement Rail TrackElement Sign"},
+     "MechanicalFastener VibrationIsolator VibrationDamper ImpactProtectionDevice "
+     // Infrastructure.
+     "Bearing EarthworksElement EarthworksFill ReinforcedSoil Kerb Pavement Course MooringDevice NavigationElement "
+     "Rail TrackElement Sign"},
     {kInstallation, ProductKind::Element,
+     // General classes.
      "Railing ShadingDevice TransportElement TransportationDevice Vehicle DistributionElement "
      "DistributionFlowElement DistributionControlElement DistributionChamberElement EnergyConversionDevice "
      "FlowController FlowFitting FlowMovingDevice FlowSegment FlowStorageDevice FlowTerminal FlowTreatmentDevice "
+     // Devices from A to C.
      "Actuator AirTerminal AirTerminalBox AirToAirHeatRecovery Alarm AudioVisualAppliance Boiler Burner "
      "CableCarrierFitting CableCarrierSegment CableFitting CableSegment Chiller Coil CommunicationsAppliance "
-     "Compressor Condenser Controller ConveyorSegment CooledBeam CoolingTower Damper DistributionBoard DuctFitting "
-     "DuctSegment DuctSilencer ElectricAppliance ElectricDistributionBoard ElectricDistributionPoint "
-     "ElectricFlowStorageDevice ElectricFlowTreatmentDevice ElectricGenerator ElectricMotor ElectricTimeControl "
-     "Engine EvaporativeCooler Evaporator Fan Filter FireSuppressionTerminal FlowInstrument FlowMeter HeatExchanger "
-     "Humidifier Interceptor JunctionBox Lamp LightFixture LiquidTerminal MedicalDevice "
+     "Compressor Condenser Controller ConveyorSegment CooledBeam CoolingTower "
+     // Devices from D to F.
+     "Damper DistributionBoard DuctFitting DuctSegment DuctSilencer ElectricAppliance ElectricDistributionBoard "
+     "ElectricDistributionPoint ElectricFlowStorageDevice ElectricFlowTreatmentDevice ElectricGenerator ElectricMotor "
+     "ElectricTimeControl Engine EvaporativeCooler Evaporator Fan Filter FireSuppressionTerminal FlowInstrument "
+     "FlowMeter "
+     // Devices from H to W, and general classes of IFC2x3.
+     "HeatExchanger Humidifier Interceptor JunctionBox Lamp LightFixture LiquidTerminal MedicalDevice "
      "MobileTelecommunicationsAppliance MotorConnection Outlet PipeFitting PipeSegment ProtectiveDevice "
      "ProtectiveDeviceTrippingUnit Pump SanitaryTerminal Sensor Signal SolarDevice SpaceHeater StackTerminal "
      "SwitchingDevice Tank Transformer TubeBundle UnitaryControlElement UnitaryEquipment Valve WasteTerminal "

@@ -49,14 +49,14 @@ std::string decoded(std::string_view reference) {
     return text;
 }
 
-/// A file beside the document. A reference never leads out of the document's folder.
+/// A file next to the document. A reference outside of the document's folder is an error.
 Result<fs::path> fileBeside(const fs::path& document, std::string_view reference) {
     const fs::path name = decoded(reference);
     bool isInside = !name.empty() && name.is_relative() && reference.find("://") == std::string_view::npos;
     for (const fs::path& part : name) isInside = isInside && part != "..";
     if (!isInside)
         return badAde(
-            fmt::format("the document names '{}', which is not beside it; samples are read from its own folder alone",
+            fmt::format("the document names '{}', which is outside of its folder; put the file next to the document",
                         reference.substr(0, 200)));
     return document.parent_path() / name;
 }
@@ -104,7 +104,8 @@ private:
     static constexpr std::uint64_t kPiece = std::uint64_t{1} << 20;
     static constexpr std::string_view kSpace = " \t\r\n";
 
-    /// Leaves a number at the beginning of the text, whole unless it has more than kPiece digits; nothing at the end.
+    /// Skips space up to the next number. The text then begins with the whole number, unless that has more than kPiece
+    /// digits; it is empty at the end.
     Result<void> skipSpace() {
         for (;;) {
             text_.remove_prefix(std::min(text_.find_first_not_of(kSpace), text_.size()));
@@ -185,7 +186,7 @@ Result<void> readGrid(pugi::xml_node texture, LabelImage& image) {
     if (!readNumbers(childOf(texture, "dimension").child_value(), dimension) ||
         !readNumbers(childOf(texture, "spacing").child_value(), spacing) ||
         !readNumbers(childOf(envelope, "lowerCorner").child_value(), corner))
-        return badAde("dimension, spacing or envelope of the volume are missing or no numbers");
+        return badAde("dimension, spacing or envelope of the volume are missing or are not numbers");
     if (type != "uint8" && type != "uint16" && type != "uint32")
         return badAde(fmt::format("scalar type '{}'; uint8, uint16 and uint32 are possible", type));
     const bool isCell = std::string_view(childOf(texture, "sampleLocation").child_value()) == "cellCentre";
@@ -216,14 +217,14 @@ Result<void> openBeside(const fs::path& path, pugi::xml_node texture, LabelImage
     return {};
 }
 
-// The image in the document: sizes, then a number a sample. `numbers` is its text.
+// The image in the document: sizes, then one number per sample. `numbers` is its text.
 Result<LabelImage> withPixels(LabelImage image, const SharedFile& file, FilePart numbers) {
     auto source = std::make_shared<PixelSource>(file, numbers);
     SVT_TRY(sizes, source->readSizes());
     if (*sizes != std::array<std::int64_t, 4>{1, image.dimension.x, image.dimension.y, image.dimension.z})
         return badAde("the sizes of the image are not 1 component and the dimension of the volume");
     image.bits = 32;
-    // A number takes two characters at least, and becomes four bytes.
+    // A number has at least two characters and becomes four bytes.
     SVT_DO(checkImage(image, 2 * source->left() + 4, false, Code::BadImage));
     image.read = [source](std::span<std::byte> out) { return source->read(out); };
     return image;
@@ -246,7 +247,7 @@ Result<LabelImage> withSlices(LabelImage image, const fs::path& path, const pugi
     return image;
 }
 
-// Where the start tag of the texture of the volume begins in a document; its size: it has none.
+// The position of the start tag of the volume's texture in a document; the size of the document if there is no texture.
 Result<std::uint64_t> findAdeTexture(FileWindow& document) {
     constexpr std::uint64_t kMaxBefore = 64;
     const std::uint64_t end = document.file().size();
@@ -262,11 +263,11 @@ Result<std::uint64_t> findAdeTexture(FileWindow& document) {
     return end;
 }
 
-// Where the texture of the volume stands in a document.
+// The parts of the volume's texture in a document.
 struct AdeParts {
     FilePart head;    // of the texture, without the numbers of an image and without the end tag
     std::string tag;  // its name, with its prefix
-    FilePart pixels;  // numbers of the image; nothing: it is elsewhere
+    FilePart pixels;  // numbers of the image; empty: it is elsewhere
 };
 
 Result<AdeParts> findAdeParts(const SharedFile& file) {
@@ -279,7 +280,7 @@ Result<AdeParts> findAdeParts(const SharedFile& file) {
     parts.tag = start->substr(0, start->find_first_of(" \t\r\n/>"));
     SVT_TRY(end, document.find("</" + parts.tag, *begin, file->size()));
     if (*end == file->size()) return badAde("the volume of the document does not end: it is cut short");
-    // The numbers of an image are read as they stand, all else by the parser.
+    // The numbers of an image are read directly, the rest by the parser.
     const std::string image = "<" + parts.tag.substr(0, parts.tag.find(':') + 1) + "image>";
     SVT_TRY(pixels, document.find(image, *begin, *end));
     parts.head = {*begin, *pixels - *begin};
@@ -298,7 +299,7 @@ Result<LabelImage> openAde(const SharedFile& file, const fs::path& path) {
     const std::string head = std::string(*text) + "</" + parts->tag + ">";
     pugi::xml_document document;
     if (const auto parsed = document.load_buffer(head.data(), head.size()); !parsed)
-        return badAde(fmt::format("the volume of the document is no XML: {}", parsed.description()));
+        return badAde(fmt::format("the volume of the document is not valid XML: {}", parsed.description()));
     const pugi::xml_node texture = document.first_child();
     LabelImage image;
     SVT_DO(readGrid(texture, image));

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// For the formats of label volumes: each opens a file, checks its header, and leaves the samples to be read. The formats
-/// are declared as LabelFormat beside their code.
+/// Helpers for the formats of label volumes. Each format opens a file and checks its header; the samples are read
+/// later. Each is declared as a LabelFormat next to its code.
 
 #include <svt/volume_readers/read_label_volume.hpp>
 #include <svt/volume_readers/samples/label_image.hpp>
@@ -15,11 +15,12 @@
 
 namespace svt::volume_readers {
 
-/// NRRD, one file, raw or gzip. Places in millimetres where it says so or names an anatomical space. Errors: BadNrrd.
+/// NRRD, one file, raw or gzip. Lengths are millimetres if the file states so or names an anatomical space. Errors:
+/// BadNrrd.
 [[nodiscard]] Result<LabelImage> openNrrd(const SharedFile& file);
 
-/// Reads N numbers separated by blanks, as lists in XML are; what follows them is left alone.
-/// \return false where there are fewer, or something else
+/// Reads N numbers separated by blanks, as in lists in XML; ignores the text after them.
+/// \return false if there are fewer numbers, or other text
 template <class T, std::size_t N>
 [[nodiscard]] bool readNumbers(std::string_view text, std::array<T, N>& numbers) noexcept {
     for (T& number : numbers) {

@@ -49,7 +49,7 @@ Result<void> readNiftiType(int type, LabelImage& image) {
         case 64: image.other = OtherKind::Float64; break;
         case 1024: image.other = OtherKind::Int64; break;
         case 1280: image.other = OtherKind::UInt64; break;
-        default: return badNifti(fmt::format("samples of type {} are no labels; whole numbers are expected", type));
+        default: return badNifti(fmt::format("samples of type {} cannot be labels; whole numbers are expected", type));
     }
     if (image.other != OtherKind::None) {
         image.bits = 32;
@@ -59,7 +59,7 @@ Result<void> readNiftiType(int type, LabelImage& image) {
     return {};
 }
 
-/// The matrix of sform, else the quaternion of qform, else the spacing alone.
+/// The matrix of sform, else the quaternion of qform, else only the spacing.
 void readNiftiPlace(const NiftiHead& head, LabelImage& image) {
     const auto units = static_cast<int>(head.number<std::uint8_t, std::int32_t>(123, 500)) & 7;
     const double unit = units == 2 ? 1e-3 : units == 3 ? 1e-6 : 1;
@@ -98,7 +98,8 @@ void takeComment(std::string_view text, LabelImage& image) {
         image.seal = text;
 }
 
-/// What stands between the header and the samples: four bytes that tell whether extensions follow, and these.
+/// Reads the bytes between the header and the samples: four bytes that state whether extensions follow, then the
+/// extensions.
 void readExtensions(std::string_view bytes, LabelImage& image) {
     const auto isBlank = [](std::string_view text) { return text.find_first_not_of('\0') == std::string_view::npos; };
     std::size_t at = 4;
@@ -112,19 +113,19 @@ void readExtensions(std::string_view bytes, LabelImage& image) {
         at += static_cast<std::size_t>(size);
     }
     if (at < bytes.size() && !isBlank(bytes.substr(at)))
-        image.warnings.push_back(fmt::format(
-            "{} bytes between the header of the NIfTI and its samples are no extension that can be read: the "
-            "header is damaged. A table of labels in them is not used; copy or download the file again",
-            bytes.size() - at));
+        image.warnings.push_back(
+            fmt::format("{} bytes between the header of the NIfTI and its samples are not a readable extension: the "
+                        "header is damaged. A table of labels in them is not used; copy or download the file again",
+                        bytes.size() - at));
 }
 
-/// Reads the header from the beginning of the unpacked file; `dataOffset` tells where the samples begin.
+/// Reads the header from the beginning of the unpacked file; `dataOffset` receives the position of the samples.
 Result<LabelImage> readNiftiHead(std::string_view text, std::uint64_t& dataOffset) {
     NiftiHead head{text};
     if (text.size() < 352) return badNifti("the header of the NIfTI is cut short");
     head.isSecond = head.at<std::int32_t>(0) == 540;
     if ((head.isSecond && text.size() < 544) || (!head.isSecond && head.at<std::int32_t>(0) != 348))
-        return badNifti("the file is no NIfTI, or a big-endian one, which cannot be read");
+        return badNifti("the file is not NIfTI, or is big-endian; save it as little-endian NIfTI");
     if (text.substr(head.isSecond ? 4 : 344, 2) != "n+")
         return badNifti("the samples of the NIfTI stand in another file; save it as one .nii");
     LabelImage image;
@@ -151,7 +152,7 @@ Result<LabelImage> readNiftiHead(std::string_view text, std::uint64_t& dataOffse
 
 bool isGzip(std::string_view text) noexcept { return text.starts_with("\x1f\x8b"); }
 
-// Of the header, behind which extensions stand.
+// Size of the header, after which extensions follow.
 std::size_t headBytes(std::string_view head) noexcept {
     return head.starts_with(std::string_view("\x1c\2", 2)) ? 540 : 348;
 }
@@ -170,7 +171,7 @@ bool looksLikeNifti(const SharedFile& file) {
     return static_cast<bool>(read(std::as_writable_bytes(std::span(head)))) && beginsAsNifti(head);
 }
 
-// The header, then all in front of the samples, then the samples: a stream that is read on.
+// Reads one stream: the header, then the bytes before the samples, then the samples.
 Result<LabelImage> openPackedNifti(const SharedFile& file) {
     std::string unpacked(544, '\0');
     ReadSamples read = gzipSamples(file, file->from(0), Code::BadImage);
@@ -179,7 +180,7 @@ Result<LabelImage> openPackedNifti(const SharedFile& file) {
     SVT_TRY(image, readNiftiHead(unpacked, offset));
     if (offset / 1032 > file->size()) return badNifti("the samples begin at an impossible place");
     if (offset < 544) {
-        // NIfTI-1 without extensions: what was read beyond is samples.
+        // NIfTI-1 without extensions: samples were read with the header.
         read = gzipSamples(file, file->from(0), Code::BadImage);
         unpacked.assign(static_cast<std::size_t>(offset), '\0');
         SVT_DO(read(std::as_writable_bytes(std::span(unpacked))));

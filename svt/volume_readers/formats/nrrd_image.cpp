@@ -34,7 +34,7 @@ bool takeNumber(std::string_view& text, T& number) noexcept {
     return true;
 }
 
-/// Whether nothing but separators is left.
+/// Whether only separators are left.
 bool isEnd(std::string_view text) noexcept { return text.find_first_not_of(" \t,()") == std::string_view::npos; }
 
 bool takeVector(std::string_view& text, Vec3d& v) noexcept {
@@ -55,7 +55,7 @@ struct NrrdHeader {
     }
 };
 
-/// Reads the header from the begin of a file.
+/// Reads the header from the beginning of a file.
 /// \return whether the text holds all of it
 Result<bool> readNrrdHeader(std::string_view text, NrrdHeader& header) {
     if (!text.starts_with("NRRD000") || text.size() < 9 || text[7] < '1' || text[7] > '5')
@@ -127,10 +127,10 @@ Result<void> readNrrdType(std::string_view type, LabelImage& image) {
             image.other = known.other;
             return {};
         }
-    return badNrrd(fmt::format("samples of type '{}' are no labels; whole numbers are expected", type));
+    return badNrrd(fmt::format("samples of type '{}' cannot be labels; whole numbers are expected", type));
 }
 
-/// Anatomical spaces count in millimetres; those that look left or posterior are turned to right, anterior, superior.
+/// Anatomical spaces are in millimetres; axes that point left or posterior are turned to right, anterior, superior.
 Result<void> readNrrdPlace(const NrrdHeader& header, LabelImage& image) {
     std::string_view text = header.field("space directions");
     if (!text.empty()) {
@@ -145,7 +145,7 @@ Result<void> readNrrdPlace(const NrrdHeader& header, LabelImage& image) {
     }
     text = header.field("space origin");
     if (!text.empty() && (!takeVector(text, image.origin) || !isEnd(text)))
-        return badNrrd("the space origin is no vector");
+        return badNrrd("the space origin is not a vector of three numbers");
     const std::string_view space = header.field("space"), units = header.field("space units");
     const bool isMillimetres = units.empty() ? !space.empty() : units.find("mm") != std::string_view::npos;
     const double unit = isMillimetres ? 0.001 : 1;
@@ -156,7 +156,7 @@ Result<void> readNrrdPlace(const NrrdHeader& header, LabelImage& image) {
     return {};
 }
 
-/// The table that `svt convert` writes, as text of labels.json; empty where rows are missing.
+/// The table that `svt convert` writes, as text of labels.json; empty if rows are missing.
 std::string tableOf(const NrrdHeader& header) {
     std::string table = "{\"labels\":[";
     std::size_t rows = 0, count = 0;
@@ -182,7 +182,7 @@ void readTables(const NrrdHeader& header, LabelImage& image) {
     image.seal = header.key("svt_seal");
     if (!header.key("svt_label_count").empty() || !header.key("svt_label_0").empty()) {
         image.labelsJson = tableOf(header);
-        // The header has the exact grid; its names are empty and stand in keys of their own, as JSON strings of ASCII.
+        // The header has the exact grid. Its names are empty; they are in separate keys, as JSON strings of ASCII.
         image.headerJson = header.key("svt_header");
         if (image.headerJson.empty()) image.headerJson = R"({"crs": "","model": "","source": ""})";
         for (const char* name : {"crs", "model", "source"}) {
@@ -215,7 +215,7 @@ Result<LabelImage> openNrrd(const SharedFile& file) {
     LabelImage image;
     SVT_DO(readNrrdType(header->field("type"), image));
     if (header->field("dimension") != "3")
-        return badNrrd(fmt::format("the image has {} axes, 3 are expected; write one layer of a segmentation alone",
+        return badNrrd(fmt::format("the image has {} axes, 3 are expected; write only one layer of a segmentation",
                                    header->field("dimension")));
     std::string_view sizes = header->field("sizes");
     for (int axis = 0; axis < 3; ++axis)

@@ -12,7 +12,7 @@
 
 namespace svt::volume_readers {
 
-// Each is declared beside its reader.
+// Each is declared next to its reader.
 extern const LabelFormat kNrrd, kTiff, kNifti, kVti, kAde, kZarr;
 
 std::span<const LabelFormat> labelFormats() noexcept {
@@ -62,7 +62,8 @@ Error unknownFormat(const Candidate& candidate) {
     std::string known;
     for (const LabelFormat& format : labelFormats())
         known += fmt::format("{}{}", known.empty() ? "" : "; ", format.holds);
-    return {Code::UnknownFormat, fmt::format("this is no label volume of a known format. Can be read: {}", known)};
+    return {Code::UnknownFormat,
+            fmt::format("this is not a label volume of a known format. Readable formats: {}", known)};
 }
 
 }  // namespace
@@ -78,7 +79,7 @@ Result<volume::SemanticVolume> readLabelVolume(const std::filesystem::path& path
         const auto grant = memoryGrant();
         maxBytes = grant ? grant->bytes / 2 : std::uint64_t{1} << 30;
     }
-    // Errors of a table or of a file beside the document tell their own place.
+    // Errors of a table or of a file next to the document already have a place.
     const auto at = [&](const Error& error) {
         return error.where().file.empty() ? Error(error.code(), error.message(), Place{path.string(), 0, 0, {}})
                                           : error;

@@ -19,8 +19,8 @@ constexpr std::uint64_t kMaxStripBytes = std::uint64_t{1} << 30;
 Error badTiff(std::string message) { return Error(Code::BadImage, std::move(message)); }
 
 struct TiffField {
-    std::uint64_t count = 0, offset = 0;  ///< of its values
-    std::size_t size = 0;                 ///< of a value; 0: of a type that is not known
+    std::uint64_t count = 0, offset = 0;  ///< number and position of its values
+    std::size_t size = 0;                 ///< of a value; 0: unknown type
 };
 
 /// One page: its fields by tag, and where the next one begins (0: it is the last).
@@ -85,7 +85,8 @@ Result<void> readFirst(FileNumbers& bytes, const TiffPage& page, TiffStack& stac
         return badTiff(
             fmt::format("compression {} of the TIFF cannot be read; save it raw or with Deflate", compression));
     if (page.value(bytes, 317, 1) != 1) return badTiff("the TIFF has a predictor; save it without");
-    if (format != 1 && format != 2) return badTiff("the pixels of the TIFF are no whole numbers");
+    if (format != 1 && format != 2)
+        return badTiff("the pixels of the TIFF are not whole numbers; save labels as integers");
     if (width > 1u << 30 || height > 1u << 30) return badTiff("the sizes of the TIFF are impossible");
     stack.isCompressed = compression != 1;
     image.bits = static_cast<int>(std::min<std::uint64_t>(page.value(bytes, 258, 1), 64));
@@ -114,7 +115,7 @@ Result<void> readFirst(FileNumbers& bytes, const TiffPage& page, TiffStack& stac
     return {};
 }
 
-/// \param sizes  the same file: the sizes of strips stand elsewhere than their offsets
+/// \param sizes  the same file, because the sizes of strips are far from their offsets
 Result<void> readStrips(FileNumbers& bytes, FileNumbers& sizes, const TiffPage& page, TiffStack& stack) {
     const LabelImage& image = stack.image;
     const auto width = static_cast<std::uint64_t>(image.dimension.x),
@@ -156,14 +157,15 @@ Result<void> readPages(const SharedFile& file, FileNumbers& bytes, TiffStack& st
     FileNumbers sizes(file, order);
     const bool isWide = bytes.number(2, 2) == 43;
     std::uint64_t offset = isWide ? bytes.number(8, 8) : bytes.number(4, 4);
-    // Pages that lead back to earlier ones end at the limit.
+    // Pages that refer back to earlier ones end at the limit.
     for (; offset != 0; ++stack.image.dimension.z) {
         if (stack.image.dimension.z == volume::Grid::kMaxDimension)
             return badTiff(fmt::format("the TIFF has more than {} pages", volume::Grid::kMaxDimension));
         const TiffPage page = readPage(bytes, offset, isWide);
         if (bytes.isCut) return badTiff(fmt::format("page {} of the TIFF is cut short", stack.image.dimension.z));
         if (stack.image.dimension.z == 0) SVT_DO(readFirst(bytes, page, stack));
-        if (stack.image.bits != 8 && stack.image.bits != 16 && stack.image.bits != 32) break;  // told by checkImage()
+        if (stack.image.bits != 8 && stack.image.bits != 16 && stack.image.bits != 32)
+            break;  // checkImage() reports it
         SVT_DO(readStrips(bytes, sizes, page, stack));
         offset = page.next;
     }

@@ -80,7 +80,7 @@ Result<void> readVtiType(std::string_view type, LabelImage& image) {
             image.other = kind;
             return {};
         }
-    return badVti(fmt::format("samples of type '{}' are no labels; whole numbers are expected", type));
+    return badVti(fmt::format("samples of type '{}' cannot be labels; whole numbers are expected", type));
 }
 
 /// The array to take: the named scalars, else the first.
@@ -102,14 +102,14 @@ Result<void> readVtiPlace(pugi::xml_node image, pugi::xml_node piece, bool isCel
     if (!readNumbers(image.attribute("WholeExtent").value(), whole) ||
         !readNumbers(piece.attribute("Extent").value(), extent) || !read("Origin", origin) ||
         !read("Spacing", spacing) || !read("Direction", direction))
-        return badVti("extent, origin, spacing or direction of the image are missing or no numbers");
+        return badVti("extent, origin, spacing or direction of the image are missing or are not numbers");
     if (extent != whole) return badVti("the image is cut into pieces; save it as one");
     Vec3d first;
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         const std::int64_t begin = extent[2 * a], end = extent[2 * a + 1];
         if (begin < -1'000'000'000 || end > 1'000'000'000 || end < begin)
-            return badVti("the extent of the image is no box");
+            return badVti("the extent of the image is not a box");
         out.dimension[axis] =
             static_cast<std::int32_t>(std::min<std::int64_t>(end - begin + (isCell ? 0 : 1), 1 << 30));
         out.steps[a] = Vec3d{direction[a], direction[3 + a], direction[6 + a]} * spacing[a];
@@ -120,7 +120,7 @@ Result<void> readVtiPlace(pugi::xml_node image, pugi::xml_node piece, bool isCel
     return {};
 }
 
-/// Where the XML of a file ends, and the appended samples begin.
+/// The XML of a file, and the position of its appended samples.
 struct VtiParts {
     std::string head;  ///< whole: its element is closed
     std::uint64_t samples = 0;
@@ -146,7 +146,7 @@ Result<VtiParts> splitVti(const SharedFile& file) {
     return parts;
 }
 
-/// Whether the file ends with `text`, but for blanks.
+/// Whether the file ends with `text`, ignoring blanks.
 Result<bool> endsWith(const SharedFile& file, std::string_view text) {
     constexpr std::uint64_t kPiece = 4096;
     std::string buffer;
@@ -171,7 +171,7 @@ Result<LabelImage> openVti(const SharedFile& file) {
         return badVti(fmt::format("the XML of the file is damaged: {}", parsed.description()));
     const pugi::xml_node root = document.child("VTKFile"), node = root.child("ImageData"), piece = node.child("Piece");
     if (std::string_view(root.attribute("type").value()) != "ImageData" || !piece)
-        return badVti("the file is of VTK but no image data");
+        return badVti("the file is VTK but not image data");
     if (std::string_view(root.attribute("byte_order").value()) == "BigEndian")
         return badVti("the file is big-endian; save it as little-endian");
     const std::string_view compressor = root.attribute("compressor").value();

@@ -23,7 +23,7 @@ using volume::Scalar;
 
 std::endian orderOf(const LabelImage& image) { return image.isSwapped ? std::endian::big : std::endian::little; }
 
-/// The runs of all columns while slices come, bottom up. A row that reads as the one below it costs a comparison.
+/// Collects the runs of all columns from slices, bottom up. A row that equals the row below costs one comparison.
 class Collector {
 public:
     Collector(const LabelImage& image, std::uint64_t maxBytes, Code code)
@@ -43,7 +43,7 @@ public:
                 const Scalar value = valueAt(row, i);
                 auto& runs = runs_[i + width * j];
                 if (!runs.empty() && runs.back().scalar == value) continue;
-                // `end` is where the run begins until the next one does.
+                // `end` holds the begin of the run until the next run begins.
                 runs.push_back({static_cast<std::uint32_t>(k), value});
                 ++runCount_;
             }
@@ -54,7 +54,7 @@ public:
             return Error(
                 Code::InputTooBig,
                 fmt::format("the labels change so often that {} are not enough to hold them; is this a label volume "
-                            "and no scan?",
+                            "and not a scan?",
                             bytesText(maxBytes_)));
         below_.assign(slice.begin(), slice.end());
         return {};
@@ -117,7 +117,7 @@ private:
     bool isNegative_ = false;
 };
 
-/// The sample as a label, where it is one.
+/// The sample as a label, if it is one.
 std::optional<std::uint32_t> labelOf(const std::byte* at, OtherKind kind, std::endian order, double& found) {
     constexpr double kMost = 4294967295.0;
     if (kind == OtherKind::Int64 || kind == OtherKind::UInt64) {

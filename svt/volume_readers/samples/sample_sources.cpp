@@ -46,7 +46,7 @@ public:
 private:
     [[nodiscard]] bool isSpent() const noexcept { return rest_.size == 0 && piece_.empty(); }
 
-    /// Reads the next piece of the file where there is none.
+    /// Reads the next piece of the file if there is none.
     Result<void> fill() {
         if (!piece_.empty()) return {};
         const std::uint64_t size = std::min(rest_.size, kPiece);
@@ -133,7 +133,7 @@ private:
 Result<void> checkImage(const LabelImage& image, std::uint64_t storedBytes, bool isCompressed, Code code) {
     if (image.bits != 8 && image.bits != 16 && image.bits != 32)
         return Error(code,
-                     fmt::format("samples of {} bits are no labels; whole numbers of 8, 16 or 32 bits are expected",
+                     fmt::format("samples of {} bits cannot be labels; whole numbers of 8, 16 or 32 bits are expected",
                                  image.bits));
     for (int axis = 0; axis < 3; ++axis)
         if (image.dimension[axis] < 2 || image.dimension[axis] > volume::Grid::kMaxDimension)

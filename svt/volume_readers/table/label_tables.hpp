@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// From values to labels: the table that `svt convert` wrote, a table that a person wrote, what the format tells, or a label
-/// per value.
+/// Converts values to labels: by the table that `svt convert` wrote, a table of the user, labels that the format
+/// describes, or one label per value.
 
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
@@ -17,16 +17,17 @@ namespace svt::volume_readers {
 ///     {"labels": [{"value": 17, "id": "R1", "class": "BuildingRoom", "name": "Kitchen", "parent": "B1",
 ///                  "color": "#d8c8a0", "opacity": 0.3, "attributes": {"usage": "1000"}}, ...]}
 ///
-/// where `value` is a number, a range [first, last], or absent for a label without voxels; all but `value` may be absent.
-/// \return what is told, values in `first` and `count`; or CannotOpen, BadJson with what is wrong, InputTooBig
+/// where `value` is a number, a range [first, last], or absent for a label without voxels, which then needs an `id`.
+/// All other members are optional.
+/// \return the labels, values in `first` and `count`; or CannotOpen, BadJson with the problem, InputTooBig
 struct UserTable {
-    std::string labelsJson;                          ///< where the file is a labels.json
+    std::string labelsJson;                          ///< if the file is a labels.json
     std::vector<ToldLabel> told;                     ///< else
     std::vector<std::vector<Attribute>> attributes;  ///< of each told label
     std::vector<float> opacities;
 };
 [[nodiscard]] Result<UserTable> readUserTable(const std::filesystem::path& path);
-/// The same from text. \return as above, without a place
+/// Like readUserTable(), but from text. \return as above; errors have no place
 [[nodiscard]] Result<UserTable> parseUserTable(std::string_view text);
 
 struct MadeVolume {
@@ -34,10 +35,10 @@ struct MadeVolume {
     std::vector<std::string> warnings;
 };
 
-/// The volume of an image whose samples are read.
+/// Creates the volume of an image from the values of its samples.
 /// \param values  columns whose scalars are the values of the samples
-/// \return the volume, or BadVolume (a table that does not fit the values), BadChecksum (another table or other samples
-///         than were written), BadJson, BadImage (a grid that is mirrored or sheared), TooManyLabels, BadDimension,
+/// \return the volume, or BadVolume (a table that does not fit the values), BadChecksum (table or samples differ from
+///         those that were written), BadJson, BadImage (a mirrored or sheared grid), TooManyLabels, BadDimension,
 ///         GridTooLarge
 [[nodiscard]] Result<MadeVolume> makeVolume(const LabelImage& image, volume::ColumnVolume values,
                                             const UserTable* table, const std::filesystem::path& path);

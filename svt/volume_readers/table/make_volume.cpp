@@ -51,10 +51,10 @@ Result<volume::Grid> gridOf(const LabelImage& image) {
         const Vec3d step = image.steps[static_cast<std::size_t>(axis)];
         spacing[axis] = length(step);
         if (!isFinite(step) || !(spacing[axis] > 0) || !std::isfinite(spacing[axis]))
-            return Error(Code::BadDimension, "the spacing of the image is zero or no number");
+            return Error(Code::BadDimension, "the spacing of the image is zero or not a number");
         axes[static_cast<std::size_t>(axis)] = step / spacing[axis];
     }
-    // Files hold 32-bit floats at times: what is orthogonal up to their rounding is made so.
+    // Some files hold 32-bit floats: axes that are orthogonal up to their rounding are made orthogonal.
     const double skew =
         std::max({std::abs(dot(axes[0], axes[1])), std::abs(dot(axes[1], axes[2])), std::abs(dot(axes[2], axes[0]))});
     if (skew > 1e-3) return Error(Code::BadImage, "the axes of the image are not at right angles; resample it first");
@@ -67,7 +67,8 @@ Result<volume::Grid> gridOf(const LabelImage& image) {
     return volume::Grid::fromParts(image.dimension, spacing, image.origin, axes);
 }
 
-/// Whether the grid that the file tells is the one of `header`, up to a hundredth of a voxel: then that one is exact.
+/// Whether the grid `told` by the file equals the one of `header`, up to a hundredth of a voxel. Then the latter is
+/// exact.
 bool isSamePlace(const volume::Grid& told, const volume::Grid& exact) {
     if (told.dimension() != exact.dimension()) return false;
     const Vec3d s = exact.spacing();
@@ -80,7 +81,7 @@ bool isSamePlace(const volume::Grid& told, const volume::Grid& exact) {
     return true;
 }
 
-/// The header that `svt convert` left in the file, where it is whole.
+/// The header that `svt convert` wrote into the file, if it is complete.
 std::optional<volume::SvtHeader> headerOf(const LabelImage& image) {
     if (image.headerJson.empty() || image.headerJson.size() > volume::kMaxHeaderBytes) return std::nullopt;
     auto header = volume::readHeaderJson(image.headerJson);
@@ -108,7 +109,7 @@ void takeNames(const std::optional<volume::SvtHeader>& header, std::string_view 
     read("source", volume.source);
 }
 
-/// Puts told labels into tree order, gives them scalars in that order, and says which scalar each value becomes.
+/// Puts told labels into tree order, assigns scalars in that order, and determines the scalar of each value.
 class TableBuilder {
 public:
     TableBuilder(const std::vector<ToldLabel>& told, const UserTable* user) : told_(told), user_(user) {
@@ -131,11 +132,11 @@ public:
         return std::move(table_);
     }
 
-    /// The labels that have a value: it belongs to the one that tells the fewest values, the innermost.
+    /// The place in the table of each told label.
     [[nodiscard]] const std::vector<std::uint32_t>& labelOfTold() const noexcept { return labelOf_; }
 
 private:
-    // A loop, since a table may nest as deep as it likes.
+    // A loop, because a table may nest without limit.
     void add(std::size_t root) {
         struct Open {
             std::size_t told, nextChild;
@@ -181,7 +182,7 @@ private:
     LabelTable table_;
 };
 
-/// For each value the told label that has it; of several, the one that tells the fewest values, then the later one.
+/// For each value, the told label that has it; among several, the one with the fewest values, then the later one.
 std::vector<std::uint32_t> ownersOf(const std::vector<Scalar>& values, const std::vector<ToldLabel>& told) {
     std::vector<std::uint32_t> order(told.size());
     for (std::uint32_t t = 0; t < order.size(); ++t) order[t] = t;
@@ -212,7 +213,7 @@ Result<void> giveScalars(LabelTable& table, const std::vector<Scalar>& values,
         table.labels[l].filling = volume::Filling::Solid;
         for (const std::uint32_t v : valuesOfLabel[l]) scalarOfValue[v] = next++;
     }
-    // Values may be any number: they are numbered first.
+    // Values may be any number, so they are numbered first.
     std::vector<volume::ColumnTileData> tiles;
     const auto toScalar = [&](Scalar value) {
         return value == 0 ? 0
@@ -258,8 +259,8 @@ Result<void> takeTold(const std::vector<ToldLabel>& given, const UserTable* user
     return giveScalars(volume.labels, values, owners, volume.columns);
 }
 
-/// Counts the voxels of each label. Its volume becomes that of its voxels, but where `hasVolumes` is true and no voxel is
-/// missing: then it stays that of its mesh.
+/// Counts the voxels of each label. The volume of a label becomes that of its voxels. If `hasVolumes` is true and no
+/// voxel is missing, it stays that of its mesh.
 void countAgain(volume::SemanticVolume& volume, bool hasVolumes) {
     const auto voxels = volume.columns.countVoxels(volume.labels.scalarCount());
     for (Label& label : volume.labels.labels) {
@@ -271,7 +272,7 @@ void countAgain(volume::SemanticVolume& volume, bool hasVolumes) {
     }
 }
 
-/// What `svt convert` left in a file beside the samples.
+/// The data that `svt convert` wrote into a file in addition to the samples.
 struct Stated {
     std::optional<volume::SvtHeader> header;
     volume::LabelTable labels;
@@ -281,7 +282,7 @@ struct Stated {
 constexpr std::string_view kRemedy =
     "copy or convert the file again; if it was changed on purpose, give the table of its labels (--labels)";
 
-/// Reads labels and seal, and holds header and labels against the seal.
+/// Reads labels and seal, and compares header and labels with the seal.
 /// \return nothing for a file that `svt convert` did not write
 Result<std::optional<Stated>> readStated(const LabelImage& image, const std::optional<volume::SvtHeader>& header) {
     Stated stated{header, {}, volume::readSeal(image.seal)};
@@ -314,7 +315,7 @@ Result<std::optional<Stated>> readStated(const LabelImage& image, const std::opt
     return std::optional(std::move(stated));
 }
 
-/// The first labels whose voxels are not as many as the table says: "'R1' has 12 voxels, the table says 40, ...".
+/// The first labels whose number of voxels differs from the table: "'R1' has 12 voxels, the table says 40, ...".
 std::string differencesOf(const volume::SemanticVolume& volume, std::size_t& count) {
     constexpr std::size_t kShown = 5;
     const auto voxels = volume.columns.countVoxels(volume.labels.scalarCount());
@@ -361,7 +362,7 @@ Result<void> checkValues(const volume::SemanticVolume& volume) {
     return {};
 }
 
-/// The volume of a table that is given, which is taken as it is.
+/// The volume of a given table, which is taken as it is.
 Result<void> takeGiven(const UserTable& table, volume::SemanticVolume& volume) {
     if (table.labelsJson.empty()) {
         SVT_DO(takeTold(table.told, &table, volume));
@@ -375,7 +376,7 @@ Result<void> takeGiven(const UserTable& table, volume::SemanticVolume& volume) {
     return {};
 }
 
-/// The volume of a table that `svt convert` left in the file.
+/// The volume of a table that `svt convert` wrote into the file.
 Result<void> takeStated(Stated stated, MadeVolume& made) {
     volume::SemanticVolume& volume = made.volume;
     const bool isCut = stated.header && !isSamePlace(volume.grid, stated.header->grid);

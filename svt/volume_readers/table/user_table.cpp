@@ -75,7 +75,7 @@ bool readAttributes(const TableJson& object, std::vector<Attribute>& attributes)
 }
 
 Result<void> readEntry(const TableJson& entry, std::size_t number, UserTable& table) {
-    if (!entry.is_object()) return badTable(number, "is no object");
+    if (!entry.is_object()) return badTable(number, "is not an object");
     ToldLabel label;
     label.count = 0;
     std::vector<Attribute> attributes;
@@ -91,12 +91,12 @@ Result<void> readEntry(const TableJson& entry, std::size_t number, UserTable& ta
                                   {"class", &label.className},
                                   {"name", &label.name},
                                   {"parent", &label.parent}})
-        if (!text(key, *to)) return badTable(number, fmt::format("has a '{}' that is no string", key));
+        if (!text(key, *to)) return badTable(number, fmt::format("has a '{}' that is not a string", key));
     if (const auto value = entry.find("value"); value != entry.end()) {
         label.count = 1;
         if (!readValue(*value, label))
             return badTable(number,
-                            "has a 'value' that is no whole number from 1 on, nor a range [first, last] of them");
+                            "has a 'value' that is not a whole number from 1 on or a range [first, last] of them");
     } else if (label.id.empty()) {
         return badTable(number, "has neither 'value' nor 'id'");
     }
@@ -104,10 +104,11 @@ Result<void> readEntry(const TableJson& entry, std::size_t number, UserTable& ta
         return badTable(number, "has a 'color' that is neither \"#rrggbb\" nor three numbers from 0 to 1");
     if (const auto found = entry.find("opacity"); found != entry.end()) {
         opacity = found->is_number() ? found->get<float>() : -1;
-        if (!(opacity >= 0 && opacity <= 1)) return badTable(number, "has an 'opacity' that is no number from 0 to 1");
+        if (!(opacity >= 0 && opacity <= 1))
+            return badTable(number, "has an 'opacity' that is not a number from 0 to 1");
     }
     if (const auto found = entry.find("attributes"); found != entry.end() && !readAttributes(*found, attributes))
-        return badTable(number, "has 'attributes' that are no object of strings, numbers, true and false");
+        return badTable(number, "has 'attributes' that are not an object of strings, numbers, true and false");
     if (label.id.empty()) label.id = fmt::format("label-{}", label.first);
     table.told.push_back(std::move(label));
     table.attributes.push_back(std::move(attributes));
@@ -127,7 +128,7 @@ Result<UserTable> parseUserTable(std::string_view text) {
         root = TableJson::parse(text.begin(), text.end(),
                                 [](int depth, TableJson::parse_event_t, TableJson&) { return depth <= 16; });
     } catch (const TableJson::exception& exception) {
-        return Error(Code::BadJson, fmt::format("the table of labels is no JSON: {}", exception.what()));
+        return Error(Code::BadJson, fmt::format("the table of labels is not valid JSON: {}", exception.what()));
     }
     const auto labels = root.is_object() ? root.find("labels") : root.end();
     if (!root.is_object() || labels == root.end() || !labels->is_array())

@@ -65,7 +65,7 @@ bool unpackInner(int format, std::span<const std::byte> stored, std::span<std::b
                          : unzstdInto(stored, out);
 }
 
-/// Byte b of each item stands behind all bytes b - 1.
+/// Byte b of each item follows all bytes b - 1.
 void unshuffle(std::span<const std::byte> in, std::span<std::byte> out, std::size_t itemSize) {
     const std::size_t items = in.size() / itemSize;
     for (std::size_t b = 0; b < itemSize; ++b)
@@ -74,7 +74,7 @@ void unshuffle(std::span<const std::byte> in, std::span<std::byte> out, std::siz
               out.begin() + static_cast<std::ptrdiff_t>(items * itemSize));
 }
 
-/// Bit b of each item stands behind all bits b - 1, for whole groups of eight items.
+/// Bit b of each item follows all bits b - 1, for whole groups of eight items.
 void unshuffleBits(std::span<const std::byte> in, std::span<std::byte> out, std::size_t itemSize) {
     const std::size_t items = in.size() / itemSize / 8 * 8, rowBytes = items / 8;
     std::copy(in.begin(), in.end(), out.begin());
@@ -85,7 +85,7 @@ void unshuffleBits(std::span<const std::byte> in, std::span<std::byte> out, std:
                 out[n * itemSize + bit / 8] |= std::byte{1} << static_cast<int>(bit % 8);
 }
 
-/// A block of Blosc: one stream, or one for each byte of an item.
+/// A block of Blosc: one stream, or one stream per byte of an item.
 bool unpackBlock(std::span<const std::byte> in, std::size_t at, int format, std::size_t splits,
                  std::span<std::byte> out) {
     for (std::size_t s = 0; s < splits; ++s) {
@@ -156,13 +156,13 @@ Result<std::vector<std::byte>> unpackChunk(CodecKind codec, std::span<const std:
     if (codec == CodecKind::Crc32c) {
         if (stored.size() < 4 ||
             crc32cOf(stored.first(stored.size() - 4)) != loadBytes<std::uint32_t>(stored, stored.size() - 4))
-            return Error(Code::BadImage, "a chunk is damaged: its checksum (CRC-32C) is another one");
+            return Error(Code::BadImage, "a chunk is damaged: its checksum (CRC-32C) differs");
         return ChunkBytes(stored.begin(), stored.end() - 4);
     }
     if (size > kMostChunkBytes || stored.size() > kMostChunkBytes)
         return Error(Code::BadImage, "a chunk has more than 1 GiB; write the array with smaller chunks");
     if (codec == CodecKind::Blosc) return unblosc(stored, size);
-    // The best that deflate can do is 1032 times; zstd and LZ4 tell what they are to become.
+    // The maximum ratio of deflate is 1032; zstd and LZ4 store the unpacked size.
     if ((codec == CodecKind::Zlib || codec == CodecKind::Gzip) && size / 1032 > stored.size()) return badChunk("zlib");
     if (codec == CodecKind::Lz4 &&
         (stored.size() < 4 || loadBytes<std::uint32_t>(stored, 0) != size || size / 255 > stored.size()))

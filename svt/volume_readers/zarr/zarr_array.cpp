@@ -34,8 +34,8 @@ std::string textOf(const ZarrJson& json) { return json.is_string() ? json.get<st
 Result<std::vector<std::uint64_t>> sizesOf(const ZarrJson& json, const char* what, std::uint64_t most) {
     std::vector<std::uint64_t> sizes;
     if (!json.is_array() || json.size() < 3 || json.size() > ZarrArray::kMostAxes)
-        return badZarr(
-            fmt::format("{} is no list of three sizes (z, y, x), or up to five with axes of one sample before", what));
+        return badZarr(fmt::format(
+            "{} is not a list of three sizes (z, y, x), or of up to five that begin with axes of one sample", what));
     for (const ZarrJson& size : json) {
         if (!size.is_number_unsigned() || size.get<std::uint64_t>() == 0 || size.get<std::uint64_t>() > most)
             return badZarr(fmt::format("{} has the size {}; 1 to {} are possible", what, size.dump(), most));
@@ -55,7 +55,7 @@ Result<void> checkSizes(const ZarrArray& array) {
                 fmt::format("axis {} of {} has {} samples; before z, y and x an axis has one (a single time "
                             "and channel)",
                             a, axes, array.shape[a]));
-        if (array.file[a] % array.chunk[a] != 0) return badZarr("a shard is no whole number of chunks");
+        if (array.file[a] % array.chunk[a] != 0) return badZarr("a shard is not a whole number of chunks");
         samples *= array.shape[a];  // at most 65535^3
         files *= (array.shape[a] + array.file[a] - 1) / array.file[a];
         if (array.chunk[a] > kMostChunkBytes / bytes || array.file[a] > (kMostChunkBytes << 10) / fileBytes)
@@ -82,19 +82,19 @@ Result<CodecKind> codecOf(const std::string& name) {
                                name.substr(0, 80)));
 }
 
-/// A sample's bits as they are in memory, from the number in the metadata.
+/// The bits of a sample in memory, from the number in the metadata.
 Result<std::uint64_t> fillOf(const ZarrJson& json) {
     if (json.is_null()) return std::uint64_t{0};
     if (json.is_boolean()) return std::uint64_t{json.get<bool>() ? 1u : 0u};
     if (json.is_number_unsigned()) return json.get<std::uint64_t>();
     if (json.is_number_integer()) return static_cast<std::uint64_t>(json.get<std::int64_t>());
-    return badZarr(fmt::format("the fill value {} is no whole number", json.dump().substr(0, 80)));
+    return badZarr(fmt::format("the fill value {} is not a whole number", json.dump().substr(0, 80)));
 }
 
 Error noLabels(const std::string& type) {
     return badZarr(
-        fmt::format("samples of the type '{}' are no labels; whole numbers of 8 to 64 bits are expected. Of an "
-                    "image with labels, give their folder, such as IMAGE.zarr/labels/NAME",
+        fmt::format("samples of the type '{}' cannot be labels; whole numbers of 8 to 64 bits are expected. If the "
+                    "image has labels, give their folder, such as IMAGE.zarr/labels/NAME",
                     type.substr(0, 80)));
 }
 
@@ -134,7 +134,7 @@ Result<ZarrArray> readVersion2(const ZarrJson& json) {
     return array;
 }
 
-/// Codecs of version 3: at most one that turns axes, then the byte order, then what packs bytes.
+/// Codecs of version 3: at most one that permutes axes, then the byte order, then compressors.
 Result<void> readChain(const ZarrJson& json, ZarrArray& array) {
     bool hasBytes = false;
     for (const ZarrJson& codec : json) {
@@ -145,7 +145,7 @@ Result<void> readChain(const ZarrJson& json, ZarrArray& array) {
             std::vector<std::size_t> axes;
             for (const ZarrJson& axis : order.is_array() ? order : ZarrJson::array())
                 if (axis.is_number_unsigned()) axes.push_back(axis.get<std::size_t>());
-            // As earlier drafts of version 3 have it.
+            // The form in earlier drafts of version 3.
             if (order == "C" || order == "F")
                 for (std::size_t axis = 0; axis < array.shape.size(); ++axis)
                     axes.push_back(order == "C" ? axis : array.shape.size() - 1 - axis);
@@ -153,7 +153,8 @@ Result<void> readChain(const ZarrJson& json, ZarrArray& array) {
             std::sort(sorted.begin(), sorted.end());
             std::vector<std::size_t> expected(array.shape.size());
             std::iota(expected.begin(), expected.end(), std::size_t{0});
-            if (sorted != expected || hasBytes) return badZarr("the order of a transpose is no order of the axes");
+            if (sorted != expected || hasBytes)
+                return badZarr("the order of a transpose is not a permutation of the axes");
             std::vector<std::size_t> turned;
             for (const std::size_t axis : axes) turned.push_back(array.order[axis]);
             array.order = std::move(turned);
@@ -206,7 +207,7 @@ Result<ZarrArray> readVersion3(const ZarrJson& json) {
     SVT_TRY(shape, sizesOf(member(json, "shape"), "the shape", kMostSide));
     array.shape = std::move(*shape);
     const ZarrJson& grid = member(json, "chunk_grid");
-    if (textOf(member(grid, "name")) != "regular") return badZarr("the chunks are no regular grid");
+    if (textOf(member(grid, "name")) != "regular") return badZarr("the chunks are not a regular grid");
     SVT_TRY(file, sizesOf(member(member(grid, "configuration"), "chunk_shape"), "the chunks", std::uint64_t{1} << 31));
     array.chunk = array.file = std::move(*file);
     array.order.resize(array.shape.size());
@@ -339,7 +340,7 @@ Result<ZarrScale> readZarrScale(const ZarrJson& attributes) {
     if (levels.is_array() && !levels.empty()) scale.path = textOf(member(levels.front(), "path"));
     if (!isPathInside(scale.path))
         return badZarr(
-            fmt::format("the finest level is '{}', which is no folder in this one", scale.path.substr(0, 80)));
+            fmt::format("the finest level is '{}', which is not a folder in this one", scale.path.substr(0, 80)));
     SVT_TRY(metres, unitsOf(member(first, "axes")));
     scale.scale = *metres;
     for (const ZarrJson* from : {&levels.front(), &first})

@@ -26,7 +26,7 @@ Error inFile(const fs::path& file, Code code, std::string message) {
     return {code, std::move(message), Place{file.string(), 0, 0, {}}};
 }
 
-/// A file in the folder `root`, which has no links in it; nothing where there is none.
+/// A file in the folder `root`, a path without links; empty if the file does not exist.
 Result<std::optional<FileBytes>> openInside(const fs::path& root, const fs::path& file, std::uint64_t maxBytes) {
     std::error_code failed;
     if (!fs::exists(file, failed)) return std::optional<FileBytes>();
@@ -37,12 +37,12 @@ Result<std::optional<FileBytes>> openInside(const fs::path& root, const fs::path
     return std::optional<FileBytes>(std::move(*opened));
 }
 
-/// The JSON of a file; null where there is none.
+/// The JSON of a file; null if the file does not exist.
 Result<ZarrJson> readJsonInside(const fs::path& root, const fs::path& file) {
     SVT_TRY(opened, openInside(root, file, kMostJsonBytes));
     if (!*opened) return ZarrJson();
     const std::string_view text = (*opened)->text();
-    // A bound to the depth, since nlohmann parses by calls.
+    // Limits the depth, because nlohmann parses recursively.
     int depth = 0, deepest = 0;
     for (const char c : text) {
         depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
@@ -50,11 +50,11 @@ Result<ZarrJson> readJsonInside(const fs::path& root, const fs::path& file) {
     }
     if (deepest > 1000) return inFile(file, Code::BadJson, "the JSON is nested too deeply");
     ZarrJson json = ZarrJson::parse(text.begin(), text.end(), nullptr, false);
-    if (!json.is_object()) return inFile(file, Code::BadJson, "the file is no JSON object");
+    if (!json.is_object()) return inFile(file, Code::BadJson, "the file is not a JSON object");
     return json;
 }
 
-/// Where the samples of a chunk come from and go to.
+/// Reads the samples of chunks, one band of chunks at a time.
 class ZarrSource {
 public:
     ZarrSource(fs::path root, fs::path folder, ZarrArray array, int outBytes)
@@ -108,7 +108,8 @@ private:
         return {};
     }
 
-    /// The bits of a sample that is written; those of negative ones of up to 32 bits stay, as the reader of columns finds them.
+    /// The bits of a sample for the output. Negative samples of up to 32 bits keep their bits; readColumns() rejects
+    /// them.
     [[nodiscard]] bool narrow(std::uint64_t bits, std::uint32_t& value) const noexcept {
         value = static_cast<std::uint32_t>(bits);
         return array_.itemBytes < 8 || bits <= (array_.isSigned ? 0x7FFFFFFFu : 0xFFFFFFFFu);
@@ -233,7 +234,7 @@ std::string wordOf(const ZarrJson& json, const char* key) {
     return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-/// Labels as `image-label` tells them: a value each, with what others call its name.
+/// The labels in `image-label`: one per value, with the members that other programs use as its name.
 std::vector<ToldLabel> toldLabels(const ZarrScale& scale) {
     std::vector<ToldLabel> told;
     std::vector<std::pair<std::uint64_t, std::size_t>> numberOf;  // value and place, ascending
@@ -271,7 +272,8 @@ std::vector<ToldLabel> toldLabels(const ZarrScale& scale) {
     return told;
 }
 
-/// What `svt convert` left: the exact grid where it is turned, which the metadata of OME-NGFF cannot say.
+/// Takes the data that `svt convert` wrote: header, labels, seal, and the exact grid if it is rotated, which OME-NGFF
+/// cannot express.
 void takeOwn(const ZarrJson& attributes, LabelImage& image) {
     const auto isOwn = [](const ZarrJson& value) { return value.is_object() && value.contains("labels.json"); };
     const auto own = std::find_if(attributes.begin(), attributes.end(), isOwn);
@@ -292,8 +294,8 @@ void takeOwn(const ZarrJson& attributes, LabelImage& image) {
     image.origin = header->grid.origin();
 }
 
-/// What is left out is background, so a few bytes can claim a volume that takes hours: beyond 8 GB the chunks that are there
-/// must be in some proportion to it.
+/// Missing chunks are background, so a few bytes can claim a volume that takes hours. Beyond 8 GB the stored bytes must
+/// be in proportion to the samples.
 Result<void> checkProportion(const fs::path& folder, std::uint64_t sampleBytes) {
     constexpr std::uint64_t kAlways = std::uint64_t{1} << 33, kMostRatio = 1 << 16;
     if (sampleBytes <= kAlways) return {};
@@ -308,7 +310,7 @@ Result<void> checkProportion(const fs::path& folder, std::uint64_t sampleBytes) 
                                              bytesText(stored), bytesText(sampleBytes)));
 }
 
-/// The metadata of an array; null where there is none.
+/// The metadata of an array; null if there are none.
 Result<ZarrJson> arrayJson(const fs::path& root, const fs::path& folder) {
     SVT_TRY(version3, readJsonInside(root, folder / "zarr.json"));
     if (!version3->is_null()) return version3;
@@ -324,8 +326,8 @@ bool looksLikeZarr(const fs::path& folder) {
     return false;
 }
 
-// Reads the metadata. Samples come by bands of chunks, which are unpacked on the way. A name or a link that leads out of the
-// folder is an error. \param maxBytes  of memory; a band of chunks may take half of it
+// Reads the metadata. Samples come in bands of chunks, which are unpacked one at a time. A name or a link that leads
+// out of the folder is an error. \param maxBytes  of memory; a band of chunks may take half of it
 Result<LabelImage> openZarr(const fs::path& folder, std::uint64_t maxBytes) {
     std::error_code failed;
     const fs::path root = fs::canonical(folder, failed);

@@ -1,6 +1,6 @@
 /**
  * The endings of model files, as the readers of the library declare them.
- * Written by scripts/update_options.py; a change by hand is lost.
+ * scripts/update_options.py generates this file; manual changes are lost.
  */
 
 export const kModelEndings = [".gml", ".xml", ".citygml", ".json", ".jsonl", ".cityjson", ".ifc", ".ifczip"] as const;

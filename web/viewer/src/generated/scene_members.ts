@@ -1,6 +1,6 @@
 /**
  * The members of a scene as svt/illustrate/scene/scene_members.cpp declares them, by JSON pointer with * for any index.
- * Written by scripts/update_options.py; a change by hand is lost.
+ * scripts/update_options.py generates this file; manual changes are lost.
  */
 
 export const kSceneMembers = {
@@ -153,7 +153,7 @@ export interface Scene { format?: "svt-scene";
 
 export type SceneMember = keyof typeof kSceneMembers;
 
-/** All that a declaration may say. */
+/** The members of a declaration. */
 export interface DeclaredMember {
   readonly type: "flag" | "whole" | "number" | "text" | "object" | "list";
   readonly unit?: string;
@@ -163,7 +163,7 @@ export interface DeclaredMember {
   readonly default?: string | number | boolean | readonly number[];
   /** Takes an array of such values. */
   readonly repeats?: true;
-  /** Of `svt render`, with its heading in help. */
+  /** The option of `svt render` for this member; `group` is its heading in help. */
   readonly option?: string;
   readonly group?: string;
   readonly help: string;
