@@ -282,15 +282,16 @@ std::vector<double> surfacesOf(const model::BuildingModel& model) {
     return surfaces;
 }
 
-// How much may change.
+// Limits of the changes.
 struct Limits {
-    double moved = 0,
-           split = 0;   // share of all voxels that change where the model is turned or moved; and where faces are split
+    double moved = 0;   // share of all voxels that change if the model is turned or moved
+    double split = 0;   // the same if its faces are also split
     double counts = 0;  // share by which the counts of all components differ
-    // Of a component, in voxels that its surface has on one side: by which its count differs; that it loses and gains. Of
-    // a sheet, one voxel thick, all are lost and gained where it moves to the next samples.
-    double count = 0, layers = 0;
+    // Of a body, in layers. A layer has one voxel for each square of the spacing on the surface of the body.
+    double count = 0;   // by which its count differs
+    double layers = 0;  // that it loses and gains
 };
+// A sheet is one voxel thick. It loses and gains all of its voxels if it moves to the next samples.
 constexpr double kLayersOfSheet = 2;
 
 void expectWithin(const Limits& limits, const Changes& changes, const volume::LabelTable& straight,
@@ -328,7 +329,7 @@ void expectWithin(const Limits& limits, samples::SampleKind kind, samples::Sampl
     }
 }
 
-// What docs/user/build.md promises, at spacings of which many have faces of the house on their samples.
+// docs/user/build.md has these limits. At most of these spacings, faces of the house lie on samples.
 constexpr double kSpacings[] = {0.05, 0.1, 0.15, 0.2, 0.25};
 constexpr Limits kOfHouse{.moved = 0.01, .split = 0.0125, .counts = 0.01, .count = 0.3, .layers = 0.7};
 // The faces of the tower lie on whole decimetres.

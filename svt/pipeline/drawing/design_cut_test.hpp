@@ -10,9 +10,8 @@
 
 namespace svt::test {
 
-/// The area in which any component is cut, m2. At one height the sides of all pieces must be lines along x or y, as they
-/// are in a model that is not turned. Between two neighbours of them nothing begins or ends, so one point of each cell
-/// tells of all.
+/// The area that a plane cuts of all components together, m2. The model must not be turned: at one height, the sides of all
+/// pieces are then lines along x or y. Nothing begins or ends between two neighbouring lines, so one point tests a cell.
 /// \param z  metres in the CRS
 /// \return the area; not a number where a side is slanted in plan
 inline double designCut(const std::vector<samples::SampleComponent>& components, double z) {

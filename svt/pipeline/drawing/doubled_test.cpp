@@ -1,5 +1,5 @@
-/// A house in which each closed solid is there twice: the overlaps find each with its copy, and the volume that both share is
-/// all of it. Solids thinner than a voxel have no voxel in common with their copies, so only their meshes tell.
+/// A house with a copy of each closed solid: the overlaps pair each solid with its copy, and their common volume is the whole
+/// volume. Solids thinner than a voxel share no voxel with their copies. Only their meshes show the overlap.
 
 #include <svt/analyze/solid_overlaps.hpp>
 #include <svt/pipeline/build_volume.hpp>
