@@ -71,10 +71,23 @@ Result<void> Film::finish(const Progress* progress) {
     Progress::tell(progress, "film", 0);
     const Encoding& encoding = *encodingOf(output_);
     const fs::path encoded = folder_.path() / ("film" + std::string(encoding.ending));
-    std::vector<std::string> arguments{
-        encoder_.string(), "-nostdin", "-loglevel",     "error", "-framerate", std::to_string(rate_), "-i",
-        "%06d.png",        "-an",      "-map_metadata", "-1",    "-fflags",    "+bitexact",           "-flags:v",
-        "+bitexact"};
+    // Without -xerror, ffmpeg ends with 0 if it cannot write the end of the film.
+    std::vector<std::string> arguments{encoder_.string(),
+                                       "-nostdin",
+                                       "-xerror",
+                                       "-loglevel",
+                                       "error",
+                                       "-framerate",
+                                       std::to_string(rate_),
+                                       "-i",
+                                       "%06d.png",
+                                       "-an",
+                                       "-map_metadata",
+                                       "-1",
+                                       "-fflags",
+                                       "+bitexact",
+                                       "-flags:v",
+                                       "+bitexact"};
     arguments.insert(arguments.end(), encoding.arguments.begin(), encoding.arguments.end());
     arguments.push_back(encoded.string());
     serve::ChildLimits limits;
