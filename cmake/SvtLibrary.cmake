@@ -117,6 +117,13 @@ function(svt_precompiled name header)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE ${ARGN})
   target_precompile_headers(${name} PRIVATE ${header})
+  if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
+    # GCC compares each header with #pragma once by its bytes. ccache must compare bytes too, and not only preprocessed
+    # text: a header of the cache that differs in comments would lead to redefinitions.
+    set(launcher ${CMAKE_CXX_COMPILER_LAUNCHER})
+    list(INSERT launcher 3 CCACHE_DEPEND=1)
+    set_property(TARGET ${name} PROPERTY CXX_COMPILER_LAUNCHER ${launcher})
+  endif()
   svt_warnings(${name})
 endfunction()
 

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <functional>
@@ -108,6 +109,18 @@ private:
     return false;
 }
 
+/// The processes that a process has started, by any of its threads; none where the system does not tell.
+[[nodiscard]] inline std::vector<pid_t> childrenOf(pid_t process) {
+    std::vector<pid_t> children;
+    std::error_code failed;
+    for (std::filesystem::directory_iterator at("/proc/" + std::to_string(process) + "/task", failed), end;
+         !failed && at != end; at.increment(failed)) {
+        std::istringstream in(readText(at->path() / "children"));
+        children.insert(children.end(), std::istream_iterator<pid_t>(in), {});
+    }
+    return children;
+}
+
 /// The port that a process listens on; 0: none.
 [[nodiscard]] inline int listeningPort(pid_t process) {
     std::set<std::string> sockets;
@@ -129,10 +142,12 @@ private:
     return 0;
 }
 
-/// Waits until a server listens. \return its port; 0 where it has ended
+/// Waits until a server listens. \return its port; 0 where it has ended, or does not listen after two minutes
 [[nodiscard]] inline int portOf(RunningSvt& svt) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     int port = 0;
-    while (!svt.isOver() && (port = listeningPort(svt.process())) == 0) ::poll(nullptr, 0, 1);
+    while (!svt.isOver() && (port = listeningPort(svt.process())) == 0 && std::chrono::steady_clock::now() < end)
+        ::poll(nullptr, 0, 1);
     return port;
 }
 
