@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 namespace svt::test {
@@ -41,6 +42,46 @@ TEST_F(TwoBoxReports, NeighboursShareAFaceAndMeetTheOutside) {
     EXPECT_NEAR(rows[0]["area"].get<double>(), 2 * 24 + 2 * 12 + 18, 1);
     // The neighbour reports the same for the wall between them.
     EXPECT_EQ(report({"id=right", "--neighbours"})[1]["area"], rows[1]["area"]);
+}
+
+TEST(FeatureRows, LeaveUnknownMeasuresEmpty) {
+    const TemporaryFolder folder;
+    prepareHouse(folder.path(), "0.4");
+    const auto ask = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"query", "house.svt", "all"});
+        return runSvt(folder.path(), more);
+    };
+    const json rows = ask({"--sort", "height", "--first", "5000", "--json"}).json();
+    int sheets = 0, unseen = 0;
+    for (const json& row : rows) {
+        if (row["filling"] == "surface") {
+            ++sheets;
+            EXPECT_TRUE(row["volume"].is_null()) << row;
+        }
+        const bool hasVoxels = row["voxels"] != 0;
+        unseen += hasVoxels ? 0 : 1;
+        for (const char* key : {"area", "height", "lowest", "highest"}) EXPECT_NE(row[key].is_null(), hasVoxels) << row;
+    }
+    EXPECT_GT(sheets, 0);
+    EXPECT_GT(unseen, 0);
+
+    const CommandResult sums = ask({"--by", "class", "--json"});
+    for (const json& sum : sums.json()) {
+        EXPECT_FALSE(sum["class"] == "BuildingRoom" && sum["volume"].is_null()) << sum;
+        EXPECT_FALSE(sum["volume"] == 0 || sum["area"] == 0) << sum;
+    }
+    EXPECT_NE(sums.err.find("the sums of volume exclude"), std::string::npos) << sums.err;
+    EXPECT_NE(sums.err.find("the sums of area exclude"), std::string::npos) << sums.err;
+}
+
+TEST(FeatureRows, AreAsManyAsAreReported) {
+    const TemporaryFolder folder;
+    prepareHouse(folder.path(), "0.4");
+    const std::string printed =
+        runSvtWell(folder.path(), {"query", "house.svt", "all", "--sort", "volume", "--first", "3", "-o", "rows.csv"});
+    EXPECT_EQ(printed, "rows.csv: 3 features\n");
+    const std::string written = readText(folder / "rows.csv");
+    EXPECT_EQ(std::count(written.begin(), written.end(), '\n'), 4) << written;
 }
 
 TEST_F(TwoBoxReports, WithAddsColumns) {

@@ -127,7 +127,7 @@ public:
 
 private:
     struct Sum {
-        std::uint64_t count = 0;
+        std::uint64_t count = 0, withoutVolume = 0, withoutVoxels = 0;
         double volume = 0, area = 0;
     };
     struct Kept {
@@ -214,8 +214,8 @@ private:
         ++sum.count;
         sum.volume += row.volume.value_or(0);
         sum.area += row.area;
-        withoutVolume_ += !row.volume;
-        withoutVoxels_ += row.voxels == 0;
+        sum.withoutVolume += !row.volume;
+        sum.withoutVoxels += row.voxels == 0;
     }
 
     Result<void> take(city::FeatureRow row, const volume::Label& label) {
@@ -279,17 +279,22 @@ private:
         table.columns.push_back({"features", "features", 0});
         table.columns.push_back({"volume", "m3", 1});
         table.columns.push_back({"area", "m2 in plan", 1});
+        std::uint64_t withoutVolume = 0, withoutVoxels = 0;
         for (const auto& [values, sum] : sums_) {
+            withoutVolume += sum.withoutVolume;
+            withoutVoxels += sum.withoutVoxels;
             Row& row = table.rows.emplace_back();
             for (const std::string& value : values) row.push_back(value.empty() ? Cell() : Cell(value));
-            row.insert(row.end(), {sum.count, sum.volume, sum.area});
+            row.push_back(sum.count);
+            row.push_back(sum.withoutVolume < sum.count ? Cell(sum.volume) : Cell());
+            row.push_back(sum.withoutVoxels < sum.count ? Cell(sum.area) : Cell());
         }
         print(table, query_.form);
         const auto noteMissing = [](std::uint64_t count, const char* measure, const char* basis) {
             if (count > 0) note(fmt::format("the sums of {} exclude {} features without {}", measure, count, basis));
         };
-        noteMissing(withoutVolume_, "volume", "solids");
-        noteMissing(withoutVoxels_, "area", "voxels");
+        noteMissing(withoutVolume, "volume", "solids");
+        noteMissing(withoutVoxels, "area", "voxels");
     }
 
     Result<void> finish() {
@@ -323,7 +328,7 @@ private:
     Table table_;
     bool isBegun_ = false;
     int given_ = 0;
-    std::uint64_t count_ = 0, withoutVolume_ = 0, withoutVoxels_ = 0;
+    std::uint64_t count_ = 0;
 };
 
 }  // namespace

@@ -101,10 +101,9 @@ Result<std::string> kubernetesJobs(const EngineJob& job, const city::Plan& plan)
     const std::string space =
         settings->at("namespace").empty() ? "" : " --namespace " + shellQuoted(settings->at("namespace"));
     std::string text = fmt::format(
-        "# kubectl apply -f FILE runs the tasks. A failed task is tried up to three more times and does not stop "
-        "other\n"
-        "# tasks (Kubernetes 1.29 or newer). The merge joins the finished packs and lists missing ones. Both can be\n"
-        "# repeated, and skip finished work. To start the merge:\n"
+        "# kubectl apply -f FILE runs the tasks. A failed task is tried up to three more times, and does not stop\n"
+        "# other tasks (Kubernetes 1.29 or newer). The merge joins the finished packs and lists missing ones. Both\n"
+        "# can be repeated, and skip finished work. To start the merge:\n"
         "#   kubectl wait{0} --for=condition=complete --timeout=24h job/{1}\n"
         "#   kubectl patch{0} job/{1}-merge -p '{{\"spec\":{{\"suspend\":false}}}}'\n",
         space, name);

@@ -79,7 +79,7 @@ private:
     const volume::BrickVolume* drawn_ = nullptr;
 };
 
-// Sets the finest level, the only one of OpenGL, for every pass without a level.
+// Sets the finest level for every pass without a level. OpenGL draws only this level.
 void takeFinest(illustrate::Scene& scene) {
     for (illustrate::ScenePass& pass : scene.passes)
         if (!pass.form.level) pass.form.level = 0;
