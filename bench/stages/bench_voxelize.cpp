@@ -134,7 +134,7 @@ Solids openedSolids(const Solids& solids) {
         const auto corners = object.triangles[removed].corners;
         object.triangles.erase(object.triangles.begin() + static_cast<std::ptrdiff_t>(removed));
         for (std::size_t c = 0; c < 3; ++c) object.openEdges.push_back({corners[(c + 1) % 3], corners[c]});
-        object.closure = mesh::Closure::Open;
+        object.closingMethod = mesh::ClosingMethod::Open;
     }
     return opened;
 }

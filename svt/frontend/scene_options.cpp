@@ -174,10 +174,12 @@ Result<void> addPass(const SceneOptions& arguments, const std::vector<std::strin
     if (!arguments.lens.empty()) addLens(scene, arguments.lens, section, arguments.context);
     if (!arguments.highlights.empty()) addHighlight(scene, arguments.highlights, arguments.context);
     if (!arguments.cutaway.empty()) addCutaway(scene, arguments.cutaway, 0.15);
-    if (arguments.contextLevel && scene.passes.size() == 2) scene.passes.front().form.level = arguments.contextLevel;
-    for (illustrate::ScenePass& any : scene.passes) any.form.hasCells = any.form.hasCells || arguments.hasCells;
+    if (arguments.contextLevel && scene.passes.size() == 2)
+        scene.passes.front().representation.level = arguments.contextLevel;
     for (illustrate::ScenePass& any : scene.passes)
-        if (arguments.level && !any.form.level) any.form.level = arguments.level;
+        any.representation.hasCells = any.representation.hasCells || arguments.hasCells;
+    for (illustrate::ScenePass& any : scene.passes)
+        if (arguments.level && !any.representation.level) any.representation.level = arguments.level;
     return {};
 }
 

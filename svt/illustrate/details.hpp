@@ -42,9 +42,10 @@ struct DetailPlace {
 
 /// Divides each pass of the volume into its gaps, and adds the details as parts of it. Shells are drawn without
 /// details, unless the details have shells of their own.
-/// \param forms  representations of the scene; detail d in form f is volume (d + 1) * forms.size() + f
+/// \param representations  representations of the scene; detail d in representation r is volume (d + 1) * representations.size() + r
 /// \return BadFrame if there are too many passes or clips, BadArgument if a pass has lines or meshes
-[[nodiscard]] Result<void> addDetailPasses(std::span<const DetailPlace> details, std::span<const VolumeForm> forms,
+[[nodiscard]] Result<void> addDetailPasses(std::span<const DetailPlace> details,
+                                           std::span<const VolumeRepresentation> representations,
                                            render::FrameSpec& spec, bool haveShells = false);
 
 }  // namespace svt::illustrate

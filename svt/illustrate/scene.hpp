@@ -61,11 +61,11 @@ struct SceneLines {
 };
 
 /// The representation of the volume that a pass draws.
-struct VolumeForm {
+struct VolumeRepresentation {
     std::optional<ShellLevel> shell;  ///< the hulls of groups of this level, two voxels thick; unset: the volume
     std::optional<int> level;         ///< level of detail, 0 (finest) to 6; unset: selected by the pixel size
     bool hasCells = false;            ///< each voxel, or cell of a level, is drawn as a box with edges
-    friend bool operator==(const VolumeForm&, const VolumeForm&) = default;
+    friend bool operator==(const VolumeRepresentation&, const VolumeRepresentation&) = default;
 };
 
 /// A pass: a part of the volume, and its style.
@@ -77,7 +77,7 @@ struct ScenePass {
     std::string keep;  ///< region to which drawing is limited; empty: no limit
     render::Pass::Join join = render::Pass::Join::Over;
     std::vector<SceneLines> lines;
-    VolumeForm form{};
+    VolumeRepresentation representation{};
     std::vector<std::string> meshes;  ///< queries, or size<M: drawn as the model's meshes instead of voxels
     friend bool operator==(const ScenePass&, const ScenePass&) = default;
 };
@@ -209,8 +209,8 @@ void addCutaway(Scene& scene, const std::string& query, double margin);
 [[nodiscard]] Result<Scene> insetScene(const Scene& scene, const Inset& inset);
 
 /// The representations that the passes of a scene draw, each once, in the order of first use. At least one.
-[[nodiscard]] std::vector<VolumeForm> volumeForms(const Scene& scene);
-/// The frame of `scene` on `volume`. Pass::volume is an index into volumeForms(scene).
+[[nodiscard]] std::vector<VolumeRepresentation> volumeRepresentations(const Scene& scene);
+/// The frame of `scene` on `volume`. Pass::volume is an index into volumeRepresentations(scene).
 /// \return the frame, which passes checkFrameSpec(), or BadSection, BadQuery, NothingSelected, BadCamera, BadFrame;
 ///         BadArgument if lines or meshes are requested and the volume was built without them, or for colorBy()
 [[nodiscard]] Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::SemanticVolume& volume);

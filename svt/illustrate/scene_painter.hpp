@@ -92,14 +92,15 @@ public:
     [[nodiscard]] const volume::SemanticVolume& volume() const noexcept { return volume_; }
 
     /// A representation of the volume for the frame `spec`. It lives as long as the painter.
-    [[nodiscard]] Result<render::DrawnVolume> form(const VolumeForm& form, const render::FrameSpec& spec);
+    [[nodiscard]] Result<render::DrawnVolume> representation(const VolumeRepresentation& representation,
+                                                             const render::FrameSpec& spec);
 
 private:
     // The volume or a shell of it, with its bricks and levels of detail.
-    struct Forms;
-    Result<Forms*> findForms(std::size_t number, std::optional<ShellLevel> shell);
-    [[nodiscard]] Result<render::DrawnVolume> formOf(std::size_t number, const VolumeForm& wanted,
-                                                     const render::FrameSpec& spec);
+    struct Representations;
+    Result<Representations*> findRepresentations(std::size_t number, std::optional<ShellLevel> shell);
+    [[nodiscard]] Result<render::DrawnVolume> representationOf(std::size_t number, const VolumeRepresentation& wanted,
+                                                               const render::FrameSpec& spec);
     [[nodiscard]] Result<std::vector<render::DrawnVolume>> drawnVolumes(const Scene& scene, render::FrameSpec& spec);
     struct Apart;
     using Paint = std::function<Result<Painting>(const Scene&)>;
@@ -115,7 +116,7 @@ private:
     int threads_;
     std::vector<std::string>* nothing_ = nullptr;
     const Progress* progress_ = nullptr;
-    std::vector<std::unique_ptr<Forms>> forms_;
+    std::vector<std::unique_ptr<Representations>> representations_;
     std::unique_ptr<Apart> apart_;
     struct Detail {
         const volume::SemanticVolume* volume;

@@ -35,7 +35,7 @@ struct Triangle {
 };
 
 /// How an object became a solid, or why it is not a solid.
-enum class Closure : std::uint8_t {
+enum class ClosingMethod : std::uint8_t {
     Closed,        ///< every edge is used equally often in both directions
     TJunctions,    ///< the same, after edges were split at points that lie on them
     Complemented,  ///< closed by faces of adjoining features
@@ -43,7 +43,7 @@ enum class Closure : std::uint8_t {
     Open,          ///< solid meaning, but still open: will be filled by generalized winding number
     Surface        ///< no solid meaning and not closed: a sheet
 };
-[[nodiscard]] std::string_view closureName(Closure closure) noexcept;
+[[nodiscard]] std::string_view closingMethodName(ClosingMethod closingMethod) noexcept;
 
 /// A cap that closes a planar hole; a ClosureSurface is added to the tree of the model for it.
 struct Cap {
@@ -63,8 +63,8 @@ struct ObjectMesh {
     double lod = -1;
     std::vector<Vec3d> vertices;
     std::vector<Triangle> triangles;  ///< including caps and complements
-    Closure closure = Closure::Surface;
-    std::vector<OpenEdge> openEdges;   ///< edges still open at the end (Closure::Open, Surface)
+    ClosingMethod closingMethod = ClosingMethod::Surface;
+    std::vector<OpenEdge> openEdges;   ///< edges still open at the end (ClosingMethod::Open, Surface)
     std::vector<Vec3d> leaks;          ///< edge centres where the shell leaked as read, at most 100, local space
     std::uint32_t unmatchedEdges = 0;  ///< edges without a partner as read, including T-junctions
     std::uint32_t leakCount = 0;       ///< edges without a partner after splitting at T-junctions: real leaks
@@ -81,7 +81,7 @@ struct ObjectMesh {
     Box3d bounds;               ///< local space
 
     /// True if the mesh is closed, so that it defines inside and outside.
-    [[nodiscard]] bool isSolid() const noexcept { return closure <= Closure::Capped; }
+    [[nodiscard]] bool isSolid() const noexcept { return closingMethod <= ClosingMethod::Capped; }
 };
 
 /// All meshes of a model, in tree order of their features.

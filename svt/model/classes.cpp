@@ -121,12 +121,12 @@ ClassRank classRank(string_view className) noexcept {
 
 bool isBoundarySurface(string_view className) noexcept { return isIn(kBoundaries, className); }
 
-Facing facingOf(string_view surfaceClass, bool boundsSpace) noexcept {
-    if (surfaceClass == "GroundSurface" || surfaceClass == "OuterCeilingSurface") return Facing::Down;
-    if (surfaceClass == "RoofSurface" || surfaceClass == "OuterFloorSurface") return Facing::Up;
-    if (boundsSpace && surfaceClass == "FloorSurface") return Facing::Down;
-    if (boundsSpace && surfaceClass == "CeilingSurface") return Facing::Up;
-    return Facing::Any;
+Orientation orientationOf(string_view surfaceClass, bool boundsSpace) noexcept {
+    if (surfaceClass == "GroundSurface" || surfaceClass == "OuterCeilingSurface") return Orientation::Down;
+    if (surfaceClass == "RoofSurface" || surfaceClass == "OuterFloorSurface") return Orientation::Up;
+    if (boundsSpace && surfaceClass == "FloorSurface") return Orientation::Down;
+    if (boundsSpace && surfaceClass == "CeilingSurface") return Orientation::Up;
+    return Orientation::Any;
 }
 
 bool isFilling(string_view className) noexcept { return isIn(kFillings, className); }

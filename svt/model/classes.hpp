@@ -54,7 +54,7 @@ enum class Inside : std::uint8_t {
 [[nodiscard]] bool isBoundarySurface(std::string_view className) noexcept;
 
 /// Orientation of a boundary surface: the direction of its faces, out of the shell that it bounds.
-enum class Facing : std::uint8_t {
+enum class Orientation : std::uint8_t {
     Any,  ///< walls, closure surfaces, and classes without a typical orientation
     Up,
     Down
@@ -64,7 +64,7 @@ enum class Facing : std::uint8_t {
 /// RoofSurface and OuterFloorSurface up.
 /// \param boundsSpace  true if the shell bounds a room or another space: then FloorSurface faces down and
 ///                     CeilingSurface up; in a shell of material they can be either face of a slab
-[[nodiscard]] Facing facingOf(std::string_view surfaceClass, bool boundsSpace) noexcept;
+[[nodiscard]] Orientation orientationOf(std::string_view surfaceClass, bool boundsSpace) noexcept;
 
 /// True for Door, Window, DoorSurface, WindowSurface.
 [[nodiscard]] bool isFilling(std::string_view className) noexcept;

@@ -90,13 +90,13 @@ TEST(Classes, WhatCanBeSheetsIsFilledOnlyWhereItIsDeclaredASolid) {
 
 TEST(Classes, SurfacesLookOutOfWhatTheyBound) {
     for (const bool boundsSpace : {false, true}) {
-        EXPECT_EQ(facingOf("GroundSurface", boundsSpace), Facing::Down);
-        EXPECT_EQ(facingOf("OuterCeilingSurface", boundsSpace), Facing::Down);
-        EXPECT_EQ(facingOf("RoofSurface", boundsSpace), Facing::Up);
-        EXPECT_EQ(facingOf("OuterFloorSurface", boundsSpace), Facing::Up);
-        EXPECT_EQ(facingOf("WallSurface", boundsSpace), Facing::Any);
-        EXPECT_EQ(facingOf("FloorSurface", boundsSpace), boundsSpace ? Facing::Down : Facing::Any);
-        EXPECT_EQ(facingOf("CeilingSurface", boundsSpace), boundsSpace ? Facing::Up : Facing::Any);
+        EXPECT_EQ(orientationOf("GroundSurface", boundsSpace), Orientation::Down);
+        EXPECT_EQ(orientationOf("OuterCeilingSurface", boundsSpace), Orientation::Down);
+        EXPECT_EQ(orientationOf("RoofSurface", boundsSpace), Orientation::Up);
+        EXPECT_EQ(orientationOf("OuterFloorSurface", boundsSpace), Orientation::Up);
+        EXPECT_EQ(orientationOf("WallSurface", boundsSpace), Orientation::Any);
+        EXPECT_EQ(orientationOf("FloorSurface", boundsSpace), boundsSpace ? Orientation::Down : Orientation::Any);
+        EXPECT_EQ(orientationOf("CeilingSurface", boundsSpace), boundsSpace ? Orientation::Up : Orientation::Any);
     }
 }
 

@@ -60,9 +60,9 @@ struct BuildReport {
     std::size_t triangles = 0;
     std::size_t open = 0;        ///< objects with solid meaning whose shell is open as read, however it was closed
     std::size_t tJunctions = 0;  ///< closed objects with edges that match only up to T-junctions
-    std::array<std::size_t, 6> closures{};  ///< objects per mesh::Closure: how they were closed
-    std::uint64_t uncertainVoxels = 0;      ///< of all open shells: voxels with a winding number between 0.25 and 0.75
-    std::optional<SpacingChoice> spacing;   ///< the chosen spacing; empty if one was requested
+    std::array<std::size_t, 6> closingMethods{};  ///< objects per mesh::ClosingMethod: how they were closed
+    std::uint64_t uncertainVoxels = 0;     ///< of all open shells: voxels with a winding number between 0.25 and 0.75
+    std::optional<SpacingChoice> spacing;  ///< the chosen spacing; empty if one was requested
     struct Seconds {
         double read = 0, mesh = 0, voxelize = 0, pack = 0, write = 0, total = 0;
     } seconds;  ///< voxelize: meshes in memory to the finished canonical volume; pack: labels, counts, checks

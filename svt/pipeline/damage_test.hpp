@@ -206,7 +206,7 @@ inline void openRings(model::BuildingModel& model, const std::set<model::Polygon
 struct FilledSolids {
     volume::ColumnVolume columns;  // scalar: 1 + index in ids
     std::vector<std::string> ids;
-    std::vector<mesh::Closure> closures;
+    std::vector<mesh::ClosingMethod> closingMethods;
     std::vector<std::uint64_t> uncertain;
     double seconds = 0;
 };
@@ -231,7 +231,7 @@ inline std::optional<FilledSolids> fillSolids(const model::BuildingModel& model,
         return false;
     });
     if (ids != nullptr) filled.ids = *ids;
-    filled.closures.assign(filled.ids.size(), mesh::Closure::Surface);
+    filled.closingMethods.assign(filled.ids.size(), mesh::ClosingMethod::Surface);
     filled.uncertain.assign(filled.ids.size(), 0);
     if (!grid) {
         Box3d box{meshes->bounds.min + meshes->origin, meshes->bounds.max + meshes->origin};
@@ -243,7 +243,7 @@ inline std::optional<FilledSolids> fillSolids(const model::BuildingModel& model,
     for (const mesh::ObjectMesh& object : meshes->objects) {
         const model::Feature& feature = model.features[object.feature];
         const volume::Scalar scalar = scalarOf[feature.id];
-        filled.closures[scalar - 1] = object.closure;
+        filled.closingMethods[scalar - 1] = object.closingMethod;
         claims.push_back({scalar, static_cast<std::uint8_t>(model::classRank(feature.className)), feature.id});
     }
     // Which voxels parts thinner than a voxel get depends on how their faces are triangulated; that is not the question.
@@ -294,17 +294,18 @@ inline DamageFigures compareSolids(const FilledSolids& truth, const FilledSolids
     for (std::size_t s = 1; s < count; ++s) {
         if (voxels[s] < fewestVoxels) continue;
         ++figures.objects;
-        figures.all.emplace_back(double(wrong[s]) / double(voxels[s]),
-                                 truth.ids[s - 1] + ", " + std::string(mesh::closureName(damaged.closures[s - 1])));
+        figures.all.emplace_back(
+            double(wrong[s]) / double(voxels[s]),
+            truth.ids[s - 1] + ", " + std::string(mesh::closingMethodName(damaged.closingMethods[s - 1])));
         difference += std::abs(double(damagedVoxels[s]) - double(voxels[s]));
         total += double(voxels[s]);
-        switch (damaged.closures[s - 1]) {
-            case mesh::Closure::Closed:
-            case mesh::Closure::TJunctions: ++figures.closed; break;
-            case mesh::Closure::Complemented:
-            case mesh::Closure::Capped: ++figures.capped; break;
-            case mesh::Closure::Open: ++figures.open; break;
-            case mesh::Closure::Surface: ++figures.surfaces; break;
+        switch (damaged.closingMethods[s - 1]) {
+            case mesh::ClosingMethod::Closed:
+            case mesh::ClosingMethod::TJunctions: ++figures.closed; break;
+            case mesh::ClosingMethod::Complemented:
+            case mesh::ClosingMethod::Capped: ++figures.capped; break;
+            case mesh::ClosingMethod::Open: ++figures.open; break;
+            case mesh::ClosingMethod::Surface: ++figures.surfaces; break;
         }
     }
     if (figures.all.empty()) return figures;

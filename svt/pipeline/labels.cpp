@@ -13,14 +13,14 @@ namespace {
 
 using model::FeatureIndex;
 
-volume::Filling fillingOf(mesh::Closure closure) noexcept {
-    switch (closure) {
-        case mesh::Closure::Closed: return volume::Filling::Solid;
-        case mesh::Closure::TJunctions: return volume::Filling::TJunctions;
-        case mesh::Closure::Complemented: return volume::Filling::Complemented;
-        case mesh::Closure::Capped: return volume::Filling::Capped;
-        case mesh::Closure::Open: return volume::Filling::Winding;
-        case mesh::Closure::Surface: return volume::Filling::Surface;
+volume::Filling fillingOf(mesh::ClosingMethod closingMethod) noexcept {
+    switch (closingMethod) {
+        case mesh::ClosingMethod::Closed: return volume::Filling::Solid;
+        case mesh::ClosingMethod::TJunctions: return volume::Filling::TJunctions;
+        case mesh::ClosingMethod::Complemented: return volume::Filling::Complemented;
+        case mesh::ClosingMethod::Capped: return volume::Filling::Capped;
+        case mesh::ClosingMethod::Open: return volume::Filling::Winding;
+        case mesh::ClosingMethod::Surface: return volume::Filling::Surface;
     }
     return volume::Filling::None;
 }
@@ -30,7 +30,8 @@ bool boundsBody(const volume::LabelTable& table, const std::vector<std::uint32_t
                 const mesh::MeshSet& meshes, std::uint32_t label) {
     if (!model::isBoundarySurface(table.labels[label].className)) return false;
     for (std::uint32_t l = table.labels[label].parent; l != volume::kNoLabel; l = table.labels[l].parent)
-        if (objectOf[l] != volume::kNoLabel && meshes.objects[objectOf[l]].closure != mesh::Closure::Surface)
+        if (objectOf[l] != volume::kNoLabel &&
+            meshes.objects[objectOf[l]].closingMethod != mesh::ClosingMethod::Surface)
             return true;
     return false;
 }
@@ -120,7 +121,7 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
         const std::uint32_t l = labelOf[meshes.objects[o].feature];
         objectOf[l] = o;
         result.labelOfObject[o] = l;
-        table.labels[l].filling = fillingOf(meshes.objects[o].closure);
+        table.labels[l].filling = fillingOf(meshes.objects[o].closingMethod);
         table.labels[l].volume = meshes.objects[o].isSolid() ? meshes.objects[o].volume : 0;
     }
     std::vector<bool> hasLines(table.labels.size(), false);

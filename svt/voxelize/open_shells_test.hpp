@@ -23,7 +23,7 @@ inline ObjectMesh asOpen(ObjectMesh mesh) {
         for (int n = 0; n < std::abs(count); ++n)
             mesh.openEdges.push_back(count > 0 ? mesh::OpenEdge{edge.first, edge.second}
                                                : mesh::OpenEdge{edge.second, edge.first});
-    mesh.closure = mesh.openEdges.empty() ? mesh::Closure::Closed : mesh::Closure::Open;
+    mesh.closingMethod = mesh.openEdges.empty() ? mesh::ClosingMethod::Closed : mesh::ClosingMethod::Open;
     return mesh;
 }
 

@@ -38,7 +38,7 @@ inline ObjectMesh prism(const std::vector<std::array<double, 2>>& plan, double z
             addTriangle(mesh, n, n + i, n + i + 1);
         }
     }
-    mesh.closure = mesh::Closure::Closed;
+    mesh.closingMethod = mesh::ClosingMethod::Closed;
     return mesh;
 }
 
@@ -81,7 +81,7 @@ inline ObjectMesh ball(Vec3d center, double radius, int slices = 24) {
             addTriangle(mesh, at(s, t), at(s + 1, t + 1), at(s + 1, t));
         }
     }
-    mesh.closure = mesh::Closure::Closed;
+    mesh.closingMethod = mesh::ClosingMethod::Closed;
     return mesh;
 }
 

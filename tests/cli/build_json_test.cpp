@@ -34,15 +34,16 @@ protected:
 
 TEST_F(TwoBoxes, BuildJsonHasItsKeysAndTheRightFigures) {
     const json built = build();
-    EXPECT_EQ(keysOf(built), (Keys{"bytes", "chosenSpacing", "closures", "dimension", "objects", "open", "overlaps",
-                                   "seconds", "spacing", "tJunctions", "triangles", "uncertainVoxels", "warnings"}));
+    EXPECT_EQ(keysOf(built),
+              (Keys{"bytes", "chosenSpacing", "closingMethods", "dimension", "objects", "open", "overlaps", "seconds",
+                    "spacing", "tJunctions", "triangles", "uncertainVoxels", "warnings"}));
     EXPECT_EQ(keysOf(built["seconds"]), (Keys{"mesh", "pack", "read", "total", "voxelize", "write"}));
     EXPECT_EQ(keysOf(built["bytes"]), (Keys{"file", "memory"}));
     EXPECT_EQ(built["objects"], 2);
     EXPECT_EQ(built["triangles"], 24);
     EXPECT_EQ(built["open"], 0);
-    EXPECT_EQ(built["closures"]["closed"], 2);
-    EXPECT_EQ(built["closures"]["open"], 0);
+    EXPECT_EQ(built["closingMethods"]["closed"], 2);
+    EXPECT_EQ(built["closingMethods"]["open"], 0);
     EXPECT_EQ(built["uncertainVoxels"], 0);
     EXPECT_EQ(built["tJunctions"], 0);
     EXPECT_EQ(built["warnings"], 0);
@@ -127,11 +128,11 @@ TEST_F(TwoBoxes, CheckJsonHasItsKeysAndFindsNothing) {
     EXPECT_EQ(check["leaking"], 0);
     EXPECT_EQ(check["tJunctions"], 0);
     const json& left = byId(check["objects"], "left");
-    for (const char* key : {"id", "class", "name", "line", "lod", "closure", "closed", "triangles", "unmatchedEdges",
+    for (const char* key : {"id", "class", "name", "line", "lod", "closingMethod", "closed", "triangles", "unmatchedEdges",
                             "tJunctions", "leakingEdges", "leaks", "stillOpenEdges", "flippedFaces",
                             "complementedFaces", "caps", "assembled", "volume", "area"})
         EXPECT_TRUE(left.contains(key)) << key;
-    EXPECT_EQ(left["closure"], "closed");
+    EXPECT_EQ(left["closingMethod"], "closed");
     EXPECT_NEAR(left["volume"].get<double>(), 72, 1e-6);
     EXPECT_NEAR(left["area"].get<double>(), 2 * (4 * 6 + 4 * 3 + 6 * 3), 1e-6);
     EXPECT_EQ(left["lod"], 2.0);

@@ -184,7 +184,7 @@ Result<const render::Frame*> Session::draw(const illustrate::Scene& scene, bool 
     SVT_TRY(painting,
             isDraft && !isOfParts_ ? painter_.paintDraft(scene, castOptions()) : painter_.paint(scene, castOptions()));
     lastSpec_ = std::move(painting->spec);
-    lastForms_ = illustrate::volumeForms(scene);
+    lastRepresentations_ = illustrate::volumeRepresentations(scene);
     lastApart_ = scene.explode;
     lastFrame_ = std::move(painting->frame);
     return &*lastFrame_;
@@ -192,15 +192,15 @@ Result<const render::Frame*> Session::draw(const illustrate::Scene& scene, bool 
 
 Result<void> Session::drawGl(const illustrate::Scene& scene, Purpose purpose) {
     SVT_TRY(spec, illustrate::makeFrameSpec(scene, volume_));
-    const auto forms = illustrate::volumeForms(scene);
-    const int level = forms.front().level.value_or(render::levelForView(*spec, volume_.grid));
-    const bool hasMore =
-        !details_.empty() || scene.explode != 0 || scene.sun || !scene.insets.empty() || forms.front().hasCells;
-    if (forms.size() != 1 || forms.front().shell || level != 0 || !scene.names.empty() || hasMore)
+    const auto representations = illustrate::volumeRepresentations(scene);
+    const int level = representations.front().level.value_or(render::levelForView(*spec, volume_.grid));
+    const bool hasMore = !details_.empty() || scene.explode != 0 || scene.sun || !scene.insets.empty() ||
+                         representations.front().hasCells;
+    if (representations.size() != 1 || representations.front().shell || level != 0 || !scene.names.empty() || hasMore)
         return Error(Code::BadArgument,
                      "names, shells, levels of detail, cells, insets, storeys apart and the sun are drawn by the CPU");
     if (!gl_) {
-        const auto whole = painter_.form({{}, 0}, *spec);
+        const auto whole = painter_.representation({{}, 0}, *spec);
         if (!whole) return whole.error();
         SVT_TRY(made, render_gl::GlRenderer::make(whole->bricks(), volume_.grid));
         gl_ = std::move(*made);
@@ -208,7 +208,7 @@ Result<void> Session::drawGl(const illustrate::Scene& scene, Purpose purpose) {
     SVT_DO(gl_->draw(*spec));
     if (purpose == Purpose::Trial) return {};
     lastSpec_ = std::move(*spec);
-    lastForms_ = forms;
+    lastRepresentations_ = representations;
     lastApart_ = 0;
     lastFrame_.reset();
     return {};
@@ -275,8 +275,8 @@ std::optional<Picked> Session::behindGlass(const render::ViewRay& ray) {
     const auto painter = painter_.apart(lastApart_);
     if (!painter) return {};
     std::vector<render::DrawnVolume> drawn;
-    for (const illustrate::VolumeForm& wanted : lastForms_) {
-        const auto made = (*painter)->form(wanted, *lastSpec_);
+    for (const illustrate::VolumeRepresentation& wanted : lastRepresentations_) {
+        const auto made = (*painter)->representation(wanted, *lastSpec_);
         if (!made) return {};
         drawn.push_back(*made);
     }
@@ -299,7 +299,7 @@ std::optional<Picked> Session::pickedAt(const render_gl::PickedPixel& pixel, con
 Result<std::vector<render::LabelInterval>> Session::along(double x, double y) {
     if (!lastSpec_) return std::vector<render::LabelInterval>{};
     SVT_TRY(painter, painter_.apart(lastApart_));
-    const auto whole = (*painter)->form({{}, 0}, *lastSpec_);
+    const auto whole = (*painter)->representation({{}, 0}, *lastSpec_);
     if (!whole) return whole.error();
     const auto ray = render::viewRay(*lastSpec_, whole->grid(), x, y);
     return render::labelsAlong(whole->bricks(), whole->grid(), volume_.labels, ray.origin, ray.direction);

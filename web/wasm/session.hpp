@@ -128,7 +128,7 @@ private:
     std::vector<std::string> nothing_;  // queries that select no visible feature of a city
     illustrate::ScenePainter painter_;
     std::optional<render::FrameSpec> lastSpec_;
-    std::vector<illustrate::VolumeForm> lastForms_;
+    std::vector<illustrate::VolumeRepresentation> lastRepresentations_;
     double lastApart_ = 0;                    // Scene::explode
     std::optional<render::Frame> lastFrame_;  // none if drawn with WebGL2
     std::optional<render_gl::GlRenderer> gl_;

@@ -260,7 +260,7 @@ private:
         if (layer_) return layer_->add(kept.cells, kept.outline);
         if (!keys_.empty()) return {};
         table_.rows.push_back(kept.cells);
-        if (query_.form == TableForm::JsonRows || table_.rows.size() < 1000) return {};
+        if (query_.format == TableFormat::JsonRows || table_.rows.size() < 1000) return {};
         printTable();
         return {};
     }
@@ -268,7 +268,7 @@ private:
     // Prints the rows so far, so that memory does not grow with their number.
     void printTable() {
         table_.columns = ownColumns();
-        print(table_, query_.form, !isBegun_);
+        print(table_, query_.format, !isBegun_);
         isBegun_ = true;
         table_.rows.clear();
     }
@@ -289,7 +289,7 @@ private:
             row.push_back(sum.withoutVolume < sum.count ? Cell(sum.volume) : Cell());
             row.push_back(sum.withoutVoxels < sum.count ? Cell(sum.area) : Cell());
         }
-        print(table, query_.form);
+        print(table, query_.format);
         const auto noteMissing = [](std::uint64_t count, const char* measure, const char* basis) {
             if (count > 0) note(fmt::format("the sums of {} exclude {} features without {}", measure, count, basis));
         };

@@ -20,7 +20,7 @@ struct FeatureQuery {
     std::string by, cut, sort;
     int first = 0;
     bool leaks = false;
-    TableForm form = TableForm::Text;
+    TableFormat format = TableFormat::Text;
     pipeline::BuildOptions build;
 
     /// Whether an option is given that only runFeatureQuery() answers.

@@ -157,8 +157,10 @@ int runBuild(const BuildArguments& arguments) {
         json["triangles"] = report.triangles;
         json["open"] = report.open;
         json["tJunctions"] = report.tJunctions;
-        for (std::size_t c = 0; c < report.closures.size(); ++c)
-            json["closures"][std::string(mesh::closureName(mesh::Closure(c)))] = report.closures[c];
+        for (std::size_t c = 0; c < report.closingMethods.size(); ++c)
+            json["closingMethods"][std::string(mesh::closingMethodName(mesh::ClosingMethod(c)))] =
+                report.closingMethods[c];
+        json["closures"] = json["closingMethods"];  // deprecated
         json["uncertainVoxels"] = report.uncertainVoxels;
         json["seconds"] = {{"read", report.seconds.read},         {"mesh", report.seconds.mesh},
                            {"voxelize", report.seconds.voxelize}, {"pack", report.seconds.pack},

@@ -59,7 +59,8 @@ Json objectJson(const model::BuildingModel& model, const mesh::MeshSet& scene, c
     Json json{{"id", feature.id}, {"class", feature.className}, {"name", feature.name}};
     if (feature.line != 0) json["line"] = feature.line;
     if (object.lod >= 0) json["lod"] = object.lod;
-    json["closure"] = mesh::closureName(object.closure);
+    json["closingMethod"] = mesh::closingMethodName(object.closingMethod);
+    json["closure"] = json["closingMethod"];  // deprecated
     json["closed"] = object.leakCount == 0 && object.isSolid();
     json["triangles"] = object.triangles.size();
     json["unmatchedEdges"] = object.unmatchedEdges;
@@ -84,7 +85,7 @@ Json objectJson(const model::BuildingModel& model, const mesh::MeshSet& scene, c
 void printObject(const model::BuildingModel& model, const mesh::MeshSet& scene, const mesh::ObjectMesh& object,
                  const validate::ValidationReport& report, std::FILE* to) {
     const model::Feature& feature = model.features[object.feature];
-    fmt::print(to, "{:<28} {:<13}", feature.className, mesh::closureName(object.closure));
+    fmt::print(to, "{:<28} {:<13}", feature.className, mesh::closingMethodName(object.closingMethod));
     const Code reason = whyNoVolume(model, report, object);
     if (object.isSolid() && reason != Code::Internal)
         fmt::print(to, " {:>15}", "no volume, " + codeTag(reason));
@@ -93,7 +94,7 @@ void printObject(const model::BuildingModel& model, const mesh::MeshSet& scene, 
     else
         fmt::print(to, " {:>12.3f} m2", object.area);
     fmt::print(to, "  {}{}{}\n", feature.name, feature.name.empty() ? "" : "  ", feature.id);
-    if (object.leakCount != 0 && object.closure != mesh::Closure::Surface) {
+    if (object.leakCount != 0 && object.closingMethod != mesh::ClosingMethod::Surface) {
         fmt::print(to, "    {} unmatched edges, {} of them leak", object.unmatchedEdges, object.leakCount);
         for (std::size_t i = 0; i < std::min<std::size_t>(object.leaks.size(), 4); ++i) {
             const Vec3d at = object.leaks[i] + scene.origin;
@@ -118,10 +119,10 @@ void printJson(const Checked& checked, const mesh::MeshSet& scene, const Diagnos
     json["objects"] = Json::array();
     for (const mesh::ObjectMesh& object : scene.objects) {
         json["objects"].push_back(objectJson(checked.model, scene, object, checked.report));
-        if (object.closure == mesh::Closure::Surface) continue;
+        if (object.closingMethod == mesh::ClosingMethod::Surface) continue;
         ++solids;
         leaking += object.leakCount != 0;
-        tight += object.closure == mesh::Closure::TJunctions;
+        tight += object.closingMethod == mesh::ClosingMethod::TJunctions;
     }
     json["solids"] = solids;
     json["leaking"] = leaking;
@@ -140,10 +141,10 @@ void printObjects(const Checked& checked, Totals& totals, std::FILE* to) {
     totals.objects += checked.meshes.objects.size();
     for (const mesh::ObjectMesh& object : checked.meshes.objects) {
         printObject(checked.model, checked.meshes, object, checked.report, to);
-        if (object.closure == mesh::Closure::Surface) continue;
+        if (object.closingMethod == mesh::ClosingMethod::Surface) continue;
         ++totals.solids;
         totals.leaking += object.leakCount != 0;
-        totals.tight += object.closure == mesh::Closure::TJunctions;
+        totals.tight += object.closingMethod == mesh::ClosingMethod::TJunctions;
     }
     for (const auto& entry : checked.report.primitives) {
         totals.geometries += entry.second.total;

@@ -33,7 +33,9 @@ struct QueryArguments {
         return !with.empty() + !along.empty() + !owners.empty() + !parcels.empty() + neighbors + overlaps + gaps +
                areas;
     }
-    [[nodiscard]] TableForm form() const { return json ? TableForm::JsonRows : csv ? TableForm::Csv : TableForm::Text; }
+    [[nodiscard]] TableFormat format() const {
+        return json ? TableFormat::JsonRows : csv ? TableFormat::Csv : TableFormat::Text;
+    }
 };
 
 void printFeatures(const volume::LabelTable& table, const Labels& selected) {
@@ -56,7 +58,7 @@ Result<int> printFeatures(const volume::SemanticVolume& volume, const Labels& se
     if (arguments.json)
         print(featureJson(volume, selected, with, threads));
     else if (arguments.csv || !arguments.with.empty())
-        print(featureTable(volume, selected, with, threads), arguments.form());
+        print(featureTable(volume, selected, with, threads), arguments.format());
     else
         printFeatures(volume.labels, selected);
     return kDone;
@@ -84,7 +86,7 @@ Result<int> printReport(const volume::SemanticVolume& volume, const Labels& sele
     if (Progress::isCancelled(progress->get())) return Error(Code::Cancelled, "the report was stopped");
     progress.reset();
     if (table->rows.empty() && !selected.empty()) note("the report is empty: it has no rows for the selected features");
-    print(*table, arguments.form());
+    print(*table, arguments.format());
     return kDone;
 }
 
@@ -95,11 +97,11 @@ Result<int> printOwners(const volume::SemanticVolume& volume, const Labels& sele
     if (arguments.json) {
         print(report.json);
     } else if (arguments.csv) {
-        print(report.components, TableForm::Csv);
+        print(report.components, TableFormat::Csv);
     } else {
-        print(report.totals, TableForm::Text);
+        print(report.totals, TableFormat::Text);
         fmt::print("\n");
-        print(report.components, TableForm::Text);
+        print(report.components, TableFormat::Text);
     }
     return kDone;
 }
@@ -113,7 +115,7 @@ Result<int> runCityOverlaps(const QueryArguments& arguments) {
     for (const auto& [a, b, voxels, volume, tiles] : *overlaps)
         table.rows.push_back({a.id, a.name, b.id, b.name, voxels, volume, tiles});
     if (table.rows.empty()) note("no two selected buildings claim the same space");
-    print(table, arguments.form());
+    print(table, arguments.format());
     return kDone;
 }
 
@@ -132,7 +134,7 @@ Result<int> runFeatures(const QueryArguments& arguments) {
     query.input = arguments.input;
     query.query = arguments.query;
     query.build = arguments.build;
-    query.form = arguments.form();
+    query.format = arguments.format();
     return runFeatureQuery(query);
 }
 

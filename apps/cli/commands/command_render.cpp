@@ -82,7 +82,7 @@ private:
 // Sets the finest level for every pass without a level. OpenGL draws only this level.
 void takeFinest(illustrate::Scene& scene) {
     for (illustrate::ScenePass& pass : scene.passes)
-        if (!pass.form.level) pass.form.level = 0;
+        if (!pass.representation.level) pass.representation.level = 0;
 }
 
 // The pictures of a scene and their times: separate files, or a film.
@@ -239,7 +239,8 @@ Result<void> writeLineView(const RenderArguments& arguments, const drawing::Line
 
 // Refuses parts of a scene that line drawings do not support, from options and from scene files.
 Result<void> checkForLines(const RenderArguments& arguments, const illustrate::Scene& scene) {
-    const bool hasCells = std::ranges::any_of(scene.passes, [](const auto& pass) { return pass.form.hasCells; });
+    const bool hasCells =
+        std::ranges::any_of(scene.passes, [](const auto& pass) { return pass.representation.hasCells; });
     const std::pair<bool, const char*> needs[] = {{!arguments.with.empty(), "--with"},
                                                   {!scene.insets.empty(), "--inset (insets of a scene)"},
                                                   {scene.explode != 0, "--explode (explode of a scene)"},

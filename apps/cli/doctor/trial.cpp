@@ -37,7 +37,7 @@ Result<TestPicture> drawTestPicture(illustrate::ScenePainter& painter, const ill
     scene.width = 320;
     scene.height = 180;
     scene.samples = 1;
-    scene.passes[0].form.level = 0;  // the level that OpenGL draws
+    scene.passes[0].representation.level = 0;  // the level that OpenGL draws
     TestPicture picture;
     for (double* seconds : {&picture.firstSeconds, &picture.seconds}) {
         const auto start = Clock::now();

@@ -221,7 +221,7 @@ int runCommandLine(int argc, char** argv) {
         return reportUsage(parser.app, error);
     }
     if (parser.app.get_option("--formats")->count() > 0) {
-        print(formatTable(), parser.formats == "json" ? TableForm::JsonRows : TableForm::Text);
+        print(formatTable(), parser.formats == "json" ? TableFormat::JsonRows : TableFormat::Text);
         return flushed(kDone);
     }
     for (const CommandText& text : commandTexts()) {

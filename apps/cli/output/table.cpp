@@ -4,9 +4,9 @@
 
 namespace svt::cli {
 
-void print(const Table& table, TableForm form, bool hasHeader) {
-    if (form == TableForm::Text) return fmt::print("{}", makeText(table));
-    if (form == TableForm::JsonRows) return fmt::print("{}", makeJson(table));
+void print(const Table& table, TableFormat format, bool hasHeader) {
+    if (format == TableFormat::Text) return fmt::print("{}", makeText(table));
+    if (format == TableFormat::JsonRows) return fmt::print("{}", makeJson(table));
     if (hasHeader) fmt::print("{}", csvHeader(table.columns, writers::CsvForm::Stream));
     for (const Row& row : table.rows) fmt::print("{}", csvLine(row, writers::CsvForm::Stream));
 }

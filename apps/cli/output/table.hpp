@@ -11,9 +11,9 @@ using writers::Column;
 using writers::Row;
 using writers::Table;
 
-enum class TableForm : std::uint8_t { Text, Csv, JsonRows };
+enum class TableFormat : std::uint8_t { Text, Csv, JsonRows };
 
 /// Prints a table on stdout. \param hasHeader  for CSV; false: rows that continue a table
-void print(const Table& table, TableForm form, bool hasHeader = true);
+void print(const Table& table, TableFormat format, bool hasHeader = true);
 
 }  // namespace svt::cli

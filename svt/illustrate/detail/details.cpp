@@ -144,14 +144,15 @@ DetailPlace placeOfDetail(const volume::SemanticVolume& volume, const volume::Se
     return place;
 }
 
-Result<void> addDetailPasses(std::span<const DetailPlace> details, std::span<const VolumeForm> forms,
-                             render::FrameSpec& spec, bool haveShells) {
+Result<void> addDetailPasses(std::span<const DetailPlace> details,
+                             std::span<const VolumeRepresentation> representations, render::FrameSpec& spec,
+                             bool haveShells) {
     std::vector<render::ConvexPart> boxes;
     for (const DetailPlace& detail : details)
         if (detail.box) boxes.push_back(*detail.box);
     std::vector<render::Pass> passes;
     for (const render::Pass& pass : spec.passes) {
-        if (forms[pass.volume].shell && !haveShells) {
+        if (representations[pass.volume].shell && !haveShells) {
             passes.push_back(pass);
             continue;
         }
@@ -172,7 +173,7 @@ Result<void> addDetailPasses(std::span<const DetailPlace> details, std::span<con
         }
         for (std::size_t d = 0; d < details.size(); ++d) {
             render::Pass& part = passes.emplace_back(pass);
-            part.volume = static_cast<std::uint32_t>((d + 1) * forms.size() + pass.volume);
+            part.volume = static_cast<std::uint32_t>((d + 1) * representations.size() + pass.volume);
             part.join = render::Pass::Join::Part;
         }
     }

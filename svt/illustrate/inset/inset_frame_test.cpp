@@ -101,7 +101,7 @@ TEST(Inset, IsWrittenAndRead) {
     scene.explode = 2.5;
     scene.sun = Sun{"2026-06-21 15:00", {{49.0, 8.4}}, 2};
     scene.hasLegend = false;
-    scene.passes[0].form.hasCells = true;
+    scene.passes[0].representation.hasCells = true;
     const auto read = parseScene(writeScene(scene));
     ASSERT_TRUE(read) << read.error().toString();
     EXPECT_EQ(*read, scene);

@@ -85,9 +85,9 @@ TEST(Motion, WholeNumbersJumpAtTheirKeys) {
         sceneOf(R"json({"samples":4,"passes":[{"level":0}],"motion":{"seconds":2,"keys":[{"at":2,"scene":
         {"samples":16,"camera":{"zoom":2},"passes":[{"level":3}]}}]}})json");
     EXPECT_EQ(at(scene, 1.3).samples, 4);
-    EXPECT_EQ(at(scene, 1.3).passes[0].form.level, 0);
+    EXPECT_EQ(at(scene, 1.3).passes[0].representation.level, 0);
     EXPECT_EQ(at(scene, 2).samples, 16);
-    EXPECT_EQ(at(scene, 2).passes[0].form.level, 3);
+    EXPECT_EQ(at(scene, 2).passes[0].representation.level, 3);
 }
 
 TEST(Motion, TheEyeGoesAroundItsTargetTheShorterWay) {

@@ -196,7 +196,7 @@ Result<void> select(const analyze::LabelRows& rows, const std::vector<std::strin
 
 // Opacity per metre of a ghost. For a shell it depends on the voxel size, as its thickness does.
 float ghostOpacity(const ScenePass& pass, const volume::Grid& grid) {
-    if (!pass.form.shell) return kGhostOpacity;
+    if (!pass.representation.shell) return kGhostOpacity;
     const double thickness = 2 * std::max({grid.spacing().x, grid.spacing().y, grid.spacing().z});
     return static_cast<float>(std::min(0.9999, 1 - std::pow(1 - kShellGhost, 1 / thickness)));
 }
@@ -306,7 +306,7 @@ Result<render::Pass> passOf(const Scene& scene, const ScenePass& wanted, const s
     render::Pass pass;
     pass.styles = stylesOf(context.volume.labels, looks, scene.look);
     pass.join = wanted.join;
-    pass.hasCells = wanted.form.hasCells;
+    pass.hasCells = wanted.representation.hasCells;
     const auto addClip = [&](const std::string& region, render::ClipRegion::Mode mode) -> Result<void> {
         if (region.empty()) return {};
         SVT_TRY(parts, parseRegion(region, context));
@@ -320,12 +320,13 @@ Result<render::Pass> passOf(const Scene& scene, const ScenePass& wanted, const s
 }
 
 Result<std::vector<render::Pass>> passesOf(const Scene& scene, const PassLooks& looks, const RegionContext& context) {
-    const std::vector<VolumeForm> forms = volumeForms(scene);
+    const std::vector<VolumeRepresentation> representations = volumeRepresentations(scene);
     std::vector<render::Pass> passes;
     for (std::size_t n = 0; n < scene.passes.size(); ++n) {
         const ScenePass& wanted = scene.passes[n];
         SVT_TRY(pass, passOf(scene, wanted, looks[n], context));
-        pass->volume = static_cast<std::uint32_t>(std::ranges::find(forms, wanted.form) - forms.begin());
+        pass->volume = static_cast<std::uint32_t>(std::ranges::find(representations, wanted.representation) -
+                                                  representations.begin());
         passes.push_back(std::move(*pass));
     }
     return passes;
@@ -358,7 +359,7 @@ std::string bothOf(const std::string& a, const std::string& b) {
 
 // Replaces the scene's passes by the context and `detail`.
 void setInContext(Scene& scene, const ScenePass& detail, ScenePass around, Context context) {
-    if (context == Context::Shell) around.form.shell = ShellLevel::Building;
+    if (context == Context::Shell) around.representation.shell = ShellLevel::Building;
     if (context == Context::Shell || context == Context::Ghost) around.styles.push_back({"all", {}, {}, {}, true});
     scene.passes.clear();
     if (context != Context::None) scene.passes.push_back(std::move(around));
@@ -400,12 +401,13 @@ void addCutaway(Scene& scene, const std::string& query, double margin) {
     scene.passes = {around, target};
 }
 
-std::vector<VolumeForm> volumeForms(const Scene& scene) {
-    std::vector<VolumeForm> forms;
+std::vector<VolumeRepresentation> volumeRepresentations(const Scene& scene) {
+    std::vector<VolumeRepresentation> representations;
     for (const ScenePass& pass : scene.passes)
-        if (std::ranges::find(forms, pass.form) == forms.end()) forms.push_back(pass.form);
-    if (forms.empty()) forms.emplace_back();
-    return forms;
+        if (std::ranges::find(representations, pass.representation) == representations.end())
+            representations.push_back(pass.representation);
+    if (representations.empty()) representations.emplace_back();
+    return representations;
 }
 
 Result<render::FrameSpec> makeFrameSpec(const Scene& scene, const volume::SemanticVolume& volume) {

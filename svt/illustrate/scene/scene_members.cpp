@@ -235,10 +235,10 @@ Members<ScenePass> membersOf(const ScenePass*) noexcept {
         member<&ScenePass::join>("join",
                                  "over: in front of earlier passes; replace: removes earlier passes wherever it draws; "
                                  "depth: the nearer pass is in front"),
-        member<&ScenePass::form, &VolumeForm::shell>(
+        member<&ScenePass::representation, &VolumeRepresentation::shell>(
             "shell", "draw only the hulls of components, rooms, units, storeys or the building",
             {.group = "Illustrate", .option = "--shell"}),
-        member<&ScenePass::form, &VolumeForm::level>(
+        member<&ScenePass::representation, &VolumeRepresentation::level>(
             "level", "level of detail, 0 is the finest",
             {.least = 0, .most = 6, .otherwise = "as fine as the pixels show"}),
         member<&ScenePass::lines>("lines", "feature edges of the model's meshes, at their depth inside the volume"),
@@ -246,7 +246,8 @@ Members<ScenePass> membersOf(const ScenePass*) noexcept {
                                    "draw the selection of the query as meshes, not as voxels; size<M: all objects "
                                    "shorter than M metres along each axis",
                                    {.value = "QUERY", .group = "Lines", .option = "--vectors"}),
-        member<&ScenePass::form, &VolumeForm::hasCells>("cells", "draw each voxel as a box with edges")};
+        member<&ScenePass::representation, &VolumeRepresentation::hasCells>("cells",
+                                                                            "draw each voxel as a box with edges")};
     return kMembers;
 }
 

@@ -73,7 +73,7 @@ void mix(const std::vector<ScenePainter::StyleMixture>& mixtures, const render::
 
 }  // namespace
 
-struct ScenePainter::Forms {
+struct ScenePainter::Representations {
     std::size_t number = 0;  // 0: the painter's volume; others: its details
     std::optional<ShellLevel> level;
     std::optional<volume::SemanticVolume> shell;
@@ -94,47 +94,49 @@ ScenePainter::ScenePainter(const volume::SemanticVolume& volume, int threads) : 
 ScenePainter::~ScenePainter() = default;
 ScenePainter::ScenePainter(ScenePainter&&) noexcept = default;
 
-Result<ScenePainter::Forms*> ScenePainter::findForms(std::size_t number, std::optional<ShellLevel> shell) {
-    for (const auto& forms : forms_)
-        if (forms->number == number && forms->level == shell) return forms.get();
-    auto forms = std::make_unique<Forms>();
-    forms->number = number;
-    forms->level = shell;
-    forms->volume = number == 0 ? &volume_ : details_[number - 1].volume;
+Result<ScenePainter::Representations*> ScenePainter::findRepresentations(std::size_t number,
+                                                                         std::optional<ShellLevel> shell) {
+    for (const auto& representations : representations_)
+        if (representations->number == number && representations->level == shell) return representations.get();
+    auto representations = std::make_unique<Representations>();
+    representations->number = number;
+    representations->level = shell;
+    representations->volume = number == 0 ? &volume_ : details_[number - 1].volume;
     if (shell) {
         ShellOptions options;
         options.threads = threads_;
-        auto hulls = extractShell(*forms->volume, *shell, options);
+        auto hulls = extractShell(*representations->volume, *shell, options);
         // A part may have no group of this level, for example if it has only classes.
         const bool isPart = number > 0 && details_[number - 1].isPart;
         if (!hulls && !(isPart && hulls.error().code() == Code::NothingSelected)) return hulls.error();
-        if (hulls) forms->volume = &forms->shell.emplace(std::move(*hulls));
+        if (hulls) representations->volume = &representations->shell.emplace(std::move(*hulls));
     }
-    return forms_.emplace_back(std::move(forms)).get();
+    return representations_.emplace_back(std::move(representations)).get();
 }
 
-Result<render::DrawnVolume> ScenePainter::form(const VolumeForm& wanted, const render::FrameSpec& spec) {
-    return formOf(0, wanted, spec);
+Result<render::DrawnVolume> ScenePainter::representation(const VolumeRepresentation& wanted,
+                                                         const render::FrameSpec& spec) {
+    return representationOf(0, wanted, spec);
 }
 
-Result<render::DrawnVolume> ScenePainter::formOf(std::size_t number, const VolumeForm& wanted,
-                                                 const render::FrameSpec& spec) {
-    SVT_TRY(found, findForms(number, wanted.shell));
-    Forms& forms = **found;
-    const volume::SemanticVolume& volume = *forms.volume;
+Result<render::DrawnVolume> ScenePainter::representationOf(std::size_t number, const VolumeRepresentation& wanted,
+                                                           const render::FrameSpec& spec) {
+    SVT_TRY(found, findRepresentations(number, wanted.shell));
+    Representations& representations = **found;
+    const volume::SemanticVolume& volume = *representations.volume;
     const int level = wanted.level.value_or(wanted.hasCells ? 0 : render::levelForView(spec, volume.grid));
     if (level > 0) {
         if (const int own = std::min(level, volume::lodLevelCount(volume.grid.dimension())); own > 0) {
-            auto known = forms.levels.find(own);
-            if (known == forms.levels.end()) {
+            auto known = representations.levels.find(own);
+            if (known == representations.levels.end()) {
                 Progress::tell(progress_, "prepare", 0);
                 SVT_TRY(made, volume::buildLodLevel(volume.columns, volume.grid, own, threads_));
-                known = forms.levels.emplace(own, std::move(*made)).first;
+                known = representations.levels.emplace(own, std::move(*made)).first;
             }
             return render::DrawnVolume(known->second);
         }
     }
-    std::optional<volume::BrickVolume>& bricks = wanted.hasCells ? forms.cells : forms.bricks;
+    std::optional<volume::BrickVolume>& bricks = wanted.hasCells ? representations.cells : representations.bricks;
     if (!bricks) {
         volume::BrickVolume::Options options{
             .faces = volume::BrickFaces::Slopes, .planes = volume.planes, .threads = threads_, .progress = progress_};
@@ -154,28 +156,28 @@ void ScenePainter::addPart(const volume::SemanticVolume& part, bool hasSlopes) {
     details_.push_back({&part, {}, true, hasSlopes});
 }
 
-// The volumes that a frame draws: forms of the first, then those of the details, whose passes are added.
+// The volumes that a frame draws: representations of the first, then those of the details, whose passes are added.
 Result<std::vector<render::DrawnVolume>> ScenePainter::drawnVolumes(const Scene& scene, render::FrameSpec& spec) {
     std::vector<render::DrawnVolume> drawn;
-    const std::vector<VolumeForm> forms = illustrate::volumeForms(scene);
-    for (VolumeForm wanted : forms) {
+    const std::vector<VolumeRepresentation> representations = illustrate::volumeRepresentations(scene);
+    for (VolumeRepresentation wanted : representations) {
         // A volume that is divided into parts has its shells in the parts.
         if (!details_.empty() && details_.front().isPart) wanted.shell.reset();
-        SVT_TRY(made, form(wanted, spec));
+        SVT_TRY(made, representation(wanted, spec));
         drawn.push_back(*made);
     }
     if (details_.empty()) return drawn;
     std::vector<DetailPlace> places;
     for (std::size_t d = 0; d < details_.size(); ++d) {
         places.push_back(details_[d].place);
-        for (const VolumeForm& wanted : forms) {
-            VolumeForm own = wanted;
+        for (const VolumeRepresentation& wanted : representations) {
+            VolumeRepresentation own = wanted;
             if (!details_[d].isPart) own.shell.reset();
-            SVT_TRY(made, formOf(d + 1, own, spec));
+            SVT_TRY(made, representationOf(d + 1, own, spec));
             drawn.push_back(*made);
         }
     }
-    SVT_DO(addDetailPasses(places, forms, spec, details_.front().isPart));
+    SVT_DO(addDetailPasses(places, representations, spec, details_.front().isPart));
     return drawn;
 }
 
@@ -262,9 +264,9 @@ Result<Painting> ScenePainter::draftPlain(const Scene& scene, const render::Cast
     SVT_TRY(spec, makeFrameSpec(scene, volume_, rows, &scale));
     std::vector<render::DrawnVolume> drawn;
     std::vector<std::unique_ptr<volume::BrickVolume>> drafts;
-    for (const VolumeForm& wanted : illustrate::volumeForms(scene)) {
-        SVT_TRY(forms, findForms(0, wanted.shell));
-        const volume::SemanticVolume& volume = *(*forms)->volume;
+    for (const VolumeRepresentation& wanted : illustrate::volumeRepresentations(scene)) {
+        SVT_TRY(representations, findRepresentations(0, wanted.shell));
+        const volume::SemanticVolume& volume = *(*representations)->volume;
         SVT_TRY(bricks, volume::BrickVolume::fromColumns(volume.columns,
                                                          {.faces = volume::BrickFaces::Voxels, .threads = threads_}));
         drafts.push_back(std::make_unique<volume::BrickVolume>(std::move(*bricks)));

@@ -107,9 +107,9 @@ TEST(Scene, AHighlightIsSolidBeforeItsContext) {
 TEST(Scene, PassesDrawFormsOfTheirOwn) {
     Scene scene;
     addHighlight(scene, {"id=room"}, Context::Shell);
-    scene.passes[0].form.level = 3;
+    scene.passes[0].representation.level = 3;
     scene.passes.push_back(scene.passes[0]);
-    EXPECT_EQ(volumeForms(scene), (std::vector<VolumeForm>{{ShellLevel::Building, 3}, {}}));
+    EXPECT_EQ(volumeRepresentations(scene), (std::vector<VolumeRepresentation>{{ShellLevel::Building, 3}, {}}));
     const render::FrameSpec spec = frame(scene);
     ASSERT_EQ(spec.passes.size(), 3u);
     EXPECT_EQ(spec.passes[0].volume, 0u);
@@ -137,19 +137,20 @@ TEST(Scene, APainterKeepsTheFormsThatScenesNeed) {
     scene.passes[0].hide = {"id=room"};
     const auto plain = painter.paint(scene);
     ASSERT_TRUE(plain) << plain.error().toString();
-    scene.passes[0].form.shell = ShellLevel::Building;
+    scene.passes[0].representation.shell = ShellLevel::Building;
     const auto shell = painter.paint(scene);
     ASSERT_TRUE(shell) << shell.error().toString();
     EXPECT_EQ(plain->frame.label, shell->frame.label);  // from outside the hull looks the same
     scene.passes[0].cut = "z>5.2";
     const auto open = painter.paint(scene);
     ASSERT_TRUE(open);
-    scene.passes[0].form.shell.reset();
+    scene.passes[0].representation.shell.reset();
     EXPECT_NE(painter.paint(scene)->frame.label, open->frame.label);  // the beam is gone from the hull
-    const auto form = painter.form({}, plain->spec), again = painter.form({}, plain->spec);
-    ASSERT_TRUE(form && again);
+    const auto representation = painter.representation({}, plain->spec),
+               again = painter.representation({}, plain->spec);
+    ASSERT_TRUE(representation && again);
     EXPECT_EQ(&form->bricks(), &again->bricks());
-    EXPECT_EQ(painter.form({ShellLevel::Building, 2}, plain->spec)->level()->level, 2);
+    EXPECT_EQ(painter.representation({ShellLevel::Building, 2}, plain->spec)->level()->level, 2);
 }
 
 TEST(Scene, ADraftShowsWhatThePictureShows) {
@@ -163,7 +164,7 @@ TEST(Scene, ADraftShowsWhatThePictureShows) {
     ASSERT_TRUE(picture) << picture.error().toString();
     EXPECT_EQ(draft->frame.label, picture->frame.label);
     // The finest level, whatever the picture would have.
-    scene.passes[0].form.level = 2;
+    scene.passes[0].representation.level = 2;
     const auto coarse = painter.paint(scene), again = painter.paintDraft(scene);
     ASSERT_TRUE(coarse && again);
     EXPECT_NE(coarse->frame.label, draft->frame.label);
@@ -320,7 +321,7 @@ Scene everything() {
     pass.join = render::Pass::Join::Replace;
     pass.lines = {{"", 1, {}, render::HiddenLines::Faint}, {"id=x", 1.5f, Vec3f{1, 1, 1}, render::HiddenLines::Dashed}};
     pass.meshes = {"size<0.5"};
-    pass.form = {ShellLevel::Storey, 2};
+    pass.representation = {ShellLevel::Storey, 2};
     scene.passes = {ScenePass{}, pass};
     return scene;
 }

@@ -79,7 +79,7 @@ Result<void> closeShells(const ShellInput& input, const std::vector<MeshSource>&
         shell.pointIds.resize(mesh.vertices.size(), kNoPoint);
         mesh.complementedFaces = finder->complement(mesh, shell.pointIds, shell.polygons);
         if (mesh.openEdges.empty())
-            mesh.closure = Closure::Complemented;
+            mesh.closingMethod = ClosingMethod::Complemented;
         else
             closeByItself(mesh, input.options);
     };
@@ -121,7 +121,9 @@ void finish(ObjectMesh& mesh, bool measuresThickness) {
     }
     for (Triangle& triangle : mesh.triangles) triangle.thickness = std::numeric_limits<float>::infinity();
     if (mesh.isSolid() && measuresThickness) measureThickness(mesh);
-    mesh.enclosedVolume = mesh.isSolid() ? mesh.volume : mesh.closure == Closure::Open ? volumeWithFans(mesh) : 0;
+    mesh.enclosedVolume = mesh.isSolid()                              ? mesh.volume
+                          : mesh.closingMethod == ClosingMethod::Open ? volumeWithFans(mesh)
+                                                                      : 0;
     for (const Triangle& triangle : mesh.triangles) {
         const Vec3d a = mesh.vertices[triangle.corners[0]];
         mesh.area += length(cross(mesh.vertices[triangle.corners[1]] - a, mesh.vertices[triangle.corners[2]] - a)) / 2;
@@ -163,13 +165,13 @@ void turnSheets(const std::vector<MeshSource>& sources, const LocalPolygons& pol
     bool hasTurned = false;
     for (std::size_t i = 0; i < sources.size(); ++i) {
         const ObjectMesh& mesh = meshes.objects[i];
-        if (mesh.closure == Closure::Surface || mesh.flippedFaces == 0) continue;
+        if (mesh.closingMethod == ClosingMethod::Surface || mesh.flippedFaces == 0) continue;
         markTurnedPolygons(sources[i], polygons, mesh, turned);
         hasTurned = true;
     }
     for (std::size_t i = 0; hasTurned && i < sources.size(); ++i) {
         ObjectMesh& mesh = meshes.objects[i];
-        if (mesh.closure != Closure::Surface || sources[i].hasSolidMeaning) continue;
+        if (mesh.closingMethod != ClosingMethod::Surface || sources[i].hasSolidMeaning) continue;
         std::map<model::PolygonIndex, bool> isReversed;
         for (const SurfaceUse& use : sources[i].uses) isReversed.emplace(use.polygon, use.isReversed);
         for (Triangle& t : mesh.triangles)
@@ -212,30 +214,30 @@ void report(const BuildingModel& model, const Shell& shell, const ObjectMesh& me
                             "edges; faces probably overlap, or edges lie within {:g} m of each other",
                             mesh.tJunctionCount, options.tJunctionDistance),
                 place);
-    switch (mesh.closure) {
-        case Closure::Closed:
-        case Closure::Surface: break;
-        case Closure::TJunctions:
+    switch (mesh.closingMethod) {
+        case ClosingMethod::Closed:
+        case ClosingMethod::Surface: break;
+        case ClosingMethod::TJunctions:
             log.add(Severity::Note, Code::TJunction,
                     fmt::format("{} edges match only where they are cut at points of others; the shell is tight",
                                 mesh.tJunctionCount),
                     place);
             break;
-        case Closure::Complemented:
+        case ClosingMethod::Complemented:
             log.add(Severity::Warning, Code::FacesComplemented,
                     fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such "
                                 "as {}; closed with {} faces of adjoining features",
                                 mesh.unmatchedEdges, mesh.leakCount, leaks, mesh.complementedFaces),
                     place);
             break;
-        case Closure::Capped:
+        case ClosingMethod::Capped:
             log.add(Severity::Warning, Code::ShellCapped,
                     fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such "
                                 "as {}; closed with {} planar caps{}",
                                 mesh.unmatchedEdges, mesh.leakCount, leaks, mesh.caps.size(), joinedText(mesh)),
                     place);
             break;
-        case Closure::Open:
+        case ClosingMethod::Open:
             log.add(Severity::Warning, Code::WindingFilled,
                     fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such "
                                 "as {}; {} stay open, filled by generalized winding number",
@@ -250,14 +252,14 @@ void report(const BuildingModel& model, const Shell& shell, const ObjectMesh& me
 
 }  // namespace
 
-std::string_view closureName(Closure closure) noexcept {
-    switch (closure) {
-        case Closure::Closed: return "closed";
-        case Closure::TJunctions: return "t-junctions";
-        case Closure::Complemented: return "complemented";
-        case Closure::Capped: return "capped";
-        case Closure::Open: return "open";
-        case Closure::Surface: return "surface";
+std::string_view closingMethodName(ClosingMethod closingMethod) noexcept {
+    switch (closingMethod) {
+        case ClosingMethod::Closed: return "closed";
+        case ClosingMethod::TJunctions: return "t-junctions";
+        case ClosingMethod::Complemented: return "complemented";
+        case ClosingMethod::Capped: return "capped";
+        case ClosingMethod::Open: return "open";
+        case ClosingMethod::Surface: return "surface";
     }
     return "surface";
 }

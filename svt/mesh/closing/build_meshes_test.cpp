@@ -36,7 +36,7 @@ TEST(BuildMeshes, ClosedBoxIsASolidWithItsVolume) {
     const MeshSet meshes = meshesOf(model, &log);
     ASSERT_EQ(meshes.objects.size(), 1u);
     const ObjectMesh& mesh = meshes.objects[0];
-    EXPECT_EQ(mesh.closure, Closure::Closed);
+    EXPECT_EQ(mesh.closingMethod, ClosingMethod::Closed);
     EXPECT_TRUE(mesh.isSolid());
     EXPECT_EQ(mesh.vertices.size(), 8u);
     EXPECT_EQ(mesh.triangles.size(), 12u);
@@ -67,7 +67,7 @@ TEST(BuildMeshes, BoxWithoutATopIsCapped) {
     Diagnostics log;
     const MeshSet meshes = meshesOf(model, &log);
     const ObjectMesh& mesh = meshes.objects[0];
-    EXPECT_EQ(mesh.closure, Closure::Capped);
+    EXPECT_EQ(mesh.closingMethod, ClosingMethod::Capped);
     EXPECT_NEAR(mesh.volume, 24, 1e-12);
     EXPECT_NEAR(mesh.area, 52, 1e-12);
     ASSERT_EQ(mesh.caps.size(), 1u);
@@ -89,13 +89,13 @@ TEST(BuildMeshes, TwoHolesGetTwoCaps) {
     addFeature(model, "BuildingRoom", "room", model::kNoFeature,
                {solidOf(addBox(model, kLow, kHigh, {test::kTop, test::kBottom}))});
     const MeshSet meshes = meshesOf(model);
-    EXPECT_EQ(meshes.objects[0].closure, Closure::Capped);
+    EXPECT_EQ(meshes.objects[0].closingMethod, ClosingMethod::Capped);
     EXPECT_EQ(meshes.objects[0].caps.size(), 2u);
     EXPECT_NEAR(meshes.objects[0].volume, 24, 1e-12);
 }
 
 TEST(BuildMeshes, HoleAlmostInAPlaneIsCappedOthersStayOpen) {
-    for (const auto& [lift, closure] : {std::pair{0.04, Closure::Capped}, {1.5, Closure::Open}}) {
+    for (const auto& [lift, method] : {std::pair{0.04, ClosingMethod::Capped}, {1.5, ClosingMethod::Open}}) {
         // The top's corners do not lie in a plane; each side wall is a triangle more.
         BuildingModel model;
         const Ring top{{0, 0, 2}, {4, 0, 2}, {4, 3, 2 + lift}, {0, 3, 2}};
@@ -107,11 +107,11 @@ TEST(BuildMeshes, HoleAlmostInAPlaneIsCappedOthersStayOpen) {
         Diagnostics log;
         const MeshSet meshes = meshesOf(model, &log);
         const ObjectMesh& mesh = meshes.objects[0];
-        EXPECT_EQ(mesh.closure, closure) << lift;
-        EXPECT_EQ(log.count(closure == Closure::Open ? Code::WindingFilled : Code::ShellCapped), 1u);
-        EXPECT_EQ(mesh.openEdges.size(), closure == Closure::Open ? 4u : 0u);
+        EXPECT_EQ(mesh.closingMethod, method) << lift;
+        EXPECT_EQ(log.count(method == ClosingMethod::Open ? Code::WindingFilled : Code::ShellCapped), 1u);
+        EXPECT_EQ(mesh.openEdges.size(), method == ClosingMethod::Open ? 4u : 0u);
         EXPECT_EQ(mesh.volume > 0, mesh.isSolid());
-        if (closure == Closure::Open) {
+        if (method == ClosingMethod::Open) {
             EXPECT_TRUE(mesh.caps.empty());
         }
     }
@@ -126,11 +126,11 @@ TEST(BuildMeshes, FaceThatOnlyTheNeighbourListsIsBorrowed) {
     const MeshSet meshes = meshesOf(model, &log);
     const ObjectMesh* hall = meshOf(model, meshes, "hall");
     ASSERT_NE(hall, nullptr);
-    EXPECT_EQ(hall->closure, Closure::Complemented);
+    EXPECT_EQ(hall->closingMethod, ClosingMethod::Complemented);
     EXPECT_EQ(hall->complementedFaces, 1u);
     EXPECT_NEAR(hall->volume, 30, 1e-12);
     EXPECT_TRUE(hall->caps.empty());
-    EXPECT_EQ(meshOf(model, meshes, "kitchen")->closure, Closure::Closed);
+    EXPECT_EQ(meshOf(model, meshes, "kitchen")->closingMethod, ClosingMethod::Closed);
     EXPECT_EQ(log.count(Code::FacesComplemented), 1u);
 }
 
@@ -141,7 +141,7 @@ TEST(BuildMeshes, WhatNeighboursCannotCloseIsCapped) {
                {solidOf(addBox(model, {4, 0, 0}, {9, 3, 2}, {test::kWest, test::kTop}))});
     const MeshSet meshes = meshesOf(model);
     const ObjectMesh* hall = meshOf(model, meshes, "hall");
-    EXPECT_EQ(hall->closure, Closure::Capped);
+    EXPECT_EQ(hall->closingMethod, ClosingMethod::Capped);
     EXPECT_EQ(hall->complementedFaces, 1u);
     EXPECT_EQ(hall->caps.size(), 1u);
     EXPECT_NEAR(hall->volume, 30, 1e-12);
@@ -154,7 +154,7 @@ TEST(BuildMeshes, BoundarySurfaceAloneIsASheet) {
     Diagnostics log;
     const MeshSet meshes = meshesOf(model, &log);
     const ObjectMesh& mesh = meshes.objects[0];
-    EXPECT_EQ(mesh.closure, Closure::Surface);
+    EXPECT_EQ(mesh.closingMethod, ClosingMethod::Surface);
     EXPECT_FALSE(mesh.isSolid());
     EXPECT_TRUE(mesh.caps.empty());
     EXPECT_EQ(mesh.volume, 0);
@@ -172,7 +172,7 @@ TEST(BuildMeshes, FlatFootprintIsASheetWithoutCaps) {
                    0)});
     const MeshSet meshes = meshesOf(model);
     const ObjectMesh& mesh = meshes.objects[0];
-    EXPECT_EQ(mesh.closure, Closure::Surface);
+    EXPECT_EQ(mesh.closingMethod, ClosingMethod::Surface);
     EXPECT_TRUE(mesh.caps.empty());
     EXPECT_NEAR(mesh.area, 36, 1e-12);
     EXPECT_EQ(mesh.lod, 0);
@@ -198,13 +198,13 @@ TEST(BuildMeshes, BuildingOfBoundarySurfacesAloneIsAssembled) {
     EXPECT_EQ(model.features[meshes.objects[0].feature].id, "house");  // tree order
     const ObjectMesh* mesh = meshOf(model, meshes, "house");
     EXPECT_TRUE(mesh->isAssembled);
-    EXPECT_EQ(mesh->closure, Closure::Closed);
+    EXPECT_EQ(mesh->closingMethod, ClosingMethod::Closed);
     EXPECT_NEAR(mesh->volume, 24, 1e-12);
     EXPECT_NEAR(mesh->area, 52, 1e-12);
     EXPECT_EQ(mesh->lod, 2);
     for (int side = 0; side < 6; ++side)
-        EXPECT_EQ(meshOf(model, meshes, "side-" + std::to_string(side))->closure, Closure::Surface);
-    EXPECT_EQ(meshOf(model, meshes, "window")->closure, Closure::Surface);
+        EXPECT_EQ(meshOf(model, meshes, "side-" + std::to_string(side))->closingMethod, ClosingMethod::Surface);
+    EXPECT_EQ(meshOf(model, meshes, "window")->closingMethod, ClosingMethod::Surface);
 }
 
 TEST(BuildMeshes, FinestLevelOfEachFeatureIsTaken) {
@@ -249,7 +249,7 @@ TEST(BuildMeshes, SharedWallIsOnePolygonUsedInBothDirections) {
     addFeature(model, "BuildingRoom", "hall", model::kNoFeature, {solidOf(hall)});
     Diagnostics log;
     const MeshSet meshes = meshesOf(model, &log);
-    EXPECT_EQ(meshOf(model, meshes, "hall")->closure, Closure::Closed);
+    EXPECT_EQ(meshOf(model, meshes, "hall")->closingMethod, ClosingMethod::Closed);
     EXPECT_NEAR(meshOf(model, meshes, "hall")->volume, 30, 1e-12);
     EXPECT_TRUE(log.items().empty());
 }
@@ -263,7 +263,7 @@ TEST(BuildMeshes, PolygonUsedInBothDirectionsInOneShellCancels) {
     uses.push_back(shared);
     addFeature(model, "Building", "house", model::kNoFeature, {solidOf(uses)});
     const MeshSet meshes = meshesOf(model);
-    EXPECT_EQ(meshes.objects[0].closure, Closure::Closed);
+    EXPECT_EQ(meshes.objects[0].closingMethod, ClosingMethod::Closed);
     EXPECT_NEAR(meshes.objects[0].volume, 54, 1e-12);
 }
 
@@ -278,7 +278,7 @@ TEST(BuildMeshes, DuplicateFacesAreUsedOnce) {
         addFeature(model, "Building", "house", model::kNoFeature, {solidOf(uses)});
         Diagnostics log;
         const MeshSet meshes = meshesOf(model, &log);
-        EXPECT_EQ(meshes.objects[0].closure, Closure::Closed) << kind;
+        EXPECT_EQ(meshes.objects[0].closingMethod, ClosingMethod::Closed) << kind;
         EXPECT_NEAR(meshes.objects[0].volume, 24, 1e-12) << kind;
         EXPECT_NEAR(meshes.objects[0].area, 52, 1e-12) << kind;
         EXPECT_EQ(log.count(Code::DuplicateFace), 1u) << kind;
@@ -292,7 +292,7 @@ TEST(BuildMeshes, FaceThatLooksInwardsIsTurned) {
     addFeature(model, "Building", "house", model::kNoFeature, {solidOf(uses)});
     Diagnostics log;
     const MeshSet meshes = meshesOf(model, &log);
-    EXPECT_EQ(meshes.objects[0].closure, Closure::Closed);
+    EXPECT_EQ(meshes.objects[0].closingMethod, ClosingMethod::Closed);
     EXPECT_EQ(meshes.objects[0].flippedFaces, 2u);
     EXPECT_EQ(meshes.objects[0].leakCount, 0u);
     EXPECT_NEAR(meshes.objects[0].volume, 24, 1e-12);
@@ -323,7 +323,7 @@ TEST(BuildMeshes, VoidsAreTakenAwayWhicheverWayTheShellsFace) {
             addFeature(model, "Building", "house", model::kNoFeature, {geometry});
             Diagnostics log;
             const MeshSet meshes = meshesOf(model, &log);
-            EXPECT_EQ(meshes.objects[0].closure, Closure::Closed);
+            EXPECT_EQ(meshes.objects[0].closingMethod, ClosingMethod::Closed);
             EXPECT_NEAR(meshes.objects[0].volume, 23, 1e-12);
             EXPECT_EQ(meshes.objects[0].flippedFaces, (isExteriorReversed ? 12u : 0u) + (isVoidReversed ? 0u : 12u));
             EXPECT_EQ(log.count(Code::FaceFlipped), isVoidReversed && !isExteriorReversed ? 0u : 1u);
@@ -340,7 +340,7 @@ TEST(BuildMeshes, EdgesThatMatchOnlyInPartsAreTJunctions) {
     Diagnostics log;
     const MeshSet meshes = meshesOf(model, &log);
     const ObjectMesh& mesh = meshes.objects[0];
-    EXPECT_EQ(mesh.closure, Closure::TJunctions);
+    EXPECT_EQ(mesh.closingMethod, ClosingMethod::TJunctions);
     EXPECT_EQ(mesh.tJunctionCount, 2u);
     EXPECT_EQ(mesh.unmatchedEdges, 6u);
     EXPECT_EQ(mesh.leakCount, 0u);
@@ -361,7 +361,7 @@ TEST(BuildMeshes, RoundedCornersAreStillClosed) {
     }
     addFeature(model, "Building", "house", model::kNoFeature, {solidOf(uses)});
     const MeshSet meshes = meshesOf(model);
-    EXPECT_EQ(meshes.objects[0].closure, Closure::Closed);
+    EXPECT_EQ(meshes.objects[0].closingMethod, ClosingMethod::Closed);
     EXPECT_EQ(meshes.objects[0].vertices.size(), 8u);
 }
 
@@ -376,9 +376,9 @@ TEST(BuildMeshes, BadCoordinatesCostTheirPolygonOnly) {
         Diagnostics log;
         const MeshSet meshes = meshesOf(model, &log);
         EXPECT_EQ(log.count(Code::BadCoordinate), 1u);
-        EXPECT_EQ(meshOf(model, meshes, "house")->closure, Closure::Capped);
+        EXPECT_EQ(meshOf(model, meshes, "house")->closingMethod, ClosingMethod::Capped);
         EXPECT_NEAR(meshOf(model, meshes, "house")->volume, 24, 1e-12);
-        EXPECT_EQ(meshOf(model, meshes, "shed")->closure, Closure::Closed);
+        EXPECT_EQ(meshOf(model, meshes, "shed")->closingMethod, ClosingMethod::Closed);
         EXPECT_EQ(meshes.bounds, (Box3d{{0, 0, 0}, {11, 3, 2}}));
     }
 }
@@ -400,8 +400,8 @@ TEST(BuildMeshes, DoorIsABodyWhereItsGeometryIsASolid) {
     addFeature(model, "Door", "leaf", model::kNoFeature,
                {surfaceOf(addBox(model, {10, 0, 0}, {11, 1, 1}, {test::kTop}))});
     const MeshSet meshes = meshesOf(model);
-    EXPECT_EQ(meshOf(model, meshes, "body")->closure, Closure::Capped);
-    EXPECT_EQ(meshOf(model, meshes, "leaf")->closure, Closure::Surface);
+    EXPECT_EQ(meshOf(model, meshes, "body")->closingMethod, ClosingMethod::Capped);
+    EXPECT_EQ(meshOf(model, meshes, "leaf")->closingMethod, ClosingMethod::Surface);
 }
 
 TEST(BuildMeshes, CancelStopsWithoutResult) {
@@ -436,7 +436,7 @@ TEST(BuildMeshes, SameForAnyNumberOfThreads) {
     for (std::size_t o = 0; o < a.objects.size(); ++o) {
         const ObjectMesh &s = a.objects[o], &t = b.objects[o];
         EXPECT_EQ(s.vertices, t.vertices);
-        EXPECT_EQ(s.closure, t.closure);
+        EXPECT_EQ(s.closingMethod, t.closingMethod);
         EXPECT_EQ(s.volume, t.volume);
         EXPECT_EQ(s.area, t.area);
         ASSERT_EQ(s.triangles.size(), t.triangles.size());
@@ -454,12 +454,12 @@ TEST(BuildMeshes, SameForAnyNumberOfThreads) {
 }
 
 TEST(ClosureName, EveryClosureHasItsOwn) {
-    EXPECT_EQ(closureName(Closure::Closed), "closed");
-    EXPECT_EQ(closureName(Closure::TJunctions), "t-junctions");
-    EXPECT_EQ(closureName(Closure::Complemented), "complemented");
-    EXPECT_EQ(closureName(Closure::Capped), "capped");
-    EXPECT_EQ(closureName(Closure::Open), "open");
-    EXPECT_EQ(closureName(Closure::Surface), "surface");
+    EXPECT_EQ(closingMethodName(ClosingMethod::Closed), "closed");
+    EXPECT_EQ(closingMethodName(ClosingMethod::TJunctions), "t-junctions");
+    EXPECT_EQ(closingMethodName(ClosingMethod::Complemented), "complemented");
+    EXPECT_EQ(closingMethodName(ClosingMethod::Capped), "capped");
+    EXPECT_EQ(closingMethodName(ClosingMethod::Open), "open");
+    EXPECT_EQ(closingMethodName(ClosingMethod::Surface), "surface");
 }
 
 }  // namespace

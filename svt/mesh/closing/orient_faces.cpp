@@ -135,13 +135,14 @@ RayVotes votesOfPatch(FaceTree& tree, std::span<const RayFace* const> faces) {
 }
 
 // Between -1 (all of the patch should be turned) and 1, by the meaning of its faces; 0: nothing is known.
-double meaningOfPatch(std::span<const RayFace* const> faces, std::span<const model::Facing> facings) {
+double meaningOfPatch(std::span<const RayFace* const> faces, std::span<const model::Orientation> orientations) {
     double sum = 0, total = 0;
     for (const RayFace* face : faces) {
-        const model::Facing facing = facings.empty() ? model::Facing::Any : facings[face->triangle];
-        if (facing == model::Facing::Any) continue;
+        const model::Orientation orientation =
+            orientations.empty() ? model::Orientation::Any : orientations[face->triangle];
+        if (orientation == model::Orientation::Any) continue;
         const double up = face->unitNormal.z * length(cross(face->ab, face->ac));
-        sum += facing == model::Facing::Up ? up : -up;
+        sum += orientation == model::Orientation::Up ? up : -up;
         total += std::abs(up);
     }
     return total > 0 ? sum / total : 0;
@@ -207,7 +208,7 @@ double windingAt(const ObjectMesh& mesh, Vec3d point) {
 
 }  // namespace
 
-std::uint32_t orientFaces(ObjectMesh& mesh, std::span<const model::Facing> facings) {
+std::uint32_t orientFaces(ObjectMesh& mesh, std::span<const model::Orientation> orientations) {
     FaceTree tree(mesh.vertices, mesh.triangles);
     const Patches patches = findPatches(mesh.triangles);
     std::vector<const RayFace*> faces;
@@ -226,7 +227,7 @@ std::uint32_t orientFaces(ObjectMesh& mesh, std::span<const model::Facing> facin
         const RayVotes votes = votesOfPatch(tree, members);
         if (tree.isExhausted()) break;
         const double escape = votes.weight > 0 ? votes.escape / votes.weight : 0;
-        double score = kMeaningWeight * meaningOfPatch(members, facings) + escape;
+        double score = kMeaningWeight * meaningOfPatch(members, orientations) + escape;
         if (std::abs(escape) < kMajority && votes.weight > 0) score += kParityWeight * votes.parity / votes.weight;
         isTurned[patch] = score < -kMajority;
     }

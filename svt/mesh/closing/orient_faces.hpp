@@ -23,11 +23,11 @@ namespace svt::mesh {
 /// one side. So the underside of eaves, which also is a RoofSurface, still faces down. A patch stays unchanged without
 /// a majority, if turning it would increase the length of open edges to its neighbours, or if it is less than a
 /// thousandth of the shell.
-/// \param facings  expected orientation per triangle of the mesh; empty: unknown
+/// \param orientations  expected orientation per triangle of the mesh; empty: unknown
 /// \return number of reversed triangles
 /// Cost: O((patches + log triangles) * kRays): at most 8 points and 16 pairs of rays per patch. Directions are fixed,
 /// so the result is the same on every machine.
-std::uint32_t orientFaces(ObjectMesh& mesh, std::span<const model::Facing> facings);
+std::uint32_t orientFaces(ObjectMesh& mesh, std::span<const model::Orientation> orientations);
 
 /// True if an open shell encloses something: behind at least half of its area, halfway to the next face with the
 /// opposite orientation, the generalized winding number (Jacobson, Kavan & Sorkine 2013) is 1/2 or more.

@@ -55,18 +55,19 @@ std::uint32_t removeDoubledTriangles(std::vector<Triangle>& triangles) {
 }
 
 // Expected orientation per triangle, by the boundary surface that it belongs to.
-std::vector<model::Facing> facingsOf(const ShellInput& input, const ObjectMesh& mesh) {
+std::vector<model::Orientation> orientationsOf(const ShellInput& input, const ObjectMesh& mesh) {
     const BuildingModel& model = input.model;
     const bool isSpace = model::isSpace(model.features[mesh.feature].className);
-    std::vector<model::Facing> facings(mesh.triangles.size(), model::Facing::Any);
-    for (std::size_t t = 0; t < facings.size(); ++t) {
+    std::vector<model::Orientation> orientations(mesh.triangles.size(), model::Orientation::Any);
+    for (std::size_t t = 0; t < orientations.size(); ++t) {
         if (mesh.triangles[t].polygon == kNoPolygon) continue;
         const FeatureIndex surface = input.surfaceOf[mesh.triangles[t].polygon];
         FeatureIndex above = surface;
         while (above != model::kNoFeature && above != mesh.feature) above = model.features[above].parent;
-        if (above != model::kNoFeature) facings[t] = model::facingOf(model.features[surface].className, isSpace);
+        if (above != model::kNoFeature)
+            orientations[t] = model::orientationOf(model.features[surface].className, isSpace);
     }
-    return facings;
+    return orientations;
 }
 
 // True if the volume of a closed mesh is zero up to rounding errors.
@@ -89,7 +90,7 @@ void addBack(ObjectMesh& mesh) {
         mesh.triangles.push_back(back);
     }
     mesh.openEdges.clear();
-    mesh.closure = Closure::Capped;
+    mesh.closingMethod = ClosingMethod::Capped;
 }
 
 }  // namespace
@@ -174,7 +175,7 @@ void testClosing(Shell& shell, const ShellInput& input, bool usesRays) {
         if (turned != 0) mesh.openEdges = findOpenEdges(mesh.triangles);
     }
     if (!mesh.openEdges.empty() && usesRays) {
-        const std::uint32_t turned = orientFaces(mesh, facingsOf(input, mesh));
+        const std::uint32_t turned = orientFaces(mesh, orientationsOf(input, mesh));
         mesh.flippedFaces += turned;
         if (turned != 0) mesh.openEdges = findOpenEdges(mesh.triangles);
     }
@@ -183,14 +184,15 @@ void testClosing(Shell& shell, const ShellInput& input, bool usesRays) {
         if (mesh.leaks.size() == kMaxLeaks) break;
         mesh.leaks.push_back((mesh.vertices[edge.from] + mesh.vertices[edge.to]) * 0.5);
     }
-    if (mesh.openEdges.empty()) mesh.closure = mesh.tJunctionCount != 0 ? Closure::TJunctions : Closure::Closed;
+    if (mesh.openEdges.empty())
+        mesh.closingMethod = mesh.tJunctionCount != 0 ? ClosingMethod::TJunctions : ClosingMethod::Closed;
 }
 
 void closeByItself(ObjectMesh& mesh, const MeshOptions& options) {
     const std::vector<Vec3d> vertices = mesh.vertices;
     const std::vector<Triangle> triangles = mesh.triangles;
     capHoles(mesh, options.capDeviation);
-    mesh.closure = Closure::Capped;
+    mesh.closingMethod = ClosingMethod::Capped;
     if (mesh.openEdges.empty() && !isFlat(mesh)) return;
     // Caps are not enough to close it.
     mesh.vertices = vertices;
@@ -200,7 +202,7 @@ void closeByItself(ObjectMesh& mesh, const MeshOptions& options) {
     mesh.joinedEdges = joinGaps(mesh);
     mesh.bridgedLoops = bridgeLoops(mesh);
     capHoles(mesh, options.capDeviation);
-    mesh.closure = mesh.openEdges.empty() ? Closure::Capped : Closure::Open;
+    mesh.closingMethod = mesh.openEdges.empty() ? ClosingMethod::Capped : ClosingMethod::Open;
     if (!isFlat(mesh) && (mesh.isSolid() || enclosesVolume(mesh))) return;
     // A footprint, a single face or loose sheets: there is no volume to fill.
     mesh.vertices = vertices;
@@ -208,17 +210,18 @@ void closeByItself(ObjectMesh& mesh, const MeshOptions& options) {
     mesh.caps.clear();
     mesh.joinedEdges = mesh.bridgedLoops = 0;
     mesh.openEdges = findOpenEdges(mesh.triangles);
-    mesh.closure = Closure::Surface;
+    mesh.closingMethod = ClosingMethod::Surface;
 }
 
 Shell joinShells(std::vector<Shell> parts) {
-    const bool areSheets = std::all_of(parts.begin(), parts.end(),
-                                       [](const Shell& part) { return part.mesh.closure == Closure::Surface; });
+    const bool areSheets = std::all_of(parts.begin(), parts.end(), [](const Shell& part) {
+        return part.mesh.closingMethod == ClosingMethod::Surface;
+    });
     Shell all = std::move(parts.front());
-    if (!areSheets && all.mesh.closure == Closure::Surface) addBack(all.mesh);
+    if (!areSheets && all.mesh.closingMethod == ClosingMethod::Surface) addBack(all.mesh);
     for (std::size_t p = 1; p < parts.size(); ++p) {
         ObjectMesh &mesh = all.mesh, &part = parts[p].mesh;
-        if (!areSheets && part.closure == Closure::Surface) addBack(part);
+        if (!areSheets && part.closingMethod == ClosingMethod::Surface) addBack(part);
         const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
         mesh.vertices.insert(mesh.vertices.end(), part.vertices.begin(), part.vertices.end());
         for (Triangle triangle : part.triangles) {
@@ -229,7 +232,7 @@ Shell joinShells(std::vector<Shell> parts) {
         for (const Vec3d& leak : part.leaks)
             if (mesh.leaks.size() < kMaxLeaks) mesh.leaks.push_back(leak);
         mesh.caps.insert(mesh.caps.end(), part.caps.begin(), part.caps.end());
-        mesh.closure = std::max(mesh.closure, part.closure);
+        mesh.closingMethod = std::max(mesh.closingMethod, part.closingMethod);
         mesh.unmatchedEdges += part.unmatchedEdges;
         mesh.leakCount += part.leakCount;
         mesh.tJunctionCount += part.tJunctionCount;

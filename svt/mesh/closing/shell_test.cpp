@@ -12,8 +12,8 @@ namespace svt::mesh {
 namespace {
 
 using model::BuildingModel;
-using model::Facing;
 using model::FeatureIndex;
+using model::Orientation;
 using test::addBox;
 using test::addFeature;
 using test::addRings;
@@ -77,19 +77,19 @@ TEST(OrientFaces, LooseFacesAreTurnedOutwardsByRays) {
 
 TEST(OrientFaces, MeaningDecidesWhatRaysSeeFromBothSides) {
     // A lone face sees nothing on either side.
-    for (const Facing facing : {Facing::Any, Facing::Up, Facing::Down}) {
+    for (const Orientation orientation : {Orientation::Any, Orientation::Up, Orientation::Down}) {
         ObjectMesh mesh;
         addLoose(mesh, boxRing(kBoxLow, kBoxHigh, test::kTop));
-        const std::vector<Facing> facings(mesh.triangles.size(), facing);
-        EXPECT_EQ(orientFaces(mesh, facings), facing == Facing::Down ? 2u : 0u);
+        const std::vector<Orientation> orientations(mesh.triangles.size(), orientation);
+        EXPECT_EQ(orientFaces(mesh, orientations), orientation == Orientation::Down ? 2u : 0u);
     }
 }
 
 TEST(OrientFaces, UndersideOfARoofLooksDownAllTheSame) {
     // A roof slab of loose faces: all of them are called RoofSurface.
     ObjectMesh mesh = looseBox({}, [](int) { return Vec3d{}; });
-    const std::vector<Facing> facings(mesh.triangles.size(), Facing::Up);
-    EXPECT_EQ(orientFaces(mesh, facings), 0u);
+    const std::vector<Orientation> orientations(mesh.triangles.size(), Orientation::Up);
+    EXPECT_EQ(orientFaces(mesh, orientations), 0u);
 }
 
 TEST(EnclosesVolume, IsTrueForABoxWithGapsAndFalseForFences) {
@@ -244,7 +244,7 @@ TEST(ClosedShells, SolidsOfOneObjectAreClosedOneByOne) {
     addFeature(model, "Building", "house", model::kNoFeature, {geometry});
     const auto meshes = buildMeshes(model);
     ASSERT_TRUE(meshes);
-    EXPECT_EQ(meshes->objects[0].closure, Closure::Capped);
+    EXPECT_EQ(meshes->objects[0].closingMethod, ClosingMethod::Capped);
     EXPECT_EQ(meshes->objects[0].caps.size(), 1u);
     EXPECT_NEAR(meshes->objects[0].volume, 2, 1e-12);
 }
@@ -257,8 +257,8 @@ TEST(ClosedShells, WhatNeedNotBeABodyStaysASheet) {
                    {solidOf(addBox(model, {10, 0, 0}, {14, 3, 2}, {test::kTop}))});
         const auto meshes = buildMeshes(model);
         ASSERT_TRUE(meshes);
-        EXPECT_EQ(objectOf(model, *meshes, "open")->closure, Closure::Surface) << name;
-        EXPECT_EQ(objectOf(model, *meshes, "solid")->closure, Closure::Capped) << name;
+        EXPECT_EQ(objectOf(model, *meshes, "open")->closingMethod, ClosingMethod::Surface) << name;
+        EXPECT_EQ(objectOf(model, *meshes, "solid")->closingMethod, ClosingMethod::Capped) << name;
     }
 }
 
@@ -271,7 +271,7 @@ TEST(ClosedShells, OpenShellHasAnEstimateOfItsVolume) {
     addFeature(model, "Building", "house", model::kNoFeature, {solidOf(uses)});
     const auto meshes = buildMeshes(model);
     ASSERT_TRUE(meshes);
-    EXPECT_EQ(meshes->objects[0].closure, Closure::Open);
+    EXPECT_EQ(meshes->objects[0].closingMethod, ClosingMethod::Open);
     EXPECT_EQ(meshes->objects[0].volume, 0);
     EXPECT_NEAR(meshes->objects[0].enclosedVolume, 30, 1e-9);
 }

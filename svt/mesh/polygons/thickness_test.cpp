@@ -38,8 +38,8 @@ TEST(MeasureThickness, BeyondTheLimitItIsUnknown) {
     for (const double limit : {0.1, 0.2, 0.3, 1.0}) {
         MeshSet meshes;
         meshes.objects = {box, box};
-        meshes.objects[0].closure = Closure::Closed;
-        meshes.objects[1].closure = Closure::Surface;
+        meshes.objects[0].closingMethod = ClosingMethod::Closed;
+        meshes.objects[1].closingMethod = ClosingMethod::Surface;
         for (ObjectMesh& mesh : meshes.objects)
             for (Triangle& triangle : mesh.triangles) triangle.thickness = std::numeric_limits<float>::infinity();
         measureThickness(meshes, limit, 2);

@@ -29,7 +29,7 @@ std::vector<voxelize::BodyGroup> findBodyGroups(const mesh::MeshSet& meshes, con
         const std::uint32_t l = labelled.labelOfObject[o];
         const volume::Label& building = labelled.table.labels[l];
         if (model::classRank(building.className) != model::ClassRank::Building ||
-            meshes.objects[o].closure == mesh::Closure::Surface)
+            meshes.objects[o].closingMethod == mesh::ClosingMethod::Surface)
             continue;
         voxelize::BodyGroup group;
         group.from = building.first;
@@ -125,9 +125,9 @@ void countObjects(const mesh::MeshSet& meshes, BuildReport& report) {
     report.objects = meshes.objects.size();
     report.triangles = meshes.triangleCount();
     for (const mesh::ObjectMesh& object : meshes.objects) {
-        if (object.closure != mesh::Closure::Surface && object.leakCount != 0) ++report.open;
-        if (object.closure == mesh::Closure::TJunctions) ++report.tJunctions;
-        ++report.closures[std::size_t(object.closure)];
+        if (object.closingMethod != mesh::ClosingMethod::Surface && object.leakCount != 0) ++report.open;
+        if (object.closingMethod == mesh::ClosingMethod::TJunctions) ++report.tJunctions;
+        ++report.closingMethods[std::size_t(object.closingMethod)];
     }
 }
 

@@ -10,12 +10,12 @@
 namespace svt::render_gl {
 namespace {
 
-struct TexelForm {
+struct TexelLayout {
     GLenum format, type;
     std::size_t bytes;
 };
 
-TexelForm formOf(GLenum internalFormat) {
+TexelLayout layoutOf(GLenum internalFormat) {
     switch (internalFormat) {
         case GL_R16UI: return {GL_RED_INTEGER, GL_UNSIGNED_SHORT, 2};
         case GL_R32UI: return {GL_RED_INTEGER, GL_UNSIGNED_INT, 4};
@@ -104,13 +104,13 @@ void Texture::allocate(GLenum internalFormat, GLsizei width, GLsizei height) {
     }
     if (size == size_) return;
     size_ = size;
-    const TexelForm form = formOf(internalFormat);
-    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internalFormat), width, height, 0, form.format, form.type,
+    const TexelLayout layout = layoutOf(internalFormat);
+    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internalFormat), width, height, 0, layout.format, layout.type,
                  nullptr);
 }
 
 Result<void> Texture::setArray(GLenum internalFormat, const void* data, std::size_t count, const GlLimits& limits) {
-    const TexelForm form = formOf(internalFormat);
+    const TexelLayout layout = layoutOf(internalFormat);
     const std::size_t width = std::size_t{1} << limits.rowBits;
     const std::size_t rows = std::max<std::size_t>((count + width - 1) / width, 1);
     if (rows > static_cast<std::size_t>(limits.textureSize))
@@ -124,11 +124,11 @@ Result<void> Texture::setArray(GLenum internalFormat, const void* data, std::siz
     const std::size_t whole = count / width, rest = count % width;
     const auto* bytes = static_cast<const std::byte*>(data);
     if (whole > 0)
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(whole), form.format,
-                        form.type, bytes);
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(whole), layout.format,
+                        layout.type, bytes);
     if (rest > 0)
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, static_cast<GLint>(whole), static_cast<GLsizei>(rest), 1, form.format,
-                        form.type, bytes + whole * width * form.bytes);
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, static_cast<GLint>(whole), static_cast<GLsizei>(rest), 1, layout.format,
+                        layout.type, bytes + whole * width * layout.bytes);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     return {};
 }

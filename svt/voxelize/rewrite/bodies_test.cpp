@@ -75,7 +75,7 @@ mesh::ObjectMesh sideOf(Vec3d low, Vec3d high, int side) {
     for (const int corner : kCorners[side]) mesh.vertices.push_back(at(corner));
     test::addTriangle(mesh, 0, 1, 2);
     test::addTriangle(mesh, 0, 2, 3);
-    mesh.closure = mesh::Closure::Surface;
+    mesh.closingMethod = mesh::ClosingMethod::Surface;
     return mesh;
 }
 

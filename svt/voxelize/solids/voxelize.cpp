@@ -57,7 +57,8 @@ Claims orderClaims(const mesh::MeshSet& meshes, std::span<const ObjectClaim> cla
         (kind == Kind::Solid  ? result.solidOrder
          : kind == Kind::Tied ? result.tiedOrder
                               : result.thinOrder)[object] = order;
-        const bool isSolid = kind == Kind::Solid && meshes.objects[object].closure != mesh::Closure::Surface;
+        const bool isSolid =
+            kind == Kind::Solid && meshes.objects[object].closingMethod != mesh::ClosingMethod::Surface;
         result.ordered.push_back({claims[object].scalar, object, isSolid});
     }
     return result;
@@ -159,10 +160,10 @@ void prepareObject(const mesh::MeshSet& meshes, const volume::Grid& grid, const 
                    std::span<const std::uint32_t> heightPlaneOfPlane, const Claims& claims,
                    const VoxelizeOptions& options, std::uint32_t object, HeightPlanes& ownHeightPlanes, Geometry& all) {
     const mesh::ObjectMesh& mesh = meshes.objects[object];
-    if (mesh.closure == mesh::Closure::Open) return;  // see fillOpenShells()
+    if (mesh.closingMethod == mesh::ClosingMethod::Open) return;  // see fillOpenShells()
     const IndexMesh index = makeIndexMesh(mesh, indexFromLocal);
     ObjectParts& parts = all.objects[object];
-    if (mesh.closure == mesh::Closure::Surface) {
+    if (mesh.closingMethod == mesh::ClosingMethod::Surface) {
         addSheet(index, grid, claims.thinOrder[object], claims.boundsBody[object], options, parts);
         return;
     }
@@ -239,7 +240,7 @@ Result<void> fillOpenShells(const mesh::MeshSet& meshes, const volume::Grid& gri
                             const VoxelizeOptions& options, std::vector<HeightPlanes>& ownHeightPlanes, Geometry& all) {
     std::vector<std::uint32_t> open;
     for (std::uint32_t o = 0; o < meshes.objects.size(); ++o)
-        if (meshes.objects[o].closure == mesh::Closure::Open) open.push_back(o);
+        if (meshes.objects[o].closingMethod == mesh::ClosingMethod::Open) open.push_back(o);
     std::vector<std::unique_ptr<WindingFill>> fills(open.size());
     parallelFor(open.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n) {
@@ -471,7 +472,8 @@ Result<VoxelizeResult> voxelize(const mesh::MeshSet& meshes, const volume::Grid&
     const IndexFromLocal indexFromLocal(meshes, grid);
     double sheetVoxels = 0;
     for (const mesh::ObjectMesh& object : meshes.objects)
-        if (object.closure == mesh::Closure::Surface) sheetVoxels += estimateSheetVoxels(object, indexFromLocal);
+        if (object.closingMethod == mesh::ClosingMethod::Surface)
+            sheetVoxels += estimateSheetVoxels(object, indexFromLocal);
     SVT_DO(checkSheetVoxels(sheetVoxels));
     const Claims ordered = orderClaims(meshes, claims);
     SVT_TRY(geometry, prepareObjects(meshes, grid, indexFromLocal, ordered, options));

@@ -112,7 +112,7 @@ TEST(Voxelize, ObliqueFaceSharedWithOtherTriangulationLeavesNoGap) {
             test::addTriangle(mesh, 3, 7, 6);
             quad(0, 3, 6, 5, otherDiagonal);
         }
-        mesh.closure = mesh::Closure::Closed;
+        mesh.closingMethod = mesh::ClosingMethod::Closed;
         return mesh;
     };
     for (const double degrees : {0.0, 17.0, 45.0}) {
@@ -299,7 +299,7 @@ TEST(Voxelize, APlateWithSamplesOnASideHasThemAsIfInside) {
         surface.vertices = {{0.5, 0.15, 0.15}, {0.5, 0.15, 0.85}, {0.5, 0.95, 0.85}, {0.5, 0.95, 0.15}};
         test::addTriangle(surface, 0, 1, 2);
         test::addTriangle(surface, 0, 2, 3);
-        surface.closure = mesh::Closure::Surface;
+        surface.closingMethod = mesh::ClosingMethod::Surface;
         const auto meshes = meshSetOf({box({low, 0.15, 0.15}, {high, 0.85, 0.85}), surface});
         const auto result = voxelize(meshes, gridWith({0, 0, 0}, {0.1, 0.1, 0.1}, {11, 11, 11}), claimsFor(meshes));
         ASSERT_TRUE(result);
@@ -348,7 +348,7 @@ mesh::ObjectMesh sheet(std::vector<Vec3d> quad) {
     mesh.vertices = std::move(quad);
     test::addTriangle(mesh, 0, 1, 2);
     test::addTriangle(mesh, 0, 2, 3);
-    mesh.closure = mesh::Closure::Surface;
+    mesh.closingMethod = mesh::ClosingMethod::Surface;
     return mesh;
 }
 
@@ -399,7 +399,7 @@ TEST(Voxelize, ConservativeSheetMarksEveryTouchedBox) {
 
 TEST(Voxelize, OpenShellIsFilledLikeItsWindingNumber) {
     mesh::ObjectMesh open = ball({1, 1, 1}, 0.9, 16);
-    open.closure = mesh::Closure::Open;
+    open.closingMethod = mesh::ClosingMethod::Open;
     // Remove some triangles and list the edges without a partner.
     std::vector<mesh::Triangle> kept;
     for (std::size_t t = 0; t < open.triangles.size(); ++t)

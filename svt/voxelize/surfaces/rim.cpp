@@ -84,7 +84,7 @@ CoveredShell coverShell(const mesh::ObjectMesh& shell) {
     CoveredShell covered;
     covered.mesh.vertices = shell.vertices;
     covered.mesh.triangles = shell.triangles;
-    covered.mesh.closure = shell.closure;
+    covered.mesh.closingMethod = shell.closingMethod;
     covered.shellTriangles = shell.triangles.size();
     forEachLoop(rimEdges(shell), shell.vertices.size(), [&](std::span<const std::uint32_t> points) {
         RimLoop loop;

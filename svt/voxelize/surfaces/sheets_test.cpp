@@ -35,7 +35,7 @@ mesh::ObjectMesh triangleMesh(Vec3d a, Vec3d b, Vec3d c) {
     mesh::ObjectMesh mesh;
     mesh.vertices = {a, b, c};
     test::addTriangle(mesh, 0, 1, 2);
-    mesh.closure = mesh::Closure::Surface;
+    mesh.closingMethod = mesh::ClosingMethod::Surface;
     return mesh;
 }
 

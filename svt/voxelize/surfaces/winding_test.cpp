@@ -105,7 +105,7 @@ Grid unitGrid() {
 
 // `dimension` {}: a grid of metres.
 void expectLikeSum(const mesh::ObjectMesh& open, Vec3i dimension, int stride = 1) {
-    ASSERT_EQ(open.closure, mesh::Closure::Open);
+    ASSERT_EQ(open.closingMethod, mesh::ClosingMethod::Open);
     const auto meshes = meshSetOf({open});
     const Grid grid = dimension.x > 0 ? gridAround(meshes, dimension) : unitGrid();
     const auto result = voxelize(meshes, grid, oneClaim());
