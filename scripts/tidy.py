@@ -124,6 +124,8 @@ def main() -> int:
             tidy.append("--checks=-*,clang-analyzer-*,-clang-analyzer-optin.performance.Padding")
         done = subprocess.run([*tidy, str(unit)], cwd=ROOT, capture_output=True, text=True)
         findings = sorted({line.replace(f"{ROOT}/", "") for line in done.stdout.splitlines() if FINDING.match(line)})
+        # A finding in a header of the system names no source of the tree.
+        findings = [f"{line} (from {unit.name})" if line.startswith("/") else line for line in findings]
         if done.returncode != 0 and not findings:
             findings = [f"{unit}: clang-tidy failed: {done.stderr.strip()}"]
         if not findings:

@@ -50,7 +50,7 @@ void drawRamp(const ColorScale& scale, Pen& pen) {
     const double height = pen.height(), top = pen.y - 0.4 * height;
     const double bar = std::min(kLinesOfBar * 1.45 * height, std::max(height, pen.bottom() - top));
     const double range = scale.high - scale.low;
-    for (double y = 0; y < bar; y += 1)
+    for (int y = 0; y < bar; ++y)
         fill(pen.image, pen.left, top + y, pen.left + 1.2 * height, top + y + 1,
              rampColor(scale, scale.high - range * y / bar));
     const auto tick = [&](double value) {

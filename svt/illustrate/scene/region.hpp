@@ -28,6 +28,7 @@
 #include <svt/analyze/selection.hpp>
 #include <svt/core/result.hpp>
 #include <svt/drawing/section_plane.hpp>
+#include <svt/illustrate/scene.hpp>
 #include <svt/render/frame_spec.hpp>
 #include <svt/volume/semantic_volume.hpp>
 

@@ -158,6 +158,7 @@ bool isBridgeable(const ObjectMesh& mesh, const BridgeLoop& a, const BridgeLoop&
 // The strip between two loops; `a` forwards, `b` backwards, from the pair of corners that is closest.
 void addStrip(ObjectMesh& mesh, const BridgeLoop& a, const BridgeLoop& b) {
     const std::size_t n = a.corners.size(), m = b.corners.size();
+    if (n == 0 || m == 0) return;
     const auto at = [&](const BridgeLoop& loop, std::size_t i) {
         return mesh.vertices[loop.corners[i % loop.corners.size()]];
     };

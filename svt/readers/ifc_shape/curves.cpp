@@ -142,11 +142,11 @@ std::vector<Vec3d> partBetween(std::vector<Vec3d> whole, Vec3d from, Vec3d to, b
     const bool isClosed = length(whole.front() - whole.back()) < 1e-6;
     const double begin = parameterOf(whole, from);
     double end = parameterOf(whole, to);
-    const double count = double(whole.size() - 1);
-    if (isClosed && end <= begin + 1e-9) end += count;
+    const std::size_t count = whole.size() - 1;
+    if (isClosed && end <= begin + 1e-9) end += double(count);
     std::vector<Vec3d> part{from};
-    for (double i = std::floor(begin) + 1; i < end; i += 1)
-        part.push_back(whole[std::size_t(i >= count ? i - count : i)]);
+    for (std::size_t i = std::size_t(begin) + 1; double(i) < end; ++i)
+        part.push_back(whole[i >= count ? i - count : i]);
     part.push_back(to);
     return part;
 }

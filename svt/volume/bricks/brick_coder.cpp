@@ -128,6 +128,7 @@ struct CutConflict {
 // The voxel with the lowest place along the axis (or the highest) in a mask that is not empty.
 void findExtreme(const SideMask& mask, int axis, bool isHighest, std::size_t& word, std::uint64_t& bit) noexcept {
     const std::uint32_t places = placesOf(mask, axis);
+    if (places == 0) return;  // not for masks that this file passes
     const auto place = static_cast<std::uint32_t>(isHighest ? std::bit_width(places) - 1 : std::countr_zero(places));
     const std::uint64_t layer = axis == 0 ? 0x0101010101010101ull << place : axis == 1 ? 0xFFull << (8 * place) : kAll;
     word = axis == 2 ? place : 0;
