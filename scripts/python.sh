@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 if [ -f build/release/build.ninja ] && ! grep -q '^build svt_python_package:' build/release/build.ninja; then
   cmake --preset release >build/release/build.log 2>&1 || { cat build/release/build.log >&2; exit 1; }
 fi
-scripts/build.sh release svt_python_package
+scripts/build.sh release svt_python_package svt
 version=$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' build/release/CMakeCache.txt)
 python=$(sed -n 's/^SVT_PYTHON_EXECUTABLE:FILEPATH=//p' build/release/CMakeCache.txt)
 case $python in '' | *-NOTFOUND) python=python3 ;; esac

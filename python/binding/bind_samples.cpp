@@ -43,14 +43,30 @@ py::array denseOf(const volume::ColumnVolume& columns, const IndexBox& box) {
     return array;
 }
 
-py::array dense(const SharedVolume& volume, const std::optional<WorldBox>& box) {
+py::array denseOf(const SharedVolume& volume, const IndexBox& samples) {
     const volume::SemanticVolume& v = volume->volume();
-    const IndexBox samples = samplesIn(v.grid, box);
     switch (v.labels.scalarBits()) {
         case 8: return denseOf<std::uint8_t>(v.columns, samples);
         case 16: return denseOf<std::uint16_t>(v.columns, samples);
         default: return denseOf<std::uint32_t>(v.columns, samples);
     }
+}
+
+py::array dense(const SharedVolume& volume, const std::optional<WorldBox>& box) {
+    return denseOf(volume, samplesIn(volume->volume().grid, box));
+}
+
+/// The samples from `begin` up to `end` (exclusive), each (i, j, k).
+py::array denseSlab(const SharedVolume& volume, const std::array<std::int32_t, 3>& begin,
+                    const std::array<std::int32_t, 3>& end) {
+    const Vec3i dimension = volume->volume().grid.dimension();
+    const IndexBox samples{{begin[0], begin[1], begin[2]}, {end[0], end[1], end[2]}};
+    for (int axis = 0; axis < 3; ++axis)
+        if (samples.begin[axis] < 0 || samples.begin[axis] >= samples.end[axis] || samples.end[axis] > dimension[axis])
+            throw py::index_error("no samples from " + std::to_string(samples.begin[axis]) + " up to " +
+                                  std::to_string(samples.end[axis]) + "; the axis has " +
+                                  std::to_string(dimension[axis]));
+    return denseOf(volume, samples);
 }
 
 /// Up to this number of points or rays, the work ends before another thread has started.
@@ -109,6 +125,7 @@ void bindSamples(py::module_& module) {
         return py::make_tuple(toPython(samples.begin), toPython(samples.end));
     });
     module.def("dense", &dense, py::arg("volume"), py::arg("box"));
+    module.def("dense_slab", &denseSlab, py::arg("volume"), py::arg("begin"), py::arg("end"));
     module.def("sample_scalars", &sampleScalars, py::arg("volume"), py::arg("points"));
     module.def("label_of_scalar", &labelOfScalar, py::arg("volume"));
     module.def("rays", &rays, py::arg("volume"), py::arg("origins"), py::arg("directions"), py::arg("progress"));

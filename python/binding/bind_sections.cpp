@@ -43,6 +43,7 @@ SharedSection drawSection(const SharedVolume& volume, const std::string& plane, 
                                         .spaces = spaces,
                                         .smallestArea = smallestArea,
                                         .tolerance = tolerance,
+                                        .beyond = {},
                                         .useMeshes = useMeshes,
                                         .nothing = &nothing};
         auto drawing = drawing::drawSection(v, *cut, options);

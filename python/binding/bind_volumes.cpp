@@ -5,6 +5,7 @@
 #include "long_call.hpp"
 #include "volume_object.hpp"
 
+#include <svt/crs/projection.hpp>
 #include <svt/frontend/volume_json.hpp>
 #include <svt/frontend/volume_part.hpp>
 #include <svt/volume/svt_file.hpp>
@@ -144,6 +145,38 @@ SharedVolume partOf(const SharedVolume& whole, const std::optional<std::array<do
     return std::make_shared<VolumeObject>(std::move(made));
 }
 
+const analyze::FeatureMeasure& measureOf(const LabelReference& label) {
+    return measuresOf(label.volume).features[label.index];
+}
+
+py::object known(const std::optional<double>& value) { return value ? py::object(py::float_(*value)) : py::none(); }
+
+/// Measures of a label with its parts, as the columns of `svt query`.
+void bindTotals(py::class_<LabelReference>& label) {
+    label
+        .def_property_readonly(
+            "own_volume", [](const LabelReference& l) { return known(measureOf(l).own.volume); },
+            "Volume in m3 without its parts: of its closed mesh, or of its voxels; None for surfaces.")
+        .def_property_readonly(
+            "total_volume", [](const LabelReference& l) { return known(measureOf(l).total.volume); },
+            "Volume in m3 with its parts, each counted once; None if no part has a volume.")
+        .def_property_readonly(
+            "total_voxels", [](const LabelReference& l) { return measureOf(l).total.voxels; },
+            "Number of voxels of the label and its parts: a flat with its rooms.")
+        .def_property_readonly(
+            "total_area", [](const LabelReference& l) { return measureOf(l).total.area; },
+            "Surface of the label with its parts in m2; contacts between parts are inside.")
+        .def_property_readonly(
+            "parts",
+            [](const LabelReference& l) {
+                std::vector<LabelReference> parts;
+                for (const std::uint32_t p : analyze::Extents(l.volume->volume().labels).of(l.index))
+                    parts.push_back(l.other(p));
+                return parts;
+            },
+            "The labels that together are the feature: itself, its children and members, with their parts.");
+}
+
 void bindLabelMeasures(py::class_<LabelReference>& label) {
     label
         .def_property_readonly(
@@ -230,6 +263,7 @@ void bindLabels(py::module_& module) {
                           (l.get().name.empty() ? l.get().id : l.get().name) + "'>");
         });
     bindLabelMeasures(label);
+    bindTotals(label);
 }
 
 }  // namespace
@@ -270,6 +304,8 @@ void bindVolumes(py::module_& module) {
         .def("query", &query, py::arg("text"))
         .def("part", &partOf, py::arg("box"), py::arg("select"), py::arg("level"), py::arg("progress"))
         .def("save", &save, py::arg("path"), py::arg("options"), py::arg("progress"));
+    module.def("crs_wkt", &crs::wktOf, py::arg("epsg"), py::arg("vertical"));
+    module.def("crs_projjson", &crs::projJsonOf, py::arg("epsg"), py::arg("vertical"));
     module.def("save_keywords", [] { return describeKeywords(frontend::optionsOf<SaveOptions>()); });
     module.def("open", &openVolume, py::arg("path"), py::arg("labels"), py::arg("progress"));
     module.def("from_array", &volumeOfArray, py::arg("samples"), py::arg("spacing"), py::arg("origin"), py::arg("axes"),

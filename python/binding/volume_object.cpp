@@ -1,5 +1,7 @@
 #include "volume_object.hpp"
 
+#include <numeric>
+
 namespace svt::python {
 
 Result<const volume::BrickVolume*> VolumeObject::bricks(const Progress* progress) {
@@ -19,6 +21,9 @@ const VolumeObject::Measures& VolumeObject::measures() {
         Measures made;
         made.contacts = analyze::findContacts(volume_.columns, volume_.grid, volume_.labels);
         made.labels = analyze::measureLabels(volume_, made.contacts);
+        std::vector<std::uint32_t> all(made.labels.size());
+        std::iota(all.begin(), all.end(), 0U);
+        made.features = analyze::measureFeatures(analyze::Extents(volume_.labels), all, made.labels, made.contacts);
         measures_ = std::move(made);
     }
     return *measures_;

@@ -3,6 +3,7 @@
 /// A volume in Python: the volume itself, which never changes, and data derived from it on first use.
 
 #include <svt/analyze/contacts.hpp>
+#include <svt/analyze/extents.hpp>
 #include <svt/analyze/label_measures.hpp>
 #include <svt/analyze/selection.hpp>
 #include <svt/core/diagnostics.hpp>
@@ -38,7 +39,8 @@ public:
 
     struct Measures {
         std::vector<analyze::Contact> contacts;
-        std::vector<analyze::LabelMeasure> labels;
+        std::vector<analyze::Measure> labels;
+        std::vector<analyze::FeatureMeasure> features;  ///< by label: own, and with its parts
     };
     /// Contacts and areas of all labels. Cost: analyze::findContacts() once.
     [[nodiscard]] const Measures& measures();

@@ -17,6 +17,7 @@ from .city import City
 from .errors import Error, Finding, Place
 from .labels import Labels
 from .model import Model, read, sample
+from .page import Page
 from .picture import Frame, read_png, write_png
 from .section import Axes, Component, Polygon, Section
 from .viewer import View
@@ -34,6 +35,7 @@ __all__ = [
     "Label",
     "Labels",
     "Model",
+    "Page",
     "Place",
     "Polygon",
     "Runs",

@@ -9,6 +9,7 @@ from typing import Any, Iterator
 import numpy as np
 
 from . import _native
+from .tables import columns_of_labels, to_pandas
 
 
 class Labels(Sequence):
@@ -55,6 +56,21 @@ class Labels(Sequence):
             self._of_scalar = _native.label_of_scalar(self._native)
             self._of_scalar.flags.writeable = False
         return self._of_scalar
+
+    def to_pandas(self, query: str = "all", *, attributes: bool = False) -> Any:
+        """The labels that a query selects, as a pandas.DataFrame with one row per label.
+
+        The index is the number of the label. The columns are id, class_name, name, parent (an id), voxels, volume (m3),
+        voxel_volume, area (m2), outside_area and filling, as of :class:`svt.Label`. NaN: a surface has no volume, and a
+        label without voxels has no area. The areas of all labels are measured once.
+
+        Parameters
+        ----------
+        attributes
+            Add a column ``attributes.NAME`` for each attribute; None where a label has no such attribute.
+        """
+        labels = [self._native.label(index) for index in self._native.query(query)]
+        return to_pandas(columns_of_labels(labels, attributes), "Labels.to_pandas()")
 
     def _index(self) -> tuple[dict[str, int], dict[str, list[int]]]:
         if self._numbers is None:

@@ -1,15 +1,18 @@
 """Section drawings: the parts that a plane cuts, as polygons with exact areas."""
 from __future__ import annotations
 
+import base64
+import html
 import json
 import os
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import _native
 from .errors import Finding
 from .model import PathLike
+from .tables import columns_of_components, to_pandas
 
 
 class Polygon:
@@ -154,12 +157,35 @@ class Section:
         """The areas as a CSV table. Also written to `path` if given."""
         return self._text("csv", path)
 
+    @property
+    def __geo_interface__(self) -> dict:
+        """A GeoJSON FeatureCollection in the model's coordinates (x, y, z), one feature per component, with id, class,
+        name and areas. The member `crs` names the CRS: coordinates are metres and not degrees.
+
+        ``geopandas.GeoDataFrame.from_features(section)`` makes a map of a plan.
+        """
+        return json.loads(self.to_geojson())
+
+    def to_pandas(self) -> Any:
+        """The components as a pandas.DataFrame with one row per component.
+
+        The index is the number of the label. The columns are id, class_name, name, polygons (their number), area (m2),
+        area_bound, is_exact and line_length (m), as of :class:`svt.Component`.
+        """
+        return to_pandas(columns_of_components(self.components), "Section.to_pandas()")
+
     def to_dict(self) -> dict:
         """The plane and the areas: the output of `svt section --json`."""
         return json.loads(self._text("json", None))
 
     def _repr_svg_(self) -> str:
-        return self.to_svg()
+        drawing = self.to_svg()
+        return drawing[drawing.index("<svg") :]  # part of a page: without the declaration of a file
+
+    def _repr_html_(self) -> str:
+        # As a picture, because some programs remove drawings from the HTML of a notebook.
+        drawing = base64.b64encode(self.to_svg().encode()).decode()
+        return f'<img alt="{html.escape(repr(self))}" style="max-width:100%" src="data:image/svg+xml;base64,{drawing}">'
 
     def __repr__(self) -> str:
         return f"<svt.Section: {self._native.component_count} components, {self.area:.4g} m2>"

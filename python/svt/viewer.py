@@ -10,23 +10,11 @@ import tempfile
 import weakref
 from typing import TYPE_CHECKING
 
+from .command import find_command
 from .errors import Error, Place
 
 if TYPE_CHECKING:
     from .volume import Volume
-
-
-def find_command() -> str:
-    """The `svt` command: $SVT_COMMAND, or the one found in PATH."""
-    command = os.environ.get("SVT_COMMAND") or shutil.which("svt")
-    if not command:
-        raise Error(
-            "E101",
-            "CannotOpen",
-            "the command svt, which serves the page, is missing; install the package svt, or set SVT_COMMAND",
-            Place(),
-        )
-    return command
 
 
 def _stop(process: subprocess.Popen, folder: str | None) -> None:

@@ -14,9 +14,12 @@ from . import _native
 from .errors import Finding
 from .labels import Labels
 from .model import Model, PathLike, Progress, paths_of
+from .optional import load
+from .page import Page
 from .picture import Frame
 from .section import Section
 from .viewer import View
+from .vtk_image import image_of
 
 #: A box along the world axes in metres: lower and upper corner, ((x, y, z), (x, y, z)) or six numbers.
 Box = Union[Sequence[float], Sequence[Sequence[float]], np.ndarray]
@@ -297,6 +300,52 @@ class Volume:
         Keep the result: the page ends when the result is closed or deleted.
         """
         return View(self, height, browser)
+
+    def page(self, *, height: int = 600, limit: int = 24_000_000) -> Page:
+        """The volume and the interactive page in one HTML text, which needs neither a server nor the network.
+
+        A notebook shows the page, `height` pixels high, and keeps it. ``v.page().save("house.html")`` writes a file that
+        every browser opens.
+
+        Parameters
+        ----------
+        limit
+            Maximum size in bytes of the page in a notebook. If it is larger, the notebook shows a picture.
+        """
+        return Page(self, height, limit)
+
+    # Other packages
+
+    def to_xarray(self, *, level: int = 0, box: Box | None = None) -> Any:
+        """The volume as an xarray.Dataset; the same as ``xarray.open_dataset("house.svt")`` of its file.
+
+        The variable `label` (z, y, x) has the values of :meth:`dense`, 0 for background, unpacked when they are read.
+        The columns `component_name`, `component_class`, `component_id`, `component_parent` and `component_label` are by
+        value: ``ds.component_class[ds.label]``. Coordinates are metres in the CRS. A grid that is turned about z has 2D
+        coordinates `xc` and `yc` instead of `x` and `y`. Names and CRS follow the CF conventions 1.10.
+
+        Parameters
+        ----------
+        level
+            0 to 6: cells of 2**level samples along each axis, each with the label that fills most of it.
+        box
+            World box in metres: only the samples in it.
+        """
+        load("xarray", "to_xarray()")
+        from .xarray_backend import dataset_of
+
+        return dataset_of(self, level, box)
+
+    def to_vtk(self) -> Any:
+        """The volume as vtkImageData, with the arrays of the `.vti` file that :meth:`save` writes.
+
+        The cell array `label` has the values of :meth:`dense`; names, classes and colours are field data.
+        """
+        return image_of(self)
+
+    def to_pyvista(self) -> Any:
+        """The volume as pyvista.ImageData (before PyVista 0.40: UniformGrid), as of :meth:`to_vtk`."""
+        return load("pyvista", "to_pyvista()").wrap(image_of(self))
 
     # Files and parts
 

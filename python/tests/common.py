@@ -1,5 +1,6 @@
 """Shared by the tests: the command, the generated house, its volume."""
 import functools
+import importlib.util
 import os
 import subprocess
 import tempfile
@@ -41,6 +42,12 @@ def command(*arguments):
     done = subprocess.run([COMMAND, *map(str, arguments)], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return done.stdout
+
+
+def needs(module):
+    """Skips a test with the reason where a package that adds functions is missing."""
+    is_there = importlib.util.find_spec(module) is not None
+    return unittest.skipUnless(is_there, f"no {module} (scripts/setup.sh readers installs it)")
 
 
 needs_command = unittest.skipUnless(os.path.exists(COMMAND), "no command at SVT_COMMAND")

@@ -126,7 +126,10 @@ class Command(unittest.TestCase):
             rows = rows if isinstance(rows, list) else rows["features"]
             self.assertEqual([row["id"] for row in rows], [label.id for label in v.query(query)], query)
             for row, label in zip(rows, v.query(query)):
-                self.assertEqual((row["voxels"], row["volume"]), (label.voxels, label.volume))
+                self.assertEqual((row["ownVoxels"], row["volume"]), (label.voxels, label.volume))
+                self.assertEqual((row["ownVolume"], row["totalVolume"]), (label.own_volume, label.total_volume))
+                self.assertEqual(row["totalVoxels"], label.total_voxels)
+                self.assertEqual(row["totalVoxels"], sum(part.voxels for part in label.parts))
 
     def test_areas_are_those_of_section(self):
         v = svt.open(house_svt())

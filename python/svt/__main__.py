@@ -1,0 +1,4 @@
+"""`python -m svt ARGUMENTS` is the command `svt ARGUMENTS`."""
+from .command import main
+
+main()
