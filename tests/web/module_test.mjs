@@ -115,12 +115,14 @@ test("properties, neighbours and selections are rows of 'svt query'", () => {
   );
   for (const row of selected) {
     const properties = ask("properties", row.id);
-    assert.equal(properties.surface, row.surface.area);
-    assert.equal(properties.voxelVolume, row.voxelVolume);
-    assert.equal(properties.modelVolume, row.closed ? row.volume : null);
+    assert.equal(properties.surface, row.ownSurface.area);
+    assert.equal(properties.totalSurface, row.totalSurface.area);
+    assert.equal(properties.voxelVolume, row.ownVoxels * voxelVolume(grid));
+    assert.equal(properties.totalVolume, row.totalVolume);
+    assert.equal(properties.modelVolume, row.closed ? row.solidVolume : null);
     assert.deepEqual(
       properties.box.low,
-      row.box.min.map((x, axis) => x - grid.origin[axis]),
+      row.totalBox.min.map((x, axis) => x - grid.origin[axis]),
     );
     const neighbours = rows("query", houseVolume, `id="${row.id}"`, "--neighbours").filter((n) => n.neighbour !== null);
     assert.deepEqual(

@@ -1,6 +1,6 @@
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
-import { billOfMaterials, componentsOfModules, npmComponents, ownVersion } from "./sbom.mjs";
+import { billOfMaterialsPlugin } from "./sbom_plugin";
 import { template } from "./src/texts";
 
 // Relative addresses, so that the page works in any folder of any server.
@@ -28,14 +28,6 @@ export default defineConfig({
         });
       },
     },
-    {
-      // What of others is in the page, with versions: the packages whose files were read for it, and the libraries of the modules.
-      name: "bill-of-materials",
-      apply: "build",
-      generateBundle() {
-        const components = [...npmComponents(this.getModuleIds()), ...componentsOfModules().filter(({ name }) => name !== "cli11")];
-        this.emitFile({ type: "asset", fileName: "sbom.cdx.json", source: billOfMaterials("svt-viewer", ownVersion(), components) });
-      },
-    },
+    billOfMaterialsPlugin("svt-viewer"),
   ],
 });

@@ -1,5 +1,6 @@
 #include "replies.hpp"
 
+#include <svt/analyze/extents.hpp>
 #include <svt/analyze/selection.hpp>
 #include <svt/core/text.hpp>
 #include <svt/drawing/section_plane.hpp>
@@ -15,6 +16,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -113,25 +115,21 @@ Vec3d worldSize(const volume::Grid& grid) {
     return size;
 }
 
-// Bounding box of a feature's voxels, or of those of its descendants if the feature lacks voxels.
-Box3d boxOf(Session& session, std::uint32_t index) {
-    const volume::SemanticVolume& volume = session.volume();
-    analyze::SampleBox box = session.measures()[index].box;
-    if (box.isEmpty())
-        for (std::uint32_t l = index + 1; l < volume.labels.labels[index].subtreeEnd; ++l)
-            box.add(session.measures()[l].box);
-    Box3d world = analyze::worldBox(box, volume.grid);
+// The box of a feature with its parts, metres from the corner of the grid.
+Box3d boxOf(const analyze::Measure& total, const volume::Grid& grid) {
+    Box3d world = analyze::worldBox(total.box, grid);
     if (world.isEmpty()) return {{}, {}};
-    world.min = world.min - volume.grid.origin();
-    world.max = world.max - volume.grid.origin();
+    world.min = world.min - grid.origin();
+    world.max = world.max - grid.origin();
     return world;
 }
 
-Json neighborsJson(Session& session, std::uint32_t index) {
+Json neighborsJson(Session& session, std::span<const std::uint32_t> extent) {
+    const auto& labels = session.volume().labels.labels;
     Json list = Json::array();
-    for (const analyze::Neighbor& neighbor : analyze::findNeighbors(index, session.contacts())) {
+    for (const analyze::Neighbor& neighbor : analyze::NeighborFinder(session.contacts(), labels.size()).of(extent)) {
         if (neighbor.label == volume::kNoLabel) continue;
-        Json row = namesOf(session.volume().labels.labels[neighbor.label]);
+        Json row = namesOf(labels[neighbor.label]);
         row["area"] = neighbor.area;
         list.push_back(std::move(row));
     }
@@ -169,7 +167,11 @@ std::string propertiesIn(Session& session, std::uint32_t index, Vec3d by) {
     const volume::SemanticVolume& volume = session.volume();
     const auto found = volume.labels.labels.begin() + index;
     const bool isClosed = found->filling == volume::Filling::Solid || found->filling == volume::Filling::TJunctions;
-    Box3d box = boxOf(session, index);
+    const analyze::Extents extents(volume.labels);
+    const std::vector<std::uint32_t> feature{index};
+    const analyze::FeatureMeasure measure =
+        analyze::measureFeatures(extents, feature, session.measures(), session.contacts()).front();
+    Box3d box = boxOf(measure.total, volume.grid);
     box.min = box.min + by;
     box.max = box.max + by;
     Json json = namesOf(*found);
@@ -182,11 +184,13 @@ std::string propertiesIn(Session& session, std::uint32_t index, Vec3d by) {
     for (const Attribute& attribute : found->attributes)
         if (const auto* number = std::get_if<double>(&attribute.value))
             json["numbers"][attribute.name] = {{"value", *number}, {"unit", attribute.unit}};
-    json["voxelVolume"] = double(found->voxels) * volume.grid.voxelVolume();
+    json["voxelVolume"] = double(measure.own.voxels) * volume.grid.voxelVolume();
     json["modelVolume"] = isClosed ? Json(found->volume) : Json(nullptr);
-    json["surface"] = session.measures()[index].area;
+    json["surface"] = measure.own.area;
+    json["totalVolume"] = measure.total.volume ? Json(*measure.total.volume) : Json(nullptr);
+    json["totalSurface"] = measure.total.area;
     json["box"] = {{"low", pointOf(box.min)}, {"high", pointOf(box.max)}};
-    json["neighbours"] = neighborsJson(session, index);
+    json["neighbours"] = neighborsJson(session, extents.of(index));
     return textOf(json);
 }
 

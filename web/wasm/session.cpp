@@ -310,7 +310,7 @@ const std::vector<analyze::Contact>& Session::contacts() {
     return *contacts_;
 }
 
-const std::vector<analyze::LabelMeasure>& Session::measures() {
+const std::vector<analyze::Measure>& Session::measures() {
     if (!measures_) measures_ = analyze::measureLabels(volume_, contacts());
     return *measures_;
 }

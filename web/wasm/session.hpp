@@ -108,7 +108,7 @@ public:
     [[nodiscard]] std::unique_ptr<Session> around(std::uint32_t label) const;
     /// Contacts between features; computed on first use.
     [[nodiscard]] const std::vector<analyze::Contact>& contacts();
-    [[nodiscard]] const std::vector<analyze::LabelMeasure>& measures();
+    [[nodiscard]] const std::vector<analyze::Measure>& measures();
 
 private:
     Session(std::vector<volume::SemanticVolume> volumes, Diagnostics findings);
@@ -134,7 +134,7 @@ private:
     std::optional<render_gl::GlRenderer> gl_;
     std::vector<std::uint32_t> labelOfScalar_;
     std::optional<std::vector<analyze::Contact>> contacts_;
-    std::optional<std::vector<analyze::LabelMeasure>> measures_;
+    std::optional<std::vector<analyze::Measure>> measures_;
 };
 
 }  // namespace svt::web

@@ -23,9 +23,8 @@ import "./tools/share_tool";
 import { leaveCustom } from "./tools/share_tool";
 import "./tools/views_tool";
 import { setWalking } from "./tools/views_tool";
+import { movedByKey } from "./camera/view_keys";
 import { movedText, number, t } from "./texts";
-import { kViews } from "./state/member_controls";
-import { ofSubtree } from "./state/queries";
 import { subtree } from "./state/visibility";
 import { movedByArrow } from "./ui/arrow_keys";
 import { icon, type IconName } from "./ui/icons";
@@ -425,13 +424,8 @@ export class App extends Part {
     const { session } = this;
     const key = event.key.toLowerCase();
     const tool = kTools.find((entry) => entry.key === key)?.tool;
-    const view = kViews[Number(key) - 1];
     if (tool) this.useTool(tool);
-    else if (view) void session.view.goTo("", view);
-    else if (key === "0") {
-      session.view.isWalking = false;
-      void session.view.goTo("", null);
-    } else if (key === "f") void session.view.goTo(session.view.now.selection.map(ofSubtree).join(" or "), null);
+    else if (movedByKey(session.view, key)) return true;
     else if (key === "g") setWalking(session, !session.view.isWalking);
     else if (key === "h") this.hideSelection(event.shiftKey);
     else if (key === "/") this.search();

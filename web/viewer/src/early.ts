@@ -7,7 +7,7 @@ import { readModels } from "./opening";
 export const canvas = document.createElement("canvas");
 canvas.setAttribute("aria-hidden", "true");
 /** The library in the browser. */
-export const creating = createEngine(canvas, wantedEngine());
+export const creating = createEngine(canvas, wantedEngine(), { mayUseThreads: mayUseThreads() });
 creating.catch(() => undefined);
 export const listing = readModels(new URLSearchParams(location.search).get("model"));
 
@@ -15,4 +15,9 @@ export const listing = readModels(new URLSearchParams(location.search).get("mode
 function wantedEngine(): EngineKind | null {
   const wanted = new URLSearchParams(location.search).get("engine");
   return wanted === "cpu" || wanted === "webgl2" ? wanted : null;
+}
+
+/** `?threads=no` disables threads, for comparison. */
+function mayUseThreads(): boolean {
+  return new URLSearchParams(location.search).get("threads") !== "no";
 }

@@ -90,6 +90,10 @@ export interface FeatureProperties {
   modelVolume: number | null;
   /** m2. */
   surface: number;
+  /** Volume and surface of the feature with its parts: a flat with its rooms. */
+  totalVolume: number | null;
+  totalSurface: number;
+  /** Of the feature with its parts, as are its neighbours. */
   box: { low: Point; high: Point };
   neighbours: { id: string; class: string; name: string; area: number }[];
 }
@@ -235,6 +239,8 @@ export const kCalls = {
   view: call<(query: string, preset: string | null, camera: SceneCamera) => SceneCamera>(),
   /** A picture as PNG, drawn by the CPU caster, bit-identical to `svt render`. */
   picture: call<(scene: Scene) => ArrayBuffer>(),
+  /** The label image of a picture as PNG with 16 bits, as `svt render --labels` writes it. */
+  labels: call<(scene: Scene) => ArrayBuffer>(),
   /** The section through the volume as drawn by `svt section`. */
   drawing: call<(plane: string, format: DrawingFormat, parts?: DrawingParts) => ArrayBuffer>(),
   /** Sets the owners of features, as attributes `owner`, from a table (CSV). Replaces an earlier table. */
@@ -296,4 +302,7 @@ export interface Engine extends LibraryCalls {
    * Only the newest request is queued: a superseded one resolves to null.
    */
   draw(scene: Scene, width: number, height: number): Promise<FrameReport | null>;
+
+  /** Ends the library with its memory and its WebGL context. Pending and later calls are rejected with kCancelled. */
+  close(): void;
 }

@@ -61,6 +61,7 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
       return { width, height, milliseconds: performance.now() - start, engine: "cpu" };
     },
     cancel: () => undefined,
+    close: () => undefined,
     cancelRefining: () => undefined,
     refine: refuse,
     openCity: refuse,

@@ -5,7 +5,7 @@ import "./ui/theme.css";
 import "./app";
 import type { App } from "./app";
 import { openFiles, openKept, openModel } from "./opening";
-import { until } from "./observable";
+import { effect, until } from "./observable";
 import { Session } from "./session";
 import { stateOfHash } from "./state/link";
 import { initialState, type ViewState } from "./state/view_state";
@@ -18,6 +18,13 @@ import type { Engine, EngineError } from "./engine";
 const kComponentsAfter = 1500;
 
 const session = new Session();
+session.address.keep();
+const memory = Number(new URLSearchParams(location.search).get("memory"));
+if (memory > 0) session.model.memory = Math.max(16, memory) * 1e6;
+effect(() => {
+  const { info } = session.volume;
+  if (info) document.title = `${info.name || info.source} - SVT`;
+});
 const starting = startEngine();
 
 startTheme(() => session.view.set({ look: theme() === "dark" ? "dark" : "plain" }));

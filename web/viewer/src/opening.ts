@@ -46,25 +46,28 @@ function filesOf(model: ListedModel): CityFiles {
   return new CityFiles(new URL(model.file.replace(/\/*$/, "/"), location.href).href);
 }
 
-/** Opens a listed model or city. */
+/** Opens a listed model or city; false if that fails. */
 export async function openModel(
   session: Session,
   name: string,
   state: ViewState | null = null,
   coming: Promise<Response> | null = null,
   files: CityFiles | null = null,
-): Promise<void> {
+): Promise<boolean> {
   const { model, volume, messages } = session;
   const listed = volume.models.find((m) => m.name === name);
-  if (!listed) return;
+  if (!listed) return false;
   const title = listed.title || listed.name;
   const fileName = listed.file.split("/").pop()!.split("?")[0]!;
   const fetched = async (signal: AbortSignal) => {
-    const response = await (coming ?? fetch(listed.file, { signal }));
+    const response = await (coming ?? fetch(listed.file, { signal })).catch(() => {
+      throw { message: t("notReached", { name: listed.file }) };
+    });
     if (!response.ok) throw { message: t("notLoaded", { name: listed.file, status: response.status }) };
-    const bytes = await received(response, listed.bytes, signal, (done) => {
-      const text = `${t("loadingFile", { name: title })}: ${t("loadedBytes", { done: bytesText(done), all: bytesText(listed.bytes || done) })}`;
-      messages.progress = { text, share: listed.bytes ? done / listed.bytes : -1 };
+    const expected = listed.bytes || lengthOf(response);
+    const bytes = await received(response, expected, signal, (done) => {
+      const text = `${t("loadingFile", { name: title })}: ${t("loadedBytes", { done: bytesText(done), all: bytesText(expected || done) })}`;
+      messages.progress = { text, share: expected ? done / expected : -1 };
     });
     return [{ name: fileName, bytes }];
   };
@@ -73,9 +76,15 @@ export async function openModel(
     listed.city && !volume.isServerOnly
       ? await model.openCity(title, files ?? filesOf(listed), state)
       : await model.open(title, fetched, again, state);
-  if (!isOpen) return;
+  if (!isOpen) return false;
   volume.name = listed.name;
   volume.isLocal = false;
+  return true;
+}
+
+/** The announced number of bytes; 0: unknown, also if the connection compresses them. */
+function lengthOf({ headers }: Response): number {
+  return headers.get("Content-Encoding") ? 0 : Number(headers.get("Content-Length") ?? 0);
 }
 
 /** The bytes of a response, with progress for slow downloads. */
@@ -101,16 +110,21 @@ async function received(response: Response, expected: number, signal: AbortSigna
 /** File types that the library reads: volumes and models; each also compressed by gzip. */
 export const kFileKinds = [".svt", ...kModelEndings];
 
-/** Opens files of the user. Several models become one. A table gives owners to the open volume, or is opened with the files. */
-export async function openFiles(session: Session, files: File[]): Promise<void> {
+/**
+ * Opens files of the user. Several models become one. A table gives owners to the open volume, or is opened with the files.
+ * @param state  null: a new view
+ * @return false if the models could not be opened
+ */
+export async function openFiles(session: Session, files: File[], state: ViewState | null = null): Promise<boolean> {
   const tables = files.filter(({ name }) => /\.(csv|tsv)$/i.test(name)),
     models = files.filter((file) => !tables.includes(file));
   for (const { name } of models) {
     const plain = name.toLowerCase().replace(/\.gz$/, "");
-    if (!kFileKinds.some((kind) => plain.endsWith(kind)))
-      return session.messages.fail({ message: t("wrongKind", { name, kinds: kFileKinds.join(", ") }) }, t("failedTitle"));
+    if (kFileKinds.some((kind) => plain.endsWith(kind))) continue;
+    session.messages.fail({ message: t("wrongKind", { name, kinds: kFileKinds.join(", ") }) }, t("failedTitle"));
+    return false;
   }
-  if (models.length) await openLocal(session, models);
+  const isOpen = models.length > 0 ? await openLocal(session, models, state) : session.volume.info !== null;
   for (const table of tables) {
     try {
       await session.model.owners.give(await table.arrayBuffer(), table.name);
@@ -118,6 +132,7 @@ export async function openFiles(session: Session, files: File[]): Promise<void> 
       session.messages.fail(error, t("failedTitle"));
     }
   }
+  return isOpen;
 }
 
 /** Opens a file that was stored in this browser; false if it is no longer there. */
@@ -129,17 +144,18 @@ export async function openKept(session: Session, name: string, state: ViewState 
   return true;
 }
 
-async function openLocal(session: Session, files: File[]): Promise<void> {
+async function openLocal(session: Session, files: File[], given: ViewState | null = null): Promise<boolean> {
   const { model, volume, messages } = session;
   const name = files.map((file) => file.name).join(", ");
-  const state = model.awaited?.file === name ? model.awaited.state : null;
+  const state = model.awaited?.file === name ? model.awaited.state : given;
   const read = () => Promise.all(files.map(async (file) => ({ name: file.name, bytes: await file.arrayBuffer() })));
   const fetched = () => {
     messages.progress = { text: t("loadingFile", { name }), share: -1 };
     return read();
   };
-  if (!(await model.open(name, fetched, read, state))) return;
+  if (!(await model.open(name, fetched, read, state))) return false;
   volume.name = "";
   volume.isLocal = true;
   model.awaited = null;
+  return true;
 }

@@ -58,6 +58,10 @@ const kTexts = {
   ],
   noModel: ["There is no model '{name}' here; the first one is shown.", "Hier gibt es kein Modell '{name}'; das erste wird gezeigt."],
   notLoaded: ["{name} could not be loaded ({status}).", "{name} konnte nicht geladen werden ({status})."],
+  notReached: [
+    "{name} could not be fetched: the server does not answer, or does not let other sites read the file (CORS).",
+    "{name} ließ sich nicht holen: Der Server antwortet nicht, oder er lässt andere Seiten die Datei nicht lesen (CORS).",
+  ],
   cannotRun: [
     "The library cannot run in this browser: it needs WebAssembly with SIMD (Chrome 91, Firefox 89, Safari 16.4 or later).",
     "Die Bibliothek läuft in diesem Browser nicht: Sie braucht WebAssembly mit SIMD (ab Chrome 91, Firefox 89, Safari 16.4).",
@@ -146,6 +150,8 @@ const kTexts = {
   severalSelected: ["{n} selected", "{n} ausgewählt"],
   volumeByVoxels: ["Volume", "Volumen"],
   modelVolume: ["Volume in the model", "Volumen im Modell"],
+  totalVolume: ["Volume with parts", "Volumen mit Teilen"],
+  totalSurface: ["Surface with parts", "Oberfläche mit Teilen"],
   surface: ["Surface", "Oberfläche"],
   extent: ["Extent", "Ausdehnung"],
   attributes: ["Attributes", "Attribute"],
@@ -370,6 +376,7 @@ const kTexts = {
   ],
   badLink: ["The link is damaged; the model is shown as it is.", "Der Link ist beschädigt; das Modell wird gezeigt, wie es ist."],
   badJson: ["This is not JSON: {error}", "Das ist kein JSON: {error}"],
+  stillLabel: ["Picture of {name}", "Bild von {name}"],
   pictureLabel: [
     "Picture of {name}. Arrow keys turn, Shift and arrow keys move, plus and minus zoom, Enter selects the object in the middle.",
     "Bild von {name}. Pfeiltasten drehen, Umschalt und Pfeiltasten verschieben, Plus und Minus zoomen, Eingabe wählt das Objekt in der Mitte.",
@@ -421,7 +428,7 @@ const kTexts = {
 export const kGermanHelp = {
   "draw a scale bar; parallel projection only, because no other picture has a single scale":
     "zeichnet einen Maßstab; nur bei Parallelprojektion, denn kein anderes Bild hat einen einzigen Maßstab",
-  "draw an arrow to grid north (+y)": "zeichnet einen Pfeil nach Gitternord (+y)",
+  "draw an arrow to true north": "zeichnet einen Pfeil nach geographisch Nord",
   "colour visible components by class, name, storey, volume, area of rooms, owner, voxels or an attribute, with a legend":
     "färbt sichtbare Bauteile nach class, name, storey, volume, area (Fläche von Räumen), owner, voxels oder einem Attribut, mit Legende",
   "width and height": "Breite und Höhe",

@@ -23,8 +23,8 @@ export interface ControlsHost {
   framed(x: number, y: number): void;
   /** The pointer hovers, or has left (null). */
   hovered(at: { x: number; y: number; isDown: boolean } | null): void;
-  /** Returns true if the wheel event was handled. */
-  wheeled(event: WheelEvent): boolean;
+  /** Returns true if the wheel event was handled, "ignored" if it is not for the picture. */
+  wheeled(event: WheelEvent): boolean | "ignored";
 }
 
 interface Finger {
@@ -153,8 +153,10 @@ export class Controls {
   }
 
   private wheeled(event: WheelEvent): void {
+    const answer = this.host.wheeled(event);
+    if (answer === "ignored") return;
     event.preventDefault();
-    if (!this.camera || this.host.wheeled(event)) return;
+    if (!this.camera || answer) return;
     const [x, y] = this.shareOf(event);
     const pixels = event.deltaY * (event.deltaMode === 1 ? 33 : event.deltaMode === 2 ? 400 : 1);
     this.zoomTo(x, y, Math.exp(Math.min(240, Math.max(-240, pixels)) * 0.0018));

@@ -91,6 +91,9 @@ function labels(view: View, texts: { of: Point[]; text: string }[]): SVGTemplate
   });
 }
 
+/** Pixels of a scale bar below the axes. */
+const kScaleBar = 44;
+
 /** The grid's axes as arrows in the corner. */
 export function compass(view: View): SVGTemplateResult | typeof nothing {
   const camera = view.session.picture.camera;
@@ -105,7 +108,8 @@ export function compass(view: View): SVGTemplateResult | typeof nothing {
     return { name, dx: (to?.x ?? 0) - from.x, dy: (to?.y ?? 0) - from.y };
   });
   const longest = Math.max(1e-9, ...arms.map((arm) => Math.hypot(arm.dx, arm.dy)));
-  return svg`<g class="compass" transform="translate(34 ${view.height - 34})">${arms.map(({ name, dx, dy }) => {
+  const lift = camera.parallel && view.session.view.now.picture.scaleBar ? kScaleBar : 0;
+  return svg`<g class="compass" transform="translate(34 ${view.height - 34 - lift})">${arms.map(({ name, dx, dy }) => {
     const [x, y] = [(dx / longest) * 20, (dy / longest) * 20];
     return Math.hypot(x, y) < 4
       ? nothing

@@ -19,9 +19,32 @@ const kSnapPixels = 9;
 const kFramesToSettle = 8;
 const kSplitter = "wa-split-panel";
 
+/** A click on the picture, before it selects anything: preventDefault() keeps the selection. */
+export type PickEvent = CustomEvent<{ pick: Pick | null; x: number; y: number }>;
+
+/**
+ * page: takes all mouse, touch and key input.
+ * part: a part of another page, whose scrolling it leaves alone until it has the focus.
+ * still: no input, and nothing over the picture.
+ */
+export type Inputs = "page" | "part" | "still";
+
 export class PictureView extends Part {
-  static override properties = { ...Part.properties, canvas: { attribute: false }, hover: { state: true }, size: { state: true } };
+  static override properties = {
+    ...Part.properties,
+    canvas: { attribute: false },
+    inputs: { attribute: false },
+    isBare: { attribute: false },
+    label: { attribute: false },
+    hover: { state: true },
+    size: { state: true },
+  };
   declare canvas: HTMLCanvasElement;
+  declare inputs: Inputs;
+  /** No planes with handles and no axes over the picture. */
+  declare isBare: boolean;
+  /** Replaces the description for screen readers; empty: the name of the model. */
+  declare label: string;
   declare hover: { pick: Pick; x: number; y: number } | null;
   /** CSS pixels. */
   declare size: [width: number, height: number];
@@ -38,6 +61,8 @@ export class PictureView extends Part {
       :host { position: relative; display: block; width: 100%; height: 100%; overflow: hidden; background: var(--stage); }
       .stage { position: absolute; inset: 0; touch-action: none; cursor: default; outline-offset: -3px !important; }
       .stage.measuring { cursor: crosshair; }
+      .stage.part:not(:focus) { touch-action: pan-y; }
+      .stage.still { pointer-events: none; }
       ::slotted(canvas), canvas { position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none; }
       svg.over { position: absolute; inset: 0; width: 100%; height: 100%; pointer-events: none; overflow: hidden; }
       .plane { fill: var(--accent); fill-opacity: 0.07; stroke: var(--accent); stroke-width: 1.5; stroke-dasharray: 6 4; }
@@ -68,6 +93,9 @@ export class PictureView extends Part {
 
   constructor() {
     super();
+    this.inputs = "page";
+    this.isBare = false;
+    this.label = "";
     this.hover = null;
     this.size = [1, 1];
   }
@@ -134,7 +162,8 @@ export class PictureView extends Part {
     try {
       const isMeasuring = session.view.tool === "measure";
       const pick = await session.volume.engine.pick(x, y, isMeasuring && !event.ctrlKey && !event.metaKey ? this.snapReach() : 0);
-      if (session.view.tool === "measure") {
+      if (!isMeasuring && !this.asks(pick, x, y)) return;
+      if (isMeasuring) {
         if (!pick) return session.messages.say(t("pickedNothing"));
         session.view.history.seal();
         session.messages.say(t(pick.snapped ? (pick.snapped.to === "corner" ? "atCorner" : "atEdge") : "onFace"));
@@ -144,6 +173,12 @@ export class PictureView extends Part {
     } catch (error) {
       session.messages.fail(error);
     }
+  }
+
+  /** Whether the click may select. */
+  private asks(pick: Pick | null, x: number, y: number): boolean {
+    const event: PickEvent = new CustomEvent("svt-pick", { detail: { pick, x, y }, bubbles: true, cancelable: true });
+    return this.dispatchEvent(event);
   }
 
   /** Metres of a few pixels at the camera's target. */
@@ -159,7 +194,8 @@ export class PictureView extends Part {
     void this.session.view.goTo(pick ? ofId(pick.id) : "", null);
   }
 
-  private wheeled(event: WheelEvent): boolean {
+  private wheeled(event: WheelEvent): boolean | "ignored" {
+    if (this.inputs === "part" && !event.ctrlKey && !this.stage.matches(":focus")) return "ignored";
     const { state } = this.session.view;
     if (state.effect !== "lens" || !event.shiftKey) return false;
     const delta = event.deltaY || event.deltaX;
@@ -193,16 +229,18 @@ export class PictureView extends Part {
     const { session } = this;
     const [width, height] = this.size;
     const view: View = { session, width, height };
-    const isReady = session.model.status === "ready" && session.volume.info !== null;
+    const isStill = this.inputs === "still";
+    const isReady = session.model.status === "ready" && session.volume.info !== null && !isStill;
+    const label = this.label || t(isStill ? "stillLabel" : "pictureLabel", { name: session.volume.info?.name || t("model") });
     return html`
       ${this.canvas}
-      <div class="stage ${session.view.tool === "measure" ? "measuring" : ""}" data-picture tabindex="0" role="application"
-        aria-roledescription=${t("picture")} aria-label=${t("pictureLabel", { name: session.volume.info?.name || t("model") })}></div>
+      <div class="stage ${session.view.tool === "measure" ? "measuring" : ""} ${this.inputs}" data-picture tabindex=${isStill ? nothing : 0}
+        role=${isStill ? "img" : "application"} aria-roledescription=${isStill ? nothing : t("picture")} aria-label=${label}></div>
       <svg class="cross" viewBox="0 0 15 15" aria-hidden="true"><path d="M7.5 0v15M0 7.5h15"></path></svg>
       <svg class="over" aria-hidden="true">
-        ${isReady ? svg`${planes(view)}${selectionBox(view)}${measure(view)}${compass(view)}` : nothing}
+        ${isReady ? svg`${this.isBare ? nothing : planes(view)}${selectionBox(view)}${measure(view)}${this.isBare ? nothing : compass(view)}` : nothing}
       </svg>
-      ${isReady ? session.view.now.sections.map((_, n) => this.handle(view, n)) : nothing}
+      ${isReady && !this.isBare ? session.view.now.sections.map((_, n) => this.handle(view, n)) : nothing}
       ${this.hover ? this.tip(view) : nothing}
     `;
   }

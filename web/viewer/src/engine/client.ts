@@ -16,7 +16,7 @@ import type {
   VolumeInfo,
 } from "../engine";
 import { withBytes } from "./city_calls";
-import { kWithoutThreads } from "./protocol";
+import { startWorker, type WorkerPlace } from "./start_worker";
 import type { Answer, Calls, Request } from "./protocol";
 
 type Name = keyof Calls;
@@ -41,12 +41,17 @@ class Connection {
   private readonly worker: Worker;
   private readonly waiting = new Map<number, Waiting>();
   private lastId = 0;
+  /** Why it has ended; null: it has not. */
+  private ended: EngineError | null = null;
   /** Whether the worker has ever answered: one without any answer would fail again. */
   isAlive = false;
 
   /** @param died  called when the library has stopped; close() is up to the caller */
-  constructor(private readonly died: (error: EngineError) => void) {
-    this.worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module", name: mayUseThreads() ? "svt" : kWithoutThreads });
+  constructor(
+    place: WorkerPlace,
+    private readonly died: (error: EngineError) => void,
+  ) {
+    this.worker = startWorker(place);
     this.worker.onmessage = (event: MessageEvent<Answer>) => this.take(event.data);
     this.worker.onerror = (event) => {
       event.preventDefault();
@@ -60,6 +65,7 @@ class Connection {
     transfer: Transferable[] = [],
     onProgress?: OnProgress,
   ): Promise<Calls[N]["result"]> {
+    if (this.ended) return Promise.reject(this.ended);
     return new Promise((resolve, reject) => {
       const id = ++this.lastId;
       this.waiting.set(id, { resolve, reject, ...(onProgress ? { onProgress } : {}) });
@@ -74,6 +80,7 @@ class Connection {
 
   /** Ends it with all its requests. */
   close(error: EngineError): void {
+    this.ended = error;
     this.worker.terminate();
     const lost = [...this.waiting.values()];
     this.waiting.clear();
@@ -92,15 +99,11 @@ class Connection {
   }
 }
 
-/** `?threads=no` disables threads, for comparison. */
-function mayUseThreads(): boolean {
-  return new URLSearchParams(location.search).get("threads") !== "no";
-}
-
 /** Pixels of an invisible picture. */
 const kUnseen = [48, 27] as const;
 
 const kGivenUp: EngineError = { code: kCancelled, message: kCancelled };
+const kNoCanvas: EngineError = { code: "E904", message: "the engine has no canvas to draw into; use picture() instead" };
 
 /** The calls that are not passed on unchanged. */
 class WorkerEngine {
@@ -113,15 +116,16 @@ class WorkerEngine {
   private spare: Connection | null = null;
   private isDrawing = false;
   private nextDraw: WaitingDraw | null = null;
-  private readonly screen: ImageBitmapRenderingContext;
+  private readonly screen: ImageBitmapRenderingContext | null;
+  private isClosed = false;
 
   constructor(
-    canvas: HTMLCanvasElement,
+    canvas: HTMLCanvasElement | null,
     private readonly wanted: EngineKind | null,
+    private readonly place: WorkerPlace,
   ) {
-    const screen = canvas.getContext("bitmaprenderer");
-    if (!screen) throw { code: "E904", message: "the canvas has another context already" } satisfies EngineError;
-    this.screen = screen;
+    this.screen = canvas?.getContext("bitmaprenderer") ?? null;
+    if (canvas && !this.screen) throw { code: "E904", message: "the canvas has another context already" } satisfies EngineError;
     this.main = this.connect();
   }
 
@@ -131,7 +135,7 @@ class WorkerEngine {
   }
 
   private connect(): Connection {
-    const made: Connection = new Connection((error) => {
+    const made: Connection = new Connection(this.place, (error) => {
       if (made === this.main) this.restart(error);
       else if (made === this.second) this.endSecond(error);
       else if (made === this.spare) this.endSpare(error);
@@ -222,6 +226,7 @@ class WorkerEngine {
   }
 
   draw(scene: Scene, width: number, height: number): Promise<FrameReport | null> {
+    if (!this.screen) return Promise.reject(kNoCanvas);
     return new Promise((resolve, reject) => {
       this.nextDraw?.resolve(null);
       this.nextDraw = { args: [scene, width, height], resolve, reject };
@@ -236,6 +241,15 @@ class WorkerEngine {
     this.restart(kGivenUp);
   }
 
+  close(): void {
+    this.isClosed = true;
+    this.nextDraw?.resolve(null);
+    this.nextDraw = null;
+    this.cancelRefining();
+    this.endSpare();
+    this.main.close(kGivenUp);
+  }
+
   private drawNext(): void {
     const next = this.nextDraw;
     if (this.isDrawing || !next) return;
@@ -245,7 +259,7 @@ class WorkerEngine {
       .ask("draw", next.args)
       .then(({ bitmap, report }) => {
         this.kind = report.engine;
-        this.screen.transferFromImageBitmap(bitmap);
+        this.screen!.transferFromImageBitmap(bitmap);
         next.resolve(report);
       }, next.reject)
       .finally(() => {
@@ -257,7 +271,7 @@ class WorkerEngine {
   /** Discards a failed worker with all its requests; the new one has no volume. */
   private restart(error: EngineError): void {
     const before = this.main;
-    if (before.isAlive) {
+    if (before.isAlive && !this.isClosed) {
       this.main = this.connect();
       this.start().catch(() => undefined);
     }
@@ -267,11 +281,25 @@ class WorkerEngine {
 
 /**
  * The library in its own worker, drawing into `canvas`. Rejects with an EngineError if it cannot run.
+ * @param canvas  null: draw() is not available
  * @param wanted  the renderer, for tests and measurements; null: the faster one, see drawer.ts
+ * @param signal  closes the engine, also while it starts
  */
-export async function createEngine(canvas: HTMLCanvasElement, wanted: EngineKind | null = null): Promise<Engine> {
-  const engine = new WorkerEngine(canvas, wanted);
-  await engine.start();
+export async function createEngine(
+  canvas: HTMLCanvasElement | null,
+  wanted: EngineKind | null = null,
+  place: WorkerPlace = { mayUseThreads: true },
+  signal: AbortSignal | null = null,
+): Promise<Engine> {
+  if (signal?.aborted) throw kGivenUp;
+  const engine = new WorkerEngine(canvas, wanted, place);
+  signal?.addEventListener("abort", () => engine.close());
+  try {
+    await engine.start();
+  } catch (error) {
+    engine.close();
+    throw error;
+  }
   return Object.assign(
     engine,
     callsBy((name, args) => engine.call(name, args)),

@@ -7,6 +7,7 @@
  */
 import type { SvtModule } from "../../../../build/web/svt.js";
 import type { EngineKind, Scene } from "../engine";
+import { hasWords } from "./calls";
 import { isEngineError } from "./errors";
 import type { Drawn } from "./protocol";
 
@@ -59,9 +60,8 @@ export class Drawer {
   }
 
   /** The font is fetched when words are first drawn. */
-  async prepare(scene: Scene): Promise<void> {
-    const hasWords = scene.names?.length || scene.title || scene.colorBy || scene.scaleBar || scene.northArrow;
-    if (hasWords) await this.fetchFont();
+  private async prepare(scene: Scene): Promise<void> {
+    if (hasWords(scene)) await this.fetchFont();
   }
 
   async fetchFont(): Promise<void> {

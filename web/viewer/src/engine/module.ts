@@ -33,7 +33,7 @@ async function withThreads(onProgress: OnProgress): Promise<SvtModule> {
   return made(create, await compiling, {
     onProgress,
     mainScriptUrlOrBlob: kThreads["svt_threads.js"]!.href,
-    locateFile: (name) => (kThreads[name] ?? new URL(name, import.meta.url)).href,
+    locateFile: (name) => kThreads[name]?.href ?? name,
   });
 }
 

@@ -1,10 +1,11 @@
 /** The worker: owns the library and the open volume, and answers the page's requests in order. */
 import type { SvtModule } from "../../../../build/web/svt.js";
+import { json, makeCall, needsFont, openFiles } from "./calls";
 import { Drawer } from "./drawer";
 import { isEngineError } from "./errors";
 import { loadModule } from "./module";
-import type { CityLook, FileBytes, VolumeInfo } from "../engine";
-import type { Answer, CityNeeds, Request } from "./protocol";
+import type { CityLook, VolumeInfo } from "../engine";
+import type { Answer, Calls, CityNeeds, Request } from "./protocol";
 
 /** Idle time of the page before longer work starts. */
 const idleMilliseconds = 700;
@@ -25,26 +26,6 @@ function post(answer: Answer, transfer: Transferable[] = []): void {
   self.postMessage(answer, { transfer });
 }
 
-function json<T>(reply: Uint8Array): T {
-  return JSON.parse(new TextDecoder().decode(reply)) as T;
-}
-
-/** Copies the bytes, because the reply is in the module's memory. */
-function copied(reply: Uint8Array): ArrayBuffer {
-  return reply.slice().buffer as ArrayBuffer;
-}
-
-function joined(files: FileBytes[]): Uint8Array {
-  if (files.length === 1) return new Uint8Array(files[0]!.bytes);
-  const all = new Uint8Array(files.reduce((sum, file) => sum + file.bytes.byteLength, 0));
-  let at = 0;
-  for (const { bytes } of files) {
-    all.set(new Uint8Array(bytes), at);
-    at += bytes.byteLength;
-  }
-  return all;
-}
-
 function drawerOf(svt: SvtModule): Drawer {
   return (drawer ??= new Drawer(svt, null));
 }
@@ -59,23 +40,13 @@ async function answer(request: Request): Promise<void> {
       drawer = new Drawer(svt, args[0]);
       return post({ id, result: { kind: drawer.kind, threads: json(svt.call("threads", [])) } });
     case "open": {
-      const [files, options] = args;
-      const info = svt.call(name, [files.map((file) => file.name), files.map((file) => file.bytes.byteLength), options], joined(files));
+      const info = openFiles(svt, ...args);
       drawerOf(svt).forgetPicture();
-      return post({ id, result: json(info) });
+      return post({ id, result: info });
     }
     case "draw": {
       const drawn = await drawerOf(svt).draw(...args);
       return post({ id, result: drawn }, [drawn.bitmap]);
-    }
-    case "picture":
-      await drawerOf(svt).prepare(args[0]);
-    // falls through
-    case "drawing": {
-      // The font determines the size of dimension numbers.
-      if (name === "drawing" && args[2]?.dimensions) await drawerOf(svt).fetchFont();
-      const bytes = copied(svt.call(name, args));
-      return post({ id, result: bytes }, [bytes]);
     }
     case "cityDrop":
       drawerOf(svt).forgetPicture();
@@ -90,13 +61,10 @@ async function answer(request: Request): Promise<void> {
       if (look.info) cityInfo = look.info;
       return post({ id, result: look.info && args[4].isMoving ? { ...look, info: { ...look.info, features: [] } } : look });
     }
-    case "sheets":
-      await drawerOf(svt).fetchFont();
-    // falls through
     default: {
-      const bytes = args.find((arg) => arg instanceof ArrayBuffer);
-      const others = args.filter((arg) => arg !== bytes);
-      return post({ id, result: json(svt.call(name, others, bytes && new Uint8Array(bytes))) });
+      if (needsFont(name, args)) await drawerOf(svt).fetchFont();
+      const result = makeCall(svt, name, args) as Calls[typeof name]["result"];
+      return post({ id, result }, result instanceof ArrayBuffer ? [result] : []);
     }
   }
 }

@@ -11,7 +11,7 @@ export const kSceneMembers = {
   "/look": { type: "text", choices: ["plain", "paper", "blueprint", "dark"], default: "plain", option: "--look", group: "Style", help: "colours, lines and hatches of the whole picture: plain, paper (for print), blueprint or dark (for slides)" },
   "/title": { type: "text", option: "--title", group: "Illustrate", help: "write a title into the picture" },
   "/scaleBar": { type: "flag", default: false, option: "--scale-bar", group: "Illustrate", help: "draw a scale bar; parallel projection only, because no other picture has a single scale" },
-  "/northArrow": { type: "flag", default: false, option: "--north-arrow", group: "Illustrate", help: "draw an arrow to grid north (+y)" },
+  "/northArrow": { type: "flag", default: false, option: "--north-arrow", group: "Illustrate", help: "draw an arrow to true north" },
   "/colorBy": { type: "text", option: "--color-by", group: "Illustrate", help: "colour visible components by class, name, storey, volume, area of rooms, owner, voxels or an attribute, with a legend" },
   "/legend": { type: "flag", default: true, help: "draw a legend for the colours of colorBy" },
   "/explode": { type: "number", unit: "metres", minimum: 0, maximum: 1000, default: 0, option: "--explode", group: "Illustrate", help: "draw the storeys apart, with this vertical gap between them" },

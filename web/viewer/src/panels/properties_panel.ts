@@ -75,12 +75,15 @@ export class PropertiesPanel extends Part {
   private details(p: FeatureProperties) {
     const size = p.box.high.map((high, i) => high - p.box.low[i]!);
     const attributes = Object.entries(p.attributes);
+    const hasParts = p.totalSurface > 0 && p.totalSurface !== p.surface;
     return html`
       <dl>
         ${p.voxelVolume > 0 ? html`<dt>${t("volumeByVoxels")}</dt><dd>${number(p.voxelVolume, 3)} m³</dd>` : nothing}
         ${p.modelVolume !== null ? html`<dt>${t("modelVolume")}</dt><dd>${number(p.modelVolume, 3)} m³</dd>` : nothing}
         ${p.surface > 0 ? html`<dt>${t("surface")}</dt><dd>${number(p.surface, 2)} m²</dd>` : nothing}
-        ${size.every(Number.isFinite) && p.voxelVolume > 0 ? html`<dt>${t("extent")}</dt><dd>${size.map((v) => number(v, 2)).join(" × ")} m</dd>` : nothing}
+        ${hasParts && p.totalVolume !== null ? html`<dt>${t("totalVolume")}</dt><dd>${number(p.totalVolume, 3)} m³</dd>` : nothing}
+        ${hasParts ? html`<dt>${t("totalSurface")}</dt><dd>${number(p.totalSurface, 2)} m²</dd>` : nothing}
+        ${size.every(Number.isFinite) && p.totalSurface > 0 ? html`<dt>${t("extent")}</dt><dd>${size.map((v) => number(v, 2)).join(" × ")} m</dd>` : nothing}
       </dl>
       <h3>${t("attributes")}</h3>
       ${attributes.length ? html`<dl>${attributes.map(([key, value]) => html`<dt>${key}</dt><dd>${valueText(p.numbers[key], value)}</dd>`)}</dl>` : html`<p class="quiet">${t("noAttributes")}</p>`}

@@ -14,10 +14,13 @@ export class Address {
   constructor(
     private readonly volume: OpenVolume,
     private readonly view: View,
-  ) {
+  ) {}
+
+  /** Follows the view from now on. */
+  keep(): void {
     effect(() => {
-      const { measured } = view.now;
-      if (view.revision || measured.length) untracked(() => this.writeSoon());
+      const { measured } = this.view.now;
+      if (this.view.revision || measured.length) untracked(() => this.writeSoon());
     });
   }
 

@@ -8,6 +8,8 @@ export interface Message {
   title?: string;
   text: string;
   isError: boolean;
+  /** The error itself; its code may be empty. */
+  error?: EngineError;
 }
 
 export interface Progress {
@@ -26,7 +28,8 @@ export class Messages extends Observable {
     const { code, message } = error as Partial<EngineError>;
     if (code === kCancelled) return;
     const text = message ?? String(error);
-    this.message = { ...(title ? { title } : {}), text: code ? `${text} (${code})` : text, isError: true };
+    const given = { code: code ?? "", message: text };
+    this.message = { ...(title ? { title } : {}), text: code ? `${text} (${code})` : text, isError: true, error: given };
   }
 
   tell(text: string): void {

@@ -9,7 +9,7 @@ import { batch, until } from "../observable";
 import { initialState, shifted, type ViewState } from "../state/view_state";
 import { stageText, t } from "../texts";
 import { Owners } from "./owners";
-import { memoryOfPage, Refining, wantsDraft, type Source } from "./refining";
+import { memoryOfDevice, Refining, wantsDraft, type Source } from "./refining";
 import { ViewPart } from "./view_part";
 
 export type Status = "starting" | "empty" | "loading" | "ready";
@@ -30,6 +30,8 @@ export class Model extends ViewPart {
   opening: Opening | null = null;
   /** null: no city is open. */
   city: CityStream | null = null;
+  /** Size limit of a volume that is built here, bytes. */
+  memory = memoryOfDevice();
   /** A view whose model is a file that the user has not opened yet. */
   awaited: { file: string; state: ViewState | null } | null = null;
   readonly refining: Refining;
@@ -70,6 +72,17 @@ export class Model extends ViewPart {
     this.messages.tell(t("cancelled", { name: opening.name }));
   }
 
+  /** Ends everything in progress, and the library. */
+  end(): void {
+    this.opening?.abort.abort();
+    this.opening = null;
+    this.city?.end();
+    this.city = null;
+    this.source = null;
+    this.refining.cancel();
+    this.volume.engine?.close();
+  }
+
   private endOpening(): void {
     this.opening = this.messages.progress = null;
     this.isReading = false;
@@ -84,7 +97,7 @@ export class Model extends ViewPart {
    */
   open(name: string, fetched: (signal: AbortSignal) => Promise<FileBytes[]>, again: Source, state: ViewState | null): Promise<boolean> {
     return this.attempt(name, fetched, async (files) => {
-      const options = { draft: wantsDraft(files), memory: memoryOfPage() };
+      const options = { draft: wantsDraft(files), memory: this.memory };
       const [file, ...otherFiles] = files.map((one) => one.name);
       const tell = (step: string, share: number) => (this.messages.progress = { text: stageText(step), share });
       const info = await this.volume.engine!.open(files, tell, options);
@@ -166,7 +179,6 @@ export class Model extends ViewPart {
       view.begin({ ...state, selection: state.selection.filter((id) => volume.isCity || volume.index.byId.has(id)) });
       this.status = "ready";
     });
-    document.title = `${info.name || info.source} - SVT`;
     if (!view.state.camera) void view.fit(0);
   }
 

@@ -24,10 +24,8 @@ export function wantsDraft(files: FileBytes[]): boolean {
   return bytes >= kLargeBytes;
 }
 
-/** Size limit of a volume built here, bytes: `?memory=MB`, or else a quarter of the device's memory, at most 1 GB. */
-export function memoryOfPage(): number {
-  const asked = Number(new URLSearchParams(location.search).get("memory"));
-  if (asked > 0) return Math.max(16, asked) * 1e6;
+/** A quarter of the device's memory, at most 1 GB, in bytes. */
+export function memoryOfDevice(): number {
   const device = (navigator as { deviceMemory?: number }).deviceMemory ?? 4;
   return Math.min(1e9, device * 0.25e9);
 }

@@ -19,7 +19,8 @@ export class ShownPicture extends ViewPart {
   /** The meaning of the colours, for readers who cannot see the legend; null: the picture has no legend. */
   scale: ColorScale | null = null;
   private loop: PictureLoop | null = null;
-  private seenSections: unknown = null;
+  /** The cut whose planes were compared with faces. */
+  private seenCut: string | null = null;
 
   constructor(parts: ViewParts) {
     super(parts);
@@ -44,7 +45,7 @@ export class ShownPicture extends ViewPart {
   /** Called when another model is opened. */
   forget(): void {
     this.moved = [];
-    this.seenSections = null;
+    this.seenCut = null;
     this.report = null;
   }
 
@@ -64,13 +65,13 @@ export class ShownPicture extends ViewPart {
   }
 
   /** Reports the planes that lie in faces, once per change. */
-  private async findMoved({ sections }: ViewState): Promise<void> {
+  private async findMoved({ sections, regions }: ViewState): Promise<void> {
     const { engine } = this.volume;
-    if (sections === this.seenSections || !engine) return;
-    this.seenSections = sections;
-    const cut = cutOf(sections);
+    const cut = cutOf(sections, regions);
+    if (cut === this.seenCut || !engine) return;
+    this.seenCut = cut;
     const moved = cut ? await engine.movedPlanes({ passes: [{ cut }] }).catch(() => []) : [];
-    if (this.view.state.sections !== sections) return;
+    if (this.seenCut !== cut) return;
     const isNew = moved.some(({ text }) => !this.moved.some((other) => other.text === text));
     this.moved = moved;
     if (isNew) this.messages.say(movedText(moved));

@@ -12,7 +12,17 @@ import { t, type TextKey } from "../texts";
 import type { Messages } from "./messages";
 import type { OpenVolume } from "./open_volume";
 
+type Projection = Pick<Camera, "parallel" | "fieldOfView">;
 export type Tool = "section" | "lens" | "focus" | "look" | "measure" | "views" | "share";
+
+/** A view that is fitted to features, beside its direction. */
+export interface Framing {
+  /** Query of the features; empty: all. */
+  around: string;
+  parallel: boolean;
+  /** Degrees. */
+  fieldOfView: number;
+}
 
 /** Milliseconds from one view to another. */
 const kFlight = 350;
@@ -35,6 +45,12 @@ export class View extends Observable {
   isLegendShown = false;
   /** Grows with each change that redraws the picture. */
   revision = 0;
+  /** How the first camera is fitted, from the direction of `state.preset`. */
+  framing: Framing = {
+    around: "",
+    parallel: kSceneMembers["/camera/parallel"].default,
+    fieldOfView: kSceneMembers["/camera/fieldOfView"].default,
+  };
   private flight = 0;
   /** The view fitted to the whole building, and its aspect ratio; it is recomputed for another aspect ratio. */
   private fitted: { camera: Camera; aspect: number } | null = null;
@@ -127,26 +143,30 @@ export class View extends Observable {
     this.set({ hide: hideQueries(this.volume.index, flags, this.state.hide) });
   }
 
-  /** Moves the camera so that the features of a query fill the picture; from a named view, or from the current direction. */
-  async goTo(query: string, preset: CameraPreset | null, isFollowed = true): Promise<void> {
+  /**
+   * Moves the camera so that the features of a query fill the picture; from a named view, or from the current direction.
+   * @param projection  null: that of the current camera
+   */
+  async goTo(query: string, preset: CameraPreset | null, isFollowed = true, projection: Framing | null = null): Promise<void> {
     const { engine, info, isServerOnly, box } = this.volume;
     if (!engine || !info) return;
     if (isServerOnly) return this.set({ camera: null, preset: preset ?? this.state.preset });
     const now = this.state.camera;
     const seen = now ? withProjection(now, false) : null;
     const from: SceneCamera = seen ? sceneCamera(seen, box, this.aspect) : { preset: kSceneMembers["/camera/preset"].default };
+    if (projection) from.fieldOfView = projection.fieldOfView;
     try {
       const found = await engine.view(query, preset, from);
       // Automatic fitting must not override a view that the user chose meanwhile.
       if (!isFollowed && this.state.camera !== now) return;
-      this.moveToFound(found, now, isFollowed);
+      this.moveToFound(found, projection ?? now, isFollowed);
     } catch (error) {
       this.messages.fail(error);
     }
   }
 
   /** Moves to a camera that the library has found, with the projection of another one. */
-  moveToFound({ eye, target, fieldOfView }: SceneCamera, like: Camera | null = this.state.camera, isFollowed = true): void {
+  moveToFound({ eye, target, fieldOfView }: SceneCamera, like: Projection | null = this.state.camera, isFollowed = true): void {
     if (!eye || !target) return;
     const degrees = fieldOfView ?? like?.fieldOfView ?? kSceneMembers["/camera/fieldOfView"].default;
     const camera: Camera = { eye, target, parallel: false, height: 10, fieldOfView: degrees };
@@ -176,9 +196,9 @@ export class View extends Observable {
     this.set({ camera });
   }
 
-  /** Shows the whole building, without an undo step. */
+  /** Shows the building as `framing` states, without an undo step. */
   async fit(aspect: number): Promise<void> {
-    await this.goTo("", kSceneMembers["/camera/preset"].default, false);
+    await this.goTo(this.framing.around, this.state.preset, false, this.framing);
     if (this.state.camera) this.fitted = { camera: this.state.camera, aspect };
   }
 
@@ -216,12 +236,14 @@ const kStepNames: Partial<Record<keyof ViewState, TextKey>> = {
   show: "stepVisibility",
   styles: "stepStyles",
   sections: "section",
+  regions: "section",
   effect: "focusEffect",
   lens: "lens",
   focus: "focus",
   shell: "shell",
   wireframe: "wireframe",
   names: "names",
+  named: "names",
   colorBy: "colorBy",
   picture: "picture",
   hatches: "hatches",

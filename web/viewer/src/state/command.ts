@@ -68,9 +68,10 @@ function options(state: ViewState, scene: Scene, effects: Described["effects"]):
   for (const style of state.styles) if (style.opacity !== undefined) add("--opacity", `${style.select}:${style.opacity}`);
   if (effects.lens) {
     add("--lens", effects.lens.region);
-    if (!state.sections.length) add("--section", effects.lens.cut);
+    if (!state.sections.length && !state.regions.length) add("--section", effects.lens.cut);
   }
   add("--section", ...state.sections.map(regionOf));
+  if (state.regions.length) add("--cut", state.regions.join(" or "));
   add("--highlight", ...(effects.highlight?.queries ?? []));
   if (effects.cutaway) add("--cutaway", effects.cutaway.query);
   const context = effects.lens?.context ?? effects.highlight?.context;

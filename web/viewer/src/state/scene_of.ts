@@ -35,8 +35,8 @@ export function regionOf(section: Section): string {
   return `${a},${b},${c},${round(-section.at * sign)}`;
 }
 
-export function cutOf(sections: Section[]): string {
-  return sections.map(regionOf).join(" or ");
+export function cutOf(sections: Section[], regions: string[] = []): string {
+  return [...sections.map(regionOf), ...regions].join(" or ");
 }
 
 /** The queries for highlight or cutaway; empty: nothing to show. */
@@ -79,16 +79,16 @@ function passOf(state: ViewState): ScenePass {
   if (state.show.length) pass.show = state.show;
   if (state.hide.length) pass.hide = state.hide;
   if (state.styles.length) pass.styles = state.styles;
-  if (state.sections.length && state.effect !== "lens") pass.cut = cutOf(state.sections);
+  const cut = cutOf(state.sections, state.regions);
+  if (cut && state.effect !== "lens") pass.cut = cut;
   if (state.wireframe) pass.lines = [{ hidden: state.wireframe }];
   if (state.shell) pass.shell = state.shell;
   return pass;
 }
 
-/** Default section of the lens if no plane is set: removes the nearer half of the building. */
+/** Default section of the lens if nothing is cut: removes the nearer half of the building. */
 export function lensCut(state: ViewState, box: Box): string {
-  if (state.sections.length) return cutOf(state.sections);
-  return `y<${round((box.low[1] + box.high[1]) / 2, 2)}`;
+  return cutOf(state.sections, state.regions) || `y<${round((box.low[1] + box.high[1]) / 2, 2)}`;
 }
 
 function effectsOf(state: ViewState, box: Box): Effects {
@@ -120,7 +120,8 @@ export function sceneOf(
   const camera = sceneCamera(state.camera, box, size[0] / size[1], state.preset);
   scene.camera = camera;
   if (state.hatches !== null) scene.hatches = { show: state.hatches };
-  if (state.names && state.selection.length) scene.names = state.selection.map(ofId);
+  const named = [...state.named, ...(state.names ? state.selection.map(ofId) : [])];
+  if (named.length) scene.names = named;
   if (state.colorBy) scene.colorBy = state.colorBy;
   Object.assign(scene, state.picture);
   if (!camera.parallel) delete scene.scaleBar;

@@ -42,6 +42,17 @@ describe("scene of the state", () => {
     expect(cutOf([section({}), section({ axis: "x", at: 3 })])).toBe("z>1.6 or x>3");
   });
 
+  it("cuts regions besides planes, and names features besides the selection", () => {
+    const both = state({ sections: [section({})], regions: ["ball(1,2,3,4)"], named: ["class=Room"], names: true, selection: ["a"] });
+    const { scene } = sceneOf(both, box, size);
+    expect(scene.passes).toEqual([{ cut: "z>1.6 or ball(1,2,3,4)" }]);
+    expect(scene.names).toEqual(["class=Room", 'id="a"']);
+    expect(sceneOf({ ...both, effect: "lens" }, box, size).effects.lens!.cut).toBe("z>1.6 or ball(1,2,3,4)");
+    expect(commandOf(both, sceneOf(both, box, size), given)).toContain(
+      "--names class=Room --names 'id=\"a\"' --section 'z>1.6' --cut 'ball(1,2,3,4)'",
+    );
+  });
+
   it("cuts everywhere, or within the lens alone", () => {
     const cut = state({ sections: [section({})] });
     expect(sceneOf(cut, box, size).scene.passes).toEqual([{ cut: "z>1.6" }]);

@@ -62,6 +62,8 @@ export interface ViewState {
   show: string[];
   styles: SceneStyle[];
   sections: Section[];
+  /** Regions that are cut away besides the planes (docs/user/regions.md). */
+  regions: string[];
   /** null: according to the look. */
   hatches: boolean | null;
   effect: Effect;
@@ -72,6 +74,8 @@ export interface ViewState {
   wireframe: HiddenLines | null;
   /** Names of selected features beside the picture. */
   names: boolean;
+  /** Queries: features whose names are written into the picture. */
+  named: string[];
   /** The meaning of colours and legend in the picture: class, storey, volume, an attribute, ...; empty: no colouring. */
   colorBy: string;
   /** Members of the scene without a separate control; members with their defaults are absent. */
@@ -93,6 +97,7 @@ export function initialState(look: Look = kSceneMembers["/look"].default): ViewS
     show: [],
     styles: [],
     sections: [],
+    regions: [],
     hatches: null,
     effect: "none",
     lens: { x: 0.5, y: 0.5, radius: 0.25, pinned: false, context: "ghost" },
@@ -100,6 +105,7 @@ export function initialState(look: Look = kSceneMembers["/look"].default): ViewS
     shell: null,
     wireframe: null,
     names: false,
+    named: [],
     colorBy: "",
     picture: {},
     selection: [],

@@ -1,0 +1,51 @@
+/** Calls of the module that need nothing of a browser: arguments in, answers out. Shared by the worker and by Node.js. */
+import type { SvtModule } from "../../../../build/web/svt.js";
+import type { FileBytes, LibraryCalls, OpenOptions, Scene, VolumeInfo } from "../engine";
+
+/** Calls whose answers are bytes; all others answer with JSON. */
+const kOfBytes: ReadonlySet<string> = new Set<keyof LibraryCalls>(["picture", "labels", "drawing"]);
+
+export function json<T>(reply: Uint8Array): T {
+  return JSON.parse(new TextDecoder().decode(reply)) as T;
+}
+
+/** Copies the bytes, because the reply is in the module's memory. */
+function copied(reply: Uint8Array): ArrayBuffer {
+  return reply.slice().buffer as ArrayBuffer;
+}
+
+export function openFiles(svt: SvtModule, files: readonly FileBytes[], options: OpenOptions): VolumeInfo {
+  const sizes = files.map(({ bytes }) => bytes.byteLength);
+  return json(svt.call("open", [files.map(({ name }) => name), sizes, options], joined(files)));
+}
+
+function joined(files: readonly FileBytes[]): Uint8Array {
+  if (files.length === 1) return new Uint8Array(files[0]!.bytes);
+  const all = new Uint8Array(files.reduce((sum, file) => sum + file.bytes.byteLength, 0));
+  let at = 0;
+  for (const { bytes } of files) {
+    all.set(new Uint8Array(bytes), at);
+    at += bytes.byteLength;
+  }
+  return all;
+}
+
+/** The answer of a call; an ArrayBuffer among the arguments is passed as its bytes. */
+export function makeCall(svt: SvtModule, name: string, args: readonly unknown[]): unknown {
+  if (kOfBytes.has(name)) return copied(svt.call(name, args));
+  const bytes = args.find((arg) => arg instanceof ArrayBuffer);
+  const others = args.filter((arg) => arg !== bytes);
+  return json(svt.call(name, others, bytes && new Uint8Array(bytes)));
+}
+
+export function hasWords(scene: Scene): boolean {
+  return Boolean(scene.names?.length || scene.title || scene.colorBy || scene.scaleBar || scene.northArrow);
+}
+
+/** Whether the module must have the font before a call. */
+export function needsFont(name: string, args: readonly unknown[]): boolean {
+  if (name === "picture" || name === "labels") return hasWords(args[0] as Scene);
+  // The font determines the size of dimension numbers.
+  if (name === "drawing") return Boolean((args[2] as { dimensions?: boolean } | undefined)?.dimensions);
+  return name === "sheets";
+}
