@@ -59,6 +59,10 @@ private:
 
 /// The definition of a code as PROJJSON, on one line; empty if PROJ is missing or does not know the code.
 /// Cost: milliseconds.
-[[nodiscard]] std::string projJsonOf(int epsg);
+/// \param vertical  code of the heights, for a compound of both; 0: none
+[[nodiscard]] std::string projJsonOf(int epsg, int vertical = 0);
+
+/// The same definition as WKT 2 (ISO 19162:2019), on one line.
+[[nodiscard]] std::string wktOf(int epsg, int vertical = 0);
 
 }  // namespace svt::crs

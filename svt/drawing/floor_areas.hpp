@@ -3,13 +3,14 @@
 /// Areas and volumes of rooms, storeys and components, as in architects' tables: floor areas according to DIN 277-1 if
 /// the model has enough data, and sums of the components.
 ///
-///     BGF  gross floor area          enclosed by a plan: the sum of everything that is cut 0.15 m above the floor.
+///     BGF  gross floor area          enclosed by a plan: the sum of everything that is cut 0.15 m above the floor,
+///                                    and the openings of doors and windows in the walls that are cut there.
 ///     NRF  net room area             sum of the rooms.
 ///     KGF  area of construction      BGF - NRF.
 ///     NUF, TF, VF                    net room area for use, technical rooms, circulation; by the name of a room.
 
 #include <svt/core/result.hpp>
-#include <svt/drawing/sheet_views.hpp>
+#include <svt/drawing/building_levels.hpp>
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
@@ -47,6 +48,13 @@ struct LevelArea {
     double grossBound = 0;  ///< error bound of `gross`, without that of the floor: sum of SectionComponent::areaBound
     std::size_t rooms = 0;
     bool isExact = false;  ///< floor, gross area and all rooms are from meshes
+    /// Whether the level has rooms. Others, such as foundations and roofs, do not count as floors.
+    bool isFloor = false;
+    /// Whether construction is cut. Otherwise the model has only rooms, and `gross` and `construction` are unknown.
+    bool isGrossKnown = false;
+
+    /// Whether the rooms have more area than the plan encloses, so that `construction` is unknown.
+    [[nodiscard]] bool netExceedsGross() const noexcept;
 };
 
 /// All components of one class and IFC type.
@@ -61,11 +69,12 @@ struct FloorAreas {
     std::vector<RoomArea> rooms;           ///< by level, number, name
     std::vector<LevelArea> levels;         ///< one per given level
     std::vector<ComponentSum> components;  ///< by class and type; without spaces and features that have no voxels
-    [[nodiscard]] LevelArea total() const noexcept;
+    [[nodiscard]] LevelArea total() const noexcept;  ///< of levels that are floors
 };
 
-/// Measures the floors. Rooms lower than 1.5 m are voids and do not count. A room belongs to the highest level that is
-/// at most 0.3 m above its floor. Storeys and units do not count as rooms.
+/// Measures the floors. Rooms lower than 1.5 m are voids and do not count; nor do spaces that are named after a roof,
+/// such as "Roof". For the level of a room, see levelsOfLabels().
+/// Storeys and units do not count as rooms.
 /// \param levels   of findLevels()
 /// \param threads  0: all cores; the result does not depend on it
 /// \param bricks   bricks of the volume, if the caller has them; objects with open shells need them
@@ -74,5 +83,9 @@ struct FloorAreas {
 [[nodiscard]] Result<FloorAreas> measureFloorAreas(const volume::SemanticVolume& volume,
                                                    const std::vector<BuildingLevel>& levels, int threads = 0,
                                                    const volume::BrickVolume* bricks = nullptr);
+
+/// Reports levels whose rooms have more area than their plan encloses (NetExceedsGross).
+void reportAreas(const FloorAreas& areas, const std::vector<BuildingLevel>& levels,
+                 const volume::SemanticVolume& volume, Diagnostics& log);
 
 }  // namespace svt::drawing

@@ -7,6 +7,7 @@
 #include <svt/core/vec.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,15 +38,19 @@ struct SectionPlane {
 [[nodiscard]] Result<SectionPlane> parseSectionPlane(std::string_view text, const volume::SemanticVolume& volume,
                                                      const analyze::LabelRows& rows);
 
-/// The default plane of a plan: 1.1 m above the lowest level of findLevels(). Without levels, or if the volume ends
+/// The default plane of a plan: 1.1 m above the ground floor of findLevels(). Without levels, or if the volume ends
 /// below that height, half the height of the volume.
 [[nodiscard]] SectionPlane defaultSectionPlane(const volume::SemanticVolume& volume);
 
-/// The plane of an elevation: vertical, 10 mm in front of the meshes or voxels of the model. It faces `side`. In a
-/// rotated grid, it faces the side of the grid that is nearest to `side`.
-/// \param side  "north", "east", "south" or "west": the position of the eye; y of world space points north
+/// The plane of an elevation: vertical, 10 mm in front of the meshes or voxels of the model. It faces the side of the
+/// grid that is nearest to `side`.
+/// \param side  one of compassNames(): the position of the eye, relative to true north (see north.hpp)
 /// \return the plane, or BadSection for any other side
 [[nodiscard]] Result<SectionPlane> elevationPlane(std::string_view side, const volume::SemanticVolume& volume);
+
+/// The names of the four sides of the grid for elevationPlane(), clockwise from the one nearest to true north. They are
+/// north, east, south and west, or north-east, south-east, south-west and north-west.
+[[nodiscard]] std::array<std::string_view, 4> elevationSides(const volume::SemanticVolume& volume);
 
 /// Distance that a plane in faces of the model must move to the kept side, so that a picture consistently shows one
 /// side of these faces. A plane lies in a face if their distance is up to 0.2 mm, or 1/170 of a voxel if that is more,

@@ -18,7 +18,7 @@ namespace svt::drawing {
 /// A view of a set: exactly one of plan, section and elevation is given.
 struct SetView {
     std::string plan, section;  ///< planes, see parseSectionPlane()
-    std::string elevation;      ///< north, east, south or west
+    std::string elevation;      ///< one of compassNames(), see elevationPlane()
     std::string name;           ///< name of the storey of a plan, or letter of a section
     bool hidden = false;        ///< also draw hidden edges, dashed
     friend bool operator==(const SetView&, const SetView&) = default;

@@ -3,6 +3,7 @@
 /// The usual architectural views of a building: a plan of each level, two sections, four elevations.
 
 #include <svt/core/result.hpp>
+#include <svt/drawing/building_levels.hpp>
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
@@ -13,17 +14,11 @@ namespace svt::drawing {
 
 enum class ViewKind : std::uint8_t { Plan, Section, Elevation };
 
-/// A floor of the building.
-struct BuildingLevel {
-    std::string name;  ///< name of the storey; empty if the model has no storeys
-    double floor = 0;  ///< metres above the grid's lower corner
-    double bound = 0;  ///< error bound of `floor`, metres: 0 from meshes and declared elevations, see storey_floors.hpp
-};
-
 /// The description of a view.
 struct SheetView {
     ViewKind kind = ViewKind::Plan;
-    std::string name;  ///< plan: name of its storey, or empty; section: "A" or "B"; elevation: "north" and so on
+    std::string
+        name;  ///< plan: name of its storey, or empty; section: "A" or "B"; elevation: "north", "north-east" ...
     SectionPlane plane;
     double floor = 0;  ///< plan: floor of its level, metres above the grid's lower corner
     BeyondOptions beyond;
@@ -34,12 +29,7 @@ struct SheetViews {
     std::vector<SheetView> views;       ///< plans from below, sections, elevations from the north clockwise
 };
 
-/// The levels of the model: its storeys, as returned by findStoreys(). Without storeys, the floors of rooms that are at
-/// least 1.5 m high; floors up to 1.2 m above the lowest of them are one level. Without rooms, the tops of slabs and
-/// floors of 4 m2 or more, except roofs.
-[[nodiscard]] std::vector<BuildingLevel> findLevels(const volume::SemanticVolume& volume);
-
-/// Chooses the views. Plans are cut 1.1 m above the floor; they show the parts below, and the parts above as dashed
+/// Chooses the views. Plans are cut 1.1 m above the level; they show the parts below, and the parts above as dashed
 /// lines. Sections are vertical, along both axes of the grid, at the place where they cut most of the rooms. If the
 /// model has stairs, a section passes through one of them.
 /// \param threads  0: all cores; the result does not depend on it

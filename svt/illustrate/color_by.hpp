@@ -54,7 +54,8 @@ struct Coloring {
 [[nodiscard]] Result<std::vector<double>> areasFor(std::string_view key, const volume::SemanticVolume& volume);
 
 /// Gives each label its owner as an attribute `owner`, for colours and queries. Labels in the table get the listed
-/// owner. A wall or slab that belongs to only one owner gets this owner. Labels that several owners share get "shared".
+/// owners, separated by commas. A wall or slab that belongs to only one owner gets this owner, one that several owners
+/// share gets "shared".
 /// \param table  CSV, see analyze::parseOwners()
 /// \param file   file name of the table, for messages
 /// \return an error of parseOwners()

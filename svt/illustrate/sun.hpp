@@ -38,8 +38,7 @@ struct Sunlight {
 };
 
 /// The place is that of Scene::sun, otherwise that of the CRS, otherwise the attributes `latitude` and `longitude` of a
-/// feature (IfcSite). If the place comes from the CRS, true north is the direction of the meridian there. If it comes
-/// from attributes, true north is the attribute `trueNorth`. Otherwise it is +y.
+/// feature (IfcSite). True north is that of drawing::northOf().
 /// \return the light, or BadScene for a bad time or an unknown place of the building
 [[nodiscard]] Result<Sunlight> sunlightOf(const Sun& sun, const volume::SemanticVolume& volume);
 

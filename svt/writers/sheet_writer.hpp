@@ -54,10 +54,11 @@ struct SheetTable {
 };
 
 struct SheetContent {
-    std::vector<drawing::BuildingLevel> levels;  ///< heights are stated above the lowest
+    std::vector<drawing::BuildingLevel> levels;  ///< heights are stated above the ground floor
     std::vector<DrawnView> views;
     std::vector<SheetGroup> groups;
     std::vector<SheetTable> tables;  ///< after the views; tables that fit share sheets
+    Diagnostics findings{};          ///< of the tables, see drawing::reportAreas()
 };
 
 struct SheetOptions {

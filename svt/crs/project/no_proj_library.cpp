@@ -5,7 +5,8 @@
 namespace svt::crs {
 
 std::string projVersion() { return {}; }
-std::string projJsonOf(int) { return {}; }
+std::string projJsonOf(int, int) { return {}; }
+std::string wktOf(int, int) { return {}; }
 
 namespace project {
 namespace {

@@ -23,6 +23,7 @@ struct Proj {
     decltype(&::proj_context_destroy) context_destroy = nullptr;
     decltype(&::proj_context_set_enable_network) context_set_enable_network = nullptr;
     decltype(&::proj_log_level) log_level = nullptr;
+    decltype(&::proj_create) create = nullptr;
     decltype(&::proj_create_from_database) create_from_database = nullptr;
     decltype(&::proj_destroy) destroy = nullptr;
     decltype(&::proj_get_type) get_type = nullptr;
@@ -38,6 +39,7 @@ struct Proj {
     decltype(&::proj_trans) trans = nullptr;
     decltype(&::proj_trans_generic) trans_generic = nullptr;
     decltype(&::proj_as_projjson) as_projjson = nullptr;
+    decltype(&::proj_as_wkt) as_wkt = nullptr;
     decltype(&::proj_info) info = nullptr;
 };
 
@@ -49,9 +51,9 @@ Result<Proj> loadProj() {
     const bool isWhole =
         find("proj_context_create", proj.context_create) && find("proj_context_destroy", proj.context_destroy) &&
         find("proj_context_set_enable_network", proj.context_set_enable_network) &&
-        find("proj_log_level", proj.log_level) && find("proj_create_from_database", proj.create_from_database) &&
-        find("proj_destroy", proj.destroy) && find("proj_get_type", proj.get_type) &&
-        find("proj_crs_get_sub_crs", proj.crs_get_sub_crs) &&
+        find("proj_log_level", proj.log_level) && find("proj_create", proj.create) &&
+        find("proj_create_from_database", proj.create_from_database) && find("proj_destroy", proj.destroy) &&
+        find("proj_get_type", proj.get_type) && find("proj_crs_get_sub_crs", proj.crs_get_sub_crs) &&
         find("proj_crs_get_coordinate_system", proj.crs_get_coordinate_system) &&
         find("proj_cs_get_axis_count", proj.cs_get_axis_count) &&
         find("proj_cs_get_axis_info", proj.cs_get_axis_info) && find("proj_get_name", proj.get_name) &&
@@ -59,7 +61,7 @@ Result<Proj> loadProj() {
         find("proj_create_crs_to_crs_from_pj", proj.create_crs_to_crs_from_pj) &&
         find("proj_normalize_for_visualization", proj.normalize_for_visualization) && find("proj_trans", proj.trans) &&
         find("proj_trans_generic", proj.trans_generic) && find("proj_as_projjson", proj.as_projjson) &&
-        find("proj_info", proj.info);
+        find("proj_as_wkt", proj.as_wkt) && find("proj_info", proj.info);
     if (!isWhole) return Error(Code::CannotOpen, SVT_PROJ_LIBRARY " lacks functions of PROJ");
     return proj;
 }
@@ -100,6 +102,12 @@ Context makeContext() {
 Object makeCrs(const Context& context, int code) {
     return Object(
         proj().create_from_database(context.get(), "EPSG", std::to_string(code).c_str(), PJ_CATEGORY_CRS, 0, nullptr));
+}
+
+// A compound with the code of heights, unless `vertical` is 0.
+Object makeCrs(const Context& context, int horizontal, int vertical) {
+    if (vertical == 0) return makeCrs(context, horizontal);
+    return Object(proj().create(context.get(), fmt::format("EPSG:{}+{}", horizontal, vertical).c_str()));
 }
 
 Error notKnown(const Context& context, int code, Code kind) {
@@ -213,12 +221,21 @@ Result<PlaceInDegrees> placeInDegrees(int source, Vec3d place) {
 
 std::string projVersion() { return project::loadedProj() ? project::proj().info().version : std::string(); }
 
-std::string projJsonOf(int epsg) {
+std::string projJsonOf(int epsg, int vertical) {
     if (!project::loadedProj()) return {};
     const project::Context context = project::makeContext();
-    const project::Object crs = project::makeCrs(context, epsg);
+    const project::Object crs = project::makeCrs(context, epsg, vertical);
     const char* const options[] = {"MULTILINE=NO", nullptr};
     const char* const text = crs ? project::proj().as_projjson(context.get(), crs.get(), options) : nullptr;
+    return text != nullptr ? text : "";
+}
+
+std::string wktOf(int epsg, int vertical) {
+    if (!project::loadedProj()) return {};
+    const project::Context context = project::makeContext();
+    const project::Object crs = project::makeCrs(context, epsg, vertical);
+    const char* const options[] = {"MULTILINE=NO", nullptr};
+    const char* const text = crs ? project::proj().as_wkt(context.get(), crs.get(), PJ_WKT2_2019, options) : nullptr;
     return text != nullptr ? text : "";
 }
 

@@ -215,6 +215,19 @@ TEST(Projection, OthersGoByProj) {
     EXPECT_EQ(Projection::toUsualMetres(7057, {11900000, 9900000, 0})->epsg(), 6344);
 }
 
+TEST(Projection, DefinitionsOfCodesAreThoseOfProj) {
+    if (projVersion().empty()) GTEST_SKIP() << "a build without PROJ";
+    const std::string plan = wktOf(25832), compound = wktOf(25832, 7837);
+    EXPECT_EQ(plan.find("PROJCRS[\"ETRS89 / UTM zone 32N\""), 0U) << plan;
+    EXPECT_EQ(compound.find("COMPOUNDCRS["), 0U) << compound;
+    EXPECT_NE(compound.find("DHHN2016"), std::string::npos);
+    EXPECT_EQ(compound.find('\n'), std::string::npos);
+    EXPECT_NE(projJsonOf(25832, 7837).find("\"CompoundCRS\""), std::string::npos);
+    EXPECT_EQ(wktOf(999999), "");
+    EXPECT_EQ(wktOf(25832, 999999), "");
+    EXPECT_EQ(projJsonOf(999999), "");
+}
+
 TEST(Projection, TargetsThatAreNoMetresAreRefused) {
     if (projVersion().empty()) GTEST_SKIP() << "a build without PROJ";
     for (const int target : {4326, 2263, 999999, 5703, 4978})

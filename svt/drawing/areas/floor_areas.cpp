@@ -1,11 +1,16 @@
 #include <svt/drawing/floor_areas.hpp>
-#include <svt/drawing/storey_floors.hpp>
+#include <svt/drawing/section_drawing.hpp>
 
 #include <svt/core/text.hpp>
+#include <svt/drawing/areas/covered_area.hpp>
+#include <svt/drawing/levels/level_parts.hpp>
 #include <svt/model/classes.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <span>
 #include <string>
@@ -16,8 +21,8 @@ namespace svt::drawing {
 namespace {
 
 constexpr double kLeastRoomHeight = 1.5;  // metres: lower spaces are voids
-constexpr double kLevelReach = 0.3;       // metres
 constexpr double kBelowSills = 0.15;      // metres above the floor: below the sills of windows
+constexpr double kBelowCeiling = 0.1;     // metres: above the heads of doors and windows
 
 constexpr std::string_view kTechnical[] = {"technik", "technical",  "heizung",     "boiler",   "plant room",
                                            "server",  "hausanschl", "mechanical",  "electric", "elektro",
@@ -57,10 +62,13 @@ const std::string* attributeText(const volume::Label& label, std::string_view na
     return nullptr;
 }
 
-bool isMeasuredRoom(const volume::Label& label) {
-    return label.count > 0 && model::isSpace(label.className) &&
-           model::classRank(label.className) == model::ClassRank::Room;
+// Whether a space is the hollow of a roof by its name, which does not count as a floor.
+bool isRoofSpace(const volume::Label& label) {
+    constexpr std::string_view kNames[] = {"roof", "roof space", "roofspace", "dach", "dachraum", "spitzboden"};
+    return std::find(std::begin(kNames), std::end(kNames), lowerAscii(label.name)) != std::end(kNames);
 }
+
+bool isMeasuredRoom(const volume::Label& label) { return label.count > 0 && isRoomSpace(label) && !isRoofSpace(label); }
 
 // Sums over the triangles of each label.
 struct MeshSum {
@@ -98,10 +106,17 @@ class AreaMaker {
 public:
     AreaMaker(const volume::SemanticVolume& volume, const std::vector<BuildingLevel>& levels, int threads,
               const volume::BrickVolume* bricks)
-        : volume_(volume), levels_(levels), threads_(threads), bricks_(bricks), meshes_(sumMeshes(volume)) {}
+        : volume_(volume),
+          levels_(levels),
+          threads_(threads),
+          bricks_(bricks),
+          meshes_(sumMeshes(volume)),
+          extents_(labelExtents(volume)),
+          levelOf_(levelsOfLabels(volume, levels, extents_)) {}
 
     Result<FloorAreas> run() {
         areas_.levels.resize(levels_.size());
+        findCeilings();
         SVT_DO(cutLevels());
         addRooms();
         addComponents();
@@ -109,34 +124,79 @@ public:
     }
 
 private:
+    // The height below which most of the rooms of each level end.
+    void findCeilings() {
+        ceilings_.assign(levels_.size(), -kInfinity);
+        std::vector<std::vector<FloorHeight>> tops(levels_.size());
+        if (levels_.empty()) return;
+        for (std::uint32_t l = 0; l < volume_.labels.labels.size(); ++l)
+            if (isMeasuredRoom(volume_.labels.labels[l]) && isRoomOfSize(volume_.labels.labels[l], extents_[l]))
+                tops[levelOf_[l]].push_back({extents_[l].box.max.z, extents_[l].floorArea, extents_[l].bound});
+        for (std::size_t n = 0; n < levels_.size(); ++n) {
+            std::sort(tops[n].begin(), tops[n].end(),
+                      [](const FloorHeight& a, const FloorHeight& b) { return a.at < b.at; });
+            if (const auto main = mainFloor(tops[n], -kInfinity, kInfinity)) ceilings_[n] = main->at;
+        }
+    }
+
+    Result<SectionDrawing> cutAt(double height) const {
+        const Vec3d up = volume_.grid.axes()[2];
+        const SectionPlane plane{up, volume_.grid.origin() + up * height};
+        SectionOptions options;
+        options.threads = threads_;
+        if (!meetsGrid(plane, volume_.grid)) return SectionDrawing{};
+        return bricks_ != nullptr ? drawSection(volume_, *bricks_, plane, options)
+                                  : drawSection(volume_, plane, options);
+    }
+
     // Measures the area that each level encloses, and the area of each label at its level.
     Result<void> cutLevels() {
         areaAt_.assign(levels_.size(), std::vector<double>(volume_.labels.labels.size(), 0));
-        const Vec3d up = volume_.grid.axes()[2];
-        SectionOptions options;
-        options.threads = threads_;
         for (std::size_t n = 0; n < levels_.size(); ++n) {
-            const SectionPlane plane{up, volume_.grid.origin() + up * (levels_[n].floor + kBelowSills),
-                                     levels_[n].bound};
-            areas_.levels[n].isExact = levels_[n].bound == 0;
-            if (!meetsGrid(plane, volume_.grid)) continue;
-            SVT_TRY(drawing, bricks_ != nullptr ? drawSection(volume_, *bricks_, plane, options)
-                                                : drawSection(volume_, plane, options));
+            const double floor = levels_[n].roomFloor.value_or(levels_[n].floor);
+            LevelArea& level = areas_.levels[n];
+            level.isExact = levels_[n].bound == 0;
+            SVT_TRY(drawing, cutAt(floor + kBelowSills));
+            CoveredArea covered;
             for (const SectionComponent& component : drawing->components) {
                 const volume::Label& label = volume_.labels.labels[component.label];
                 if (model::classRank(label.className) == model::ClassRank::Other) continue;
-                areas_.levels[n].gross += component.area;
-                areas_.levels[n].grossBound += component.areaBound;
-                areas_.levels[n].isExact = areas_.levels[n].isExact && component.isExact;
+                addTo(level, component);
+                level.gross += component.area;
+                level.isGrossKnown = level.isGrossKnown || !model::isSpace(label.className);
                 areaAt_[n][component.label] = component.area;
+                covered.add(component, *drawing);
             }
+            SVT_DO(closeOpenings(n, floor, *drawing, covered));
         }
+        return {};
+    }
+
+    static void addTo(LevelArea& level, const SectionComponent& component) {
+        level.grossBound += component.areaBound;
+        level.isExact = level.isExact && component.isExact;
+    }
+
+    // Adds the openings of walls to the gross area. Below the ceiling, above doors and windows, a wall is whole.
+    Result<void> closeOpenings(std::size_t n, double floor, const SectionDrawing& plan, CoveredArea& covered) {
+        const double height = ceilings_[n] - kBelowCeiling;
+        if (!(height > floor + kBelowSills)) return {};
+        SVT_TRY(above, cutAt(height));
+        bool hasWalls = false;
+        for (const SectionComponent& component : above->components) {
+            const bool isCut = areaAt_[n][component.label] > 0;
+            if (!isCut || !isWallPart(volume_.labels.labels[component.label])) continue;
+            covered.add(component, *above);
+            addTo(areas_.levels[n], component);
+            hasWalls = true;
+        }
+        if (!hasWalls || plan.components.empty()) return {};
+        if (const auto area = covered.get()) areas_.levels[n].gross = std::max(areas_.levels[n].gross, *area);
         return {};
     }
 
     void addRooms() {
         if (levels_.empty()) return;
-        const std::vector<LabelExtent> extents = labelExtents(volume_);
         for (std::uint32_t l = 0; l < volume_.labels.labels.size(); ++l) {
             const volume::Label& label = volume_.labels.labels[l];
             if (!isMeasuredRoom(label)) continue;
@@ -146,12 +206,11 @@ private:
             if (const std::string* number = attributeText(label, "number")) room.number = *number;
             room.use = roomUseOf(label);
             room.volume = label.volume;
-            const LabelExtent& extent = extents[l];
+            const LabelExtent& extent = extents_[l];
             if (extent.box.isEmpty()) continue;
             room.height = extent.box.size().z;
             if (room.height < kLeastRoomHeight) continue;
-            while (room.level + 1 < levels_.size() && levels_[room.level + 1].floor <= extent.floor + kLevelReach)
-                ++room.level;
+            room.level = levelOf_[l];
             room.isExact = extent.bound == 0 && hasClosedMesh(label.filling);
             room.area = room.isExact ? meshes_[l].below : areaAt_[room.level][l];
             addToLevel(room);
@@ -160,12 +219,13 @@ private:
         std::sort(areas_.rooms.begin(), areas_.rooms.end(), [](const RoomArea& a, const RoomArea& b) {
             return std::tie(a.level, a.number, a.name, a.label) < std::tie(b.level, b.number, b.name, b.label);
         });
-        for (LevelArea& level : areas_.levels) level.construction = std::max(0.0, level.gross - level.net);
+        for (LevelArea& level : areas_.levels) level.construction = level.gross - level.net;
     }
 
     void addToLevel(const RoomArea& room) {
         LevelArea& level = areas_.levels[room.level];
         ++level.rooms;
+        level.isFloor = true;
         level.isExact = level.isExact && room.isExact;
         level.net += room.area;
         (room.use == RoomUse::Use         ? level.use
@@ -195,6 +255,9 @@ private:
     int threads_;
     const volume::BrickVolume* bricks_;
     std::vector<MeshSum> meshes_;              // by label
+    std::vector<LabelExtent> extents_;         // by label
+    std::vector<std::size_t> levelOf_;         // by label
+    std::vector<double> ceilings_;             // by level, metres above the grid's lower corner
     std::vector<std::vector<double>> areaAt_;  // by level and label, m2
     FloorAreas areas_;
 };
@@ -222,10 +285,18 @@ RoomUse roomUseOf(const volume::Label& label) {
     return RoomUse::Unknown;
 }
 
+bool LevelArea::netExceedsGross() const noexcept {
+    constexpr double kRounding = 1e-6;  // of the area
+    return isFloor && isGrossKnown && net > gross * (1 + kRounding) + grossBound;
+}
+
 LevelArea FloorAreas::total() const noexcept {
     LevelArea sum;
-    sum.isExact = true;
+    sum.isExact = sum.isGrossKnown = true;
     for (const LevelArea& level : levels) {
+        if (!level.isFloor) continue;
+        sum.isFloor = true;
+        sum.isGrossKnown = sum.isGrossKnown && level.isGrossKnown && !level.netExceedsGross();
         sum.gross += level.gross;
         sum.net += level.net;
         sum.construction += level.construction;
@@ -243,6 +314,22 @@ LevelArea FloorAreas::total() const noexcept {
 Result<FloorAreas> measureFloorAreas(const volume::SemanticVolume& volume, const std::vector<BuildingLevel>& levels,
                                      int threads, const volume::BrickVolume* bricks) {
     return AreaMaker(volume, levels, threads, bricks).run();
+}
+
+void reportAreas(const FloorAreas& areas, const std::vector<BuildingLevel>& levels,
+                 const volume::SemanticVolume& volume, Diagnostics& log) {
+    const double corner = dot(volume.grid.origin(), volume.grid.axes()[2]);
+    for (std::size_t n = 0; n < levels.size() && n < areas.levels.size(); ++n) {
+        const LevelArea& level = areas.levels[n];
+        if (!level.netExceedsGross()) continue;
+        const std::string name = levels[n].name.empty() ? fmt::format("{:.2f} m", levels[n].floor + corner)
+                                                        : fmt::format("'{}'", levels[n].name);
+        log.add(Severity::Warning, Code::NetExceedsGross,
+                fmt::format("the rooms of the level {} have {:.2f} m2, more than the {:.2f} m2 that its plan encloses; "
+                            "its area of construction is unknown; check for rooms that overlap or lie on another level",
+                            name, level.net, level.gross),
+                {volume.source, 0, 0, {}});
+    }
 }
 
 }  // namespace svt::drawing

@@ -45,6 +45,95 @@ TEST(FloorAreas, RoomsStoreysAndComponentsOfBoxes) {
     EXPECT_NEAR(areas->components[0].volume, 0.3 * 4 * 5, 1e-9);
 }
 
+// A wall of three parts around an opening; the last box becomes a part of the label before it.
+void addToLabelBefore(Boxes& boxes) {
+    auto& labels = boxes.volume.labels.labels;
+    for (auto& triangle : boxes.volume.vectors.triangles)
+        if (triangle.label == labels.size() - 1) --triangle.label;
+    labels[labels.size() - 2].volume += labels.back().volume;
+    labels.pop_back();
+}
+
+TEST(FloorAreas, ADoorOfGlassTakesNothingFromTheGrossArea) {
+    Boxes boxes;
+    boxes.addBox("room", "BuildingRoom", {0.4, 0.4, 1}, {9, 7, 3.5});
+    boxes.addBox("wall", "BuildingConstructiveElement", {0, 0, 1}, {4, 0.4, 3.5});
+    boxes.addBox("beside the door", "BuildingConstructiveElement", {6, 0, 1}, {9, 0.4, 3.5});
+    addToLabelBefore(boxes);
+    boxes.addBox("lintel", "BuildingConstructiveElement", {4, 0, 3.2}, {6, 0.4, 3.5});
+    addToLabelBefore(boxes);
+    boxes.volume.labels.labels.back().attributes.push_back({"ifcType", std::string("IfcWall"), ""});
+    boxes.addBox("glass door", "Door", {4, 0.1, 1}, {6, 0.12, 3.2});
+    boxes.addBox("other wall", "BuildingConstructiveElement", {0, 0.4, 1}, {0.4, 7, 3.5});
+    const auto levels = findLevels(boxes.volume);
+    ASSERT_EQ(levels.size(), 1u);
+    const auto areas = measureFloorAreas(boxes.volume, levels);
+    ASSERT_TRUE(areas);
+    EXPECT_NEAR(areas->levels[0].gross, 9 * 7, 1e-3);
+    EXPECT_NEAR(areas->levels[0].construction, 9 * 0.4 + 0.4 * 6.6, 1e-3);
+    EXPECT_TRUE(areas->levels[0].isGrossKnown);
+    EXPECT_FALSE(areas->levels[0].netExceedsGross());
+}
+
+TEST(FloorAreas, RoofSpacesAndFoundationsAreNoFloors) {
+    Boxes boxes;
+    const auto addStorey = [&](const std::string& name, double level) {
+        volume::Label& storey = volume::test::addGroup(boxes.volume, name, "Storey");
+        storey.name = name;
+        storey.attributes = {{"modelElevation", 100 + level, "m"}};
+        return static_cast<std::uint32_t>(boxes.volume.labels.labels.size() - 1);
+    };
+    const auto addOn = [&](std::uint32_t storey, const std::string& className, Vec3d low,
+                           Vec3d high) -> volume::Label& {
+        boxes.addBox("part", className, low, high);
+        boxes.volume.labels.labels.back().parent = storey;
+        return boxes.volume.labels.labels.back();
+    };
+    const auto base = addStorey("T/FDN", 0), ground = addStorey("Level 1", 2), roof = addStorey("Roof", 5);
+    addOn(base, "BuildingConstructiveElement", {0, 0, 0}, {8, 8, 2});
+    addOn(ground, "BuildingRoom", {0, 0, 2}, {8, 8, 4.7});
+    addOn(ground, "BuildingConstructiveElement", {8, 0, 2}, {8.4, 8, 4.7});
+    addOn(roof, "BuildingRoom", {0, 0, 5}, {8, 8, 8}).name = "Roof";
+    addOn(roof, "BuildingConstructiveElement", {8, 0, 5}, {8.4, 8, 8});
+    const auto levels = findLevels(boxes.volume);
+    ASSERT_EQ(levels.size(), 3u);
+    const auto areas = measureFloorAreas(boxes.volume, levels);
+    ASSERT_TRUE(areas);
+    EXPECT_FALSE(areas->levels[0].isFloor);
+    EXPECT_TRUE(areas->levels[1].isFloor);
+    EXPECT_FALSE(areas->levels[2].isFloor);
+    ASSERT_EQ(areas->rooms.size(), 1u);
+    EXPECT_NEAR(areas->total().gross, 8.4 * 8, 1e-3);
+    EXPECT_NEAR(areas->total().net, 64, 1e-3);
+}
+
+TEST(FloorAreas, RoomsWithMoreAreaThanTheirPlanAreReported) {
+    Boxes boxes;
+    boxes.addBox("hall", "BuildingRoom", {0, 0, 0}, {8, 8, 2.7});
+    boxes.addBox("the same hall", "BuildingRoom", {0, 0, 0}, {8, 8, 2.7});
+    boxes.addBox("wall", "BuildingConstructiveElement", {8, 0, 0}, {8.4, 8, 2.7});
+    const auto levels = findLevels(boxes.volume);
+    const auto areas = measureFloorAreas(boxes.volume, levels);
+    ASSERT_TRUE(areas);
+    ASSERT_EQ(areas->levels.size(), 1u);
+    EXPECT_TRUE(areas->levels[0].netExceedsGross());
+    Diagnostics log;
+    reportAreas(*areas, levels, boxes.volume, log);
+    ASSERT_EQ(log.count(Code::NetExceedsGross), 1u);
+    EXPECT_NE(log.items()[0].message.find("have 128.00 m2, more than the 67.20 m2"), std::string::npos)
+        << log.items()[0].message;
+    EXPECT_FALSE(areas->total().isGrossKnown);
+}
+
+TEST(FloorAreas, WithoutConstructionTheGrossAreaIsUnknown) {
+    Boxes boxes;
+    boxes.addBox("hall", "BuildingRoom", {0, 0, 0}, {8, 8, 2.7});
+    const auto areas = measureFloorAreas(boxes.volume, findLevels(boxes.volume));
+    ASSERT_TRUE(areas);
+    EXPECT_TRUE(areas->levels[0].isFloor);
+    EXPECT_FALSE(areas->levels[0].isGrossKnown);
+}
+
 TEST(FloorAreas, WithoutLevelsThereAreComponentsOnly) {
     Boxes boxes;
     boxes.addBox("house", "Building", {0, 0, 0}, {8, 6, 3});

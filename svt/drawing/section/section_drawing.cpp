@@ -29,7 +29,7 @@ Result<std::vector<std::uint8_t>> drawnLabels(const volume::LabelTable& table, c
     std::vector<std::uint8_t> isDrawn(table.labels.size(), options.show.empty() ? 1 : 0);
     for (const bool isShown : {true, false})
         for (const std::string& query : isShown ? options.show : options.hide) {
-            SVT_TRY(selected, analyze::selectLabels(rows, query));
+            SVT_TRY(selected, analyze::selectWithParts(rows, query));
             for (const std::uint32_t label : *selected) isDrawn[label] = isShown ? 1 : 0;
         }
     if (!options.spaces)

@@ -7,22 +7,24 @@ record::Members<SectionOptions> membersOf(const SectionOptions*) noexcept {
     using All = SectionOptions;
     using record::member;
     static constexpr record::Member<All> kMembers[] = {
-        member<&All::beyond, &BeyondOptions::visible>("beyond", "also draw the visible lines behind the plane",
-                                                      {.group = "Drawing", .option = "--beyond"}),
+        member<&All::beyond, &BeyondOptions::visible>(
+            "beyond", "also draw the visible lines behind the plane",
+            {.group = "Drawing", .option = "--beyond", .isForProjects = true}),
         member<&All::beyond, &BeyondOptions::hidden>("hidden", "also draw the hidden edges behind the plane, dashed",
-                                                     {.group = "Drawing", .option = "--hidden"}),
+                                                     {.group = "Drawing", .option = "--hidden", .isForProjects = true}),
         member<&All::beyond, &BeyondOptions::above>(
             "above", "also draw the parts that are cut away, as seen from the plane, dashed and dotted",
-            {.group = "Drawing", .option = "--above"}),
+            {.group = "Drawing", .option = "--above", .isForProjects = true}),
         member<&All::dimensions>("dimensions",
                                  "plans: chains of dimensions around the building: openings, rooms, overall",
-                                 {.group = "Drawing", .option = "--dimensions"}),
+                                 {.group = "Drawing", .option = "--dimensions", .isForProjects = true}),
         member<&All::hide>("hide", "leave out the selection of the query",
-                           {.value = "QUERY", .group = "Drawing", .option = "--hide"}),
+                           {.value = "QUERY", .group = "Drawing", .option = "--hide", .isForProjects = true}),
         member<&All::show>("show", "draw only the selection of the query",
-                           {.value = "QUERY", .group = "Drawing", .option = "--show"}),
-        record::memberAs<record::Not, &All::spaces>("noRooms", "leave out rooms, units and storeys",
-                                                    {.group = "Drawing", .option = "--no-rooms"}),
+                           {.value = "QUERY", .group = "Drawing", .option = "--show", .isForProjects = true}),
+        record::memberAs<record::Not, &All::spaces>(
+            "noRooms", "leave out rooms, units and storeys",
+            {.group = "Drawing", .option = "--no-rooms", .isForProjects = true}),
     };
     return kMembers;
 }

@@ -1,9 +1,11 @@
+#include <svt/drawing/building_levels.hpp>
+#include <svt/drawing/north.hpp>
 #include <svt/drawing/section_plane.hpp>
-#include <svt/drawing/sheet_views.hpp>
 #include <svt/drawing/storey_floors.hpp>
 
 #include <svt/analyze/selection.hpp>
 #include <svt/core/text.hpp>
+#include <svt/drawing/levels/level_parts.hpp>
 
 #include <fmt/format.h>
 
@@ -34,6 +36,14 @@ std::pair<double, double> extentAlong(Vec3d normal, const volume::Grid& grid) {
         extent.second += std::max(low, high);
     }
     return extent;
+}
+
+// The horizontal axis of the grid, with its sign, that points most to `direction`.
+Vec3d nearestSide(const volume::Grid& grid, Vec3d direction) {
+    Vec3d nearest = grid.axes()[0];
+    for (const Vec3d axis : {grid.axes()[0], -grid.axes()[0], grid.axes()[1], -grid.axes()[1]})
+        if (dot(axis, direction) > dot(nearest, direction) + 1e-9) nearest = axis;
+    return nearest;
 }
 
 }  // namespace
@@ -86,9 +96,10 @@ bool meetsGrid(const SectionPlane& plane, const volume::Grid& grid) {
 SectionPlane defaultSectionPlane(const volume::SemanticVolume& volume) {
     const volume::Grid& grid = volume.grid;
     SectionPlane plane{grid.axes()[2], grid.origin()};
-    if (const auto levels = findLevels(volume); !levels.empty()) {
-        plane.point = grid.origin() + plane.normal * (levels.front().floor + 1.1);
-        plane.bound = levels.front().bound;
+    for (const BuildingLevel& level : findLevels(volume)) {
+        if (!level.isGround) continue;
+        plane.point = grid.origin() + plane.normal * (level.floor + kCutAboveFloor);
+        plane.bound = level.bound;
         if (meetsGrid(plane, grid)) return plane;
     }
     plane.bound = 0;
@@ -96,17 +107,26 @@ SectionPlane defaultSectionPlane(const volume::SemanticVolume& volume) {
     return plane;
 }
 
+std::array<std::string_view, 4> elevationSides(const volume::SemanticVolume& volume) {
+    const North north = northOf(volume);
+    // The side nearest to north, and the others clockwise. One rounding for all keeps the four names different.
+    const Vec3d first = nearestSide(volume.grid, north.direction());
+    const std::size_t eighth = north.eighthOf(first);
+    const auto names = compassNames();
+    return {names[eighth % 8], names[(eighth + 2) % 8], names[(eighth + 4) % 8], names[(eighth + 6) % 8]};
+}
+
 Result<SectionPlane> elevationPlane(std::string_view side, const volume::SemanticVolume& volume) {
     constexpr double kBefore = 0.01;  // metres
-    constexpr std::array<std::pair<std::string_view, Vec3d>, 4> kSides = {
-        {{"north", {0, 1, 0}}, {"east", {1, 0, 0}}, {"south", {0, -1, 0}}, {"west", {-1, 0, 0}}}};
-    const auto found = std::find_if(kSides.begin(), kSides.end(), [&](const auto& s) { return s.first == side; });
-    if (found == kSides.end())
-        return Error(Code::BadSection, fmt::format("the elevation '{}': expected north, east, south or west", side));
+    const auto names = compassNames();
+    const auto found = std::find(names.begin(), names.end(), side);
+    if (found == names.end())
+        return Error(Code::BadSection,
+                     fmt::format("the elevation '{}': expected north, east, south, west, or a direction between them, "
+                                 "such as north-east",
+                                 side));
     const volume::Grid& grid = volume.grid;
-    Vec3d normal = grid.axes()[0];
-    for (const Vec3d axis : {grid.axes()[0], -grid.axes()[0], grid.axes()[1], -grid.axes()[1]})
-        if (dot(axis, found->second) > dot(normal, found->second) + 1e-9) normal = axis;
+    const Vec3d normal = nearestSide(grid, northOf(volume).direction(45.0 * double(found - names.begin())));
     double before = extentAlong(normal, grid).second;
     if (!volume.vectors.triangles.empty()) {
         before = -kInfinity;

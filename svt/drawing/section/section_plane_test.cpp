@@ -1,4 +1,4 @@
-#include <svt/drawing/section/two_storeys_test.hpp>
+#include <svt/drawing/levels/two_storeys_test.hpp>
 #include <svt/drawing/section_plane.hpp>
 
 #include <gtest/gtest.h>

@@ -17,8 +17,9 @@ Members<SetView> membersOf(const SetView*) noexcept {
         member<&SetView::section>("section",
                                   "upright plane, such as x>4 (looks to smaller x), y<3 (to larger y) or A,B,C,D",
                                   {.value = "PLANE"}),
-        memberAs<Choice, &SetView::elevation>("elevation", "the outside from that side",
-                                              {.choices = "north|east|south|west"}),
+        memberAs<Choice, &SetView::elevation>(
+            "elevation", "the outside from that side",
+            {.choices = "north|north-east|east|south-east|south|south-west|west|north-west"}),
         member<&SetView::name>(
             "name", "of a plan that of its storey, of a section its letter, which plans have at their marks"),
         member<&SetView::hidden>("hidden", "also edges that are hidden, dashed"),

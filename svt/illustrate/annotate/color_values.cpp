@@ -23,7 +23,8 @@ Result<void> addOwnerAttributes(volume::SemanticVolume& volume, std::string_view
     const auto contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, threads);
     std::vector<std::string> names(volume.labels.labels.size());
     for (std::size_t l = 0; l < names.size(); ++l)
-        if (owners->ofLabel[l] != analyze::kNoOwner) names[l] = owners->names[owners->ofLabel[l]];
+        for (const analyze::OwnerFraction& share : owners->ofLabel[l])
+            names[l] += (names[l].empty() ? "" : ", ") + owners->names[share.owner];
     for (const auto& component : analyze::divideByOwners(volume, contacts, *owners).components) {
         std::string& name = names[component.label];
         for (const analyze::OwnerShare& share : component.shares)

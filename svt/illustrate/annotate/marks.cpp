@@ -50,33 +50,34 @@ void drawScaleBar(const render::Camera& camera, Vec3f color, Vec3f halo, image::
                     textStyle(height, color, halo));
 }
 
-void drawNorthArrow(const render::Camera& camera, Vec3f color, Vec3f halo, image::Image<image::Rgba8>& image) {
+void drawNorthArrow(const render::Camera& camera, Vec3d north, Vec3f color, Vec3f halo,
+                    image::Image<image::Rgba8>& image) {
     const double height = nameHeight(image.height()), width = std::max(1.0, height / 8);
     const Vec3d forward = normalized(camera.target - camera.eye);
     const Vec3d right = normalized(cross(forward, camera.up)), up = cross(right, forward);
     // In pixels, whose y goes down.
-    const Vec3d north{dot({0, 1, 0}, right), -dot({0, 1, 0}, up), 0};
+    const Vec3d seen{dot(north, right), -dot(north, up), 0};
     const Vec3d middle{image.width() - 4 * height, image.height() - 4 * height, 0};
     const image::TextStyle style = textStyle(1.2 * height, color, halo);
     const double letter = image::textWidth("N", style.height);
-    if (length(north) < 0.1) {
+    if (length(seen) < 0.1) {
         // Dot or cross as in drawings of currents: towards the viewer a dot, away from it a cross.
         image::drawDot(image, middle.x, middle.y, 0.8 * height + width, halo);
         image::drawDot(image, middle.x, middle.y, 0.8 * height, color);
         image::drawDot(image, middle.x, middle.y, 0.8 * height - width, halo);
-        if (forward.y < 0) image::drawDot(image, middle.x, middle.y, 0.25 * height, color);
+        if (dot(forward, north) < 0) image::drawDot(image, middle.x, middle.y, 0.25 * height, color);
         for (const double side : {1.0, -1.0})
-            if (forward.y >= 0)
+            if (dot(forward, north) >= 0)
                 image::drawLine(image, middle.x - 0.5 * height, middle.y - 0.5 * side * height, middle.x + 0.5 * height,
                                 middle.y + 0.5 * side * height, {width, color});
         image::drawText(image, middle.x - letter / 2, middle.y - 1.6 * height, "N", style);
         return;
     }
-    const Vec3d along = normalized(north) * (2 * height), across{-along.y * 0.22, along.x * 0.22, 0};
+    const Vec3d along = normalized(seen) * (2 * height), across{-along.y * 0.22, along.x * 0.22, 0};
     const Vec3d tip = middle + along, end = middle - along;
     stroke(image, end, tip, width, color, halo);
     for (const double side : {1.0, -1.0}) stroke(image, tip - along * 0.5 + across * side, tip, width, color, halo);
-    const Vec3d place = tip + normalized(north) * (0.9 * height);
+    const Vec3d place = tip + normalized(seen) * (0.9 * height);
     image::drawText(image, place.x - letter / 2, place.y, "N", style);
 }
 

@@ -18,8 +18,10 @@ void drawTitle(const std::string& title, Vec3f color, Vec3f halo, image::Image<i
 /// \param camera  a parallel camera; other pictures have no single scale
 void drawScaleBar(const render::Camera& camera, Vec3f color, Vec3f halo, image::Image<image::Rgba8>& image);
 
-/// Draws an arrow into the lower right corner that points to grid north (+y of the world) in the picture. If grid north
-/// is nearly parallel to the view direction, draws a ring with a dot.
-void drawNorthArrow(const render::Camera& camera, Vec3f color, Vec3f halo, image::Image<image::Rgba8>& image);
+/// Draws an arrow into the lower right corner that points to north in the picture. If north is nearly parallel to the
+/// view direction, draws a ring with a dot.
+/// \param north  unit length, world space: drawing::North::direction()
+void drawNorthArrow(const render::Camera& camera, Vec3d north, Vec3f color, Vec3f halo,
+                    image::Image<image::Rgba8>& image);
 
 }  // namespace svt::illustrate

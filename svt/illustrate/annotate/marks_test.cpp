@@ -10,6 +10,7 @@ namespace svt::illustrate {
 namespace {
 
 constexpr Vec3f kBlack{0, 0, 0}, kWhite{1, 1, 1};
+constexpr Vec3d kNorth{0, 1, 0};
 
 image::Image<image::Rgba8> paper(std::int32_t width, std::int32_t height) {
     image::Image<image::Rgba8> image(width, height);
@@ -62,12 +63,12 @@ Vec3d darkMiddle(const image::Image<image::Rgba8>& image) {
 TEST(Marks, TheArrowPointsNorth) {
     // Head and letter lie to where the arrow points.
     auto up = paper(600, 400), left = up, down = up;
-    drawNorthArrow(plan({0, 1, 0}), kBlack, kWhite, up);
+    drawNorthArrow(plan({0, 1, 0}), kNorth, kBlack, kWhite, up);
     EXPECT_LT(darkMiddle(up).y, -3);
     EXPECT_NEAR(darkMiddle(up).x, 0, 1.5);
-    drawNorthArrow(plan({1, 0, 0}), kBlack, kWhite, left);
+    drawNorthArrow(plan({1, 0, 0}), kNorth, kBlack, kWhite, left);
     EXPECT_LT(darkMiddle(left).x, -3);
-    drawNorthArrow(plan({0, -1, 0}), kBlack, kWhite, down);
+    drawNorthArrow(plan({0, -1, 0}), kNorth, kBlack, kWhite, down);
     EXPECT_GT(darkMiddle(down).y, 3);
 }
 
@@ -77,8 +78,8 @@ TEST(Marks, AlongTheViewTheArrowIsARing) {
     render::Camera north = south;
     north.eye = {0, 10, 0};
     auto away = paper(600, 400), nearer = away;
-    drawNorthArrow(south, kBlack, kWhite, away);
-    drawNorthArrow(north, kBlack, kWhite, nearer);
+    drawNorthArrow(south, kNorth, kBlack, kWhite, away);
+    drawNorthArrow(north, kNorth, kBlack, kWhite, nearer);
     EXPECT_NE(away, nearer) << "a cross away from the viewer, a dot towards";
     const double height = nameHeight(400);
     const auto x = static_cast<std::int32_t>(600 - 4 * height), y = static_cast<std::int32_t>(400 - 4 * height);
@@ -90,7 +91,7 @@ TEST(Marks, PicturesOfAnySizeAreDrawnOn) {
         auto image = paper(size, size);
         drawTitle("A title that is much too long for this picture", kBlack, kWhite, image);
         drawScaleBar(plan({0, 1, 0}), kBlack, kWhite, image);
-        drawNorthArrow(plan({0, 1, 0}), kBlack, kWhite, image);
+        drawNorthArrow(plan({0, 1, 0}), kNorth, kBlack, kWhite, image);
     }
 }
 

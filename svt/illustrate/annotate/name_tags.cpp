@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 namespace svt::illustrate {
@@ -192,6 +193,29 @@ double nameMargin(std::int32_t width, std::int32_t height) noexcept {
     return std::min(0.3, 14 * nameHeight(height) / width);
 }
 
+namespace {
+
+// Entry per label: the feature that is named where the label is seen: the smallest selected one that stands for it.
+// \param hasVoxels  per label; becomes true for features whose parts have voxels
+std::vector<std::uint32_t> namedFeatures(const std::vector<std::uint32_t>& selected, const analyze::Extents& extents,
+                                         std::vector<bool>& hasVoxels) {
+    std::vector<std::uint32_t> named(hasVoxels.size());
+    std::iota(named.begin(), named.end(), 0U);
+    const auto wholes = extents.wholes(selected);
+    std::vector<std::size_t> order(selected.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return wholes[a].size() > wholes[b].size(); });
+    for (const std::size_t n : order)
+        for (const std::uint32_t part : wholes[n]) {
+            named[part] = selected[n];
+            if (hasVoxels[part]) hasVoxels[selected[n]] = true;
+        }
+    return named;
+}
+
+}  // namespace
+
 Result<NameTags> findNameTags(const std::vector<std::string>& queries, const volume::SemanticVolume& volume,
                               const analyze::LabelRows& rows, const render::Frame& frame) {
     const auto& labels = volume.labels.labels;
@@ -200,16 +224,25 @@ Result<NameTags> findNameTags(const std::vector<std::string>& queries, const vol
         SVT_TRY(selected, analyze::selectLabels(rows, query));
         for (const std::uint32_t l : *selected) isSelected[l] = true;
     }
-    const std::vector<std::uint32_t> labelOf = volume.labels.labelOfScalar();
-    const auto innermost = innermostPixels(frame.label, labelOf, labels.size());
+    std::vector<std::uint32_t> all;
+    std::vector<bool> hasVoxels;
     const auto boxes = analyze::labelBoxes(volume.columns, volume.labels);
+    for (std::uint32_t l = 0; l < labels.size(); ++l) {
+        if (isSelected[l]) all.push_back(l);
+        hasVoxels.push_back(!boxes[l].isEmpty());
+    }
+    const std::vector<std::uint32_t> named = namedFeatures(all, rows.extents(), hasVoxels);
+    std::vector<std::uint32_t> labelOf = volume.labels.labelOfScalar();
+    for (std::uint32_t& label : labelOf)
+        if (label != volume::kNoLabel) label = named[label];
+    const auto innermost = innermostPixels(frame.label, labelOf, labels.size());
     const RoomFinder room(frame.label, labelOf);
     NameTags result;
     result.textHeight = nameHeight(frame.label.height());
     std::tie(result.left, result.right) = columnsOf(frame.label);
     constexpr int kLeastSpot = 3;  // half pixels from the middle of a spot to its outline
     for (std::size_t l = 0; l < labels.size(); ++l) {
-        if (!isSelected[l] || boxes[l].isEmpty()) continue;
+        if (!isSelected[l] || !hasVoxels[l]) continue;
         if (innermost[l].first < kLeastSpot) {
             ++result.hiddenCount;
             continue;

@@ -41,7 +41,7 @@ struct NameTags {
 /// Name tags of the labels that `queries` select and that are visible as a spot of at least 3 pixels. A name is placed
 /// where its text lies within the label in the picture, as near as possible to the pixel farthest from the label's
 /// outline. If the text does not fit, that pixel is the end of its leader line. A label without a name is named by its
-/// id.
+/// id. A selected space of which no part is selected is named once, over all of its parts (Extents::wholes()).
 /// \param rows  of volume.labels
 /// \return the tags, or BadQuery, NothingSelected
 /// Cost: O(pixels).

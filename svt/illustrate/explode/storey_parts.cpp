@@ -1,8 +1,7 @@
 #include <svt/illustrate/explode/storey_parts.hpp>
 
 #include <svt/analyze/scalar_boxes.hpp>
-#include <svt/analyze/selection.hpp>
-#include <svt/drawing/sheet_views.hpp>
+#include <svt/drawing/building_levels.hpp>
 #include <svt/model/classes.hpp>
 
 #include <algorithm>
@@ -48,12 +47,10 @@ public:
     explicit PartFinder(const volume::SemanticVolume& volume)
         : volume_(volume),
           labels_(volume.labels.labels),
-          rows_(analyze::queryRows(volume.labels)),
           boxes_(analyze::labelBoxes(volume.columns, volume.labels)),
-          storeyOf_(labels_.size(), volume::kNoLabel) {}
+          storeyOf_(drawing::storeysOfLabels(volume.labels)) {}
 
     StoreyParts find() {
-        for (std::uint32_t l = 0; l < labels_.size(); ++l) storeyOf_[l] = storeyAbove(l);
         findBuildings();
         StoreyParts parts;
         parts.ofLabel.assign(labels_.size(), {{kAbove, 0}});
@@ -65,20 +62,6 @@ public:
     }
 
 private:
-    [[nodiscard]] std::uint32_t storeyAbove(std::uint32_t label) const {
-        std::vector<std::uint32_t> found{label};
-        for (std::size_t n = 0; n < found.size() && n < kMostAbove; ++n) {
-            if (model::query::isStorey(rows_[found[n]])) return found[n];
-            const auto add = [&](std::uint32_t above) {
-                if (above < labels_.size() && std::find(found.begin(), found.end(), above) == found.end())
-                    found.push_back(above);
-            };
-            add(labels_[found[n]].parent);
-            for (const std::uint32_t group : labels_[found[n]].groups) add(group);
-        }
-        return volume::kNoLabel;
-    }
-
     void addTo(Storey& storey, std::uint32_t label) const {
         const auto weight = static_cast<double>(labels_[label].voxels);
         storey.lows[boxes_[label].min.z] += weight;
@@ -173,10 +156,9 @@ private:
         return parts;
     }
 
-    static constexpr std::size_t kMostAbove = 64;  // hostile models: groups in groups
+    static constexpr std::size_t kMostAbove = 64;  // hostile models: parents without end
     const volume::SemanticVolume& volume_;
     const std::vector<volume::Label>& labels_;
-    std::vector<model::QueryRow> rows_;
     std::vector<analyze::SampleBox> boxes_;
     std::vector<std::uint32_t> storeyOf_;          // label of a storey, or kNoLabel
     std::map<std::uint32_t, Building> buildings_;  // by the label above the storeys

@@ -335,8 +335,8 @@ private:
     // A region without points, beside the grid: there is nothing to be around.
     [[nodiscard]] Parts nowhere() const { return boxOf({-1, -1, -1}, {-1, -1, -1}); }
 
-    // Labels that a query selects, and the margin in metres after the last semicolon.
-    Result<std::pair<std::vector<std::uint32_t>, double>> selectionOf(std::string_view name,
+    // Labels of each feature that a query selects, and the margin in metres after the last semicolon.
+    Result<std::pair<std::vector<std::vector<std::uint32_t>>, double>> selectionOf(std::string_view name,
                                                                       const std::string& text) const {
         const std::size_t semicolon = text.rfind(';');
         double margin = 0;
@@ -348,17 +348,33 @@ private:
             margin = (*numbers)[0];
         }
         SVT_TRY(selected, analyze::selectLabels(context_.rows, text.substr(0, semicolon)));
-        return std::pair(std::move(*selected), margin);
+        return std::pair(context_.rows.extents().wholes(*selected), margin);
+    }
+
+    // The box of each feature with voxels.
+    Result<std::vector<analyze::SampleBox>> boxesOf(const std::vector<std::vector<std::uint32_t>>& features,
+                                                    std::string_view name) const {
+        const auto boxOfLabel = analyze::labelBoxes(context_.volume.columns, context_.volume.labels);
+        std::vector<analyze::SampleBox> boxes;
+        for (const std::vector<std::uint32_t>& feature : features) {
+            analyze::SampleBox box;
+            for (const std::uint32_t label : feature) box.add(boxOfLabel[label]);
+            if (!box.isEmpty()) boxes.push_back(box);
+        }
+        if (boxes.empty()) return Error(Code::NothingSelected, fmt::format("{} has no voxels", name));
+        return boxes;
     }
 
     Result<Parts> makeAround(const std::string& text) const {
         SVT_TRY(selection, selectionOf("around", text));
         if (selection->first.empty()) return nowhere();
-        SVT_TRY(box, analyze::boxAround(selection->first, context_.volume, "the selection of around()"));
+        SVT_TRY(targets, boxesOf(selection->first, "the selection of around()"));
+        analyze::SampleBox box;
+        for (const analyze::SampleBox& target : *targets) box.add(target);
         Vec3d low, high;
         for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = (box->min[axis] - 0.5) * grid().spacing()[axis] - selection->second;
-            high[axis] = (box->max[axis] + 0.5) * grid().spacing()[axis] + selection->second;
+            low[axis] = (box.min[axis] - 0.5) * grid().spacing()[axis] - selection->second;
+            high[axis] = (box.max[axis] + 0.5) * grid().spacing()[axis] + selection->second;
         }
         return boxOf(low, high);
     }
@@ -372,12 +388,8 @@ private:
     Result<Parts> makeCutaway(const std::string& text) const {
         SVT_TRY(selection, selectionOf("cutaway", text));
         if (selection->first.empty()) return nowhere();
-        SVT_TRY(all, analyze::boxAround(selection->first, context_.volume, "the selection of cutaway()"));
-        const auto boxes = analyze::labelBoxes(context_.volume.columns, context_.volume.labels);
-        std::vector<analyze::SampleBox> targets;
-        for (const std::uint32_t label : selection->first)
-            if (!boxes[label].isEmpty()) targets.push_back(boxes[label]);
-        return cutawayParts(context_.camera, grid(), std::move(targets), selection->second, kMostCutaways);
+        SVT_TRY(targets, boxesOf(selection->first, "the selection of cutaway()"));
+        return cutawayParts(context_.camera, grid(), std::move(*targets), selection->second, kMostCutaways);
     }
 
     std::string_view text_;

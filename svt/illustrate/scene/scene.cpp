@@ -125,7 +125,7 @@ struct ToShow {
 Result<ToShow> wholeOrAround(const SceneCamera& wanted, const volume::SemanticVolume& volume,
                              const analyze::LabelRows& rows) {
     if (wanted.around.empty()) return ToShow{volume.grid, {}};
-    SVT_TRY(selected, analyze::selectLabels(rows, wanted.around));
+    SVT_TRY(selected, analyze::selectWithParts(rows, wanted.around));
     if (selected->empty()) return ToShow{volume.grid, {}};
     SVT_TRY(box, analyze::boxAround(*selected, volume, fmt::format("the selection of the query '{}'", wanted.around)));
     return ToShow{gridOf(*box, volume.grid), {}};
@@ -188,7 +188,7 @@ double pixelOf(const render::FrameSpec& spec) {
 Result<void> select(const analyze::LabelRows& rows, const std::vector<std::string>& queries,
                     std::vector<bool>& isSelected) {
     for (const std::string& query : queries) {
-        SVT_TRY(selected, analyze::selectLabels(rows, query));
+        SVT_TRY(selected, analyze::selectWithParts(rows, query));
         for (const std::uint32_t l : *selected) isSelected[l] = true;
     }
     return {};

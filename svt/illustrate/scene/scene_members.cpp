@@ -273,7 +273,7 @@ Members<Scene> membersOf(const Scene*) noexcept {
                                     "draw a scale bar; parallel projection only, because no other picture has a single "
                                     "scale",
                                     {.group = "Illustrate", .option = "--scale-bar"}),
-        member<&Scene::hasNorthArrow>("northArrow", "draw an arrow to grid north (+y)",
+        member<&Scene::hasNorthArrow>("northArrow", "draw an arrow to true north",
                                       {.group = "Illustrate", .option = "--north-arrow"}),
         member<&Scene::colorBy>("colorBy",
                                 "colour visible components by class, name, storey, volume, area of rooms, owner, "

@@ -1,5 +1,6 @@
 #include <svt/illustrate/scene_painter.hpp>
 
+#include <svt/drawing/north.hpp>
 #include <svt/illustrate/annotate/legend.hpp>
 #include <svt/illustrate/annotate/marks.hpp>
 #include <svt/illustrate/annotate/name_tags.hpp>
@@ -233,7 +234,7 @@ Result<void> ScenePainter::addInsets(const Scene& scene, const Paint& paint, Pai
 // The target box of a named view; empty without a query, or if it selects nothing.
 std::optional<analyze::SampleBox> ScenePainter::targetOf(const Scene& scene) const {
     if (scene.camera.around.empty()) return {};
-    const auto selected = analyze::selectLabels(volume_.labels, scene.camera.around);
+    const auto selected = analyze::selectWithParts(volume_.labels, scene.camera.around);
     if (!selected) return {};
     const auto box = analyze::boxAround(*selected, volume_, "an inset");
     return box ? std::optional(*box) : std::nullopt;
@@ -285,7 +286,8 @@ Result<Painting> ScenePainter::finish(const Scene& scene, const analyze::LabelRo
     if (!scene.colorBy.empty() && scene.hasLegend) drawLegend(scale, colors.text, colors.halo, image);
     if (!scene.title.empty()) drawTitle(scene.title, colors.text, colors.halo, image);
     if (scene.hasScaleBar) drawScaleBar(painting.spec.camera, colors.text, colors.halo, image);
-    if (scene.hasNorthArrow) drawNorthArrow(painting.spec.camera, colors.text, colors.halo, image);
+    if (scene.hasNorthArrow)
+        drawNorthArrow(painting.spec.camera, drawing::northOf(volume_).direction(), colors.text, colors.halo, image);
     SVT_DO(addNames(scene, volume_, rows, painting));
     return painting;
 }

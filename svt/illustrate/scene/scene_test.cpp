@@ -149,7 +149,7 @@ TEST(Scene, APainterKeepsTheFormsThatScenesNeed) {
     const auto representation = painter.representation({}, plain->spec),
                again = painter.representation({}, plain->spec);
     ASSERT_TRUE(representation && again);
-    EXPECT_EQ(&form->bricks(), &again->bricks());
+    EXPECT_EQ(&representation->bricks(), &again->bricks());
     EXPECT_EQ(painter.representation({ShellLevel::Building, 2}, plain->spec)->level()->level, 2);
 }
 

@@ -26,7 +26,7 @@ Result<Box3d> boxOf(const std::string& query, const volume::SemanticVolume& volu
     const Vec3i n = volume.grid.dimension();
     analyze::SampleBox box{{0, 0, 0}, {n.x - 1, n.y - 1, n.z - 1}};
     if (!query.empty()) {
-        SVT_TRY(selected, analyze::selectLabels(rows, query));
+        SVT_TRY(selected, analyze::selectWithParts(rows, query));
         SVT_TRY(around, analyze::boxAround(*selected, volume, fmt::format("the selection of the query '{}'", query)));
         box = *around;
     }

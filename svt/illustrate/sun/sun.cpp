@@ -2,6 +2,7 @@
 
 #include <svt/crs/crs_name.hpp>
 #include <svt/crs/globe.hpp>
+#include <svt/drawing/north.hpp>
 
 #include <fmt/format.h>
 
@@ -114,9 +115,9 @@ std::optional<double> attributeOf(const volume::SemanticVolume& volume, std::str
     return std::nullopt;
 }
 
-// Where a building stands, and how far true north is turned from +y, clockwise.
+// Where a building stands.
 struct Site {
-    double latitude, longitude, north = 0;
+    double latitude, longitude;
 };
 
 std::optional<Site> siteOfCrs(const volume::SemanticVolume& volume) {
@@ -124,17 +125,14 @@ std::optional<Site> siteOfCrs(const volume::SemanticVolume& volume) {
     if (epsg == 0) return std::nullopt;
     const Vec3d at = volume.grid.origin();
     const auto place = crs::placeOnEarth(epsg, at);
-    const auto frame = crs::frameOf(epsg, at);
-    if (!place || !frame) return std::nullopt;
-    const crs::GlobeFrame level = crs::frameAt(*place);
-    const double x = dot(level.axes[1], frame->axes[0]), y = dot(level.axes[1], frame->axes[1]);
-    return Site{place->y, place->x, std::atan2(x, y) / kDegree};
+    if (!place) return std::nullopt;
+    return Site{place->y, place->x};
 }
 
 std::optional<Site> siteOfAttributes(const volume::SemanticVolume& volume) {
     const auto latitude = attributeOf(volume, "latitude"), longitude = attributeOf(volume, "longitude");
     if (!latitude || !longitude || std::abs(*latitude) > 90 || std::abs(*longitude) > 180) return std::nullopt;
-    return Site{*latitude, *longitude, attributeOf(volume, "trueNorth").value_or(0)};
+    return Site{*latitude, *longitude};
 }
 
 }  // namespace
@@ -192,7 +190,7 @@ Result<Sunlight> sunlightOf(const Sun& sun, const volume::SemanticVolume& volume
                      "place (--place LAT,LON)");
     SVT_TRY(day, parseSunTime(sun.time, site->longitude));
     Sunlight light{sunPosition(*day, site->latitude, site->longitude), {}, site->latitude, site->longitude};
-    const double azimuth = (light.position.azimuth + site->north) * kDegree,
+    const double azimuth = (light.position.azimuth + drawing::northOf(volume).degrees) * kDegree,
                  height = light.position.elevation * kDegree;
     light.direction = {std::sin(azimuth) * std::cos(height), std::cos(azimuth) * std::cos(height), std::sin(height)};
     return light;

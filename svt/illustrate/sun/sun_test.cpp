@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace svt::illustrate {
@@ -116,6 +117,10 @@ TEST(Sun, NeedsAPlace) {
     ASSERT_TRUE(light);
     EXPECT_EQ(light->latitude, 47);
     EXPECT_GT(-light->direction.x, 0.2) << "north lies in the east of the map, so the south is in its west";
+    // A place of the user keeps the north of the model.
+    const auto given = sunlightOf({"2026-06-21 12:00Z", std::array<double, 2>{47.0, 8.0}, 0.53}, placed);
+    ASSERT_TRUE(given);
+    EXPECT_NEAR(length(given->direction - light->direction), 0, 1e-12);
     placed.crsName = "EPSG:25832";
     placed.grid = *volume::Grid::fromParts(placed.grid.dimension(), {0.1, 0.1, 0.1}, {457000, 5429000, 100},
                                            {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}});

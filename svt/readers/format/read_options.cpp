@@ -38,18 +38,20 @@ record::Members<ReadOptions> membersOf(const ReadOptions*) noexcept {
              .otherwise = "that of the file; degrees and feet are projected to the usual projection of the place",
              .group = "Model",
              .option = "--crs",
-             .isForModels = true}),
-        member<&ReadOptions::keepFarFeatures>("keepFarFeatures", "keep features that lie far away from all others",
-                                              {.group = "Model", .option = "--keep-far-features", .isForModels = true}),
+             .isForModels = true,
+             .isForProjects = true}),
+        member<&ReadOptions::keepFarFeatures>(
+            "keepFarFeatures", "keep features that lie far away from all others",
+            {.group = "Model", .option = "--keep-far-features", .isForModels = true, .isForProjects = true}),
         member<&ReadOptions::extrudeFootprints>(
             "extrudeFootprints", "make solids for features that have only a footprint and a height as attribute",
-            {.group = "Model", .option = "--extrude-footprints", .isForModels = true}),
+            {.group = "Model", .option = "--extrude-footprints", .isForModels = true, .isForProjects = true}),
         member<&ReadOptions::allowTruncated>(
             "allowTruncated", "read a file that was cut off (IFC, CityJSONSeq) up to the cut, with a warning",
-            {.group = "Model", .option = "--allow-truncated", .isForModels = true}),
+            {.group = "Model", .option = "--allow-truncated", .isForModels = true, .isForProjects = true}),
         member<&ReadOptions::splitLayers>(
             "layers", "IFC: split walls and slabs into the layers of their material, each a separate object",
-            {.group = "Model", .option = "--layers", .isForModels = true}),
+            {.group = "Model", .option = "--layers", .isForModels = true, .isForProjects = true}),
     };
     return kMembers;
 }

@@ -6,6 +6,7 @@
 #include <svt/readers/ifc/layers.hpp>
 #include <svt/readers/ifc/line_reader.hpp>
 #include <svt/readers/ifc/properties.hpp>
+#include <svt/readers/ifc/storey_level.hpp>
 #include <svt/readers/ifc/structure.hpp>
 #include <svt/readers/ifc/styles.hpp>
 #include <svt/readers/ifc/units.hpp>
@@ -65,6 +66,7 @@ public:
         }
         reportStructure();
         presentationLayers_ = readPresentationLayers(file_);
+        northBearer_ = northBearer(structure_);
         const Properties properties(file_, units_);
         for (const std::size_t p : structure_.order) {
             addFeature(structure_.products[p], p, properties);
@@ -202,9 +204,10 @@ private:
         else
             add("tag", fields[at::Element::Tag]);
         if (product.ifcType == "IfcSpace" || product.ifcType == "IfcSpatialZone") nameSpace(fields, feature);
-        if (product.ifcType == "IfcBuildingStorey")
-            addLength("elevation", fields[at::BuildingStorey::Elevation], feature);
+        if (product.ifcType == "IfcBuildingStorey") addElevation(product, fields, feature);
         if (product.ifcType == "IfcSite") addSitePlace(fields, feature);
+        if (number == northBearer_ && map_.trueNorthDegrees)
+            feature.attributes.push_back({"trueNorth", *map_.trueNorthDegrees, "deg"});
         const string_view predefined = fields[predefinedTypeOf(product.ifcType)].enumeration();
         if (product.kind == ProductKind::Element && predefined.size() > 1)
             feature.attributes.push_back({"predefinedType", std::string(predefined), ""});
@@ -286,7 +289,13 @@ private:
         if (const auto longitude = compoundDegrees(fields[at::Site::RefLongitude]))
             feature.attributes.push_back({"longitude", *longitude, "deg"});
         addLength("elevation", fields[at::Site::RefElevation], feature);
-        if (map_.trueNorthDegrees) feature.attributes.push_back({"trueNorth", *map_.trueNorthDegrees, "deg"});
+    }
+
+    // The elevation as stated, relative to the building, and the height of the level in the coordinates of the model.
+    void addElevation(const Product& product, const Fields& fields, model::Feature& feature) const {
+        addLength("elevation", fields[at::BuildingStorey::Elevation], feature);
+        if (const auto height = storeyLevel(file_, structure_, product, map_))
+            feature.attributes.push_back({"modelElevation", *height, "m"});
     }
 
     model::FeatureIndex addGroup(RecordIndex record) {
@@ -562,6 +571,7 @@ private:
     Units units_;
     MapPlace map_;
     Structure structure_;
+    std::size_t northBearer_ = Product::kNoProduct;
     std::unordered_set<std::string> ids_;
     std::unordered_map<std::string, int> nextNumber_;  // of an id that is used more than once
     std::unordered_map<RecordIndex, std::string> presentationLayers_;

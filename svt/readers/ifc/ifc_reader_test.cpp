@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 namespace svt::readers {
 namespace {
@@ -346,6 +350,75 @@ TEST(IfcReader, MapConversionMovesToTheMap) {
     EXPECT_NEAR(box.max.z, 111, 1e-9);
     EXPECT_EQ(attribute(*find(*model, "0site"), "elevation"), "0.1 m");
     EXPECT_EQ(attribute(*find(*model, "0site"), "latitude").substr(0, 8), "49.09972");
+}
+
+// The attribute modelElevation of a storey at `place` metres in a building at `building` metres.
+double levelOfStorey(double building, double place, const std::string& elevation, const std::string& more = "") {
+    const auto placed = [](int number, double height) {
+        return fmt::format(
+            "#{0}=IFCLOCALPLACEMENT($,#{1});\n#{1}=IFCAXIS2PLACEMENT3D(#{2},$,$);\n"
+            "#{2}=IFCCARTESIANPOINT((0.,0.,{3:.1f}));\n",
+            number, number + 1, number + 2, 1000 * height);
+    };
+    std::string text = ifcFile(std::string("#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n") + kBox +
+                                   placed(60, building) + placed(70, place) + more,
+                               "#100");
+    const auto replace = [&](const std::string& from, const std::string& to) {
+        text.replace(text.find(from), from.size(), to);
+    };
+    replace("'House',$,$,#15", "'House',$,$,#60");
+    replace("'EG',$,$,#15,$,$,.ELEMENT.,0.)", "'EG',$,$,#70,$,$,.ELEMENT.," + elevation + ")");
+    const auto model = readText(text);
+    EXPECT_TRUE(model) << model.error().message();
+    if (!model) return -1;
+    for (const Attribute& a : find(*model, "0storey")->attributes)
+        if (a.name == "modelElevation") return std::get<double>(a.value);
+    return -1;
+}
+
+TEST(IfcReader, TheLevelOfAStoreyIsInTheCoordinatesOfTheModel) {
+    EXPECT_NEAR(levelOfStorey(0, 3, "3000."), 3, 1e-9);
+    EXPECT_NEAR(levelOfStorey(112, 115, "3000."), 115, 1e-9) << "relative to the building";
+    EXPECT_NEAR(levelOfStorey(112, 115, "115000."), 115, 1e-9) << "above the sea";
+    EXPECT_NEAR(levelOfStorey(112, 112, "3000."), 115, 1e-9) << "storeys that are not placed";
+    EXPECT_NEAR(levelOfStorey(112, 112, "112000."), 112, 1e-9) << "the ground floor, above the sea";
+    EXPECT_NEAR(levelOfStorey(0, 3, "$"), 3, 1e-9);
+    EXPECT_NEAR(levelOfStorey(0, 3, "3000.",
+                              "#50=IFCMAPCONVERSION(#20,#51,457850.,5439000.,110.,1.,0.,1.);\n"
+                              "#51=IFCPROJECTEDCRS('EPSG:25832',$,$,$,$,$,#52);\n"
+                              "#52=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n"),
+                113, 1e-9);
+}
+
+TEST(IfcReader, TrueNorthTurnsWithTheMap) {
+    const auto northOf = [](const std::string& conversion, const std::string& site = "") {
+        std::string text = ifcFile(std::string("#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n"
+                                               "#40=IFCDIRECTION((0.,1.));\n#41=IFCDIRECTION((1.,0.));\n") +
+                                       conversion + kBox,
+                                   "#100");
+        const std::string context = "1.E-05,#14,$);";
+        text.replace(text.find(context), context.size(), "1.E-05,#14,#41);");
+        if (!site.empty()) text.replace(text.find("#30=IFCSITE("), 12, site);
+        const auto model = readText(text);
+        EXPECT_TRUE(model) << model.error().message();
+        std::vector<std::pair<std::string, double>> found;
+        for (const model::Feature& feature : model->features)
+            for (const Attribute& a : feature.attributes)
+                if (a.name == "trueNorth") found.emplace_back(feature.id, std::get<double>(a.value));
+        return found;
+    };
+    const std::string crs = "#51=IFCPROJECTEDCRS('Local grid',$,$,$,$,$,$);\n";
+    const auto plain = northOf("");
+    ASSERT_EQ(plain.size(), 1u);
+    EXPECT_EQ(plain[0].first, "0site");
+    EXPECT_NEAR(plain[0].second, 90, 1e-9);
+    // The x axis of the project points to (0.6, 0.8) on the map, and so does true north.
+    const auto turned = northOf("#50=IFCMAPCONVERSION(#20,#51,0.,0.,0.,0.6,0.8,1.);\n" + crs);
+    ASSERT_EQ(turned.size(), 1u);
+    EXPECT_NEAR(turned[0].second, std::atan2(0.6, 0.8) * 180 / std::numbers::pi, 1e-9);
+    const auto withoutSite = northOf("", "#30=IFCSPATIALZONE(");
+    ASSERT_EQ(withoutSite.size(), 1u);
+    EXPECT_EQ(withoutSite[0].first, "0building");
 }
 
 TEST(IfcReader, MissingAndRepeatedIds) {

@@ -56,41 +56,25 @@ RecordIndex modelContext(const IfcFile& file, RecordIndex project) {
     return kNoRecord;
 }
 
+// True north in the axes of the project, of the first context that states it. Contexts of models precede those of plans.
+std::optional<Vec3d> trueNorth(const IfcFile& file, RecordIndex project) {
+    std::vector<RecordIndex> contexts = file.followAll(project, at::Project::RepresentationContexts);
+    contexts.insert(contexts.begin(), modelContext(file, project));
+    for (const RecordIndex context : contexts) {
+        if (file.entityOf(context) != Entity::GeometricRepresentationContext) continue;
+        const auto north = file.direction(file.fieldsOf(context)[at::GeometricRepresentationContext::TrueNorth]);
+        if (north && std::hypot(north->x, north->y) > 0) return north;
+    }
+    return std::nullopt;
+}
+
 bool isMapConversion(Entity entity) noexcept {
     return entity == Entity::MapConversion || entity == Entity::MapConversionScaled || entity == Entity::RigidOperation;
 }
 
-}  // namespace
-
-Units readUnits(const IfcFile& file, RecordIndex project, const Place& place, Diagnostics& diagnostics) {
-    Units units;
-    bool hasLength = false;
-    const RecordIndex assignment = file.follow(project, at::Project::UnitsInContext);
-    for (const RecordIndex unit : file.followAll(assignment, at::UnitAssignment::Units)) {
-        const string_view type = file.fieldsOf(unit)[at::NamedUnit::UnitType].enumeration();
-        const auto factor = unitFactor(file, unit);
-        if (!factor || !(*factor > 0)) continue;
-        if (type == "LENGTHUNIT") {
-            units.length = *factor;
-            hasLength = true;
-        }
-        if (type == "AREAUNIT") units.area = *factor;
-        if (type == "VOLUMEUNIT") units.volume = *factor;
-        if (type == "PLANEANGLEUNIT") units.angle = *factor;
-        if (type == "MASSUNIT") units.mass = *factor;
-        if (type == "TIMEUNIT") units.time = *factor;
-    }
-    if (!hasLength)
-        diagnostics.add(Severity::Warning, Code::BadValue,
-                        "the project names no unit of length that is known; lengths are taken as metres", place);
-    return units;
-}
-
-MapPlace readMapPlace(const IfcFile& file, RecordIndex project) {
+// The conversion of the project to a map.
+MapPlace readConversion(const IfcFile& file) {
     MapPlace place;
-    const RecordIndex context = modelContext(file, project);
-    if (const auto north = file.direction(file.fieldsOf(context)[at::GeometricRepresentationContext::TrueNorth]))
-        place.trueNorthDegrees = std::atan2(north->x, north->y) * 180 / std::numbers::pi;
     RecordIndex record = 0;
     while (record < file.step().records().size() && !isMapConversion(file.entityOf(record))) ++record;
     if (record == file.step().records().size()) return place;
@@ -122,6 +106,41 @@ MapPlace readMapPlace(const IfcFile& file, RecordIndex project) {
     place.mapFromProject.x = x * scale;
     place.mapFromProject.y = Vec3d{-x.y, x.x, 0} * scale;
     place.mapFromProject.z = {0, 0, scale};
+    return place;
+}
+
+}  // namespace
+
+Units readUnits(const IfcFile& file, RecordIndex project, const Place& place, Diagnostics& diagnostics) {
+    Units units;
+    bool hasLength = false;
+    const RecordIndex assignment = file.follow(project, at::Project::UnitsInContext);
+    for (const RecordIndex unit : file.followAll(assignment, at::UnitAssignment::Units)) {
+        const string_view type = file.fieldsOf(unit)[at::NamedUnit::UnitType].enumeration();
+        const auto factor = unitFactor(file, unit);
+        if (!factor || !(*factor > 0)) continue;
+        if (type == "LENGTHUNIT") {
+            units.length = *factor;
+            hasLength = true;
+        }
+        if (type == "AREAUNIT") units.area = *factor;
+        if (type == "VOLUMEUNIT") units.volume = *factor;
+        if (type == "PLANEANGLEUNIT") units.angle = *factor;
+        if (type == "MASSUNIT") units.mass = *factor;
+        if (type == "TIMEUNIT") units.time = *factor;
+    }
+    if (!hasLength)
+        diagnostics.add(Severity::Warning, Code::BadValue,
+                        "the project names no unit of length that is known; lengths are taken as metres", place);
+    return units;
+}
+
+MapPlace readMapPlace(const IfcFile& file, RecordIndex project) {
+    MapPlace place = readConversion(file);
+    if (const auto north = trueNorth(file, project)) {
+        const Vec3d onMap = place.mapFromProject.direction(*north);
+        place.trueNorthDegrees = std::atan2(onMap.x, onMap.y) * 180 / std::numbers::pi;
+    }
     return place;
 }
 

@@ -23,8 +23,9 @@ struct MapPlace {
     Transform mapFromProject;
     std::string crs;                         ///< name of IfcProjectedCRS, such as EPSG:25832; empty: none
     bool isGiven = false;                    ///< an IfcMapConversion
-    std::optional<double> trueNorthDegrees;  ///< of the y axis to true north, clockwise
+    std::optional<double> trueNorthDegrees;  ///< from the y axis of the map to true north, clockwise
 };
+/// The direction of true north is that of a geometric context of the project (TrueNorth), turned by the conversion.
 [[nodiscard]] MapPlace readMapPlace(const IfcFile& file, RecordIndex project);
 
 /// Degrees of an IfcCompoundPlaneAngleMeasure: (49,5,59,0); nothing for another value.

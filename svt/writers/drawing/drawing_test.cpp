@@ -63,7 +63,7 @@ TEST(DrawingText, NumbersAreShort) {
 TEST(DrawingText, PlanesAreNamed) {
     const auto volume = roomInWalls();
     const auto textOf = [&](Vec3d normal, Vec3d point) {
-        return planeText(*drawing::drawSection(volume, {normal, volume.grid.origin() + point}), volume.grid);
+        return planeText(*drawing::drawSection(volume, {normal, volume.grid.origin() + point}), volume);
     };
     EXPECT_EQ(textOf({0, 0, 1}, {0, 0, 1.2}), "Plan at z = 1.2 m");
     EXPECT_EQ(textOf({0, 0, -1}, {0, 0, 1.2}), "Plan at z = 1.2 m");

@@ -1,4 +1,5 @@
 #include <svt/core/text.hpp>
+#include <svt/drawing/north.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 
 #include <fmt/format.h>
@@ -69,15 +70,11 @@ bool isElevation(const drawing::SectionDrawing& drawing, const volume::Grid& gri
     return isUpright && !drawing.beyond.empty() && drawing.components.empty();
 }
 
-std::string_view compassName(Vec3d direction) noexcept {
-    constexpr std::string_view kNames[] = {"north", "north-east", "east", "south-east",
-                                           "south", "south-west", "west", "north-west"};
-    const double eighth = std::atan2(direction.x, direction.y) / 0.78539816339744831;
-    return kNames[static_cast<std::size_t>(std::lround(eighth) + 8) % 8];
-}
-
-std::string planeText(const drawing::SectionDrawing& drawing, const volume::Grid& grid) {
-    if (isElevation(drawing, grid)) return fmt::format("Elevation from the {}", compassName(drawing.plane.normal));
+std::string planeText(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+    const volume::Grid& grid = volume.grid;
+    if (isElevation(drawing, grid))
+        return fmt::format("Elevation from the {}",
+                           drawing::compassNames()[drawing::northOf(volume).eighthOf(drawing.plane.normal)]);
     const Vec3d normal = drawing.plane.normal;
     const double offset = dot(normal, drawing.plane.point - grid.origin());
     for (int axis = 0; axis < 3; ++axis) {

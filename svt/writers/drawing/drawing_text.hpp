@@ -28,12 +28,9 @@ namespace svt::writers {
 /// Whether a drawing shows the model from outside: a vertical plane that cuts nothing, and lines behind it.
 [[nodiscard]] bool isElevation(const drawing::SectionDrawing& drawing, const volume::Grid& grid) noexcept;
 
-/// The nearest of eight directions: "north" for y of world space, "north-east", ...
-[[nodiscard]] std::string_view compassName(Vec3d direction) noexcept;
-
 /// "Elevation from the south", "Plan at z = 1.2 m", "Section at y = 5 m", "Section 0.6, 0.8, 0, -3": metres from the
-/// grid's lower corner.
-[[nodiscard]] std::string planeText(const drawing::SectionDrawing& drawing, const volume::Grid& grid);
+/// grid's lower corner. Directions are relative to true north.
+[[nodiscard]] std::string planeText(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume);
 
 /// True if the section plane is horizontal.
 [[nodiscard]] bool isPlan(const drawing::SectionDrawing& drawing, const volume::Grid& grid) noexcept;

@@ -126,7 +126,7 @@ private:
 
     [[nodiscard]] std::vector<std::string> comments() const {
         const drawing::PlaneAxes& axes = drawing_.axes;
-        return {dxfText(shownName(volume_)) + ", " + planeText(drawing_, volume_.grid),
+        return {dxfText(shownName(volume_)) + ", " + planeText(drawing_, volume_),
                 (place_.isWorld() ? "coordinates of the world; the drawing lies at origin + u * x + v * y, metres"
                                   : "world = origin + u * x + v * y, metres") +
                     (volume_.crsName.empty() ? std::string() : ", CRS " + dxfText(volume_.crsName)),

@@ -32,7 +32,7 @@ public:
 
     std::string write() {
         const drawing::PlaneAxes& axes = drawing_.axes;
-        json_ = "{\"type\":\"FeatureCollection\",\n" + jsonMember("name", planeText(drawing_, volume_.grid));
+        json_ = "{\"type\":\"FeatureCollection\",\n" + jsonMember("name", planeText(drawing_, volume_));
         json_ += geoJsonCrs(volume_.crsName) + ",\n\"plane\":{\"origin\":" + jsonVector(axes.origin, 6);
         for (const auto& [key, axis] :
              {std::pair("u", axes.u), std::pair("v", axes.v), std::pair("normal", axes.normal)})

@@ -1,9 +1,13 @@
+#include <svt/analyze/extents.hpp>
 #include <svt/volume/volume_json.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/section_table.hpp>
 #include <svt/writers/table.hpp>
 
 #include <fmt/format.h>
+
+#include <utility>
+#include <vector>
 
 namespace svt::writers {
 namespace {
@@ -12,6 +16,31 @@ std::string jsonText(std::string_view text) {
     std::string json;
     volume::appendJsonString(json, text);
     return json;
+}
+
+// The cut of a unit, storey or building: the components of its extent that are drawn.
+struct CutSpace {
+    std::uint32_t label = 0;
+    std::size_t components = 0;
+    double area = 0;  // m2
+};
+
+std::vector<CutSpace> cutSpaces(const drawing::SectionDrawing& drawing, const volume::LabelTable& table) {
+    std::vector<const drawing::SectionComponent*> componentOf(table.labels.size(), nullptr);
+    for (const drawing::SectionComponent& component : drawing.components) componentOf[component.label] = &component;
+    const analyze::Extents extents(table);
+    std::vector<CutSpace> spaces;
+    for (std::uint32_t l = 0; l < table.labels.size(); ++l) {
+        if (!extents.standsForParts(l)) continue;
+        CutSpace space{l};
+        for (const std::uint32_t part : extents.of(l)) {
+            if (componentOf[part] == nullptr) continue;
+            ++space.components;
+            space.area += componentOf[part]->area;
+        }
+        if (space.components > 0) spaces.push_back(space);
+    }
+    return spaces;
 }
 
 }  // namespace
@@ -40,6 +69,14 @@ std::string makeSectionJson(const drawing::SectionDrawing& drawing, const volume
         json += fmt::format("{}\n    {{\"class\": {}, \"components\": {}, \"area\": {}}}",
                             &total == &drawing.classes.front() ? "" : ",", jsonText(total.className), total.components,
                             shortNumber(total.area, 6));
+    json += "\n  ],\n  \"spaces\": [";
+    const char* separator = "";
+    for (const auto& [number, components, area] : cutSpaces(drawing, volume.labels)) {
+        const volume::Label& label = volume.labels.labels[number];
+        json += fmt::format("{}\n    {{\"id\": {}, \"class\": {}, \"name\": {}, \"components\": {}, \"area\": {}}}",
+                            std::exchange(separator, ","), jsonText(label.id), jsonText(label.className),
+                            jsonText(label.name), components, shortNumber(area, 6));
+    }
     return json + fmt::format("\n  ],\n  \"area\": {}\n}}\n", shortNumber(drawing.area, 6));
 }
 
@@ -55,6 +92,10 @@ std::string makeSectionCsv(const drawing::SectionDrawing& drawing, const volume:
     }
     for (const drawing::ClassArea& total : drawing.classes)
         csv += csvLine(Row{"class", {}, total.className, {}, {}, shortNumber(total.area, 6), {}, {}, {}});
+    for (const auto& [number, components, area] : cutSpaces(drawing, volume.labels)) {
+        const volume::Label& label = volume.labels.labels[number];
+        csv += csvLine(Row{"space", label.id, label.className, label.name, {}, shortNumber(area, 6), {}, {}, {}});
+    }
     return csv + csvLine(Row{"total", {}, {}, {}, polygons, shortNumber(drawing.area, 6), {}, {}, {}});
 }
 

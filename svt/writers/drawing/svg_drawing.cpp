@@ -76,7 +76,7 @@ private:
             "xmlns:svt=\"urn:svt:drawing\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n",
             width, height);
         svg_ +=
-            fmt::format("<title>{}, {}</title>\n", xmlAttribute(shownName(volume_)), planeText(drawing_, volume_.grid));
+            fmt::format("<title>{}, {}</title>\n", xmlAttribute(shownName(volume_)), planeText(drawing_, volume_));
         addMetadata();
         svg_ +=
             "<style>\n"
@@ -307,7 +307,7 @@ private:
                                                   shortNumber(top, 3), shortNumber(right, 3));
         addText(kMargin, top + 6, 3.5, shownName(volume_), " font-weight=\"bold\"");
         addText(kMargin, top + 11, 2.5,
-                fmt::format("{}, 1:{}", planeText(drawing_, volume_.grid), shortNumber(page_.scale, 2)));
+                fmt::format("{}, 1:{}", planeText(drawing_, volume_), shortNumber(page_.scale, 2)));
         const double field = page_.field, size = field * page_.millimetres;
         const double y = top + 17;
         for (int n = 0; n < 4; ++n)

@@ -55,6 +55,7 @@ Result<SheetContent> drawSheets(drawing::SheetSet& set, const volume::SemanticVo
     }
     if (!set.tables) return content;
     SVT_TRY(areas, drawing::measureFloorAreas(volume, content.levels, threads, bricks ? &*bricks : nullptr));
+    drawing::reportAreas(*areas, content.levels, volume, content.findings);
     content.tables = makeAreaTables(*areas, content.levels, sheetOptionsOf(set).language);
     return content;
 }

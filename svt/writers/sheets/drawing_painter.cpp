@@ -20,11 +20,12 @@ constexpr double kBold = 0.5, kThin = 0.13, kBeyond = 0.18, kTick = 0.35,
 class DrawingPainter {
 public:
     DrawingPainter(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                   const DrawingPlace& place, SheetCanvas& canvas)
+                   const DrawingPlace& place, SheetCanvas& canvas, const RoomNotes& notes)
         : drawing_(drawing),
           volume_(volume),
           place_(place),
           canvas_(canvas),
+          notes_(notes),
           style_(drawing, volume, place.millimetres) {}
 
     void paint() {
@@ -117,16 +118,31 @@ private:
         for (const drawing::SectionComponent& component : drawing_.components) {
             if (!style_.isSpace(component.label) || component.polygons.empty()) continue;
             const std::string name = shortened(shownName(volume_.labels.labels[component.label]), 2.5, 40);
-            const std::string area =
-                isPlan(drawing_, volume_.grid) ? fmt::format("{:.2f} m\u00B2", component.area) : std::string();
-            const double width = std::max(widthOnPaper(name, 1), widthOnPaper(area, 1));  // at size 1
-            const auto at = placeName(component, drawing_, place_.millimetres, width, area.empty() ? 1 : 2.3);
-            if (!at) continue;
-            const PaperPoint p = place_.onPaper(at->center);
-            canvas_.text(
-                {{p.x, p.y + at->size * (area.empty() ? 0.35 : -0.25)}, at->size, name, TextAnchor::Middle, true});
-            if (!area.empty()) canvas_.text({{p.x, p.y + at->size * 1.05}, at->size, area, TextAnchor::Middle, true});
+            std::vector<std::string> lines{name};
+            if (isPlan(drawing_, volume_.grid)) lines.push_back(fmt::format("{:.2f} m\u00B2", component.area));
+            const auto note = notes_.find(component.label);
+            if (note != notes_.end()) lines.push_back(note->second);
+            if (addStamp(component, lines) || note == notes_.end()) continue;
+            lines.pop_back();
+            addStamp(component, lines);
         }
+    }
+
+    // Lines of text within a room; false if they do not fit.
+    bool addStamp(const drawing::SectionComponent& component, const std::vector<std::string>& lines) {
+        constexpr double kLine = 1.3;  // font sizes from one baseline to the next
+        double width = 0;              // at size 1
+        for (const std::string& line : lines) width = std::max(width, widthOnPaper(line, 1));
+        const double more = kLine * static_cast<double>(lines.size() - 1);
+        const auto at = placeName(component, drawing_, place_.millimetres, width, 1 + more);
+        if (!at) return false;
+        const PaperPoint p = place_.onPaper(at->center);
+        double y = p.y + at->size * (lines.size() == 1 ? 0.35 : 0.4 - 0.5 * more);
+        for (const std::string& line : lines) {
+            canvas_.text({{p.x, y}, at->size, line, TextAnchor::Middle, true});
+            y += at->size * kLine;
+        }
+        return true;
     }
 
     void addDimensions() {
@@ -152,14 +168,15 @@ private:
     const volume::SemanticVolume& volume_;
     const DrawingPlace& place_;
     SheetCanvas& canvas_;
+    const RoomNotes& notes_;
     DrawingStyle style_;
 };
 
 }  // namespace
 
 void paintDrawing(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                  const DrawingPlace& place, SheetCanvas& canvas) {
-    DrawingPainter(drawing, volume, place, canvas).paint();
+                  const DrawingPlace& place, SheetCanvas& canvas, const RoomNotes& notes) {
+    DrawingPainter(drawing, volume, place, canvas, notes).paint();
 }
 
 }  // namespace svt::writers

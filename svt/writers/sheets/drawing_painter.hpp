@@ -4,6 +4,10 @@
 
 #include <svt/writers/sheets/sheet_canvas.hpp>
 
+#include <cstdint>
+#include <map>
+#include <string>
+
 namespace svt::writers {
 
 /// The place of a drawing on its sheet.
@@ -17,7 +21,11 @@ struct DrawingPlace {
     }
 };
 
+/// A further line below the name and the area of a room, by label.
+using RoomNotes = std::map<std::uint32_t, std::string>;
+
+/// \param notes  a note is left out if it does not fit into its room
 void paintDrawing(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                  const DrawingPlace& place, SheetCanvas& canvas);
+                  const DrawingPlace& place, SheetCanvas& canvas, const RoomNotes& notes = {});
 
 }  // namespace svt::writers

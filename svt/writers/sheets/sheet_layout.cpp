@@ -36,10 +36,14 @@ struct ViewSize {
     ViewMargins margins;
 };
 
-ViewMargins marginsOf(const drawing::SectionDrawing& drawing) {
+ViewMargins marginsOf(const DrawnView& view, const std::vector<drawing::BuildingLevel>& levels) {
     using drawing::DimensionSide;
-    return {dimensionReach(drawing, DimensionSide::Left), dimensionReach(drawing, DimensionSide::Right),
-            dimensionReach(drawing, DimensionSide::Above), dimensionReach(drawing, DimensionSide::Below)};
+    const drawing::SectionDrawing& drawing = view.drawing;
+    ViewMargins margins{dimensionReach(drawing, DimensionSide::Left), dimensionReach(drawing, DimensionSide::Right),
+                        dimensionReach(drawing, DimensionSide::Above), dimensionReach(drawing, DimensionSide::Below)};
+    if (view.view.kind == drawing::ViewKind::Section)
+        margins.left = std::max(margins.left, levelNameWidth(levels) - LevelNames::kBeside);
+    return margins;
 }
 
 // A row of a sheet: the views [first, end), and its size with all margins.
@@ -178,7 +182,7 @@ Result<SheetLayout> layOutViews(const SheetContent& content, const SheetOptions&
     for (std::size_t n = 0; n < content.views.size(); ++n) {
         const auto [low, high] = drawnBox(content.views[n].drawing);
         if (high.u > low.u || high.v > low.v)
-            sizes.push_back({n, low, high.u - low.u, high.v - low.v, marginsOf(content.views[n].drawing)});
+            sizes.push_back({n, low, high.u - low.u, high.v - low.v, marginsOf(content.views[n], content.levels)});
     }
     const LayoutMaker maker(*paper, sizes, content);
     if (const double scale = maker.tooLargeScale(); scale > 0)
@@ -258,6 +262,13 @@ void layOutTables(const SheetContent& content, SheetLayout& layout) {
 }
 
 }  // namespace
+
+double levelNameWidth(const std::vector<drawing::BuildingLevel>& levels) {
+    double width = LevelNames::kBeside;
+    for (const drawing::BuildingLevel& level : levels)
+        width = std::max(width, widthOnPaper(level.name, LevelNames::kText) + 1);
+    return std::min(width, LevelNames::kMost);
+}
 
 double PlacedTable::width() const noexcept {
     double width = 0;

@@ -25,6 +25,15 @@ struct ViewMargins {
     double left = 0, right = 0, above = 0, below = 0;
 };
 
+/// Names of storeys at their floors, left of a section.
+struct LevelNames {
+    static constexpr double kText = 2;     ///< font size, millimetres
+    static constexpr double kBeside = 11;  ///< space beside every view, millimetres
+    static constexpr double kMost = 30;    ///< longer names are shortened, millimetres
+};
+/// Width of the lines below these names, millimetres; at least LevelNames::kBeside.
+[[nodiscard]] double levelNameWidth(const std::vector<drawing::BuildingLevel>& levels);
+
 struct PlacedView {
     std::size_t view = 0;  ///< index into SheetContent::views
     DrawingPlace place;

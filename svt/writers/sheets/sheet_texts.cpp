@@ -1,5 +1,7 @@
 #include <svt/writers/sheets/sheet_texts.hpp>
 
+#include <svt/drawing/north.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,10 +35,19 @@ constexpr Words kWords[] = {
     {W::East, "east", "Osten"},
     {W::South, "south", "Süden"},
     {W::West, "west", "Westen"},
-    {W::LowestFloor, "the lowest floor", "dem untersten Fußboden"},
+    {W::NorthEast, "north-east", "Nordosten"},
+    {W::SouthEast, "south-east", "Südosten"},
+    {W::SouthWest, "south-west", "Südwesten"},
+    {W::NorthWest, "north-west", "Nordwesten"},
+    {W::GroundFloor, "the ground floor", "dem Fußboden des Erdgeschosses"},
     {W::HeightsAbove, "Heights above", "Höhen über"},
     {W::InModelHeights, " in the heights of the model", " in den Höhen des Modells"},
     {W::NorthLetter, "N", "N"},
+    {W::NorthAssumed, "assumed: +y", "angenommen: +y"},
+    {W::GridNorth, "grid north", "Gitternord"},
+    {W::GridNorthLetters, "GN", "GiN"},
+    {W::EastLetter, "E", "O"},
+    {W::WestLetter, "W", "W"},
     {W::Rooms, "Rooms", "Räume"},
     {W::FloorAreas, "Floor areas after DIN 277-1, m\u00B2", "Grundflächen nach DIN 277-1, m\u00B2"},
     {W::Components, "Components", "Bauteile"},
@@ -71,7 +82,11 @@ std::string_view sheetWord(SheetWord word, SheetLanguage language) noexcept {
 }
 
 std::string elevationText(std::string_view side, SheetLanguage language) {
-    const SheetWord word = side == "north" ? W::North : side == "east" ? W::East : side == "south" ? W::South : W::West;
+    constexpr SheetWord kSides[] = {W::North, W::NorthEast, W::East, W::SouthEast,
+                                    W::South, W::SouthWest, W::West, W::NorthWest};
+    const auto names = drawing::compassNames();
+    const auto found = std::find(names.begin(), names.end(), side);
+    const SheetWord word = kSides[found == names.end() ? 0 : found - names.begin()];
     return fmt::format("{} {}", language == SheetLanguage::German ? "Ansicht von" : "Elevation from the",
                        sheetWord(word, language));
 }
@@ -87,7 +102,7 @@ std::vector<SheetTable> makeAreaTables(const drawing::FloorAreas& areas,
                                        const std::vector<drawing::BuildingLevel>& levels, SheetLanguage language) {
     const auto word = [&](SheetWord w) { return std::string(sheetWord(w, language)); };
     const auto number = [&](double value, int decimals = 2) { return numberText(value, decimals, language); };
-    const double datum = levels.empty() ? 0 : levels.front().floor;
+    const double datum = drawing::zeroLevel(levels);
     std::vector<SheetTable> tables;
     if (!areas.rooms.empty()) {
         SheetTable rooms{word(W::Rooms),
@@ -122,9 +137,15 @@ std::vector<SheetTable> makeAreaTables(const drawing::FloorAreas& areas,
                           {},
                           1};
         const auto add = [&](const std::string& name, const drawing::LevelArea& level) {
-            floors.rows.push_back({name, number(level.use), number(level.technical), number(level.traffic),
-                                   number(level.unknown), number(level.net), number(level.construction),
-                                   number(level.gross)});
+            const auto known = [&](bool isKnown, double value) {
+                return isKnown ? number(value) : std::string("\u2013");
+            };
+            const bool hasGross = level.isFloor && level.isGrossKnown;
+            floors.rows.push_back({name, known(level.isFloor, level.use), known(level.isFloor, level.technical),
+                                   known(level.isFloor, level.traffic), known(level.isFloor, level.unknown),
+                                   known(level.isFloor, level.net),
+                                   known(hasGross && !level.netExceedsGross(), level.construction),
+                                   known(hasGross, level.gross)});
         };
         for (std::size_t n = 0; n < levels.size(); ++n) add(levelName(levels[n], datum, language), areas.levels[n]);
         add(word(W::Total), areas.total());

@@ -27,10 +27,19 @@ enum class SheetWord : std::uint8_t {
     East,
     South,
     West,
-    LowestFloor,
-    HeightsAbove,  ///< "Heights above", before the name of the lowest storey
+    NorthEast,
+    SouthEast,
+    SouthWest,
+    NorthWest,
+    GroundFloor,
+    HeightsAbove,  ///< "Heights above", before the name of the ground floor
     InModelHeights,
     NorthLetter,
+    NorthAssumed,  ///< the file does not state true north
+    GridNorth,
+    GridNorthLetters,
+    EastLetter,
+    WestLetter,
     Rooms,
     FloorAreas,
     Components,

@@ -1,6 +1,8 @@
 #include <svt/writers/sheet_writer.hpp>
 
 #include <svt/core/rounding.hpp>
+#include <svt/drawing/north.hpp>
+#include <svt/drawing/storey_floors.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/sheets/pdf_canvas.hpp>
@@ -12,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 namespace svt::writers {
 namespace {
@@ -40,14 +44,16 @@ public:
                                fmt::format("{}: {}", modelName(), titleOf(sheet)));
             for (const PlacedView& placed : sheet.views) {
                 const DrawnView& view = content_.views[placed.view];
-                paintDrawing(view.drawing, volume_, placed.place, canvas_);
+                const bool isFloorPlan = view.view.kind == ViewKind::Plan;
+                paintDrawing(view.drawing, volume_, placed.place, canvas_,
+                             isFloorPlan ? finishedFloors(view) : RoomNotes());
                 canvas_.beginLayer("Marks");
                 addCaption(placed, view, sheet.scale);
                 if (view.view.kind == ViewKind::Plan)
                     addSectionMarks(placed, view);
                 else
                     addHeights(placed, view);
-                if (view.view.kind == ViewKind::Section) addPlanMarks(placed, view);
+                if (view.view.kind == ViewKind::Section) addLevelNames(placed, view);
                 canvas_.endLayer();
             }
             if (!sheet.tables.empty()) {
@@ -67,7 +73,7 @@ private:
     [[nodiscard]] const std::string& modelName() const noexcept {
         return options_.title.empty() ? shownName(volume_) : options_.title;
     }
-    [[nodiscard]] double datum() const noexcept { return content_.levels.empty() ? 0 : content_.levels.front().floor; }
+    [[nodiscard]] double datum() const noexcept { return drawing::zeroLevel(content_.levels); }
 
     [[nodiscard]] std::string captionOf(const DrawnView& view) const {
         switch (view.view.kind) {
@@ -76,7 +82,7 @@ private:
             case ViewKind::Plan: break;
         }
         const std::string height = heightText(view.view.floor - datum(), options_.language);
-        if (content_.levels.empty()) return planeText(view.drawing, volume_.grid);
+        if (content_.levels.empty()) return planeText(view.drawing, volume_);
         return fmt::format("{}{}{}, {} {}", word(SheetWord::Plan), view.view.name.empty() ? "" : " ", view.view.name,
                            word(SheetWord::Level), height);
     }
@@ -141,20 +147,57 @@ private:
         line({placed.left, y}, {right, y}, kBox);
     }
 
-    // Where plans cut a section: short dash-dotted ends beside the building, with the name of the storey.
-    void addPlanMarks(const PlacedView& placed, const DrawnView& section) {
+    // The heights of finished floors in a plan: once, in the largest room, for the rooms that share a height, and in each
+    // room with another height. Rooms that begin in a storey below, such as shafts, get no mark.
+    [[nodiscard]] RoomNotes finishedFloors(const DrawnView& plan) {
+        constexpr double kStoreyBelow = 1.5, kHeight = 0.01;  // metres
+        if (content_.levels.empty()) return {};
+        if (extents_.empty()) extents_ = drawing::labelExtents(volume_);
+        struct Floor {
+            double area = 0;
+            std::vector<const drawing::SectionComponent*> rooms;
+        };
+        std::map<long, Floor> floors;  // by height in centimetres
+        for (const drawing::SectionComponent& component : plan.drawing.components) {
+            const drawing::LabelExtent& extent = extents_[component.label];
+            const std::string& name = volume_.labels.labels[component.label].className;
+            if (!model::isSpace(name) || model::classRank(name) != model::ClassRank::Room) continue;
+            if (extent.bound > 0 || extent.floor < plan.view.floor - kStoreyBelow) continue;
+            Floor& floor = floors[std::lround((extent.floor - datum()) / kHeight)];
+            floor.area += component.area;
+            floor.rooms.push_back(&component);
+        }
+        const auto main = std::max_element(floors.begin(), floors.end(),
+                                           [](const auto& a, const auto& b) { return a.second.area < b.second.area; });
+        RoomNotes notes;
+        for (auto at = floors.begin(); at != floors.end(); ++at) {
+            auto& rooms = at->second.rooms;
+            std::stable_sort(rooms.begin(), rooms.end(),
+                             [](const auto* a, const auto* b) { return a->area > b->area; });
+            if (at == main) rooms.resize(1);
+            for (const auto* room : rooms)
+                notes[room->label] =
+                    "\u25BD " + heightText(static_cast<double>(at->first) * kHeight, options_.language);
+        }
+        return notes;
+    }
+
+    // The names of storeys beside a section, at their floors.
+    void addLevelNames(const PlacedView& placed, const DrawnView& section) {
+        constexpr double kApart = 2.6;  // millimetres between names
         const Vec3d up = volume_.grid.axes()[2];
-        const double x = placed.place.corner.x;
-        for (const DrawnView& plan : content_.views) {
-            if (plan.view.kind != ViewKind::Plan) continue;
-            const drawing::PlaneAxes& axes = section.drawing.axes;
-            if (std::abs(dot(axes.v, up)) < 0.999) continue;
-            const Vec3d corner = volume_.grid.origin();
-            const double height = dot(plan.view.plane.point - corner, up);
-            const double y = placed.place.onPaper({0, axes.planeFromWorld(corner + up * height).v}).y;
+        const drawing::PlaneAxes& axes = section.drawing.axes;
+        if (std::abs(dot(axes.v, up)) < 0.999) return;
+        const double right = placed.place.corner.x - 1, width = levelNameWidth(content_.levels), left = right - width;
+        double last = kInfinity;  // y of the name below
+        for (const drawing::BuildingLevel& level : content_.levels) {
+            const double v = axes.planeFromWorld(volume_.grid.origin() + up * level.floor).v;
+            const double y = placed.place.onPaper({0, v}).y;
             if (y > placed.place.corner.y || y < placed.place.corner.y - placed.height) continue;
-            canvas_.stroke({{{x - 12, y}, {x - 1, y}}}, {0.25, LineType::LongDashDotted});
-            if (!plan.view.name.empty()) canvas_.text({{x - 12, y - 0.8}, 2, shortened(plan.view.name, 2, 11)});
+            line({left, y}, {right, y}, kFine);
+            if (level.name.empty() || last - y < kApart) continue;
+            canvas_.text({{left, y - 0.8}, LevelNames::kText, shortened(level.name, LevelNames::kText, width)});
+            last = y;
         }
     }
 
@@ -250,10 +293,12 @@ private:
         return text;
     }
     [[nodiscard]] std::string datumText() const {
-        const std::string& name = content_.levels.front().name;
+        const auto ground = std::find_if(content_.levels.begin(), content_.levels.end(),
+                                         [](const drawing::BuildingLevel& level) { return level.isGround; });
+        const std::string& name = (ground == content_.levels.end() ? content_.levels.begin() : ground)->name;
         const double height = dot(volume_.grid.origin(), volume_.grid.axes()[2]) + datum();
         return fmt::format("{} {}: {} = {} m{}", word(SheetWord::HeightsAbove),
-                           name.empty() ? word(SheetWord::LowestFloor) : std::string_view(name),
+                           name.empty() ? word(SheetWord::GroundFloor) : std::string_view(name),
                            heightText(0, options_.language), numberText(height, 2, options_.language),
                            volume_.crsName.empty() ? std::string_view() : word(SheetWord::InModelHeights));
     }
@@ -273,28 +318,53 @@ private:
                           n == 0 ? TextAnchor::Start : TextAnchor::Middle});
     }
 
-    void addNorth(const Sheet& sheet, PaperPoint at) {
+    // Direction of a horizontal vector in the plans of a sheet, on paper; nothing if the plans do not show it.
+    [[nodiscard]] std::optional<PaperPoint> onPlans(const Sheet& sheet, Vec3d direction) const {
         const drawing::PlaneAxes& axes = content_.views[sheet.views.front().view].drawing.axes;
-        const Vec3d north{0, 1, 0};
-        const double u = dot(north, axes.u), v = -dot(north, axes.v), length = std::hypot(u, v);
-        if (!(length > 0.5)) return;
-        const PaperPoint along{u / length, v / length};
-        constexpr double kRadius = 7;
+        const double u = dot(direction, axes.u), v = -dot(direction, axes.v), length = std::hypot(u, v);
+        return length > 0.5 ? std::optional(PaperPoint{u / length, v / length}) : std::nullopt;
+    }
+
+    // An arrow to true north. Grid north, if the map has another one, is a thin line with its angle as text.
+    void addNorth(const Sheet& sheet, PaperPoint at) {
+        constexpr double kRadius = 7, kSameNorth = 0.05, kApart = 8;  // millimetres, degrees
+        const drawing::North north = drawing::northOf(volume_);
+        const auto along = onPlans(sheet, north.direction());
+        if (!along) return;
+        addArrow(at, *along, kRadius);
+        const auto below = [&](const std::string& text) {
+            canvas_.text({{at.x, at.y + kRadius + 4.5}, 1.8, text, TextAnchor::Middle});
+        };
+        if (north.source == drawing::NorthSource::Assumed) below(std::string(word(SheetWord::NorthAssumed)));
+        if (north.source != drawing::NorthSource::Projection || std::abs(north.degrees) < kSameNorth) return;
+        // The y axis lies west of true north if true north is clockwise from it.
+        below(fmt::format("{} {}\u00B0 {}", word(SheetWord::GridNorth),
+                          numberText(std::abs(north.degrees), std::abs(north.degrees) < 1 ? 2 : 1, options_.language),
+                          word(north.degrees > 0 ? SheetWord::WestLetter : SheetWord::EastLetter)));
+        const auto grid = onPlans(sheet, {0, 1, 0});
+        if (!grid || std::abs(north.degrees) < kApart) return;
+        line(at, {at.x + kRadius * grid->x, at.y + kRadius * grid->y}, kFine);
+        canvas_.text({{at.x + (kRadius + 3) * grid->x, at.y + (kRadius + 3) * grid->y + 0.8},
+                      2,
+                      std::string(word(SheetWord::GridNorthLetters)),
+                      TextAnchor::Middle});
+    }
+
+    void addArrow(PaperPoint at, PaperPoint along, double radius) {
         PaperPath circle;
         for (int n = 0; n <= 64; ++n) {
             const double angle = 2 * 3.14159265358979323846 * (n % 64) / 64;
-            circle.push_back({at.x + kRadius * std::cos(angle), at.y + kRadius * std::sin(angle)});
+            circle.push_back({at.x + radius * std::cos(angle), at.y + radius * std::sin(angle)});
         }
         canvas_.stroke({circle}, kFine);
-        const PaperPoint tip{at.x + kRadius * along.x, at.y + kRadius * along.y};
+        const PaperPoint tip{at.x + radius * along.x, at.y + radius * along.y};
         const auto foot = [&](double side) {
-            return PaperPoint{at.x - 0.8 * kRadius * along.x - side * along.y,
-                              at.y - 0.8 * kRadius * along.y + side * along.x};
+            return PaperPoint{at.x - 0.8 * radius * along.x - side * along.y,
+                              at.y - 0.8 * radius * along.y + side * along.x};
         };
-        canvas_.fill({{tip, foot(3), {at.x - 0.45 * kRadius * along.x, at.y - 0.45 * kRadius * along.y}, tip}},
+        canvas_.fill({{tip, foot(3), {at.x - 0.45 * radius * along.x, at.y - 0.45 * radius * along.y}, tip}},
                      "#000000");
-        canvas_.stroke({{tip, foot(-3), {at.x - 0.45 * kRadius * along.x, at.y - 0.45 * kRadius * along.y}, tip}},
-                       kFine);
+        canvas_.stroke({{tip, foot(-3), {at.x - 0.45 * radius * along.x, at.y - 0.45 * radius * along.y}, tip}}, kFine);
         canvas_.text({{tip.x + 3 * along.x, tip.y + 3 * along.y + 1.1},
                       3,
                       std::string(word(SheetWord::NorthLetter)),
@@ -306,6 +376,7 @@ private:
     const SheetLayout& layout_;
     const SheetOptions& options_;
     SheetCanvas& canvas_;
+    std::vector<drawing::LabelExtent> extents_;  // for finishedFloors()
 };
 
 }  // namespace

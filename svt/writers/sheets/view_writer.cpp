@@ -25,7 +25,7 @@ void addTitle(const drawing::SectionDrawing& drawing, const volume::SemanticVolu
     canvas.stroke({{{left, top}, {page.width - left, top}}}, {0.13});
     canvas.text({{left, top + 6}, 3.5, shownName(volume)});
     canvas.text(
-        {{left, top + 11}, 2.5, fmt::format("{}, 1:{}", planeText(drawing, volume.grid), shortNumber(page.scale, 2))});
+        {{left, top + 11}, 2.5, fmt::format("{}, 1:{}", planeText(drawing, volume), shortNumber(page.scale, 2))});
     for (int n = 0; n < 4; ++n) {
         const double from = left + n * size, to = from + size;
         const PaperPath box{{from, y}, {to, y}, {to, y + 1.2}, {from, y + 1.2}, {from, y}};
@@ -50,7 +50,7 @@ Result<std::string> makeSectionPdf(const drawing::SectionDrawing& drawing, const
                      fmt::format("at 1:{} the page has {:.1f} x {:.1f} m; PDF allows 5.08 m; give a smaller scale",
                                  shortNumber(scale, 2), page->width / 1000, page->height / 1000));
     SVT_TRY(canvas, makePdfCanvas(shownName(volume)));
-    (*canvas)->beginSheet(page->width, page->height, planeText(drawing, volume.grid));
+    (*canvas)->beginSheet(page->width, page->height, planeText(drawing, volume));
     const double below = page->top + (page->high.v - page->low.v) * page->millimetres;
     paintDrawing(drawing, volume, {{page->left, below}, page->low, page->millimetres}, **canvas);
     (*canvas)->beginLayer("Title");

@@ -1,6 +1,7 @@
 #include <svt/drawing/storey_floors.hpp>
 
 #include <svt/analyze/scalar_boxes.hpp>
+#include <svt/drawing/levels/level_parts.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/model/query.hpp>
 
@@ -9,21 +10,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <utility>
 
 namespace svt::drawing {
 namespace {
 
-constexpr double kLowestRoom = 1.5;     // metres: lower spaces are voids
-constexpr double kSmallestFloor = 1;    // m2
 constexpr double kSameFloor = 0.01;     // metres
-constexpr double kWithinStorey = 1.2;   // metres
 constexpr double kLevelCosine = 0.999;  // of the slope up to which a face is level
-
-bool isRoomSpace(const volume::Label& label) {
-    return model::isSpace(label.className) && model::classRank(label.className) == model::ClassRank::Room;
-}
+constexpr double kThickestSlab = 1;     // metres: thicker ones slope, or are foundations
+constexpr double kHangsAbove = 3;       // metres: the features of a storey may begin that far above its level
+constexpr std::size_t kMostAbove = 64;  // hostile models: groups in groups
 
 bool isLowerFloor(const FloorHeight& a, const FloorHeight& b) {
     return std::tie(a.at, a.area) < std::tie(b.at, b.area);
@@ -69,34 +67,56 @@ private:
     std::vector<FloorHeight> levels_;  // of faces that look down
 };
 
+std::optional<FloorHeight> mainOf(std::vector<FloorHeight>& floors, double low = -kInfinity, double high = kInfinity) {
+    std::sort(floors.begin(), floors.end(), isLowerFloor);
+    return mainFloor(floors, low, high);
+}
+
 // The extents of a storey's features, and the heights that follow.
 class StoreyExtent {
 public:
     void add(const volume::Label& label, const LabelExtent& extent) {
         if (extent.box.isEmpty()) return;
         all_.add(extent);
-        if (!model::isSpace(label.className)) return;
+        ++features_;
+        const Vec3d size = extent.box.size();
+        const double area = size.x * size.y;
+        if (!model::isSpace(label.className)) {
+            if (isFloorSlab(label) && size.z <= kThickestSlab) slabs_.push_back({extent.box.max.z, area, extent.bound});
+            if (isWallPart(label)) walls_.push_back({extent.box.min.z, std::hypot(size.x, size.y), extent.bound});
+            return;
+        }
         spaces_.add(extent);
         spaceFloors_.push_back(floorHeightOf(extent));
-        const Vec3d size = extent.box.size();
-        if (isRoomSpace(label) && size.z >= kLowestRoom && size.x * size.y >= kSmallestFloor)
-            roomFloors_.push_back(floorHeightOf(extent));
+        if (isRoomOfSize(label, extent)) roomFloors_.push_back(floorHeightOf(extent));
     }
 
-    // Adds the storey itself: its declared elevation, and its own geometry for a storey without features.
+    // Adds the storey itself: its declared level, and its own geometry for a storey without features.
     void addStorey(const volume::Label& storey, const LabelExtent& extent, const volume::Grid& grid) {
         if (!extent.box.isEmpty()) own_.add(extent);
-        for (const Attribute& attribute : storey.attributes)
-            if (const auto* height = std::get_if<double>(&attribute.value); height && attribute.name == "elevation")
-                elevation_ = *height - dot(grid.origin(), grid.axes()[2]);
+        const double corner = dot(grid.origin(), grid.axes()[2]);
+        if (const auto height = numberOf(storey, "modelElevation"); height && std::isfinite(*height))
+            declared_ = *height - corner;
+        else if (const auto stated = numberOf(storey, "elevation"); stated && lowerTexts(storey, {"ifcType"}).empty())
+            stated_ = *stated - corner;
     }
 
     // \param ofModel  floors of all rooms of the model, the lowest first
     std::optional<StoreyHeights> heights(std::uint32_t label, std::span<const FloorHeight> ofModel) {
         const LabelExtent& extent = !spaces_.box.isEmpty() ? spaces_ : !all_.box.isEmpty() ? all_ : own_;
         if (extent.box.isEmpty()) return std::nullopt;
-        const FloorHeight floor = floorAt(extent, ofModel);
-        return StoreyHeights{label, floor.at, extent.box.min.z, extent.box.max.z, floor.bound};
+        StoreyHeights heights;
+        heights.label = label;
+        heights.low = extent.box.min.z;
+        heights.top = extent.box.max.z;
+        heights.declared = declared_;
+        heights.features = features_;
+        for (const FloorHeight& floor : roomFloors_) heights.roomArea += floor.area;
+        if (!spaces_.box.isEmpty())
+            useRooms(heights);
+        else
+            useParts(heights, ofModel, extent);
+        return heights;
     }
 
 private:
@@ -107,48 +127,48 @@ private:
         }
     };
 
-    FloorHeight floorAt(const LabelExtent& extent, std::span<const FloorHeight> ofModel) {
+    static void use(StoreyHeights& heights, const FloorHeight& floor, FloorSource source) {
+        heights.floor = floor.at;
+        heights.bound = floor.bound;
+        heights.source = source;
+    }
+
+    void useRooms(StoreyHeights& heights) {
+        const FloorHeight rooms = *mainOf(roomFloors_.empty() ? spaceFloors_ : roomFloors_);
+        heights.measured = rooms.at;
+        if (declared_ && std::abs(*declared_ - rooms.at) <= kFloorBuildUp + rooms.bound)
+            use(heights, {*declared_, 0, 0}, FloorSource::Declared);
+        else
+            use(heights, rooms, FloorSource::Rooms);
+    }
+
+    void useParts(StoreyHeights& heights, std::span<const FloorHeight> ofModel, const LabelExtent& extent) {
         const double low = extent.box.min.z, top = extent.box.max.z;
-        for (std::vector<FloorHeight>* floors : {&roomFloors_, &spaceFloors_}) {
-            std::sort(floors->begin(), floors->end(), isLowerFloor);
-            if (const auto floor = mainFloor(*floors, -kInfinity, kInfinity)) return *floor;
+        if (declared_ && *declared_ >= low - kHangsAbove && *declared_ <= top + kSameStorey) {
+            const auto slab = mainOf(slabs_, *declared_ - kSameStorey, *declared_ + kSameStorey);
+            if (slab) heights.measured = slab->at;
+            if (slab && std::abs(*declared_ - slab->at) > kFloorBuildUp + slab->bound)
+                return use(heights, *slab, FloorSource::Slabs);
+            return use(heights, {*declared_, 0, 0}, FloorSource::Declared);
         }
-        if (const auto floor = mainFloor(ofModel, low - extent.bound - kSameFloor, low + kWithinStorey)) return *floor;
-        if (elevation_ && *elevation_ > low && *elevation_ < top) return {*elevation_, 0, 0};
-        return {low, 0, extent.bound};
+        if (const auto rooms = mainFloor(ofModel, low - extent.bound - kSameFloor, low + kSameStorey))
+            return use(heights, *rooms, FloorSource::Rooms);
+        if (stated_ && *stated_ > low && *stated_ < top) return use(heights, {*stated_, 0, 0}, FloorSource::Declared);
+        for (const auto& [parts, source] :
+             {std::pair(&slabs_, FloorSource::Slabs), std::pair(&walls_, FloorSource::Walls)}) {
+            std::sort(parts->begin(), parts->end(), isLowerFloor);
+            if (parts->empty()) continue;
+            const double lowest = parts->front().at;
+            return use(heights, *mainFloor(*parts, lowest, lowest + kSameStorey), source);
+        }
+        use(heights, {low, 0, extent.bound}, FloorSource::Lowest);
     }
 
     Sum own_, all_, spaces_;
-    std::vector<FloorHeight> roomFloors_, spaceFloors_;
-    std::optional<double> elevation_;  // metres above the grid's lower corner
-};
-
-// The labels directly below each label: its children, and the members of a group. A district has a thousand storeys, so
-// these are found once for all.
-class StoreyMembers {
-public:
-    explicit StoreyMembers(const volume::LabelTable& table) : begins_(table.labels.size() + 1, 0) {
-        const auto forEachAbove = [&](std::uint32_t l, const auto& visit) {
-            const volume::Label& label = table.labels[l];
-            if (label.parent != volume::kNoLabel) visit(label.parent);
-            for (const std::uint32_t group : label.groups) visit(group);
-        };
-        const auto count = static_cast<std::uint32_t>(table.labels.size());
-        for (std::uint32_t l = 0; l < count; ++l) forEachAbove(l, [&](std::uint32_t above) { ++begins_[above + 1]; });
-        for (std::size_t l = 1; l < begins_.size(); ++l) begins_[l] += begins_[l - 1];
-        labels_.resize(begins_.back());
-        std::vector<std::size_t> next(begins_.begin(), begins_.end() - 1);
-        for (std::uint32_t l = 0; l < count; ++l)
-            forEachAbove(l, [&](std::uint32_t above) { labels_[next[above]++] = l; });
-    }
-
-    [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t above) const noexcept {
-        return std::span(labels_).subspan(begins_[above], begins_[above + 1] - begins_[above]);
-    }
-
-private:
-    std::vector<std::size_t> begins_;
-    std::vector<std::uint32_t> labels_;
+    std::vector<FloorHeight> roomFloors_, spaceFloors_, slabs_, walls_;
+    std::size_t features_ = 0;
+    std::optional<double> declared_;  // metres above the grid's lower corner
+    std::optional<double> stated_;    // the same, of a format that does not define its zero
 };
 
 Result<std::vector<std::uint32_t>> labelsOnStorey(const std::string& storey, const analyze::LabelRows& rows) {
@@ -205,13 +225,31 @@ std::optional<FloorHeight> mainFloor(std::span<const FloorHeight> floors, double
 
 std::vector<FloorHeight> roomFloors(const volume::SemanticVolume& volume, std::span<const LabelExtent> extents) {
     std::vector<FloorHeight> floors;
-    for (std::size_t l = 0; l < extents.size(); ++l) {
-        const Vec3d size = extents[l].box.size();
-        if (isRoomSpace(volume.labels.labels[l]) && size.z >= kLowestRoom && size.x * size.y >= kSmallestFloor)
-            floors.push_back(floorHeightOf(extents[l]));
-    }
+    for (std::size_t l = 0; l < extents.size(); ++l)
+        if (isRoomOfSize(volume.labels.labels[l], extents[l])) floors.push_back(floorHeightOf(extents[l]));
     std::sort(floors.begin(), floors.end(), isLowerFloor);
     return floors;
+}
+
+std::vector<std::uint32_t> storeysOfLabels(const volume::LabelTable& table) {
+    const auto& labels = table.labels;
+    const analyze::LabelRows labelRows(table);
+    const std::span<const model::QueryRow> rows = labelRows.get();
+    std::vector<std::uint32_t> storeys(labels.size(), volume::kNoLabel), open;
+    for (std::uint32_t l = 0; l < labels.size(); ++l) {
+        open.assign(1, l);
+        const auto add = [&](std::uint32_t above) {
+            if (above < labels.size() && std::find(open.begin(), open.end(), above) == open.end())
+                open.push_back(above);
+        };
+        for (std::size_t n = 0; n < open.size() && n < kMostAbove && storeys[l] == volume::kNoLabel; ++n) {
+            if (model::query::isStorey(rows[open[n]])) storeys[l] = open[n];
+            // Groups first: the parent of a room can be its building, and a group its storey.
+            for (const std::uint32_t group : labels[open[n]].groups) add(group);
+            add(labels[open[n]].parent);
+        }
+    }
+    return storeys;
 }
 
 Result<StoreyHeights> storeyHeights(const std::string& storey, const volume::SemanticVolume& volume) {
@@ -223,19 +261,28 @@ Result<StoreyHeights> storeyHeights(const std::string& storey, const volume::Sem
     SVT_TRY(selected, labelsOnStorey(storey, rows));
     const auto& labels = volume.labels.labels;
     const std::vector<LabelExtent> extents = labelExtents(volume);
-    StoreyExtent extent;
+    const std::vector<std::uint32_t> storeys = storeysOfLabels(volume.labels);
+    StoreyExtent extent, below;
     std::uint32_t found = volume::kNoLabel;
-    const auto isStoreyItself = [&](std::uint32_t l) {
-        return (labels[l].id == storey || labels[l].name == storey) && model::query::isStorey(rows.get()[l]);
-    };
+    std::vector<bool> isNamed(labels.size(), false);
     for (std::uint32_t l = 0; l < labels.size(); ++l) {
-        if (!isStoreyItself(l)) continue;
+        const bool isIt = labels[l].id == storey || labels[l].name == storey;
+        if (!isIt || storeys[l] != l) continue;
+        isNamed[l] = true;
         extent.addStorey(labels[l], extents[l], volume.grid);
+        below.addStorey(labels[l], extents[l], volume.grid);
         found = std::min(found, l);
     }
-    for (const std::uint32_t l : *selected)
-        if (!isStoreyItself(l)) extent.add(labels[l], extents[l]);
-    const auto heights = extent.heights(found, roomFloors(volume, extents));
+    bool hasOwn = false;
+    for (const std::uint32_t l : *selected) {
+        if (isNamed[l]) continue;
+        below.add(labels[l], extents[l]);
+        if (storeys[l] == volume::kNoLabel || !isNamed[storeys[l]]) continue;
+        hasOwn = hasOwn || !extents[l].box.isEmpty();
+        extent.add(labels[l], extents[l]);
+    }
+    // A storey of partial storeys has features only through these.
+    const auto heights = (hasOwn ? extent : below).heights(found, roomFloors(volume, extents));
     if (!heights) return Error(Code::NothingSelected, fmt::format("the storey '{}' has no voxels", storey));
     return *heights;
 }
@@ -251,36 +298,27 @@ Result<std::pair<double, double>> storeyVoxels(const std::string& storey, const 
     }
     if (all.isEmpty()) return Error(Code::NothingSelected, fmt::format("the storey '{}' has no voxels", storey));
     const analyze::SampleBox& box = spaces.isEmpty() ? all : spaces;
-    const double spacing = volume.grid.spacing().z;
-    return std::pair((box.min.z - 0.5) * spacing, (box.max.z + 0.5) * spacing);
+    SVT_TRY(heights, storeyHeights(storey, volume, rows));
+    const double spacing = volume.grid.spacing().z, low = (box.min.z - 0.5) * spacing,
+                 top = (box.max.z + 0.5) * spacing;
+    const double floor = heights->floor - kFloorBuildUp;
+    return std::pair(floor < top ? std::max(low, floor) : low, top);
 }
 
 std::vector<StoreyHeights> findStoreys(const volume::SemanticVolume& volume) {
+    const auto& labels = volume.labels.labels;
     const std::vector<LabelExtent> extents = labelExtents(volume);
     const std::vector<FloorHeight> floors = roomFloors(volume, extents);
-    const analyze::LabelRows labelRows(volume.labels);
-    const std::span<const model::QueryRow> rows = labelRows.get();
-    const StoreyMembers members(volume.labels);
-    std::vector<std::uint32_t> seenBy(rows.size(), volume::kNoLabel);
+    const std::vector<std::uint32_t> storeyOf = storeysOfLabels(volume.labels);
+    std::map<std::uint32_t, StoreyExtent> extentOf;  // by label of the storey
+    for (std::uint32_t l = 0; l < labels.size(); ++l)
+        if (storeyOf[l] == l)
+            extentOf[l].addStorey(labels[l], extents[l], volume.grid);
+        else if (storeyOf[l] != volume::kNoLabel)
+            extentOf[storeyOf[l]].add(labels[l], extents[l]);
     std::vector<StoreyHeights> storeys;
-    for (std::uint32_t l = 0; l < rows.size(); ++l) {
-        if (!model::query::isStorey(rows[l])) continue;
-        StoreyExtent extent;
-        extent.addStorey(volume.labels.labels[l], extents[l], volume.grid);
-        std::vector<std::uint32_t> open{l};
-        while (!open.empty()) {
-            const std::uint32_t above = open.back();
-            open.pop_back();
-            for (const std::uint32_t below : members.of(above)) {
-                if (seenBy[below] == l) continue;
-                seenBy[below] = l;
-                if (below == l) continue;
-                extent.add(volume.labels.labels[below], extents[below]);
-                open.push_back(below);
-            }
-        }
-        if (const auto heights = extent.heights(l, floors)) storeys.push_back(*heights);
-    }
+    for (auto& [label, extent] : extentOf)
+        if (const auto heights = extent.heights(label, floors)) storeys.push_back(*heights);
     std::stable_sort(storeys.begin(), storeys.end(),
                      [](const StoreyHeights& a, const StoreyHeights& b) { return a.floor < b.floor; });
     return storeys;

@@ -1,0 +1,12 @@
+#pragma once
+/// \file
+/// The ground floor among the levels of a building.
+
+#include <svt/drawing/building_levels.hpp>
+
+namespace svt::drawing {
+
+/// The index of the ground floor, see findLevels(). There must be levels.
+[[nodiscard]] std::size_t groundFloorOf(const std::vector<BuildingLevel>& levels, const volume::SemanticVolume& volume);
+
+}  // namespace svt::drawing
