@@ -1,12 +1,60 @@
 #include <svt/analyze/label_measures.hpp>
 
+#include <svt/model/classes.hpp>
+
 namespace svt::analyze {
 
-std::vector<LabelMeasure> measureLabels(const volume::SemanticVolume& volume, const std::vector<Contact>& contacts) {
-    const std::vector<volume::Label>& labels = volume.labels.labels;
-    std::vector<LabelMeasure> measures(labels.size());
+namespace {
+
+// Whether the voxels are those of a closed mesh, whose volume is exact.
+bool isClosedSolid(volume::Filling filling) noexcept {
+    using volume::Filling;
+    return filling == Filling::Solid || filling == Filling::TJunctions || filling == Filling::Complemented ||
+           filling == Filling::Capped;
+}
+
+// Entry per label: the number of voxels of the sheets that bound it, which lie inside of it. Sheets below a sheet, such
+// as windows, count with it.
+std::vector<std::uint64_t> voxelsOfSheets(const std::vector<volume::Label>& labels) {
+    std::vector<std::uint64_t> voxels(labels.size(), 0);
+    std::vector<std::uint32_t> bodyOf(labels.size(), volume::kNoLabel);
+    for (std::uint32_t l = 0; l < labels.size(); ++l) {
+        const volume::Label& label = labels[l];
+        if (label.filling != volume::Filling::Surface || label.parent >= l) continue;
+        const bool isShell = model::isBoundarySurface(label.className) || model::isFilling(label.className);
+        const bool isBelowSheet = labels[label.parent].filling == volume::Filling::Surface;
+        bodyOf[l] = isBelowSheet ? bodyOf[label.parent] : isShell ? label.parent : volume::kNoLabel;
+        if (bodyOf[l] != volume::kNoLabel) voxels[bodyOf[l]] += label.voxels;
+    }
+    return voxels;
+}
+
+}  // namespace
+
+std::vector<Measure> ownMeasures(const volume::LabelTable& table, const volume::Grid& grid) {
+    std::vector<char> hasLost(table.labels.size(), 0);
+    for (const volume::Overlap& overlap : table.overlaps)
+        if (overlap.voxels != 0) hasLost[overlap.b] = 1;
+    const std::vector<std::uint64_t> sheets = voxelsOfSheets(table.labels);
+    std::vector<Measure> measures(table.labels.size());
+    for (std::size_t l = 0; l < measures.size(); ++l) {
+        const volume::Label& label = table.labels[l];
+        Measure& measure = measures[l];
+        measure.voxels = label.voxels;
+        if (hasLost[l] == 0 && label.voxels > 0 && label.volume > 0) {
+            measure.volume = label.volume;
+            if (!isClosedSolid(label.filling)) measure.countedVolume = label.volume;
+        } else if ((label.count > 0 || label.voxels > 0) && label.filling != volume::Filling::Surface) {
+            measure.volume = measure.countedVolume = double(label.voxels + sheets[l]) * grid.voxelVolume();
+        }
+    }
+    return measures;
+}
+
+std::vector<Measure> measureLabels(const volume::SemanticVolume& volume, const std::vector<Contact>& contacts) {
+    std::vector<Measure> measures = ownMeasures(volume.labels, volume.grid);
     const std::vector<SampleBox> boxes = labelBoxes(volume.columns, volume.labels);
-    for (std::size_t l = 0; l < labels.size(); ++l) measures[l].box = boxes[l];
+    for (std::size_t l = 0; l < measures.size(); ++l) measures[l].box = boxes[l];
     for (const Contact& contact : contacts) {
         measures[contact.a].area += contact.area;
         if (contact.b == volume::kNoLabel)
@@ -17,18 +65,15 @@ std::vector<LabelMeasure> measureLabels(const volume::SemanticVolume& volume, co
     return measures;
 }
 
+std::optional<double> solidVolumeOf(const volume::Label& label) noexcept {
+    if (!isClosedSolid(label.filling) || !(label.volume > 0)) return {};
+    return label.volume;
+}
+
 std::vector<double> ownVolumes(const volume::LabelTable& table, const volume::Grid& grid) {
     std::vector<double> volumes;
     volumes.reserve(table.labels.size());
-    for (const volume::Label& label : table.labels) volumes.push_back(label.volume);
-    const auto byVoxels = [&](std::size_t l) {
-        const volume::Label& label = table.labels[l];
-        volumes[l] = label.filling == volume::Filling::Surface ? 0 : double(label.voxels) * grid.voxelVolume();
-    };
-    for (const volume::Overlap& overlap : table.overlaps)
-        if (overlap.voxels != 0) byVoxels(overlap.b);
-    for (std::size_t l = 0; l < volumes.size(); ++l)
-        if (table.labels[l].voxels == 0 || !(volumes[l] > 0)) byVoxels(l);
+    for (const Measure& measure : ownMeasures(table, grid)) volumes.push_back(measure.volume.value_or(0));
     return volumes;
 }
 

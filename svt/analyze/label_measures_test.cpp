@@ -55,5 +55,26 @@ TEST(LabelMeasures, VolumesAreThoseOfSolidsUnlessVoxelsWereLost) {
     for (std::size_t l = 0; l < 5; ++l) EXPECT_NEAR(volumes[l], expected[l], 1e-12) << l;
 }
 
+TEST(LabelMeasures, SheetsCountWithTheBodyThatTheyBound) {
+    // A room of 8 x 8 x 4 voxels of 1 m3 with a floor of one layer, a window in the floor, and a stove.
+    volume::SemanticVolume volume = volume::test::emptyVolume({8, 8, 4}, {1, 1, 1});
+    volume::test::addObject(volume, "room", "BuildingRoom").filling = volume::Filling::Solid;
+    volume::test::addObject(volume, "floor", "FloorSurface", 0).filling = volume::Filling::Surface;
+    volume::test::addObject(volume, "window", "Window", 1).filling = volume::Filling::Surface;
+    volume::test::addObject(volume, "stove", "BuildingFurniture", 0).filling = volume::Filling::Solid;
+    volume::test::paintBoxes(
+        volume,
+        {{1, {0, 0, 0}, {8, 8, 4}}, {2, {0, 0, 0}, {8, 8, 1}}, {3, {0, 0, 0}, {2, 2, 1}}, {4, {4, 4, 1}, {6, 6, 2}}});
+    volume.labels.labels[0].volume = 256;
+    volume.labels.overlaps = {{3, 0, 4, true}};
+    const auto measures = ownMeasures(volume.labels, volume.grid);
+    EXPECT_EQ(measures[0].voxels, 256u - 64 - 4);
+    EXPECT_EQ(measures[0].volume, 252.0) << "the room without the stove, with its floor";
+    EXPECT_EQ(measures[0].countedVolume, 252.0);
+    EXPECT_FALSE(measures[1].volume || measures[2].volume);
+    volume.labels.overlaps.clear();
+    EXPECT_EQ(ownMeasures(volume.labels, volume.grid)[0].volume, 256.0);
+}
+
 }  // namespace
 }  // namespace svt::analyze

@@ -1,12 +1,16 @@
 #pragma once
 /// \file
-/// Ownership of the parts of a building: spaces by a table, and the walls and slabs between them by a rule.
+/// Ownership of the parts of a building: features by a table, and the walls and slabs between them by a rule.
 ///
-/// The rule: a feature in the table belongs to its owner. Each other component (wall, slab, window, ...; not a space)
-/// is divided between the owners of the features that it touches, in proportion to the contact area; spaces that are
-/// not listed count as unowned. The surfaces that bound a space are part of it. Outside air and other unlisted
-/// components do not count, so an exterior wall belongs to the owners of the spaces behind it. A component that touches
-/// no space at all (a beam inside a slab) is not divided.
+/// A feature of the table belongs to its owners, with its extent (see extents.hpp). If features of the table contain
+/// each other, the finer one decides: a flat within a building that belongs to all. Space in several features that do
+/// not contain each other, such as a cellar of two flats, counts once, divided equally between these features.
+///
+/// The rule for all else: each component (wall, slab, window, ...; not a space) is divided between the owners of the
+/// features that it touches, in proportion to the contact area. Spaces that are not listed count as unowned. The sheets
+/// that bound a space are part of it. Outside air and other unlisted components do not count, so an exterior wall
+/// belongs to the owners of the spaces behind it. A component that touches no space at all (a beam inside a slab) is
+/// not divided.
 ///
 ///        flat A   |wall|  flat B        contact A 20 m2, B 20 m2: half each
 ///        ---------+    +--------
@@ -26,23 +30,40 @@ namespace svt::analyze {
 
 inline constexpr std::uint32_t kNoOwner = 0xFFFFFFFFu;
 
-struct OwnerTable {
-    std::vector<std::string> names;      ///< of the owners, in order of first occurrence
-    std::vector<std::uint32_t> ofLabel;  ///< entry l: index of the owner of label l, or kNoOwner
+/// The part of a feature or label that belongs to an owner.
+struct OwnerFraction {
+    std::uint32_t owner = 0;
+    double fraction = 1;  ///< more than 0, up to 1
+    friend bool operator==(const OwnerFraction&, const OwnerFraction&) = default;
 };
 
-/// Reads a CSV table of two columns, feature and owner: UTF-8, separated by commas or semicolons; fields with
+/// A feature of the table.
+struct OwnedFeature {
+    std::uint32_t label = 0;
+    std::vector<OwnerFraction> owners;  ///< by owner; if they add up to less than 1, the rest is unowned
+    std::vector<std::uint32_t> parts;   ///< labels of its extent that no finer feature of the table has, ascending
+};
+
+struct OwnerTable {
+    std::vector<std::string> names;                   ///< of the owners, in order of first occurrence
+    std::vector<OwnedFeature> features;               ///< by label
+    std::vector<std::vector<OwnerFraction>> ofLabel;  ///< entry l: owners of label l, by owner; empty: not in the table
+    std::vector<std::uint32_t> shared;                ///< labels that are parts of several features, ascending
+};
+
+/// Reads a CSV table of feature, owner and optionally share: UTF-8, separated by commas or semicolons; fields with
 /// separators or quotes are in "...", with "" for a quote. The separator is the first of the two in the first line,
-/// outside of quotes. A first line `feature,owner` and empty lines are skipped.
+/// outside of quotes. A first line `feature,owner` or `feature,owner,share` and empty lines are skipped.
 ///
-/// A feature is an id or a query. It includes all features below the selected ones in the tree, and their members: a
-/// flat with its rooms and inner walls.
+/// A feature is an id or a query. A share is a fraction (1/2), a percentage (50%) or a number (0.5). Several owners of a
+/// feature have a row each, with their shares. The same owner may have any number of features.
 /// \param file  name for messages
 /// \return the table, or an error with its line:
-///         - BadValue         not two columns, an empty field, an open quote, a feature given to two owners, no rows.
+///         - BadValue         not two or three columns, an empty field, an open quote, a bad share, no rows; several
+///                            owners of a feature without shares, or with shares over 1 in all.
 ///         - NothingSelected  neither an id nor a query that selects something (names the nearest).
 ///         - InputTooBig      over 64 MiB, or rows that look at more than 2^30 features in all.
-/// Cost: O(bytes + selected labels) for ids; a query O(labels).
+/// Cost: O(bytes + labels of all extents) for ids; a query O(labels).
 [[nodiscard]] Result<OwnerTable> parseOwners(std::string_view text, std::string_view file,
                                              const volume::LabelTable& labels);
 
@@ -62,25 +83,39 @@ struct DividedComponent {
 
 /// Totals of one owner, m3.
 struct OwnerTotal {
-    double own = 0;     ///< listed in the table
-    double alone = 0;   ///< components that touch no other owner's space
+    double own = 0;     ///< listed in the table, by shares
+    double alone = 0;   ///< its share of components that touch only spaces of the same owners
     double shared = 0;  ///< its share of the others
-    /// Breakdown of `shared` by co-owner: the part in components in which this other owner has a share, too. A
-    /// component of three owners counts for each pair. In order, unowned last; `area` is the owner's own contact with
-    /// those components.
+    /// Breakdown of the shares of components by co-owner: the part in components in which this other owner has a share,
+    /// too. A component of three owners counts for each pair. In order, unowned last; `area` is the owner's own contact
+    /// with those components.
     std::vector<OwnerShare> with;
 };
 
+/// The common property of a storey of a building: volumes of the features that are not in the table, m3.
+struct CommonProperty {
+    std::uint32_t building = volume::kNoLabel;  ///< kNoLabel: in none
+    std::uint32_t storey = volume::kNoLabel;    ///< kNoLabel: in none, or in several
+    double spaces = 0;
+    double components = 0;
+};
+
+/// Totals of all owners, `unowned`, `untouched` and `unownedSpaces` add up to `all`.
 struct Ownership {
     std::vector<OwnerTotal> owners;            ///< as in OwnerTable::names
     std::vector<DividedComponent> components;  ///< by label
+    std::vector<double> ofFeature;             ///< m3 of each of OwnerTable::features; shared space divided
+    std::vector<CommonProperty> common;        ///< by building, then storey; kNoLabel last
     double unowned = 0;                        ///< m3: the unowned shares of components
     double untouched = 0;                      ///< m3: components that touch no space
+    double unownedSpaces = 0;                  ///< m3: spaces that are not listed, and shares that no owner has
+    double shared = 0;                         ///< m3: of OwnerTable::shared
+    double all = 0;                            ///< m3: of all labels, each counted once
 };
 
 /// Divides the components of `volume` between owners. The volume of a label is that of ownVolumes().
 /// \param contacts  of the whole volume, see findContacts()
-/// Cost: O(labels + contacts).
+/// Cost: O(contacts + labels of the extents of buildings and storeys).
 [[nodiscard]] Ownership divideByOwners(const volume::SemanticVolume& volume, const std::vector<Contact>& contacts,
                                        const OwnerTable& table);
 

@@ -20,6 +20,11 @@ std::span<const model::QueryRow> LabelRows::get() const {
     return rows_;
 }
 
+const Extents& LabelRows::extents() const {
+    if (!extents_) extents_.emplace(labels_);
+    return *extents_;
+}
+
 Result<std::vector<std::uint32_t>> LabelRows::selectNothing(const std::string& message) const {
     if (nothing_ == nullptr) return Error(Code::NothingSelected, message);
     if (std::find(nothing_->begin(), nothing_->end(), message) == nothing_->end()) nothing_->push_back(message);
@@ -33,6 +38,11 @@ Result<std::vector<std::uint32_t>> selectLabels(const LabelRows& rows, std::stri
     const std::string reason = query->unknownValue(rows.get());
     return rows.selectNothing(
         fmt::format("the query '{}' selects nothing{}{}", text, reason.empty() ? "" : ": ", reason));
+}
+
+Result<std::vector<std::uint32_t>> selectWithParts(const LabelRows& rows, std::string_view text) {
+    SVT_TRY(selected, selectLabels(rows, text));
+    return rows.extents().withParts(*selected);
 }
 
 Result<SampleBox> boxAround(const std::vector<std::uint32_t>& labels, const volume::SemanticVolume& volume,

@@ -2,12 +2,14 @@
 /// \file
 /// Queries on the labels of a volume: the rows that they read, the labels that they select, and the box around these.
 
+#include <svt/analyze/extents.hpp>
 #include <svt/analyze/scalar_boxes.hpp>
 #include <svt/model/query.hpp>
 #include <svt/volume/label_table.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +31,8 @@ public:
         : labels_(labels), nothing_(nothing) {}
 
     [[nodiscard]] std::span<const model::QueryRow> get() const;
+    /// The extents of the labels, made once.
+    [[nodiscard]] const Extents& extents() const;
 
     /// The result of a query that selects nothing: an empty selection, or NothingSelected with this message.
     [[nodiscard]] Result<std::vector<std::uint32_t>> selectNothing(const std::string& message) const;
@@ -37,12 +41,17 @@ private:
     const volume::LabelTable& labels_;
     std::vector<std::string>* nothing_;
     mutable std::vector<model::QueryRow> rows_;  // empty: not made yet
+    mutable std::optional<Extents> extents_;
 };
 
 /// Labels that the query `text` selects.
 /// \return the labels, or BadQuery, or NothingSelected (see LabelRows); the latter names the nearest existing value
 /// Cost: that of queryRows(), once for all queries on the same rows, and of Query::select().
 [[nodiscard]] Result<std::vector<std::uint32_t>> selectLabels(const LabelRows& rows, std::string_view text);
+
+/// selectLabels() with the parts that the selected features stand for, see Extents::wholes(). For commands that show,
+/// hide, draw, cut out or frame features: a selected flat or storey is complete.
+[[nodiscard]] Result<std::vector<std::uint32_t>> selectWithParts(const LabelRows& rows, std::string_view text);
 
 /// The box around all voxels of `labels`.
 /// \param what  describes them in the message

@@ -20,6 +20,7 @@ struct Checked {
     const validate::ValidateOptions& options;
     const mesh::MeshSet& meshes;
     const Diagnostics& others;  ///< findings of readers and of closing
+    Json units{};               ///< of checkUnits(); null: the model has no units, or they were not compared
 };
 
 /// Keys `valid`, `findings`, `counts`, `features`, `primitives`, `polygons` of the JSON of `svt check`.

@@ -2,6 +2,7 @@
 
 #include <apps/cli/output/messages.hpp>
 
+#include <svt/analyze/extents.hpp>
 #include <svt/analyze/gaps.hpp>
 #include <svt/analyze/label_measures.hpp>
 #include <svt/analyze/solid_overlaps.hpp>
@@ -12,6 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 namespace svt::cli {
 namespace {
@@ -41,11 +44,20 @@ void addBoxColumns(std::vector<Column>& columns) {
             columns.push_back({std::string(end) + axis, fmt::format("{} {}", end, char(axis[0] - 'A' + 'a'))});
 }
 
-std::vector<analyze::LabelMeasure> measure(const volume::SemanticVolume& volume, const With& with, int threads) {
+std::vector<analyze::FeatureMeasure> measuresOf(const volume::SemanticVolume& volume, const Labels& selected,
+                                                const With& with, int threads) {
     std::vector<analyze::Contact> contacts;
     if (with.surface) contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, threads);
-    if (!with.surface && !with.box) return {};
-    return analyze::measureLabels(volume, contacts);
+    const auto own = with.surface || with.box ? analyze::measureLabels(volume, contacts)
+                                              : analyze::ownMeasures(volume.labels, volume.grid);
+    return analyze::measureFeatures(analyze::Extents(volume.labels), selected, own, contacts);
+}
+
+Cell known(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
+
+// Areas of features without voxels are unknown.
+Cell areaOf(const analyze::Measure& measure, double analyze::Measure::*area) {
+    return measure.voxels > 0 ? Cell(measure.*area) : Cell();
 }
 
 Json ownerName(const analyze::OwnerTable& owners, std::uint32_t owner) {
@@ -57,6 +69,131 @@ Json sharesJson(const analyze::OwnerTable& owners, const std::vector<analyze::Ow
     for (const analyze::OwnerShare& share : shares)
         list.push_back({{"owner", ownerName(owners, share.owner)}, {"area", share.area}, {"volume", share.volume}});
     return list;
+}
+
+// The stretches of a ray in `extent`; those that follow each other are one.
+std::vector<render::LabelInterval> stretchesIn(const std::vector<render::LabelInterval>& all, std::uint32_t label,
+                                               const Labels& extent) {
+    std::vector<render::LabelInterval> joined;
+    const render::LabelInterval* last = nullptr;
+    for (const render::LabelInterval& stretch : all) {
+        if (isIn(extent, stretch.label)) {
+            if (last != nullptr && last + 1 == &stretch && last->leave == stretch.enter)
+                joined.back().leave = stretch.leave;
+            else
+                joined.push_back({label, stretch.enter, stretch.leave});
+            last = &stretch;
+        }
+    }
+    return joined;
+}
+
+// Entry l: the first pair with label l of the first volume, or where it would be.
+std::vector<std::uint64_t> firstPairs(const std::vector<analyze::SharedVoxels>& pairs, std::size_t labelCount) {
+    std::vector<std::uint64_t> begins(labelCount + 1, 0);
+    for (const analyze::SharedVoxels& pair : pairs)
+        if (pair.a != volume::kNoLabel) ++begins[pair.a + 1];
+    for (std::size_t l = 0; l < labelCount; ++l) begins[l + 1] += begins[l];
+    return begins;
+}
+
+// Totals of the owners, of everything without owner, and of all.
+void addTotals(const analyze::OwnerTable& owners, const analyze::Ownership& ownership, OwnerReport& report) {
+    report.totals.columns = {{"owner", "owner"},
+                             {"own", "own m3"},
+                             {"alone", "walls alone m3"},
+                             {"shared", "walls shared m3"},
+                             {"total", "total m3"}};
+    report.json["owners"] = Json::array();
+    for (std::uint32_t o = 0; o < owners.names.size(); ++o) {
+        const analyze::OwnerTotal& total = ownership.owners[o];
+        const double sum = total.own + total.alone + total.shared;
+        report.totals.rows.push_back({owners.names[o], total.own, total.alone, total.shared, sum});
+        report.json["owners"].push_back({{"owner", owners.names[o]},
+                                         {"own", total.own},
+                                         {"alone", total.alone},
+                                         {"shared", total.shared},
+                                         {"total", sum},
+                                         {"with", sharesJson(owners, total.with)}});
+    }
+    report.totals.rows.push_back({"(no owner)", ownership.unownedSpaces, nullptr, ownership.unowned,
+                                  ownership.unownedSpaces + ownership.unowned});
+    report.totals.rows.push_back({"(touch no space)", nullptr, nullptr, nullptr, ownership.untouched});
+    report.totals.rows.push_back({"(all)", nullptr, nullptr, nullptr, ownership.all});
+}
+
+// The features of the table, with a row per owner.
+void addOwnedFeatures(const volume::LabelTable& table, const analyze::OwnerTable& owners,
+                      const analyze::Ownership& ownership, OwnerReport& report) {
+    report.features.columns = {{"id", "id"},       {"class", "class"},    {"name", "name"},
+                               {"owner", "owner"}, {"share", "share", 4}, {"volume", "m3"}};
+    report.json["features"] = Json::array();
+    for (std::size_t n = 0; n < owners.features.size(); ++n) {
+        const analyze::OwnedFeature& feature = owners.features[n];
+        const volume::Label& label = table.labels[feature.label];
+        Json shares = Json::array();
+        for (const auto& [owner, fraction] : feature.owners) {
+            const double volume = ownership.ofFeature[n] * fraction;
+            Row row;
+            addNames(row, table, feature.label);
+            row.insert(row.end(), {owners.names[owner], fraction, volume});
+            report.features.rows.push_back(std::move(row));
+            shares.push_back({{"owner", owners.names[owner]}, {"share", fraction}, {"volume", volume}});
+        }
+        report.json["features"].push_back({{"id", label.id},
+                                           {"class", label.className},
+                                           {"name", label.name},
+                                           {"volume", ownership.ofFeature[n]},
+                                           {"shares", std::move(shares)}});
+    }
+}
+
+void addCommonProperty(const volume::LabelTable& table, const analyze::Ownership& ownership, OwnerReport& report) {
+    report.common.columns = {{"building", "building"},
+                             {"storey", "storey"},
+                             {"spaces", "spaces m3"},
+                             {"components", "walls and slabs m3"},
+                             {"total", "total m3"}};
+    const auto idOf = [&](std::uint32_t label) {
+        return label == volume::kNoLabel ? Json(nullptr) : Json(table.labels[label].id);
+    };
+    const auto cellOf = [&](std::uint32_t label) {
+        return label == volume::kNoLabel ? Cell() : Cell(table.labels[label].id);
+    };
+    report.json["common"] = Json::array();
+    for (const auto& [building, storey, spaces, components] : ownership.common) {
+        report.common.rows.push_back({cellOf(building), cellOf(storey), spaces, components, spaces + components});
+        report.json["common"].push_back({{"building", idOf(building)},
+                                         {"storey", idOf(storey)},
+                                         {"spaces", spaces},
+                                         {"components", components},
+                                         {"total", spaces + components}});
+    }
+}
+
+void addComponents(const volume::LabelTable& table, const Labels& selected, const analyze::OwnerTable& owners,
+                   const analyze::Ownership& ownership, OwnerReport& report) {
+    report.components.columns = {{"id", "id"},       {"class", "class"}, {"name", "name"},
+                                 {"owner", "owner"}, {"area", "m2"},     {"volume", "m3"}};
+    report.json["components"] = Json::array();
+    for (const analyze::DividedComponent& component : ownership.components) {
+        if (!isIn(selected, component.label)) continue;
+        const volume::Label& label = table.labels[component.label];
+        double sum = 0;
+        for (const analyze::OwnerShare& share : component.shares) {
+            Row row;
+            addNames(row, table, component.label);
+            row.push_back(share.owner == analyze::kNoOwner ? Cell() : Cell(owners.names[share.owner]));
+            row.insert(row.end(), {share.area, share.volume});
+            report.components.rows.push_back(std::move(row));
+            sum += share.volume;
+        }
+        report.json["components"].push_back({{"id", label.id},
+                                             {"class", label.className},
+                                             {"name", label.name},
+                                             {"volume", sum},
+                                             {"shares", sharesJson(owners, component.shares)}});
+    }
 }
 
 }  // namespace
@@ -81,41 +218,67 @@ Result<With> parseWith(const std::string& text) {
     return with;
 }
 
+// Columns without a title are deprecated names: only JSON and CSV have them.
 Table featureTable(const volume::SemanticVolume& volume, const Labels& selected, const With& with, int threads) {
+    using analyze::Measure;
     Table table;
-    table.columns = {{"id", "id"}, {"class", "class"}, {"name", "name"}, {"volume", "m3"}, {"voxels", "voxels"}};
-    if (with.volume) {
-        table.columns.push_back({"voxelVolume", "voxel m3"});
-        table.columns.push_back({"filling", "filling"});
-    }
-    if (with.surface) {
-        table.columns.push_back({"surface", "m2"});
-        table.columns.push_back({"outside", "m2 outside"});
-    }
+    table.columns = {{"id", "id"},
+                     {"class", "class"},
+                     {"name", "name"},
+                     {"ownVolume", "own m3"},
+                     {"totalVolume", "total m3"},
+                     {"ownVoxels", "own voxels"},
+                     {"totalVoxels", "total voxels"}};
+    const auto add = [&](std::initializer_list<Column> columns) { table.columns.insert(table.columns.end(), columns); };
+    if (with.volume) add({{"solidVolume", "solid m3"}, {"countedVolume", "counted m3"}, {"filling", "filling"}});
+    if (with.surface)
+        add({{"ownSurface", "own m2"},
+             {"totalSurface", "total m2"},
+             {"ownOutside", "own m2 outside"},
+             {"totalOutside", "total m2 outside"}});
     if (with.box) addBoxColumns(table.columns);
-    const std::vector<analyze::LabelMeasure> measures = measure(volume, with, threads);
-    for (const std::uint32_t l : selected) {
-        const volume::Label& label = volume.labels.labels[l];
+    add({{"volume"}, {"voxels"}});
+    if (with.volume) add({{"voxelVolume"}});
+    if (with.surface) add({{"surface"}, {"outside"}});
+    for (const analyze::FeatureMeasure& measure : measuresOf(volume, selected, with, threads)) {
+        const volume::Label& label = volume.labels.labels[measure.label];
+        const auto& [l, own, total] = measure;
         Row row;
         addNames(row, volume.labels, l);
-        row.insert(row.end(), {label.volume, label.voxels});
+        row.insert(row.end(), {known(own.volume), known(total.volume), own.voxels, total.voxels});
         if (with.volume)
             row.insert(row.end(),
-                       {double(label.voxels) * volume.grid.voxelVolume(), volume::fillingName(label.filling)});
-        if (with.surface) row.insert(row.end(), {measures[l].area, measures[l].outsideArea});
-        if (with.box) appendCorners(row, analyze::worldBox(measures[l].box, volume.grid));
+                       {known(analyze::solidVolumeOf(label)), total.volume ? Cell(total.countedVolume) : Cell(),
+                        volume::fillingName(label.filling)});
+        if (with.surface)
+            row.insert(row.end(), {areaOf(own, &Measure::area), areaOf(total, &Measure::area),
+                                   areaOf(own, &Measure::outsideArea), areaOf(total, &Measure::outsideArea)});
+        if (with.box) appendCorners(row, analyze::worldBox(total.box, volume.grid));
+        row.insert(row.end(), {label.volume, label.voxels});
+        if (with.volume) row.emplace_back(double(label.voxels) * volume.grid.voxelVolume());
+        if (with.surface) row.insert(row.end(), {own.area, own.outsideArea});
         table.rows.push_back(std::move(row));
     }
     return table;
 }
 
 Json featureJson(const volume::SemanticVolume& volume, const Labels& selected, const With& with, int threads) {
-    const std::vector<analyze::LabelMeasure> measures = measure(volume, with, threads);
+    const auto areasOf = [](const analyze::Measure& measure) -> Json {
+        if (measure.voxels == 0) return nullptr;
+        return {{"area", measure.area}, {"outside", measure.outsideArea}};
+    };
     Json rows = Json::array();
-    for (const std::uint32_t l : selected) {
-        Json row = labelJson(volume.labels, l, volume.grid);
-        if (with.surface) row["surface"] = {{"area", measures[l].area}, {"outside", measures[l].outsideArea}};
-        if (with.box) row["box"] = boxJson(analyze::worldBox(measures[l].box, volume.grid));
+    for (const analyze::FeatureMeasure& measure : measuresOf(volume, selected, with, threads)) {
+        Json row = labelJson(volume.labels, measure, volume.grid);
+        if (with.surface) {
+            row["ownSurface"] = areasOf(measure.own);
+            row["totalSurface"] = areasOf(measure.total);
+            row["surface"] = {{"area", measure.own.area}, {"outside", measure.own.outsideArea}};
+        }
+        if (with.box) {
+            row["totalBox"] = boxJson(analyze::worldBox(measure.total.box, volume.grid));
+            row["box"] = boxJson(analyze::worldBox(measure.own.box, volume.grid));
+        }
         rows.push_back(std::move(row));
     }
     return rows;
@@ -130,26 +293,17 @@ Table neighborTable(const volume::SemanticVolume& volume, const Labels& selected
                      {"neighbourClass", "class"},
                      {"neighbourName", "name"},
                      {"area", "m2"}};
-    struct Neighbor {
-        std::uint32_t own, other;
-        double area;
-    };
-    std::vector<Neighbor> neighbors;
-    for (const analyze::Contact& contact : analyze::findContacts(volume.columns, volume.grid, volume.labels, threads)) {
-        if (isIn(selected, contact.a)) neighbors.push_back({contact.a, contact.b, contact.area});
-        if (contact.b != volume::kNoLabel && isIn(selected, contact.b))
-            neighbors.push_back({contact.b, contact.a, contact.area});
-    }
-    std::sort(neighbors.begin(), neighbors.end(), [](const Neighbor& a, const Neighbor& b) {
-        return a.own != b.own ? a.own < b.own : a.area != b.area ? a.area > b.area : a.other < b.other;
-    });
-    for (const Neighbor& neighbor : neighbors) {
-        Row row;
-        addNames(row, volume.labels, neighbor.own);
-        addNames(row, volume.labels, neighbor.other);
-        row.push_back(neighbor.area);
-        table.rows.push_back(std::move(row));
-    }
+    const auto contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, threads);
+    const analyze::NeighborFinder finder(contacts, volume.labels.labels.size());
+    const analyze::Extents extents(volume.labels);
+    for (const std::uint32_t label : selected)
+        for (const analyze::Neighbor& neighbor : finder.of(extents.of(label))) {
+            Row row;
+            addNames(row, volume.labels, label);
+            addNames(row, volume.labels, neighbor.label);
+            row.emplace_back(neighbor.area);
+            table.rows.push_back(std::move(row));
+        }
     return table;
 }
 
@@ -159,11 +313,17 @@ Result<Table> rayTable(const volume::SemanticVolume& volume, const Labels& selec
             volume::BrickVolume::fromColumns(
                 volume.columns, {.faces = volume::BrickFaces::Slopes, .planes = volume.planes, .threads = threads}));
     SVT_TRY(stretches, render::labelsAlong(*bricks, volume.grid, volume.labels, ray.origin, ray.direction));
+    std::vector<render::LabelInterval> found;
+    const auto wholes = analyze::Extents(volume.labels).wholes(selected);
+    for (std::size_t n = 0; n < selected.size(); ++n) {
+        const auto joined = stretchesIn(*stretches, selected[n], wholes[n]);
+        found.insert(found.end(), joined.begin(), joined.end());
+    }
+    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.enter < b.enter; });
     Table table;
     table.columns = {{"id", "id"},        {"class", "class"}, {"name", "name"},
                      {"enter", "from m"}, {"leave", "to m"},  {"length", "length m"}};
-    for (const render::LabelInterval& stretch : *stretches) {
-        if (!isIn(selected, stretch.label)) continue;
+    for (const render::LabelInterval& stretch : found) {
         Row row;
         addNames(row, volume.labels, stretch.label);
         row.insert(row.end(), {stretch.enter, stretch.leave, stretch.leave - stretch.enter});
@@ -220,9 +380,12 @@ Table gapTable(const volume::SemanticVolume& volume, const Labels& selected) {
     return table;
 }
 
-Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& selected, int threads) {
+Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& selected, int threads,
+                        Diagnostics& findings) {
     const auto levels = drawing::findLevels(volume);
     SVT_TRY(areas, drawing::measureFloorAreas(volume, levels, threads));
+    drawing::reportStoreys(volume, findings);
+    drawing::reportAreas(*areas, levels, volume, findings);
     Table table{{{"kind", "kind"},
                  {"id", "id"},
                  {"number", "number"},
@@ -271,8 +434,12 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
         else
             row.insert(row.end(), 4, nullptr);
         row.insert(row.end(), 4, nullptr);
-        row.insert(row.end(), {sums.use, sums.technical, sums.traffic, sums.unknown, sums.net, sums.construction,
-                               sums.gross, sums.isExact});
+        const auto known = [](bool isKnown, double value) { return isKnown ? Cell(value) : Cell(); };
+        const bool hasGross = sums.isFloor && sums.isGrossKnown;
+        for (const double value : {sums.use, sums.technical, sums.traffic, sums.unknown, sums.net})
+            row.push_back(known(sums.isFloor, value));
+        row.insert(row.end(), {known(hasGross && !sums.netExceedsGross(), sums.construction),
+                               known(hasGross, sums.gross), sums.isExact});
         table.rows.push_back(std::move(row));
     };
     for (std::size_t n = 0; n < levels.size(); ++n) addSums("storey", areas->levels[n], &levels[n]);
@@ -287,14 +454,23 @@ Result<Table> parcelTable(const volume::SemanticVolume& volume, const Labels& se
     table.columns = {{"id", "id"},         {"class", "class"},  {"name", "name"},
                      {"parcel", "parcel"}, {"parcelClass", ""}, {"parcelName", "name"},
                      {"voxels", ""},       {"volume", "m3"},    {"part", "part"}};
-    for (const analyze::SharedVoxels& pair : *shared) {
-        if (pair.a == volume::kNoLabel || !isIn(selected, pair.a)) continue;
-        Row row;
-        addNames(row, volume.labels, pair.a);
-        addNames(row, parcels.labels, pair.b);
-        row.insert(row.end(), {pair.voxels, double(pair.voxels) * volume.grid.voxelVolume(),
-                               double(pair.voxels) / double(volume.labels.labels[pair.a].voxels)});
-        table.rows.push_back(std::move(row));
+    const std::vector<std::uint64_t> begins = firstPairs(*shared, volume.labels.labels.size());
+    const analyze::Extents extents(volume.labels);
+    for (const std::uint32_t label : selected) {
+        std::map<std::uint32_t, std::uint64_t> byParcel;
+        std::uint64_t all = 0;
+        for (const std::uint32_t part : extents.of(label))
+            for (std::uint64_t at = begins[part]; at < begins[part + 1]; ++at) {
+                byParcel[(*shared)[at].b] += (*shared)[at].voxels;
+                all += (*shared)[at].voxels;
+            }
+        for (const auto& [parcel, voxels] : byParcel) {
+            Row row;
+            addNames(row, volume.labels, label);
+            addNames(row, parcels.labels, parcel);
+            row.insert(row.end(), {voxels, double(voxels) * volume.grid.voxelVolume(), double(voxels) / double(all)});
+            table.rows.push_back(std::move(row));
+        }
     }
     return table;
 }
@@ -304,46 +480,16 @@ OwnerReport ownerReport(const volume::SemanticVolume& volume, const Labels& sele
     const auto contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, threads);
     const analyze::Ownership ownership = analyze::divideByOwners(volume, contacts, owners);
     OwnerReport report;
-    report.totals.columns = {{"owner", "owner"},
-                             {"own", "own m3"},
-                             {"alone", "walls alone m3"},
-                             {"shared", "walls shared m3"},
-                             {"total", "total m3"}};
-    report.json["owners"] = Json::array();
-    for (std::uint32_t o = 0; o < owners.names.size(); ++o) {
-        const analyze::OwnerTotal& total = ownership.owners[o];
-        const double sum = total.own + total.alone + total.shared;
-        report.totals.rows.push_back({owners.names[o], total.own, total.alone, total.shared, sum});
-        report.json["owners"].push_back({{"owner", owners.names[o]},
-                                         {"own", total.own},
-                                         {"alone", total.alone},
-                                         {"shared", total.shared},
-                                         {"total", sum},
-                                         {"with", sharesJson(owners, total.with)}});
-    }
-    report.components.columns = {{"id", "id"},       {"class", "class"}, {"name", "name"},
-                                 {"owner", "owner"}, {"area", "m2"},     {"volume", "m3"}};
-    report.json["components"] = Json::array();
-    for (const analyze::DividedComponent& component : ownership.components) {
-        if (!isIn(selected, component.label)) continue;
-        const volume::Label& label = volume.labels.labels[component.label];
-        double sum = 0;
-        for (const analyze::OwnerShare& share : component.shares) {
-            Row row;
-            addNames(row, volume.labels, component.label);
-            row.push_back(share.owner == analyze::kNoOwner ? Cell() : Cell(owners.names[share.owner]));
-            row.insert(row.end(), {share.area, share.volume});
-            report.components.rows.push_back(std::move(row));
-            sum += share.volume;
-        }
-        report.json["components"].push_back({{"id", label.id},
-                                             {"class", label.className},
-                                             {"name", label.name},
-                                             {"volume", sum},
-                                             {"shares", sharesJson(owners, component.shares)}});
-    }
+    addTotals(owners, ownership, report);
+    addOwnedFeatures(volume.labels, owners, ownership, report);
+    addCommonProperty(volume.labels, ownership, report);
+    addComponents(volume.labels, selected, owners, ownership, report);
     report.json["unowned"] = ownership.unowned;
     report.json["untouched"] = ownership.untouched;
+    report.json["unownedSpaces"] = ownership.unownedSpaces;
+    report.json["all"] = ownership.all;
+    report.json["sharedSpace"] = {{"ids", Json::array()}, {"volume", ownership.shared}};
+    for (const std::uint32_t l : owners.shared) report.json["sharedSpace"]["ids"].push_back(volume.labels.labels[l].id);
     return report;
 }
 

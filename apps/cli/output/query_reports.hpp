@@ -36,13 +36,16 @@ struct With {
 [[nodiscard]] Table overlapTable(const volume::SemanticVolume& volume, const Labels& selected);
 [[nodiscard]] Table gapTable(const volume::SemanticVolume& volume, const Labels& selected);
 /// Rooms of the selected features, and floor areas per storey and in total; the areas count all rooms.
-[[nodiscard]] Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& selected, int threads);
+/// \param findings  receives contradictions of levels and areas
+[[nodiscard]] Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& selected, int threads,
+                                      Diagnostics& findings);
 [[nodiscard]] Result<Table> parcelTable(const volume::SemanticVolume& volume, const Labels& selected,
                                         const volume::SemanticVolume& parcels, int threads);
 
-/// Ownership: totals, and components with one row per owner.
+/// Ownership: totals of owners; features of the table and components, with one row per owner; common property by
+/// storey.
 struct OwnerReport {
-    Table totals, components;
+    Table totals, features, common, components;
     Json json;
 };
 [[nodiscard]] OwnerReport ownerReport(const volume::SemanticVolume& volume, const Labels& selected,

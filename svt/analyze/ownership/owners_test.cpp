@@ -73,7 +73,7 @@ TEST(Owners, TheSlabIsDividedByContact) {
     const OwnerTotal& ada = result.owners[0];
     EXPECT_DOUBLE_EQ(ada.shared, 150 + 56.25);
     EXPECT_DOUBLE_EQ(ada.alone, 0);
-    // With Bob the wall and the slab, with Cid the slab alone.
+    // With Bob the wall and the slab, with Cid only the slab.
     EXPECT_EQ(ada.with, (std::vector<OwnerShare>{{1, 200, 206.25}, {2, 50, 56.25}}));
     double sum = 0;
     for (const OwnerTotal& total : result.owners) sum += total.own + total.alone + total.shared;
@@ -107,7 +107,89 @@ TEST(Owners, AFlatStandsForItsRoomsAndQueriesForWhatTheySelect) {
         "t.csv", volume.labels);
     ASSERT_TRUE(table) << table.error().toString();
     EXPECT_EQ(table->names, (std::vector<std::string>{"Ada; \"Augusta\"", "Bob"}));
-    EXPECT_EQ(table->ofLabel, (std::vector<std::uint32_t>{0, 1, 1, kNoOwner, kNoOwner, kNoOwner, 0}));
+    using Fractions = std::vector<OwnerFraction>;
+    EXPECT_EQ(table->ofLabel, (std::vector<Fractions>{{{0, 1}}, {{1, 1}}, {{1, 1}}, {}, {}, {}, {{0, 1}}}));
+    ASSERT_EQ(table->features.size(), 2u);
+    EXPECT_EQ(table->features[0].label, 1u);
+    EXPECT_EQ(table->features[1].parts, (std::vector<std::uint32_t>{0, 6}));
+    EXPECT_TRUE(table->shared.empty());
+}
+
+TEST(Owners, SharesDivideAFeatureAndTheWallsAroundIt) {
+    const auto volume = threeRooms();
+    const Ownership result = divide(volume, "feature,owner,share\na,Ada,1/4\na,Bob,75 %\nb,Bob\nc,Cid,0.5\n");
+    // Rooms of 750 and 675 m3; the third one has 300 m3, of which half has no owner.
+    EXPECT_DOUBLE_EQ(result.owners[0].own, 750 / 4.0);
+    EXPECT_DOUBLE_EQ(result.owners[1].own, 750 * 0.75 + 675);
+    EXPECT_DOUBLE_EQ(result.owners[2].own, 150);
+    EXPECT_DOUBLE_EQ(result.unownedSpaces, 150);
+    // 150 m2 of the wall on each side.
+    EXPECT_EQ(result.components[0].shares, (std::vector<OwnerShare>{{0, 37.5, 37.5}, {1, 262.5, 262.5}}));
+    ASSERT_EQ(result.ofFeature.size(), 3u);
+    EXPECT_DOUBLE_EQ(result.ofFeature[0], 750);
+    double sum = result.unowned + result.untouched + result.unownedSpaces;
+    for (const OwnerTotal& total : result.owners) sum += total.own + total.alone + total.shared;
+    EXPECT_NEAR(sum, result.all, 1e-9);
+}
+
+TEST(Owners, AWallOfOneFlatIsNotSharedByItsOwners) {
+    const auto volume = threeRooms();
+    // Both rooms beside the wall have the same two owners.
+    const Ownership result = divide(volume, "a,Ada,1/2\na,Bob,1/2\nb,Ada,1/2\nb,Bob,1/2\n");
+    EXPECT_DOUBLE_EQ(result.owners[0].alone, 150);
+    EXPECT_DOUBLE_EQ(result.owners[0].shared, 180 * 50.0 / 160) << "the slab touches a third room";
+}
+
+TEST(Owners, SpaceOfSeveralFeaturesCountsOnceAndTheFinerFeatureDecides) {
+    volume::SemanticVolume volume = threeRooms();
+    volume::test::addGroup(volume, "other", "BuildingUnit");
+    volume::test::addGroup(volume, "house", "CityObjectGroup");
+    auto& labels = volume.labels.labels;
+    labels[0].groups = {6, 7};  // a cellar of both flats
+    labels[1].groups = {7};
+    labels[6].groups = {8};
+    labels[7].groups = {8};
+    labels[4].groups = {8};
+    const char* const table = "flat,Ada\nother,Bob\nhouse,all\nb,Cid\n";
+    const auto parsed = parseOwners(table, "t.csv", volume.labels);
+    ASSERT_TRUE(parsed);
+    EXPECT_EQ(parsed->shared, (std::vector<std::uint32_t>{0}));
+    const Ownership result = divide(volume, table);
+    EXPECT_DOUBLE_EQ(result.owners[0].own, 375) << "half of the cellar";
+    EXPECT_DOUBLE_EQ(result.owners[1].own, 375) << "the other half; the finer row gives room b to Cid";
+    EXPECT_DOUBLE_EQ(result.owners[2].own, 300) << "the wall is a member of the house only";
+    EXPECT_DOUBLE_EQ(result.owners[3].own, 675);
+    EXPECT_DOUBLE_EQ(result.shared, 750);
+    double sum = result.unowned + result.untouched + result.unownedSpaces;
+    for (const OwnerTotal& total : result.owners) sum += total.own + total.alone + total.shared;
+    EXPECT_NEAR(sum, result.all, 1e-9);
+}
+
+TEST(Owners, CommonPropertyIsByStoreyAndBuilding) {
+    volume::SemanticVolume volume = volume::test::emptyVolume({8, 8, 8}, {1, 1, 1});
+    volume::test::addGroup(volume, "house", "Building");
+    volume::test::addGroup(volume, "low", "Storey", 0);
+    volume::test::addObject(volume, "flat", "BuildingUnit", 1);
+    volume::test::addObject(volume, "hall", "BuildingRoom", 1);
+    volume::test::addObject(volume, "wall", "BuildingConstructiveElement", 1);
+    volume::test::addGroup(volume, "high", "Storey", 0);
+    volume::test::addObject(volume, "slab", "BuildingConstructiveElement", 5);
+    volume::test::addObject(volume, "roof", "RoofSurface", 0);
+    volume.labels.labels[7].filling = volume::Filling::Body;
+    volume.labels.labels[6].groups = {1};
+    volume::test::paint(volume, [](int i, int, int k) { return k < 4 ? (i < 4 ? 1 : i < 6 ? 2 : 3) : k < 6 ? 4 : 5; });
+    const Ownership result = divide(volume, "flat,Ada");
+    ASSERT_EQ(result.common.size(), 2u);
+    EXPECT_EQ(result.common[0].building, 0u);
+    EXPECT_EQ(result.common[0].storey, 1u);
+    EXPECT_DOUBLE_EQ(result.common[0].spaces, 2 * 8 * 4);
+    EXPECT_DOUBLE_EQ(result.common[0].components, 2 * 8 * 4);
+    EXPECT_EQ(result.common[1].building, 0u);
+    EXPECT_EQ(result.common[1].storey, kNoLabel) << "the slab is in both storeys, the roof in none";
+    EXPECT_DOUBLE_EQ(result.common[1].components, 8 * 8 * 4);
+    double common = 0;
+    for (const CommonProperty& property : result.common) common += property.spaces + property.components;
+    EXPECT_NEAR(common + result.ofFeature[0], result.all, 1e-9);
 }
 
 TEST(Owners, SayWhatIsWrongAndWhere) {
@@ -123,22 +205,27 @@ TEST(Owners, SayWhatIsWrongAndWhere) {
     };
     for (const Case& wrong :
          {Case{"", Code::BadValue, 0}, Case{"feature,owner\n", Code::BadValue, 0},
-          Case{"a,Ada\nb\n", Code::BadValue, 2}, Case{"a,Ada,1\n", Code::BadValue, 1}, Case{"a,\n", Code::BadValue, 1},
+          Case{"a,Ada\nb\n", Code::BadValue, 2}, Case{"a,Ada,1,2\n", Code::BadValue, 1},
+          Case{"a,Ada,two\n", Code::BadValue, 1}, Case{"a,Ada,0\n", Code::BadValue, 1},
+          Case{"a,Ada,3/2\n", Code::BadValue, 1}, Case{"a,Ada,1/0\n", Code::BadValue, 1},
+          Case{"a,Ada,1/2\na,Bob,2/3\n", Code::BadValue, 2}, Case{"a,Ada\na,Bob,1/2\n", Code::BadValue, 2},
+          Case{"a,Ada,nan\n", Code::BadValue, 1}, Case{"a,\n", Code::BadValue, 1},
           Case{"\n\na,\"Ada\n\n", Code::BadValue, 3}, Case{"a,\"Ada\"x\n", Code::BadValue, 1},
-          Case{"a,Ada\nflat,Bob\n", Code::BadValue, 2}, Case{"a,Ada\nflatt,Bob\n", Code::NothingSelected, 2},
+          Case{"a,Ada\nclass=room,Bob\n", Code::BadValue, 2}, Case{"a,Ada\nflatt,Bob\n", Code::NothingSelected, 2},
           Case{"class=Romm,Bob\n", Code::NothingSelected, 1}}) {
         const Error error = errorOf(wrong.text);
         EXPECT_EQ(error.code(), wrong.code) << wrong.text << ": " << error.toString();
         EXPECT_EQ(error.where().line, wrong.line) << wrong.text;
     }
     EXPECT_NE(errorOf("flatt,Bob").message().find("did you mean 'flat'?"), std::string::npos);
-    EXPECT_NE(errorOf("a,Ada\nflat,Bob").message().find("in line 1"), std::string::npos);
+    EXPECT_NE(errorOf("a,Ada\na,Bob").message().find("in line 1"), std::string::npos);
+    EXPECT_NE(errorOf("a,Ada\na,Bob").message().find("a share, such as 1/2"), std::string::npos);
 }
 
 TEST(Owners, AnyTextIsATableOrAnErrorInOneOfItsLines) {
     const auto volume = threeRooms();
-    const char* const words[] = {"a",   "flat", "b", "c",          ",",   ",",    ";",    "\"", "\n",          "\n",
-                                 "Ada", "Bob",  " ", "class=room", "all", "\r\n", "\xFF", "(",  "id=\"\"a\"\""};
+    const char* const words[] = {"a",   "flat", "b", "c",   ",",          ",",   ";",    "\"",   "\n", "\n",
+                                 "Ada", "Bob",  " ", "1/2", "class=room", "all", "\r\n", "\xFF", "(",  "id=\"\"a\"\""};
     std::mt19937 random(7);
     int tables = 0;
     for (int round = 0; round < 20000; ++round) {
@@ -153,7 +240,14 @@ TEST(Owners, AnyTextIsATableOrAnErrorInOneOfItsLines) {
         }
         ++tables;
         EXPECT_FALSE(table->names.empty());
-        for (const std::uint32_t owner : table->ofLabel) EXPECT_TRUE(owner == kNoOwner || owner < table->names.size());
+        for (const auto& owners : table->ofLabel) {
+            double sum = 0;
+            for (const auto& [owner, fraction] : owners) {
+                EXPECT_LT(owner, table->names.size());
+                sum += fraction;
+            }
+            EXPECT_LE(sum, 1 + 1e-9) << text;
+        }
     }
     EXPECT_GT(tables, 100);
 }

@@ -1,6 +1,6 @@
 #include <svt/city/feature_rows.hpp>
 
-#include <svt/analyze/label_measures.hpp>
+#include <svt/analyze/extents.hpp>
 #include <svt/plane/hull.hpp>
 
 #include <algorithm>
@@ -33,17 +33,19 @@ std::vector<Point> hullOf(std::vector<Point> points) {
 struct Gathered {
     std::int32_t low = INT32_MAX, high = -1;          // samples [low, high)
     double nearest = INFINITY, farthest = -INFINITY;  // of corners of voxels from the plane
-    std::uint64_t columns = 0, voxels = 0;
+    std::uint64_t columns = 0;
     std::int32_t lastI = -1, lastJ = -1;
     std::map<std::int32_t, std::array<std::int32_t, 2>> rows;  // by j: the first and last i
 };
 
 class Gatherer {
 public:
-    Gatherer(const volume::SemanticVolume& volume, std::span<const std::uint32_t> selected,
+    // \param extents  labels of each row
+    Gatherer(const volume::SemanticVolume& volume, const std::vector<std::vector<std::uint32_t>>& extents,
              const drawing::SectionPlane* plane)
-        : volume_(volume), plane_(plane), rowOf_(volume.labels.labels.size(), kNoLabel), gathered_(selected.size()) {
-        for (std::uint32_t n = 0; n < selected.size(); ++n) rowOf_[selected[n]] = n;
+        : volume_(volume), plane_(plane), rowsOf_(volume.labels.labels.size()), gathered_(extents.size()) {
+        for (std::uint32_t n = 0; n < extents.size(); ++n)
+            for (const std::uint32_t part : extents[n]) rowsOf_[part].push_back(n);
         if (plane == nullptr) return;
         const Vec3d spacing = volume.grid.spacing();
         for (int axis = 0; axis < 3; ++axis)
@@ -58,7 +60,8 @@ public:
                 std::int32_t begin = 0;
                 for (const volume::Run& run : volume_.columns.column(i, j)) {
                     const auto end = static_cast<std::int32_t>(run.end);
-                    if (run.scalar != 0 && run.scalar < labelOf.size()) add(labelOf[run.scalar], i, j, begin, end);
+                    if (run.scalar != 0 && run.scalar < labelOf.size() && labelOf[run.scalar] != kNoLabel)
+                        add(labelOf[run.scalar], i, j, begin, end);
                     begin = end;
                 }
             }
@@ -67,12 +70,10 @@ public:
 
 private:
     void add(std::uint32_t label, std::int32_t i, std::int32_t j, std::int32_t begin, std::int32_t end) {
-        for (std::uint32_t l = label; l != kNoLabel; l = volume_.labels.labels[l].parent) {
-            if (rowOf_[l] == kNoLabel) continue;
-            Gathered& to = gathered_[rowOf_[l]];
+        for (const std::uint32_t number : rowsOf_[label]) {
+            Gathered& to = gathered_[number];
             to.low = std::min(to.low, begin);
             to.high = std::max(to.high, end);
-            to.voxels += static_cast<std::uint64_t>(end - begin);
             if (to.lastI != i || to.lastJ != j) ++to.columns;
             to.lastI = i;
             to.lastJ = j;
@@ -90,7 +91,7 @@ private:
 
     const volume::SemanticVolume& volume_;
     const drawing::SectionPlane* plane_;
-    std::vector<std::uint32_t> rowOf_;
+    std::vector<std::vector<std::uint32_t>> rowsOf_;  // by label: rows whose extent has it
     std::vector<Gathered> gathered_;
     double halfVoxel_ = 0;
 };
@@ -106,6 +107,28 @@ std::vector<Point> outlineOf(const Gathered& gathered, const volume::Grid& grid)
     return hullOf(std::move(points));
 }
 
+// \param parts  labels of the extent of each row
+void addRows(const volume::SemanticVolume& volume, const std::vector<std::vector<std::uint32_t>>& parts,
+             std::span<const analyze::FeatureMeasure> measures, const drawing::SectionPlane* plane,
+             std::vector<FeatureRow>& rows) {
+    const std::vector<Gathered> gathered = Gatherer(volume, parts, plane).run();
+    const Vec3d spacing = volume.grid.spacing();
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+        FeatureRow& row = rows.emplace_back();
+        row.label = measures[n].label;
+        row.measure = measures[n];
+        row.isOpen = std::any_of(parts[n].begin(), parts[n].end(),
+                                 [&](std::uint32_t part) { return isOpenShell(volume.labels.labels[part]); });
+        const Gathered& total = gathered[n];
+        if (total.columns == 0) continue;
+        row.area = double(total.columns) * spacing.x * spacing.y;
+        row.lowest = volume.grid.worldFromIndex({0, 0, total.low - 0.5}).z;
+        row.highest = volume.grid.worldFromIndex({0, 0, total.high - 0.5}).z;
+        row.isCut = plane != nullptr && total.nearest < 0 && total.farthest > 0;
+        row.outline = outlineOf(total, volume.grid);
+    }
+}
+
 }  // namespace
 
 bool isOpenShell(const volume::Label& label) noexcept {
@@ -116,25 +139,20 @@ bool isOpenShell(const volume::Label& label) noexcept {
 
 std::vector<FeatureRow> featureRows(const volume::SemanticVolume& volume, std::span<const std::uint32_t> selected,
                                     const drawing::SectionPlane* plane) {
-    const std::vector<volume::Label>& labels = volume.labels.labels;
-    const std::vector<Gathered> gathered = Gatherer(volume, selected, plane).run();
-    const Vec3d spacing = volume.grid.spacing();
+    // In passes, so that memory does not grow with the labels of all extents: many groups may have the same members.
+    constexpr std::size_t kLabelsPerPass = std::size_t{1} << 24;
+    const analyze::Extents extents(volume.labels);
+    const auto measures = analyze::measureFeatures(extents, selected, analyze::ownMeasures(volume.labels, volume.grid));
     std::vector<FeatureRow> rows;
-    for (std::size_t n = 0; n < selected.size(); ++n) {
-        FeatureRow& row = rows.emplace_back();
-        row.label = selected[n];
-        // 0 stands for a label without solids.
-        if (const double measured = analyze::solidVolume(volume.labels, row.label); measured > 0) row.volume = measured;
-        for (std::uint32_t l = row.label; l < labels[row.label].subtreeEnd; ++l)
-            row.isOpen = row.isOpen || isOpenShell(labels[l]);
-        const Gathered& own = gathered[n];
-        if (own.voxels == 0) continue;
-        row.voxels = own.voxels;
-        row.area = double(own.columns) * spacing.x * spacing.y;
-        row.lowest = volume.grid.worldFromIndex({0, 0, own.low - 0.5}).z;
-        row.highest = volume.grid.worldFromIndex({0, 0, own.high - 0.5}).z;
-        row.isCut = plane != nullptr && own.nearest < 0 && own.farthest > 0;
-        row.outline = outlineOf(own, volume.grid);
+    rows.reserve(selected.size());
+    while (rows.size() < selected.size()) {
+        std::vector<std::vector<std::uint32_t>> parts;
+        std::size_t labels = 0;
+        for (std::size_t n = rows.size(); n < selected.size() && labels < kLabelsPerPass; ++n) {
+            parts.push_back(extents.of(selected[n]));
+            labels += parts.back().size();
+        }
+        addRows(volume, parts, std::span(measures).subspan(rows.size(), parts.size()), plane, rows);
     }
     return rows;
 }
