@@ -17,6 +17,17 @@ install(FILES ${manual}/svt.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendo
 # The page, where `make viewer` has built it.
 install(DIRECTORY ${CMAKE_BINARY_DIR}/share/svt/viewer DESTINATION ${CMAKE_INSTALL_DATADIR}/svt COMPONENT command OPTIONAL)
 
+# For the desktop: types of files, the viewer as the program that opens them, thumbnails, icons (scripts/make_logo.py).
+set(desktop ${PROJECT_SOURCE_DIR}/cmake/desktop)
+install(FILES ${desktop}/svt.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT command)
+install(FILES ${desktop}/svt.thumbnailer DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers COMPONENT command)
+install(FILES ${desktop}/svt.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages COMPONENT command)
+set(icons ${CMAKE_INSTALL_DATADIR}/icons/hicolor)
+install(FILES ${desktop}/icons/svt.svg DESTINATION ${icons}/scalable/apps COMPONENT command)
+foreach(size 16 24 32 48 64 128 256 512)
+  install(FILES ${desktop}/icons/svt-${size}.png DESTINATION ${icons}/${size}x${size}/apps RENAME svt.png COMPONENT command)
+endforeach()
+
 # The top of each folder is its public API.
 get_property(folders GLOBAL PROPERTY SVT_FOLDERS)
 foreach(folder ${folders})

@@ -24,13 +24,13 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 # PROJ is loaded with the first use, so that its package is not found by what is linked: libproj.so.25 is in libproj25.
 string(REPLACE ".so." "" SVT_PROJ_PACKAGE ${SVT_PROJ_LIBRARY})
 set(CPACK_DEBIAN_COMMAND_PACKAGE_DEPENDS ${SVT_PROJ_PACKAGE})
-# OpenGL is optional, and so are cairo and qpdf, for PDF and its layers, SQLite, for GeoPackage, ffmpeg, for films, and a browser that `svt view` may open.
-set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, libcairo2, libqpdf29, libsqlite3-0, xdg-utils")
+# OpenGL is optional, and so are cairo and qpdf, for PDF and its layers, SQLite, for GeoPackage, curl, for addresses, ffmpeg, for films, and a browser that `svt view` may open.
+set(CPACK_DEBIAN_COMMAND_PACKAGE_RECOMMENDS "libegl-mesa0, libgl1-mesa-dri, libcairo2, libqpdf29, libsqlite3-0, libcurl4 | libcurl3-gnutls, xdg-utils")
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SUGGESTS ffmpeg)
-set(CPACK_COMPONENT_COMMAND_DESCRIPTION "Turns a semantic building model (CityGML, CityJSON) into a volume in which
-every point knows which component it belongs to, and draws that volume cut
-open: moving cross-sections, a sectioning lens, one flat inside the ghost of
-its tower. Answers with areas, volumes and drawings.")
+set(CPACK_COMPONENT_COMMAND_DESCRIPTION "Turns a building model (CityGML, CityJSON, IFC, IndoorGML) into a volume in
+which every voxel is labelled with its building component. Draws, measures,
+checks and exports solid, labelled sections through the building, without any
+mesh repair. File managers show thumbnails of models.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsvt-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
@@ -38,8 +38,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, libtbb-dev, libpugixml-dev, libsimdjson-dev, nlohmann-json3-dev, \
 zlib1g-dev, libpng-dev, libhwy-dev, libfreetype-dev, libglu1-mesa-dev, libzstd-dev, ${SVT_PROJ_PACKAGE}, libegl-dev, libgles-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, pkg-config")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries and headers to read building models, make labelled volumes
-of them, ask and draw these; a CMake package and a pkg-config file.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries and headers to read building models, to build labelled
+volumes, and to query and draw them; a CMake package and a pkg-config file.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-svt)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
@@ -47,7 +47,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${SVT_PYTHON_VERSION}), python3 (<< ${SVT_PYTHON_NEXT}), python3-numpy, ${SVT_PROJ_PACKAGE}")
 # The command serves the page of Volume.view().
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS svt)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-scipy, python3-shapely")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-xarray, python3-pandas, python3-geopandas, python3-vtk9, python3-scipy, python3-shapely")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/debian/python/postinst;${PROJECT_SOURCE_DIR}/cmake/debian/python/prerm")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Module for Python: volumes in which every point of a building knows
 which component it belongs to, as arrays of numpy; labels at points and along

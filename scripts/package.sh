@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 [ -f build/release/share/svt/viewer/index.html ] || { echo "package: the page is missing; 'make viewer' builds it" >&2; exit 1; }
 targets=(svt svt_manual)
-grep -q '^build svt_python_package:' build/release/build.ninja && targets+=(svt_python)
+grep -q '^build svt_python_package:' build/release/build.ninja && targets+=(svt_python_package)
 scripts/build.sh release "${targets[@]}"
 log=build/release/package.log
 rm -rf build/package

@@ -25,6 +25,7 @@ cp /etc/resolv.conf "$root/etc/resolv.conf"
 cp -r /etc/apt/apt.conf.d/. "$root/etc/apt/apt.conf.d/"
 cp build/package/*.deb "$root/tmp"
 cp -r examples/cpp "$root/tmp/example"
+cp scripts/test_desktop.sh "$root/tmp"
 inside() { chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
 quietly inside apt-get update -q
 echo "deb: svt is installed"
@@ -47,6 +48,9 @@ inside sh -ec '
     my $reply = join("", <$socket>); $reply =~ /200 OK/ && $reply =~ /<html/i or die "no page: $reply";
   '"'"'
   kill $server'
+echo "deb: file managers know the types of models and make thumbnails"
+quietly inside sh -c 'apt-get install -y -q --no-install-recommends shared-mime-info desktop-file-utils libglib2.0-bin libxml2-utils zip tumbler dbus'
+inside env SVT_STRICT=1 bash /tmp/test_desktop.sh svt /usr/share
 cmp <(build/release/bin/svt render "$root/tmp/work/h.svt" -o /dev/stdout) "$root/tmp/work/h.png"
 echo "deb: libsvt-dev is installed, and used by another project"
 quietly inside sh -c 'apt-get install -y -q --no-install-recommends /tmp/libsvt-dev_*.deb cmake g++ ninja-build'
@@ -60,6 +64,8 @@ import svt
 v = svt.open("h.svt")
 assert v.sample(v.labels["Kitchen"].box.mean(axis=0)) >= 0
 assert v.dense().shape == v.shape
+from importlib.metadata import entry_points
+assert [point.value for point in entry_points(group="xarray.backends")] == ["svt.xarray_backend:SvtBackendEntrypoint"]
 v.frame().save("python.png")
 with v.view() as page:
     print("deb: the page at", page.address)

@@ -11,6 +11,7 @@ cmake --install "$build" --prefix "$work/usr" >"$work/log"
 for file in bin/svt share/man/man1/svt.1.gz share/man/man1/svt-render.1.gz share/bash-completion/completions/svt include/svt/render/ray_caster.hpp; do
   [ -s "$work/usr/$file" ] || { echo "package: $file is not installed" >&2; exit 1; }
 done
+scripts/test_desktop.sh "$work/usr/bin/svt" "$work/usr/share"
 # The inside of a folder is no header of the package.
 inside=$(find "$work/usr/include/svt" -mindepth 2 -type d; find "$work/usr/include/svt" -name '*_test.hpp')
 [ -z "$inside" ] || { echo "package: installed, but private: $inside" >&2; exit 1; }
