@@ -8,6 +8,7 @@
 #   make web      the library as a WebAssembly module: build/web/svt.js and svt.wasm
 #   make viewer   the page that shows buildings, with that module: build/release/share/svt/viewer
 #   make python   the Python module svt: build/release/python, and a wheel in build/wheel
+#   make site     the documentation site: build/site (REPOSITORY= for edit links)
 #   make bench    times against VTK, OpenVDB and libcitygml (installs them)
 #   make check    layers, error pages, banned calls, format, linters and types of C++, Python, TypeScript and shell, without building
 #   make verify   every check, heavy ones too, with a report: build/verify/report.md (CHECKS="asan tidy" for some)
@@ -20,11 +21,14 @@
 #   make install  the command with manual and viewer, the libraries: PREFIX=/usr/local DESTDIR=
 #   make package  .deb files for Debian 12: build/package
 #   make npm      the command as WebAssembly for Node.js, an npm package: build/npm
+#   make release  the artefacts of a version, VERSION=0.2.0, from a clean tree: build/release-artifacts
 #   make clean    removes build/
 
 SHELL := /bin/bash
+# Files with defaults of the user do not change results.
+export SVT_NO_CONFIG := 1
 .DEFAULT_GOAL := build
-.PHONY: verify coverage fast build demo demo-city install package npm python test web viewer bench check asan tsan tidy fuzz mutants clean setup
+.PHONY: release verify site coverage fast build demo demo-city install package npm python test web viewer bench check asan tsan tidy fuzz mutants clean setup
 SECONDS ?= 60
 FOLDERS ?= volume voxelize mesh render readers
 COUNT ?= 30
@@ -65,6 +69,10 @@ web:
 	@scripts/setup.sh web
 	@scripts/web_dependencies.sh
 	@scripts/build.sh web svt_web svt_web_threads
+
+site: build viewer python
+	@scripts/setup.sh site
+	@scripts/site.sh --repository "$(REPOSITORY)" --branch "$(or $(BRANCH),main)"
 
 bench:
 	@scripts/setup.sh peers
@@ -111,6 +119,9 @@ package: build python viewer
 npm: build viewer
 	@scripts/build.sh web svt_node
 	@scripts/npm.sh
+
+release:
+	@scripts/release.sh $(VERSION)
 
 clean:
 	@rm -rf build

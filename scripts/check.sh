@@ -30,6 +30,8 @@ check layers "svt/layers.txt says who may include whom" python3 scripts/check_la
 check error-pages "each code has its page in docs/errors" python3 scripts/check_error_pages.py
 check banned-calls "mend what it names" python3 scripts/check_banned_calls.py
 check architecture "scripts/update_architecture.py writes the table of folders" python3 scripts/update_architecture.py --check
+check version "scripts/release/version.py --set VERSION writes it" python3 scripts/release/version.py --check
+check badges "scripts/release/badges.py renews them" python3 scripts/release/badges.py --check
 check prose "docs/dev/english.md has the rules" python3 scripts/check_prose.py
 check clang-format "clang-format -i FILE formats" clang-format --dry-run --Werror "${cpp[@]}"
 check shellcheck "mend what it names" shellcheck "${shell[@]}"

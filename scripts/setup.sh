@@ -6,6 +6,7 @@
 #   scripts/setup.sh python   also the tools to build and test the Python module
 #   scripts/setup.sh slurm    also Slurm, for the test of job arrays (scripts/test_slurm.sh)
 #   scripts/setup.sh checks   also the tools of `make tidy` and `make fuzz`
+#   scripts/setup.sh site     also the tools that build the documentation site (`make site`)
 #   scripts/setup.sh packages also the tools that test the .deb files on a clean system
 #   scripts/setup.sh node     also Node.js with npm, for `make check` and the page
 #   scripts/setup.sh web      also the tools to build and test the WebAssembly module and the page
@@ -20,11 +21,13 @@ packages=(
 )
 peers=(libvtk9-dev libopenvdb-dev libboost-dev libcitygml-dev xvfb xauth valgrind)
 readers=(ffmpeg python3-nibabel python3-tifffile python3-zarr python3-vtk9 python3-networkx python3-numcodecs
-  python3-openvdb)
+  python3-openvdb python3-xarray python3-pandas python3-geopandas python3-netcdf4 python3-dask
+  jupyter-nbconvert python3-ipykernel)
 web=(emscripten libfast-float-dev dpkg-dev chromium)
 slurm=(slurmctld slurmd slurm-client munge python3-yaml)
 python=(python3-dev pybind11-dev python3-numpy python3-scipy)
-debian=(debootstrap lintian dpkg-dev)
+site=(mkdocs mkdocs-material doxygen doxygen-awesome-css python3-pil)
+debian=(debootstrap lintian dpkg-dev desktop-file-utils shared-mime-info libglib2.0-bin zip)
 checks=(clang clang-tidy clang-tools libclang-rt-14-dev llvm)
 # A Node.js from another source has its own npm, which conflicts with Debian's.
 node=()
@@ -36,6 +39,7 @@ command -v npm >/dev/null || node+=(npm)
 [ "${1:-}" = web ] && packages+=("${web[@]}" "${node[@]}")
 [ "${1:-}" = slurm ] && packages+=("${slurm[@]}")
 [ "${1:-}" = python ] && packages+=("${python[@]}")
+[ "${1:-}" = site ] && packages+=("${site[@]}")
 [ "${1:-}" = packages ] && packages+=("${debian[@]}")
 [ "${1:-}" = checks ] && packages+=("${checks[@]}")
 

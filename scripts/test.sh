@@ -5,6 +5,7 @@
 #                                    a commit; without BASE: from the branch that this one tracks, else from the last commit
 set -euo pipefail
 cd "$(dirname "$0")/.."
+export SVT_NO_CONFIG=1  # files with defaults of the user do not change results
 export SVT_DATA_DIR=${SVT_DATA_DIR:-$PWD/../shared/data}
 [ -d "$SVT_DATA_DIR" ] || echo "test: no real models at $SVT_DATA_DIR (SVT_DATA_DIR); tests that need them are skipped"
 select=()

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes what is made from the declarations of options (`svt describe json`): the tables of options in docs/user,
-the table of formats in docs/user/convert.md, docs/formats/scene.schema.json, docs/formats/sheets.schema.json, and in
+the table of formats in docs/user/convert.md, the options of projects in docs/user/configuration.md, docs/formats/scene.schema.json, docs/formats/sheets.schema.json, and in
 web/viewer/src/generated scene_members.ts, from which the viewer page has the ranges, choices, defaults and help of its
 controls, and model_endings.ts, the endings of files that it opens.
 
@@ -18,6 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 BEGIN, END = "<!-- BEGIN options -->", "<!-- END options -->"
+PROJECT_BEGIN, PROJECT_END = "<!-- BEGIN project options -->", "<!-- END project options -->"
 FORMATS_BEGIN, FORMATS_END = "<!-- BEGIN formats -->", "<!-- END formats -->"
 PLAIN_KINDS = {"whole": "whole number", "number": "number", "text": "text"}
 PAGE_ENDINGS = """\
@@ -117,6 +118,23 @@ def formats_table(formats: list[dict]) -> str:
     for row in formats:
         endings = ", ".join(f"`{ending}`" for ending in row["endings"])
         lines.append(f"| {endings} | {row['holds']} | {row['readers']} |")
+    return "\n".join(lines)
+
+
+def project_table(commands: list[dict]) -> str:
+    """The options that a file beside a model may set, and their commands."""
+    commands_of: dict[str, list[str]] = {}
+    for command in commands:
+        for option in command["options"]:
+            if option.get("project"):
+                name = option["name"].split(",")[-1].lstrip("-")
+                commands_of.setdefault(name, []).append(command["name"])
+    groups: dict[tuple[str, ...], list[str]] = {}
+    for name, names in commands_of.items():
+        groups.setdefault(tuple(names), []).append(name)
+    lines = ["| commands | options |", "|---|---|"]
+    for names, options in groups.items():
+        lines.append(f"| {', '.join(names)} | {', '.join(f'`{option}`' for option in options)} |")
     return "\n".join(lines)
 
 
@@ -306,6 +324,14 @@ def main() -> int:
         if command["name"] == "convert":
             formats = formats_table(described["volumeFormats"])
             wanted[path] = page_with(wanted[path], formats, path.name, FORMATS_BEGIN, FORMATS_END)
+    configuration = ROOT / "docs/user/configuration.md"
+    wanted[configuration] = page_with(
+        configuration.read_text(encoding="utf-8"),
+        project_table(described["commands"]),
+        configuration.name,
+        PROJECT_BEGIN,
+        PROJECT_END,
+    )
     stale = 0
     for path, new in wanted.items():
         old = path.read_text(encoding="utf-8") if path.exists() else ""

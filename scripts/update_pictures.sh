@@ -33,6 +33,8 @@ $svt sample house -o "$work/plan/house.gml"
 $svt build "$work/plan/house.gml" -o "$work/sample.svt" --spacing 0.05
 draw plan_names sample plan_with_names 900x640
 $svt render "$work/sample.svt" --scene examples/scenes/film.scene.json -o docs/images/film.webp
+$svt build "$work/plan/house.gml" -o "$work/fine.svt" --spacing 0.03
+$svt render "$work/fine.svt" --scene examples/scenes/section_moving.scene.json -o docs/images/section_moving.webp
 $svt section "$work/sample.svt" -o docs/images/section.svg
 $svt section "$work/sample.svt" -o docs/images/section_beyond.svg --plane 'x>5' --beyond
 $svt section "$work/sample.svt" -o docs/images/plan_dimensions.svg --dimensions

@@ -25,6 +25,7 @@ import sys
 import tempfile
 import time
 
+os.environ["SVT_NO_CONFIG"] = "1"  # files with defaults of the user do not change results
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORK = ROOT / "build" / "verify"
 LOCAL = WORK / "results.json"
@@ -35,7 +36,7 @@ TABLE_BEGIN, TABLE_END = "<!-- checks: begin -->\n", "<!-- checks: end -->\n"
 
 # The folders of the address sanitizer's parts: each part fits into one turn from an empty cache.
 FOLDERS = {
-    "data": "core plane record image model crs readers mesh validate",
+    "data": "core http plane record image model crs readers mesh validate",
     "volumes": "volume volume_readers voxelize analyze samples serve",
     "pictures": "render render_gl drawing illustrate writers",
     "chains": "pipeline city frontend",
@@ -71,6 +72,7 @@ CHECKS = {
     },
     "gcc": Check("scripts/setup.sh && SVT_KEEP_GOING=1 scripts/build.sh gcc", 15),
     "mutants": Check("scripts/setup.sh && scripts/mutants.py --changed --count 10", 25),
+    "site": Check("make -s site && scripts/setup.sh web && scripts/test_site.sh", 30),
     "packages": Check(
         "scripts/setup.sh packages && make -s package && scripts/test_deb.sh && scripts/test_package.sh && "
         "make -s npm && scripts/test_npm.sh build/release/bin/svt && scripts/test_reproducible.sh",
@@ -199,6 +201,7 @@ def record() -> None:
         for name, result in newest(TRACKED, SHARED, LOCAL).items()
     }
     keep(TRACKED, results)
+    subprocess.run([sys.executable, "scripts/release/badges.py"], cwd=ROOT, check=True)
     text = TABLE.read_text(encoding="utf-8")
     begin, end = text.index(TABLE_BEGIN) + len(TABLE_BEGIN), text.index(TABLE_END)
     TABLE.write_text(text[:begin] + rows(results) + text[end:], encoding="utf-8")

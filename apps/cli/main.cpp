@@ -1,5 +1,5 @@
-#include <apps/cli/options/command_line.hpp>
 #include <apps/cli/output/messages.hpp>
+#include <apps/cli/run/command_line.hpp>
 
 #include <svt/core/machine.hpp>
 

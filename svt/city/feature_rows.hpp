@@ -1,7 +1,8 @@
 #pragma once
 /// \file
-/// Measures of the features of one volume, each including all features below it: the rows of `svt query` for cities.
+/// Measures of the features of one volume, each with its extent: the rows of `svt query` for cities.
 
+#include <svt/analyze/extents.hpp>
 #include <svt/drawing/section_plane.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
@@ -13,14 +14,13 @@
 
 namespace svt::city {
 
-/// A feature and all below it.
+/// A feature. All but `measure.own` is of its extent: the feature with its parts, see analyze::Extents.
 struct FeatureRow {
     std::uint32_t label = 0;
-    std::optional<double> volume;  ///< m3: of its solid, else of the solids below it; empty: no solids
-    std::uint64_t voxels = 0;
+    analyze::FeatureMeasure measure;             ///< without boxes and areas
     double area = 0;                             ///< m2 in plan: of the columns of samples that it fills
     double lowest = 0, highest = 0;              ///< of its voxels, metres above datum; meaningless without voxels
-    bool isOpen = false;                         ///< its shell, or one below it, is not closed in the model
+    bool isOpen = false;                         ///< its shell, or one of a part, is not closed in the model
     bool isCut = false;                          ///< by the plane
     std::vector<std::array<double, 2>> outline;  ///< convex, around its voxels in plan; counter-clockwise
 };
@@ -30,7 +30,7 @@ struct FeatureRow {
 
 /// \param selected  labels, ascending
 /// \param plane     cutting plane, at the accuracy of voxels; null: none
-/// Cost: O(columns + runs * depth of the tree)
+/// Cost: O(columns + runs * selected features that share a label + labels of all extents)
 [[nodiscard]] std::vector<FeatureRow> featureRows(const volume::SemanticVolume& volume,
                                                   std::span<const std::uint32_t> selected,
                                                   const drawing::SectionPlane* plane);

@@ -87,6 +87,9 @@ enum class Code : std::uint16_t {
     CellsOverlap = 243,         ///< cell spaces of one layer that overlap
     StateOutsideCell = 244,     ///< a state that does not lie in its cell space
     CellsNotAdjacent = 245,     ///< a transition between cell spaces that do not touch
+    UnitsOverlap = 246,         ///< legal units that overlap
+    StoreyGap = 247,            ///< space of a storey that no unit or other feature claims
+    UnitNotReached = 248,       ///< a legal unit that no common part reaches
     // 3xx: voxels
     BadDimension = 301,   ///< grid dimension or spacing out of range
     GridTooLarge = 302,   ///< over the limits of a grid
@@ -105,17 +108,19 @@ enum class Code : std::uint16_t {
     BadNrrd = 407,        ///< not a readable NRRD file
     WouldDestroy = 408,   ///< an output would replace an input, another output or a file of another kind
     // 5xx: pictures
-    BadCamera = 501,      ///< up parallel to view, or field of view out of range
-    BadFrame = 502,       ///< picture size or plane out of range
-    BadSection = 503,     ///< a plane, region or lens that cannot be used
-    BadScene = 504,       ///< a scene file that does not follow its schema
-    NoGraphics = 505,     ///< no graphics context, or one without the required features
-    UncertainArea = 506,  ///< the bound of a cut area is larger than the area
-    PlaneInFaces = 507,   ///< a section plane lies in faces of the model
-    DrawnByVoxels = 508,  ///< a cut object drawn from its voxels, next to exact objects
-    NoMeshes = 509,       ///< lines beyond a cut requested from a volume without meshes
-    NoCairo = 510,        ///< no cairo library, so no PDF
-    BadSheets = 511,      ///< a file of sheets that does not follow its schema
+    BadCamera = 501,           ///< up parallel to view, or field of view out of range
+    BadFrame = 502,            ///< picture size or plane out of range
+    BadSection = 503,          ///< a plane, region or lens that cannot be used
+    BadScene = 504,            ///< a scene file that does not follow its schema
+    NoGraphics = 505,          ///< no graphics context, or one without the required features
+    UncertainArea = 506,       ///< the bound of a cut area is larger than the area
+    PlaneInFaces = 507,        ///< a section plane lies in faces of the model
+    DrawnByVoxels = 508,       ///< a cut object drawn from its voxels, next to exact objects
+    NoMeshes = 509,            ///< lines beyond a cut requested from a volume without meshes
+    NoCairo = 510,             ///< no cairo library, so no PDF
+    BadSheets = 511,           ///< a file of sheets that does not follow its schema
+    StoreyLevelDiffers = 512,  ///< the declared level of a storey contradicts its rooms or slabs
+    NetExceedsGross = 513,     ///< the rooms of a level have more area than its gross floor area
     // 6xx: cities
     BadPlan = 601,         ///< not the plan of a city, or a damaged one
     PlanVersion = 602,     ///< a plan that another version of the program wrote
@@ -132,6 +137,7 @@ enum class Code : std::uint16_t {
     NothingSelected = 902,  ///< a query that selects nothing
     Cancelled = 903,        ///< the caller asked to stop
     BadArgument = 904,      ///< an argument out of range
+    BadDefaults = 905,      ///< a file with defaults of options that cannot be used
     Internal = 999,         ///< a defect of the program
 };
 

@@ -153,10 +153,14 @@ public:
     /// Appends `count` zero bytes.
     Result<void> writeZeros(std::uint64_t count);
 
+    enum class Durability : std::uint8_t {
+        Synced,    ///< a crash of the machine leaves the old or the new file
+        Temporary  ///< the file is removed soon, so its bytes need not reach the disk
+    };
     /// Syncs the bytes to disk and renames the temporary file to the target.
     /// \return the number of bytes written, or DiskFull or CannotWrite; on failure the old file stays and the temporary
     ///         file is removed
-    Result<std::uint64_t> commit();
+    Result<std::uint64_t> commit(Durability durability = Durability::Synced);
 
     /// Bytes appended so far.
     [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
@@ -177,6 +181,9 @@ private:
     int descriptor_ = -1;
     int failed_ = 0;  // errno of the first failure
 };
+
+/// For programs: from now on, AtomicFile replaces no regular file, but returns WouldDestroy.
+void keepExistingFiles() noexcept;
 
 /// Writes the concatenated `parts` to the file `target`; all or nothing, see AtomicFile.
 /// \return bytes written, or CannotWrite or DiskFull
@@ -201,6 +208,15 @@ private:
 
 /// Whether stderr is a terminal, so that a person reads its messages.
 [[nodiscard]] bool isErrorTerminal() noexcept;
+/// Whether stdout is a terminal.
+[[nodiscard]] bool isOutputTerminal() noexcept;
+
+/// A path that reads stdin as a regular file, if stdin is a file at its begin (`< house.gml`); empty for a pipe.
+[[nodiscard]] std::filesystem::path stdinAsFile();
+/// Copies stdin to its end into the new file `to`.
+/// \return bytes; InputTooBig if there are more than `maxBytes`; CannotOpen if stdin cannot be read; CannotWrite,
+///         DiskFull
+[[nodiscard]] Result<std::uint64_t> saveStdin(const std::filesystem::path& to, std::uint64_t maxBytes);
 
 /// The path of the running program; empty where the system does not provide it.
 [[nodiscard]] std::filesystem::path executablePath();

@@ -72,6 +72,13 @@ void unlimitMemory();
 /// Whether there is a desktop that windows can be opened on.
 [[nodiscard]] std::optional<bool> hasDesktop() noexcept;
 
+/// The folder with the settings of this user for all programs: $XDG_CONFIG_HOME if it is an absolute path, else
+/// $HOME/.config; %APPDATA% on Windows. Empty where the system does not provide it.
+[[nodiscard]] std::filesystem::path settingsFolder();
+
+/// Whether an environment variable has a value that is not empty.
+[[nodiscard]] bool isInEnvironment(const char* name) noexcept;
+
 /// The file that runs when a program is started as `name`; empty: not in PATH.
 [[nodiscard]] std::filesystem::path findProgram(std::string_view name);
 

@@ -59,6 +59,11 @@ struct Option {
     bool mayLackEnding = false;     ///< for an output: a name without ending, or a device, means the first format
     std::string_view numberedBy{};  ///< for an output: the option with the number of files, P_0000.png, ...
     bool isForModels = false;       ///< controls how a model becomes a volume; no effect if only volumes are read
+    /// The file svt.json in the folder of a model may set it. The folder may come from a stranger, so the option names no
+    /// file, starts no program, opens no server and raises no limit. Options that set a member of a scene are such too.
+    bool isForProjects = false;
+    /// For an input: later commands read the file again, so that it is neither stdin nor at an address.
+    bool isReadAgain = false;
 };
 
 /// "--output" of "-o,--output".

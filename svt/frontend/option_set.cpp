@@ -54,6 +54,7 @@ void addOptions(std::span<const Option> members, std::string_view of, std::vecto
         option.name = name;
         option.option = {};
         if (option.kind == OptionKind::Flag) option.byDefault = {};
+        option.isForProjects = option.isForProjects || !option.member.empty();
         if (!option.like.empty()) fillFrom(option, illustrate::sceneMember(option.like));
         to.push_back({{option}, member.name});
     }
@@ -71,6 +72,14 @@ void placeSceneOptions(std::vector<BoundOption>& options) {
 }
 
 }  // namespace detail
+
+bool excludeEachOther(const Option& a, const Option& b) {
+    const auto lists = [](const Option& option, const Option& other) {
+        const auto names = splitChoices(option.excludes);
+        return std::ranges::find(names, longName(other)) != names.end();
+    };
+    return lists(a, b) || lists(b, a);
+}
 
 Result<void> checkExclusions(std::span<const GivenOption> given) {
     for (const GivenOption& each : given)

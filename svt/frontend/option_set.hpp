@@ -53,6 +53,9 @@ template <auto... Fields>
     return record::member<Fields...>(name, "", {.group = of});
 }
 
+/// Whether two options cannot be combined (Option::excludes of either).
+[[nodiscard]] bool excludeEachOther(const Option& a, const Option& b);
+
 /// \return nothing, or BadArgument for two options that exclude each other (Option::excludes)
 [[nodiscard]] Result<void> checkExclusions(std::span<const GivenOption> given);
 

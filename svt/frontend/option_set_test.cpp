@@ -106,6 +106,12 @@ TEST(OptionSet, OptionsThatExcludeEachOtherAreRefused) {
     EXPECT_EQ(checkExclusions(both).error().message(), "--heat and --cold exclude each other; give one of them");
 }
 
+TEST(OptionSet, ExclusionHoldsBothWays) {
+    EXPECT_TRUE(excludeEachOther(optionNamed("--heat"), optionNamed("--cold")));
+    EXPECT_TRUE(excludeEachOther(optionNamed("--cold"), optionNamed("--heat")));
+    EXPECT_FALSE(excludeEachOther(optionNamed("--heat"), optionNamed("--fabric")));
+}
+
 TEST(OptionSet, ValuesAreCountedAndCheckedOneByOne) {
     EXPECT_EQ(valuesOf(optionNamed("--box"), "1,2"), (std::vector<std::string>{"1", "2"}));
     EXPECT_EQ(valuesOf(optionNamed("--fabric"), "1,2"), (std::vector<std::string>{"1,2"}));

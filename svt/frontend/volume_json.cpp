@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+#include <optional>
+
 namespace svt::frontend {
 
 Json toJson(const AttributeValue& value) {
@@ -18,12 +21,20 @@ Json gridJson(const volume::Grid& grid) {
             {"frame", Json::array({toJson(grid.axes()[0]), toJson(grid.axes()[1]), toJson(grid.axes()[2])})}};
 }
 
-Json labelJson(const volume::LabelTable& table, std::uint32_t index, const volume::Grid& grid) {
-    const volume::Label& label = table.labels[index];
+Json labelJson(const volume::LabelTable& table, const analyze::FeatureMeasure& measure, const volume::Grid& grid) {
+    const volume::Label& label = table.labels[measure.label];
+    const auto known = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
     Json json{{"id", label.id}, {"class", label.className}, {"name", label.name}};
     json["parent"] = label.parent == volume::kNoLabel ? Json(nullptr) : Json(table.labels[label.parent].id);
     json["first"] = label.first;
     json["count"] = label.count;
+    json["ownVoxels"] = measure.own.voxels;
+    json["totalVoxels"] = measure.total.voxels;
+    json["ownVolume"] = known(measure.own.volume);
+    json["totalVolume"] = known(measure.total.volume);
+    json["countedVolume"] = measure.total.volume ? Json(measure.total.countedVolume) : Json(nullptr);
+    json["solidVolume"] = known(analyze::solidVolumeOf(label));
+    // Deprecated names: own voxels and their volume; the volume of the mesh, 0 where unknown.
     json["voxels"] = label.voxels;
     json["volume"] = label.volume;
     json["voxelVolume"] = double(label.voxels) * grid.voxelVolume();
@@ -63,9 +74,12 @@ Json infoJson(const volume::SemanticVolume& volume) {
     json["source"] = volume.source;
     json["objects"] = Json::array();
     json["features"] = Json::array();
-    for (std::uint32_t l = 0; l < volume.labels.labels.size(); ++l)
-        json[volume.labels.labels[l].count != 0 ? "objects" : "features"].push_back(
-            labelJson(volume.labels, l, volume.grid));
+    std::vector<std::uint32_t> all(volume.labels.labels.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const auto own = analyze::ownMeasures(volume.labels, volume.grid);
+    for (const auto& measure : analyze::measureFeatures(analyze::Extents(volume.labels), all, own))
+        json[volume.labels.labels[measure.label].count != 0 ? "objects" : "features"].push_back(
+            labelJson(volume.labels, measure, volume.grid));
     json["overlaps"] = overlapsJson(volume.labels);
     return json;
 }

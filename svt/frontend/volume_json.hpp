@@ -2,6 +2,7 @@
 /// \file
 /// The JSON of volumes that commands print and Python returns. Stable; described in docs/user/json.md.
 
+#include <svt/analyze/extents.hpp>
 #include <svt/record/record.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
@@ -14,8 +15,9 @@ using record::Json;
 [[nodiscard]] Json toJson(Vec3i v);
 /// dimension, spacing, origin, and the axes as frame.
 [[nodiscard]] Json gridJson(const volume::Grid& grid);
-/// One feature: id, class, name, parent, first, count, voxels, volume, closed, filling, ...
-[[nodiscard]] Json labelJson(const volume::LabelTable& table, std::uint32_t label, const volume::Grid& grid);
+/// One feature: id, class, name, parent, first, count, its own and total voxels and volumes, closed, filling, ...
+[[nodiscard]] Json labelJson(const volume::LabelTable& table, const analyze::FeatureMeasure& measure,
+                             const volume::Grid& grid);
 /// Pairs of labels that claim the same voxels: a, b, voxels, nested.
 [[nodiscard]] Json overlapsJson(const volume::LabelTable& table);
 /// All of a volume, as `svt info --json` prints it.

@@ -196,6 +196,23 @@ Error cannotWrite(const fs::path& path, std::string message) {
     return Error(Code::CannotWrite, std::move(message), Place{path.string(), 0, 0, {}});
 }
 
+// Whether a folder has a page that writeSite() has written.
+bool isOwnPage(const fs::path& folder) {
+    constexpr std::uint64_t kMostBytes = std::uint64_t{64} << 20;  // of the list of models
+    const auto list = FileBytes::read(folder / "models.json", kMostBytes);
+    if (!list) return false;
+    const auto json = nlohmann::ordered_json::parse(list->text(), nullptr, false);
+    return json.is_object() && json.contains("models") && json["models"].is_array();
+}
+
+Error notOurs(const fs::path& file) {
+    return Error(
+        Code::WouldDestroy,
+        "the page would replace this file, which is not part of a page of SVT; choose another folder, or remove "
+        "the file",
+        Place{file.string(), 0, 0, {}});
+}
+
 // A staging folder, removed with its contents by the destructor.
 struct Staging {
     fs::path path;
@@ -443,18 +460,22 @@ std::vector<std::string> uniqueNames(std::span<const fs::path> files, std::span<
     return names;
 }
 
-Result<void> checkSiteFolder(const fs::path& folder, bool mayReplace) {
+Result<void> checkSiteFolder(const fs::path& folder) {
     std::error_code error;
     if (!fs::exists(folder, error)) return {};
     if (!fs::is_directory(folder, error)) return cannotWrite(folder, "this is a file; give the name of a folder");
-    if (!mayReplace && !fs::is_empty(folder, error))
-        return cannotWrite(folder, "the folder is not empty; choose another one, or --force to write into it");
+    if (isOwnPage(folder)) return {};
+    for (const char* name : {"index.html", "models.json"})
+        if (fs::exists(folder / name, error)) return notOurs(folder / name);
     return {};
 }
 
-Result<std::uint64_t> writeSite(const Site& site, const fs::path& folder, bool mayReplace) {
-    SVT_DO(checkSiteFolder(folder, mayReplace));
+Result<std::uint64_t> writeSite(const Site& site, const fs::path& folder) {
+    SVT_DO(checkSiteFolder(folder));
     std::error_code error;
+    if (!isOwnPage(folder))
+        for (const auto& [path, resource] : site.resources())
+            if (fs::exists(folder / path.substr(1), error)) return notOurs(folder / path.substr(1));
     const bool isThere = fs::exists(folder, error);
     const Unfinished made = Unfinished::path([&] {
         fs::create_directories(folder, error);

@@ -103,15 +103,16 @@ struct PagePreview {
 [[nodiscard]] std::vector<std::string> uniqueNames(std::span<const std::filesystem::path> files,
                                                    std::span<const std::string_view> extensions);
 
-/// Checks whether writeSite() may write into a folder: it does not exist, it is empty, or `mayReplace` is true.
-/// \return nothing, or CannotWrite
-[[nodiscard]] Result<void> checkSiteFolder(const std::filesystem::path& folder, bool mayReplace);
+/// Checks whether writeSite() may write into a folder: a page in it is one that writeSite() has written, with its
+/// models.json, or it has neither index.html nor models.json.
+/// \return nothing, or CannotWrite if it is a file, WouldDestroy if it has the page of another program
+[[nodiscard]] Result<void> checkSiteFolder(const std::filesystem::path& folder);
 
 /// Writes a site as a folder that any web server can serve. The files are staged next to `folder` and then moved into
 /// it, index.html last, so that a failure leaves the existing content and no partial files. Files in `folder` that are
-/// not part of the site are kept.
-/// \param mayReplace  false: a folder that is not empty is rejected
-/// \return bytes written, or CannotWrite or DiskFull; CannotOpen if another program changed a file of the site
-[[nodiscard]] Result<std::uint64_t> writeSite(const Site& site, const std::filesystem::path& folder, bool mayReplace);
+/// not part of the site are kept. Files of an earlier page are replaced. In a folder without a page, no file is replaced.
+/// \return bytes written, or an error of checkSiteFolder(); WouldDestroy for a file in the place of one of the site;
+///         CannotWrite or DiskFull; CannotOpen if another program changed a file of the site
+[[nodiscard]] Result<std::uint64_t> writeSite(const Site& site, const std::filesystem::path& folder);
 
 }  // namespace svt::serve

@@ -192,7 +192,7 @@ TEST(Site, AStoredFileThatIsChangedInPlaceIsNotServed) {
             EXPECT_EQ(headerOf(reply, "ETag"), "");
         }
         EXPECT_EQ(site.reply(get("/")).status, 200);
-        const auto written = writeSite(site, folder / "site", false);
+        const auto written = writeSite(site, folder / "site");
         ASSERT_FALSE(written) << now;
         EXPECT_EQ(written.error().code(), Code::CannotOpen);
         EXPECT_EQ(written.error().where().file, (folder / "a.svtp").string());
@@ -318,7 +318,7 @@ TEST(PublishedSite, FolderHoldsWhatIsServed) {
     const auto site = viewerSite(folder / "viewer", models);
     ASSERT_TRUE(site);
     const fs::path out = folder / "new/site";
-    const auto written = writeSite(*site, out, false);
+    const auto written = writeSite(*site, out);
     ASSERT_TRUE(written) << written.error().toString();
     std::uint64_t total = 0;
     std::size_t files = 0;
@@ -333,11 +333,10 @@ TEST(PublishedSite, FolderHoldsWhatIsServed) {
     EXPECT_EQ(files, site->resources().size());
     EXPECT_EQ(total, *written);
 
-    // Fails the second time unless replacing is allowed; then only files of the site are touched.
-    EXPECT_EQ(writeSite(*site, out, false).error().code(), Code::CannotWrite);
+    // An earlier page is replaced, and only its files are touched.
     writeText(out / "mine.txt", "mine");
     writeText(out / "index.html", "old");
-    ASSERT_TRUE(writeSite(*site, out, true));
+    ASSERT_TRUE(writeSite(*site, out));
     EXPECT_EQ(readText(out / "mine.txt"), "mine");
     EXPECT_EQ(readText(out / "index.html"), site->find("/")->bytes.text());
     EXPECT_EQ(std::count_if(fs::directory_iterator(out), fs::directory_iterator(),
@@ -351,15 +350,48 @@ TEST(PublishedSite, FailureLeavesNothing) {
     site.add("/index.html", Bytes::of("new"));
     site.add("/models/a.svt", Bytes::of("a"));
     writeText(folder / "file", "");
-    EXPECT_EQ(writeSite(site, folder / "file", true).error().code(), Code::CannotWrite);
-    EXPECT_EQ(writeSite(site, folder / "file/site", false).error().code(), Code::CannotWrite);
+    EXPECT_EQ(writeSite(site, folder / "file").error().code(), Code::CannotWrite);
+    EXPECT_EQ(writeSite(site, folder / "file/site").error().code(), Code::CannotWrite);
     // A file exists where a folder is needed: the old page is kept.
     fs::create_directories(folder / "site");
     writeText(folder / "site/models", "");
     writeText(folder / "site/index.html", "old");
-    EXPECT_EQ(writeSite(site, folder / "site", true).error().code(), Code::CannotWrite);
+    writeText(folder / "site/models.json", R"({"models": []})");
+    EXPECT_EQ(writeSite(site, folder / "site").error().code(), Code::CannotWrite);
     EXPECT_EQ(readText(folder / "site/index.html"), "old");
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder / "site"), fs::directory_iterator()), 2);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / "site"), fs::directory_iterator()), 3);
+}
+
+TEST(PublishedSite, FilesOfOthersAreNotReplaced) {
+    const TemporaryFolder folder;
+    Site site;
+    site.add("/index.html", Bytes::of("new"));
+    site.add("/assets/a.js", Bytes::of("new"));
+    // The page of another program, also with a list that is no list of models.
+    for (const char* list : {"", "{}", R"({"models": 1})", "[]"}) {
+        const fs::path page = folder / "page";
+        fs::remove_all(page);
+        fs::create_directories(page);
+        writeText(page / "index.html", "mine");
+        if (*list != '\0') writeText(page / "models.json", list);
+        EXPECT_EQ(checkSiteFolder(page).error().code(), Code::WouldDestroy) << list;
+        EXPECT_EQ(writeSite(site, page).error().code(), Code::WouldDestroy) << list;
+        EXPECT_EQ(readText(page / "index.html"), "mine");
+    }
+    // A folder with other files takes the page, unless a file is in the place of one of the page.
+    fs::create_directories(folder / "docs/assets");
+    writeText(folder / "docs/readme.txt", "mine");
+    writeText(folder / "docs/assets/a.js", "mine");
+    EXPECT_TRUE(checkSiteFolder(folder / "docs"));
+    const auto refused = writeSite(site, folder / "docs");
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code(), Code::WouldDestroy);
+    EXPECT_EQ(refused.error().where().file, (folder / "docs/assets/a.js").string());
+    EXPECT_EQ(readText(folder / "docs/assets/a.js"), "mine");
+    EXPECT_FALSE(fs::exists(folder / "docs/index.html"));
+    fs::remove(folder / "docs/assets/a.js");
+    EXPECT_TRUE(writeSite(site, folder / "docs"));
+    EXPECT_EQ(readText(folder / "docs/readme.txt"), "mine");
 }
 
 // Any web server can serve a published folder.
@@ -369,7 +401,7 @@ TEST(PublishedSite, PythonServesIt) {
     makeViewer(folder.path());
     const std::vector<SiteModel> models{{"house", "House", Bytes::of(std::string(300000, 'v'))}};
     const auto site = viewerSite(folder / "viewer", models);
-    ASSERT_TRUE(site && writeSite(*site, folder / "site", false));
+    ASSERT_TRUE(site && writeSite(*site, folder / "site"));
     const std::string log = (folder / "log").string(), out = (folder / "site").string();
     const pid_t child = ::fork();
     if (child == 0) {

@@ -11,12 +11,14 @@
 
 namespace svt::writers {
 
-/// One JSON object: `plane` (origin, u, v, normal, edgesInPlane, shift, bound), `components` (id, class, name,
-/// polygons, area, areaBound, exact, lineLength in metres), `classes` (class, components, area) and `area`, all in m2.
+/// One JSON object, areas in m2, lengths in metres. `plane` has origin, u, v, normal, edgesInPlane, shift, bound.
+/// `components` have id, class, name, polygons, area, areaBound, exact, lineLength. `classes` have class, components,
+/// area. `spaces` are units, storeys, buildings and groups with id, class, name, components, and the area of their drawn
+/// parts. `area` is the total.
 [[nodiscard]] std::string makeSectionJson(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume);
 
 /// CSV (RFC 4180) with the header `kind,id,class,name,polygons,area_m2,area_bound_m2,exact,line_length_m`. `kind` is
-/// component, class or total; rows of classes and the total have neither id nor name.
+/// component, class, space or total; rows of classes and the total have neither id nor name.
 [[nodiscard]] std::string makeSectionCsv(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume);
 
 }  // namespace svt::writers

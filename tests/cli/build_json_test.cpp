@@ -85,8 +85,9 @@ TEST_F(TwoBoxes, InfoJsonHasItsKeysAndUnits) {
     EXPECT_EQ(info["source"], "two.gml");
     ASSERT_EQ(info["objects"].size(), 2u);
     const json& left = byId(info["objects"], "left");
-    EXPECT_EQ(keysOf(left), (Keys{"class", "closed", "count", "filling", "first", "id", "name", "parent", "volume",
-                                  "voxelVolume", "voxels"}));
+    EXPECT_EQ(keysOf(left), (Keys{"class", "closed", "count", "countedVolume", "filling", "first", "id", "name",
+                                  "ownVolume", "ownVoxels", "parent", "solidVolume", "totalVolume", "totalVoxels",
+                                  "volume", "voxelVolume", "voxels"}));
     EXPECT_EQ(left["class"], "Building");
     EXPECT_EQ(left["parent"], nullptr);
     EXPECT_EQ(left["closed"], true);
@@ -128,8 +129,8 @@ TEST_F(TwoBoxes, CheckJsonHasItsKeysAndFindsNothing) {
     EXPECT_EQ(check["leaking"], 0);
     EXPECT_EQ(check["tJunctions"], 0);
     const json& left = byId(check["objects"], "left");
-    for (const char* key : {"id", "class", "name", "line", "lod", "closingMethod", "closed", "triangles", "unmatchedEdges",
-                            "tJunctions", "leakingEdges", "leaks", "stillOpenEdges", "flippedFaces",
+    for (const char* key : {"id", "class", "name", "line", "lod", "closingMethod", "closed", "triangles",
+                            "unmatchedEdges", "tJunctions", "leakingEdges", "leaks", "stillOpenEdges", "flippedFaces",
                             "complementedFaces", "caps", "assembled", "volume", "area"})
         EXPECT_TRUE(left.contains(key)) << key;
     EXPECT_EQ(left["closingMethod"], "closed");

@@ -619,7 +619,7 @@ TEST_F(Convert, TablesHaveALineForEachObjectAndContact) {
     runSvtWell(folder.path(), {"convert", "boxes.svt", "o.csv"});
     runSvtWell(folder.path(), {"convert", "boxes.svt", "o.contacts.csv"});
     const std::string objects = readText(folder / "o.csv"), contacts = readText(folder / "o.contacts.csv");
-    EXPECT_EQ(objects.find("label,id,class,name,parent,first,count,voxels,volume,"), 0u);
+    EXPECT_EQ(objects.find("label,id,class,name,parent,first,count,ownVoxels,totalVoxels,ownVolume,totalVolume,"), 0u);
     EXPECT_NE(objects.find("\r\n0,a,Building,\"K\u00fcche & \"\"Bad\"\"\",,1,1,"), std::string::npos) << objects;
     EXPECT_NE(contacts.find("\r\na,Building,\"K\u00fcche & \"\"Bad\"\"\",b,Building,,"), std::string::npos) << contacts;
     EXPECT_NE(contacts.find("\r\nc,Building,,,,,"), std::string::npos) << "background: " << contacts;

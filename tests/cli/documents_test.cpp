@@ -1,6 +1,7 @@
 // Every command shown in the documents works as written. Blocks of ```sh in README.md and docs/user/*.md are
 // run line by line in one folder per document; lines that do not start with the command (or with build/release/bin/svt)
-// are skipped. A server command runs until it has printed its address, and must then end successfully when stopped.
+// are skipped. Tutorials, explanation and gallery run from top to bottom, with their programs in Python, and print the
+// output that they show. A server command runs until it has printed its address, and must then end successfully when stopped.
 // The example of a page in docs/errors is run as a whole, and must print the message that the page shows.
 // Links, sources, commands and options that any page of the tree names are there.
 #include "run_command.hpp"
@@ -78,7 +79,9 @@ std::string untilItServes(const std::string& text) {
 int runScript(const fs::path& folder, const std::string& text) {
     static const Installed installed;
     const std::string at = folder.string();
-    writeText(folder / "run.sh", "PATH='" + installed.bin() + "':$PATH\ncd '" + at + "'\n" + text + "\n");
+    // Files with defaults beside a model are read, and none of the user.
+    writeText(folder / "run.sh", "unset SVT_NO_CONFIG\nexport XDG_CONFIG_HOME='" + at + "/no settings'\nPATH='" +
+                                     installed.bin() + "':$PATH\ncd '" + at + "'\n" + text + "\n");
     const int status =
         std::system(("timeout 900 sh '" + at + "/run.sh' > '" + at + "/run.log' 2> '" + at + "/run.err'").c_str());
     return WEXITSTATUS(status);
@@ -179,6 +182,162 @@ TEST(Documents, TheUserDocsShowCommands) {
     for (const std::string& page : userPages())
         count += commandsOf(fs::path(sourceRoot()) / "docs/user" / (page + ".md")).size();
     EXPECT_GT(count, 100u);
+}
+
+// A page that a reader follows from top to bottom.
+struct Step {
+    enum class Kind { File, Command, Output };
+    Kind kind = Kind::Command;
+    int line = 0;
+    std::string name;  ///< of a file
+    std::string text;  ///< content, command, or output as shown
+};
+
+bool isFileBlock(const std::string& info) {
+    return info.rfind("json ", 0) == 0 || info.rfind("csv ", 0) == 0 || info.rfind("python ", 0) == 0;
+}
+
+// Blocks ```json NAME, ```csv NAME and ```python NAME are files, lines of ```sh blocks commands, and ```text output.
+std::vector<Step> stepsOf(const fs::path& page) {
+    std::ifstream in(page);
+    std::vector<Step> steps;
+    bool isOpen = false, isContinued = false;
+    std::string info;
+    int number = 0;
+    for (std::string line; std::getline(in, line);) {
+        ++number;
+        if (line.rfind("```", 0) == 0) {
+            isOpen = !isOpen;
+            isContinued = false;
+            info = isOpen ? line.substr(3) : std::string();
+            if (isFileBlock(info)) steps.push_back({Step::Kind::File, number, info.substr(info.find(' ') + 1), {}});
+            if (info == "text") steps.push_back({Step::Kind::Output, number, {}, {}});
+        } else if (isFileBlock(info) || info == "text") {
+            steps.back().text += line + "\n";
+        } else if (info == "sh" && isContinued) {
+            steps.back().text += "\n" + line;
+            isContinued = !line.empty() && line.back() == '\\';
+        } else if (info == "sh" && (line.rfind("svt ", 0) == 0 || line.rfind("python3 ", 0) == 0)) {
+            steps.push_back({Step::Kind::Command, number, {}, line});
+            isContinued = line.back() == '\\';
+        }
+    }
+    return steps;
+}
+
+// One blank for several: the widths of columns depend on their content.
+std::string withSingleBlanks(const std::string& text) {
+    std::string single;
+    for (const char c : text)
+        if (c != ' ' || single.empty() || single.back() != ' ') single += c;
+    return single;
+}
+
+// Whether text occurs in what was printed; "..." stands for any text.
+bool isPrinted(const std::string& shownText, const std::string& printedText) {
+    const std::string shown = withSingleBlanks(shownText), printed = withSingleBlanks(printedText);
+    constexpr std::string_view kAnything = "...";
+    std::size_t at = 0;
+    for (std::size_t from = 0; from < shown.size();) {
+        const std::size_t end = std::min(shown.find(kAnything, from), shown.size());
+        std::string piece = shown.substr(from, end - from);
+        if (!piece.empty() && piece.front() == '\n') piece.erase(0, 1);
+        at = printed.find(piece, at);
+        if (at == std::string::npos) return false;
+        at += piece.size();
+        from = end + kAnything.size();
+    }
+    return true;
+}
+
+// The folder of the built module svt for Python; empty: it is not built.
+fs::path pythonModule() {
+    const fs::path folder = buildFolder() / "python";
+    return fs::exists(folder / "svt" / "__init__.py") ? folder : fs::path();
+}
+
+// A Python that can import the module: the first one in the path may be another one than that of the build.
+std::string pythonWithModule() {
+    for (const std::string name : {"python3", "/usr/bin/python3"})
+        if (std::system(("PYTHONPATH='" + pythonModule().string() + "' " + name + " -c 'import svt, numpy' 2>/dev/null")
+                            .c_str()) == 0)
+            return name;
+    return {};
+}
+
+// Tutorials, explanation, gallery and the first page, as paths in docs/ without ending.
+std::vector<std::string> followedPages() {
+    const fs::path docs = fs::path(sourceRoot()) / "docs";
+    std::vector<std::string> pages = {"README", "gallery"};
+    for (const char* folder : {"tutorials", "explanation"})
+        for (const auto& entry : fs::directory_iterator(docs / folder))
+            if (entry.path().extension() == ".md")
+                pages.push_back(std::string(folder) + "/" + entry.path().stem().string());
+    std::sort(pages.begin(), pages.end());
+    return pages;
+}
+
+class FollowedPage : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(FollowedPage, ItsStepsWorkAndPrintWhatItShows) {
+    const fs::path page = fs::path(sourceRoot()) / "docs" / (GetParam() + ".md");
+    const std::vector<Step> steps = stepsOf(page);
+    const auto isPython = [](const Step& step) {
+        return step.kind == Step::Kind::Command && step.text.rfind("python3 ", 0) == 0;
+    };
+    std::string python;
+    if (std::any_of(steps.begin(), steps.end(), isPython)) {
+        if (pythonModule().empty()) GTEST_SKIP() << "the module for Python is not built (make python)";
+        python = pythonWithModule();
+        ASSERT_FALSE(python.empty()) << "no Python can import " << pythonModule();
+    }
+    const TemporaryFolder folder;
+    std::string printed;
+    for (const Step& step : steps) {
+        if (step.kind == Step::Kind::File) {
+            writeText(folder / step.name, step.text);
+        } else if (step.kind == Step::Kind::Command) {
+            const std::string text = isPython(step) ? "PYTHONPATH='" + pythonModule().string() + "' " + python +
+                                                          step.text.substr(std::string_view("python3").size())
+                                                    : step.text;
+            expectWorks(folder.path(), {step.line, text}, page);
+            printed += readText(folder / "run.log") + readText(folder / "run.err");
+        } else {
+            EXPECT_TRUE(isPrinted(step.text, printed)) << page << ":" << step.line << ": the page shows\n"
+                                                       << step.text << "but its commands print\n"
+                                                       << printed;
+            printed.clear();
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Documents, FollowedPage, ::testing::ValuesIn(followedPages()), [](const auto& tested) {
+    std::string name = tested.param;
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+    return name;
+});
+
+TEST(Documents, TheTutorialsShowOutput) {
+    int commands = 0, outputs = 0;
+    for (const std::string& name : followedPages())
+        for (const Step& step : stepsOf(fs::path(sourceRoot()) / "docs" / (name + ".md"))) {
+            commands += step.kind == Step::Kind::Command;
+            outputs += step.kind == Step::Kind::Output;
+        }
+    EXPECT_GT(commands, 60);
+    EXPECT_GT(outputs, 12);
+}
+
+TEST(Documents, OutputThatIsNotPrintedIsFound) {
+    const std::string printed = "id  name\na   wall\nb   room\n2 rows\n";
+    EXPECT_TRUE(isPrinted("a   wall\n", printed));
+    EXPECT_TRUE(isPrinted("id  name\n...\nb   room\n...\n", printed));
+    EXPECT_TRUE(isPrinted("a   ...\n2 rows\n", printed));
+    EXPECT_TRUE(isPrinted("a wall\nb  room\n", printed)) << "columns of other widths";
+    EXPECT_FALSE(isPrinted("a   slab\n", printed));
+    EXPECT_FALSE(isPrinted("b   room\n...\na   wall\n", printed)) << "in another order";
+    EXPECT_FALSE(isPrinted("a   wall\n2 rows\n", printed)) << "a line between is left out";
 }
 
 std::vector<std::string> errorPages() {
@@ -369,6 +528,8 @@ std::vector<std::string> faultsOfNames(const fs::path& page, int& count) {
     }();
     constexpr std::string_view kSources[] = {".cpp", ".hpp", ".sh", ".py", ".pyi", ".ts", ".mjs", ".glsl", ".cmake"};
     std::vector<std::string> faults;
+    std::set<std::string> shown;  // files that the page itself has
+    for (const Step& step : stepsOf(page)) shown.insert(step.name);
     for (const Piece& piece : piecesOf(page)) {
         if (!piece.isCode) continue;
         for (const std::string& name : namesIn(piece.text)) {
@@ -379,7 +540,7 @@ std::vector<std::string> faultsOfNames(const fs::path& page, int& count) {
             if (!isInTree && (!isSource || name.starts_with('_'))) continue;
             ++count;
             if (fs::exists(sourceRoot() / fs::path(name)) || fs::exists(page.parent_path() / name) ||
-                kEnds.contains(name))
+                kEnds.contains(name) || shown.contains(name))
                 continue;
             faults.push_back(placeOf(page, piece) + name);
         }

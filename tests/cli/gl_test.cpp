@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kNoGraphics = 6;
 // A driver compiles shaders, and maps more memory than it uses.
-Limits limits() {
+Limits glLimits() {
     Limits limits;
     limits.seconds = 60;
     limits.memoryBytes = std::uint64_t{8} << 30;
@@ -28,7 +28,7 @@ void expectSame(const std::vector<std::string>& options) {
         more.insert(more.begin(), arguments.begin(), arguments.end());
         return more;
     };
-    const auto drawn = runSvt(folder.path(), with({"-o", "gl.png", "--labels", "glIds.png", "--gl"}), limits());
+    const auto drawn = runSvt(folder.path(), with({"-o", "gl.png", "--labels", "glIds.png", "--gl"}), glLimits());
     if (drawn.exitCode == kNoGraphics) GTEST_SKIP() << drawn.err;
     ASSERT_EQ(drawn.exitCode, 0) << drawn.toString();
     runSvtWell(folder.path(), with({"-o", "cpu.png", "--labels", "cpuIds.png"}));
@@ -58,7 +58,7 @@ TEST(RenderByGl, WithoutADriverExitsWith6) {
     // The driver loader then finds no driver.
     ::setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere", 1);
     const auto result =
-        runSvt(folder.path(), {"render", "house.gml", "-o", "house.png", "--spacing", "0.3", "--gl"}, limits());
+        runSvt(folder.path(), {"render", "house.gml", "-o", "house.png", "--spacing", "0.3", "--gl"}, glLimits());
     ::unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
     if (result.exitCode == 0) GTEST_SKIP() << "this machine's EGL has no loader of drivers";
     EXPECT_EQ(result.exitCode, kNoGraphics) << result.toString();

@@ -209,8 +209,8 @@ TEST_F(Outputs, PublishedFolderIsNotThatOfAnInput) {
     writeText(folder / "page/index.html", "<!doctype html><head></head>");
     fs::create_directory(folder / "site");
     fs::copy_file(folder / "two.svt", folder / "site/two.svt");
-    expectRefused({"publish", "site/two.svt", "-o", "site", "--viewer", "page", "--force"}, "E408.*site/two.svt");
-    expectRefused({"publish", "two.svt", "-o", "page", "--viewer", "page", "--force"}, "E408.*'--viewer'");
+    expectRefused({"publish", "site/two.svt", "-o", "site", "--viewer", "page"}, "E408.*site/two.svt");
+    expectRefused({"publish", "two.svt", "-o", "page", "--viewer", "page"}, "E408.*'--viewer'");
     expectRefused({"publish", "two.svt", "-o", "two.svt", "--viewer", "page"}, "E40[48]");
 }
 

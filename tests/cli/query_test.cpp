@@ -87,13 +87,21 @@ TEST(FeatureRows, AreAsManyAsAreReported) {
 TEST_F(TwoBoxReports, WithAddsColumns) {
     const json rows = report({"id=right", "--with", "surface,box,volume"});
     ASSERT_EQ(rows.size(), 1u);
-    EXPECT_EQ(keysOf(rows[0]["surface"]), (Keys{"area", "outside"}));
-    EXPECT_NEAR(rows[0]["surface"]["area"].get<double>(), 108, 0.03 * 108);
-    EXPECT_NEAR(rows[0]["surface"]["area"].get<double>() - rows[0]["surface"]["outside"].get<double>(), 18, 1e-6);
-    EXPECT_NEAR(rows[0]["box"]["min"][0].get<double>(), 500004, 0.0501);
-    EXPECT_NEAR(rows[0]["box"]["max"][2].get<double>(), 103, 0.0501);
+    const json &total = rows[0]["totalSurface"], &own = rows[0]["ownSurface"];
+    EXPECT_EQ(keysOf(total), (Keys{"area", "outside"}));
+    EXPECT_NEAR(total["area"].get<double>(), 108, 0.03 * 108);
+    EXPECT_NEAR(total["area"].get<double>() - total["outside"].get<double>(), 18, 1e-6);
+    EXPECT_NEAR(rows[0]["totalBox"]["min"][0].get<double>(), 500004, 0.0501);
+    EXPECT_NEAR(rows[0]["totalBox"]["max"][2].get<double>(), 103, 0.0501);
+    // A leaf is its own voxels. The old names are those of its own voxels.
+    EXPECT_NEAR(own["area"].get<double>(), total["area"].get<double>(), 1e-9);
+    EXPECT_EQ(rows[0]["surface"], own);
+    EXPECT_EQ(rows[0]["box"], rows[0]["totalBox"]);
     const std::string csv = runSvtWell(folder.path(), {"query", "two.svt", "id=right", "--with", "volume", "--csv"});
-    EXPECT_EQ(csv.substr(0, csv.find('\n')), "id,class,name,volume,voxels,voxelVolume,filling");
+    EXPECT_EQ(
+        csv.substr(0, csv.find('\n')),
+        "id,class,name,ownVolume,totalVolume,ownVoxels,totalVoxels,solidVolume,countedVolume,filling,volume,voxels,"
+        "voxelVolume");
     const CommandResult wrong = runSvt(folder.path(), {"query", "two.svt", "all", "--with", "volume,surfaces"});
     EXPECT_EQ(wrong.exitCode, 2);
     EXPECT_NE(wrong.err.find("'surfaces'"), std::string::npos) << wrong.toString();
@@ -252,7 +260,16 @@ TEST(QueryReports, ThePartyWallOfTheTowerIsHalfEachOnes) {
     asJson.emplace_back("--json");
     asCsv.emplace_back("--csv");
     const json report = runSvtForJson(folder.path(), asJson);
-    EXPECT_EQ(keysOf(report), (Keys{"components", "owners", "unowned", "untouched"}));
+    EXPECT_EQ(keysOf(report), (Keys{"all", "common", "components", "features", "owners", "sharedSpace", "unowned",
+                                    "unownedSpaces", "untouched"}));
+    double sum = report["unowned"].get<double>() + report["untouched"].get<double>();
+    sum += report["unownedSpaces"].get<double>();
+    for (const json& owner : report["owners"]) sum += owner["total"].get<double>();
+    EXPECT_NEAR(sum, report["all"].get<double>(), 1e-6);
+    double common = 0, features = 0;
+    for (const json& row : report["common"]) common += row["total"].get<double>();
+    for (const json& row : report["features"]) features += row["volume"].get<double>();
+    EXPECT_NEAR(common + features, report["all"].get<double>(), 1e-6);
     ASSERT_EQ(report["owners"].size(), 2u);
     EXPECT_EQ(keysOf(report["owners"][0]), (Keys{"alone", "own", "owner", "shared", "total", "with"}));
     ASSERT_EQ(report["components"].size(), 1u);
@@ -308,7 +325,7 @@ TEST(QueryReports, TheRoomsOfTheFzkHausOwnTheirKnownVolume) {
     const json known =
         runSvtForJson(folder.path(), {"query", "f.svt", "name=Bodenplatte", "--with", "surface", "--json"});
     // 12 x 10 x 0.2 m.
-    EXPECT_NEAR(known[0]["surface"]["area"].get<double>(), 248.8, 0.002 * 248.8);
+    EXPECT_NEAR(known[0]["totalSurface"]["area"].get<double>(), 248.8, 0.002 * 248.8);
     // The rooms of the ground floor touch it with their floors.
     const json neighbors =
         runSvtForJson(folder.path(), {"query", "f.svt", "name=Bodenplatte", "--neighbours", "--json"});
@@ -317,7 +334,7 @@ TEST(QueryReports, TheRoomsOfTheFzkHausOwnTheirKnownVolume) {
         contacts += row["area"].get<double>();
         if (row["neighbourClass"] == "BuildingRoom") floors += row["area"].get<double>();
     }
-    EXPECT_NEAR(contacts, known[0]["surface"]["area"].get<double>(), 1e-9 * contacts);
+    EXPECT_NEAR(contacts, known[0]["totalSurface"]["area"].get<double>(), 1e-9 * contacts);
     EXPECT_NEAR(floors, 101.33, 0.01 * 101.33);
 }
 

@@ -25,6 +25,9 @@ namespace {
 
 constexpr int kExecFailed = 126, kMountFailed = 125;
 
+// Files with defaults of this user do not change what tests expect.
+[[maybe_unused]] const int kNoConfig = ::setenv("SVT_NO_CONFIG", "1", 1);
+
 constexpr double kSlowdown = kIsSanitized ? 20 : 1;
 constexpr double kHangSeconds = 600 * kSlowdown;
 

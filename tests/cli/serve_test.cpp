@@ -213,9 +213,36 @@ TEST_F(ServeTest, PublishedFolderIsWhatIsServed) {
         EXPECT_TRUE(readText(entry.path()) == serving.ask("GET /" + path).body) << path;
     }
     EXPECT_EQ(files, 5);
-    const CommandResult again = runSvt(folder.path(), {"publish", "house.svt", "-o", "site", "--viewer", "page"});
-    EXPECT_EQ(again.exitCode, 5) << again.toString();
-    runSvtWell(folder.path(), {"publish", "house.svt", "-o", "site", "--viewer", "page", "--force"});
+}
+
+// The rule of all outputs: a page is replaced by a page, and by nothing else.
+TEST_F(ServeTest, PublishedFolderIsReplacedOnlyByAPage) {
+    const std::vector<std::string> publish{"publish", "house.svt", "-o", "site", "--viewer", "page"};
+    const auto with = [&](const char* option) {
+        std::vector<std::string> arguments = publish;
+        arguments.emplace_back(option);
+        return runSvt(folder.path(), arguments);
+    };
+    runSvtWell(folder.path(), publish);
+    writeText(folder / "site/mine.txt", "mine");
+    runSvtWell(folder.path(), publish);
+    EXPECT_EQ(readText(folder / "site/mine.txt"), "mine");
+    const CommandResult kept = with("--no-clobber");
+    EXPECT_EQ(kept.exitCode, kOutput) << kept.toString();
+    EXPECT_NE(kept.err.find("E408 WouldDestroy: site: the folder is not empty, and --no-clobber"), std::string::npos)
+        << kept.err;
+    const CommandResult forced = with("--force");
+    EXPECT_EQ(forced.exitCode, kDone) << forced.toString();
+    EXPECT_NE(forced.err.find("--force has no effect"), std::string::npos) << forced.err;
+    fs::remove_all(folder / "site");
+    fs::create_directory(folder / "site");
+    writeText(folder / "site/index.html", "a page of mine");
+    for (const char* option : {"--quiet", "--force"}) {
+        const CommandResult refused = with(option);
+        EXPECT_EQ(refused.exitCode, kOutput) << refused.toString();
+        EXPECT_NE(refused.err.find("E408 WouldDestroy: site/index.html"), std::string::npos) << refused.err;
+    }
+    EXPECT_EQ(readText(folder / "site/index.html"), "a page of mine");
 }
 
 struct ServedCity : ServeTest {
@@ -272,8 +299,7 @@ TEST_F(ServedCity, FilesThatChangeWhileTheyAreReadAreErrorsAndNoSignal) {
     int errors = 0;
     for (int i = 0; i < 6; ++i) {
         isIndex = i >= 3;
-        const CommandResult result =
-            runSvt(folder.path(), {"publish", "city", "-o", "site", "--viewer", "page", "--force"});
+        const CommandResult result = runSvt(folder.path(), {"publish", "city", "-o", "site", "--viewer", "page"});
         EXPECT_EQ(result.signal, 0) << result.toString();
         EXPECT_TRUE(result.exitCode == kInput || result.exitCode == kDone) << result.toString();
         EXPECT_TRUE(result.exitCode == kDone || isIndex || result.err.find("99999.svtp") != std::string::npos)

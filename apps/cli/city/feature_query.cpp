@@ -19,7 +19,9 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <utility>
 
 namespace svt::cli {
 namespace {
@@ -30,30 +32,43 @@ const std::vector<Column>& ownColumns() {
     static const std::vector<Column> kColumns = {{"id", "id"},
                                                  {"class", "class"},
                                                  {"name", "name"},
-                                                 {"volume", "volume", 2, CellType::Number},
+                                                 {"ownVolume", "own m3", 2, CellType::Number},
+                                                 {"totalVolume", "total m3", 2, CellType::Number},
+                                                 {"countedVolume", "", 2, CellType::Number},
                                                  {"area", "area", 2, CellType::Number},
                                                  {"height", "height", 2, CellType::Number},
                                                  {"lowest", "lowest", 2, CellType::Number},
                                                  {"highest", "highest", 2, CellType::Number},
-                                                 {"voxels", "voxels", 0, CellType::Whole},
+                                                 {"ownVoxels", "own voxels", 0, CellType::Whole},
+                                                 {"totalVoxels", "total voxels", 0, CellType::Whole},
                                                  {"filling", "filling"},
-                                                 {"open", "open", 0, CellType::Whole}};
+                                                 {"open", "open", 0, CellType::Whole},
+                                                 // Deprecated names of totalVolume and totalVoxels.
+                                                 {"volume", "", 2, CellType::Number},
+                                                 {"voxels", "", 0, CellType::Whole}};
     return kColumns;
 }
 
 Row cellsOf(const city::FeatureRow& row, const volume::Label& label) {
-    const auto ofVoxels = [&](double value) { return row.voxels > 0 ? Cell(value) : Cell(); };
+    const analyze::Measure &own = row.measure.own, &total = row.measure.total;
+    const auto ofVoxels = [&](double value) { return total.voxels > 0 ? Cell(value) : Cell(); };
+    const auto known = [](const std::optional<double>& value) { return value ? Cell(*value) : Cell(); };
     return {label.id,
             label.className,
             label.name,
-            row.volume ? Cell(*row.volume) : Cell(),
+            known(own.volume),
+            known(total.volume),
+            total.volume ? Cell(total.countedVolume) : Cell(),
             ofVoxels(row.area),
             ofVoxels(row.highest - row.lowest),
             ofVoxels(row.lowest),
             ofVoxels(row.highest),
-            row.voxels,
+            own.voxels,
+            total.voxels,
             volume::fillingName(label.filling),
-            row.isOpen ? 1 : 0};
+            row.isOpen ? 1 : 0,
+            known(total.volume),
+            total.voxels};
 }
 
 CellType typeOf(const AttributeValue& value) {
@@ -182,7 +197,8 @@ private:
     [[nodiscard]] bool isInBox(const city::FeatureRow& row) const {
         const std::vector<double>& box = query_.box;
         if (box.empty()) return true;
-        if (row.voxels == 0 || row.outline.empty() || row.highest < box[2] || row.lowest > box[5]) return false;
+        if (row.measure.total.voxels == 0 || row.outline.empty() || row.highest < box[2] || row.lowest > box[5])
+            return false;
         std::array<double, 4> own{1e300, 1e300, -1e300, -1e300};
         for (const auto& [x, y] : row.outline)
             own = {std::min(own[0], x), std::min(own[1], y), std::max(own[2], x), std::max(own[3], y)};
@@ -192,30 +208,58 @@ private:
     Result<void> ask(const volume::SemanticVolume& volume) {
         SVT_TRY(selected, select(volume.labels));
         if (selected->empty()) return {};
+        std::map<std::vector<std::string>, std::vector<city::FeatureRow>> groups;
         for (city::FeatureRow& row : city::featureRows(volume, *selected, plane_ ? &*plane_ : nullptr)) {
             if ((plane_ && !row.isCut) || !isInBox(row)) continue;
             ++count_;
             const volume::Label& label = volume.labels.labels[row.label];
-            if (!keys_.empty()) addToSum(row, label);
+            if (!keys_.empty()) groups[valuesOf(label)].push_back(row);
             SVT_DO(take(std::move(row), label));
         }
+        const analyze::Extents extents(volume.labels);
+        const std::vector<analyze::Measure> own = analyze::ownMeasures(volume.labels, volume.grid);
+        for (const auto& [values, rows] : groups) addToSum(rows, extents, own, sums_[values]);
         return {};
     }
 
-    void addToSum(const city::FeatureRow& row, const volume::Label& label) {
+    // Values of the keys of --by. The key class is the class of a feature, and "class" in quotes the attribute.
+    [[nodiscard]] std::vector<std::string> valuesOf(const volume::Label& label) const {
         std::vector<std::string> values;
         for (const std::string& key : keys_) {
-            std::string value = equalsIgnoringCase(key, "class") ? label.className : std::string();
+            std::string& value = values.emplace_back();
+            if (equalsIgnoringCase(key, "class")) {
+                value = label.className;
+                continue;
+            }
+            const bool isQuoted = key.size() > 2 && key.front() == '"' && key.back() == '"';
+            const std::string name = isQuoted ? key.substr(1, key.size() - 2) : key;
             for (const Attribute& attribute : label.attributes)
-                if (equalsIgnoringCase(attribute.name, key)) value = toText(attribute.value);
-            values.push_back(value);
+                if (equalsIgnoringCase(attribute.name, name)) value = toText(attribute.value);
         }
-        Sum& sum = sums_[values];
-        ++sum.count;
-        sum.volume += row.volume.value_or(0);
-        sum.area += row.area;
-        sum.withoutVolume += !row.volume;
-        sum.withoutVoxels += row.voxels == 0;
+        return values;
+    }
+
+    // Adds features of equal values. A label in several of them counts once, and a feature within others adds no area.
+    static void addToSum(const std::vector<city::FeatureRow>& rows, const analyze::Extents& extents,
+                         const std::vector<analyze::Measure>& own, Sum& sum) {
+        std::vector<std::size_t> sizes, order(rows.size());
+        for (const city::FeatureRow& row : rows) sizes.push_back(extents.of(row.label).size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
+        std::vector<char> isCounted(own.size(), 0);
+        for (const std::size_t n : order) {
+            const analyze::Measure& total = rows[n].measure.total;
+            ++sum.count;
+            sum.withoutVolume += !total.volume;
+            sum.withoutVoxels += total.voxels == 0;
+            bool isNew = false;
+            for (const std::uint32_t part : extents.of(rows[n].label)) {
+                if (std::exchange(isCounted[part], 1) != 0) continue;
+                isNew = true;
+                sum.volume += own[part].volume.value_or(0);
+            }
+            if (isNew) sum.area += rows[n].area;
+        }
     }
 
     Result<void> take(city::FeatureRow row, const volume::Label& label) {
@@ -229,7 +273,7 @@ private:
             }
         }
         if (!query_.sort.empty()) {
-            kept.order = query_.sort == "volume" ? row.volume.value_or(0)
+            kept.order = query_.sort == "volume" ? row.measure.total.volume.value_or(0)
                          : query_.sort == "area" ? row.area
                                                  : row.highest - row.lowest;
             return keepLargest(std::move(kept));
@@ -277,8 +321,9 @@ private:
         Table table;
         for (const std::string& key : keys_) table.columns.push_back({key, key, 0});
         table.columns.push_back({"features", "features", 0});
-        table.columns.push_back({"volume", "m3", 1});
+        table.columns.push_back({"totalVolume", "total m3", 1});
         table.columns.push_back({"area", "m2 in plan", 1});
+        table.columns.push_back({"volume"});  // deprecated name of totalVolume
         std::uint64_t withoutVolume = 0, withoutVoxels = 0;
         for (const auto& [values, sum] : sums_) {
             withoutVolume += sum.withoutVolume;
@@ -286,8 +331,10 @@ private:
             Row& row = table.rows.emplace_back();
             for (const std::string& value : values) row.push_back(value.empty() ? Cell() : Cell(value));
             row.push_back(sum.count);
-            row.push_back(sum.withoutVolume < sum.count ? Cell(sum.volume) : Cell());
+            const Cell cubicMetres = sum.withoutVolume < sum.count ? Cell(sum.volume) : Cell();
+            row.push_back(cubicMetres);
             row.push_back(sum.withoutVoxels < sum.count ? Cell(sum.area) : Cell());
+            row.push_back(cubicMetres);
         }
         print(table, query_.format);
         const auto noteMissing = [](std::uint64_t count, const char* measure, const char* basis) {
@@ -310,9 +357,9 @@ private:
         else if (!layer_ && (!table_.rows.empty() || !isBegun_))
             printTable();
         if (count_ == 0) note(fmt::format("the query '{}' selects nothing", query_.query));
-        if (layer_ && !isQuiet())
-            fmt::print("{}: {} features\n", query_.output.string(),
-                       query_.sort.empty() ? given_ : int(largest_.size()));
+        if (layer_)
+            summarize(fmt::format("{}: {} features", query_.output.string(),
+                                  query_.sort.empty() ? given_ : int(largest_.size())));
         return {};
     }
 

@@ -33,7 +33,7 @@ std::vector<FailedPack> runPacks(const std::filesystem::path& folder, const city
             const serve::ChildResult result = runChild(
                 {program, "city-task", where, std::to_string(pack), "--of", std::to_string(plan.packs), "--threads",
                  std::to_string(options.threads), "--tile-seconds", fmt::format("{}", options.tileSeconds),
-                 "--feature-seconds", fmt::format("{}", options.featureSeconds), "--quiet"},
+                 "--feature-seconds", fmt::format("{}", options.featureSeconds), "--quiet", "--no-config"},
                 folder, kNoLimits, progress == nullptr ? none : *progress);
             counter.add();
             if (result.exitCode == 0) continue;

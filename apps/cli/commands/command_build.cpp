@@ -37,11 +37,11 @@ struct BuildArguments {
 void printSummary(const pipeline::BuildOutput& built, std::uint64_t fileBytes, const BuildArguments& arguments) {
     const auto dimension = built.volume.grid.dimension();
     const auto spacing = built.volume.grid.spacing();
-    fmt::print("{}: {} objects, {} x {} x {} samples of {:.4g} x {:.4g} x {:.4g} m, {:.1f} kB in {:.2f} s\n",
-               arguments.output.string(), built.report.objects, dimension.x, dimension.y, dimension.z, spacing.x,
-               spacing.y, spacing.z, double(fileBytes) / 1000, built.report.seconds.total);
+    summarize(fmt::format("{}: {} objects, {} x {} x {} samples of {:.4g} x {:.4g} x {:.4g} m, {:.1f} kB in {:.2f} s",
+                          arguments.output.string(), built.report.objects, dimension.x, dimension.y, dimension.z,
+                          spacing.x, spacing.y, spacing.z, double(fileBytes) / 1000, built.report.seconds.total));
     if (const auto& choice = built.report.spacing)
-        fmt::print("spacing: {}; --spacing or --dimension gives another\n", choice->reason);
+        summarize(fmt::format("spacing: {}; --spacing or --dimension gives another", choice->reason));
 }
 
 // Null if options define the grid.
@@ -117,7 +117,7 @@ Result<void> takePart(const BuildArguments& arguments, volume::SemanticVolume& v
         volume = std::move(*cropped);
     }
     if (arguments.only.empty()) return {};
-    SVT_TRY(labels, analyze::selectLabels(volume.labels, arguments.only));
+    SVT_TRY(labels, analyze::selectWithParts(volume.labels, arguments.only));
     SVT_DO(analyze::boxAround(*labels, volume, fmt::format("the selection of --only '{}'", arguments.only)));
     SVT_TRY(selected, volume::selectedVolume(volume, *labels));
     // One more sample on each side, as in a build.
@@ -174,7 +174,7 @@ int runBuild(const BuildArguments& arguments) {
             json["products"] = std::move(products);
         json["warnings"] = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error);
         print(json);
-    } else if (!isQuiet()) {
+    } else {
         printSummary(*built, *bytes, arguments);
     }
     const bool isFlawed = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error) != 0;
@@ -219,7 +219,11 @@ Members<BuildArguments> membersOf(const BuildArguments*) noexcept {
             "--vectors",
             "edges: store feature edges in addition to the meshes, to draw them inside the volume; none: store no "
             "meshes, so that sections are cut from voxels",
-            {.choices = "edges|meshes|none", .byDefault = "meshes", .group = "Output", .count = 2}),
+            {.choices = "edges|meshes|none",
+             .byDefault = "meshes",
+             .group = "Output",
+             .count = 2,
+             .isForProjects = true}),
         jsonOption<&All::json>("print figures as JSON on stdout"),
         member<&All::strict>("--strict", "exit 4 if the model has defects; the volume is written nevertheless",
                              {.group = "Output"}),

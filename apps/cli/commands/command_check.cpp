@@ -1,5 +1,6 @@
 #include <apps/cli/check/check_reports.hpp>
 #include <apps/cli/check/feature_batches.hpp>
+#include <apps/cli/check/unit_findings.hpp>
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
@@ -32,7 +33,7 @@ struct CheckArguments {
     std::filesystem::path report;
     ReportFormat format = ReportFormat::Text;
     validate::ValidateOptions validation;
-    pipeline::BuildOptions build;  // only its options for reading, and the level of detail
+    pipeline::BuildOptions build;  // only its options for reading, the level of detail and the limit of memory
     bool json = false, verbose = false;
 };
 
@@ -128,6 +129,7 @@ void printJson(const Checked& checked, const mesh::MeshSet& scene, const Diagnos
     json["leaking"] = leaking;
     json["tJunctions"] = tight;
     addValidationJson(json, checked);
+    json["legalUnits"] = checked.units;
     json["diagnostics"] = diagnosticsJson(diagnostics);
     print(json);
 }
@@ -154,9 +156,10 @@ void printObjects(const Checked& checked, Totals& totals, std::FILE* to) {
 }
 
 void printTotals(const Totals& totals) {
-    fmt::print("{} objects: {} solids, {} of them leak as read, {} are tight up to T-junctions\n", totals.objects,
-               totals.solids, totals.leaking, totals.tight);
-    fmt::print("{} geometries of {} polygons: {} are valid\n", totals.geometries, totals.polygons, totals.valid);
+    fmt::print(resultStream(), "{} objects: {} solids, {} of them leak as read, {} are tight up to T-junctions\n",
+               totals.objects, totals.solids, totals.leaking, totals.tight);
+    fmt::print(resultStream(), "{} geometries of {} polygons: {} are valid\n", totals.geometries, totals.polygons,
+               totals.valid);
 }
 
 // Runs the tests by ISO 19107, then builds the meshes of the same model. Findings of both go to `diagnostics`.
@@ -170,8 +173,11 @@ Result<void> checkModel(const model::BuildingModel& model, const CheckArguments&
     options.lod = arguments.build.lod;
     options.progress = progress;
     SVT_TRY(scene, mesh::buildMeshes(model, options, &diagnostics));
+    pipeline::BuildOptions build = arguments.build;
+    build.progress = progress;
+    Json units = checkUnits(model, build, validation.overlap, diagnostics);
     const Diagnostics others = diagnostics;
-    const Checked checked{model, *report, validation, *scene, others};
+    const Checked checked{model, *report, validation, *scene, others, std::move(units)};
     addFindings(diagnostics, checked);
     return use(checked);
 }
@@ -232,7 +238,7 @@ int exitCodeFor(const Diagnostics& diagnostics) {
 }
 
 Result<void> report(const CheckArguments& arguments, const Checked& checked, const Diagnostics& diagnostics) {
-    const std::string inputFile = arguments.inputs.front().string();
+    const std::string inputFile = shownText(arguments.inputs.front().string());
     if (!arguments.report.empty()) {
         SVT_TRY(written, writeFileAtomically(arguments.report, htmlReport(checked, inputFile)));
     }
@@ -242,7 +248,7 @@ Result<void> report(const CheckArguments& arguments, const Checked& checked, con
         printJson(checked, checked.meshes, diagnostics);
     } else {
         Totals totals;
-        printObjects(checked, totals, stdout);
+        printObjects(checked, totals, resultStream());
         printTotals(totals);
     }
     return {};
@@ -289,14 +295,15 @@ Members<CheckArguments> membersOf(const CheckArguments*) noexcept {
         part<&All::build>("build", "--lod|--crs|--keep-far-features|--extrude-footprints|--allow-truncated"),
         member<&All::validation, &ValidateOptions::planarity>(
             "--planarity", "maximum distance of a point from the plane of its polygon",
-            {.unit = "m", .least = 1e-6, .most = 1000, .group = "Tolerances"}),
+            {.unit = "m", .least = 1e-6, .most = 1000, .group = "Tolerances", .isForProjects = true}),
         member<&All::validation, &ValidateOptions::overlap>(
             "--overlap", "tolerate overlaps of solids up to twice this distance",
             {.unit = "m",
              .least = 0,
              .most = 1000,
              .otherwise = "solids that overlap by more than 1 mm are reported",
-             .group = "Tolerances"}),
+             .group = "Tolerances",
+             .isForProjects = true}),
         member<&All::report>("--report", "also write a page with counts, findings and a picture of each defect",
                              {.value = "R.html", .group = "Output", .file = FileUse::Output, .formats = "html"}),
         member<&All::format>("--format", "format on stdout: text, JSON, or the JSON report of val3dity",

@@ -49,9 +49,9 @@ Result<int> runCityExtract(const CityExtractArguments& arguments) {
     SVT_TRY(volume, city::extractVolume(*city, extract));
     SVT_TRY(bytes, volume::writeSvt(*volume, arguments.output));
     const Vec3i n = volume->grid.dimension();
-    if (!isQuiet())
-        fmt::print("{}: {} labels, {} x {} x {} samples of {:g} m, {:.1f} kB\n", arguments.output.string(),
-                   volume->labels.labels.size(), n.x, n.y, n.z, volume->grid.spacing().x, double(*bytes) / 1000);
+    summarize(fmt::format("{}: {} labels, {} x {} x {} samples of {:g} m, {:.1f} kB", arguments.output.string(),
+                          volume->labels.labels.size(), n.x, n.y, n.z, volume->grid.spacing().x,
+                          double(*bytes) / 1000));
     return kDone;
 }
 

@@ -56,12 +56,13 @@ Members<CityPlanArguments> membersOf(const CityPlanArguments*) noexcept {
     static const std::string kInputs = fmt::format("model files ({}, each also with .gz), and folders with such files",
                                                    fmt::join(readers::modelEndings(), ", "));
     static const Member<All> kMembers[] = {
-        member<&All::inputs>("input", kInputs, {.value = "FILE", .isRequired = true, .file = FileUse::Model}),
+        member<&All::inputs>("input", kInputs,
+                             {.value = "FILE", .isRequired = true, .file = FileUse::Model, .isReadAgain = true}),
         member<&All::output>("-o,--output", "the folder of the city",
                              {.value = "DIR", .isRequired = true, .file = FileUse::OutputFolder}),
         member<&All::options, &PlanOptions::city, &CityOptions::spacing>(
             "--spacing", "distance between samples of the finest level",
-            {.unit = "metres", .least = 0.001, .most = 100, .group = "Grid"}),
+            {.unit = "metres", .least = 0.001, .most = 100, .group = "Grid", .isForProjects = true}),
         part<&All::build>("build", "--lod|--crs|--allow-truncated"),
         member<&All::options, &PlanOptions::tasks>(
             "--tasks", "number of tasks for a cluster; the city does not depend on it",

@@ -232,7 +232,7 @@ Members<CityTaskArguments> membersOf(const CityTaskArguments*) noexcept {
                             {.least = 1, .otherwise = "that of the plan", .group = "Work"}),
         member<&All::packs, &city::PackOptions::threads>(
             "--threads", "number of threads, 0 for all cores; the result does not depend on it",
-            {.least = 0, .most = 1024, .group = "Work"}),
+            {.least = 0, .most = 1024, .group = "Work", .isForProjects = true}),
         tileSeconds<All>(),
         featureSeconds<All>(),
         quietOption<All>(),

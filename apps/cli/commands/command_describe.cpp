@@ -71,6 +71,7 @@ Json optionJson(const Option& option) {
     if (option.leastCount != 1) json["leastCount"] = option.leastCount;
     if (option.isRequired) json["required"] = true;
     if (option.mayRepeat) json["repeats"] = true;
+    if (option.isForProjects) json["project"] = true;
     text("file", fileText(option.file));
     return json;
 }

@@ -6,7 +6,11 @@
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
+#include <svt/analyze/extents.hpp>
+
 #include <fmt/format.h>
+
+#include <numeric>
 
 namespace svt::cli {
 namespace {
@@ -17,16 +21,29 @@ struct InfoArguments {
     bool json = false, tree = false;
 };
 
+// Voxels and volume, such as "own 1 voxels 0.000 m3".
+std::string measureText(const char* which, const analyze::Measure& measure) {
+    return fmt::format("  {} {} voxels{}", which, measure.voxels,
+                       measure.volume ? fmt::format(" {:.3f} m3", *measure.volume) : "");
+}
+
 void printTree(const volume::SemanticVolume& volume) {
-    std::vector<int> depth(volume.labels.labels.size(), 0);
-    for (std::size_t l = 0; l < volume.labels.labels.size(); ++l) {
+    const std::size_t count = volume.labels.labels.size();
+    std::vector<std::uint32_t> all(count);
+    std::iota(all.begin(), all.end(), 0U);
+    const auto measures = analyze::measureFeatures(analyze::Extents(volume.labels), all,
+                                                   analyze::ownMeasures(volume.labels, volume.grid));
+    std::vector<int> depth(count, 0);
+    for (std::size_t l = 0; l < count; ++l) {
         const volume::Label& label = volume.labels.labels[l];
+        const auto& [number, own, total] = measures[l];
         if (label.parent != volume::kNoLabel) depth[l] = depth[label.parent] + 1;
         fmt::print("{:{}}{} {}{}{}", "", depth[l] * 2, label.className, label.name.empty() ? label.id : label.name,
                    label.name.empty() ? "" : "  id ", label.name.empty() ? "" : label.id);
         if (label.count != 0)
-            fmt::print("  scalars {}..{}  {} voxels  {:.3f} m3  {}", label.first, label.first + label.count - 1,
-                       label.voxels, label.volume, volume::fillingName(label.filling));
+            fmt::print("  scalars {}..{}{}", label.first, label.first + label.count - 1, measureText("own", own));
+        if (total.voxels != own.voxels) fmt::print("{}", measureText("total", total));
+        if (label.count != 0) fmt::print("  {}", volume::fillingName(label.filling));
         fmt::print("\n");
     }
 }

@@ -15,7 +15,7 @@ struct PublishArguments {
     std::filesystem::path output;
     SiteArguments site;
     std::string address;
-    bool mayReplace = false;
+    bool isForced = false;
 };
 
 Result<int> runPublish(const PublishArguments& arguments) {
@@ -25,17 +25,18 @@ Result<int> runPublish(const PublishArguments& arguments) {
         return Error(
             Code::BadArgument,
             fmt::format("--url '{}': expected the address of the page, such as https://example.org/house/", address));
-    SVT_DO(serve::checkSiteFolder(arguments.output, arguments.mayReplace));
+    if (arguments.isForced)
+        note("--force has no effect any more and will be removed: publish replaces an earlier page, and nothing else");
+    SVT_DO(serve::checkSiteFolder(arguments.output));
     SVT_TRY(models, arguments.site.load(arguments.inputs));
     SVT_TRY(site, serve::viewerSite(*viewer, *models));
     SVT_TRY(preview, pagePreview(*models, arguments.address, arguments.site.build.threads));
     SVT_DO(serve::addPageHead(*site, std::move(*preview)));
-    SVT_TRY(bytes, serve::writeSite(*site, arguments.output, arguments.mayReplace));
+    SVT_TRY(bytes, serve::writeSite(*site, arguments.output));
     const bool hasCity =
         std::any_of(models->begin(), models->end(), [](const serve::SiteModel& model) { return !model.city.empty(); });
-    if (!isQuiet())
-        fmt::print("{}: {} files, {:.1f} kB; {} shows it\n", arguments.output.string(), site->resources().size(),
-                   double(*bytes) / 1000, hasCity ? "a web server with range requests" : "any web server");
+    summarize(fmt::format("{}: {} files, {:.1f} kB; {} shows it", arguments.output.string(), site->resources().size(),
+                          double(*bytes) / 1000, hasCity ? "a web server with range requests" : "any web server"));
     return kDone;
 }
 
@@ -45,8 +46,7 @@ Members<PublishArguments> membersOf(const PublishArguments*) noexcept {
         siteInputs<&All::inputs>(),
         member<&All::output>("-o,--output", "the folder to write",
                              {.value = "DIR", .isRequired = true, .file = FileUse::OutputFolder}),
-        member<&All::mayReplace>("--force",
-                                 "write into a folder that is not empty; files that are not part of the page stay"),
+        member<&All::isForced>("--force", "deprecated, has no effect: an earlier page is replaced without it"),
         member<&All::address>(
             "--url", "address of the published page, such as https://example.org/house/, for previews of links to it",
             {.value = "URL"}),

@@ -38,15 +38,6 @@ struct QueryArguments {
     }
 };
 
-void printFeatures(const volume::LabelTable& table, const Labels& selected) {
-    fmt::print("{:<28} {:<28} {:<24} {:>10} {:>12}\n", "id", "class", "name", "m3", "voxels");
-    for (const std::uint32_t l : selected) {
-        const volume::Label& label = table.labels[l];
-        fmt::print("{:<28} {:<28} {:<24} {:>10.3f} {:>12}\n", label.id, label.className, label.name, label.volume,
-                   label.voxels);
-    }
-}
-
 Result<int> printFeatures(const volume::SemanticVolume& volume, const Labels& selected,
                           const QueryArguments& arguments) {
     With with;
@@ -57,10 +48,8 @@ Result<int> printFeatures(const volume::SemanticVolume& volume, const Labels& se
     const int threads = arguments.build.threads;
     if (arguments.json)
         print(featureJson(volume, selected, with, threads));
-    else if (arguments.csv || !arguments.with.empty())
-        print(featureTable(volume, selected, with, threads), arguments.format());
     else
-        printFeatures(volume.labels, selected);
+        print(featureTable(volume, selected, with, threads), arguments.format());
     return kDone;
 }
 
@@ -68,9 +57,16 @@ Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& sel
                          const Progress* progress) {
     const int threads = arguments.build.threads;
     if (arguments.neighbors) return neighborTable(volume, selected, threads);
-    if (arguments.overlaps) return overlapTable(volume, selected);
-    if (arguments.gaps) return gapTable(volume, selected);
-    if (arguments.areas) return areaTable(volume, selected, threads);
+    // These reports list rows at the selected features: at a flat, those at its rooms and walls.
+    const auto withParts = [&] { return analyze::Extents(volume.labels).withParts(selected); };
+    if (arguments.overlaps) return overlapTable(volume, withParts());
+    if (arguments.gaps) return gapTable(volume, withParts());
+    if (arguments.areas) {
+        Diagnostics findings;
+        auto areas = areaTable(volume, withParts(), threads, findings);
+        printDiagnostics(findings, true);
+        return areas;
+    }
     if (!arguments.along.empty()) {
         SVT_TRY(ray, illustrate::parsePickRay(arguments.along, volume.grid));
         return rayTable(volume, selected, *ray, threads);
@@ -93,15 +89,22 @@ Result<int> printReport(const volume::SemanticVolume& volume, const Labels& sele
 Result<int> printOwners(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
     SVT_TRY(file, FileBytes::read(arguments.owners));
     SVT_TRY(owners, analyze::parseOwners(file->text(), arguments.owners.string(), volume.labels));
-    const OwnerReport report = ownerReport(volume, selected, *owners, arguments.build.threads);
+    const Labels withParts = analyze::Extents(volume.labels).withParts(selected);
+    const OwnerReport report = ownerReport(volume, withParts, *owners, arguments.build.threads);
+    if (!owners->shared.empty())
+        note(fmt::format(
+            "{:.3f} m3 are parts of several features of the table, such as '{}'; each counts once, divided "
+            "equally between these features",
+            report.json["sharedSpace"]["volume"].get<double>(), volume.labels.labels[owners->shared.front()].id));
     if (arguments.json) {
         print(report.json);
     } else if (arguments.csv) {
         print(report.components, TableFormat::Csv);
     } else {
-        print(report.totals, TableFormat::Text);
-        fmt::print("\n");
-        print(report.components, TableFormat::Text);
+        for (const Table* table : {&report.totals, &report.features, &report.common, &report.components}) {
+            if (table != &report.totals) fmt::print("\n");
+            print(*table, TableFormat::Text);
+        }
     }
     return kDone;
 }
@@ -168,7 +171,8 @@ Members<QueryArguments> membersOf(const QueryArguments*) noexcept {
         member<&All::query>("query", "such as 'class=BuildingRoom and volume>20'",
                             {.value = "QUERY", .isRequired = true}),
         member<&All::with>("--with",
-                           "more columns, any of volume (by voxels), surface (m2) and box, such as volume,surface",
+                           "more columns, any of volume (how it is known), surface (m2) and box, such as "
+                           "volume,surface",
                            {.value = "LIST", .group = "Report"}),
         member<&All::neighbors>("--neighbours", "neighbours of each feature, with the shared area",
                                 {.group = "Report"}),

@@ -11,6 +11,7 @@
 #include <svt/city/city_painter.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/machine.hpp>
+#include <svt/drawing/building_levels.hpp>
 #include <svt/drawing/line_view.hpp>
 #include <svt/drawing/section_plane.hpp>
 #include <svt/frontend/scene_options.hpp>
@@ -175,15 +176,19 @@ void noteCutaway(const std::string& query, const volume::SemanticVolume& volume,
     if (query.empty()) return;
     const auto selected = analyze::selectLabels(volume.labels, query);
     if (!selected) return;
+    const auto wholes = analyze::Extents(volume.labels).wholes(*selected);
     const std::vector<std::uint32_t> labelOf = volume.labels.labelOfScalar();
     std::vector<bool> isSeen(volume.labels.labels.size() + 1, false);
     for (const volume::Scalar scalar : frame.label.pixels())
         if (scalar != 0 && scalar < labelOf.size() && labelOf[scalar] != volume::kNoLabel)
             isSeen[labelOf[scalar]] = true;
     std::vector<std::string> hidden;
-    for (const std::uint32_t l : *selected) {
-        const volume::Label& label = volume.labels.labels[l];
-        if (label.voxels > 0 && !isSeen[l]) hidden.push_back(label.name.empty() ? label.id : label.name);
+    for (std::size_t n = 0; n < selected->size(); ++n) {
+        const auto isAny = [&](const auto& is) { return std::any_of(wholes[n].begin(), wholes[n].end(), is); };
+        const bool hasVoxels = isAny([&](std::uint32_t l) { return volume.labels.labels[l].voxels > 0; });
+        if (!hasVoxels || isAny([&](std::uint32_t l) { return isSeen[l]; })) continue;
+        const volume::Label& label = volume.labels.labels[(*selected)[n]];
+        hidden.push_back(label.name.empty() ? label.id : label.name);
     }
     if (hidden.empty()) return;
     const std::size_t count = hidden.size();
@@ -215,6 +220,17 @@ void noteMovedPlanes(const illustrate::Scene& scene, const volume::SemanticVolum
     for (const illustrate::MovedPlane& plane : illustrate::planesInFaces(scene, volume))
         note(fmt::format("the plane '{}' lies in faces of the model; it is moved by {:g} mm to the kept side",
                          plane.text, std::round(1e4 * plane.by) / 10));
+}
+
+// Reports storeys with a wrong level, if the scene has a plane or region of a storey.
+void reportStoreys(const illustrate::Scene& scene, const volume::SemanticVolume& volume) {
+    const bool usesStoreys = std::ranges::any_of(scene.passes, [](const illustrate::ScenePass& pass) {
+        return (pass.cut + pass.keep).find("storey=") != std::string::npos;
+    });
+    if (!usesStoreys) return;
+    Diagnostics findings;
+    drawing::reportStoreys(volume, findings);
+    printDiagnostics(findings, true);
 }
 
 bool isLineDrawing(const std::filesystem::path& output) {
@@ -298,6 +314,7 @@ Result<int> runLineDrawing(const RenderArguments& arguments, Series& series, con
     options.threads = arguments.build.threads;
     const auto draw = [&](const illustrate::Scene& scene, int number) -> Result<void> {
         Progress::tell(progress.get(), "lines", 0);
+        if (number == 0) reportStoreys(scene, *volume);
         SVT_TRY(spec, illustrate::makeFrameSpec(scene, *volume));
         SVT_TRY(view, drawing::drawLineView(*volume, *spec, options));
         SVT_DO(writeLineView(arguments, *view, *volume, scene.width, number));
@@ -375,6 +392,7 @@ Result<int> runVolumeRender(const RenderArguments& arguments, Series& series, co
             noteNames(painting->names);
             noteSun(scene, *volume);
             noteMovedPlanes(scene, *volume);
+            reportStoreys(scene, *volume);
             noteCutaway(arguments.scene.cutaway, *volume, painting->frame);
         }
         return writePicture(arguments, series, painting->frame, number);

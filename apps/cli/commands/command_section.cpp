@@ -8,6 +8,7 @@
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/city/city_walk.hpp>
+#include <svt/drawing/building_levels.hpp>
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/writers/drawing_formats.hpp>
 #include <svt/writers/section_table.hpp>
@@ -51,6 +52,8 @@ drawing::SectionOptions optionsOf(const SectionArguments& arguments, std::vector
 Result<int> writeSection(const SectionArguments& arguments, const drawing::SectionDrawing& drawing,
                          const volume::SemanticVolume& volume, const std::vector<std::string>& nothing, double scale) {
     Diagnostics findings;
+    if (arguments.elevation.empty() && (arguments.plane.empty() || arguments.plane.starts_with("storey=")))
+        drawing::reportStoreys(volume, findings);
     drawing::reportSection(drawing, volume, findings);
     printDiagnostics(findings, true);
     for (const std::string& message : nothing) note(message);
@@ -60,14 +63,14 @@ Result<int> writeSection(const SectionArguments& arguments, const drawing::Secti
         return Error(Code::BadSection,
                      fmt::format("the plane '{}' cuts no visible feature; move it, or see --show, --hide, "
                                  "--no-rooms and --min-area",
-                                 arguments.plane.empty() ? "1.1 m above the lowest floor" : arguments.plane));
+                                 arguments.plane.empty() ? "1.1 m above the ground floor" : arguments.plane));
     for (const auto& paths : {arguments.outputs, arguments.tables})
         for (const std::filesystem::path& path : paths) {
             SVT_DO(writers::writeDrawing(drawing, volume, path, {scale, arguments.dxf}));
             if (endingOf(path) == ".pdf" && !writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
         }
     TerminalProgress::hide();
-    if (arguments.json) fmt::print("{}", writers::makeSectionJson(drawing, volume));
+    if (arguments.json) fmt::print(resultStream(), "{}", writers::makeSectionJson(drawing, volume));
     return kDone;
 }
 
@@ -123,19 +126,21 @@ Members<SectionArguments> membersOf(const SectionArguments*) noexcept {
             "z=1.2, y<3, x>4, z=abs(112.3) in the CRS, storey=NAME+1.1 (1.1 m over its floor), or A,B,C,D; metres "
             "from the lower corner",
             {.value = "PLANE",
-             .otherwise = "1.1 m above the floor of the lowest storey, or the middle",
+             .otherwise = "1.1 m above the floor of the ground floor, or the middle",
              .group = "Drawing",
-             .excludes = "--elevation"}),
-        memberAs<record::Choice, &All::elevation>("--elevation", "draw the outside of the model, seen from this side",
-                                                  {.choices = "north|east|south|west", .group = "Drawing"}),
+             .excludes = "--elevation",
+             .isForProjects = true}),
+        memberAs<record::Choice, &All::elevation>(
+            "--elevation", "draw the outside of the model, seen from this side",
+            {.choices = "north|north-east|east|south-east|south|south-west|west|north-west", .group = "Drawing"}),
         part<&All::section>("section", "--beyond|--hidden|--above|--dimensions"),
         part<&All::dxf>("dxf"),
         memberAs<PaperScale, &All::scale>("--scale", "scale of the SVG: 1:50 draws 1 m as 20 mm",
-                                          {.value = "1:N", .group = "Drawing"}),
+                                          {.value = "1:N", .group = "Drawing", .isForProjects = true}),
         part<&All::section>("section", "--hide|--show|--no-rooms"),
         member<&All::section, &drawing::SectionOptions::smallestArea>(
             "--min-area", "leave out polygons smaller than this",
-            {.unit = "m2", .least = 0, .most = 1e9, .group = "Drawing"}),
+            {.unit = "m2", .least = 0, .most = 1e9, .group = "Drawing", .isForProjects = true}),
         member<&All::tables>("--table", "areas per component and class: .json or .csv",
                              {.value = "T.csv", .group = "Output", .file = FileUse::Output, .formats = "json|csv"}),
         jsonOption<&All::json>("print the areas as JSON on stdout"),

@@ -7,6 +7,7 @@
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/core/file.hpp>
+#include <svt/drawing/building_levels.hpp>
 #include <svt/writers/draw_sheets.hpp>
 #include <svt/writers/drawing_formats.hpp>
 #include <svt/writers/sheet_geopackage.hpp>
@@ -52,6 +53,8 @@ void printFindings(const writers::SheetContent& content, const volume::SemanticV
     std::vector<const drawing::SectionDrawing*> drawings;
     for (const writers::DrawnView& view : content.views) drawings.push_back(&view.drawing);
     Diagnostics findings;
+    drawing::reportStoreys(volume, findings);
+    findings.append(content.findings);
     drawing::reportSections(drawings, volume, findings);
     printDiagnostics(findings, true);
 }
@@ -126,9 +129,8 @@ Result<int> runSheets(const SheetsArguments& arguments) {
     if (!arguments.dxfFolder.empty()) SVT_DO(writeDxfFolder(*content, *volume, arguments.dxfFolder, arguments.dxf));
     if (!arguments.setOutput.empty()) SVT_DO(writeFileAtomically(arguments.setOutput, drawing::writeSheetSet(*set)));
     TerminalProgress::hide();
-    if (!isQuiet())
-        fmt::print("{}: {} sheets with {} views\n", writtenName(arguments).string(), sheets->size(),
-                   content->views.size());
+    summarize(fmt::format("{}: {} sheets with {} views", writtenName(arguments).string(), sheets->size(),
+                          content->views.size()));
     return kDone;
 }
 
@@ -152,20 +154,27 @@ Members<SheetsArguments> membersOf(const SheetsArguments*) noexcept {
             "--scale", "scale of all views: 1:50 draws 1 m as 20 mm",
             {.value = "1:N",
              .otherwise = "1:100, or the next of 1:200, 1:500, ... at which all views fit",
-             .group = "Sheets"}),
-        memberAs<record::Choice, &All::paper>("--paper", "size of a sheet, landscape",
-                                              {.choices = "A4|A3|A2|A1|A0", .otherwise = "A3", .group = "Sheets"}),
-        member<&All::hide>("--hide", "leave out what the query selects", {.value = "QUERY", .group = "Sheets"}),
+             .group = "Sheets",
+             .isForProjects = true}),
+        memberAs<record::Choice, &All::paper>(
+            "--paper", "size of a sheet, landscape",
+            {.choices = "A4|A3|A2|A1|A0", .otherwise = "A3", .group = "Sheets", .isForProjects = true}),
+        member<&All::hide>("--hide", "leave out what the query selects",
+                           {.value = "QUERY", .group = "Sheets", .isForProjects = true}),
         member<&All::dxf, &DxfOptions::isoLayers>("--iso-layers", "DXF: names of layers by ISO 13567",
-                                                  {.group = "Sheets"}),
+                                                  {.group = "Sheets", .isForProjects = true}),
         member<&All::dxf, &DxfOptions::world>(
             "--world", "DXF: coordinates of the model's CRS; sections and elevations are upright in space",
-            {.group = "Sheets"}),
-        member<&All::noAbove>("--no-above", "plans without parts above the cut", {.group = "Sheets"}),
-        member<&All::noDimensions>("--no-dimensions", "plans without dimension chains", {.group = "Sheets"}),
-        member<&All::noTables>("--no-tables", "no tables of rooms, floor areas and components", {.group = "Sheets"}),
-        memberAs<record::Choice, &All::language>("--language", "language of the words on sheets",
-                                                 {.choices = "en|de", .otherwise = "en", .group = "Sheets"}),
+            {.group = "Sheets", .isForProjects = true}),
+        member<&All::noAbove>("--no-above", "plans without parts above the cut",
+                              {.group = "Sheets", .isForProjects = true}),
+        member<&All::noDimensions>("--no-dimensions", "plans without dimension chains",
+                                   {.group = "Sheets", .isForProjects = true}),
+        member<&All::noTables>("--no-tables", "no tables of rooms, floor areas and components",
+                               {.group = "Sheets", .isForProjects = true}),
+        memberAs<record::Choice, &All::language>(
+            "--language", "language of the words on sheets",
+            {.choices = "en|de", .otherwise = "en", .group = "Sheets", .isForProjects = true}),
         member<&All::verbose>("--verbose", "show all findings", {.group = "Output"}),
         quietOption<All>(),
         part<&All::build>("build"),

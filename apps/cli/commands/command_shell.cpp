@@ -77,7 +77,7 @@ Result<Json> makeShell(const volume::SemanticVolume& volume, const ShellArgument
     options.threads = arguments.build.threads;
     options.progress = progress;
     if (!arguments.of.empty()) {
-        SVT_TRY(selected, analyze::selectLabels(volume.labels, arguments.of));
+        SVT_TRY(selected, analyze::selectWithParts(volume.labels, arguments.of));
         options.of = std::move(*selected);
     }
     Progress::tell(progress, "shell", 0);
@@ -115,13 +115,13 @@ Result<int> runShell(const ShellArguments& arguments) {
         print(*json);
         return kDone;
     }
-    if (isQuiet()) return kDone;
-    fmt::print("{}: {} of {} voxels, {:.1f} kB", arguments.output.string(), (*json)["voxels"].get<std::uint64_t>(),
-               (*json)["voxelsBefore"].get<std::uint64_t>(), (*json)["bytes"].get<double>() / 1000);
+    std::string text =
+        fmt::format("{}: {} of {} voxels, {:.1f} kB", arguments.output.string(), (*json)["voxels"].get<std::uint64_t>(),
+                    (*json)["voxelsBefore"].get<std::uint64_t>(), (*json)["bytes"].get<double>() / 1000);
     if (json->contains("triangles"))
-        fmt::print(", {} triangles in {} meshes", (*json)["triangles"].get<std::uint64_t>(),
-                   (*json)["meshes"].get<std::uint64_t>());
-    fmt::print("\n");
+        text += fmt::format(", {} triangles in {} meshes", (*json)["triangles"].get<std::uint64_t>(),
+                            (*json)["meshes"].get<std::uint64_t>());
+    summarize(text);
     return kDone;
 }
 
@@ -132,13 +132,14 @@ Members<ShellArguments> membersOf(const ShellArguments*) noexcept {
         member<&All::output>("-o,--output",
                              "file to write; the extension selects the format: .svt (volume) or .glb (triangles)",
                              {.value = "FILE", .file = FileUse::Output, .formats = "svt|glb"}),
-        member<&All::level>("--level", "level of the hulls", {.group = "Shell"}),
+        member<&All::level>("--level", "level of the hulls", {.group = "Shell", .isForProjects = true}),
         member<&All::of>("--of", "only groups that contain selected features", {.value = "QUERY", .group = "Shell"}),
         member<&All::shell, &illustrate::ShellOptions::thickness>(
             "--thickness", "thickness of the hull in metres, rounded up to voxels",
-            {.value = "M", .least = 0, .otherwise = "two voxels", .group = "Shell"}),
+            {.value = "M", .least = 0, .otherwise = "two voxels", .group = "Shell", .isForProjects = true}),
         member<&All::shell, &illustrate::ShellOptions::labels>(
-            "--labels", "label of the voxels: that of their component, or one per group", {.group = "Shell"}),
+            "--labels", "label of the voxels: that of their component, or one per group",
+            {.group = "Shell", .isForProjects = true}),
         part<&All::write>("write", "--faces"),
         member<&All::levels>("--levels", "list the levels of the model, as named by --level, and write nothing",
                              {.group = "Output"}),

@@ -44,7 +44,7 @@ serve::ConvertOptions convertOptions(const ServeArguments& arguments) {
     constexpr std::uint64_t kMb = std::uint64_t{1} << 20;
     serve::ConvertOptions options;
     options.command = {"/proc/self/exe", "build"};
-    options.options = {"--vectors", "edges"};
+    options.options = {"--vectors", "edges", "--no-config"};
     options.maxUploadBytes = arguments.maxUploadMb * kMb;
     options.limits.memoryBytes = arguments.convertMemoryMb * kMb;
     options.limits.seconds = arguments.convertSeconds;

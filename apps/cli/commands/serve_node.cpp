@@ -27,7 +27,7 @@ Result<int> runServe(const ServeArguments& arguments) {
     static const PrivateFolder folder;
     if (folder.path().empty())
         return Error(Code::CannotWrite, "there is no folder for temporary files; set TMPDIR to one");
-    SVT_DO(serve::writeSite(*site, folder.path(), true));
+    SVT_DO(serve::writeSite(*site, folder.path()));
     Json orders;
     orders["folder"] = folder.path().string();
     orders["host"] = arguments.host;

@@ -56,7 +56,7 @@ std::string bashScript() {
 _svt() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} words=
   if [ "$COMP_CWORD" -eq 1 ]; then
-    COMPREPLY=($(compgen -W "{}--formats --help --version" -- "$word"))
+    COMPREPLY=($(compgen -W "{}--formats --help --json --version" -- "$word") $(compgen -f -- "$word"))
     return
   fi
   case ${{COMP_WORDS[1]}} in
@@ -106,6 +106,7 @@ _svt() {{
 {}  )
   if (( CURRENT == 2 )); then
     _describe command commands
+    _files
     return
   fi
   local command=${{words[2]}}
@@ -130,8 +131,8 @@ std::string fishScript() {
         return result + "'";
     };
     for (const CommandText& command : commandTexts())
-        script += fmt::format("complete -c svt -n __fish_use_subcommand -f -a {} -d {}\n", command.name,
-                              quoted(command.help));
+        script +=
+            fmt::format("complete -c svt -n __fish_use_subcommand -a {} -d {}\n", command.name, quoted(command.help));
     for (const CommandText& command : commandTexts())
         for (const Option& option : command.options()) {
             const std::string where = fmt::format("complete -c svt -n '__fish_seen_subcommand_from {}'", command.name);

@@ -87,16 +87,25 @@ std::string commandPage(const CommandText& command) {
 
 std::string mainPage() {
     std::string page = header("svt", "semantic volume textures of building models");
-    page += ".SH SYNOPSIS\n.B svt\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n";
+    page += ".SH SYNOPSIS\n.B svt\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n.br\n.B svt\n\\fIFILE\\fR [\\fIOPTIONS\\fR]\n";
     page +=
         ".SH DESCRIPTION\nConverts a semantic building model (CityGML, CityJSON, IFC, IndoorGML) to a volume that "
         "stores the building component at every point. Draws that volume cut open, answers queries about it, and "
-        "converts it to other formats.\n.SH COMMANDS\n";
+        "converts it to other formats.\n.PP\n"
+        "\\fBsvt\\fR \\fIFILE\\fR opens a file in the browser (\\fBsvt view\\fR). Without a display, or if stdout "
+        "is not a terminal, it prints \\fBsvt info\\fR. The input \\(aq\\-\\(aq is stdin, and the output \\(aq\\-\\(aq is "
+        "stdout. Inputs may be addresses (https://).\n.SH COMMANDS\n";
     for (const CommandText& command : commandTexts())
         page += fmt::format(".TP\n.BR svt\\-{} (1)\n{}\n", command.name, roff(command.help));
     page +=
         ".SH OPTIONS\n.TP\n\\fB\\-\\-formats\\fR [\\fItext|json\\fR]\nPrint the formats that are read and written.\n";
     page += ".TP\n\\fB\\-\\-version\\fR\nPrint the version.\n";
+    page += ".TP\n\\fB\\-\\-json\\fR\nWith \\-\\-version or \\-\\-formats: print JSON.\n";
+    page +=
+        ".SH FILES\n.TP\n.I svt.json\nDefaults of options, in the folder of the model.\n.TP\n"
+        ".I $XDG_CONFIG_HOME/svt/svt.json\nDefaults of the user; ~/.config/svt/svt.json without the variable.\n"
+        ".SH ENVIRONMENT\n.TP\n.B SVT_NO_CONFIG\nIf set, both files are ignored, as with \\-\\-no\\-config.\n"
+        ".TP\n.B TMPDIR\nFolder for temporary files.\n";
     page += exitStatus();
     page += ".SH SEE ALSO\n";
     for (const CommandText& command : commandTexts())

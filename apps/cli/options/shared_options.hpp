@@ -22,7 +22,8 @@ template <class Arguments>
 }
 template <auto Field>
 [[nodiscard]] constexpr auto verboseOption(std::string_view group = "Output") {
-    return member<Field>("-v,--verbose", "show all findings", {.group = group, .excludes = "--quiet"});
+    return member<Field>("-v,--verbose", "show all findings, and the files with defaults that are used",
+                         {.group = group, .excludes = "--quiet"});
 }
 template <auto Field>
 [[nodiscard]] constexpr auto jsonOption(std::string_view help = "print everything as JSON on stdout") {
@@ -31,7 +32,7 @@ template <auto Field>
 template <auto... Fields>
 [[nodiscard]] constexpr auto threadsOption() {
     return member<Fields...>("--threads", "number of threads; the result does not depend on it",
-                             {.least = 0, .most = 1024, .otherwise = "all cores"});
+                             {.least = 0, .most = 1024, .otherwise = "all cores", .isForProjects = true});
 }
 template <auto Field>
 [[nodiscard]] constexpr auto modelInput(

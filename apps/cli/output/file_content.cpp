@@ -119,6 +119,27 @@ FileContent contentOf(std::string_view head) {
     return isText(head) ? FileContent::Text : FileContent::Unknown;
 }
 
+bool isTextContent(FileContent content) noexcept {
+    using enum FileContent;
+    switch (content) {
+        case X3d:
+        case Usd:
+        case Svg:
+        case Html:
+        case CityGml:
+        case Xml:
+        case CityJson:
+        case Ifc:
+        case IndoorGml:
+        case GeoJson:
+        case Style:
+        case PlainJson:
+        case Dxf:
+        case Text: return true;
+        default: return false;
+    }
+}
+
 FileContent contentOf(const std::filesystem::path& file) {
     std::array<char, kHeadBytes> head{};
     std::ifstream stream(file, std::ios::binary);

@@ -15,6 +15,9 @@ namespace svt::cli {
 /// The same for a regular file; Unknown if it cannot be read. Cost: reads 4 KiB.
 [[nodiscard]] FileContent contentOf(const std::filesystem::path& file);
 
+/// Whether files of this kind are text for terminals and editors.
+[[nodiscard]] bool isTextContent(FileContent content) noexcept;
+
 /// A format of output.
 struct FileFormat {
     std::string_view name;     ///< as in Option::formats

@@ -1,5 +1,7 @@
 #include <apps/cli/output/json_output.hpp>
 
+#include <apps/cli/output/messages.hpp>
+
 #include <fmt/format.h>
 
 namespace svt::cli {
@@ -11,7 +13,7 @@ Json diagnosticsJson(const Diagnostics& diagnostics) {
                   {"code", codeTag(item.code)},
                   {"name", codeName(item.code)},
                   {"message", item.message}};
-        if (!item.where.file.empty()) json["file"] = item.where.file;
+        if (!item.where.file.empty()) json["file"] = shownText(item.where.file);
         if (item.where.line != 0) json["line"] = item.where.line;
         if (item.where.column != 0) json["column"] = item.where.column;
         if (!item.where.id.empty()) json["id"] = item.where.id;
@@ -20,6 +22,8 @@ Json diagnosticsJson(const Diagnostics& diagnostics) {
     return list;
 }
 
-void print(const Json& json) { fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace)); }
+void print(const Json& json) {
+    fmt::print(resultStream(), "{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+}
 
 }  // namespace svt::cli

@@ -7,11 +7,20 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <new>
+#include <utility>
+#include <vector>
 
 namespace svt::cli {
 namespace {
 
-bool isQuiet_ = false;
+bool isQuiet_ = false, isVerbose_ = false, isStdoutReserved = false;
+
+// Paths of temporary files, and their names in messages.
+std::vector<std::pair<std::string, std::string>>& shownNames() {
+    static std::vector<std::pair<std::string, std::string>> names;
+    return names;
+}
 
 }  // namespace
 
@@ -30,7 +39,8 @@ int exitCodeOf(Code code) noexcept {
         case Code::BadSection:
         case Code::BadQuery:
         case Code::NothingSelected:
-        case Code::BadArgument: return kUsage;
+        case Code::BadArgument:
+        case Code::BadDefaults: return kUsage;
         case Code::Internal: return kInternal;
         case Code::NoGraphics:
         case Code::NoCairo: return kNoGraphics;
@@ -41,8 +51,36 @@ int exitCodeOf(Code code) noexcept {
 void beQuiet() noexcept { isQuiet_ = true; }
 bool isQuiet() noexcept { return isQuiet_; }
 
+void beVerbose() noexcept { isVerbose_ = true; }
+bool isVerbose() noexcept { return isVerbose_; }
+
+void reserveStdout() noexcept { isStdoutReserved = true; }
+std::FILE* resultStream() noexcept { return isStdoutReserved ? stderr : stdout; }
+
+void summarize(const std::string& text) {
+    if (isQuiet()) return;
+    if (isStdoutReserved) return printMessage(text + "\n");
+    fmt::print("{}\n", shownText(text));
+}
+
+void showAs(const std::filesystem::path& file, std::string name) {
+    shownNames().emplace_back(file.string(), std::move(name));
+}
+
+std::string shownText(std::string text) {
+    for (const auto& [path, name] : shownNames())
+        for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path, at + name.size()))
+            text.replace(at, path.size(), name);
+    return text;
+}
+
 void printMessage(std::string_view text) noexcept {
-    static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+    try {
+        const std::string shown = shownText(std::string(text));
+        static_cast<void>(std::fwrite(shown.data(), 1, shown.size(), stderr));
+    } catch (const std::bad_alloc&) {
+        static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+    }
 }
 
 int fail(const Error& error) {
@@ -67,24 +105,25 @@ int failOfMemory() {
     return kLimit;
 }
 
-void printDiagnostics(const Diagnostics& diagnostics, bool isVerbose) {
+void printDiagnostics(const Diagnostics& diagnostics, bool hasAll) {
     constexpr int kShown = 12;
+    const bool showsAll = hasAll || isVerbose_;
     int shown = 0;
     TerminalProgress::hide();
     for (const Diagnostic& item : diagnostics.items()) {
         if (isQuiet() && item.severity != Severity::Error) continue;
         // The summary of read products is always printed.
         const bool isSummary = item.code == Code::ProductsRead;
-        if (!isVerbose && !isSummary && (item.severity == Severity::Note || shown == kShown)) continue;
+        if (!showsAll && !isSummary && (item.severity == Severity::Note || shown == kShown)) continue;
         if (!isSummary) ++shown;
         printMessage(fmt::format("svt: {}\n", item.toString()));
     }
     if (isQuiet()) return;
     const std::size_t serious = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error);
     const std::size_t notes = diagnostics.count(Severity::Note) - diagnostics.count(Code::ProductsRead);
-    if (!isVerbose && serious > std::size_t(shown))
+    if (!showsAll && serious > std::size_t(shown))
         printMessage(fmt::format("svt: {} more warnings; --verbose shows them\n", serious - std::size_t(shown)));
-    if (!isVerbose && notes != 0) printMessage(fmt::format("svt: {} notes; --verbose shows them\n", notes));
+    if (!showsAll && notes != 0) printMessage(fmt::format("svt: {} notes; --verbose shows them\n", notes));
 }
 
 }  // namespace svt::cli

@@ -5,6 +5,9 @@
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/result.hpp>
 
+#include <cstdio>
+#include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace svt::cli {
@@ -30,10 +33,27 @@ enum Exit {
 void beQuiet() noexcept;
 [[nodiscard]] bool isQuiet() noexcept;
 
+/// Implements --verbose of all commands: from now on, all findings are printed.
+void beVerbose() noexcept;
+[[nodiscard]] bool isVerbose() noexcept;
+
+/// Reserves stdout for the bytes of an output: from now on, results and summaries go to stderr.
+void reserveStdout() noexcept;
+/// The stream of results: stdout, or stderr if stdout is reserved.
+[[nodiscard]] std::FILE* resultStream() noexcept;
+
+/// Prints a line about an output that was written to resultStream(), unless quiet.
+void summarize(const std::string& text);
+
+/// From now on, messages have `name` in place of the path of a temporary file.
+void showAs(const std::filesystem::path& file, std::string name);
+/// The text with the names given to showAs().
+[[nodiscard]] std::string shownText(std::string text);
+
 /// Prints "svt: error ..." to stderr and returns the exit code.
 int fail(const Error& error);
 
-/// Prints a text to stderr, unchanged. Never throws: the command continues if stderr is closed or full.
+/// Prints shownText() to stderr. Never throws: the command continues if stderr is closed or full.
 void printMessage(std::string_view text) noexcept;
 
 /// Prints "svt: ..." to stderr, unless quiet.
@@ -42,8 +62,8 @@ void note(std::string_view text);
 /// Reports exhausted memory on stderr: its amount, the source of the limit, and remedies. Returns kLimit.
 int failOfMemory();
 
-/// Prints findings to stderr: with --verbose all, else up to a dozen errors and warnings and the number of the rest;
+/// Prints findings to stderr: with --verbose or `hasAll` all, else up to a dozen errors and warnings and the number of the rest;
 /// with --quiet only errors.
-void printDiagnostics(const Diagnostics& diagnostics, bool isVerbose);
+void printDiagnostics(const Diagnostics& diagnostics, bool hasAll);
 
 }  // namespace svt::cli

@@ -1,10 +1,9 @@
 #include <apps/cli/output/output_files.hpp>
 
-#include <apps/cli/output/file_content.hpp>
-
 #include <svt/core/check.hpp>
 #include <svt/core/file.hpp>
 #include <svt/core/text.hpp>
+#include <svt/http/http_client.hpp>
 #include <svt/pipeline/style_sheet.hpp>
 
 #include <fmt/format.h>
@@ -32,6 +31,7 @@ struct OutputFile {
     std::vector<const FileFormat*> formats;  // empty: a folder
     bool isFirst = true;                     // of numbered files
     bool mayLackEnding = false;              // without an ending, the first format applies
+    bool mayBeReserved = false;              // an existing empty file with any ending means the first format, too
 };
 
 Error errorAt(const fs::path& path, Code code, std::string message) {
@@ -49,6 +49,7 @@ std::vector<Input> inputsOf(std::span<const GivenOption> given) {
         const FileUse kind = option->file;
         if (kind == FileUse::None || kind == FileUse::Output || kind == FileUse::OutputFolder) continue;
         for (const std::string& value : values) {
+            if (isFromElsewhere(value)) continue;
             inputs.push_back({userPath(value), fmt::format("'{}'", longName(*option)), kind});
             if (kind != FileUse::Style) continue;
             for (fs::path& file : pipeline::filesOfStyle(userPath(value)))
@@ -58,29 +59,17 @@ std::vector<Input> inputsOf(std::span<const GivenOption> given) {
     return inputs;
 }
 
-// The formats that an option may write; with --format only that one.
-std::vector<const FileFormat*> formatsOf(const Option& option, std::string_view chosen) {
-    std::vector<const FileFormat*> formats;
-    while (!chosen.empty() && chosen.back() >= '0' && chosen.back() <= '9') chosen.remove_suffix(1);
-    for (const std::string_view name : splitChoices(option.formats)) {
-        const FileFormat* format = formatOfName(name);
-        SVT_CHECK(format != nullptr);
-        if (chosen.empty() || chosen == name) formats.push_back(format);
-    }
-    return formats;
-}
-
 std::vector<OutputFile> outputsOf(std::span<const GivenOption> given) {
     std::vector<OutputFile> outputs;
     for (const auto& [option, values] : given) {
         if (option->file != FileUse::Output && option->file != FileUse::OutputFolder) continue;
-        const auto formats = formatsOf(*option, valueOf(given, "--format"));
+        const auto formats = formatsOf(*option, given);
         const std::string_view number = option->numberedBy.empty() ? "" : valueOf(given, option->numberedBy);
         const int count = std::max(1, parseInteger<int>(number).value_or(1));
         for (const std::string& value : values)
             for (int n = 0; n < count; ++n)
                 outputs.push_back({numberedFile(userPath(value), n, count), longName(*option), formats, n == 0,
-                                   formats.size() == 1 || option->mayLackEnding});
+                                   formats.size() == 1 || option->mayLackEnding, option->mayLackEnding});
     }
     return outputs;
 }
@@ -102,6 +91,7 @@ Result<void> checkInputs(std::span<const GivenOption> given) {
         const FileUse use = option->file;
         if (use == FileUse::None || use == FileUse::Output || use == FileUse::OutputFolder) continue;
         for (const std::string& value : values) {
+            if (isFromElsewhere(value)) continue;
             std::error_code ignored;
             const fs::path path = userPath(value);
             const fs::file_type type = fs::status(path, ignored).type();
@@ -134,6 +124,12 @@ bool isStream(const fs::path& path) {
     return !nameOfStream(fs::status(path, ignored).type()).empty();
 }
 
+// Whether a path is an empty file, as mktemp makes one for the output of another program.
+bool isReserved(const fs::path& path) {
+    std::error_code ignored;
+    return isRegular(path) && fs::file_size(path, ignored) == 0;
+}
+
 bool isInside(const fs::path& path, const fs::path& folder) {
     std::error_code ignored;
     const fs::path root = fs::canonical(folder, ignored), real = fs::canonical(path, ignored);
@@ -155,6 +151,7 @@ Result<void> checkEnding(const OutputFile& output, bool mayChooseFormat) {
     const std::string ending = endingOf(output.path, endings);
     if (std::ranges::find(endings, ending) != endings.end()) return {};
     if (output.mayLackEnding && (ending.empty() || isStream(output.path))) return {};
+    if (output.mayBeReserved && isReserved(output.path)) return {};
     return Error(Code::BadArgument, fmt::format("{} '{}': cannot write '{}'; possible {} {}{}", output.option,
                                                 output.path.string(), ending, endings.size() == 1 ? "is" : "are",
                                                 fmt::join(endings, ", "), mayChooseFormat ? ", or --format" : ""));
@@ -191,6 +188,16 @@ Result<void> checkMeetings(const std::vector<Input>& inputs, const std::vector<O
     return {};
 }
 
+// With --no-clobber.
+Result<void> checkNothingExists(const OutputFile& output) {
+    std::error_code ignored;
+    const bool isFolder = fs::is_directory(output.path, ignored);
+    if (isFolder ? fs::is_empty(output.path, ignored) : !isRegular(output.path)) return {};
+    return errorAt(output.path, Code::WouldDestroy,
+                   fmt::format("the {}, and --no-clobber keeps existing outputs; give '{}' another name",
+                               isFolder ? "folder is not empty" : "file exists", output.option));
+}
+
 Result<void> checkContent(const OutputFile& output) {
     if (!isRegular(output.path)) return {};
     const FileContent content = contentOf(output.path);
@@ -220,24 +227,6 @@ Result<void> checkFolder(const fs::path& folder) {
     return checkWritable(at / "index.html");
 }
 
-// Options on building a volume from a model have no meaning if all inputs are volumes.
-Result<void> checkMeaning(std::span<const GivenOption> given, const std::vector<Input>& inputs) {
-    const Input* volume = nullptr;
-    for (const Input& input : inputs) {
-        if (input.kind != FileUse::ModelOrVolume) continue;
-        if (!isRegular(input.path) || contentOf(input.path) != FileContent::Volume) return {};
-        volume = &input;
-    }
-    if (volume == nullptr) return {};
-    for (const GivenOption& option : given)
-        if (option.option->isForModels)
-            return errorAt(volume->path, Code::BadArgument,
-                           fmt::format("{} is for building a volume from a model, but this file is a volume already; "
-                                       "leave it out, or give the model",
-                                       longName(*option.option)));
-    return {};
-}
-
 }  // namespace
 
 std::string endingOf(const fs::path& file) { return lowerAscii(file.extension().string()); }
@@ -257,6 +246,47 @@ fs::path numberedFile(const fs::path& file, int number, int count) {
     return result;
 }
 
+bool isFromElsewhere(std::string_view value) noexcept { return value == "-" || http::isAddress(value); }
+
+std::vector<const FileFormat*> formatsOf(const Option& option, std::span<const GivenOption> given) {
+    std::string_view chosen = valueOf(given, "--format");
+    while (!chosen.empty() && chosen.back() >= '0' && chosen.back() <= '9') chosen.remove_suffix(1);  // "citygml2"
+    const std::vector<std::string_view> names = splitChoices(option.formats);
+    const bool isChosen = std::ranges::find(names, chosen) != names.end();
+    std::vector<const FileFormat*> formats;
+    for (const std::string_view name : names) {
+        const FileFormat* format = formatOfName(name);
+        SVT_CHECK(format != nullptr);
+        if (!isChosen || chosen == name) formats.push_back(format);
+    }
+    return formats;
+}
+
+bool areAllVolumes(std::span<const GivenOption> given) {
+    bool isAny = false;
+    for (const auto& [option, values] : given) {
+        if (option->file != FileUse::ModelOrVolume) continue;
+        for (const std::string& value : values) {
+            const fs::path path = userPath(value);
+            if (!isRegular(path) || contentOf(path) != FileContent::Volume) return false;
+            isAny = true;
+        }
+    }
+    return isAny;
+}
+
+Result<void> checkOptionsForModels(std::span<const GivenOption> given) {
+    if (!areAllVolumes(given)) return {};
+    const auto isVolume = [](const GivenOption& g) { return g.option->file == FileUse::ModelOrVolume; };
+    for (const GivenOption& each : given)
+        if (each.option->isForModels)
+            return errorAt(std::ranges::find_if(given, isVolume)->values.front(), Code::BadArgument,
+                           fmt::format("{} is for building a volume from a model, but this file is a volume already; "
+                                       "leave it out, or give the model",
+                                       longName(*each.option)));
+    return {};
+}
+
 Result<void> checkFiles(std::span<const GivenOption> given) {
     SVT_DO(checkInputs(given));
     const std::vector<Input> inputs = inputsOf(given);
@@ -265,10 +295,12 @@ Result<void> checkFiles(std::span<const GivenOption> given) {
         given, [](const GivenOption& g) { return g.option->formats.find("citygml") != std::string_view::npos; });
     for (const OutputFile& output : outputs)
         if (output.isFirst) SVT_DO(checkEnding(output, mayChooseFormat));
-    SVT_DO(checkMeaning(given, inputs));
     SVT_DO(checkMeetings(inputs, outputs));
+    const bool keepsExisting =
+        std::ranges::any_of(given, [](const GivenOption& g) { return longName(*g.option) == "--no-clobber"; });
     std::error_code ignored;
     for (const OutputFile& output : outputs) {
+        if (keepsExisting) SVT_DO(checkNothingExists(output));
         SVT_DO(checkContent(output));
         // Tests only the first of numbered files in a folder, and the existing ones.
         if (!output.isFirst && !fs::exists(output.path, ignored)) continue;

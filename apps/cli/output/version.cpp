@@ -1,13 +1,65 @@
 #include <apps/cli/output/version.hpp>
 
+#include <svt/city/city_folder.hpp>
+#include <svt/core/machine.hpp>
 #include <svt/core/simd_targets.hpp>
+#include <svt/core/text.hpp>
+#include <svt/drawing/sheet_set.hpp>
+#include <svt/illustrate/scene_members.hpp>
+#include <svt/record/record.hpp>
+#include <svt/volume/volume_json.hpp>
 
 #include <fmt/format.h>
 
-// SVT_VERSION, SVT_COMMIT: written by the build, see cmake/Version.cmake.
+#include <algorithm>
+
+// SVT_VERSION, SVT_COMMIT, SVT_DEPENDENCIES: written by the build, see cmake/Version.cmake.
 #include <svt_version.hpp>
 
 namespace svt::cli {
+namespace {
+
+using record::Json;
+
+#ifdef __EMSCRIPTEN__
+constexpr bool kIsNative = false;
+#else
+constexpr bool kIsNative = true;
+#endif
+
+// The version of a format whose members are declared.
+int versionOf(std::span<const Option> members) {
+    const auto found = std::ranges::find(members, "/version", &Option::name);
+    return found == members.end() ? 0 : static_cast<int>(found->most);
+}
+
+Json fileFormatsJson() {
+    return {{"svt", fmt::format("{}.{}", volume::kSvtMajorVersion, volume::kSvtMinorVersion)},
+            {"city", city::City::kVersion},
+            {"scene", versionOf(illustrate::sceneMembers())},
+            {"sheets", versionOf(drawing::sheetMembers())}};
+}
+
+// Parses "fmt=9.1.0|zlib=1.2.13".
+Json dependenciesJson() {
+    Json list = Json::array();
+    for (const std::string_view each : splitChoices(SVT_DEPENDENCIES)) {
+        const std::size_t equals = std::min(each.find('='), each.size());
+        const std::string_view version = each.substr(std::min(equals + 1, each.size()));
+        list.push_back(
+            {{"name", each.substr(0, equals)}, {"version", version.empty() ? Json(nullptr) : Json(version)}});
+    }
+    return list;
+}
+
+// Parts that not every build has.
+Json partsJson() {
+    return {{"openGl", kIsNative},      {"pdf", kIsNative},       {"geoPackage", kIsNative},
+            {"projections", kIsNative}, {"addresses", kIsNative}, {"films", kIsNative},
+            {"threads", kIsNative},     {"processes", kIsNative}, {"sanitizer", kIsSanitized}};
+}
+
+}  // namespace
 
 std::string_view versionNumber() noexcept { return SVT_VERSION; }
 
@@ -37,6 +89,22 @@ std::string versionText() {
     const BuildFacts facts = buildFacts();
     return fmt::format("svt {}\ncommit    {}\ncompiler  {}, {}\nSIMD      {}\nOpenGL    {}", SVT_VERSION, facts.commit,
                        facts.compiler, facts.kind, simdTargetName(), facts.openGl);
+}
+
+std::string versionJson() {
+    const BuildFacts facts = buildFacts();
+    const Json loaded = kIsNative ? Json{"cairo", "libcurl", "PROJ", "SQLite"} : Json::array();
+    const Json json{{"version", SVT_VERSION},
+                    {"commit", facts.commit},
+                    {"compiler", facts.compiler},
+                    {"buildType", facts.kind},
+                    {"optimized", facts.isOptimized},
+                    {"simd", simdTargetName()},
+                    {"fileFormats", fileFormatsJson()},
+                    {"dependencies", dependenciesJson()},
+                    {"loadedOnUse", loaded},
+                    {"parts", partsJson()}};
+    return json.dump(2);
 }
 
 std::string programOfCity() { return fmt::format("{} {}", versionNumber(), buildFacts().commit); }

@@ -23,6 +23,9 @@ struct BuildFacts {
 /// The text of `svt --version`: version, commit, compiler, SIMD instruction set, OpenGL.
 [[nodiscard]] std::string versionText();
 
+/// Version, build, versions of file formats, libraries and compiled parts as JSON; docs/user/json.md lists the keys.
+[[nodiscard]] std::string versionJson();
+
 /// The version of this program in the form that plans of cities use.
 [[nodiscard]] std::string programOfCity();
 

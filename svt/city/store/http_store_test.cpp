@@ -1,76 +1,24 @@
 // What a server of a city may answer, and what is made of it: good ranges, whole files, lies.
 #include <svt/city/store/store.hpp>
+#include <svt/http/http_server_test.hpp>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include <atomic>
-#include <functional>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace svt::city {
 namespace {
 
-// A server of one text, on a port of its own; `answer` makes the answer to a request for bytes [first, last].
-class TinyServer {
+using http::kMostAttempts, http::retrySeconds, http::RetryClock;
+using test::brokenOff;
+
+// A server of one text.
+class TinyServer : public test::TinyServer {
 public:
-    using Answer = std::function<std::string(std::size_t first, std::size_t last)>;
-
-    explicit TinyServer(Answer answer) : answer_(std::move(answer)) {
-        socket_ = ::socket(AF_INET, SOCK_STREAM, 0);
-        sockaddr_in address{};
-        address.sin_family = AF_INET;
-        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        socklen_t size = sizeof(address);
-        EXPECT_EQ(::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
-        EXPECT_EQ(::listen(socket_, 8), 0);
-        ::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
-        port_ = ntohs(address.sin_port);
-        thread_ = std::thread([this] { run(); });
-    }
-    ~TinyServer() {
-        ::shutdown(socket_, SHUT_RDWR);
-        ::close(socket_);
-        thread_.join();
-    }
-    std::string address() const { return fmt::format("http://127.0.0.1:{}/town/", port_); }
-    int requests() const { return requests_; }
-
-private:
-    void run() {
-        for (int client = 0; (client = ::accept(socket_, nullptr, nullptr)) >= 0; ::close(client)) {
-            std::string request;
-            char bytes[4096];
-            while (request.find("\r\n\r\n") == std::string::npos) {
-                const auto got = ::recv(client, bytes, sizeof(bytes), 0);
-                if (got <= 0) break;
-                request.append(bytes, static_cast<std::size_t>(got));
-            }
-            ++requests_;
-            unsigned long first = 0, last = 0;
-            const std::size_t range = request.find("bytes=");
-            if (range != std::string::npos) std::sscanf(request.c_str() + range, "bytes=%lu-%lu", &first, &last);
-            const std::string answer = answer_(first, last);
-            std::size_t sent = 0;
-            while (sent < answer.size()) {
-                const auto done = ::send(client, answer.data() + sent, answer.size() - sent, MSG_NOSIGNAL);
-                if (done <= 0) break;
-                sent += static_cast<std::size_t>(done);
-            }
-        }
-    }
-
-    Answer answer_;
-    int socket_ = -1, port_ = 0;
-    std::atomic<int> requests_{0};
-    std::thread thread_;
+    explicit TinyServer(Answer answer) : test::TinyServer(std::move(answer)) {}
+    std::string address() const { return test::TinyServer::address("town/"); }
 };
 
 std::string textOf(std::size_t size) {
@@ -80,15 +28,11 @@ std::string textOf(std::size_t size) {
 }
 
 std::string answerOf(int status, const std::string& body, const std::string& headers = {}) {
-    return fmt::format("HTTP/1.1 {} X\r\nContent-Length: {}\r\nConnection: close\r\n{}\r\n{}", status, body.size(),
-                       headers, body);
+    return test::httpAnswer(status, body, headers);
 }
 
 std::string rangeOf(const std::string& text, std::size_t first, std::size_t last) {
-    if (first >= text.size()) return answerOf(416, "");
-    last = std::min(last, text.size() - 1);
-    return answerOf(206, text.substr(first, last - first + 1),
-                    fmt::format("Content-Range: bytes {}-{}/{}\r\n", first, last, text.size()));
+    return test::httpRange(text, first, last);
 }
 
 // What reading bytes [100, 200) says.
@@ -188,12 +132,6 @@ TEST(HttpStore, TriesAgainLaterEachTimeAndGivesUp) {
         EXPECT_EQ(server.requests(), 3 + kMostAttempts);
         EXPECT_EQ(time.waits, (std::vector<double>{0.25, 0.5, 1}));
     }
-}
-
-// The begin of an answer, whose head promises `missing` bytes more; the connection is closed then.
-std::string brokenOff(std::string answer, std::size_t missing) {
-    answer.resize(answer.size() - missing);
-    return answer;
 }
 
 TEST(HttpStore, ABodyThatBreaksOffIsAskedForAgain) {

@@ -1,6 +1,7 @@
 #include <svt/city/store/store.hpp>
 
 #include <svt/core/file.hpp>
+#include <svt/http/http_client.hpp>
 
 #include <fmt/format.h>
 
@@ -56,12 +57,8 @@ private:
 
 }  // namespace
 
-bool isAddress(const std::string& location) noexcept {
-    return location.starts_with("http://") || location.starts_with("https://");
-}
-
 std::shared_ptr<const Store> openStore(const std::string& location) {
-    if (isAddress(location)) return openHttpStore(location);
+    if (http::isAddress(location)) return openHttpStore(location);
     return std::make_shared<FolderStore>(location);
 }
 

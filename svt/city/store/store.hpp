@@ -2,8 +2,8 @@
 /// \file
 /// The source of a city's files: a folder, or a server that answers HTTP requests for ranges.
 
-#include <svt/city/store/retry.hpp>
 #include <svt/core/result.hpp>
+#include <svt/http/retry.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -36,13 +36,10 @@ struct Traffic {
     std::uint64_t requests = 0, bytes = 0;
 };
 
-/// Whether a location is an address and not a folder.
-[[nodiscard]] bool isAddress(const std::string& location) noexcept;
-
 /// Opens a folder or an address. Nothing is read.
 [[nodiscard]] std::shared_ptr<const Store> openStore(const std::string& location);
 
-/// The files below an address, by requests for single ranges (libcurl, which is loaded with the first one).
+/// The files below an address, by requests for single ranges (HttpClient).
 ///
 /// A server must answer with the requested range (206 and Content-Range). Whole files, other ranges and fewer bytes are
 /// errors that name the server. A change of a file's size between two requests is an error as well.
@@ -50,6 +47,6 @@ struct Traffic {
 /// Requests without an answer, and those with status 429 or 500 and up, are sent again after retrySeconds(), up to
 /// kMostAttempts times.
 [[nodiscard]] std::shared_ptr<const Store> openHttpStore(std::string address, std::shared_ptr<Traffic> traffic = {},
-                                                         RetryClock clock = machineClock());
+                                                         http::RetryClock clock = http::machineClock());
 
 }  // namespace svt::city

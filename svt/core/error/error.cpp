@@ -84,6 +84,9 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(CellsOverlap);
         SVT_CASE(StateOutsideCell);
         SVT_CASE(CellsNotAdjacent);
+        SVT_CASE(UnitsOverlap);
+        SVT_CASE(StoreyGap);
+        SVT_CASE(UnitNotReached);
         SVT_CASE(BadDimension);
         SVT_CASE(GridTooLarge);
         SVT_CASE(TooManyLabels);
@@ -110,6 +113,8 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(NoMeshes);
         SVT_CASE(NoCairo);
         SVT_CASE(BadSheets);
+        SVT_CASE(StoreyLevelDiffers);
+        SVT_CASE(NetExceedsGross);
         SVT_CASE(BadPlan);
         SVT_CASE(PlanVersion);
         SVT_CASE(BadPack);
@@ -124,6 +129,7 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(NothingSelected);
         SVT_CASE(Cancelled);
         SVT_CASE(BadArgument);
+        SVT_CASE(BadDefaults);
         SVT_CASE(Internal);
 #undef SVT_CASE
     }

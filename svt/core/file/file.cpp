@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <memory>
@@ -21,6 +22,8 @@ namespace svt {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::atomic<bool> keepsExisting{false};
 
 constexpr std::size_t kBufferBytes = 256 * 1024;
 /// Limit of one write(). Larger calls take Linux three to five times as long on ext4 (2.6 GB in calls of 14 MB: 4 to 10
@@ -273,6 +276,8 @@ fs::path withoutLinks(const fs::path& path) {
     return target;
 }
 
+void keepExistingFiles() noexcept { keepsExisting = true; }
+
 Result<AtomicFile> AtomicFile::create(const fs::path& target) {
     AtomicFile file;
     file.path_ = target;
@@ -295,6 +300,9 @@ Result<AtomicFile> AtomicFile::create(const fs::path& target) {
     exists = ::stat(file.target_.c_str(), &status) == 0;
     if (!exists && errno != ENOENT) return cannotWrite(target, errno);
     if (exists && S_ISDIR(status.st_mode)) return cannotWrite(target, EISDIR);
+    if (exists && keepsExisting)
+        return cannotWrite(target, Code::WouldDestroy,
+                           "the file exists, and --no-clobber keeps existing files; give another name");
     if (exists && ::access(file.target_.c_str(), W_OK) != 0)
         return cannotWrite(target, Code::CannotWrite,
                            "the file is write-protected; change that or choose another name");
@@ -387,12 +395,12 @@ Result<void> AtomicFile::writeZeros(std::uint64_t count) {
     return {};
 }
 
-Result<std::uint64_t> AtomicFile::commit() {
+Result<std::uint64_t> AtomicFile::commit(Durability durability) {
     if (descriptor_ < 0) return fail(failed_ != 0 ? failed_ : EBADF);
     SVT_DO(flush());
     const bool isDirect = temporary_.empty();
     // Without fsync, a crash after the rename could leave an empty file in place of the old one.
-    if (!isDirect && ::fsync(descriptor_) != 0) return fail(errno);
+    if (!isDirect && durability == Durability::Synced && ::fsync(descriptor_) != 0) return fail(errno);
     const auto close = [this] {
         return descriptor_ < 0 || ::close(std::exchange(descriptor_, -1)) == 0 || errno == EINTR;
     };

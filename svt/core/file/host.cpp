@@ -14,6 +14,7 @@
 // Facts about the system from Node.js: web/npm/lib/host.mjs. The module of a page has no such host.
 // clang-format off
 EM_JS(int, svtHostIsErrorTerminal, (), { return Module["host"] && Module["host"]["isErrorTerminal"] ? 1 : 0; })
+EM_JS(int, svtHostIsOutputTerminal, (), { return Module["host"] && Module["host"]["isOutputTerminal"] ? 1 : 0; })
 EM_JS(int, svtHostIsWindows, (), { return Module["host"] && Module["host"]["isWindows"] ? 1 : 0; })
 EM_JS(char*, svtHostProgram, (), {
     const text = new TextEncoder().encode((Module["host"] && Module["host"]["program"]) || "");
@@ -32,6 +33,7 @@ namespace fs = std::filesystem;
 #ifdef __EMSCRIPTEN__
 
 bool isErrorTerminal() noexcept { return svtHostIsErrorTerminal() != 0; }
+bool isOutputTerminal() noexcept { return svtHostIsOutputTerminal() != 0; }
 
 fs::path executablePath() {
     char* text = svtHostProgram();
@@ -48,6 +50,7 @@ fs::path userPath(std::string text) {
 #else
 
 bool isErrorTerminal() noexcept { return ::isatty(STDERR_FILENO) != 0; }
+bool isOutputTerminal() noexcept { return ::isatty(STDOUT_FILENO) != 0; }
 
 fs::path executablePath() {
     std::error_code error;

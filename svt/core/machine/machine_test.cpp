@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -110,6 +111,45 @@ bool canTake(std::size_t bytes) {
     } catch (const std::bad_alloc&) {
         return false;
     }
+}
+
+// Sets an environment variable while it lives.
+class Environment {
+public:
+    Environment(const char* name, const char* value) : name_(name) {
+        if (const char* before = std::getenv(name)) before_ = before;
+        value == nullptr ? ::unsetenv(name) : ::setenv(name, value, 1);
+    }
+    ~Environment() { before_ ? ::setenv(name_, before_->c_str(), 1) : ::unsetenv(name_); }
+    Environment(const Environment&) = delete;
+    Environment& operator=(const Environment&) = delete;
+
+private:
+    const char* name_;
+    std::optional<std::string> before_;
+};
+
+TEST(Machine, SettingsAreInTheFolderOfTheUser) {
+    const Environment home("HOME", "/home/user"), windows("APPDATA", nullptr);
+    {
+        const Environment settings("XDG_CONFIG_HOME", "/settings");
+        EXPECT_EQ(settingsFolder(), "/settings");
+    }
+    for (const char* invalid : {static_cast<const char*>(nullptr), "", "relative"}) {
+        const Environment settings("XDG_CONFIG_HOME", invalid);
+        EXPECT_EQ(settingsFolder(), "/home/user/.config");
+        const Environment noHome("HOME", nullptr);
+        EXPECT_EQ(settingsFolder(), "");
+    }
+    const Environment settings("XDG_CONFIG_HOME", nullptr), drive("APPDATA", "C:/Users/a/AppData");
+    EXPECT_EQ(settingsFolder(), "C:/Users/a/AppData");
+}
+
+TEST(Machine, EmptyVariablesAreNotInTheEnvironment) {
+    const Environment empty("SVT_TEST_EMPTY", ""), full("SVT_TEST_FULL", "0"), none("SVT_TEST_NONE", nullptr);
+    EXPECT_FALSE(isInEnvironment("SVT_TEST_EMPTY"));
+    EXPECT_TRUE(isInEnvironment("SVT_TEST_FULL"));
+    EXPECT_FALSE(isInEnvironment("SVT_TEST_NONE"));
 }
 
 TEST(LimitMemory, AllocationsBeyondItFailAndThoseBelowDoNot) {

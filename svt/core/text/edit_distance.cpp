@@ -31,4 +31,15 @@ std::size_t editDistance(std::string_view a, std::string_view b, std::size_t lim
     return last[b.size()];
 }
 
+std::string_view nearestName(std::string_view word, std::span<const std::string_view> names) {
+    std::string_view best;
+    std::size_t distance = std::max<std::size_t>(3, word.size() / 2);
+    for (const std::string_view name : names)
+        if (const std::size_t d = editDistance(word, name, distance); d < distance) {
+            distance = d;
+            best = name;
+        }
+    return best;
+}
+
 }  // namespace svt

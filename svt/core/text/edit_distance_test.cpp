@@ -21,5 +21,15 @@ TEST(EditDistance, StopsAtTheLimit) {
     EXPECT_EQ(editDistance("a", "abcdefgh", 3), 4u);
 }
 
+TEST(EditDistance, TheNearestNameIsWithinHalfOfTheWord) {
+    const std::string_view names[] = {"render", "section", "query"};
+    EXPECT_EQ(nearestName("rendr", names), "render");
+    EXPECT_EQ(nearestName("selection", names), "section");
+    EXPECT_EQ(nearestName("x", names), "");
+    EXPECT_EQ(nearestName("qerry", names), "query");
+    EXPECT_EQ(nearestName("publish", names), "");
+    EXPECT_EQ(nearestName("render", {}), "");
+}
+
 }  // namespace
 }  // namespace svt

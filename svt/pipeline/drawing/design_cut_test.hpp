@@ -6,19 +6,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace svt::test {
 
 /// The area that a plane cuts of all components together, m2. The model must not be turned: at one height, the sides of all
 /// pieces are then lines along x or y. Nothing begins or ends between two neighbouring lines, so one point tests a cell.
-/// \param z  metres in the CRS
+/// \param z       metres in the CRS
+/// \param closed  also counts the walls that the plane cuts as they are at this height, where they have no openings; 0: no
 /// \return the area; not a number where a side is slanted in plan
-inline double designCut(const std::vector<samples::SampleComponent>& components, double z) {
+inline double designCut(const std::vector<samples::SampleComponent>& components, double z, double closed = 0) {
     std::vector<double> xs, ys;
     std::vector<const samples::SampleComponent*> cut;
     bool isSlanted = false;
-    const auto addLines = [&](const samples::SamplePiece& piece) {
+    const auto addLinesAt = [&](const samples::SamplePiece& piece, double z) {
         for (const samples::HalfSpace& side : piece.sides) {
             const bool isAcrossX = std::abs(side.normal.x) > 1e-9, isAcrossY = std::abs(side.normal.y) > 1e-9;
             const double limit = side.offset - side.normal.z * z;
@@ -29,12 +31,18 @@ inline double designCut(const std::vector<samples::SampleComponent>& components,
         }
         return true;
     };
-    for (const samples::SampleComponent& component : components) {
+    const auto addComponent = [&](const samples::SampleComponent& component, double z) {
         bool isCut = false;
         for (const auto& solid : component.solids)
-            for (const samples::SamplePiece& piece : solid) isCut = (addLines(piece) && piece.adds) || isCut;
-        if (isCut) cut.push_back(&component);
-    }
+            for (const samples::SamplePiece& piece : solid) isCut = (addLinesAt(piece, z) && piece.adds) || isCut;
+        return isCut;
+    };
+    for (const samples::SampleComponent& component : components)
+        if (addComponent(component, z)) cut.push_back(&component);
+    std::vector<const samples::SampleComponent*> walls;
+    for (const samples::SampleComponent* component : cut)
+        if (closed > 0 && component->id.find("_wall_") != std::string::npos && addComponent(*component, closed))
+            walls.push_back(component);
     if (isSlanted) return std::nan("");
     std::sort(xs.begin(), xs.end());
     std::sort(ys.begin(), ys.end());
@@ -44,10 +52,12 @@ inline double designCut(const std::vector<samples::SampleComponent>& components,
             const double width = xs[i] - xs[i - 1], depth = ys[j] - ys[j - 1];
             if (width < 1e-6 || depth < 1e-6) continue;
             const Vec3d middle{xs[i - 1] + 0.5 * width, ys[j - 1] + 0.5 * depth, z};
-            const auto contains = [&](const samples::SampleComponent* component) {
-                return component->contains(middle);
+            const auto isIn = [&](const auto& list, double height) {
+                return std::any_of(list.begin(), list.end(), [&](const samples::SampleComponent* component) {
+                    return component->contains({middle.x, middle.y, height});
+                });
             };
-            if (std::any_of(cut.begin(), cut.end(), contains)) area += width * depth;
+            if (isIn(cut, z) || isIn(walls, closed)) area += width * depth;
         }
     return area;
 }

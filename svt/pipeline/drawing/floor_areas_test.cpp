@@ -34,6 +34,8 @@ TEST(FloorAreasOfFile, RoomsOfTheFzkHausHaveTheAreasThatItsAuthorMeasured) {
         EXPECT_EQ(room.use, room.name == "Flur" ? drawing::RoomUse::Traffic : drawing::RoomUse::Use);
         EXPECT_FALSE(room.number.empty());
     }
+    // The house has 12 x 10 m; the doors and the terrace door are a part of it.
+    EXPECT_NEAR(areas->levels[0].gross, 120, 0.01);
     EXPECT_NEAR(areas->levels[1].gross, 120, 0.01);
 }
 

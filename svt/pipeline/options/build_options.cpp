@@ -87,28 +87,35 @@ struct WorkMemory : PlainCodec<WorkMemory, std::uint64_t> {
 
 record::Members<BuildOptions> membersOf(const BuildOptions*) noexcept {
     static constexpr record::Member<BuildOptions> kMembers[] = {
-        memberAs<SampleCounts, &BuildOptions::dimension>(
-            "dimension", "samples along x, y and z, such as 800,700,400 (2 to 65535)",
-            {.value = "X,Y,Z", .group = "Grid", .option = "--dimension", .excludes = "--spacing", .isForModels = true}),
+        memberAs<SampleCounts, &BuildOptions::dimension>("dimension",
+                                                         "samples along x, y and z, such as 800,700,400 (2 to 65535)",
+                                                         {.value = "X,Y,Z",
+                                                          .group = "Grid",
+                                                          .option = "--dimension",
+                                                          .excludes = "--spacing",
+                                                          .isForModels = true,
+                                                          .isForProjects = true}),
         memberAs<Distances, &BuildOptions::spacing>(
             "spacing", "distance between samples in metres, one number or three",
             {.value = "M",
              .otherwise = "0.05; coarser for large models, finer for small ones",
              .group = "Grid",
              .option = "--spacing",
-             .isForModels = true}),
+             .isForModels = true,
+             .isForProjects = true}),
         member<&BuildOptions::axes>("axes", "axes of the grid: world, or building (turned to its dominant edge)",
-                                    {.group = "Grid", .option = "--axes", .isForModels = true}),
+                                    {.group = "Grid", .option = "--axes", .isForModels = true, .isForProjects = true}),
         member<&BuildOptions::lod, &model::LodChoice::lod>("lod", "use no finer level of detail than this",
                                                            {.least = 0,
                                                             .most = 4,
                                                             .otherwise = "the finest that each feature has",
                                                             .group = "Model",
                                                             .option = "--lod",
-                                                            .isForModels = true}),
+                                                            .isForModels = true,
+                                                            .isForProjects = true}),
         memberAs<Not, &BuildOptions::assignThematicBodies>(
             "noBodies", "leave the material between hull and rooms to the building, not to its walls and slabs",
-            {.group = "Model", .option = "--no-bodies", .isForModels = true}),
+            {.group = "Model", .option = "--no-bodies", .isForModels = true, .isForProjects = true}),
         member<&BuildOptions::read>("read", "how files are read"),
         memberAs<WorkMemory, &BuildOptions::memoryBytes>(
             "memory",
@@ -123,16 +130,22 @@ record::Members<BuildOptions> membersOf(const BuildOptions*) noexcept {
         member<&BuildOptions::styleFile>(
             "style", "style file (JSON): colours, opacities and patterns by query",
             {.value = "FILE", .group = "Style", .option = "--style", .file = FileUse::Style, .isForModels = true}),
-        member<&BuildOptions::usePatterns>("patterns", "embed the built-in patterns: brick, concrete, timber, ...",
-                                           {.group = "Style", .option = "--patterns", .isForModels = true}),
-        member<&BuildOptions::sheets>("sheets",
-                                      "open surfaces: thin (6-separating) or conservative (every voxel touched)",
-                                      {.group = "Voxels", .option = "--sheets", .isForModels = true}),
-        memberAs<Not, &BuildOptions::keepThinParts>("noThin", "drop parts of solids that are thinner than a voxel",
-                                                    {.group = "Voxels", .option = "--no-thin", .isForModels = true}),
-        member<&BuildOptions::threads>(
-            "threads", "number of threads; the result does not depend on it",
-            {.least = 0, .most = 1024, .otherwise = "all cores", .group = "Voxels", .option = "--threads"}),
+        member<&BuildOptions::usePatterns>(
+            "patterns", "embed the built-in patterns: brick, concrete, timber, ...",
+            {.group = "Style", .option = "--patterns", .isForModels = true, .isForProjects = true}),
+        member<&BuildOptions::sheets>(
+            "sheets", "open surfaces: thin (6-separating) or conservative (every voxel touched)",
+            {.group = "Voxels", .option = "--sheets", .isForModels = true, .isForProjects = true}),
+        memberAs<Not, &BuildOptions::keepThinParts>(
+            "noThin", "drop parts of solids that are thinner than a voxel",
+            {.group = "Voxels", .option = "--no-thin", .isForModels = true, .isForProjects = true}),
+        member<&BuildOptions::threads>("threads", "number of threads; the result does not depend on it",
+                                       {.least = 0,
+                                        .most = 1024,
+                                        .otherwise = "all cores",
+                                        .group = "Voxels",
+                                        .option = "--threads",
+                                        .isForProjects = true}),
     };
     return kMembers;
 }

@@ -30,7 +30,7 @@ record::Members<VolumeWriteOptions> membersOf(const VolumeWriteOptions*) noexcep
     using All = VolumeWriteOptions;
     static constexpr record::Member<All> kMembers[] = {
         memberAs<IsGzip, &All::isCompressed>("encoding", "samples of NRRD, VTI and TIFF: compressed or raw",
-                                             {.group = "Output", .option = "--encoding"}),
+                                             {.group = "Output", .option = "--encoding", .isForProjects = true}),
         member<&All::texture>(
             "texture",
             "samples of X3D and CityGML: pixel (numbers in the document), image (an NRRD file beside it) or composed "
@@ -47,7 +47,7 @@ record::Members<VolumeWriteOptions> membersOf(const VolumeWriteOptions*) noexcep
         member<&All::boxes>("boxes", "FDS and lists of boxes"),
         member<&All::faces>("faces",
                             "slopes of a .glb: planes (flat, where the volume stores planes) or voxels (stairs)",
-                            {.group = "Output", .option = "--faces"}),
+                            {.group = "Output", .option = "--faces", .isForProjects = true}),
     };
     return kMembers;
 }

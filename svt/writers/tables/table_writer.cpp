@@ -2,7 +2,7 @@
 /// Writes the objects of a volume, and their contacts, as tables: CSV or Parquet for spreadsheets, pandas and
 /// databases. Metres.
 
-#include <svt/analyze/label_measures.hpp>
+#include <svt/analyze/extents.hpp>
 #include <svt/core/file.hpp>
 #include <svt/image/color_text.hpp>
 #include <svt/writers/table.hpp>
@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,21 +42,42 @@ Cell attributeCell(const volume::Label& label, const std::string& name) {
 }
 
 /// The cells of a label, in the order of kObjectColumns.
-Row cellsOf(const volume::SemanticVolume& volume, std::size_t number, const analyze::LabelMeasure& measure,
-            double cubicMetres) {
+Row cellsOf(const volume::SemanticVolume& volume, const analyze::FeatureMeasure& measure) {
+    const auto& [number, own, total] = measure;
     const volume::Label& label = volume.labels.labels[number];
     const std::string_view parent =
         label.parent == volume::kNoLabel ? std::string_view() : volume.labels.labels[label.parent].id;
-    Row cells{number,      label.id,     label.className, textCell(label.name), textCell(parent),   label.first,
-              label.count, label.voxels, cubicMetres,     measure.area,         measure.outsideArea};
-    appendCorners(cells, analyze::worldBox(measure.box, volume.grid));
-    cells.insert(cells.end(), {image::colorText(label.color), label.opacity, volume::fillingName(label.filling)});
+    const auto known = [](const std::optional<double>& value) { return value ? Cell(*value) : Cell(); };
+    const auto area = [](const analyze::Measure& of, double value) { return of.voxels > 0 ? Cell(value) : Cell(); };
+    Row cells{number,
+              label.id,
+              label.className,
+              textCell(label.name),
+              textCell(parent),
+              label.first,
+              label.count,
+              own.voxels,
+              total.voxels,
+              known(own.volume),
+              known(total.volume),
+              total.volume ? Cell(total.countedVolume) : Cell(),
+              area(own, own.area),
+              area(total, total.area),
+              area(own, own.outsideArea),
+              area(total, total.outsideArea)};
+    appendCorners(cells, analyze::worldBox(total.box, volume.grid));
+    cells.insert(cells.end(), {image::colorText(label.color), label.opacity, volume::fillingName(label.filling),
+                               own.voxels, own.volume.value_or(0), own.area, own.outsideArea});
     return cells;
 }
 
-constexpr const char* kObjectColumns[] = {"label",  "id",     "class",   "name",    "parent",  "first",  "count",
-                                          "voxels", "volume", "surface", "outside", "minX",    "minY",   "minZ",
-                                          "maxX",   "maxY",   "maxZ",    "color",   "opacity", "filling"};
+// The last four are deprecated names of own voxels, volume and areas, 0 where unknown.
+constexpr const char* kObjectColumns[] = {
+    "label",      "id",           "class",       "name",         "parent",      "first",
+    "count",      "ownVoxels",    "totalVoxels", "ownVolume",    "totalVolume", "countedVolume",
+    "ownSurface", "totalSurface", "ownOutside",  "totalOutside", "minX",        "minY",
+    "minZ",       "maxX",         "maxY",        "maxZ",         "color",       "opacity",
+    "filling",    "voxels",       "volume",      "surface",      "outside"};
 constexpr const char* kContactColumns[] = {"a",     "aClass", "aName",  "b",      "bClass",
                                            "bName", "area",   "facesX", "facesY", "facesZ"};
 
@@ -65,18 +88,19 @@ Table emptyTable(std::span<const char* const> names, const volume::SemanticVolum
     return table;
 }
 
-/// One row per label in table order. Columns are number, id, class, name, parent's id, scalars, voxels, volume (m3),
-/// surface and its part that touches background (m2), box of its voxels along world axes (m), colour, opacity, filling.
-/// Then follows each attribute of any label, named `attribute:NAME`, with its unit in brackets if all labels have the
+/// One row per label in table order. Columns are number, id, class, name, parent's id, scalars; of its own voxels and
+/// of its extent (total) voxels, volume (m3), surface and the part of it that touches background (m2); box of its
+/// extent along world axes (m); colour, opacity, filling. Unknown volumes and areas are empty. Then follows each attribute of any label, named `attribute:NAME`, with its unit in brackets if all labels have the
 /// same unit.
 /// Cost: that of analyze::findContacts().
 Table makeObjectTable(const volume::SemanticVolume& volume, int threads) {
     const auto contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, threads);
-    const auto measures = analyze::measureLabels(volume, contacts);
-    const auto volumes = analyze::ownVolumes(volume.labels, volume.grid);
+    const auto own = analyze::measureLabels(volume, contacts);
+    std::vector<std::uint32_t> all(own.size());
+    std::iota(all.begin(), all.end(), 0U);
     Table table = emptyTable(kObjectColumns, volume);
-    for (std::size_t l = 0; l < volume.labels.labels.size(); ++l)
-        table.rows.push_back(cellsOf(volume, l, measures[l], volumes[l]));
+    for (const auto& measure : analyze::measureFeatures(analyze::Extents(volume.labels), all, own, contacts))
+        table.rows.push_back(cellsOf(volume, measure));
     for (const auto& [name, unit] : attributesOf(volume.labels)) {
         table.columns.push_back({unit.empty() ? "attribute:" + name : fmt::format("attribute:{} [{}]", name, unit)});
         for (std::size_t l = 0; l < table.rows.size(); ++l)

@@ -35,6 +35,7 @@ const LimitedOutput kLimitedOutputs[] = {
     {"--output", {"render", "two.svt", "--size", "32x32", "--turn", "90", "--seconds", "0.1", "-o", "o.mp4"}, true},
     {"--output", {"render", "two.svt", "--size", "32x32", "--turn", "90", "--seconds", "0.1", "-o", "o.gif"}, true},
     {"--output", {"render", "two.svt", "--size", "32x32", "--turn", "90", "--seconds", "0.1", "-o", "o.webp"}, true},
+    {"--output", {"thumbnail", "two.svt", "--size", "32", "-o", "o.png"}},
     {"--labels", {"render", "two.svt", "--size", "32x32", "-o", "/dev/null", "--labels", "o.png"}},
     {"--depth", {"render", "two.svt", "--size", "32x32", "-o", "/dev/null", "--depth", "o.png"}},
     {"--write-scene", {"render", "two.svt", "--size", "32x32", "-o", "/dev/null", "--write-scene", "o.scene.json"}},

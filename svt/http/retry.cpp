@@ -1,4 +1,4 @@
-#include <svt/city/store/retry.hpp>
+#include <svt/http/retry.hpp>
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-namespace svt::city {
+namespace svt::http {
 namespace {
 
 constexpr double kFirstRetrySeconds = 0.25;
@@ -65,4 +65,4 @@ double retrySeconds(int attempt, std::string_view retryAfter, std::int64_t now) 
     return std::max(std::ldexp(kFirstRetrySeconds, attempt - 1), askedSeconds(retryAfter, now));
 }
 
-}  // namespace svt::city
+}  // namespace svt::http

@@ -6,9 +6,9 @@
 #include <functional>
 #include <string_view>
 
-namespace svt::city {
+namespace svt::http {
 
-/// The clock and the waiting function of a store. Tests replace them.
+/// The clock and the waiting function. Tests replace them.
 struct RetryClock {
     std::function<void(double seconds)> wait;
     std::function<std::int64_t()> now;  ///< seconds since 1970 in UTC
@@ -19,7 +19,7 @@ struct RetryClock {
 
 /// Requests for one range, the first one included.
 constexpr int kMostAttempts = 4;
-/// Longest time that a store waits if a server asks for it.
+/// Longest time to wait if a server asks for it.
 constexpr double kLongestRetrySeconds = 60;
 
 /// Seconds until the next request: 0.25, 0.5, 1, ... after the first, second, third attempt; longer if the server
@@ -30,4 +30,4 @@ constexpr double kLongestRetrySeconds = 60;
 /// \param now         seconds since 1970 in UTC
 [[nodiscard]] double retrySeconds(int attempt, std::string_view retryAfter, std::int64_t now);
 
-}  // namespace svt::city
+}  // namespace svt::http

@@ -1,12 +1,16 @@
 // The only file that uses the parser of command lines (CLI11).
-#include <apps/cli/options/command_line.hpp>
+#include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/format_table.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
 #include <apps/cli/output/table.hpp>
 #include <apps/cli/output/version.hpp>
+#include <apps/cli/run/command_line.hpp>
+#include <apps/cli/run/defaults.hpp>
+#include <apps/cli/run/transfer.hpp>
 
 #include <svt/core/edit_distance.hpp>
+#include <svt/core/file.hpp>
 #include <svt/core/machine.hpp>
 #include <svt/core/text.hpp>
 
@@ -16,6 +20,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 
@@ -57,17 +62,6 @@ void addOptions(CLI::App& app, std::span<const frontend::BoundOption> options, G
             app.get_option(std::string(longName(option)))->excludes(app.get_option(std::string(other)));
 }
 
-std::string nearest(const std::string& word, const std::vector<std::string>& known) {
-    std::string best;
-    std::size_t distance = std::max<std::size_t>(3, word.size() / 2);
-    for (const std::string& candidate : known)
-        if (const std::size_t d = editDistance(word, candidate, distance); d < distance) {
-            distance = d;
-            best = candidate;
-        }
-    return best;
-}
-
 // The option or command that the user may have meant.
 std::string suggestionFor(const CLI::App& app, const std::string& word) {
     std::vector<std::string> known;
@@ -80,7 +74,8 @@ std::string suggestionFor(const CLI::App& app, const std::string& word) {
         for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
             known.push_back(command->get_name());
     }
-    const std::string found = nearest(word.substr(0, word.find('=')), known);
+    const std::vector<std::string_view> names(known.begin(), known.end());
+    const std::string_view found = nearestName(std::string_view(word).substr(0, word.find('=')), names);
     return found.empty() ? "" : fmt::format("; did you mean {}?", found);
 }
 
@@ -117,11 +112,33 @@ std::string commandsBelow(std::string_view word) {
     return lines;
 }
 
+// The command that a file without a command stands for.
+struct ImpliedCommand {
+    std::string name;    // "view" or "info"; empty: a command is given
+    std::string reason;  // why it is not "view"
+};
+
+// "svt FILE" is "svt view FILE" at a terminal of a desktop, and "svt info FILE" elsewhere.
+ImpliedCommand impliedCommand(std::span<const std::string> words) {
+    const bool isNamed =
+        !words.empty() && std::ranges::find(commandTexts(), words.front(), &CommandText::name) != commandTexts().end();
+    if (words.empty() || isNamed || (words.front().starts_with('-') && words.front() != "-")) return {};
+    std::error_code ignored;
+    if (!isFromElsewhere(words.front()) && !std::filesystem::exists(userPath(words.front()), ignored)) return {};
+    if (!hasDesktop().value_or(false)) return {"info", "there is no display"};
+    if (!isOutputTerminal()) return {"info", "stdout is not a terminal"};
+    return {"view", {}};
+}
+
 // The parser with all commands.
 struct Parser {
-    CLI::App app{"Semantic volume textures of building models: build, query and draw them", "svt"};
+    CLI::App app{
+        "Semantic volume textures of building models: build, query and draw them\n"
+        "'svt FILE' opens a file in the browser, or prints 'svt info FILE' without a display",
+        "svt"};
     std::map<std::string_view, Given> given;
     std::string formats = "text";  // notation of the table of formats
+    bool isJson = false;
 
     Parser() {
         app.require_subcommand(0, 1);
@@ -130,6 +147,7 @@ struct Parser {
             ->expected(0, 1)
             ->type_name("[text|json]")
             ->check(CLI::Validator(CLI::IsMember({"text", "json"}), "", ""));
+        app.add_flag("--json", isJson, "Print the version or the formats as JSON");
         app.failure_message(CLI::FailureMessage::simple);
         for (const CommandText& text : commandTexts())
             addOptions(*app.add_subcommand(std::string(text.name), std::string(text.help)), text.options(),
@@ -169,6 +187,8 @@ void setProcess(std::span<const frontend::BoundOption> options, std::span<const 
         limitMemoryToMachine();
     for (const auto& [option, values] : given) {
         if (longName(*option) == "--quiet") beQuiet();
+        if (longName(*option) == "--verbose") beVerbose();
+        if (option->name == "--no-clobber") keepExistingFiles();
         if (option->name == "--memory")
             limitMemory(static_cast<std::uint64_t>(parseNumber(values.front()).value_or(0)) * 1000000, "--memory");
     }
@@ -187,23 +207,61 @@ std::vector<frontend::GivenOption> givenOf(const CLI::App& app, const Given& tex
     return given;
 }
 
-Result<int> runCommand(std::span<const frontend::GivenOption> given, const CommandText& text) {
+// \param defaults  receives those that are used
+Result<int> runCommand(std::vector<frontend::GivenOption> given, const CommandText& text, Defaults& defaults) {
     SVT_DO(frontend::checkExclusions(given));
+    SVT_TRY(added, Defaults::add(text, given));
+    defaults = std::move(*added);
     setProcess(text.options(), given);
+    Transfer transfer;
+    SVT_DO(transfer.begin(given));
     SVT_DO(checkFiles(given));
-    return text.run(given);
+    SVT_DO(transfer.fetch(given));
+    if (areAllVolumes(given)) defaults.dropOptionsForModels(given);
+    SVT_DO(checkOptionsForModels(given));
+    if (isVerbose()) defaults.print();
+    SVT_TRY(exitCode, text.run(given));
+    SVT_DO(transfer.deliver());
+    return *exitCode;
+}
+
+// Runs a command, and prints its error. \return the exit code
+int runAndReport(const std::vector<frontend::GivenOption>& given, const CommandText& text,
+                 const ImpliedCommand& implied) {
+    if (!implied.reason.empty() && findGiven(given, "--quiet") == nullptr)
+        note(fmt::format("{}: svt {}", implied.reason, implied.name));
+    Defaults defaults;
+    const auto done = runCommand(given, text, defaults);
+    if (done) return *done;
+    const int exitCode = fail(done.error());
+    if (exitCode == kUsage && !isVerbose()) defaults.print();
+    return exitCode;
+}
+
+// Prints what options without a command ask for. \return the exit code; nothing if there is no such option
+std::optional<int> printFacts(const Parser& parser) {
+    if (parser.app.get_option("--formats")->count() > 0) {
+        const bool isJson = parser.isJson || parser.formats == "json";
+        print(formatTable(), isJson ? TableFormat::JsonRows : TableFormat::Text);
+        return kDone;
+    }
+    if (!parser.isJson) return std::nullopt;
+    printMessage("svt: --json needs --version or --formats, or a command that has it\nsvt: see 'svt --help'\n");
+    return kUsage;
 }
 
 }  // namespace
 
 int runCommandLine(int argc, char** argv) {
     Parser parser;
-    const std::vector<std::string> words = joinedWords(argc, argv);
+    std::vector<std::string> words = joinedWords(argc, argv);
     if (const std::string below = words.empty() ? "" : commandsBelow(words.front()); !below.empty()) {
         const bool isAsked = words.size() > 1 && (words[1] == "--help" || words[1] == "-h");
         fmt::print(isAsked ? stdout : stderr, "svt {}: one of\n{}", words.front(), below);
         return isAsked ? flushed(kDone) : kUsage;
     }
+    const ImpliedCommand implied = impliedCommand(words);
+    if (!implied.name.empty()) words.insert(words.begin(), implied.name);
     if (const std::string fault = faultOfEmptyValues(words); !fault.empty()) {
         printMessage(fmt::format("svt: {}\nsvt: see 'svt {} --help'\n", fault, words.front()));
         return kUsage;
@@ -213,30 +271,23 @@ int runCommandLine(int argc, char** argv) {
     } catch (const CLI::CallForHelp& help) {
         parser.app.exit(help);
         return flushed(kDone);
-    } catch (const CLI::CallForVersion& version) {
-        parser.app.exit(version);
+    } catch (const CLI::CallForVersion&) {
+        const bool isJson = std::ranges::find(words, "--json") != words.end();
+        fmt::print("{}\n", isJson ? versionJson() : versionText());
         return flushed(kDone);
     } catch (const CLI::ExcludesError&) {  // reported by runCommand()
     } catch (const CLI::ParseError& error) {
         return reportUsage(parser.app, error);
     }
-    if (parser.app.get_option("--formats")->count() > 0) {
-        print(formatTable(), parser.formats == "json" ? TableFormat::JsonRows : TableFormat::Text);
-        return flushed(kDone);
-    }
+    if (const auto exitCode = printFacts(parser)) return flushed(*exitCode);
     for (const CommandText& text : commandTexts()) {
         const std::string name(text.name);
         if (!parser.app.got_subcommand(name)) continue;
-        const auto done = runCommand(givenOf(*parser.app.get_subcommand(name), parser.given[text.name], text), text);
-        return flushed(done ? *done : fail(done.error()));
+        const auto given = givenOf(*parser.app.get_subcommand(name), parser.given[text.name], text);
+        return flushed(runAndReport(given, text, implied));
     }
     fmt::print("{}", parser.app.help());
     return kUsage;
-}
-
-std::string helpText(std::string_view command) {
-    const Parser parser;
-    return command.empty() ? parser.app.help() : parser.app.get_subcommand(std::string(command))->help();
 }
 
 }  // namespace svt::cli
