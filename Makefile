@@ -20,7 +20,7 @@
 #   make mutants  changes in the sources that tests do not notice (FOLDERS="volume voxelize", COUNT=30)
 #   make install  the command with manual and viewer, the libraries: PREFIX=/usr/local DESTDIR=
 #   make package  .deb files for Debian 12: build/package
-#   make npm      the command as WebAssembly for Node.js, an npm package: build/npm
+#   make npm      npm packages: the command as WebAssembly with the library, and the web component: build/npm (REPOSITORY=https://...)
 #   make release  the artefacts of a version, VERSION=0.2.0, from a clean tree: build/release-artifacts
 #   make clean    removes build/
 
@@ -113,7 +113,7 @@ python: setup
 	@scripts/setup.sh python
 	@scripts/python.sh
 
-package: build python viewer
+package: build viewer python
 	@scripts/package.sh
 
 npm: build viewer

@@ -14,6 +14,7 @@ import importlib
 import pathlib
 import re
 import shutil
+import stat
 import subprocess
 import sys
 import sysconfig
@@ -23,6 +24,7 @@ from typing import Any, Iterable
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Endings of the files of the package; the extension module is named in full.
 PACKAGED = (".py", ".pyi", ".js")
+PAGE = pathlib.PurePath("share", "svt", "viewer")
 
 
 def project() -> dict[str, Any]:
@@ -116,16 +118,15 @@ def package_files(package: pathlib.Path) -> Iterable[pathlib.Path]:
 def contents(build: pathlib.Path, version: str) -> dict[str, bytes]:
     """Name in the wheel -> bytes, without RECORD."""
     files = {f"svt/{path.name}": path.read_bytes() for path in package_files(build / "python" / "svt")}
-    command, page = build / "bin" / "svt", build / "share" / "svt" / "viewer"
+    command = build / "bin" / "svt"
     if not command.is_file():
         raise SystemExit(f"wheel: {command} is missing; 'make python' builds it")
     files[f"{stem(version)}.data/scripts/svt"] = command.read_bytes()
-    # The command looks for its page in share/svt/viewer next to its own folder.
-    if (page / "index.html").is_file():
-        for path in sorted(page.rglob("*")):
-            if path.is_file():
-                name = path.relative_to(build).as_posix()
-                files[f"{stem(version)}.data/data/{name}"] = path.read_bytes()
+    # The command looks for its page in share/svt/viewer next to its own folder. `make viewer` builds it in build/release.
+    pages = [folder for folder in (build, ROOT / "build" / "release") if (folder / PAGE / "index.html").is_file()]
+    for path in sorted((pages[0] / PAGE).rglob("*")) if pages else []:
+        if path.is_file():
+            files[f"{stem(version)}.data/data/{path.relative_to(pages[0]).as_posix()}"] = path.read_bytes()
     folder = stem(version) + ".dist-info"
     files.update({f"{folder}/{name}": data for name, data in information(version).items()})
     files[f"{folder}/WHEEL"] = (
@@ -151,7 +152,8 @@ def pack(build: pathlib.Path, output: pathlib.Path, version: str) -> pathlib.Pat
             entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
             entry.compress_type = zipfile.ZIP_DEFLATED
             is_program = name.endswith(".so") or ".data/scripts/" in name
-            entry.external_attr = (0o755 if is_program else 0o644) << 16
+            # pip makes a file executable only if its mode states the kind of the file too.
+            entry.external_attr = (stat.S_IFREG | (0o755 if is_program else 0o644)) << 16
             archive.writestr(entry, data)
     temporary.replace(wheel)
     return wheel

@@ -5,7 +5,8 @@
     scripts/make_logo.py [--svt build/release/bin/svt] [--check]
 
 Writes docs/images/logo.svg, logo_light.svg and logo_dark.svg for light and dark pages, the icon of the viewer page, and
-the icons of cmake/desktop/icons, whose PNGs need rsvg-convert. With --check nothing is written, and the exit code is 1 if an SVG differs from the file in the tree.
+the icons of cmake/desktop/icons, whose PNGs need rsvg-convert. With --check nothing is written, and the exit code is 1
+if an SVG differs from the file in the tree.
 """
 import argparse
 import json

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs the npm package of build/npm into an empty folder and runs its command there: the same bytes as the program. Its bills of
-# materials name the libraries and packages that it holds, with their versions.
+# Installs the npm packages of build/npm into an empty folder. The command answers there with the same bytes as the program. The library
+# (in Node.js and in Chromium) and the web component give the pictures of the program. Bundlers and TypeScript take both packages. Their
+# bills of materials name the libraries and packages that they hold, with their versions.
 # Exits with 77 and the reason if a requirement is missing.
 #   scripts/test_npm.sh SVT   the program to compare with
 set -euo pipefail
@@ -10,14 +11,18 @@ root=$PWD
 skip() { echo "skipped: $1"; exit 77; }
 command -v npm >/dev/null || skip "npm is missing (scripts/setup.sh web)"
 node --test tests/npm/*_test.mjs
-package=$(ls "$PWD"/build/npm/svt-*.tgz 2>/dev/null) || skip "the package is not there (make npm)"
+packages=(build/npm/semantic-volume-texture-{svt,viewer}-*.tgz)
+for package in "${packages[@]}"; do [ -f "$package" ] || skip "the packages are not there (make npm)"; done
 work=$(mktemp -d)
 trap 'kill %1 2>/dev/null || true; rm -rf "$work"' EXIT
+packages=("${packages[@]/#/$root/}")
 cd "$work"
 npm init -y >/dev/null
-npm install --offline --no-audit --no-fund "$package" >log 2>&1 || { cat log >&2; exit 1; }
-node "$root/tests/npm/bill_of_materials.mjs" command node_modules/svt/sbom.cdx.json
-node "$root/tests/npm/bill_of_materials.mjs" page node_modules/svt/share/svt/viewer/sbom.cdx.json
+npm install --offline --no-audit --no-fund "${packages[@]}" >log 2>&1 || { cat log >&2; exit 1; }
+installed=node_modules/@semantic-volume-texture
+node "$root/tests/npm/bill_of_materials.mjs" command $installed/svt/sbom.cdx.json
+node "$root/tests/npm/bill_of_materials.mjs" page $installed/svt/share/svt/viewer/sbom.cdx.json
+node "$root/tests/npm/bill_of_materials.mjs" element $installed/viewer/sbom.cdx.json
 mkdir 'my models' there
 npx --no-install svt --version >version 2>>log
 head -n 1 version
@@ -48,4 +53,13 @@ node -e 'fetch(require("fs").readFileSync("address","utf8").trim()+"models/h.svt
   if (Buffer.compare(Buffer.from(b), require("fs").readFileSync("my models/h.svt")) !== 0) throw new Error("another volume")})'
 kill %1
 wait %1 2>/dev/null || true
-echo "npm: installed, and answers as the program does"
+echo "npm: the command answers as the program does"
+
+# The library and the web component, as programs and pages use them.
+tests=("$root"/tests/npm/packed/*_test.mjs)
+if [ ! -x "${SVT_CHROMIUM:-/usr/bin/chromium}" ]; then
+  echo "skipped: the web component in a page: chromium is missing (scripts/setup.sh web)"
+  tests=("$root"/tests/npm/packed/{library,bundles,readme}_test.mjs)
+fi
+SVT_COMMAND=$svt SVT_NPM_FOLDER=$work node --test --test-concurrency=1 --test-reporter=spec "${tests[@]}" >tests.log 2>&1 || { cat tests.log >&2; exit 1; }
+echo "npm: the library and the web component give the pictures of the program"

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Writes what is made from the declarations of options (`svt describe json`): the tables of options in docs/user,
-the table of formats in docs/user/convert.md, the options of projects in docs/user/configuration.md, docs/formats/scene.schema.json, docs/formats/sheets.schema.json, and in
-web/viewer/src/generated scene_members.ts, from which the viewer page has the ranges, choices, defaults and help of its
-controls, and model_endings.ts, the endings of files that it opens.
+the table of formats in docs/user/convert.md, the options of projects in docs/user/configuration.md,
+docs/formats/scene.schema.json, docs/formats/sheets.schema.json, and in web/viewer/src/generated scene_members.ts, from
+which the viewer page has the ranges, choices, defaults and help of its controls, and model_endings.ts, the endings of
+files that it opens.
 
     scripts/update_options.py [--svt build/release/bin/svt] [--check]
 
@@ -18,6 +19,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 BEGIN, END = "<!-- BEGIN options -->", "<!-- END options -->"
+PROJECT_ROW = 15  # options per row of the table of options of projects
 PROJECT_BEGIN, PROJECT_END = "<!-- BEGIN project options -->", "<!-- END project options -->"
 FORMATS_BEGIN, FORMATS_END = "<!-- BEGIN formats -->", "<!-- END formats -->"
 PLAIN_KINDS = {"whole": "whole number", "number": "number", "text": "text"}
@@ -129,12 +131,14 @@ def project_table(commands: list[dict]) -> str:
             if option.get("project"):
                 name = option["name"].split(",")[-1].lstrip("-")
                 commands_of.setdefault(name, []).append(command["name"])
-    groups: dict[tuple[str, ...], list[str]] = {}
+    rows: dict[str, list[str]] = {}
     for name, names in commands_of.items():
-        groups.setdefault(tuple(names), []).append(name)
+        rows.setdefault(", ".join(names), []).append(name)
     lines = ["| commands | options |", "|---|---|"]
-    for names, options in groups.items():
-        lines.append(f"| {', '.join(names)} | {', '.join(f'`{option}`' for option in options)} |")
+    for names_text, options in rows.items():
+        for first in range(0, len(options), PROJECT_ROW):
+            row = ", ".join(f"`{option}`" for option in options[first : first + PROJECT_ROW])
+            lines.append(f"| {names_text} | {row} |")
     return "\n".join(lines)
 
 

@@ -18,11 +18,10 @@ def _installed_command() -> str | None:
         files = importlib.metadata.files(DISTRIBUTION) or []
     except importlib.metadata.PackageNotFoundError:
         return None
-    for file in files:
-        path = os.path.normpath(str(file.locate()))
-        if file.name == "svt" and file.parent.name == "bin" and os.path.isfile(path):
-            return path
-    return None
+    places = [str(file.locate()) for file in files if file.name == "svt" and file.parent.name == "bin"]
+    # `pip install --target` lists another place than this one, beside the package.
+    places.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "bin", "svt"))
+    return next((os.path.normpath(place) for place in places if os.path.isfile(place)), None)
 
 
 def find_command() -> str:

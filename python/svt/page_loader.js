@@ -1,7 +1,8 @@
 // Starts the viewer from one HTML file: gives its modules, its workers and fetch() the files that the HTML contains.
 // The page runs in the frame of a notebook or from a local file, and has no server and no origin of its own.
 (async () => {
-  const base = "https://page.invalid/"; // never requested: the HTML contains all files
+  // Addresses of the files. No request goes to them. The page treats those of http as another site.
+  const base = "svt-page://files/";
   const { main, files } = JSON.parse(document.getElementById("svt-files").textContent);
   const types = { js: "text/javascript", json: "application/json", svg: "image/svg+xml", wasm: "application/wasm" };
   const typeOf = (path) => types[path.split(".").pop()] ?? "application/octet-stream";
@@ -35,6 +36,7 @@
 
   const made = {};
   function moduleOf(path, begin = "") {
+    if (!(path in scripts)) throw new Error(`the page has no script ${path}`);
     const folder = path.slice(0, path.lastIndexOf("/") + 1);
     return (made[path] ??= URL.createObjectURL(
       new Blob(

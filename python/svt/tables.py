@@ -34,6 +34,8 @@ def columns_of_labels(labels: Sequence[_native.Label], attributes: bool) -> dict
         "voxel_volume": _known([label.voxel_volume if label.voxels else None for label in labels]),
         "area": _known([label.area if label.voxels else None for label in labels]),
         "outside_area": _known([label.outside_area if label.voxels else None for label in labels]),
+        "total_volume": _known([label.total_volume for label in labels]),
+        "total_area": _known([label.total_area if label.total_voxels else None for label in labels]),
         "filling": [label.filling for label in labels],
     }
     if attributes:

@@ -270,7 +270,7 @@ class Volume:
         ----------
         plane
             ``'z=1.2'`` (metres above the lowest samples; x and y too), ``'z<1.2'`` (the other side),
-            ``'storey=EG+1.1'``, or ``'A,B,C,D'``; default: 1.1 m above the lowest floor.
+            ``'storey=EG+1.1'``, or ``'A,B,C,D'``; default: 1.1 m above the ground floor.
         show, hide
             Queries: draw only the features that `show` selects, and not those that `hide` selects.
         spaces

@@ -48,6 +48,8 @@ class Stored(unittest.TestCase):
 @needs("xarray")
 @needs("pandas")
 class Executed(unittest.TestCase):
+    outputs: typing.ClassVar[dict[str, list[dict[str, typing.Any]]]]
+
     @classmethod
     def setUpClass(cls):
         cls.outputs = executed()

@@ -33,13 +33,14 @@ class Tables(unittest.TestCase):
         self.assertEqual(list(table.index), [label.index for label in v.labels])
         self.assertEqual(
             list(table.columns),
-            "id class_name name parent voxels volume voxel_volume area outside_area filling".split(),
+            "id class_name name parent voxels volume voxel_volume area outside_area total_volume total_area filling".split(),
         )
         kitchen = v.labels["Kitchen"]
         row = table.loc[kitchen.index]
         self.assertEqual((row["id"], row["class_name"], row["parent"]), (kitchen.id, "BuildingRoom", kitchen.parent.id))
         self.assertEqual((row["voxels"], row["volume"]), (kitchen.voxels, kitchen.volume))
         self.assertEqual((row["area"], row["outside_area"]), (kitchen.area, kitchen.outside_area))
+        self.assertEqual((row["total_volume"], row["total_area"]), (kitchen.total_volume, kitchen.total_area))
 
     @needs("pandas")
     def test_unknown_numbers_are_nan_and_not_zero(self):
@@ -53,6 +54,7 @@ class Tables(unittest.TestCase):
         self.assertEqual(building.voxels, 0)
         self.assertTrue(math.isnan(building.volume) and math.isnan(building.area) and math.isnan(building.voxel_volume))
         self.assertIsNone(building.parent)
+        self.assertGreater(building.total_volume, 300)  # that of its rooms, walls and slabs
         solids = table[table.filling == "solid"]
         self.assertTrue((solids.volume > 0).all())
 

@@ -89,7 +89,7 @@ class Wheel(unittest.TestCase):
         self.assertIn(
             f"class {name}(", (PACKER.parent / (module.replace(".", "/") + ".py")).read_text(encoding="utf-8")
         )
-        self.assertEqual(scripts[0].external_attr >> 16, 0o755)
+        self.assertEqual(scripts[0].external_attr >> 16, 0o100755)
 
     def test_version_is_that_of_cmake(self):
         sys.path.insert(0, str(PACKER.parent))
@@ -127,27 +127,25 @@ def pip(*words):
 class Pip(unittest.TestCase):
     def test_installed_wheel_is_module_command_and_backend(self):
         pip("install", "--no-index", "--no-deps", "--target", path("pip"), pack("wheel"))
-        self.assertTrue(os.path.exists(path("pip/svt/__init__.py")))
         environment = {**os.environ, "PYTHONPATH": path("pip"), "PATH": ""}
         environment.pop("SVT_COMMAND", None)
-        done = subprocess.run(
-            [sys.executable, "-m", "svt", "--version"], env=environment, capture_output=True, text=True
-        )
-        self.assertIn(svt.__version__, done.stdout, done.stderr)
+
+        def run(*words):
+            done = subprocess.run(
+                [sys.executable, *words], env=environment, cwd=FOLDER.name, capture_output=True, text=True
+            )
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return done.stdout
+
+        self.assertEqual(run("-c", "import svt; print(svt.__file__)").strip(), path("pip/svt/__init__.py"))
+        self.assertTrue(run("-m", "svt", "--version").startswith(f"svt {svt.__version__}\n"))
         text = "import importlib.metadata as m; print(m.version('semantic-volume-texture'), m.entry_points(name='svt'))"
-        done = subprocess.run([sys.executable, "-c", text], env=environment, capture_output=True, text=True)
-        self.assertIn(f"{svt.__version__} ", done.stdout)
-        self.assertIn("svt.xarray_backend:SvtBackendEntrypoint", done.stdout)
+        self.assertTrue(run("-c", text).startswith(f"{svt.__version__} "))
+        self.assertIn("svt.xarray_backend:SvtBackendEntrypoint", run("-c", text))
         if (BUILD / "share" / "svt" / "viewer" / "index.html").exists():
             # The command finds its page beside itself.
             svt.sample("house", path("pip.gml"))
-            done = subprocess.run(
-                [sys.executable, "-m", "svt", "publish", path("pip.gml"), "-o", path("pip-site"), "--spacing", "0.5"],
-                env=environment,
-                capture_output=True,
-                text=True,
-            )
-            self.assertEqual(done.returncode, 0, done.stderr)
+            run("-m", "svt", "publish", path("pip.gml"), "-o", path("pip-site"), "--spacing", "0.5")
             self.assertTrue(os.path.exists(path("pip-site/index.html")))
 
     def test_pip_installs_the_checkout_by_its_backend(self):

@@ -10,7 +10,7 @@ from PIL import Image, ImageSequence
 WIDTH = 1200  # pixels; twice the width of the column of text, for screens with a high density
 STILL_BYTES = 60_000
 FILM_BYTES = 110_000
-PAGE_BYTES = 180_000  # of all pictures of a page, which stays below 300 kB with styles, scripts and text
+PAGE_BYTES = 165_000  # of all pictures of a page, which stays below 300 kB with styles, scripts and text
 
 
 def still(source: pathlib.Path, target: pathlib.Path, width: int = WIDTH, most_bytes: int = STILL_BYTES) -> None:
@@ -24,6 +24,7 @@ def still(source: pathlib.Path, target: pathlib.Path, width: int = WIDTH, most_b
         (50, 0.65),
         (40, 0.65),
         (40, 0.5),
+        (40, 0.4),
     ):
         across = min(picture.width, round(width * share))
         size = (across, max(1, round(picture.height * across / picture.width)))

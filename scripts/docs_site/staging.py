@@ -152,19 +152,17 @@ class Staging:
         return markdown_text.change_links(text, move)
 
     def _numbers_of_pictures(self, text: str, source: str, target: str) -> tuple[int, int]:
-        """Still pictures and films of a page; drawings are small."""
-        stills = films = 0
+        """Still pictures and films of a page, each once; drawings are small."""
+        files: set[pathlib.Path] = set()
 
-        def count(is_picture: bool, link: str) -> str:
-            nonlocal stills, films
+        def collect(is_picture: bool, link: str) -> str:
             if is_picture and not re.match(r"[a-z]+:", link):
-                file = self._file_of(posixpath.normpath(posixpath.join(posixpath.dirname(source), link)), target)
-                films += pictures.is_film(file)
-                stills += file.suffix != ".svg" and not pictures.is_film(file)
+                files.add(self._file_of(posixpath.normpath(posixpath.join(posixpath.dirname(source), link)), target))
             return link
 
-        markdown_text.change_links(text, count)
-        return stills, films
+        markdown_text.change_links(text, collect)
+        films = sum(pictures.is_film(file) for file in files)
+        return sum(file.suffix != ".svg" for file in files) - films, films
 
     def _file_of(self, picture: str, page: str) -> pathlib.Path:
         """The file of a picture. One that the page's commands drew replaces the smaller one of the tree: images/PAGE/NAME.webp is

@@ -38,6 +38,10 @@ public:
     /// Labels of the extent of `label`, ascending, with itself. Cycles of members are allowed.
     /// Cost: O(n log n) for n labels of the extent.
     [[nodiscard]] std::vector<std::uint32_t> of(std::uint32_t label) const;
+    /// Voxels, volume and box of the extent; areas are 0.
+    /// \param own  of all labels
+    /// Cost: O(labels of the extent).
+    [[nodiscard]] Measure total(std::uint32_t label, std::span<const Measure> own) const;
     /// The union of the extents of several labels.
     [[nodiscard]] std::vector<std::uint32_t> of(std::span<const std::uint32_t> labels) const;
 
@@ -53,7 +57,11 @@ public:
     [[nodiscard]] std::vector<std::uint32_t> withParts(std::span<const std::uint32_t> selected) const;
 
 private:
+    /// The parts of a label that count: those of a space are parts of the space, and the sheets around it.
     enum class Reach : std::uint8_t { None, Sheets, Space, All };
+    /// Surfaces bound a space; spaces are rooms, units and groups, which have no material of their own.
+    enum class Kind : std::uint8_t { Unknown, Surface, Space, Material };
+    [[nodiscard]] Kind kindOf(std::uint32_t label) const;
     [[nodiscard]] bool hasParts(std::uint32_t label) const;
     [[nodiscard]] Reach reachOf(std::uint32_t root) const;
     [[nodiscard]] Reach reachOf(Reach above, std::uint32_t part) const;
@@ -64,6 +72,8 @@ private:
 
     const std::vector<volume::Label>& labels_;
     std::vector<std::uint32_t> firstMember_, members_;  // members of l: members_[firstMember_[l]] .. [l + 1]
+    std::vector<std::uint32_t> ends_;                   // Label::subtreeEnd by label, close together in memory
+    mutable std::vector<Kind> kinds_;                   // by label
     mutable std::vector<std::uint64_t> reached_;        // by label: 4 * visit + its greatest reach
     mutable std::uint64_t visits_ = 0;
 };
@@ -78,7 +88,8 @@ struct FeatureMeasure {
 /// outer boundary: contacts within the extent are inside.
 /// \param own       of all labels: measureLabels(), or ownMeasures(), then boxes and areas of the result are empty
 /// \param contacts  of the whole volume; empty: areas are 0
-/// Cost: O(labels and contacts of all extents).
+/// Cost: O(labels and contacts of all extents). Groups that contain each other in a long chain, or many groups of the
+/// same members, make this quadratic: 50000 groups in a chain take some seconds.
 [[nodiscard]] std::vector<FeatureMeasure> measureFeatures(const Extents& extents,
                                                           std::span<const std::uint32_t> selected,
                                                           std::span<const Measure> own,

@@ -241,13 +241,45 @@ TEST_F(Units, AreSummedByOwnerEachVoxelOnce) {
     EXPECT_EQ(all[0]["features"], features_.empty() ? all[0]["features"] : json(features_.size()));
 }
 
+TEST_F(Units, AreSummedByTheirClassNotByAnAttributeOfThatName) {
+    for (const json& row : ask({"class=BuildingUnit", "--by", "class"})) EXPECT_EQ(row["class"], "BuildingUnit");
+    for (const json& row : ask({"class=BuildingUnit", "--by", "\"class\""})) EXPECT_TRUE(row["\"class\""].is_null());
+}
+
+TEST_F(Units, BelongToSeveralOwnersByShares) {
+    writeText(folder / "owners.csv",
+              "feature,owner,share\ntower_S00_F1,Weber,1/2\ntower_S00_F1,Klein,50%\ntower_S00_F2,Weber\n"
+              "tower_S00_storey,owners of the storey\ntower,all owners\n");
+    const json report = ask({"id=tower_S00_F1", "--owners", "owners.csv"});
+    std::map<std::string, double> own;
+    double sum = report["unowned"].get<double>() + report["untouched"].get<double>();
+    for (const json& owner : report["owners"]) {
+        own[owner["owner"]] = owner["own"];
+        sum += owner["total"].get<double>();
+    }
+    EXPECT_NEAR(own["Weber"], 198.69 / 2 + 198.69, 0.05);
+    EXPECT_NEAR(own["Klein"], 198.69 / 2, 0.05);
+    EXPECT_NEAR(sum + report["unownedSpaces"].get<double>(), report["all"].get<double>(), 1e-6);
+    const json rows = ask({"id=tower or id=tower_S00_storey"});
+    const double tower = rows[0]["totalVolume"], storey = rows[1]["totalVolume"];
+    EXPECT_NEAR(report["all"].get<double>(), tower, 1e-6) << "each part once";
+    EXPECT_NEAR(own["owners of the storey"], storey - 2 * 198.69, 0.1) << "the rest beside the flats";
+    EXPECT_NEAR(own["all owners"], tower - storey, 1e-6);
+    EXPECT_EQ(report["common"], json::array()) << "the building itself is in the table";
+
+    writeText(folder / "twice.csv", "tower_S00_F1,Weber\ntower_S00_F1,Klein\n");
+    const CommandResult twice = runSvt(folder.path(), {"query", "tower.svt", "all", "--owners", "twice.csv"});
+    EXPECT_EQ(twice.exitCode, 3);
+    EXPECT_NE(twice.err.find("a share, such as 1/2"), std::string::npos) << twice.err;
+}
+
 TEST_F(Units, AreShownHiddenAndCutOutAsAWhole) {
     const Ids parts = partsOf("tower_S00_F1");
     const std::uint64_t voxels = count(parts).voxels;
     const auto filled = [&](const std::string& file) {
         std::uint64_t sum = 0;
-        for (const json& object : runSvtForJson(folder.path(), {"info", file, "--json"})["objects"])
-            sum += object["ownVoxels"].get<std::uint64_t>();
+        const json info = runSvtForJson(folder.path(), {"info", file, "--json"});
+        for (const json& object : info["objects"]) sum += object["ownVoxels"].get<std::uint64_t>();
         return sum;
     };
     runSvtWell(folder.path(), {"convert", "tower.svt", "flat.nrrd", "--select", kFlat});
@@ -285,6 +317,135 @@ TEST_F(Units, AreNamedOverTheirParts) {
                                "--ortho", "--section", "z=2", "--names", "class=BuildingUnit and name~S00"});
     EXPECT_EQ(result.exitCode, 0) << result.toString();
     EXPECT_EQ(result.err.find("left out"), std::string::npos) << result.err;
+}
+
+// A CityJSON model of boxes: id, type, parent, and x0, x1, y0, y1, z1 in metres.
+struct Part {
+    std::string id, type, parent;
+    std::array<double, 5> box;
+};
+
+std::string modelOf(const std::vector<Part>& parts, const std::string& more = {}) {
+    std::string objects, vertices;
+    for (const Part& part : parts) {
+        const auto& [x0, x1, y0, y1, z1] = part.box;
+        std::string children;
+        for (const Part& child : parts)
+            if (child.parent == part.id) children += (children.empty() ? "\"" : ",\"") + child.id + "\"";
+        objects += fmt::format("{}\"{}\":{{\"type\":\"{}\"", objects.empty() ? "" : ",", part.id, part.type);
+        if (!part.parent.empty()) objects += fmt::format(",\"parents\":[\"{}\"]", part.parent);
+        if (!children.empty()) objects += ",\"children\":[" + children + "]";
+        if (z1 > 0) {
+            const auto n = std::count(vertices.begin(), vertices.end(), '[');
+            std::string faces;
+            for (const auto& face :
+                 {std::array{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}})
+                faces += fmt::format("{}[[{},{},{},{}]]", faces.empty() ? "" : ",", n + face[0], n + face[1],
+                                     n + face[2], n + face[3]);
+            objects += ",\"geometry\":[{\"type\":\"Solid\",\"lod\":\"3\",\"boundaries\":[[" + faces + "]]}]";
+            for (const double z : {0.0, z1})
+                for (const auto& [x, y] : {std::pair{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}})
+                    vertices += fmt::format("{}[{:.0f},{:.0f},{:.0f}]", vertices.empty() ? "" : ",", 1000 * x, 1000 * y,
+                                            1000 * z);
+        }
+        objects += "}";
+    }
+    return R"({"type":"CityJSON","version":"2.0","transform":{"scale":[0.001,0.001,0.001],"translate":[0,0,0]},)"
+           "\"CityObjects\":{" +
+           objects + more + "},\"vertices\":[" + vertices + "]}";
+}
+
+json checkedUnits(const TemporaryFolder& folder, const std::string& model, int exitCode) {
+    writeText(folder / "model.json", model);
+    const CommandResult result = runSvt(folder.path(), {"check", "model.json", "--json"});
+    EXPECT_EQ(result.exitCode, exitCode) << result.toString();
+    return result.json()["legalUnits"];
+}
+
+// Two flats of 8 x 8 x 3 m on one storey, 0.3 m from a corridor, each with a door.
+std::vector<Part> storeyOfTwoFlats() {
+    return {{"house", "Building", "", {}},
+            {"ground", "BuildingStorey", "house", {}},
+            {"west", "BuildingUnit", "ground", {0, 8, 0.3, 8, 3}},
+            {"east", "BuildingUnit", "ground", {8, 16, 0.3, 8, 3}},
+            {"corridor", "BuildingRoom", "ground", {0, 16, -2, 0, 3}},
+            {"wall", "BuildingConstructiveElement", "ground", {0, 16, 0, 0.3, 3}},
+            {"west_door", "+Door", "wall", {1, 2, 0, 0.3, 2.1}},
+            {"east_door", "+Door", "wall", {12, 13, 0, 0.3, 2.1}}};
+}
+
+TEST(CheckedUnits, MayTouchButNotOverlap) {
+    const TemporaryFolder folder;
+    std::vector<Part> parts = storeyOfTwoFlats();
+    json units = checkedUnits(folder, modelOf(parts), 0);
+    EXPECT_EQ(units["overlaps"], json::array());
+    EXPECT_EQ(units["gaps"], json::array());
+    ASSERT_EQ(units["units"].size(), 2u);
+    for (const json& unit : units["units"]) EXPECT_EQ(unit["access"], "common") << unit;
+    // 0.1 x 7.7 x 3 m are claimed by both.
+    parts[3].box[0] = 7.9;
+    units = checkedUnits(folder, modelOf(parts), 4);
+    ASSERT_EQ(units["overlaps"].size(), 1u);
+    EXPECT_NEAR(units["overlaps"][0]["volume"].get<double>(), 2.31, 1e-3);
+    EXPECT_LT(units["overlaps"][0]["bound"].get<double>(), 1e-3);
+    // Thinner than a voxel, and within the tolerance.
+    parts[3].box[0] = 7.998;
+    EXPECT_EQ(checkedUnits(folder, modelOf(parts), 4)["overlaps"].size(), 1u);
+    const CommandResult tolerant = runSvt(folder.path(), {"check", "model.json", "--json", "--overlap", "0.002"});
+    EXPECT_EQ(tolerant.json()["legalUnits"]["overlaps"], json::array()) << tolerant.toString();
+}
+
+TEST(CheckedUnits, WithoutSolidsAreTheirRooms) {
+    const TemporaryFolder folder;
+    std::vector<Part> parts = storeyOfTwoFlats();
+    parts[2].box = parts[3].box = {};
+    parts.push_back({"west_room", "BuildingRoom", "west", {0, 8, 0.3, 8, 3}});
+    parts.push_back({"east_room", "BuildingRoom", "east", {7.5, 16, 0.3, 8, 3}});
+    const json units = checkedUnits(folder, modelOf(parts), 4);
+    ASSERT_EQ(units["overlaps"].size(), 1u);
+    EXPECT_EQ(units["overlaps"][0]["a"], "west");
+    EXPECT_NEAR(units["overlaps"][0]["volume"].get<double>(), 0.5 * 7.7 * 3, 1e-3);
+    for (const json& unit : units["units"]) EXPECT_EQ(unit["access"], "common") << unit;
+}
+
+TEST(CheckedUnits, FillTheirStorey) {
+    const TemporaryFolder folder;
+    std::vector<Part> parts = storeyOfTwoFlats();
+    parts[1].box = {0, 16, -2, 8, 3};
+    EXPECT_EQ(checkedUnits(folder, modelOf(parts), 0)["gaps"], json::array());
+    parts[3].box[1] = 15;
+    const json gaps = checkedUnits(folder, modelOf(parts), 4)["gaps"];
+    ASSERT_EQ(gaps.size(), 1u);
+    EXPECT_EQ(gaps[0]["storey"], "ground");
+    EXPECT_NEAR(gaps[0]["volume"].get<double>(), 1 * 7.7 * 3, 0.05 * 23.1);
+    EXPECT_NEAR(gaps[0]["box"]["min"][0].get<double>(), 15, 0.1);
+}
+
+TEST(CheckedUnits, AreReachedByACommonPart) {
+    const TemporaryFolder folder;
+    std::vector<Part> parts = storeyOfTwoFlats();
+    const auto access = [&](int exitCode) {
+        std::map<std::string, json> byId;
+        const json units = checkedUnits(folder, modelOf(parts), exitCode);
+        for (const json& unit : units["units"]) byId[unit["id"]] = unit["access"];
+        return byId;
+    };
+    parts[7].type = "BuildingFurniture";
+    auto found = access(4);
+    EXPECT_EQ(found["west"], "common");
+    EXPECT_EQ(found["east"], "none");
+    // A door to the outside is a note, no defect.
+    parts[7] = {"east_door", "+Door", "house", {16, 16.1, 3, 4, 2.1}};
+    EXPECT_EQ(access(0)["east"], "outside");
+    // Without doors it is unknown.
+    parts.resize(6);
+    found = access(0);
+    EXPECT_TRUE(found["west"].is_null() && found["east"].is_null());
+    EXPECT_NE(runSvt(folder.path(), {"check", "model.json", "-v"}).err.find("unknown whether a common part reaches 2"),
+              std::string::npos);
+    // A model without units has no tests of units.
+    parts[2].type = parts[3].type = "BuildingRoom";
+    EXPECT_TRUE(checkedUnits(folder, modelOf(parts), 0).is_null());
 }
 
 TEST(UnitsOfRealModels, RoomsHaveNoMaterialOfTheWallsAroundThem) {

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <unordered_map>
 
 namespace svt::cli {
 namespace {
@@ -26,8 +28,10 @@ Json accessJson(UnitAccess access) {
 
 class Reporter {
 public:
-    Reporter(const volume::SemanticVolume& volume, Diagnostics& diagnostics)
-        : labels_(volume.labels.labels), grid_(volume.grid), diagnostics_(diagnostics) {}
+    Reporter(const model::BuildingModel& model, const volume::SemanticVolume& volume, Diagnostics& diagnostics)
+        : source_(model.source), labels_(volume.labels.labels), grid_(volume.grid), diagnostics_(diagnostics) {
+        for (const model::Feature& feature : model.features) lineOf_.emplace(feature.id, feature.line);
+    }
 
     Json report(const analyze::LegalUnits& found) {
         Json json{{"units", Json::array()}, {"overlaps", Json::array()}, {"gaps", Json::array()}};
@@ -48,7 +52,10 @@ public:
 
 private:
     void warn(Code code, std::uint32_t label, std::string message, Severity severity = Severity::Warning) {
-        diagnostics_.add(severity, code, std::move(message), {"", 0, 0, labels_[label].id});
+        const std::string& id = labels_[label].id;
+        const auto line = lineOf_.find(id);
+        diagnostics_.add(severity, code, std::move(message),
+                         {source_, line == lineOf_.end() ? 0 : line->second, 0, id});
     }
 
     Json report(const analyze::UnitOverlap& overlap) {
@@ -65,11 +72,11 @@ private:
 
     Json report(const analyze::StoreyGap& gap) {
         const Box3d box = analyze::worldBox(gap.box, grid_);
-        warn(
-            Code::StoreyGap, gap.storey,
-            fmt::format("{:.3f} m3 of the storey belong to no unit, room or wall, between ({:.3f}, {:.3f}, {:.3f}) and "
-                        "({:.3f}, {:.3f}, {:.3f}); extend a unit, or add the missing part",
-                        gap.volume, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z));
+        const Vec3d middle = (box.min + box.max) * 0.5;
+        warn(Code::StoreyGap, gap.storey,
+             fmt::format("{:.3f} m3 of the storey belong to no unit, room or wall, near ({:.3f}, {:.3f}, {:.3f}); "
+                         "extend a unit, or add the missing part",
+                         gap.volume, middle.x, middle.y, middle.z));
         return {{"storey", labels_[gap.storey].id},
                 {"volume", gap.volume},
                 {"voxels", gap.voxels},
@@ -87,9 +94,11 @@ private:
         return {{"id", labels_[unit.label].id}, {"common", unit.isCommon}, {"access", accessJson(unit.access)}};
     }
 
+    const std::string& source_;
     const std::vector<volume::Label>& labels_;
     const volume::Grid& grid_;
     Diagnostics& diagnostics_;
+    std::unordered_map<std::string_view, std::uint64_t> lineOf_;  // by id
 };
 
 }  // namespace
@@ -113,7 +122,7 @@ Json checkUnits(const model::BuildingModel& model, const pipeline::BuildOptions&
     const auto contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, options.threads);
     analyze::LegalUnitOptions tolerances;
     tolerances.depth = overlap > 0 ? 2 * overlap : 0.001;
-    return Reporter(volume, diagnostics).report(analyze::checkLegalUnits(volume, contacts, tolerances));
+    return Reporter(model, volume, diagnostics).report(analyze::checkLegalUnits(volume, contacts, tolerances));
 }
 
 }  // namespace svt::cli

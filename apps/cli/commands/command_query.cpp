@@ -93,7 +93,7 @@ Result<int> printOwners(const volume::SemanticVolume& volume, const Labels& sele
     const OwnerReport report = ownerReport(volume, withParts, *owners, arguments.build.threads);
     if (!owners->shared.empty())
         note(fmt::format(
-            "{:.3f} m3 are parts of several features of the table, such as '{}'; each counts once, divided "
+            "{:.3f} m3 belong to several features of the table, such as '{}'; they count once, divided "
             "equally between these features",
             report.json["sharedSpace"]["volume"].get<double>(), volume.labels.labels[owners->shared.front()].id));
     if (arguments.json) {
@@ -102,6 +102,7 @@ Result<int> printOwners(const volume::SemanticVolume& volume, const Labels& sele
         print(report.components, TableFormat::Csv);
     } else {
         for (const Table* table : {&report.totals, &report.features, &report.common, &report.components}) {
+            if (table != &report.totals && table->rows.empty()) continue;
             if (table != &report.totals) fmt::print("\n");
             print(*table, TableFormat::Text);
         }
@@ -183,7 +184,8 @@ Members<QueryArguments> membersOf(const QueryArguments*) noexcept {
         member<&All::areas>("--areas",
                             "rooms with area, height and volume, then floor areas by DIN 277-1 per storey and in total",
                             {.group = "Report"}),
-        member<&All::owners>("--owners", "ownership: a table of feature and owner; walls between owners are divided",
+        member<&All::owners>("--owners",
+                             "ownership: a table of feature, owner and share; walls between owners are divided",
                              {.value = "T.csv", .group = "Report", .file = FileUse::OtherInput}),
         member<&All::parcels>("--parcels",
                               "share of each feature per parcel; the parcels are a volume on the same grid, or a model",

@@ -132,7 +132,9 @@ Members<SectionArguments> membersOf(const SectionArguments*) noexcept {
              .isForProjects = true}),
         memberAs<record::Choice, &All::elevation>(
             "--elevation", "draw the outside of the model, seen from this side",
-            {.choices = "north|north-east|east|south-east|south|south-west|west|north-west", .group = "Drawing"}),
+            {.choices = "north|north-east|east|south-east|south|south-west|west|north-west",
+             .group = "Drawing",
+             .isForProjects = true}),
         part<&All::section>("section", "--beyond|--hidden|--above|--dimensions"),
         part<&All::dxf>("dxf"),
         memberAs<PaperScale, &All::scale>("--scale", "scale of the SVG: 1:50 draws 1 m as 20 mm",

@@ -93,8 +93,8 @@ std::string mainPage() {
         "stores the building component at every point. Draws that volume cut open, answers queries about it, and "
         "converts it to other formats.\n.PP\n"
         "\\fBsvt\\fR \\fIFILE\\fR opens a file in the browser (\\fBsvt view\\fR). Without a display, or if stdout "
-        "is not a terminal, it prints \\fBsvt info\\fR. The input \\(aq\\-\\(aq is stdin, and the output \\(aq\\-\\(aq is "
-        "stdout. Inputs may be addresses (https://).\n.SH COMMANDS\n";
+        "is not a terminal, it prints \\fBsvt info\\fR. The input \\(aq\\-\\(aq is stdin. The output "
+        "\\(aq\\-\\(aq is stdout. Inputs may be addresses (https://).\n.SH COMMANDS\n";
     for (const CommandText& command : commandTexts())
         page += fmt::format(".TP\n.BR svt\\-{} (1)\n{}\n", command.name, roff(command.help));
     page +=

@@ -93,7 +93,7 @@ std::string versionText() {
 
 std::string versionJson() {
     const BuildFacts facts = buildFacts();
-    const Json loaded = kIsNative ? Json{"cairo", "libcurl", "PROJ", "SQLite"} : Json::array();
+    const Json loaded = kIsNative ? Json{"cairo", "libcurl", "PROJ", "qpdf", "SQLite"} : Json::array();
     const Json json{{"version", SVT_VERSION},
                     {"commit", facts.commit},
                     {"compiler", facts.compiler},

@@ -11,39 +11,48 @@ using model::ClassRank;
 using volume::Filling;
 using volume::kNoLabel;
 
-// Whether parts below are only those of a space: rooms, units and groups, which have no material of their own.
-bool isSpaceOrGroup(const volume::Label& label) noexcept {
-    const ClassRank rank = model::classRank(label.className);
-    return rank == ClassRank::Room || rank == ClassRank::Unit || rank == ClassRank::Other;
-}
-
 }  // namespace
 
 Extents::Extents(const volume::LabelTable& table)
-    : labels_(table.labels), firstMember_(table.labels.size() + 1, 0), reached_(table.labels.size(), 0) {
+    : labels_(table.labels),
+      firstMember_(table.labels.size() + 1, 0),
+      ends_(table.labels.size()),
+      kinds_(table.labels.size(), Kind::Unknown),
+      reached_(table.labels.size(), 0) {
     for (const volume::Label& label : labels_)
         for (const std::uint32_t group : label.groups) ++firstMember_[group + 1];
     for (std::size_t l = 0; l < labels_.size(); ++l) firstMember_[l + 1] += firstMember_[l];
     members_.resize(firstMember_.back());
     std::vector<std::uint32_t> next(firstMember_.begin(), firstMember_.end() - 1);
+    const auto count = static_cast<std::uint32_t>(labels_.size());
+    for (std::uint32_t l = 0; l < count; ++l) ends_[l] = std::clamp(labels_[l].subtreeEnd, l + 1, count);
     for (std::uint32_t l = 0; l < labels_.size(); ++l)
         for (const std::uint32_t group : labels_[l].groups) members_[next[group]++] = l;
 }
 
 bool Extents::hasParts(std::uint32_t label) const {
-    return labels_[label].subtreeEnd > label + 1 || firstMember_[label] < firstMember_[label + 1];
+    return ends_[label] > label + 1 || firstMember_[label] < firstMember_[label + 1];
+}
+
+// Found once per label, because classes are texts.
+Extents::Kind Extents::kindOf(std::uint32_t label) const {
+    Kind& kind = kinds_[label];
+    if (kind != Kind::Unknown) return kind;
+    const std::string& name = labels_[label].className;
+    const ClassRank rank = model::classRank(name);
+    const bool isSpace = rank == ClassRank::Room || rank == ClassRank::Unit || rank == ClassRank::Other;
+    return kind = model::isBoundarySurface(name) ? Kind::Surface : isSpace ? Kind::Space : Kind::Material;
 }
 
 Extents::Reach Extents::reachOf(std::uint32_t root) const {
-    return isSpaceOrGroup(labels_[root]) ? Reach::Space : Reach::All;
+    return kindOf(root) == Kind::Space ? Reach::Space : Reach::All;
 }
 
 Extents::Reach Extents::reachOf(Reach above, std::uint32_t part) const {
     if (above == Reach::All) return Reach::All;
-    const volume::Label& label = labels_[part];
-    if (above == Reach::Sheets || model::isBoundarySurface(label.className))
-        return label.filling == Filling::Surface || label.filling == Filling::None ? Reach::Sheets : Reach::None;
-    return reachOf(part);
+    if (above != Reach::Sheets && kindOf(part) != Kind::Surface) return reachOf(part);
+    const Filling filling = labels_[part].filling;
+    return filling == Filling::Surface || filling == Filling::None ? Reach::Sheets : Reach::None;
 }
 
 // Calls use(label) once for each label of the extent, until it returns false. \return whether it never did
@@ -68,7 +77,7 @@ bool Extents::visit(std::uint32_t root, const Visit& use) const {
     while (!open.empty()) {
         const auto [label, reach] = open.back();
         open.pop_back();
-        for (std::uint32_t child = label + 1; child < labels_[label].subtreeEnd; child = labels_[child].subtreeEnd)
+        for (std::uint32_t child = label + 1; child < ends_[label]; child = ends_[child])
             if (!enter(child, reachOf(reach, child))) return false;
         for (std::uint32_t m = firstMember_[label]; m < firstMember_[label + 1]; ++m)
             if (!enter(members_[m], reachOf(reach, members_[m]))) return false;
@@ -84,6 +93,15 @@ std::vector<std::uint32_t> Extents::of(std::uint32_t label) const {
     });
     std::sort(found.begin(), found.end());
     return found;
+}
+
+Measure Extents::total(std::uint32_t label, std::span<const Measure> own) const {
+    Measure total;
+    (void)visit(label, [&](std::uint32_t part) {
+        total.add(own[part]);
+        return true;
+    });
+    return total;
 }
 
 std::vector<std::uint32_t> Extents::of(std::span<const std::uint32_t> labels) const {
@@ -184,12 +202,13 @@ std::vector<FeatureMeasure> measureFeatures(const Extents& extents, std::span<co
         FeatureMeasure& measure = measures.emplace_back();
         measure.label = label;
         measure.own = own[label];
+        measure.total = extents.total(label, own);
+        if (contacts.empty()) continue;
         const std::vector<std::uint32_t> extent = extents.of(label);
         if (extent.size() == 1) {
             measure.total = measure.own;
             continue;
         }
-        for (const std::uint32_t part : extent) measure.total.add(own[part]);
         for (const Neighbor& neighbor : neighbors.of(extent)) {
             measure.total.area += neighbor.area;
             if (neighbor.label == kNoLabel) measure.total.outsideArea += neighbor.area;

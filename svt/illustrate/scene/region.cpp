@@ -337,7 +337,7 @@ private:
 
     // Labels of each feature that a query selects, and the margin in metres after the last semicolon.
     Result<std::pair<std::vector<std::vector<std::uint32_t>>, double>> selectionOf(std::string_view name,
-                                                                      const std::string& text) const {
+                                                                                   const std::string& text) const {
         const std::size_t semicolon = text.rfind(';');
         double margin = 0;
         if (semicolon != std::string::npos) {

@@ -75,8 +75,7 @@ private:
             "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
             "xmlns:svt=\"urn:svt:drawing\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n",
             width, height);
-        svg_ +=
-            fmt::format("<title>{}, {}</title>\n", xmlAttribute(shownName(volume_)), planeText(drawing_, volume_));
+        svg_ += fmt::format("<title>{}, {}</title>\n", xmlAttribute(shownName(volume_)), planeText(drawing_, volume_));
         addMetadata();
         svg_ +=
             "<style>\n"

@@ -191,11 +191,12 @@ private:
         const double right = placed.place.corner.x - 1, width = levelNameWidth(content_.levels), left = right - width;
         double last = kInfinity;  // y of the name below
         for (const drawing::BuildingLevel& level : content_.levels) {
+            if (level.name.empty()) continue;
             const double v = axes.planeFromWorld(volume_.grid.origin() + up * level.floor).v;
             const double y = placed.place.onPaper({0, v}).y;
             if (y > placed.place.corner.y || y < placed.place.corner.y - placed.height) continue;
             line({left, y}, {right, y}, kFine);
-            if (level.name.empty() || last - y < kApart) continue;
+            if (last - y < kApart) continue;
             canvas_.text({{left, y - 0.8}, LevelNames::kText, shortened(level.name, LevelNames::kText, width)});
             last = y;
         }
@@ -327,7 +328,7 @@ private:
 
     // An arrow to true north. Grid north, if the map has another one, is a thin line with its angle as text.
     void addNorth(const Sheet& sheet, PaperPoint at) {
-        constexpr double kRadius = 7, kSameNorth = 0.05, kApart = 8;  // millimetres, degrees
+        constexpr double kRadius = 7, kSameNorth = 0.05, kApart = 20;  // millimetres, degrees
         const drawing::North north = drawing::northOf(volume_);
         const auto along = onPlans(sheet, north.direction());
         if (!along) return;

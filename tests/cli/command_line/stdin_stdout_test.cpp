@@ -119,6 +119,7 @@ TEST_F(Dash, IsStdoutForEveryCommandWithOneOutput) {
         };
         const std::string format = written.format.empty() ? "" : " --format " + written.format;
         const bool isOfSample = written.arguments.starts_with("sample");
+        fs::remove(folder / ("o" + written.ending));
         const LineResult toFile = runLine(folder.path(), with("o" + written.ending) + (isOfSample ? format : ""));
         const LineResult toStdout = runLine(folder.path(), with("-") + format);
         EXPECT_TRUE(toFile.exitCode == 0 || toFile.exitCode == kInvalid) << toFile.toString();

@@ -3,8 +3,8 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, rmSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, describe, it } from "node:test";
-import { browserPath, endBrowser, repository } from "../../../web/viewer/e2e/harness.mjs";
+import { before, describe, it } from "node:test";
+import { browserPath, repository } from "../../../web/viewer/e2e/harness.mjs";
 import { at, htmlOf, makeHouse, put, putShared, serve, Visitor } from "./site.mjs";
 
 const bin = (name) => join(repository, "web/viewer/node_modules/.bin", name);
@@ -22,10 +22,6 @@ const visitor = new Visitor();
 before(() => {
   makeHouse();
   putShared();
-});
-after(async () => {
-  await visitor.leave();
-  await endBrowser();
 });
 
 /** The element and the library work in a page of a folder. */
@@ -96,7 +92,7 @@ describe("other programs", () => {
 
   it("get types, by both ways to resolve modules", () => {
     put(
-      "types.ts",
+      "types.mts",
       `import { SvtViewer, type PickDetail } from "@semantic-volume-texture/viewer";
 import { open, type Scene, type Volume } from "@semantic-volume-texture/svt";
 import { run } from "@semantic-volume-texture/svt/command";
@@ -123,7 +119,7 @@ console.log(wrong);
     for (const module of ["NodeNext", "ESNext"]) {
       const moduleResolution = module === "ESNext" ? "Bundler" : module;
       const compilerOptions = { noEmit: true, strict: true, target: "ES2022", lib: ["ES2022", "DOM"], types: [], module, moduleResolution };
-      put("tsconfig.json", JSON.stringify({ compilerOptions, files: ["types.ts"] }));
+      put("tsconfig.json", JSON.stringify({ compilerOptions, files: ["types.mts"] }));
       run(bin("tsc"));
     }
   });

@@ -1,8 +1,8 @@
 // The web component in a plain page, from the packed files: its pictures against those of the command.
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
-import { after, before, describe, it } from "node:test";
-import { endBrowser, svt } from "../../../web/viewer/e2e/harness.mjs";
+import { before, describe, it } from "node:test";
+import { svt } from "../../../web/viewer/e2e/harness.mjs";
 import { readPng } from "../../../web/viewer/e2e/png.mjs";
 import { at, eventually, makeHouse, putShared, serve, Visitor } from "./site.mjs";
 
@@ -12,11 +12,6 @@ before(async () => {
   makeHouse();
   putShared();
   site = await serve();
-});
-after(async () => {
-  await visitor.leave();
-  await site?.close();
-  await endBrowser();
 });
 
 const kCamera = ["--eye", "-9,-8,11", "--target", "6,5,2.5"];

@@ -2,9 +2,9 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { cpus } from "node:os";
-import { after, before, describe, it } from "node:test";
+import { before, describe, it } from "node:test";
 import { gzipSync } from "node:zlib";
-import { endBrowser, repository, svt } from "../../../web/viewer/e2e/harness.mjs";
+import { repository, svt } from "../../../web/viewer/e2e/harness.mjs";
 import { at, eventually, kElement, makeHouse, putShared, serve, Visitor } from "./site.mjs";
 
 const visitor = new Visitor();
@@ -18,11 +18,6 @@ before(async () => {
   makeHouse();
   putShared();
   site = await serve();
-});
-after(async () => {
-  await visitor.leave();
-  await site?.close();
-  await endBrowser();
 });
 
 /** Files of the package that were asked for. */

@@ -9,11 +9,14 @@ svt("build", at("house.gml"), "-o", at("fine.svt"), "--spacing", "0.05", "--quie
 putShared();
 put(
   "page.css",
-  "body { margin: 0; padding: 18px 22px; font: 16px system-ui, sans-serif } main { display: grid; grid-template-columns: 1fr 1fr; gap: 6px 18px } svt-viewer { height: 330px; aspect-ratio: auto; border: 1px solid #ccd; border-radius: 10px } code { font-size: 13px }",
+  "body { margin: 0; padding: 12px 18px; font: 16px system-ui, sans-serif } main { display: grid; grid-template-columns: 1fr 1fr; gap: 6px 18px } svt-viewer { height: 340px; aspect-ratio: auto; border: 1px solid #ccd; border-radius: 10px } code { display: block; height: 34px; font-size: 12px }",
 );
 const site = await serve();
 const visitor = new Visitor();
-const elements = ['section="y<5" hide="class=BuildingRoom"', 'show="class=BuildingRoom" color-by="volume" section="z>4.5"'];
+const elements = [
+  'section="y<5" hide="class=BuildingRoom"',
+  'camera="top" ortho section="z>1.6" names="class=BuildingRoom" controls="camera"',
+];
 await visitor.show(
   site,
   elements

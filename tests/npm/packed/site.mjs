@@ -3,7 +3,8 @@
 import { createReadStream, existsSync, mkdirSync, statSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { dirname, extname, join, normalize } from "node:path";
-import { newContext, svt } from "../../../web/viewer/e2e/harness.mjs";
+import { after } from "node:test";
+import { endBrowser, newContext, svt } from "../../../web/viewer/e2e/harness.mjs";
 
 export const folder = process.env.SVT_NPM_FOLDER ?? "";
 export const at = (name) => join(folder, name);
@@ -20,6 +21,14 @@ const kTypes = {
   ".json": "application/json",
   ".png": "image/png",
 };
+
+const servers = new Set();
+// A failed test must not leave anything that keeps its process alive.
+after(async () => {
+  await endBrowser();
+  for (const server of servers) server.closeAllConnections();
+  for (const server of servers) server.close();
+});
 
 /** Writes a file of the site. */
 export function put(name, text) {
@@ -55,6 +64,7 @@ export async function serve({ root = folder, headers = {} } = {}) {
     createReadStream(file, part).pipe(response);
   });
   await new Promise((done) => server.listen(0, "127.0.0.1", () => done(null)));
+  servers.add(server);
   const { port } = /** @type {import("node:net").AddressInfo} */ (server.address());
   return { url: `http://127.0.0.1:${port}/`, requests, close: () => (server.closeAllConnections(), new Promise((r) => server.close(r))) };
 }

@@ -37,8 +37,7 @@ const command = await createSvtCommand({
     // Not process.stderr.isTTY: reading it makes a pipe non-blocking, and with 2>&1 stdout too.
     isErrorTerminal: tty.isatty(2),
     isOutputTerminal: tty.isatty(1),
-    hasDesktop:
-      isWindows || process.platform === "darwin" || Boolean(process.env.DISPLAY || process.env.WAYLAND_DISPLAY),
+    hasDesktop: isWindows || process.platform === "darwin" || Boolean(process.env.DISPLAY || process.env.WAYLAND_DISPLAY),
     // The command searches the page next to the program: ../share/svt/viewer.
     program: commandPath(path.resolve(fileURLToPath(import.meta.url)), isWindows),
     environment: commandEnvironment(process.env, os.tmpdir(), isWindows),

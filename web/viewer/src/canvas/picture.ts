@@ -24,7 +24,7 @@ export type PickEvent = CustomEvent<{ pick: Pick | null; x: number; y: number }>
 
 /**
  * page: takes all mouse, touch and key input.
- * part: a part of another page, whose scrolling it leaves alone until it has the focus.
+ * part: a part of another page. It does not scroll that page until it has the focus.
  * still: no input, and nothing over the picture.
  */
 export type Inputs = "page" | "part" | "still";

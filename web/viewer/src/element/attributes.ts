@@ -19,7 +19,7 @@ export type GivenView = Omit<ViewState, "camera" | "names" | "selection" | "meas
 
 export interface Given {
   view: GivenView;
-  /** Of `eye` and `target`; null: the view of `camera` is fitted as `framing` states. */
+  /** The camera by `eye` and `target`; null: the view of `camera` is fitted as `framing` states. */
   camera: Camera | null;
   framing: Framing;
   /** One sentence for each attribute that cannot be used. */

@@ -21,7 +21,7 @@ function moduleFile(name: string): URL {
 /** Opens a volume, a model, or several models as one. Each call has a module of its own, with its memory. */
 export async function open(source: Source | readonly Source[], settings: OpenSettings = {}): Promise<Volume> {
   const files = await Promise.all(sourcesOf(source).map(read));
-  const { onProgress, assets: _, ...options } = settings;
+  const { onProgress, ...options } = { ...settings, assets: undefined };
   const { module, font } = await loadModule(onProgress);
   let svt: SvtModule | null = module;
   const answered = <Answer>(call: (svt: SvtModule) => Answer): Answer => {

@@ -1,7 +1,7 @@
 // Levels and north in plans, sections, areas and pictures: statements of the file, checked against its rooms and slabs.
-#include "run_command.hpp"
-#include "small_ifc.hpp"
-#include "small_model.hpp"
+#include <tests/cli/drawings/small_ifc.hpp>
+#include <tests/cli/run_command.hpp>
+#include <tests/cli/small_model.hpp>
 
 #include <fmt/format.h>
 

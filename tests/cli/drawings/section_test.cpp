@@ -1,6 +1,6 @@
 // `svt section`: drawings that other programs can open, their areas, and clear errors.
-#include "run_command.hpp"
-#include "small_model.hpp"
+#include <tests/cli/run_command.hpp>
+#include <tests/cli/small_model.hpp>
 
 #include <cmath>
 #include <map>

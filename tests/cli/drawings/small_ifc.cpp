@@ -1,4 +1,4 @@
-#include "small_ifc.hpp"
+#include <tests/cli/drawings/small_ifc.hpp>
 
 #include <fmt/format.h>
 

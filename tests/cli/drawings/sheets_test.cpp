@@ -1,6 +1,6 @@
 // `svt sheets`: PDF that other programs read, true to scale, and what it says where that is not possible.
-#include "run_command.hpp"
-#include "small_model.hpp"
+#include <tests/cli/run_command.hpp>
+#include <tests/cli/small_model.hpp>
 
 #include <algorithm>
 #include <regex>
