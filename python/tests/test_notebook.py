@@ -6,6 +6,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import typing
 import unittest
 
 import numpy as np

@@ -59,8 +59,8 @@ struct OwnerTable {
 /// feature have a row each, with their shares. The same owner may have any number of features.
 /// \param file  name for messages
 /// \return the table, or an error with its line:
-///         - BadValue         not two or three columns, an empty field, an open quote, a bad share, no rows.
-///                            Or several owners of a feature without shares, or with more than 1 in all.
+///         - BadValue         not two or three columns, an empty field, an open quote, a bad share, or no rows.
+///                            Several owners of a feature without shares, or with more than 1 in all.
 ///         - NothingSelected  neither an id nor a query that selects something (names the nearest).
 ///         - InputTooBig      over 64 MiB, or rows that look at more than 2^30 features in all.
 /// Cost: O(bytes + labels of all extents) for ids; a query O(labels).

@@ -88,9 +88,9 @@ Table emptyTable(std::span<const char* const> names, const volume::SemanticVolum
     return table;
 }
 
-/// One row per label in table order. Columns are number, id, class, name, parent's id, scalars; of its own voxels and
-/// of its extent (total) voxels, volume (m3), surface and the part of it that touches background (m2); box of its
-/// extent along world axes (m); colour, opacity, filling. Unknown volumes and areas are empty. Then follows each attribute of any label, named `attribute:NAME`, with its unit in brackets if all labels have the
+/// One row per label in table order. The first columns are number, id, class, name, parent's id and scalars. Own and
+/// total figures follow: voxels, volume (m3), surface and its part towards background (m2). The last columns are the box
+/// of the extent along world axes (m), colour, opacity and filling. Unknown volumes and areas are empty. Then follows each attribute of any label, named `attribute:NAME`, with its unit in brackets if all labels have the
 /// same unit.
 /// Cost: that of analyze::findContacts().
 Table makeObjectTable(const volume::SemanticVolume& volume, int threads) {

@@ -75,7 +75,10 @@ describe("a page with one element", () => {
 });
 
 describe("attributes", () => {
-  /** Attributes, and the same as words of the command. */
+  /**
+   * Attributes, and the same as words of the command.
+   * @type {[Record<string, string>, string[]][]}
+   */
   const kSame = [
     [{ section: "z=1.6 or 1,1,0,-12" }, ["--section", "z=1.6", "--section", "1,1,0,-12"]],
     [{ section: "storey=Upper floor+1.2" }, ["--section", "storey=Upper floor+1.2"]],
@@ -120,7 +123,7 @@ describe("attributes", () => {
 
   it("hold from the first picture on", async () => {
     const [[sections], [, , , , styles]] = [kSame, kSame];
-    const text = ([attributes]) =>
+    const text = (/** @type {[Record<string, string>, string[]]} */ [attributes]) =>
       Object.entries(attributes)
         .map(([name, value]) => `${name}="${quoted(value)}"`)
         .join(" ");

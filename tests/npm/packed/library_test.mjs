@@ -73,7 +73,7 @@ describe("the library in Node.js", () => {
         (caught) => caught,
       );
       assert.ok(error instanceof SvtError && error instanceof Error, String(error));
-      assert.equal(error.code, code);
+      assert.equal(/** @type {any} */ (error).code, code);
       assert.ok(error.message.length > 10);
     };
     await fails(open(at("none.svt")), "E101");
@@ -122,7 +122,7 @@ describe("the library in a browser", { skip: existsSync(browserPath) ? false : "
         const { open } = await import(script);
         const text = (bytes) => btoa(Array.from(new Uint8Array(bytes), (c) => String.fromCharCode(c)).join(""));
         const volume = await open("house.svt");
-        const code = await volume.select("class=").catch((error) => error instanceof Error && error.code);
+        const code = await volume.select("class=").catch((error) => error instanceof Error && /** @type {any} */ (error).code);
         const made = {
           picture: text(await volume.picture(scene)),
           drawing: text(await volume.drawing("z=1.2", "svg")),

@@ -93,7 +93,7 @@ export interface FeatureProperties {
   /** Volume and surface of the feature with its parts: a flat with its rooms. */
   totalVolume: number | null;
   totalSurface: number;
-  /** Of the feature with its parts, as are its neighbours. */
+  /** The box of the feature with its parts; the neighbours are those of both. */
   box: { low: Point; high: Point };
   neighbours: { id: string; class: string; name: string; area: number }[];
 }

@@ -1,4 +1,4 @@
-/** What programs see of `<svt-viewer>`: the details of its events, and the arguments of its methods. */
+/** Public types of `<svt-viewer>`: the details of its events, and the arguments of its methods. */
 
 import type { EngineError, Pick, VolumeInfo } from "../engine";
 import type { Camera } from "../state/view_state";

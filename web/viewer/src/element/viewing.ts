@@ -69,7 +69,7 @@ export class Viewing {
   get info() {
     return this.isLoaded ? this.session.volume.info : null;
   }
-  /** Of a loaded model. */
+  /** The engine of the loaded model. */
   get engine(): Engine {
     return this.session.volume.engine!;
   }

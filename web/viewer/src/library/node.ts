@@ -21,8 +21,10 @@ function moduleFile(name: string): URL {
 /** Opens a volume, a model, or several models as one. Each call has a module of its own, with its memory. */
 export async function open(source: Source | readonly Source[], settings: OpenSettings = {}): Promise<Volume> {
   const files = await Promise.all(sourcesOf(source).map(read));
-  const { onProgress, ...options } = { ...settings, assets: undefined };
-  const { module, font } = await loadModule(onProgress);
+  const options = { ...settings };
+  delete options.onProgress;
+  delete options.assets;
+  const { module, font } = await loadModule(settings.onProgress);
   let svt: SvtModule | null = module;
   const answered = <Answer>(call: (svt: SvtModule) => Answer): Answer => {
     if (!svt) throw new SvtError("E904", "the volume is closed");

@@ -1,4 +1,4 @@
-/** What programs see of the library. */
+/** Public types of the library. */
 
 export type { OpenSettings, Source, Volume } from "./volume";
 export type {

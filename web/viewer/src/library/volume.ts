@@ -3,7 +3,7 @@
 import type { FileBytes, LibraryCalls, OpenOptions, VolumeInfo } from "../engine";
 import { errorOf, SvtError } from "../engine/errors";
 
-/** A file: its address or, in Node.js, its path; a file of the visitor; or bytes, whose name tells the format of a model. */
+/** A file: its address or, in Node.js, its path; a file of the visitor; or bytes with a name. The name shows the format of a model. */
 export type Source = string | URL | File | { name: string; bytes: ArrayBuffer | Uint8Array };
 
 export interface OpenSettings extends OpenOptions {
