@@ -35,8 +35,8 @@ protected:
 TEST_F(TwoBoxes, BuildJsonHasItsKeysAndTheRightFigures) {
     const json built = build();
     EXPECT_EQ(keysOf(built),
-              (Keys{"bytes", "chosenSpacing", "closingMethods", "dimension", "objects", "open", "overlaps", "seconds",
-                    "spacing", "tJunctions", "triangles", "uncertainVoxels", "warnings"}));
+              (Keys{"bytes", "chosenSpacing", "closingMethods", "closures", "dimension", "objects", "open", "overlaps",
+                    "seconds", "spacing", "tJunctions", "triangles", "uncertainVoxels", "warnings"}));
     EXPECT_EQ(keysOf(built["seconds"]), (Keys{"mesh", "pack", "read", "total", "voxelize", "write"}));
     EXPECT_EQ(keysOf(built["bytes"]), (Keys{"file", "memory"}));
     EXPECT_EQ(built["objects"], 2);
@@ -44,6 +44,7 @@ TEST_F(TwoBoxes, BuildJsonHasItsKeysAndTheRightFigures) {
     EXPECT_EQ(built["open"], 0);
     EXPECT_EQ(built["closingMethods"]["closed"], 2);
     EXPECT_EQ(built["closingMethods"]["open"], 0);
+    EXPECT_EQ(built["closures"], built["closingMethods"]);
     EXPECT_EQ(built["uncertainVoxels"], 0);
     EXPECT_EQ(built["tJunctions"], 0);
     EXPECT_EQ(built["warnings"], 0);
@@ -123,8 +124,8 @@ TEST_F(TwoBoxes, QueryJsonIsRowsOfInfo) {
 
 TEST_F(TwoBoxes, CheckJsonHasItsKeysAndFindsNothing) {
     const json check = runSvtForJson(folder.path(), {"check", "two.gml", "--json"});
-    EXPECT_EQ(keysOf(check), (Keys{"counts", "diagnostics", "features", "findings", "leaking", "objects", "polygons",
-                                   "primitives", "solids", "tJunctions", "valid"}));
+    EXPECT_EQ(keysOf(check), (Keys{"counts", "diagnostics", "features", "findings", "leaking", "legalUnits", "objects",
+                                   "polygons", "primitives", "solids", "tJunctions", "valid"}));
     EXPECT_EQ(check["solids"], 2);
     EXPECT_EQ(check["leaking"], 0);
     EXPECT_EQ(check["tJunctions"], 0);
@@ -134,6 +135,7 @@ TEST_F(TwoBoxes, CheckJsonHasItsKeysAndFindsNothing) {
                             "complementedFaces", "caps", "assembled", "volume", "area"})
         EXPECT_TRUE(left.contains(key)) << key;
     EXPECT_EQ(left["closingMethod"], "closed");
+    EXPECT_EQ(left["closure"], "closed");
     EXPECT_NEAR(left["volume"].get<double>(), 72, 1e-6);
     EXPECT_NEAR(left["area"].get<double>(), 2 * (4 * 6 + 4 * 3 + 6 * 3), 1e-6);
     EXPECT_EQ(left["lod"], 2.0);

@@ -116,7 +116,7 @@ export class Visitor {
   problems = [];
 
   /** Opens a page with this body. */
-  show = async (site, body, { head = "", query = "", ...options } = {}) => {
+  show = async (site, body, /** @type {any} */ { head = "", query = "", ...options } = {}) => {
     put("page.html", htmlOf(body, head));
     return this.visit(`${site.url}page.html${query}`, options);
   };
