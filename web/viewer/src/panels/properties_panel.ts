@@ -30,6 +30,7 @@ export class PropertiesPanel extends Part {
       .head { display: flex; align-items: start; gap: 8px; justify-content: space-between; }
       .id { font-family: var(--mono); font-size: 11px; color: var(--quiet); overflow-wrap: anywhere; }
       .findings li { padding: 4px 0; font-size: 12px; }
+      @media (max-width: 759px), (pointer: coarse) { li button { min-height: 44px; } }
     `,
   ];
 
