@@ -25,6 +25,18 @@ Height heightAtSamples(double slopeX, double slopeY, double offset) {
     return {toFixed(offset + (slopeX + slopeY) / double(kQuanta)), toFixed(slopeX), toFixed(slopeY)};
 }
 
+// By y, then by x.
+void sortCorners(ScanTriangle& t) {
+    const auto order = [&](int p, int q) {
+        if (std::pair(t.y[p], t.x[p]) <= std::pair(t.y[q], t.x[q])) return;
+        std::swap(t.x[p], t.x[q]);
+        std::swap(t.y[p], t.y[q]);
+    };
+    order(0, 1);
+    order(1, 2);
+    order(0, 1);
+}
+
 }  // namespace
 
 bool isScanPlane(const mesh::Plane& plane) noexcept {
@@ -91,12 +103,11 @@ bool setUpScan(const QuantaPoint& a, const QuantaPoint& b, const QuantaPoint& c,
     out.lowest = face.lowest;
     out.highest = face.highest;
 
-    int order[3] = {0, 1, 2};
-    std::sort(order, order + 3, [&](int p, int q) { return y(p) != y(q) ? y(p) < y(q) : x(p) < x(q); });
     for (int i = 0; i < 3; ++i) {
-        out.x[i] = x(order[i]);
-        out.y[i] = y(order[i]);
+        out.x[i] = x(i);
+        out.y[i] = y(i);
     }
+    sortCorners(out);
     const std::int64_t side = (std::int64_t(out.x[1]) - out.x[0]) * (std::int64_t(out.y[2]) - out.y[0]) -
                               (std::int64_t(out.y[1]) - out.y[0]) * (std::int64_t(out.x[2]) - out.x[0]);
     out.isMiddleRight = side > 0;
