@@ -23,7 +23,8 @@ foreach(none TBB::tbb Threads::Threads EGL::EGL GLESv2::GLESv2 PROJ::proj)
 endforeach()
 add_library(web_fmt INTERFACE)
 add_library(web_nlohmann_json INTERFACE)
-target_compile_definitions(web_fmt INTERFACE FMT_HEADER_ONLY)
+# Without a thousands separator of the locale, which no code uses and for which the whole of std::locale would be linked.
+target_compile_definitions(web_fmt INTERFACE FMT_HEADER_ONLY FMT_STATIC_THOUSANDS_SEPARATOR=44)
 add_library(fmt::fmt ALIAS web_fmt)
 add_library(nlohmann_json::nlohmann_json ALIAS web_nlohmann_json)
 
@@ -69,6 +70,11 @@ file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/freetype/ftoption.h CONTENT
 #undef TT_CONFIG_OPTION_EMBEDDED_BITMAPS
 #undef TT_CONFIG_OPTION_BDF
 #undef TT_CONFIG_OPTION_GX_VAR_SUPPORT
+#undef TT_CONFIG_OPTION_BYTECODE_INTERPRETER
+#undef TT_CONFIG_OPTION_SUBPIXEL_HINTING
+#undef TT_USE_BYTECODE_INTERPRETER
+#undef TT_SUPPORT_SUBPIXEL_HINTING_INFINALITY
+#undef TT_SUPPORT_SUBPIXEL_HINTING_MINIMAL
 ")
 target_compile_definitions(web_Freetype PRIVATE FT2_BUILD_LIBRARY
   FT_CONFIG_MODULES_H=<${CMAKE_CURRENT_BINARY_DIR}/freetype/ftmodule.h>
