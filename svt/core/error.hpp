@@ -37,6 +37,10 @@ enum class Code : std::uint16_t {
     FarFeature = 122,         ///< a feature far away from all others; left out
     NoHeights = 123,          ///< coordinates of two numbers: heights are missing
     DualityBroken = 124,      ///< contradictory links between cell spaces, states and transitions
+    AxisOrder = 125,          ///< the order of the axes: the order taken, or a doubt about it
+    MapScale = 126,           ///< a projection that shows lengths far from their true size
+    UnitInDoubt = 127,        ///< coordinates that do not look like metres, in a file without a unit
+    FeatureEnded = 128,       ///< a feature that does not exist at the date that is read; left out
     BadStep = 130,            ///< not a STEP file (ISO 10303-21), or one without records
     BadRecord = 131,          ///< a record of a STEP file that cannot be read; left out
     ReadInPart = 132,         ///< a product without a part of its shape or an opening that was not read
@@ -132,6 +136,8 @@ enum class Code : std::uint16_t {
     InputChanged = 608,    ///< an input file that changed after planning
     TaskFailed = 609,      ///< a task of a city that failed
     Replica = 610,         ///< a feature with the same id and content as an earlier one
+    IdConflict = 611,      ///< a feature with the id of a feature of an earlier file, but other content
+    ManySkipped = 612,     ///< a plan that would leave out more features than allowed
     // 9xx: program
     BadQuery = 901,         ///< a query that cannot be parsed
     NothingSelected = 902,  ///< a query that selects nothing

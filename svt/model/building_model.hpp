@@ -92,11 +92,13 @@ struct Polyline {
     friend bool operator==(const Polyline&, const Polyline&) = default;
 };
 
-/// Colour of a surface (X3DMaterial, CityJSON material).
+/// Colour of a surface (X3DMaterial, CityJSON material, IfcSurfaceStyle).
 struct Material {
     std::string name;
+    std::string part{};               ///< part of an object that it is for (IfcShapeAspect: "Framing"), or empty
     Vec3f diffuse{0.8f, 0.8f, 0.8f};  ///< sRGB, 0..1
     float transparency = 0;           ///< 0 opaque .. 1 invisible
+    bool hasColor = true;             ///< false: the file names the part only; diffuse and transparency are unknown
 };
 
 /// Coordinate reference system of the model: that of the file, or the projection in metres to which its degrees or feet

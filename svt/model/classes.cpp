@@ -36,6 +36,7 @@ constexpr std::array<std::pair<string_view, string_view>, 14> kAliases{{
     {"+Door", "Door"},
 }};
 
+constexpr string_view kPhase = "Phase";
 constexpr std::array<string_view, 4> kFillings{"Door", "Window", "DoorSurface", "WindowSurface"};
 constexpr std::array<string_view, 4> kRooms{"BuildingRoom", "BridgeRoom", "HollowSpace", "TunnelRoom"};
 constexpr std::array<string_view, 8> kBuildings{
@@ -107,6 +108,7 @@ std::string canonicalClassName(string_view sourceName) {
 }
 
 ClassRank classRank(string_view className) noexcept {
+    if (isPhase(className)) return classRank(className.substr(0, className.size() - kPhase.size()));
     if (endsWith(className, "Furniture") || className == "SolitaryVegetationObject" || className == "PlantCover")
         return ClassRank::Furniture;
     if (isFilling(className)) return ClassRank::Filling;
@@ -129,6 +131,10 @@ Orientation orientationOf(string_view surfaceClass, bool boundsSpace) noexcept {
     return Orientation::Any;
 }
 
+std::string phaseClassOf(string_view className) { return std::string(className).append(kPhase); }
+
+bool isPhase(string_view className) noexcept { return className.size() > kPhase.size() && endsWith(className, kPhase); }
+
 bool isFilling(string_view className) noexcept { return isIn(kFillings, className); }
 
 bool isSpace(string_view className) noexcept {
@@ -138,7 +144,7 @@ bool isSpace(string_view className) noexcept {
 Inside insideOf(string_view className) noexcept {
     if (isBoundarySurface(className) || className == "WindowSurface" || isIn(kSurfaceOnly, className))
         return Inside::Never;
-    return isIn(kBodyIfDeclared, className) ? Inside::Declared : Inside::Always;
+    return isPhase(className) || isIn(kBodyIfDeclared, className) ? Inside::Declared : Inside::Always;
 }
 
 bool hasSolidMeaning(string_view className) noexcept { return insideOf(className) != Inside::Never; }

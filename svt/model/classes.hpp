@@ -66,6 +66,11 @@ enum class Orientation : std::uint8_t {
 ///                     CeilingSurface up; in a shell of material they can be either face of a slab
 [[nodiscard]] Orientation orientationOf(std::string_view surfaceClass, bool boundsSpace) noexcept;
 
+/// The class of the phases of an object: "WindowPhase" for those of a Window, see phases.hpp. A phase has the priority of
+/// its object and, as a door, an inside only where its geometry is a solid.
+[[nodiscard]] std::string phaseClassOf(std::string_view className);
+[[nodiscard]] bool isPhase(std::string_view className) noexcept;
+
 /// True for Door, Window, DoorSurface, WindowSurface.
 [[nodiscard]] bool isFilling(std::string_view className) noexcept;
 

@@ -18,7 +18,8 @@
 /// A key or value with blanks, quotes, brackets ( ) or operators must be quoted as "..." or '...'; inside, \" and \'
 /// are literal quotes and any other backslash is kept. A quoted key is always an attribute: "class"=1000 tests the
 /// attribute `class`. Two values compare as numbers if both are numbers, else as text; `class`, `id` and `name` are
-/// always text, `volume` (m3) and `voxels` always numbers. Class names are compared after canonicalClassName():
+/// always text, `volume` (m3) and `voxels` always numbers. An attribute with several values, such as an array or a
+/// repeated property, matches if any of its values does; also with != and !~. Class names are compared after canonicalClassName():
 /// class=room selects BuildingRoom. The attribute `ifcType` of a row counts as a class, too: class=IfcWall. `class`,
 /// `id` and `storey` support only = != ~ !~. See regex.hpp for patterns.
 ///
@@ -34,6 +35,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -51,7 +53,7 @@ struct QueryRow {
     std::uint32_t parent = kNoRow;  ///< row index
     std::span<const Attribute> attributes;
     std::span<const std::uint32_t> groups;  ///< rows of the groups, storeys and units that it is a member of
-    double volume = 0;                      ///< m3
+    std::optional<double> volume{};         ///< m3; empty: unknown, which matches no comparison
     std::uint64_t voxels = 0;
 };
 

@@ -35,6 +35,10 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(FarFeature);
         SVT_CASE(NoHeights);
         SVT_CASE(DualityBroken);
+        SVT_CASE(AxisOrder);
+        SVT_CASE(MapScale);
+        SVT_CASE(UnitInDoubt);
+        SVT_CASE(FeatureEnded);
         SVT_CASE(BadStep);
         SVT_CASE(BadRecord);
         SVT_CASE(ReadInPart);
@@ -125,6 +129,8 @@ std::string_view codeName(Code code) noexcept {
         SVT_CASE(InputChanged);
         SVT_CASE(TaskFailed);
         SVT_CASE(Replica);
+        SVT_CASE(IdConflict);
+        SVT_CASE(ManySkipped);
         SVT_CASE(BadQuery);
         SVT_CASE(NothingSelected);
         SVT_CASE(Cancelled);

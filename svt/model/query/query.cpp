@@ -171,7 +171,8 @@ Mask selectCompare(const Node& node, Rows rows) {
         case Key::Name:
             return rowsWhere(rows, [&](const QueryRow& row) { return !row.name.empty() && textHolds(node, row.name); });
         case Key::Storey: return selectStorey(node, rows);
-        case Key::Volume: return rowsWhere(rows, [&](const QueryRow& row) { return numberHolds(node, row.volume); });
+        case Key::Volume:
+            return rowsWhere(rows, [&](const QueryRow& row) { return row.volume && numberHolds(node, *row.volume); });
         case Key::Voxels:
             return rowsWhere(rows,
                              [&](const QueryRow& row) { return numberHolds(node, static_cast<double>(row.voxels)); });
