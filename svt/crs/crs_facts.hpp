@@ -31,6 +31,20 @@ struct CrsFacts {
 /// box.
 [[nodiscard]] std::optional<Box3d> areaOf(int epsg) noexcept;
 
+/// Whether a place lies in the area of use of a code, with a margin of one degree; nothing if that is unknown. Degrees
+/// and UTM zones are known by the tables, other projections with north first by PROJ.
+/// \param place  x: east or longitude, y: north or latitude, in units of the code
+/// Cost: microseconds, with PROJ milliseconds.
+[[nodiscard]] std::optional<bool> isInAreaOfUse(int epsg, Vec3d place);
+
+/// The scale of a Mercator projection of the world, which shows lengths too large away from the equator.
+struct MapScale {
+    double factor = 1;  ///< length on the map per length on the ground; 1 for other projections
+    int localCode = 0;  ///< code of the usual projection of the place, with a factor close to 1
+};
+/// \param place  x: east, y: north, metres
+[[nodiscard]] MapScale mapScaleAt(int epsg, Vec3d place);
+
 /// Metres per unit of the heights of a vertical code: 1, or the length of a foot.
 [[nodiscard]] double metresPerHeight(int vertical) noexcept;
 

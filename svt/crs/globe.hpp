@@ -7,6 +7,7 @@
 #include <svt/core/vec.hpp>
 
 #include <array>
+#include <optional>
 
 namespace svt::crs {
 
@@ -18,6 +19,13 @@ namespace svt::crs {
 /// \return the place, or CannotProject: the code is unknown or in degrees, `place` is outside the range of the
 ///         projection, or the conversion needs PROJ in a build without it. Cost: microseconds, with PROJ milliseconds
 [[nodiscard]] Result<Vec3d> placeOnEarth(int epsg, Vec3d place);
+
+/// Height of the surface from which a vertical code measures, over the ellipsoid of WGS 84, by a grid of PROJ.
+/// \param epsg      code of a projection
+/// \param vertical  code of heights
+/// \param place     x: east, y: north, metres
+/// \return the height in metres; nothing if PROJ or the grid is not installed, or the codes are unknown
+[[nodiscard]] std::optional<double> geoidHeight(int epsg, int vertical, Vec3d place);
 
 /// Converts longitude and latitude in degrees and the height over the ellipsoid of WGS 84 in metres to metres from the
 /// earth's centre (EPSG:4978). The same bits on every machine.

@@ -6,6 +6,7 @@
 #include <svt/record/members.hpp>
 
 #include <cstdint>
+#include <string>
 
 namespace svt::readers {
 
@@ -19,9 +20,13 @@ struct ReadOptions {
     /// metres.
     int crs = 0;
     int likelyCrs = 0;  ///< preferred EPSG code if coordinates must be projected; 0: the usual one
-    /// Order of the axes. 0: determined by name and coordinates. +1: east first, -1: north first, regardless of both;
-    /// for parts of a file whose order was determined for the whole file.
+    /// Order of the axes. 0: by the name of the CRS and its area of use. +1: east first, -1: north first, regardless of
+    /// both; also for parts of a file whose order was determined for the whole file.
     int axisOrder = 0;
+    double unit = 0;  ///< GML, CityJSON: metres per unit of lengths; 0: that of the file, else metres
+    /// Date "YYYY-MM-DD" of the state that is read: features that exist then; "all": all features. Empty: all features
+    /// that have not ended today.
+    std::string date;
     bool keepFarFeatures = false;    ///< features far away from all others are not left out
     bool extrudeFootprints = false;  ///< footprints with a height as attribute become solids
     bool allowTruncated = false;     ///< read a file that was cut off up to the cut (IFC, CityJSONSeq)

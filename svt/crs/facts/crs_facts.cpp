@@ -49,14 +49,15 @@ CrsFacts factsOf(int epsg) noexcept {
     CrsFacts result;
     result.horizontal = epsg;
     for (const facts::Compound& compound : facts::kCompounds)
-        if (compound.epsg == epsg) {
-            result.horizontal = compound.horizontal;
+        if (compound.epsg <= epsg && epsg < compound.epsg + compound.count) {
+            result.horizontal = compound.horizontal + compound.step * (epsg - compound.epsg);
             result.vertical = compound.vertical;
         }
     result.isDegrees = isIn(facts::kGeographicCodes, epsg) || isIn(facts::kGeographicCodes, result.horizontal);
     result.isMetres =
         !result.isDegrees && !isIn(facts::kOtherUnits, result.horizontal) && !facts::findMetricTwin(result.horizontal);
-    if (result.isDegrees || isIn(facts::kNorthFirstCodes, epsg)) result.order = AxisOrder::NorthEast;
+    if (result.isDegrees || isIn(facts::kNorthFirstCodes, epsg) || isIn(facts::kNorthFirstCodes, result.horizontal))
+        result.order = AxisOrder::NorthEast;
     if (isIn(facts::kSouthWestCodes, epsg)) result.order = AxisOrder::SouthWest;
     return result;
 }

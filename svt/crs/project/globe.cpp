@@ -39,6 +39,11 @@ Result<Vec3d> placeOnEarth(int epsg, Vec3d place) {
     return found;
 }
 
+std::optional<double> geoidHeight(int epsg, int vertical, Vec3d place) {
+    if (epsg == 0 || vertical == 0) return std::nullopt;
+    return project::projGeoidHeight(factsOf(epsg).horizontal, vertical, place);
+}
+
 Vec3d earthCentred(Vec3d place) noexcept {
     const auto [semiMajorAxis, inverseFlattening] = project::kWgs84;
     const double f = 1 / inverseFlattening, e2 = f * (2 - f);

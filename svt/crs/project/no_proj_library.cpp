@@ -23,6 +23,8 @@ Error withoutProj(int code) {
 
 Result<Projection> projBetween(int source, int) { return withoutProj(source); }
 Result<PlaceInDegrees> placeInDegrees(int source, Vec3d) { return withoutProj(source); }
+std::optional<Box3d> projAreaOf(int) { return std::nullopt; }
+std::optional<double> projGeoidHeight(int, int, Vec3d) { return std::nullopt; }
 
 }  // namespace project
 }  // namespace svt::crs

@@ -40,6 +40,7 @@ struct Proj {
     decltype(&::proj_trans_generic) trans_generic = nullptr;
     decltype(&::proj_as_projjson) as_projjson = nullptr;
     decltype(&::proj_as_wkt) as_wkt = nullptr;
+    decltype(&::proj_get_area_of_use) get_area_of_use = nullptr;
     decltype(&::proj_info) info = nullptr;
 };
 
@@ -61,7 +62,8 @@ Result<Proj> loadProj() {
         find("proj_create_crs_to_crs_from_pj", proj.create_crs_to_crs_from_pj) &&
         find("proj_normalize_for_visualization", proj.normalize_for_visualization) && find("proj_trans", proj.trans) &&
         find("proj_trans_generic", proj.trans_generic) && find("proj_as_projjson", proj.as_projjson) &&
-        find("proj_as_wkt", proj.as_wkt) && find("proj_info", proj.info);
+        find("proj_as_wkt", proj.as_wkt) && find("proj_get_area_of_use", proj.get_area_of_use) &&
+        find("proj_info", proj.info);
     if (!isWhole) return Error(Code::CannotOpen, SVT_PROJ_LIBRARY " lacks functions of PROJ");
     return proj;
 }
@@ -215,6 +217,31 @@ Result<PlaceInDegrees> placeInDegrees(int source, Vec3d place) {
     if (!operation || code == nullptr) return notKnown(context, source, Code::CannotProject);
     const PJ_COORD there = proj().trans(operation.get(), PJ_FWD, PJ_COORD{{place.x, place.y, 0, 0}});
     return PlaceInDegrees{parseInteger<int>(code).value_or(0), {there.xy.x, there.xy.y, 0}};
+}
+
+std::optional<Box3d> projAreaOf(int epsg) {
+    if (!loadedProj()) return std::nullopt;
+    const Context context = makeContext();
+    const Object crs = makeCrs(context, epsg);
+    Box3d area;
+    const bool isKnown = crs && proj().get_area_of_use(context.get(), crs.get(), &area.min.x, &area.min.y, &area.max.x,
+                                                       &area.max.y, nullptr) != 0;
+    return isKnown && area.min.y > -1000 ? std::optional(area) : std::nullopt;
+}
+
+std::optional<double> projGeoidHeight(int epsg, int vertical, Vec3d place) {
+    if (!loadedProj()) return std::nullopt;
+    const Context context = makeContext();
+    const Object from = makeCrs(context, epsg, vertical), world = makeCrs(context, 4979);
+    if (!from || !world) return std::nullopt;
+    Object operation(proj().create_crs_to_crs_from_pj(context.get(), from.get(), world.get(), nullptr, nullptr));
+    if (operation) operation.reset(proj().normalize_for_visualization(context.get(), operation.get()));
+    if (!operation) return std::nullopt;
+    const PJ_COORD there = proj().trans(operation.get(), PJ_FWD, PJ_COORD{{place.x, place.y, 0, 0}});
+    // Without the grid, PROJ leaves heights as they are.
+    constexpr double kUnchanged = 1e-6;
+    if (!std::isfinite(there.xyz.z) || std::abs(there.xyz.z) < kUnchanged) return std::nullopt;
+    return there.xyz.z;
 }
 
 }  // namespace project

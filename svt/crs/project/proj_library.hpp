@@ -4,6 +4,8 @@
 
 #include <svt/crs/projection.hpp>
 
+#include <optional>
+
 namespace svt::crs::project {
 
 /// A conversion from one code to another, with axes in the order east, north.
@@ -17,5 +19,12 @@ struct PlaceInDegrees {
     Vec3d place;
 };
 [[nodiscard]] Result<PlaceInDegrees> placeInDegrees(int source, Vec3d place);
+
+/// The area of use of a code, x: longitude, y: latitude, degrees; min.x > max.x if it crosses the 180th meridian.
+/// \return nothing if it is unknown, or without PROJ
+[[nodiscard]] std::optional<Box3d> projAreaOf(int epsg);
+
+/// As geoidHeight().
+[[nodiscard]] std::optional<double> projGeoidHeight(int epsg, int vertical, Vec3d place);
 
 }  // namespace svt::crs::project

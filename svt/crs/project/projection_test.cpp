@@ -1,4 +1,6 @@
 #include <svt/crs/crs_facts.hpp>
+#include <svt/crs/crs_name.hpp>
+#include <svt/crs/globe.hpp>
 #include <svt/crs/project/elementary.hpp>
 #include <svt/crs/project/proj_library.hpp>
 #include <svt/crs/project/transverse_mercator.hpp>
@@ -233,6 +235,71 @@ TEST(Projection, TargetsThatAreNoMetresAreRefused) {
     for (const int target : {4326, 2263, 999999, 5703, 4978})
         EXPECT_EQ(Projection::between(25832, target, {}).error().code(), Code::BadArgument) << target;
     EXPECT_EQ(Projection::between(999999, 25832, {}).error().code(), Code::CannotProject);
+}
+
+TEST(CrsName, AllFormsHaveTheirCodes) {
+    const struct {
+        std::string_view name;
+        int horizontal, vertical;
+    } cases[] = {
+        {"EPSG:25832", 25832, 0},
+        {"epsg:25832+5783", 25832, 5783},
+        {"25832", 25832, 0},
+        {"urn:ogc:def:crs:EPSG::25832", 25832, 0},
+        {"urn:ogc:def:crs:EPSG:6.9:31467", 31467, 0},
+        {"urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::5783", 25832, 5783},
+        {"http://www.opengis.net/gml/srs/epsg.xml#25832", 25832, 0},
+        {"https://www.opengis.net/def/crs/EPSG/0/7415", 28992, 5709},
+        {"EPSG:7415", 28992, 5709},
+        {"EPSG:5555", 25832, 5783},
+        {"EPSG:6697", 6668, 6695},
+        {"EPSG:10170", 6677, 6695},
+        {"urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH", 25832, 7837},
+        {"urn:adv:crs:DE_DHDN_3GK4*DE_DHHN92_NH", 31468, 5783},
+        {"CH1903", 21781, 0},
+        {"CH1903+", 2056, 0},
+        {"CH1903+ / LV95 + LN02 height", 2056, 5728},
+        {"Amersfoort / RD New + NAP height", 28992, 5709},
+        {"ETRS89 / UTM zone 33N", 25833, 0},
+        {"WGS 84 / UTM zone 23S", 32723, 0},
+        {"EPSG:6677 (from EPSG:6668+6695)", 6677, 6695},
+        {"EPSG:25833 (from EPSG:25832)", 25833, 0},
+        {"ETRS89 / UTM zone 3N", 0, 0},
+        {"local", 0, 0},
+        {"", 0, 0},
+    };
+    for (const auto& each : cases) {
+        const CrsCodes codes = codesOf(each.name);
+        EXPECT_EQ(codes.horizontal, each.horizontal) << each.name;
+        EXPECT_EQ(codes.vertical, each.vertical) << each.name;
+        EXPECT_EQ(epsgCodeOf(each.name), static_cast<std::uint32_t>(each.horizontal)) << each.name;
+    }
+}
+
+TEST(CrsFacts, KnowTheAreaOfUse) {
+    EXPECT_EQ(isInAreaOfUse(25832, {691603, 5334780, 0}), true);
+    EXPECT_EQ(isInAreaOfUse(25832, {5334780, 691603, 0}), false);
+    EXPECT_EQ(isInAreaOfUse(4258, {11.5, 48.1, 0}), true);
+    EXPECT_EQ(isInAreaOfUse(4258, {48.1, 11.5, 0}), false);
+    EXPECT_EQ(isInAreaOfUse(4269, {-73.9, 40.7, 0}), true) << "over the 180th meridian";
+    EXPECT_EQ(isInAreaOfUse(4269, {40.7, -73.9, 0}), false);
+    EXPECT_EQ(isInAreaOfUse(28992, {121000, 487000, 0}), std::nullopt);
+    EXPECT_EQ(isInAreaOfUse(999999, {0, 0, 0}), std::nullopt);
+}
+
+TEST(CrsFacts, KnowTheScaleOfWorldMercator) {
+    const MapScale munich = mapScaleAt(3857, {1288577, 6130000, 0});
+    EXPECT_NEAR(munich.factor, 1 / std::cos(48.1 * 3.14159265358979 / 180), 0.01);
+    EXPECT_EQ(munich.localCode, 32632);
+    EXPECT_EQ(mapScaleAt(25832, {691603, 5334780, 0}).factor, 1);
+}
+
+TEST(Globe, TheGeoidComesFromAGridOfProj) {
+    EXPECT_EQ(geoidHeight(25832, 0, {691603, 5334780, 0}), std::nullopt);
+    EXPECT_EQ(geoidHeight(0, 5773, {}), std::nullopt);
+    const auto height = geoidHeight(32632, 5773, {691603, 5334780, 0});
+    if (!height) GTEST_SKIP() << "PROJ or its grid of EGM96 is not installed";
+    EXPECT_NEAR(*height, 46.5, 1.5);
 }
 
 TEST(CrsFacts, TellDegreesFeetAndParts) {

@@ -105,14 +105,20 @@ bool addTextAttribute(std::vector<Attribute>& attributes, string_view name, stri
     return addValue(attributes, std::string(name), text, uom, kind);
 }
 
+std::string genericName(xml::NameScope& scope, const xml::Element& element) {
+    std::string name(withoutBlanks(element.node.attribute("name").value()));
+    if (!name.empty()) return name;
+    std::string scratch;
+    scope.forEachChild(element.node, [&](const xml::Element& child) {
+        if (child.localName == "name") name = xml::textOf(child.node, scratch);
+    });
+    return name;
+}
+
 bool addGenericAttribute(std::vector<Attribute>& attributes, xml::NameScope& scope, const xml::Element& element,
                          string_view set) {
     std::string scratch;
-    std::string name(withoutBlanks(element.node.attribute("name").value()));
-    if (name.empty())
-        scope.forEachChild(element.node, [&](const xml::Element& child) {
-            if (child.localName == "name") name = xml::textOf(child.node, scratch);
-        });
+    const std::string name = genericName(scope, element);
     std::string path = set.empty() ? name : fmt::format("{}/{}", set, name);
 
     bool isGood = true;

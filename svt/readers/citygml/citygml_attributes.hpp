@@ -6,6 +6,7 @@
 #include <svt/readers/citygml/citygml_part.hpp>
 #include <svt/readers/xml/xml_names.hpp>
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +19,9 @@ namespace svt::readers::citygml {
 /// \return false if a number was expected but the text is not one; the attribute is then kept as text
 bool addTextAttribute(std::vector<Attribute>& attributes, std::string_view name, std::string_view text,
                       std::string_view uom);
+
+/// The name of a generic attribute or of a set of them.
+[[nodiscard]] std::string genericName(xml::NameScope& scope, const xml::Element& element);
 
 /// Adds a generic attribute of CityGML 1.0 and 2.0 (gen:intAttribute name="k") or 3.0 (gen:IntAttribute with gen:name).
 /// Members of a set are named "set/name".

@@ -179,14 +179,34 @@ FeatureIndex FeatureReader::readFeature(const Element& element, FeatureIndex par
 void FeatureReader::readProperty(FeatureIndex feature, const Element& property) {
     if (property.vocabulary == Vocabulary::Gml) return readGmlProperty(feature, property);
     if (hasNoVolume(property)) return;
-    if (isGenericAttribute(property)) {
-        if (!addGenericAttribute(part_.features[feature].attributes, scope_, property, {}))
-            reportValue(feature, property);
-        return;
-    }
+    if (isGenericAttribute(property)) return readGenericAttribute(feature, property);
     if (!xml::firstChildElement(property.node)) return readPlainProperty(feature, property);
 
+    const std::size_t first = part_.features[feature].attributes.size();
     scope_.forEachChild(property.node, [&](const Element& object) { readObject(feature, property, object); });
+    numberRecord(feature, property.localName, first);
+}
+
+void FeatureReader::readGenericAttribute(FeatureIndex feature, const Element& element) {
+    std::vector<Attribute>& attributes = part_.features[feature].attributes;
+    const std::size_t first = attributes.size();
+    if (!addGenericAttribute(attributes, scope_, element, {})) reportValue(feature, element);
+    if (element.localName.ends_with("Set")) numberRecord(feature, genericName(scope_, element), first);
+}
+
+// The attributes of `property` from `first` on are one record: each occurrence of a property is another one.
+void FeatureReader::numberRecord(FeatureIndex feature, string_view property, std::size_t first) {
+    std::vector<Attribute>& attributes = part_.features[feature].attributes;
+    const auto isMember = [&](string_view name) {
+        return name.starts_with(property) && (name.size() == property.size() || name[property.size()] == '/');
+    };
+    std::uint32_t* next = nullptr;
+    for (std::size_t n = first; n < attributes.size(); ++n) {
+        if (!isMember(attributes[n].name)) continue;
+        if (next == nullptr) next = &nextRecords_[{feature, std::string(property)}];
+        attributes[n].record = *next;
+    }
+    if (next != nullptr) ++*next;
 }
 
 void FeatureReader::readGmlProperty(FeatureIndex feature, const Element& property) {
@@ -238,7 +258,7 @@ void FeatureReader::readObject(FeatureIndex feature, const Element& property, co
     } else if (object.is(Vocabulary::Appearance, "Appearance")) {
         readAppearance(object, false);
     } else if (isGenericAttribute(object)) {
-        if (!addGenericAttribute(part_.features[feature].attributes, scope_, object, {})) reportValue(feature, object);
+        readGenericAttribute(feature, object);
     } else if (object.is(Vocabulary::Group, "Role")) {
         readGroupRole(feature, object);
     } else if (isCityGml(object.vocabulary) && isIn(kSkippedObjects, name)) {

@@ -9,8 +9,12 @@
 #include <svt/readers/citygml/gml_geometry.hpp>
 #include <svt/readers/xml/xml_names.hpp>
 
+#include <cstdint>
 #include <functional>
+#include <map>
+#include <string>
 #include <string_view>
+#include <utility>
 
 namespace svt::readers::citygml {
 
@@ -28,6 +32,8 @@ private:
     model::FeatureIndex readFeature(const xml::Element& element, model::FeatureIndex parent, bool continues);
     void readProperty(model::FeatureIndex feature, const xml::Element& property);
     void readGmlProperty(model::FeatureIndex feature, const xml::Element& property);
+    void readGenericAttribute(model::FeatureIndex feature, const xml::Element& element);
+    void numberRecord(model::FeatureIndex feature, std::string_view property, std::size_t first);
     void readPlainProperty(model::FeatureIndex feature, const xml::Element& property);
     void readObject(model::FeatureIndex feature, const xml::Element& property, const xml::Element& object);
     void readGroupRole(model::FeatureIndex feature, const xml::Element& role);
@@ -45,6 +51,8 @@ private:
     std::function<std::uint64_t(pugi::xml_node)> offsetOf_;
     gml::GeometryReader geometryReader_;
     std::string scratch_;
+    /// The number of the next record of a property with parts, such as an address.
+    std::map<std::pair<model::FeatureIndex, std::string>, std::uint32_t> nextRecords_;
 };
 
 /// 2 for "lod2MultiSurface"; -1 if the name states no level.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <string_view>
 
 namespace svt::readers::citygml {
 namespace {
@@ -20,9 +22,29 @@ void append(std::vector<T>& to, std::vector<T>&& from) {
 
 std::uint32_t shifted(std::uint32_t index, std::uint32_t by) noexcept { return index == kNone ? kNone : index + by; }
 
+// Numbers the records of `more` behind those of the same property in `before`.
+void continueRecords(const std::vector<Attribute>& before, std::vector<Attribute>& more) {
+    const auto propertyOf = [](const Attribute& attribute) {
+        const std::string_view name = attribute.name;
+        return name.substr(0, std::min(name.find('/'), name.size()));
+    };
+    std::map<std::string_view, std::uint32_t> nextOf;
+    for (const Attribute& attribute : before)
+        if (const std::string_view property = propertyOf(attribute); property.size() < attribute.name.size()) {
+            std::uint32_t& next = nextOf[property];
+            next = std::max(next, attribute.record + 1);
+        }
+    for (Attribute& attribute : more) {
+        const std::string_view property = propertyOf(attribute);
+        if (const auto known = nextOf.find(property); known != nextOf.end() && property.size() < attribute.name.size())
+            attribute.record += known->second;
+    }
+}
+
 // The rest of a feature that was cut at a chunk boundary; its content is added to the first piece.
 void mergeFeature(model::Feature& into, model::Feature&& more) {
     if (into.name.empty()) into.name = std::move(more.name);
+    continueRecords(into.attributes, more.attributes);
     append(into.attributes, std::move(more.attributes));
     append(into.children, std::move(more.children));
 }

@@ -295,6 +295,32 @@ TEST(CityGmlReader, AttributesOfVersion3) {
     EXPECT_EQ(textOf(feature, "extra"), "yes");
 }
 
+// As in models of PLATEAU: floods that a river and the sea would cause.
+TEST(CityGmlReader, RepeatedPropertiesAreRecords) {
+    const auto flood = [](const char* type, const char* members) {
+        return fmt::format("<ade:risk><ade:{0}>{1}</ade:{0}></ade:risk>", type, members);
+    };
+    const Reading reading = readMembers(
+        2, building("b", flood("River", "<ade:depth uom=\"m\">0.5</ade:depth><ade:rank>1</ade:rank>") +
+                             flood("River", "<ade:rank>3</ade:rank>") +
+                             "<gen:genericAttributeSet name=\"s\"><gen:intAttribute name=\"a\"><gen:value>1</gen:value>"
+                             "</gen:intAttribute></gen:genericAttributeSet>" +
+                             flood("Tsunami", "<ade:depth uom=\"m\">2</ade:depth><ade:by>x</ade:by>") +
+                             "<gen:genericAttributeSet name=\"s\"><gen:intAttribute name=\"b\"><gen:value>2</gen:value>"
+                             "</gen:intAttribute></gen:genericAttributeSet>"
+                             "<gen:stringAttribute name=\"k\"><gen:value>p</gen:value></gen:stringAttribute>"
+                             "<gen:stringAttribute name=\"k\"><gen:value>q</gen:value></gen:stringAttribute>"
+                             "<core:externalReference><core:informationSystem>sys</core:informationSystem>"
+                             "<core:externalObject><core:name>n</core:name></core:externalObject>"
+                             "</core:externalReference>"));
+    std::string text;
+    for (const AttributeList& list : attributeLists(reading.feature("b").attributes))
+        text += std::string(list.name) + "=" + toText(list) + "\n";
+    EXPECT_EQ(text,
+              "risk/depth=[0.5,null,2]\nrisk/rank=[\"1\",\"3\",null]\ns/a=[1,null]\nrisk/by=[null,null,\"x\"]\n"
+              "s/b=[null,2]\nk=[\"p\",\"q\"]\nexternalReference/informationSystem=sys\nexternalReference/name=n\n");
+}
+
 TEST(CityGmlReader, MissingAndDuplicateIdsBecomeUnique) {
     const std::string room = "<bldg:interiorRoom><bldg:Room/></bldg:interiorRoom>";
     const Reading reading = readMembers(2, member("<bldg:Building>" + room + room + "</bldg:Building>") +
@@ -402,30 +428,44 @@ TEST(CityGmlReader, NorthFirstCoordinatesAreExchanged) {
         EXPECT_FALSE(readWithCrs(name, "3458877 5438353 0 3458887 5438353 0 3458877 5438363 0").model().crs.axesSwapped)
             << name;
     }
-    // Poland's PL-1992 is ambiguous by magnitude: the form of the name decides, unless faces look inward.
+    // Poland's PL-1992 is ambiguous by magnitude and by its area of use: the form of the name decides.
     EXPECT_TRUE(readWithCrs("urn:ogc:def:crs:EPSG::2180", "500000 600000 0 500010 600000 0 500000 600010 0")
                     .model()
                     .crs.axesSwapped);
     EXPECT_FALSE(readWithCrs("EPSG:2180", "500000 600000 0 500010 600000 0 500000 600010 0").model().crs.axesSwapped);
-    EXPECT_FALSE(readWithCrs("urn:ogc:def:crs:EPSG::25832", "5438353 458877 0 5438363 458877 0 5438353 458887 0")
-                     .model()
-                     .crs.axesSwapped)
-        << "east first by authority";
+    const Reading east =
+        readWithCrs("urn:ogc:def:crs:EPSG::25832", "458877 5438353 0 458887 5438353 0 458877 5438363 0");
+    EXPECT_FALSE(east.model().crs.axesSwapped) << "east first by authority";
+    EXPECT_EQ(east.count(Code::AxisOrder), 0u);
+    const Reading north =
+        readWithCrs("urn:ogc:def:crs:EPSG::25832", "5438353 458877 0 5438363 458877 0 5438353 458887 0");
+    EXPECT_TRUE(north.model().crs.axesSwapped) << "possible only in this order";
+    EXPECT_EQ(north.count(Code::AxisOrder), 1u) << north.findings();
 }
 
-TEST(CityGmlReader, HandednessOfRoofsTellsTheAxisOrder) {
-    const auto roof = [](std::string_view positions) {
-        return readMembers(
-            2, building("b",
-                        "<gml:boundedBy><gml:Envelope "
-                        "srsName=\"urn:ogc:def:crs:EPSG::2180\"/></gml:boundedBy><bldg:boundedBy><bldg:RoofSurface "
-                        "gml:id=\"r\">" +
-                            lod2Surfaces(2, multiSurface(surfaceMember("<gml:Polygon><gml:exterior>" + ring(positions) +
-                                                                       "</gml:exterior></gml:Polygon>"))) +
-                            "</bldg:RoofSurface></bldg:boundedBy>"));
+TEST(CityGmlReader, TheOrientationOfRoofsDoesNotDecideTheAxisOrder) {
+    const auto roofs = [](std::string_view positions, int count) {
+        std::string members = "<gml:boundedBy><gml:Envelope srsName=\"urn:ogc:def:crs:EPSG::2180\"/></gml:boundedBy>";
+        for (int n = 0; n < count; ++n)
+            members += building(
+                fmt::format("b{}", n),
+                fmt::format("<bldg:boundedBy><bldg:RoofSurface gml:id=\"r{}\">", n) +
+                    lod2Surfaces(2, multiSurface(surfaceMember("<gml:Polygon><gml:exterior>" + ring(positions) +
+                                                               "</gml:exterior></gml:Polygon>"))) +
+                    "</bldg:RoofSurface></bldg:boundedBy>");
+        return readMembers(2, members);
     };
-    EXPECT_FALSE(roof("500000 600000 0 500010 600000 0 500000 600010 0").model().crs.axesSwapped);
-    EXPECT_TRUE(roof("500000 600000 0 500000 600010 0 500010 600000 0").model().crs.axesSwapped);
+    const std::string_view up = "500000 600000 0 500010 600000 0 500000 600010 0",
+                           down = "500000 600000 0 500000 600010 0 500010 600000 0";
+    for (const std::string_view positions : {up, down})
+        for (const int count : {1, 4}) {
+            const Reading reading = roofs(positions, count);
+            EXPECT_TRUE(reading.model().crs.axesSwapped) << "the name says north first";
+            // With exchanged axes, roofs that look up as given look down. Several of them are a warning.
+            EXPECT_EQ(reading.findings().find("face the wrong way") != std::string::npos, positions == up && count == 4)
+                << reading.findings();
+            EXPECT_NE(reading.findings().find("axes taken as north, east"), std::string::npos);
+        }
 }
 
 TEST(CityGmlReader, DifferentCrsAreReportedNotMixedUp) {

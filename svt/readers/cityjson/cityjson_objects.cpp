@@ -16,6 +16,7 @@ namespace {
 // both.
 constexpr std::size_t kMaxPathBytes = 256;
 constexpr int kMaxPathParts = 16;
+constexpr std::size_t kMaxListItems = 1024;  // longer arrays are data, and stay text
 
 constexpr std::array<std::string_view, 48> kObjectTypes{"Bridge",
                                                         "BridgePart",
@@ -91,6 +92,37 @@ bool appendMeasure(const std::string& name, json::object object, std::vector<Att
     return true;
 }
 
+void appendValue(std::string name, json::element value, int parts, std::vector<Attribute>& attributes);
+
+bool isMeasure(json::element value) {
+    const auto object = asObject(value);
+    std::vector<Attribute> unused;
+    return object && appendMeasure({}, *object, unused);
+}
+
+/// An array as values with equal names, or as records if it holds objects. False for other arrays, such as nested ones.
+bool appendArray(const std::string& name, json::array array, int parts, std::vector<Attribute>& attributes) {
+    if (array.size() == 0 || array.size() > kMaxListItems) return false;
+    bool areValues = true, areObjects = true;
+    for (const json::element item : array) {
+        areValues = areValues && (item.is_null() || scalarOf(item) || isMeasure(item));
+        areObjects = areObjects && item.is_object();
+    }
+    if (!areValues && !areObjects) return false;
+    std::uint32_t record = 0;
+    for (const json::element item : array) {
+        const std::size_t first = attributes.size();
+        appendValue(name, item, parts, attributes);
+        if (areValues) continue;
+        // A record within a record has no number of its own.
+        for (std::size_t n = first; n < attributes.size(); ++n)
+            if (attributes[n].record != 0) return false;
+        for (std::size_t n = first; n < attributes.size(); ++n) attributes[n].record = record;
+        ++record;
+    }
+    return true;
+}
+
 void appendValue(std::string name, json::element value, int parts, std::vector<Attribute>& attributes) {
     if (value.is_null()) return;
     if (value.is_number() && gml::isMissingValue(name, asNumber(value).value_or(0))) return;
@@ -100,6 +132,11 @@ void appendValue(std::string name, json::element value, int parts, std::vector<A
     }
     const auto object = asObject(value);
     if (object && appendMeasure(name, *object, attributes)) return;
+    if (const auto array = asArray(value); array && parts < kMaxPathParts) {
+        const std::size_t first = attributes.size();
+        if (appendArray(name, *array, parts + 1, attributes)) return;
+        attributes.resize(first);
+    }
     if (!object || name.size() > kMaxPathBytes || parts >= kMaxPathParts) {
         attributes.push_back({std::move(name), simdjson::minify(value), {}});
         return;
@@ -140,14 +177,14 @@ std::vector<std::string> readRoles(json::object object) {
 void readAddresses(json::element value, std::vector<Attribute>& attributes) {
     const auto addresses = asArray(value);
     if (!addresses) return;
-    std::size_t number = 0;
+    std::uint32_t record = 0;
     for (const json::element item : *addresses) {
-        const std::string prefix = ++number == 1 ? "address/" : fmt::format("address[{}]/", number);
         const auto address = asObject(item);
         if (!address) continue;
         for (const auto [key, member] : *address)
             if (auto scalar = scalarOf(member))
-                attributes.push_back({prefix + std::string(key), std::move(*scalar), {}});
+                attributes.push_back({fmt::format("address/{}", key), std::move(*scalar), {}, record});
+        ++record;
     }
 }
 

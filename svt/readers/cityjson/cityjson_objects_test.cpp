@@ -248,11 +248,36 @@ TEST(CityJsonObjects, AttributesKeepTypeNestingAndUnit) {
     EXPECT_EQ(attribute(b, "tags"), R"(["a",{"b":1}])");
     EXPECT_EQ(attribute(b, "area"), "120.5m2");
     EXPECT_EQ(attribute(b, "address/Locality"), "Graz");
-    EXPECT_EQ(attribute(b, "address[2]/Locality"), "Wien");
+    EXPECT_EQ(toText(attributeLists(b.attributes).back()), "55");
+    for (const AttributeList& list : attributeLists(b.attributes))
+        if (list.name == "address/Locality") EXPECT_EQ(toText(list), R"(["Graz","Wien"])");
     EXPECT_EQ(attribute(b, "+noise/db"), "55");
     EXPECT_EQ(reading.model().features[1].className, "+Kiosk");
     EXPECT_EQ(reading.model().features[1].name, "K");
     EXPECT_TRUE(reading.diagnostics.items().empty());
+}
+
+TEST(CityJsonObjects, ArraysAreListsAndRecords) {
+    const Reading reading = read(document(
+        R"({"b":{"type":"Building","attributes":{"years":[1985,2001,null,2010],"one":[7],"empty":[],"grid":[[1],[2]],)"
+        R"("floods":[{"depth":0.5,"rank":1},{"rank":3},{"depth":2,"by":{"name":"x"}}],)"
+        R"("heights":[{"value":3,"uom":"m"},{"value":4,"uom":"m"}],"deep":[{"a":[{"b":1},{"b":2}]}]}}})"));
+    ASSERT_TRUE(reading.result);
+    std::string text;
+    for (const AttributeList& list : attributeLists(reading.model().features[0].attributes))
+        text += std::string(list.name) + "=" + toText(list) + "\n";
+    EXPECT_EQ(text,
+              "years=[1985,2001,2010]\none=7\nempty=[]\ngrid=[[1],[2]]\nfloods/depth=[0.5,null,2]\n"
+              "floods/rank=[1,3,null]\nfloods/by/name=[null,null,\"x\"]\nheights=[3,4]\n"
+              "deep=[{\"a\":[{\"b\":1},{\"b\":2}]}]\n");
+}
+
+TEST(CityJsonObjects, LongArraysStayText) {
+    std::string numbers = "1";
+    for (int n = 0; n < 5000; ++n) numbers += ",1";
+    const Reading reading = read(document(R"({"b":{"type":"Building","attributes":{"x":[)" + numbers + "]}}}"));
+    ASSERT_TRUE(reading.result);
+    EXPECT_EQ(reading.model().features[0].attributes.size(), 1u);
 }
 
 TEST(CityJsonObjects, DeepAttributesDoNotMultiplyTheirPath) {

@@ -150,7 +150,7 @@ TEST(CityJsonCrs, EpsgCodeIsFoundInEveryForm) {
     const auto epsg = [](const std::string& name) {
         return read(document("{}", R"(,"metadata":{"title":"T","referenceSystem":")" + name + "\"}")).model().crs.epsg;
     };
-    EXPECT_EQ(epsg("https://www.opengis.net/def/crs/EPSG/0/7415"), 7415);
+    EXPECT_EQ(epsg("https://www.opengis.net/def/crs/EPSG/0/7415"), 28992) << "the part in plan";
     EXPECT_EQ(epsg("urn:ogc:def:crs:EPSG::28992"), 28992);
     EXPECT_EQ(epsg("urn:ogc:def:crs:EPSG:6.12:3068"), 3068);
     EXPECT_EQ(epsg("EPSG:25832"), 25832);

@@ -3,6 +3,7 @@
 #include <svt/core/machine.hpp>
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
+#include <svt/readers/format/ended_features.hpp>
 #include <svt/readers/format/extrude_footprints.hpp>
 #include <svt/readers/format/zip_member.hpp>
 #include <svt/readers/read_model.hpp>
@@ -245,7 +246,9 @@ Result<model::BuildingModel> readModel(Bytes bytes, string_view name, const Read
                      fmt::format("the file has {} bytes, the limit is {}", bytes.size(), options.maxBytes),
                      {std::string(name), 0, 0, {}});
     try {
-        return withBodies(withStatedClasses(readAny(bytes, name, options, diagnostics)), options, diagnostics);
+        auto model = withStatedClasses(readAny(bytes, name, options, diagnostics));
+        if (model) removeEnded(*model, options.date, diagnostics);
+        return withBodies(std::move(model), options, diagnostics);
     } catch (const std::bad_alloc&) {
         // Here the file is known, and the memory of its incomplete model is free again.
         const auto grant = memoryGrant();

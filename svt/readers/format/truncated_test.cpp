@@ -46,7 +46,8 @@ std::string cityGml() {
     return cityModel(2, building("b", lod2Surfaces(2, multiSurface(surfaceMember(square("p"))))));
 }
 
-Result<model::BuildingModel> read(std::string_view text, bool allowTruncated = false, Diagnostics* log = nullptr) {
+Result<model::BuildingModel> readEnding(std::string_view text, bool allowTruncated = false,
+                                        Diagnostics* log = nullptr) {
     ReadOptions options;
     options.allowTruncated = allowTruncated;
     return readModel(std::as_bytes(std::span(text)), "cut", options, log);
@@ -54,15 +55,15 @@ Result<model::BuildingModel> read(std::string_view text, bool allowTruncated = f
 
 // Cut behind each byte from `first` on but for the last ones, which say nothing new.
 void expectErrors(const std::string& text, std::size_t first, std::size_t last) {
-    ASSERT_TRUE(read(text)) << read(text).error().toString();
+    ASSERT_TRUE(readEnding(text)) << readEnding(text).error().toString();
     for (std::size_t size = first; size < last; ++size)
-        ASSERT_FALSE(read(std::string_view(text).substr(0, size))) << text.substr(0, size);
+        ASSERT_FALSE(readEnding(std::string_view(text).substr(0, size))) << text.substr(0, size);
 }
 
 TEST(Truncated, IfcIsAnErrorWhereverItIsCut) {
     const std::string text = ifc();
     expectErrors(text, text.find("DATA;"), text.find("END-ISO") + std::string_view("END-ISO-10303-2").size());
-    const auto model = read(text.substr(0, text.rfind("ENDSEC")));
+    const auto model = readEnding(text.substr(0, text.rfind("ENDSEC")));
     ASSERT_FALSE(model);
     EXPECT_EQ(model.error().code(), Code::Truncated);
     EXPECT_NE(model.error().message().find("behind the record #200"), std::string::npos) << model.error().message();
@@ -73,14 +74,14 @@ TEST(Truncated, IfcIsAnErrorWhereverItIsCut) {
 TEST(Truncated, IfcIsReadAsFarAsItGoesWhereThatIsAllowed) {
     const std::string text = ifc();
     Diagnostics log;
-    const auto model = read(text.substr(0, text.rfind("ENDSEC")), true, &log);
+    const auto model = readEnding(text.substr(0, text.rfind("ENDSEC")), true, &log);
     ASSERT_TRUE(model);
     EXPECT_EQ(model->features.back().id, "wall");
     EXPECT_FALSE(model->features.back().geometries.empty());
     EXPECT_EQ(log.count(Code::Truncated), 1u);
     EXPECT_EQ(log.count(Severity::Warning), 1u);
     Diagnostics cut;
-    ASSERT_TRUE(read(text.substr(0, text.find("#200=IFC")), true, &cut));
+    ASSERT_TRUE(readEnding(text.substr(0, text.find("#200=IFC")), true, &cut));
     EXPECT_EQ(cut.count(Code::Truncated), 1u);
     EXPECT_EQ(cut.count(Code::DanglingReference), 1u);
     EXPECT_EQ(cut.count(Code::ShapeNotRead), 1u);
@@ -90,7 +91,7 @@ TEST(Truncated, ABrokenLastRecordIsNoCut) {
     std::string text = ifc();
     text.insert(text.rfind("ENDSEC"), "#201=IFCLABEL('open);\n");
     Diagnostics log;
-    EXPECT_TRUE(read(text, false, &log));
+    EXPECT_TRUE(readEnding(text, false, &log));
     EXPECT_EQ(log.count(Code::BadRecord), 1u);
 }
 
@@ -98,16 +99,16 @@ TEST(Truncated, CityGmlAndCityJsonAreErrorsWhereverTheyAreCut) {
     const std::string gml = cityGml(), json = cityJson();
     expectErrors(gml, 0, gml.rfind('>'));
     expectErrors(json, 0, json.rfind('}'));
-    EXPECT_FALSE(read(json.substr(0, json.size() - 1), true)) << "there is no part that could be read";
-    EXPECT_FALSE(read(gml.substr(0, gml.rfind('>')), true));
+    EXPECT_FALSE(readEnding(json.substr(0, json.size() - 1), true)) << "there is no part that could be read";
+    EXPECT_FALSE(readEnding(gml.substr(0, gml.rfind('>')), true));
 }
 
 TEST(Truncated, SequencesAreErrorsBetweenTheirLines) {
     const std::string text = sequence();
-    ASSERT_TRUE(read(text));
+    ASSERT_TRUE(readEnding(text));
     const std::size_t second = text.find('\n') + 1, third = text.find('\n', second) + 1;
     for (std::size_t size = 1; size + 2 < text.size(); ++size) {
-        const auto model = read(std::string_view(text).substr(0, size));
+        const auto model = readEnding(std::string_view(text).substr(0, size));
         const bool isWhole = size == second || size + 1 == second || size == third || size + 1 == third;
         ASSERT_EQ(bool(model), isWhole) << text.substr(0, size);
         if (size > third) {
@@ -116,7 +117,7 @@ TEST(Truncated, SequencesAreErrorsBetweenTheirLines) {
         }
     }
     Diagnostics log;
-    const auto model = read(std::string_view(text).substr(0, text.size() - 40), true, &log);
+    const auto model = readEnding(std::string_view(text).substr(0, text.size() - 40), true, &log);
     ASSERT_TRUE(model);
     EXPECT_EQ(model->features.size(), 1u);
     EXPECT_EQ(log.count(Code::Truncated), 1u);
@@ -125,7 +126,7 @@ TEST(Truncated, SequencesAreErrorsBetweenTheirLines) {
     std::string damaged = text;
     damaged.replace(damaged.rfind("[5,5,9]"), 7, "[5,5 9]");
     Diagnostics found;
-    EXPECT_TRUE(read(damaged, false, &found));
+    EXPECT_TRUE(readEnding(damaged, false, &found));
     EXPECT_EQ(found.count(Code::Truncated), 0u);
     EXPECT_EQ(found.count(Code::BadJson), 1u);
 }
@@ -170,13 +171,13 @@ TEST(Truncated, IfcIsAnErrorInArchivesAndGzipData) {
                            {test::zipOf({{"a.ifc", whole}}), test::zipOf({{"a.ifc", cut}})},
                            {test::zipOf({{"a.ifc", whole, 0}}), test::zipOf({{"a.ifc", cut, 0}})}};
     for (const auto& [packedWhole, packedCut] : packings) {
-        EXPECT_TRUE(read(packedWhole));
-        const auto model = read(packedCut);
+        EXPECT_TRUE(readEnding(packedWhole));
+        const auto model = readEnding(packedCut);
         ASSERT_FALSE(model);
         EXPECT_EQ(model.error().code(), Code::Truncated);
         EXPECT_NE(model.error().message().find("behind the record #200"), std::string::npos) << model.error().message();
         Diagnostics log;
-        const auto part = read(packedCut, true, &log);
+        const auto part = readEnding(packedCut, true, &log);
         ASSERT_TRUE(part) << part.error().toString();
         EXPECT_FALSE(part->features.back().geometries.empty());
         EXPECT_EQ(log.count(Code::Truncated), 1u);
@@ -186,12 +187,12 @@ TEST(Truncated, IfcIsAnErrorInArchivesAndGzipData) {
 TEST(Truncated, SequencesAreErrorsInGzipData) {
     const svt::test::TemporaryFolder folder;
     const std::string text = sequence(), packed = asGzip(std::string_view(text).substr(0, text.size() - 40));
-    const auto model = read(packed);
+    const auto model = readEnding(packed);
     ASSERT_FALSE(model);
     EXPECT_EQ(model.error().code(), Code::Truncated);
     EXPECT_EQ(model.error().where().line, 3u);
     Diagnostics log;
-    const auto part = read(packed, true, &log);
+    const auto part = readEnding(packed, true, &log);
     ASSERT_TRUE(part) << part.error().toString();
     EXPECT_EQ(part->features.size(), 1u);
     EXPECT_EQ(log.count(Code::Truncated), 1u);

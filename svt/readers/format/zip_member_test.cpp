@@ -24,13 +24,13 @@ std::string zipOf(const std::string& name, std::string_view text, int method, in
     return zipOf({{"readme.txt", "hello", 0, flags}, {name, text, method, flags}});
 }
 
-Result<model::BuildingModel> read(const std::string& bytes) {
+Result<model::BuildingModel> readZipped(const std::string& bytes) {
     return readModel(std::as_bytes(std::span(bytes.data(), bytes.size())), "a.ifczip");
 }
 
 TEST(ZipMember, IfcFilesAreReadPackedAndStored) {
     for (const int method : {0, 8}) {
-        const auto model = read(zipOf("Model.IFC", kIfcText, method));
+        const auto model = readZipped(zipOf("Model.IFC", kIfcText, method));
         ASSERT_TRUE(model) << model.error().message();
         EXPECT_EQ(model->format, "IFC 4");
         EXPECT_EQ(model->features.size(), 1U);
@@ -38,10 +38,10 @@ TEST(ZipMember, IfcFilesAreReadPackedAndStored) {
 }
 
 TEST(ZipMember, WhatCannotBeUnpackedIsNamed) {
-    EXPECT_EQ(read(zipOf("a.dwg", "x", 0)).error().code(), Code::UnknownFormat);
-    EXPECT_NE(read(zipOf("a.ifc", kIfcText, 8, 1)).error().message().find("encrypted"), std::string::npos);
-    EXPECT_NE(read(zipOf("a.ifc", kIfcText, 12)).error().message().find("method 12"), std::string::npos);
-    EXPECT_EQ(read("PK\3\4 and no more").error().code(), Code::CannotOpen);
+    EXPECT_EQ(readZipped(zipOf("a.dwg", "x", 0)).error().code(), Code::UnknownFormat);
+    EXPECT_NE(readZipped(zipOf("a.ifc", kIfcText, 8, 1)).error().message().find("encrypted"), std::string::npos);
+    EXPECT_NE(readZipped(zipOf("a.ifc", kIfcText, 12)).error().message().find("method 12"), std::string::npos);
+    EXPECT_EQ(readZipped("PK\3\4 and no more").error().code(), Code::CannotOpen);
     ReadOptions few;
     few.maxBytes = 400;
     const std::string large = zipOf("a.ifc", std::string(kIfcText) + std::string(100000, ' '), 8);
@@ -53,11 +53,11 @@ TEST(ZipMember, WhatCannotBeUnpackedIsNamed) {
 
 TEST(ZipMember, AnyCutIsAnError) {
     const std::string whole = zipOf("a.ifc", kIfcText, 8);
-    for (std::size_t size = 4; size < whole.size(); ++size) EXPECT_FALSE(read(whole.substr(0, size))) << size;
+    for (std::size_t size = 4; size < whole.size(); ++size) EXPECT_FALSE(readZipped(whole.substr(0, size))) << size;
 }
 
 TEST(ZipMember, SeveralModelsAreNamed) {
-    const auto model = read(zipOf({{"north.ifc", kIfcText}, {"plan.pdf", "%PDF"}, {"east/South.IFC", kIfcText}}));
+    const auto model = readZipped(zipOf({{"north.ifc", kIfcText}, {"plan.pdf", "%PDF"}, {"east/South.IFC", kIfcText}}));
     ASSERT_FALSE(model);
     EXPECT_EQ(model.error().code(), Code::CannotOpen);
     for (const char* part : {"2 models", "'north.ifc'", "'east/South.IFC'", "unpack"})
@@ -65,7 +65,7 @@ TEST(ZipMember, SeveralModelsAreNamed) {
 }
 
 TEST(ZipMember, CompanionFilesOfMacOsAreNoModels) {
-    const auto model = read(zipOf({{"a.ifc", kIfcText}, {"__MACOSX/._a.ifc", "\0\5\x16\7"}, {"._b.ifc", "x"}}));
+    const auto model = readZipped(zipOf({{"a.ifc", kIfcText}, {"__MACOSX/._a.ifc", "\0\5\x16\7"}, {"._b.ifc", "x"}}));
     ASSERT_TRUE(model) << model.error().message();
     EXPECT_EQ(model->features.size(), 1U);
 }
@@ -83,20 +83,20 @@ std::string described(const model::BuildingModel& model) {
 TEST(ZipMember, AnyDamageIsAnErrorOrChangesNothing) {
     for (const int method : {0, 8}) {
         const std::string whole = zipOf("a.ifc", kIfcText, method);
-        const std::string expected = described(*read(whole));
+        const std::string expected = described(*readZipped(whole));
         int errors = 0;
         for (std::size_t at = 0; at < whole.size(); ++at)
             for (const int bit : {0, 3, 7}) {
                 std::string damaged = whole;
                 damaged[at] = static_cast<char>(damaged[at] ^ (1 << bit));
-                const auto model = read(damaged);
+                const auto model = readZipped(damaged);
                 if (model) {
                     EXPECT_EQ(described(*model), expected) << "byte " << at << ", bit " << bit;
                 }
                 errors += model ? 0 : 1;
             }
         EXPECT_GT(errors, 100);
-        for (const char* added : {"x", "more bytes", "PK\5\6"}) EXPECT_FALSE(read(whole + added)) << added;
+        for (const char* added : {"x", "more bytes", "PK\5\6"}) EXPECT_FALSE(readZipped(whole + added)) << added;
     }
 }
 
@@ -106,7 +106,7 @@ TEST(ZipMember, SizeAndChecksumOfTheArchiveHold) {
     for (const std::size_t field : {std::size_t{16}, std::size_t{20}, std::size_t{24}}) {
         std::string damaged = whole;
         damaged[entry + field] = static_cast<char>(damaged[entry + field] ^ 1);
-        const auto model = read(damaged);
+        const auto model = readZipped(damaged);
         ASSERT_FALSE(model) << field;
         EXPECT_EQ(model.error().code(), Code::CannotOpen) << field;
         EXPECT_NE(model.error().message().find("'a.ifc'"), std::string::npos) << model.error().message();

@@ -5,6 +5,7 @@
 #include <svt/model/surface_uses.hpp>
 #include <svt/readers/georeference/far_features.hpp>
 #include <svt/readers/georeference/handedness.hpp>
+#include <svt/readers/georeference/units.hpp>
 #include <svt/readers/gml/gml_crs.hpp>
 
 #include <fmt/format.h>
@@ -21,42 +22,20 @@ using std::string_view;
 
 constexpr double kMetresPerDegree = 111'000;
 
-// Length of a unit by its label in GML or its code; 0: not known.
-double unitLength(string_view label) noexcept {
-    const std::size_t at = label.find_last_of(":/#");
-    if (at != string_view::npos) label.remove_prefix(at + 1);
-    for (const string_view metre : {"m", "metre", "meter", "9001"})
-        if (label == metre) return 1;
-    for (const string_view foot : {"ft", "foot", "feet", "[ft_i]", "9002"})
-        if (label == foot) return crs::kFoot;
-    for (const string_view foot : {"ftUS", "us-ft", "[ft_us]", "US_survey_foot", "9003"})
-        if (label == foot) return crs::kSurveyFoot;
-    return 0;
-}
-
-string_view thirdWord(string_view text) noexcept {
-    string_view word;
-    for (int count = 0; count < 3; ++count) {
-        const std::size_t begin = text.find_first_not_of(" \t\r\n");
-        if (begin == string_view::npos) return {};
-        text.remove_prefix(begin);
-        word = text.substr(0, text.find_first_of(" \t\r\n"));
-        text.remove_prefix(word.size());
-    }
-    return word;
-}
-
 class Georeference {
 public:
     Georeference(model::BuildingModel& model, const GivenCrs& given, const ReadOptions& options,
                  Diagnostics& diagnostics)
         : model_(model), given_(given), options_(options), diagnostics_(diagnostics) {
         model_.crs.name = given.name;
-        model_.crs.epsg = gml::epsgCode(given.name);
+        code_ = gml::epsgCode(given.name);
+        model_.crs.epsg = crs::factsOf(code_).horizontal;
     }
 
     Result<void> run() {
         findUsed(given_.anchors);
+        SVT_TRY(unit, unitOfModel(model_, given_.units, options_.unit, given_.place));
+        unit_ = *unit;
         gml::AxisDecision axes = decide();
         if (axes.isGeographic && !given_.anchors.empty()) {
             placeInDegrees(axes.isNorthFirst);
@@ -66,10 +45,6 @@ public:
             findUsed();
             axes = decide();
         }
-        if (!axes.remark.empty())
-            diagnostics_.add(Severity::Warning, Code::BadValue,
-                             given_.name.empty() ? axes.remark : fmt::format("CRS '{}': {}", given_.name, axes.remark),
-                             given_.place);
         model_.crs.axesSwapped = axes.isNorthFirst;
         if (axes.isNorthFirst)
             forEachUsed([](std::vector<Vec3d>& points) {
@@ -79,6 +54,7 @@ public:
             std::swap(box_.min.x, box_.min.y);
             std::swap(box_.max.x, box_.max.y);
         }
+        noteOrder(axes);
         return box_.isEmpty() ? Result<void>() : toMetres(axes.isGeographic);
     }
 
@@ -124,20 +100,36 @@ private:
     }
 
     [[nodiscard]] gml::AxisDecision decide() const {
-        gml::AxisDecision decision = decideByContent();
-        if (options_.axisOrder == 0) return decision;
-        return {decision.isGeographic, options_.axisOrder < 0, {}};
+        // The form "EPSG:n" means east first.
+        const std::string name = given_.isEastFirst && code_ != 0 ? fmt::format("EPSG:{}", code_) : given_.name;
+        gml::AxisDecision decision = gml::decideAxes(name, box_);
+        if (options_.axisOrder != 0) {
+            decision.isNorthFirst = options_.axisOrder < 0;
+            decision.remark.clear();
+        }
+        return decision;
     }
-    [[nodiscard]] gml::AxisDecision decideByContent() const {
-        const bool isDegrees = gml::decideAxes(given_.name, box_, 0).isGeographic;
-        // The form "EPSG:n" promises no order; +1: the coordinates are taken as they are.
-        const std::string name =
-            given_.isEastFirst && model_.crs.epsg != 0 ? fmt::format("EPSG:{}", model_.crs.epsg) : given_.name;
-        return gml::decideAxes(name, box_, given_.isEastFirst && !isDegrees ? +1 : handedness(model_));
+
+    // Reports the order that was taken where the CRS, the name and the coordinates leave a choice.
+    void noteOrder(const gml::AxisDecision& axes) {
+        if (options_.axisOrder != 0 || box_.isEmpty()) return;
+        if (!axes.remark.empty()) {
+            diagnostics_.add(Severity::Warning, axes.isDoubtful ? Code::AxisOrder : Code::BadValue,
+                             given_.name.empty() ? axes.remark : fmt::format("CRS '{}': {}", given_.name, axes.remark),
+                             given_.place);
+        } else if (axes.hasNorthFirst && !given_.isEastFirst) {
+            diagnostics_.add(Severity::Note, Code::AxisOrder,
+                             fmt::format("axes taken as {}, as the name '{}' means; --axis-order {} takes the other "
+                                         "order",
+                                         axes.isNorthFirst ? "north, east" : "east, north", given_.name.substr(0, 200),
+                                         axes.isNorthFirst ? "east-north" : "north-east"),
+                             given_.place);
+        }
+        warnOfMirror(model_, axes.isNorthFirst, given_.place, diagnostics_);
     }
 
     std::size_t leaveOutFar(bool isDegrees) {
-        Vec3d metres{1, 1, 1};
+        Vec3d metres{unit_, unit_, unit_};
         // Too large by the cosine of the latitude along one axis: enough to tell continents apart.
         if (isDegrees) metres = {kMetresPerDegree, kMetresPerDegree, 1};
         return leaveOutFarFeatures(model_, metres, given_.place, diagnostics_);
@@ -145,7 +137,7 @@ private:
 
     Result<void> toMetres(bool isDegrees) {
         const bool isWorld = gml::isCrs84(given_.name);
-        const int source = isWorld ? 4326 : model_.crs.epsg;
+        const int source = isWorld ? 4326 : code_;
         const crs::CrsFacts facts = crs::factsOf(source);
         if (isDegrees && source == 0)
             return Error(
@@ -155,12 +147,20 @@ private:
                             "project the file to metres first",
                             box_.min.x, box_.max.x, box_.min.y, box_.max.y, given_.name.substr(0, 200)),
                 given_.place);
-        if (facts.isDegrees && !isDegrees)  // the name is wrong
-            return options_.crs == 0 ? Result<void>() : cannotProject("the coordinates are not those of its CRS");
+        if (facts.isDegrees && !isDegrees) {  // the name is wrong
+            if (options_.crs != 0) return cannotProject("the coordinates are not those of its CRS");
+            double heightUnit = 1;
+            scaleAll(heightUnit);
+            return {};
+        }
         const bool isForeign = isDegrees || !facts.isMetres;
-        double heightUnit = unitLength(thirdWord(given_.units));
-        const int vertical = facts.vertical != 0 ? facts.vertical : gml::verticalCode(given_.name);
-        if (heightUnit == 0 && vertical != 0) heightUnit = crs::metresPerHeight(vertical);
+        if (isForeign && options_.unit != 0)
+            return Error(Code::BadArgument,
+                         "--unit is for coordinates in lengths; the CRS of this file has its own unit", given_.place);
+        double heightUnit = heightUnitOf(given_.units);
+        vertical_ = gml::verticalCode(given_.name);
+        if (heightUnit == 0 && vertical_ != 0) heightUnit = crs::metresPerHeight(vertical_);
+        if (!isForeign) scaleAll(heightUnit);
         if (isForeign || (options_.crs != 0 && options_.crs != facts.horizontal)) {
             if (source == 0)
                 return cannotProject("the file names no CRS that is known, so it cannot be brought into another one");
@@ -171,7 +171,31 @@ private:
             tell(*projection, source, isDegrees, isForeign, heightUnit);
         }
         if (heightUnit != 0 && heightUnit != 1) scaleHeights(heightUnit, isForeign);
+        if (options_.crs == 0) warnOfScale();
         return {};
+    }
+
+    // Lengths in millimetres or another unit that the file or the user states.
+    void scaleAll(double& heightUnit) {
+        if (unit_ == 1) return;
+        heightUnit = 1;
+        forEachUsed([&](std::vector<Vec3d>& points) {
+            for (Vec3d& point : points) point = point * unit_;
+        });
+        box_ = {box_.min * unit_, box_.max * unit_};
+        diagnostics_.add(Severity::Note, Code::ForeignUnit,
+                         fmt::format("the coordinates are in units of {:g} m; taken to metres", unit_), given_.place);
+    }
+
+    void warnOfScale() {
+        const crs::MapScale scale = crs::mapScaleAt(model_.crs.epsg, box_.center());
+        if (scale.factor < 1.01) return;
+        diagnostics_.add(
+            Severity::Warning, Code::MapScale,
+            fmt::format("EPSG:{} (Mercator) shows lengths {:.3f} times, areas and volumes {:.2f} times as large as "
+                        "they are at this place; --crs EPSG:{} gives true sizes",
+                        model_.crs.epsg, scale.factor, scale.factor * scale.factor, scale.localCode),
+            given_.place);
     }
 
     [[nodiscard]] Error cannotProject(std::string_view why) const {
@@ -214,7 +238,10 @@ private:
         diagnostics_.add(Severity::Note, isDegrees ? Code::GeographicCrs : Code::ForeignUnit, std::move(message),
                          given_.place);
         model_.crs.epsg = projection.epsg();
-        model_.crs.name = fmt::format("EPSG:{} (from EPSG:{})", projection.epsg(), source);
+        // Heights keep their datum.
+        const std::string heights =
+            vertical_ != 0 && crs::factsOf(source).vertical == 0 ? fmt::format("+{}", vertical_) : std::string();
+        model_.crs.name = fmt::format("EPSG:{} (from EPSG:{}{})", projection.epsg(), source, heights);
     }
 
     void scaleHeights(double unit, bool isTold) {
@@ -232,6 +259,8 @@ private:
     Diagnostics& diagnostics_;
     std::vector<bool> isUsed_;
     Box3d box_;
+    int code_ = 0, vertical_ = 0;  // of the name
+    double unit_ = 1;              // metres per unit of lengths
 };
 
 }  // namespace

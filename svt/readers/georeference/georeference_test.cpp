@@ -168,6 +168,136 @@ TEST(Georeference, TheLikelyProjectionIsTakenForDegreesAlone) {
     EXPECT_EQ(place({{1, 2, 3}, {4, 5, 6}, {7, 8, 0}}, "EPSG:25832", options).model.crs.epsg, 25832);
 }
 
+// A box from `low` to `high` with its faces outward, or inward.
+void addBox(model::BuildingModel& model, std::string id, Vec3d low, Vec3d high, bool isInward,
+            std::string className = "Building") {
+    constexpr int kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    model::Solid solid;
+    for (const auto& face : kFaces) {
+        model::Polygon polygon;
+        for (const int corner : face)
+            polygon.points.push_back({(corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+                                      (corner & 4) != 0 ? high.z : low.z});
+        polygon.ringEnds = {4};
+        solid.exterior.push_back({model.addPolygon(std::move(polygon)), isInward});
+    }
+    model::Geometry geometry;
+    geometry.kind = model::GeometryKind::Solid;
+    geometry.solids.push_back(std::move(solid));
+    model::Feature feature;
+    feature.id = std::move(id);
+    feature.className = std::move(className);
+    feature.geometries.push_back(std::move(geometry));
+    model.addFeature(std::move(feature), model::kNoFeature);
+}
+
+Placed placed(model::BuildingModel model, std::string_view crs, const ReadOptions& options = {},
+              std::string_view units = {}) {
+    Placed result;
+    result.model = std::move(model);
+    const GivenCrs given{std::string(crs), std::string(units), false, {"test.gml", 3, 0, {}}, {}};
+    result.result = georeference(result.model, given, options, result.diagnostics);
+    return result;
+}
+
+// The building of Washington whose shells face inward: the name decides, longitude first.
+TEST(Georeference, AnInwardShellDoesNotOverruleTheName) {
+    for (const bool isInward : {false, true}) {
+        model::BuildingModel model;
+        addBox(model, "b", {-77.0111, 38.8976, 0}, {-77.0108, 38.8979, 46}, isInward);
+        const Placed found = placed(std::move(model), "EPSG:4979");
+        ASSERT_TRUE(found.result) << found.result.error().toString();
+        EXPECT_EQ(found.model.crs.epsg, 32618);
+        EXPECT_FALSE(found.model.crs.axesSwapped);
+        EXPECT_NEAR(found.point(0).y, 4307216, 200);
+        EXPECT_NE(found.findings().find("axes taken as east, north"), std::string::npos) << found.findings();
+    }
+}
+
+TEST(Georeference, TheUserMayStateTheOrder) {
+    ReadOptions options;
+    options.axisOrder = -1;
+    const Placed found = place(swapped(kMunich), "EPSG:4326", options);
+    ASSERT_TRUE(found.result);
+    EXPECT_TRUE(found.model.crs.axesSwapped);
+    EXPECT_EQ(found.diagnostics.count(Code::AxisOrder), 0u);
+    options.axisOrder = 1;
+    EXPECT_FALSE(place(kMunich, "urn:ogc:def:crs:EPSG::4326", options).model.crs.axesSwapped);
+}
+
+TEST(Georeference, CoordinatesOutsideOfTheAreaOfUseTakeTheOtherOrder) {
+    const std::vector<Vec3d> north{{5334780, 691603, 5}, {5334790, 691603, 5}, {5334780, 691613, 9}};
+    for (const std::string_view name : {"EPSG:25832", "urn:ogc:def:crs:EPSG::25832", "EPSG:32632"}) {
+        const Placed found = place(north, name);
+        EXPECT_TRUE(found.model.crs.axesSwapped) << name;
+        EXPECT_EQ(found.diagnostics.count(Code::AxisOrder), 1u) << found.findings();
+        EXPECT_FALSE(place(swapped(north), name).model.crs.axesSwapped) << name;
+    }
+    if (crs::projVersion().empty()) GTEST_SKIP() << "a build without PROJ";
+    // Turkey, TUREF / TM30: no magnitude is built in.
+    const std::vector<Vec3d> turkey{{4500000, 500000, 5}, {4500010, 500000, 5}, {4500000, 500010, 9}};
+    EXPECT_TRUE(place(turkey, "EPSG:5254").model.crs.axesSwapped);
+    EXPECT_FALSE(place(swapped(turkey), "urn:ogc:def:crs:EPSG::5254").model.crs.axesSwapped);
+}
+
+// A system that no table knows, with north first: the shells of the model face inward.
+TEST(Georeference, SeveralInwardShellsWarnOfAMirroredModel) {
+    for (const int count : {1, 4}) {
+        model::BuildingModel model;
+        for (int n = 0; n < count; ++n)
+            addBox(model, fmt::format("b{}", n), {20.0 * n, 0, 0}, {20.0 * n + 10, 8, 6}, true);
+        const Placed found = placed(std::move(model), "EPSG:999998");
+        EXPECT_EQ(found.diagnostics.count(Code::AxisOrder), count == 4 ? 1u : 0u) << found.findings();
+        EXPECT_EQ(found.findings().find("--axis-order north-east") != std::string::npos, count == 4);
+        EXPECT_EQ(found.point(0), Vec3d()) << "nothing is changed";
+    }
+}
+
+TEST(Georeference, WebMercatorIsAWarningWithTheScale) {
+    const std::vector<Vec3d> munich{{1288577, 6130000, 5}, {1288587, 6130000, 5}, {1288577, 6130010, 9}};
+    const Placed found = place(munich, "EPSG:3857");
+    ASSERT_EQ(found.diagnostics.count(Code::MapScale), 1u) << found.findings();
+    EXPECT_NE(found.findings().find("lengths 1.499 times, areas and volumes 2.25 times"), std::string::npos)
+        << found.findings();
+    EXPECT_NE(found.findings().find("--crs EPSG:32632"), std::string::npos);
+    EXPECT_EQ(place(munich, "EPSG:25832").diagnostics.count(Code::MapScale), 0u);
+}
+
+TEST(Georeference, TheUnitIsThatOfTheUserOrOfTheFileOrPlausible) {
+    const auto rooms = [](double unit) {
+        model::BuildingModel model;
+        for (int n = 0; n < 4; ++n)
+            addBox(model, fmt::format("r{}", n), Vec3d{5.0 * n, 0, 0} * unit, Vec3d{5.0 * n + 4, 3, 2.8} * unit, false,
+                   "BuildingRoom");
+        return model;
+    };
+    EXPECT_TRUE(placed(rooms(1), "").result);
+    EXPECT_EQ(placed(rooms(1000), "").result.error().code(), Code::UnitInDoubt);
+    EXPECT_NE(placed(rooms(1000), "").result.error().message().find("--unit mm"), std::string::npos);
+    EXPECT_NE(placed(rooms(100), "local").result.error().message().find("--unit cm"), std::string::npos);
+    ReadOptions options;
+    options.unit = 0.001;
+    for (const Placed& found : {placed(rooms(1000), "", options), placed(rooms(1000), "EPSG:4326", options),
+                                placed(rooms(1000), "", {}, "mm mm mm")}) {
+        ASSERT_TRUE(found.result) << found.result.error().toString();
+        const model::Feature& last = found.model.features.back();
+        expectNear(found.model.bounds(last.geometries[0]).max, {19, 3, 2.8}, 1e-9);
+        EXPECT_EQ(found.diagnostics.count(Code::ForeignUnit), 1u) << found.findings();
+    }
+    EXPECT_EQ(place(kMunich, "EPSG:4258", options).result.error().code(), Code::BadArgument);
+    options.unit = 1;
+    EXPECT_TRUE(placed(rooms(1000), "", options).result) << "the user says metres";
+}
+
+TEST(Georeference, ACompoundCodeIsItsHorizontalPart) {
+    const std::vector<Vec3d> points{{121000, 487000, 3}, {121010, 487000, 3}, {121010, 487010, 8}};
+    const Placed found = place(points, "urn:ogc:def:crs:EPSG::7415");
+    EXPECT_EQ(found.model.crs.epsg, 28992);
+    ReadOptions options;
+    options.crs = 28992;
+    EXPECT_EQ(place(points, "EPSG:7415", options).model.polygons[0].points, points) << "it is there already";
+}
+
 TEST(Georeference, DegreesOfNoKnownSystemAreAnError) {
     EXPECT_EQ(place(kTokyo, "").result.error().code(), Code::GeographicCrs);
     EXPECT_EQ(place(kTokyo, "somewhere").result.error().code(), Code::GeographicCrs);

@@ -1,13 +1,17 @@
 #pragma once
 /// \file
-/// Whether the faces of a model look outward in the order of its axes. This distinguishes north first from east first.
+/// Warns of models that seem to be mirrored: their shells face inward, as they do with exchanged axes.
 
+#include <svt/core/diagnostics.hpp>
 #include <svt/model/building_model.hpp>
 
 namespace svt::readers::georeference {
 
-/// +1 if faces look outward as given, -1 if they do so with x and y swapped: judged by the volumes of solids and by
-/// roofs (which face up) and grounds (which face down). 0 if less than nine tenths agree or there is no evidence.
-[[nodiscard]] int handedness(const model::BuildingModel& model);
+/// Adds the finding AxisOrder if there are at least three solids, roofs or grounds, and nine tenths of them face the
+/// wrong way: solids inward, roofs down, grounds up. Changes nothing, because inverted shells have the same sign.
+/// \param model         in the order east, north
+/// \param isNorthFirst  whether the axes of the file were exchanged
+/// Cost: O(points).
+void warnOfMirror(const model::BuildingModel& model, bool isNorthFirst, const Place& place, Diagnostics& diagnostics);
 
 }  // namespace svt::readers::georeference

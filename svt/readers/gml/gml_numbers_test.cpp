@@ -78,6 +78,8 @@ TEST(GmlCrs, CodesAreFoundInEveryForm) {
         {"urn:adv:crs:ETRS89_UTM32*DE_DHHN92_NH", 25832},
         {"urn:adv:crs:DE_DHDN_3GK3*DE_DHHN92_NH", 31467},
         {"25833", 25833},
+        {"EPSG:7415", 7415},
+        {"http://www.opengis.net/def/crs/EPSG/0/7415", 7415},
         {"", 0},
         {"local", 0},
         {"EPSG:99999999999999", 0},

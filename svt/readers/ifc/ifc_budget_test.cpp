@@ -17,7 +17,7 @@ using namespace test;
 // Of processor time, for one file. The budgets of the reader allow for some tenths of it.
 constexpr double kMostSeconds = kIsSanitized ? 60 : 3;
 
-struct Outcome {
+struct BudgetOutcome {
     Code error = Code::Internal;  // where there is no model
     std::string findings;
     std::size_t points = 0, attributes = 0, materials = 0;
@@ -25,7 +25,7 @@ struct Outcome {
 };
 
 // A file with `records`, and a wall 'sound' that has nothing to do with them.
-Outcome readBeside(const std::string& records, const std::string& walls = "#100") {
+BudgetOutcome readBeside(const std::string& records, const std::string& walls = "#100") {
     const std::string text = ifcFile(records +
                                          "\n#900=IFCWALL('sound',$,'Sound',$,$,#15,#901,$,$);\n"
                                          "#901=IFCPRODUCTDEFINITIONSHAPE($,$,(#902));\n"
@@ -36,7 +36,7 @@ Outcome readBeside(const std::string& records, const std::string& walls = "#100"
     const std::clock_t begin = std::clock();
     const auto model = readText(text, &log);
     EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, kMostSeconds);
-    Outcome outcome;
+    BudgetOutcome outcome;
     for (const Diagnostic& d : log.items()) outcome.findings += d.toString() + "\n";
     if (!model) {
         outcome.error = model.error().code();
@@ -65,7 +65,7 @@ std::string repeated(const std::string& id, int times) {
     return list;
 }
 
-void expectLeftOut(const Outcome& outcome) {
+void expectLeftOut(const BudgetOutcome& outcome) {
     EXPECT_TRUE(outcome.hasSound) << outcome.findings;
     EXPECT_NE(outcome.findings.find("E133"), std::string::npos) << outcome.findings;
     EXPECT_NE(outcome.findings.find("the limit for one product"), std::string::npos) << outcome.findings;
@@ -86,7 +86,7 @@ std::string trimmedChain(int length) {
 }
 
 TEST(IfcBudget, CurvesThatTrimEachOtherAreReadOnce) {
-    const Outcome outcome = readBeside(trimmedChain(30));
+    const BudgetOutcome outcome = readBeside(trimmedChain(30));
     EXPECT_TRUE(outcome.hasSound);
     EXPECT_EQ(outcome.findings.find("E13"), outcome.findings.find("E134")) << outcome.findings;
     EXPECT_EQ(outcome.points, 24U + 18U);
@@ -159,7 +159,7 @@ TEST(IfcBudget, OpeningsOfManyParts) {
         "#200=IFCBLOCK(#14,1000.,1000.,1000.);\n"
         "#110=IFCOPENINGELEMENT('o',$,$,$,$,#15,#101,$,$);\n";
     for (int i = 0; i < 20000; ++i) text += fmt::format("#{}=IFCRELVOIDSELEMENT('v',$,$,$,#100,#110);\n", 10000 + i);
-    const Outcome outcome = readBeside(wall(text));
+    const BudgetOutcome outcome = readBeside(wall(text));
     EXPECT_TRUE(outcome.hasSound) << outcome.findings;
 }
 
@@ -179,7 +179,7 @@ TEST(IfcBudget, ManyProductsOfOneLargeShapeAreRefused) {
         text += fmt::format("#{}=IFCWALL('w{}',$,'Wall',$,$,#15,#101,$,$);\n", 20000 + i, i);
         walls += fmt::format("{}#{}", i == 0 ? "" : ",", 20000 + i);
     }
-    const Outcome outcome = readBeside(text, walls);
+    const BudgetOutcome outcome = readBeside(text, walls);
     EXPECT_EQ(outcome.error, Code::InputTooBig) << outcome.findings;
     EXPECT_NE(outcome.findings.find("the limit for a file of this size"), std::string::npos) << outcome.findings;
 }
@@ -191,7 +191,7 @@ TEST(IfcBudget, PropertiesOfProperties) {
     for (int i = 1000; i < 1009; ++i)
         text +=
             fmt::format("#{}=IFCCOMPLEXPROPERTY('c{}',$,'use',({}));\n", i, i, repeated(fmt::format("#{}", i - 1), 30));
-    const Outcome outcome = readBeside(wall(text));
+    const BudgetOutcome outcome = readBeside(wall(text));
     EXPECT_TRUE(outcome.hasSound) << outcome.findings;
     EXPECT_NE(outcome.findings.find("attributes of this product were read in part"), std::string::npos)
         << outcome.findings;

@@ -241,6 +241,18 @@ constexpr const char* kProducts = R"(
 #160=IFCSTYLEDITEM($,(#152),$);
 #161=IFCPRESENTATIONLAYERASSIGNMENT('layer',$,(#102,#223),$);
 #162=IFCPRESENTATIONLAYERWITHSTYLE('styled',$,(#112),$,.T.,.F.,.F.,(#151));
+#163=IFCSHAPEASPECT((#102,#112),'Framing',$,.T.,#101);
+#800=IFCSIGN('sign',$,'Sign',$,$,#801,#111,$,$);
+#801=IFCLINEARPLACEMENT($,#802,$);
+#802=IFCAXIS2PLACEMENTLINEAR(#803,$,$);
+#803=IFCPOINTBYDISTANCEEXPRESSION(IFCLENGTHMEASURE(100.),$,$,$,#804);
+#804=IFCSEGMENTEDREFERENCECURVE((#805),.F.,#806,$);
+#805=IFCCURVESEGMENT(.DISCONTINUOUS.,#17,IFCLENGTHMEASURE(0.),IFCLENGTHMEASURE(500.),#810);
+#806=IFCGRADIENTCURVE((#807),.F.,#808,$);
+#807=IFCCURVESEGMENT(.DISCONTINUOUS.,#17,IFCLENGTHMEASURE(0.),IFCLENGTHMEASURE(500.),#810);
+#808=IFCCOMPOSITECURVE((#809),.F.);
+#809=IFCCURVESEGMENT(.DISCONTINUOUS.,#17,IFCLENGTHMEASURE(0.),IFCLENGTHMEASURE(500.),#810);
+#810=IFCCLOTHOID(#17,1000.);
 )";
 
 constexpr const char* kRelations = R"(
@@ -338,17 +350,17 @@ std::string with(const std::string& text, const Reference& reference, const std:
     return text.substr(0, reference.at) + id + text.substr(reference.at + reference.size);
 }
 
-struct Outcome {
+struct CircleOutcome {
     bool isModel = false;
     std::string findings;
 };
 
-Outcome readLayered(const std::string& text) {
+CircleOutcome readLayered(const std::string& text) {
     ReadOptions options;
     options.splitLayers = true;
     Diagnostics log;
     const auto model = readIfc(std::as_bytes(std::span(text.data(), text.size())), "test.ifc", options, &log);
-    Outcome outcome{model.hasValue(), model ? "" : model.error().toString()};
+    CircleOutcome outcome{model.hasValue(), model ? "" : model.error().toString()};
     for (const Diagnostic& d : log.items()) outcome.findings += d.toString() + "\n";
     return outcome;
 }
@@ -362,7 +374,7 @@ TEST(IfcCircles, TheFileHasRecordsOfEveryKind) {
     };
     for (const std::string_view name : kNames)
         EXPECT_NE(lowerAscii(text).find("=" + lowerAscii(name) + "("), std::string::npos) << name;
-    const Outcome outcome = readLayered(text);
+    const CircleOutcome outcome = readLayered(text);
     EXPECT_TRUE(outcome.isModel) << outcome.findings;
     EXPECT_EQ(outcome.findings.find("circle"), std::string::npos) << outcome.findings;
 }
@@ -381,7 +393,7 @@ TEST(IfcCircles, EveryReferenceMayCloseACircle) {
         if (targets.size() > 3) targets.erase(std::next(targets.begin(), 3), targets.end());
         targets.insert(reference.from);
         for (const std::string& target : targets) {
-            const Outcome outcome = readLayered(with(text, reference, target));
+            const CircleOutcome outcome = readLayered(with(text, reference, target));
             EXPECT_FALSE(outcome.findings.empty()) << reference.from << " to " << target;
             ++files;
             if (outcome.findings.find("circle") != std::string::npos) ++named;
@@ -427,7 +439,7 @@ TEST(IfcCircles, CirclesAreNamedWithTheirRecords) {
         const std::size_t place = text.find(from, at + 1 + std::string_view(record).size());
         ASSERT_LT(place, text.find('\n', at + 1)) << record;
         text.replace(place, std::string_view(from).size(), to);
-        const Outcome outcome = readLayered(text);
+        const CircleOutcome outcome = readLayered(text);
         EXPECT_TRUE(outcome.isModel);
         const std::size_t found = outcome.findings.find("E111");
         ASSERT_NE(found, std::string::npos) << record << "\n" << outcome.findings;

@@ -3,6 +3,7 @@
 #include <svt/core/text.hpp>
 #include <svt/readers/georeference/far_features.hpp>
 #include <svt/readers/georeference/georeference.hpp>
+#include <svt/readers/ifc/drawing_facts.hpp>
 #include <svt/readers/ifc/layers.hpp>
 #include <svt/readers/ifc/line_reader.hpp>
 #include <svt/readers/ifc/properties.hpp>
@@ -17,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <unordered_set>
@@ -126,7 +128,8 @@ private:
         map_ = readMapPlace(file_, project);
         const Fields fields = file_.fieldsOf(project);
         model_.name = fields[at::Project::Name].string().value_or("");
-        if (model_.name.empty()) model_.name = fields[at::Project::LongName].string().value_or("");
+        projectName_ = fields[at::Project::LongName].string().value_or("");
+        if (model_.name.empty()) model_.name = projectName_;
     }
 
     void reportStructure() {
@@ -206,6 +209,9 @@ private:
         if (product.ifcType == "IfcSpace" || product.ifcType == "IfcSpatialZone") nameSpace(fields, feature);
         if (product.ifcType == "IfcBuildingStorey") addElevation(product, fields, feature);
         if (product.ifcType == "IfcSite") addSitePlace(fields, feature);
+        if (number == northBearer_ && !projectName_.empty())
+            feature.attributes.push_back({"projectName", projectName_, ""});
+        addDrawingFacts(file_, product, map_, feature);
         if (number == northBearer_ && map_.trueNorthDegrees)
             feature.attributes.push_back({"trueNorth", *map_.trueNorthDegrees, "deg"});
         const string_view predefined = fields[predefinedTypeOf(product.ifcType)].enumeration();
@@ -280,7 +286,8 @@ private:
     }
 
     void addLength(string_view attribute, Value length, model::Feature& feature) const {
-        if (length.number()) feature.attributes.push_back({std::string(attribute), file_.metres(length), "m"});
+        if (const auto number = length.number())
+            feature.attributes.push_back({std::string(attribute), converted(*number, units_.length), "m"});
     }
 
     void addSitePlace(const Fields& fields, model::Feature& feature) const {
@@ -378,7 +385,8 @@ private:
             if (definition == kNoRecord && !file_.missing().isAny()) continue;
             Shape shape = shapes.readShape(definition);
             const Transform placement = placementOf(product.record, shape.leftOut);
-            if (!shape.bodies.empty()) cutOpenings(product, placement, shapes, shape);
+            if (!isFinite(placement.origin)) shape.bodies.clear();
+            if (!shape.bodies.empty() && !shape.isBoundingBox) cutOpenings(product, placement, shapes, shape);
             if (file_.guard().isFileSpent()) return tooMuch();
             // Discards a shape that was read until the budget was spent: it is incomplete, and large.
             if (file_.guard().isSpent()) shape = {{}, {file_.guard().whatIsSpent()}, true};
@@ -447,10 +455,34 @@ private:
             ++partial_;
             warn(Code::ReadInPart, fmt::format("this {} was read in part; left out: {}", type, what), where);
         }
+        if (shape.isBoundingBox) feature.attributes.push_back({"shape", std::string("bounding box"), ""});
         const auto style = styles.ofMaterial.find(properties.mainMaterial(structure_.products[number].record));
         const std::int32_t material = style == styles.ofMaterial.end() ? -1 : style->second;
+        colorParts(structure_.products[number].record, shape, styles, properties);
         if (options_.splitLayers && splitProduct(number, shape, placement, styles, properties, material)) return;
         addGeometry(model_.features[featureOf_[number]], shape.bodies, placement, material);
+    }
+
+    // Parts that the file names without a colour take that of their material constituent, found by name.
+    void colorParts(RecordIndex product, Shape& shape, const Styles& styles, const Properties& properties) {
+        for (Body& body : shape.bodies) {
+            if (body.material < 0 || model_.materials[static_cast<std::size_t>(body.material)].hasColor) continue;
+            const std::string part = model_.materials[static_cast<std::size_t>(body.material)].part;
+            const RecordIndex record = properties.constituent(product, part);
+            if (record == kNoRecord) continue;
+            const auto [number, isNew] = materialsOfParts_.try_emplace({record, part}, body.material);
+            if (isNew) {
+                model::Material material;
+                const auto style = styles.ofMaterial.find(record);
+                material.hasColor = style != styles.ofMaterial.end();
+                if (material.hasColor) material = styles.materials[static_cast<std::size_t>(style->second)];
+                material.name = file_.fieldsOf(record)[at::Material::Name].string().value_or("");
+                material.part = part;
+                number->second = static_cast<std::int32_t>(model_.materials.size());
+                model_.materials.push_back(std::move(material));
+            }
+            body.material = number->second;
+        }
     }
 
     // Layers inherit the attributes of their wall, except for measures and materials, so that queries for walls find
@@ -572,10 +604,12 @@ private:
     MapPlace map_;
     Structure structure_;
     std::size_t northBearer_ = Product::kNoProduct;
+    std::string projectName_;  // LongName of the project
     std::unordered_set<std::string> ids_;
     std::unordered_map<std::string, int> nextNumber_;  // of an id that is used more than once
     std::unordered_map<RecordIndex, std::string> presentationLayers_;
-    std::vector<model::FeatureIndex> featureOf_;  // by product
+    std::map<std::pair<RecordIndex, std::string>, std::int32_t> materialsOfParts_;  // by IfcMaterial and part
+    std::vector<model::FeatureIndex> featureOf_;                                    // by product
     std::unordered_map<RecordIndex, model::FeatureIndex> groupFeature_;
     std::size_t withShape_ = 0, partial_ = 0, skipped_ = 0, withLayers_ = 0, split_ = 0;
     model::BuildingModel model_;

@@ -240,6 +240,43 @@ TEST(IfcReader, StylesBecomeMaterials) {
     for (const model::Polygon& polygon : byMaterial->polygons) EXPECT_EQ(polygon.material, 0);
 }
 
+TEST(IfcReader, ShapeAspectsNamePartsAndTheirConstituentsColorThem) {
+    const auto model = readText(ifcFile(
+        "#100=IFCWINDOW('window',$,$,$,$,#15,#101,$,1000.,1000.,$,$,$);\n"
+        "#101=IFCPRODUCTDEFINITIONSHAPE($,$,(#102));\n"
+        "#102=IFCSHAPEREPRESENTATION(#20,'Body','SweptSolid',(#200,#201,#202));\n"
+        "#200=IFCEXTRUDEDAREASOLID(#300,#14,#11,1000.);\n#300=IFCRECTANGLEPROFILEDEF(.AREA.,$,#17,60.,80.);\n"
+        "#201=IFCEXTRUDEDAREASOLID(#301,#14,#11,1000.);\n#301=IFCRECTANGLEPROFILEDEF(.AREA.,$,#17,1000.,7.);\n"
+        "#202=IFCEXTRUDEDAREASOLID(#302,#14,#11,20.);\n#302=IFCRECTANGLEPROFILEDEF(.AREA.,$,#17,10.,10.);\n"
+        "#400=IFCSHAPEASPECT((#402),'Framing',$,.T.,#101);\n#401=IFCSHAPEASPECT((#403),'Glazing',$,.T.,#101);\n"
+        "#402=IFCSHAPEREPRESENTATION(#20,'Body','SweptSolid',(#200));\n"
+        "#403=IFCSHAPEREPRESENTATION(#20,'Body','SweptSolid',(#201));\n"
+        "#410=IFCRELASSOCIATESMATERIAL('m',$,$,$,(#100),#411);\n"
+        "#411=IFCMATERIALCONSTITUENTSET('set',$,(#412,#413));\n"
+        "#412=IFCMATERIALCONSTITUENT('Framing',$,#414,$,$);\n#413=IFCMATERIALCONSTITUENT('Glazing',$,#415,$,$);\n"
+        "#414=IFCMATERIAL('oak',$,$);\n#415=IFCMATERIAL('float glass',$,$);\n"
+        "#420=IFCMATERIALDEFINITIONREPRESENTATION($,$,(#421),#415);\n"
+        "#421=IFCSTYLEDREPRESENTATION(#20,$,$,(#422));\n#422=IFCSTYLEDITEM($,(#423),$);\n"
+        "#423=IFCSURFACESTYLE('blue',.BOTH.,(#424));\n#424=IFCSURFACESTYLESHADING(#425,0.8);\n"
+        "#425=IFCCOLOURRGB($,0.,0.,1.);\n",
+        "#100"));
+    ASSERT_TRUE(model);
+    const auto& solids = model->features.back().geometries.front().solids;
+    ASSERT_EQ(solids.size(), 3u);
+    const auto materialOf = [&](std::size_t solid) {
+        const std::int32_t number = model->polygons[solids[solid].exterior.front().polygon].material;
+        return number < 0 ? model::Material{} : model->materials[static_cast<std::size_t>(number)];
+    };
+    EXPECT_EQ(materialOf(0).part, "Framing");
+    EXPECT_EQ(materialOf(0).name, "oak");
+    EXPECT_FALSE(materialOf(0).hasColor);
+    EXPECT_EQ(materialOf(1).part, "Glazing");
+    EXPECT_EQ(materialOf(1).name, "float glass");
+    EXPECT_EQ(materialOf(1).diffuse, (Vec3f{0, 0, 1}));
+    EXPECT_FLOAT_EQ(materialOf(1).transparency, 0.8F);
+    EXPECT_EQ(materialOf(2).part, "");
+}
+
 TEST(IfcReader, FacesHaveColorsOfTheirOwn) {
     const auto model =
         readText(ifcWithItem("#200=IFCTRIANGULATEDFACESET(#201,$,.T.,((1,3,2),(1,2,4),(2,2,4),(2,3,4),(3,1,4)),$);\n"
@@ -317,7 +354,6 @@ TEST(IfcReader, PlacementsThatCannotBeReadAreTold) {
         "#71=IFCCARTESIANPOINT((9000.,5000.));\n";
     const std::pair<const char*, const char*> cases[] = {
         {kParallel, "on a grid"},
-        {"#40=IFCLINEARPLACEMENT($,#14,$);\n", "along a curve"},
         {"#40=IFCLOCALPLACEMENT(#41,#14);\n#41=IFCLOCALPLACEMENT(#40,#14);\n", "in a circle: #40"},
         {"#40=IFCLOCALPLACEMENT($,#999);\n", "which the file lacks"},
         {"#40=IFCLOCALPLACEMENT(#999,#14);\n", "attribute 1 of #40"},
@@ -510,6 +546,39 @@ TEST(Ifc, MappedCurvesThatContainThemselvesEnd) {
                 "#100,#200"));
     ASSERT_TRUE(model);
     EXPECT_TRUE(model->lines.empty());
+}
+
+TEST(DrawingFacts, AreAttributesInMetres) {
+    std::string file = ifcFile(
+        "#100=IFCDOOR('door',$,'D',$,$,#15,$,$,2010.,885.,.DOOR.,.SINGLE_SWING_LEFT.,$);\n"
+        "#101=IFCWINDOW('window',$,'W',$,$,#15,$,$,1200.,0.,$,$,$);\n"
+        "#102=IFCSTAIRFLIGHT('flight',$,'S',$,$,#15,$,$,16,15,175.,280.,.STRAIGHT.);\n"
+        "#103=IFCGRID('grid',$,'G',$,$,#15,$,(#110),(#111),$,$);\n"
+        "#110=IFCGRIDAXIS('A',#112,.T.);\n"
+        "#111=IFCGRIDAXIS('1',#999,.T.);\n"
+        "#112=IFCPOLYLINE((#113,#114));\n"
+        "#113=IFCCARTESIANPOINT((-1000.,0.));\n"
+        "#114=IFCCARTESIANPOINT((9000.,500.));\n"
+        "#120=IFCPOSTALADDRESS($,$,$,'Hall 2',('Lake Road 3'),$,'Town',$,'8001','CH');\n",
+        "#100,#101,#102,#103");
+    const auto replace = [&](const std::string& from, const std::string& to) {
+        file.replace(file.find(from), from.size(), to);
+    };
+    replace(".ELEMENT.,$,$,$);\n#32", ".ELEMENT.,$,$,#120);\n#32");
+    replace("$,'Project',$,$,$,$,(#20)", "$,'P-7',$,$,'Town hall',$,(#20)");
+    const auto model = readText(file);
+    ASSERT_TRUE(model) << model.error().message();
+    EXPECT_EQ(attribute(*find(*model, "door"), "overallWidth"), "0.885 m");
+    EXPECT_EQ(attribute(*find(*model, "door"), "overallHeight"), "2.01 m");
+    EXPECT_EQ(attribute(*find(*model, "window"), "overallHeight"), "1.2 m");
+    EXPECT_EQ(attribute(*find(*model, "window"), "overallWidth"), "none");
+    EXPECT_EQ(attribute(*find(*model, "flight"), "numberOfRisers"), "16");
+    EXPECT_EQ(attribute(*find(*model, "flight"), "riserHeight"), "0.175 m");
+    EXPECT_EQ(attribute(*find(*model, "0building"), "address"), "Hall 2, Lake Road 3, 8001 Town, CH");
+    EXPECT_EQ(attribute(*find(*model, "0site"), "projectName"), "Town hall");
+    EXPECT_EQ(model->name, "P-7");
+    EXPECT_EQ(attribute(*find(*model, "grid"), "axis A"), "-1.000000 0.000000 0.000000, 9.000000 0.500000 0.000000 m");
+    EXPECT_EQ(attribute(*find(*model, "grid"), "axis 1"), "none");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace svt::readers::ifc {
 namespace {
@@ -12,7 +13,8 @@ using std::string_view;
 constexpr std::size_t kMaxText = 4096;
 
 // Reads a value, converted to SI from the project unit of its type; false for a value that is not set.
-bool readValue(Value value, const Units& units, Attribute& attribute) {
+// \param own  factor of the unit of the value itself; empty: that of the project
+bool readValue(Value value, const Units& units, std::optional<double> own, Attribute& attribute) {
     if (value.isNothing()) return false;
     const string_view type = value.typeName();
     if (const auto text = value.string()) {
@@ -51,7 +53,7 @@ bool readValue(Value value, const Units& units, Attribute& attribute) {
         factor = units.angle;
         attribute.unit = "rad";
     }
-    attribute.value = *number * factor;
+    attribute.value = converted(*number, attribute.unit.empty() ? 1 : own.value_or(factor));
     return true;
 }
 
@@ -162,19 +164,22 @@ void Properties::appendProperty(const std::string& prefix, RecordIndex property,
     const Fields fields = file_.fieldsOf(property);
     const std::string name = fields[at::Property::Name].string().value_or("");
     if (name.empty()) return;
-    const auto value = [&](Value given, std::string_view tail = "") {
+    const auto unitOf = [&](AttributePosition unit) { return unitFactor(file_, file_.follow(fields[unit])); };
+    const auto value = [&](Value given, std::string_view tail = "", std::optional<double> own = {}) {
         Attribute attribute{prefix + name + std::string(tail), std::string(), ""};
-        if (readValue(given, units_, attribute)) replaceOrAdd(attributes, std::move(attribute));
+        if (readValue(given, units_, own, attribute)) replaceOrAdd(attributes, std::move(attribute));
     };
     const auto text = [&](std::string words) {
         if (!words.empty()) replaceOrAdd(attributes, {prefix + name, std::move(words), ""});
     };
     const auto quantity = [&](AttributePosition given, double factor, const char* unit) {
+        const double own = unitOf(at::PhysicalSimpleQuantity::Unit).value_or(factor);
         if (const auto number = fields[given].number())
-            replaceOrAdd(attributes, {prefix + name, *number * factor, unit});
+            replaceOrAdd(attributes, {prefix + name, converted(*number, *unit == '\0' ? factor : own), unit});
     };
     switch (file_.entityOf(property)) {
-        case Entity::PropertySingleValue: return value(fields[at::PropertySingleValue::NominalValue]);
+        case Entity::PropertySingleValue:
+            return value(fields[at::PropertySingleValue::NominalValue], "", unitOf(at::PropertySingleValue::Unit));
         case Entity::PropertyEnumeratedValue:
             return text(joined(fields[at::PropertyEnumeratedValue::EnumerationValues]));
         case Entity::PropertyListValue: return text(joined(fields[at::PropertyListValue::ListValues]));
@@ -269,6 +274,18 @@ RecordIndex Properties::mainMaterial(RecordIndex object) const {
                 best = part.material;
             }
     return best;
+}
+
+RecordIndex Properties::constituent(RecordIndex object, const std::string& name) const {
+    for (const RecordIndex set : materialsOf(object)) {
+        if (file_.entityOf(set) != Entity::MaterialConstituentSet) continue;
+        for (const RecordIndex record : file_.followAll(set, at::MaterialConstituentSet::MaterialConstituents)) {
+            const Fields fields = file_.fieldsOf(record);
+            if (fields[at::MaterialConstituent::Name].string().value_or("") == name)
+                return file_.follow(fields[at::MaterialConstituent::Material]);
+        }
+    }
+    return kNoRecord;
 }
 
 }  // namespace svt::readers::ifc

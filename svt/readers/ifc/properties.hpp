@@ -33,6 +33,10 @@ public:
     /// The material for the colour of an object, that of its thickest layer or its first one; kNoRecord: none.
     [[nodiscard]] RecordIndex mainMaterial(RecordIndex object) const;
 
+    /// The material of the constituent with this name, in the constituent set of an object or of its type; kNoRecord:
+    /// none.
+    [[nodiscard]] RecordIndex constituent(RecordIndex object, const std::string& name) const;
+
 private:
     using Records = std::vector<RecordIndex>;
     using Related = std::unordered_map<RecordIndex, Records>;

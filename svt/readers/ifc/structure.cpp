@@ -15,6 +15,7 @@ public:
     Structure run() {
         findProducts();
         for (RecordIndex i = 0; i < file_.step().records().size(); ++i) relate(i);
+        keepEarthworks();
         sortTree();
         return std::move(result_);
     }
@@ -117,6 +118,15 @@ private:
         Product& product = result_.products[c];
         if (product.parent == Product::kNoProduct || (isPart && !isPart_[c])) product.parent = p;
         if (isPart) isPart_[c] = true;
+    }
+
+    // A cut of earthworks that no relation subtracts from an element is the space to be excavated.
+    void keepEarthworks() {
+        for (Product& product : result_.products) {
+            if (product.ifcType != "IfcEarthworksCut" || hostOf_.count(product.record) != 0) continue;
+            product.kind = ProductKind::Element;
+            product.className = "GenericLogicalSpace";
+        }
     }
 
     // Reports the circle to which the parents of a product lead.

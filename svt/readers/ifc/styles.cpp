@@ -1,6 +1,8 @@
 #include <svt/readers/ifc/styles.hpp>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace svt::readers::ifc {
 namespace {
@@ -14,8 +16,10 @@ public:
                 case Entity::StyledItem: readStyledItem(i); break;
                 case Entity::IndexedColourMap: readColorMap(file_.fieldsOf(i)); break;
                 case Entity::MaterialDefinitionRepresentation: readMaterial(i); break;
+                case Entity::ShapeAspect: readAspect(i); break;
                 default: break;
             }
+        for (const auto& [item, part] : partOfItem_) namePart(item, part);
         return std::move(styles_);
     }
 
@@ -34,6 +38,28 @@ private:
             for (const RecordIndex styled : file_.items(representation))
                 if (const std::int32_t material = surfaceMaterial(styled); material >= 0)
                     styles_.ofMaterial.emplace(owner, material);
+    }
+
+    void readAspect(RecordIndex aspect) {
+        const std::string part = file_.fieldsOf(aspect)[at::ShapeAspect::Name].string().value_or("");
+        if (part.empty() || !file_.guard().takeElements(kElementsPerMaterial)) return;
+        for (const RecordIndex representation : file_.followAll(aspect, at::ShapeAspect::ShapeRepresentations))
+            for (const RecordIndex item : file_.items(representation)) partOfItem_.emplace(item, part);
+    }
+
+    // Gives an item a material with the name of its part, and the colour that the item has.
+    void namePart(RecordIndex item, const std::string& part) {
+        const auto [style, isNew] = styles_.ofItem.try_emplace(item, -1);
+        const auto [number, isFirst] = numbersOfParts_.try_emplace({style->second, part}, -1);
+        if (isFirst) {
+            model::Material material;
+            material.hasColor = style->second >= 0;
+            if (material.hasColor) material = styles_.materials[static_cast<std::size_t>(style->second)];
+            material.part = part;
+            number->second = static_cast<std::int32_t>(styles_.materials.size());
+            styles_.materials.push_back(std::move(material));
+        }
+        style->second = number->second;
     }
 
     // Colours of the faces of a face set: numbers of colours, beginning with 1.
@@ -102,6 +128,8 @@ private:
     const IfcFile& file_;
     Styles styles_;
     std::unordered_map<RecordIndex, std::int32_t> numbers_;
+    std::map<RecordIndex, std::string> partOfItem_;  // ordered, so that materials have the same numbers each time
+    std::map<std::pair<std::int32_t, std::string>, std::int32_t> numbersOfParts_;  // by material without part
 };
 
 }  // namespace

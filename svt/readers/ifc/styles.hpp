@@ -13,7 +13,9 @@ namespace svt::readers::ifc {
 
 struct Styles {
     std::vector<model::Material> materials;
-    std::unordered_map<RecordIndex, std::int32_t> ofItem;      ///< representation item -> material
+    /// Representation item -> material. Items of an IfcShapeAspect have a material with its name as `part`, without
+    /// colour if the item has no style.
+    std::unordered_map<RecordIndex, std::int32_t> ofItem;
     std::unordered_map<RecordIndex, std::int32_t> ofMaterial;  ///< IfcMaterial -> material
     /// Face set -> material of each of its faces.
     std::unordered_map<RecordIndex, std::vector<std::int32_t>> ofFaces;

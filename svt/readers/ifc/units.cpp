@@ -22,31 +22,6 @@ double prefixFactor(string_view prefix) noexcept {
     return 1;
 }
 
-// Factor of a unit to the SI unit; the prefix of a square metre counts twice.
-std::optional<double> unitFactor(const IfcFile& file, RecordIndex unit) {
-    ReadGuard::Scope scope(file.guard());
-    if (!scope.enter(unit)) return std::nullopt;
-    const Fields fields = file.fieldsOf(unit);
-    switch (file.entityOf(unit)) {
-        case Entity::SIUnit: {
-            const string_view name = fields[at::SIUnit::Name].enumeration();
-            const double factor = prefixFactor(fields[at::SIUnit::Prefix].enumeration());
-            if (name == "SQUARE_METRE") return factor * factor;
-            if (name == "CUBIC_METRE") return factor * factor * factor;
-            return name == "GRAM" ? factor / 1000 : factor;
-        }
-        case Entity::ConversionBasedUnit:
-        case Entity::ConversionBasedUnitWithOffset: {
-            const Fields measure = file.fieldsOf(file.follow(fields[at::ConversionBasedUnit::ConversionFactor]));
-            const auto value = measure[at::MeasureWithUnit::ValueComponent].number();
-            if (!value || !(*value > 0)) return std::nullopt;
-            const auto base = unitFactor(file, file.follow(measure[at::MeasureWithUnit::UnitComponent]));
-            return base ? std::optional(*value * *base) : std::nullopt;
-        }
-        default: return std::nullopt;
-    }
-}
-
 RecordIndex modelContext(const IfcFile& file, RecordIndex project) {
     namespace geometric = at::GeometricRepresentationContext;
     for (const RecordIndex context : file.followAll(project, at::Project::RepresentationContexts))
@@ -111,9 +86,40 @@ MapPlace readConversion(const IfcFile& file) {
 
 }  // namespace
 
+std::optional<double> unitFactor(const IfcFile& file, RecordIndex unit) {
+    ReadGuard::Scope scope(file.guard());
+    if (!scope.enter(unit)) return std::nullopt;
+    const Fields fields = file.fieldsOf(unit);
+    switch (file.entityOf(unit)) {
+        case Entity::SIUnit: {
+            const string_view name = fields[at::SIUnit::Name].enumeration();
+            const double factor = prefixFactor(fields[at::SIUnit::Prefix].enumeration());
+            // The prefix of a square metre counts twice.
+            if (name == "SQUARE_METRE") return factor * factor;
+            if (name == "CUBIC_METRE") return factor * factor * factor;
+            return name == "GRAM" ? factor / 1000 : factor;
+        }
+        case Entity::ConversionBasedUnit:
+        case Entity::ConversionBasedUnitWithOffset: {
+            const Fields measure = file.fieldsOf(file.follow(fields[at::ConversionBasedUnit::ConversionFactor]));
+            const auto value = measure[at::MeasureWithUnit::ValueComponent].number();
+            if (!value || !(*value > 0)) return std::nullopt;
+            const auto base = unitFactor(file, file.follow(measure[at::MeasureWithUnit::UnitComponent]));
+            return base ? std::optional(*value * *base) : std::nullopt;
+        }
+        default: return std::nullopt;
+    }
+}
+
+double converted(double value, double factor) noexcept {
+    constexpr double kSame = 1e-12;
+    const double divisor = std::round(1 / factor);
+    return factor < 1 && std::abs(divisor * factor - 1) < kSame ? value / divisor : value * factor;
+}
+
 Units readUnits(const IfcFile& file, RecordIndex project, const Place& place, Diagnostics& diagnostics) {
     Units units;
-    bool hasLength = false;
+    bool hasLength = false, hasArea = false, hasVolume = false;
     const RecordIndex assignment = file.follow(project, at::Project::UnitsInContext);
     for (const RecordIndex unit : file.followAll(assignment, at::UnitAssignment::Units)) {
         const string_view type = file.fieldsOf(unit)[at::NamedUnit::UnitType].enumeration();
@@ -123,8 +129,14 @@ Units readUnits(const IfcFile& file, RecordIndex project, const Place& place, Di
             units.length = *factor;
             hasLength = true;
         }
-        if (type == "AREAUNIT") units.area = *factor;
-        if (type == "VOLUMEUNIT") units.volume = *factor;
+        if (type == "AREAUNIT") {
+            units.area = *factor;
+            hasArea = true;
+        }
+        if (type == "VOLUMEUNIT") {
+            units.volume = *factor;
+            hasVolume = true;
+        }
         if (type == "PLANEANGLEUNIT") units.angle = *factor;
         if (type == "MASSUNIT") units.mass = *factor;
         if (type == "TIMEUNIT") units.time = *factor;
@@ -132,6 +144,16 @@ Units readUnits(const IfcFile& file, RecordIndex project, const Place& place, Di
     if (!hasLength)
         diagnostics.add(Severity::Warning, Code::BadValue,
                         "the project names no unit of length that is known; lengths are taken as metres", place);
+    if (!hasArea) units.area = units.length * units.length;
+    if (!hasVolume) units.volume = units.length * units.length * units.length;
+    if ((!hasArea || !hasVolume) && units.length != 1)
+        diagnostics.add(Severity::Note, Code::BadValue,
+                        fmt::format("the project names no unit of {}; {} taken from its unit of length",
+                                    !hasArea && !hasVolume ? "area and volume"
+                                    : hasArea              ? "volume"
+                                                           : "area",
+                                    !hasArea && !hasVolume ? "both are" : "it is"),
+                        place);
     return units;
 }
 

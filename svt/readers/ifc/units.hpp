@@ -5,6 +5,7 @@
 #include <svt/core/diagnostics.hpp>
 #include <svt/readers/ifc_shape/ifc_file.hpp>
 
+#include <optional>
 #include <string>
 
 namespace svt::readers::ifc {
@@ -15,8 +16,15 @@ struct Units {
 };
 
 /// The units of the project: SI with prefixes, and units defined by conversion. A missing or invalid unit becomes the
-/// SI unit, with a finding (BadValue) for lengths.
+/// SI unit, with a warning (BadValue) for lengths. Missing units of area and volume become the square and the cube of
+/// the unit of length, with a note (BadValue) unless that is the metre.
 [[nodiscard]] Units readUnits(const IfcFile& file, RecordIndex project, const Place& place, Diagnostics& diagnostics);
+
+/// Factor of a unit to the SI unit; nothing for a unit that is missing or invalid.
+[[nodiscard]] std::optional<double> unitFactor(const IfcFile& file, RecordIndex unit);
+
+/// `value` in SI units. Decimal fractions stay so: 15650000 mm2 are 15.65 m2, not 15.649999999999999.
+[[nodiscard]] double converted(double value, double factor) noexcept;
 
 /// The conversion of project coordinates to map coordinates.
 struct MapPlace {

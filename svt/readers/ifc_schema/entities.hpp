@@ -21,7 +21,10 @@ namespace svt::readers::ifc {
     E(Root, None, GlobalId, OwnerHistory, Name, Description) E(Object, Root, ObjectType) \
     E(Product, Object, ObjectPlacement, Representation) E(SpatialElement, Product, LongName) \
     E(SpatialZone, SpatialElement, PredefinedType) E(SpatialStructureElement, SpatialElement, CompositionType) \
-    E(Site, SpatialStructureElement, RefLatitude, RefLongitude, RefElevation) \
+    E(Site, SpatialStructureElement, RefLatitude, RefLongitude, RefElevation, LandTitleNumber, SiteAddress) \
+    E(Building, SpatialStructureElement, ElevationOfRefHeight, ElevationOfTerrain, BuildingAddress) \
+    E(PostalAddress, None, Purpose, Description, UserDefinedPurpose, InternalLocation, AddressLines, PostalBox, Town, \
+      Region, PostalCode, Country) \
     E(BuildingStorey, SpatialStructureElement, Elevation) E(Annotation, Product, PredefinedType) \
     E(Grid, Product, UAxes, VAxes, WAxes, PredefinedType) \
     E(Element, Product, Tag) E(Wall, Element, PredefinedType) \
@@ -41,6 +44,7 @@ namespace svt::readers::ifc {
     E(RelDecomposes, Root, RelatingObject, RelatedObjects) \
     E(NamedUnit, None, Dimensions, UnitType) E(CoordinateOperation, None, SourceCRS, TargetCRS) \
     E(ObjectPlacement, None, PlacementRelTo) E(GridPlacementOfIfc4, None, PlacementLocation, PlacementRefDirection) \
+    E(LinearPlacementOfIfc4x1, None, PlacementRelTo, Distance, Orientation, CartesianPosition) \
     E(Placement, None, Location) E(CartesianTransformationOperator, None, Axis1, Axis2, LocalOrigin, Scale) \
     E(ProductRepresentation, None, Name, Description, Representations) \
     E(Representation, None, ContextOfItems, RepresentationIdentifier, RepresentationType, Items) \
@@ -147,7 +151,10 @@ namespace svt::readers::ifc {
     E(ArbitraryOpenProfileDef, ProfileDef, Curve) E(CenterLineProfileDef, ArbitraryOpenProfileDef, Thickness) \
     E(CompositeProfileDef, ProfileDef, Profiles) E(DerivedProfileDef, ProfileDef, ParentProfile, Operator) \
     E(MirroredProfileDef, DerivedProfileDef) E(Polyline, None, Points) E(CompositeCurve, None, Segments) \
-    E(CompositeCurveOnSurface, CompositeCurve) \
+    E(CompositeCurveOnSurface, CompositeCurve) E(GradientCurve, CompositeCurve, SelfIntersect, BaseCurve) \
+    E(SegmentedReferenceCurve, GradientCurve) \
+    E(CurveSegment, None, Transition, Placement, SegmentStart, SegmentLength, ParentCurve) \
+    E(Clothoid, Conic, ClothoidConstant) \
     E(CompositeCurveSegment, None, Transition, SameSense, ParentCurve) \
     E(ReparametrisedCompositeCurveSegment, CompositeCurveSegment) \
     E(TrimmedCurve, None, BasisCurve, Trim1, Trim2, SenseAgreement, MasterRepresentation) E(Circle, Conic, Radius) \
@@ -155,7 +162,7 @@ namespace svt::readers::ifc {
     E(BSplineCurveWithKnots, BSplineCurve, KnotMultiplicities, Knots, KnotSpec) \
     E(RationalBSplineCurveWithKnots, BSplineCurveWithKnots, WeightsData) E(BezierCurve, BSplineCurve) \
     E(SurfaceCurve, None, Curve3D) E(SeamCurve, SurfaceCurve) E(IntersectionCurve, SurfaceCurve) \
-    E(PropertySet, Root, HasProperties) E(PropertySingleValue, Property, NominalValue) \
+    E(PropertySet, Root, HasProperties) E(PropertySingleValue, Property, NominalValue, Unit) \
     E(PropertyEnumeratedValue, Property, EnumerationValues) E(PropertyListValue, Property, ListValues) \
     E(PropertyBoundedValue, Property, UpperBoundValue, LowerBoundValue) \
     E(ComplexProperty, Property, UsageName, HasProperties) \
@@ -177,6 +184,7 @@ namespace svt::readers::ifc {
     E(MaterialLayer, None, Material, LayerThickness, IsVentilated, Name, Description, Category) \
     E(MaterialLayerWithOffsets, MaterialLayer) E(MaterialLayerSet, None, MaterialLayers) \
     E(MaterialLayerSetUsage, None, ForLayerSet, LayerSetDirection, DirectionSense, OffsetFromReferenceLine) \
+    E(ShapeAspect, None, ShapeRepresentations, Name) \
     E(MaterialConstituent, None, Name, Description, Material) \
     E(MaterialConstituentSet, None, Name, Description, MaterialConstituents) \
     E(MaterialProfile, None, Name, Description, Material) \

@@ -305,7 +305,12 @@ bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& point
             break;
         case Entity::IndexedPolyCurve: isRead = readIndexedPolyCurve(file, fields, points); break;
         case Entity::CompositeCurve:
-        case Entity::CompositeCurveOnSurface: isRead = readComposite(file, fields, points, why); break;
+        case Entity::CompositeCurveOnSurface:
+        case Entity::GradientCurve:
+        case Entity::SegmentedReferenceCurve:
+            isRead = isOfCurveSegments(file, curve) ? readCurveSegments(file, curve, points, why)
+                                                    : readComposite(file, fields, points, why);
+            break;
         case Entity::TrimmedCurve: isRead = readTrimmedCurve(file, fields, points, why); break;
         case Entity::Circle:
         case Entity::Ellipse:

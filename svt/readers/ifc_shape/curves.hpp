@@ -1,7 +1,8 @@
 #pragma once
 /// \file
 /// Curves as polylines. Arcs are cut so that no chord is farther from its arc than kChordError, with at least
-/// kMinSegments and at most kMaxSegments per full turn; all points lie on the arc.
+/// kMinSegments and at most kMaxSegments per full turn; all points lie on the arc. Curves of alignments (IFC 4.3) are
+/// composite curves of IfcCurveSegment in plan (lines, arcs, clothoids), and gradient curves above them.
 
 #include <svt/readers/ifc_shape/ifc_file.hpp>
 
@@ -27,11 +28,26 @@ void appendArc(const Transform& axes, double radiusX, double radiusY, double fro
                std::vector<Vec3d>& points);
 
 /// Points of a curve in its order; the last point of a closed curve equals the first. Reads polylines, indexed poly
-/// curves, composite and trimmed curves, circles, ellipses, B-splines, and the 3D curve of a curve on a surface.
+/// curves, composite and trimmed curves, circles, ellipses, B-splines, curves of alignments, and the 3D curve of a curve
+/// on a surface.
 /// Metres; curves in 2D have z = 0.
 /// \return false for a curve with a part of unknown kind, invalid values, or a limit of file.guard(); `why` names the
 ///         reason
 [[nodiscard]] bool readCurve(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points, std::string& why);
+
+/// Whether a curve consists of IfcCurveSegment: a composite curve of them, a gradient curve or a segmented reference
+/// curve.
+[[nodiscard]] bool isOfCurveSegments(const IfcFile& file, RecordIndex curve);
+
+/// Whether distances along a curve are measured in plan: on gradient curves and those above them.
+[[nodiscard]] bool isMeasuredInPlan(const IfcFile& file, RecordIndex curve) noexcept;
+
+/// Appends the points of a curve of isOfCurveSegments(), metres. Chords are within kChordError of arcs and clothoids;
+/// gradients have a point every 5 m. A segment of another parent curve becomes the cubic curve between its start and the
+/// start of the next segment. Cant is not applied.
+/// \return false for invalid values or a limit of file.guard(); `why` names the reason
+[[nodiscard]] bool readCurveSegments(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points,
+                                     std::string& why);
 
 /// Points of the part of a curve between two points on it, as an edge uses it. Lines are two points.
 /// \param isForward  whether the edge runs with the curve

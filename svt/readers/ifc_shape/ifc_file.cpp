@@ -6,11 +6,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace svt::readers::ifc {
 namespace {
 
 using std::string_view;
+
+// The origin of a placement that nothing gives.
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+constexpr Vec3d kUnknownPlace{kNoNumber, kNoNumber, kNoNumber};
 
 // The first three items of a list, and the number of them; (0, 0, 0) and 0 where one of them is not a number.
 std::pair<Vec3d, int> firstNumbers(Value list) noexcept {
@@ -184,15 +190,29 @@ Transform IfcFile::placement(RecordIndex record, std::string& lost) const {
                     result = axes->after(result);
                     break;
                 }
-                if (follow(fields[at::LinearPlacement::CartesianPosition]) == kNoRecord)
-                    lost = "its place along a curve (without Cartesian position)";
-                result = axes(fields[at::LinearPlacement::CartesianPosition]).after(result);
+                if (const auto axes = cartesianAxes(fields, above)) {
+                    result = axes->after(result);
+                    break;
+                }
+                lost = "its place along a curve (without Cartesian position)";
+                result.origin = kUnknownPlace;
+                above = kNoRecord;
                 break;
             default: lost = fmt::format("a placement of the type {}", typeName(record)); above = kNoRecord;
         }
         record = above;
     }
     return result;
+}
+
+// The Cartesian position beside a place along a curve. In IFC 4.1 it comes later, and the placement is in the world.
+std::optional<Transform> IfcFile::cartesianAxes(const Fields& fields, RecordIndex& above) const {
+    const RecordIndex position = follow(fields[at::LinearPlacement::CartesianPosition]);
+    if (entityOf(position) == Entity::Axis2Placement3D) return axes(position);
+    const RecordIndex later = follow(fields[at::LinearPlacementOfIfc4x1::CartesianPosition]);
+    if (entityOf(later) != Entity::Axis2Placement3D) return std::nullopt;
+    above = kNoRecord;
+    return axes(later);
 }
 
 // A straight axis of a grid, moved to its left.
@@ -229,19 +249,29 @@ std::optional<Transform> IfcFile::linearAxes(RecordIndex relative) const {
     if (!distance.number() || distance.typeName() == "IFCPARAMETERVALUE" ||
         !readCurve(*this, follow(point[expression::BasisCurve]), line, why))
         return std::nullopt;
-    double left = metres(distance);
+    const bool isInPlan = isMeasuredInPlan(*this, follow(point[expression::BasisCurve]));
+    const auto sizeOf = [&](std::size_t s) {
+        const Vec3d step = line[s + 1] - line[s];
+        return isInPlan ? std::hypot(step.x, step.y) : length(step);
+    };
+    double left = metres(distance), whole = 0;
     std::size_t segment = 0;
-    while (segment + 2 < line.size() && left > length(line[segment + 1] - line[segment])) {
-        left -= length(line[segment + 1] - line[segment]);
-        ++segment;
+    for (; segment + 2 < line.size() && left > sizeOf(segment); ++segment) {
+        left -= sizeOf(segment);
+        whole += sizeOf(segment);
     }
     if (segment + 1 >= line.size()) return std::nullopt;
     const Vec3d along = normalized(line[segment + 1] - line[segment]);
-    if (!(length(along) > 0.5) || left > length(line[segment + 1] - line[segment]) + 1e-6) return std::nullopt;
+    const double size = sizeOf(segment);
+    // Chords are a little shorter than the curve.
+    constexpr double kShortened = 1e-4, kRounded = 1e-6;
+    if (!(length(along) > 0.5) || !(size > 0) || left > size + kRounded + kShortened * (whole + size))
+        return std::nullopt;
     const Vec3d flat = cross(Vec3d{0, 0, 1}, along);
     const Vec3d lateral = length(flat) > 1e-9 ? normalized(flat) : Vec3d{0, 1, 0};
     const Vec3d up = cross(along, lateral);
-    const Vec3d origin = line[segment] + along * (left + metres(point[expression::OffsetLongitudinal])) +
+    const Vec3d origin = line[segment] + (line[segment + 1] - line[segment]) * (left / size) +
+                         along * metres(point[expression::OffsetLongitudinal]) +
                          lateral * metres(point[expression::OffsetLateral]) +
                          up * metres(point[expression::OffsetVertical]);
     return axesFrom(origin, direction(fields[at::Axis2PlacementLinear::Axis]).value_or(up),

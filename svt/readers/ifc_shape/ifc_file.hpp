@@ -104,7 +104,7 @@ public:
     /// IfcLocalPlacement, IfcGridPlacement (on straight axes) or IfcLinearPlacement (by its distance along a curve that
     /// readCurve() knows, else by its Cartesian position) and those above it, in the world of the project.
     /// \param lost  names an unreadable level; unchanged if there is none. The placement then is that of the readable
-    ///              levels: a circle ends it
+    ///              levels: a circle ends it. Without a place along a curve its origin is NaN
     [[nodiscard]] Transform placement(RecordIndex record, std::string& lost) const;
 
     /// IfcAxis2PlacementLinear at a distance along a curve that readCurve() knows: x along it, y to its left.
@@ -117,6 +117,7 @@ private:
     static constexpr std::uint64_t kStepsPerRecord = 64;
 
     [[nodiscard]] std::optional<Transform> gridAxes(RecordIndex placement, RecordIndex& above) const;
+    [[nodiscard]] std::optional<Transform> cartesianAxes(const Fields& fields, RecordIndex& above) const;
     bool readGridAxis(RecordIndex axis, double offset, Vec3d& from, Vec3d& along) const;
 
     const step::StepFile& step_;

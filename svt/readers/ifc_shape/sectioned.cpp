@@ -30,10 +30,12 @@ struct Station {
 struct Directrix {
     std::vector<Vec3d> points;
     std::vector<double> lengths;
+    bool isInPlan;  // whether `lengths` are in plan
 
-    explicit Directrix(const std::vector<Vec3d>& line) {
+    Directrix(const std::vector<Vec3d>& line, bool areLengthsInPlan) : isInPlan(areLengthsInPlan) {
         for (const Vec3d p : line) {
-            const double step = points.empty() ? 0 : length(p - points.back());
+            const Vec3d ahead = points.empty() ? Vec3d{} : p - points.back();
+            const double step = isInPlan ? std::hypot(ahead.x, ahead.y) : length(ahead);
             if (!points.empty() && step < 1e-9) continue;
             lengths.push_back(points.empty() ? 0 : lengths.back() + step);
             points.push_back(p);
@@ -51,7 +53,8 @@ struct Directrix {
         const Vec3d flat = cross(Vec3d{0, 0, 1}, along);
         Station station;
         station.distance = distance;
-        station.origin = points[s] + before * (distance - lengths[s]);
+        const double stretch = isInPlan ? length(points[s + 1] - points[s]) / (lengths[s + 1] - lengths[s]) : 1;
+        station.origin = points[s] + before * ((distance - lengths[s]) * stretch);
         station.x = length(flat) > 1e-9 ? normalized(flat) : Vec3d{0, 1, 0};
         station.y = isVertical ? Vec3d{0, 0, 1} : cross(along, station.x);
         // Seen along the segment before, the section keeps its width.
@@ -167,8 +170,9 @@ bool addAtBends(const IfcFile& file, const Directrix& directrix, bool isVertical
 bool addAlong(const IfcFile& file, const Fields& fields, std::vector<Station>& stations, std::vector<Regions>& sections,
               std::string& why) {
     std::vector<Vec3d> line;
-    if (!readCurve(file, file.follow(fields[at::SectionedSolidHorizontal::Directrix]), line, why)) return false;
-    const Directrix directrix(line);
+    const RecordIndex curve = file.follow(fields[at::SectionedSolidHorizontal::Directrix]);
+    if (!readCurve(file, curve, line, why)) return false;
+    const Directrix directrix(line, isMeasuredInPlan(file, curve));
     if (directrix.points.size() < 2) {
         why = "a sectioned solid whose directrix has no length";
         return false;

@@ -95,7 +95,11 @@ Shape ShapeReader::readShape(RecordIndex definition) {
         // Several representations of one kind are parts of one body.
         for (; i + 1 < ranked.size() && ranked[i + 1].first == rank && rank == -6; ++i)
             readRepresentation(ranked[i + 1].second, shape.bodies);
-        if (rank == -1 && !shape.bodies.empty()) leaveOut("all but its bounding box, which stands for it");
+        if (rank != -1 || shape.bodies.empty()) continue;
+        // A box says how far the product reaches, not how much of the box it fills.
+        for (Body& body : shape.bodies) body.isSolid = false;
+        shape.isBoundingBox = true;
+        leaveOut("all but its bounding box, which is kept as a surface without volume");
     }
     leaveOutMissing();
     shape.leftOut = std::move(leftOut_);

@@ -20,6 +20,7 @@ struct Shape {
     std::vector<std::string> leftOut;  ///< parts not read or not applied, and the reasons; each once
     /// The product has a representation that could be a body, or a reference to a missing one.
     bool hasRepresentation = false;
+    bool isBoundingBox = false;  ///< the only body is the bounding box of the product, as a surface
 };
 
 class ShapeReader {
@@ -29,8 +30,8 @@ public:
     ShapeReader(const IfcFile& file, std::unordered_map<RecordIndex, std::int32_t> materialOfItem,
                 std::unordered_map<RecordIndex, std::vector<std::int32_t>> materialOfFaces = {});
 
-    /// The body of a product: the representation Body, else the next best one; at worst a bounding box, with an entry
-    /// in `leftOut`.
+    /// The body of a product: the representation Body, else the next best one; at worst a bounding box as a surface,
+    /// with an entry in `leftOut`.
     /// \param definition  IfcProductDefinitionShape
     [[nodiscard]] Shape readShape(RecordIndex definition);
 

@@ -1,7 +1,6 @@
 #include <svt/readers/indoorgml/indoorgml_reader.hpp>
 
 #include <svt/core/text.hpp>
-#include <svt/readers/georeference/far_features.hpp>
 #include <svt/readers/georeference/georeference.hpp>
 #include <svt/readers/gml/gml_numbers.hpp>
 #include <svt/readers/indoorgml/indoor_graph.hpp>
@@ -76,6 +75,7 @@ public:
             const string_view id = attributeOf(node, "id");
             if (!id.empty()) byId_.emplace(std::string(id), node);
             if (srsName_.empty()) srsName_ = attributeOf(node, "srsName");
+            if (units_.empty()) units_ = attributeOf(node, "uomLabels");
         }
         for (xml_node node = root; node; node = nextNode(node, root)) {
             if (Progress::isCancelled(options_.progress))
@@ -249,12 +249,8 @@ private:
 
     Result<model::BuildingModel> placeModel() {
         const Place place{std::string(name_), 0, 0, {}};
-        if (options_.crs != 0 || !srsName_.empty()) {
-            const georeference::GivenCrs given{srsName_, "", false, place, {}};
-            SVT_DO(georeference::georeference(model_, given, options_, diagnostics_));
-        } else if (!options_.keepFarFeatures) {
-            georeference::leaveOutFarFeatures(model_, {1, 1, 1}, place, diagnostics_);
-        }
+        const georeference::GivenCrs given{srsName_, units_, false, place, {}};
+        SVT_DO(georeference::georeference(model_, given, options_, diagnostics_));
         return std::move(model_);
     }
 
@@ -265,7 +261,7 @@ private:
     Diagnostics& diagnostics_;
     pugi::xml_document document_;
     model::BuildingModel model_;
-    std::string srsName_;
+    std::string srsName_, units_;
     std::unordered_map<std::string, xml_node> byId_;
     std::unordered_map<const void*, std::int64_t> polygonOf_;  // by element; -1: it cannot be read
     std::unordered_set<std::string> ids_;

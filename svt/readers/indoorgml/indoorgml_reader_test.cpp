@@ -55,7 +55,7 @@ std::string attribute(const model::Feature& feature, const std::string& name) {
 }
 
 // Signed volume of the first solid; NaN where it is not closed.
-double volumeOf(const model::BuildingModel& model, const model::Feature& feature) {
+double indoorVolume(const model::BuildingModel& model, const model::Feature& feature) {
     std::vector<model::Polygon> faces;
     if (feature.geometries.empty() || feature.geometries[0].solids.empty()) return std::nan("");
     for (const model::SurfaceUse use : feature.geometries[0].solids[0].exterior) {
@@ -64,6 +64,25 @@ double volumeOf(const model::BuildingModel& model, const model::Feature& feature
         faces.push_back(face[0]);
     }
     return ifc::isClosed(faces) ? ifc::enclosedVolume(faces) : std::nan("");
+}
+
+// Rooms of 2.5 m in millimetres, without a CRS or a unit in the file.
+TEST(IndoorGml, MillimetresNeedAStatement) {
+    std::string solid = box(0);
+    const std::string text = document(cell("a", "core:CellSpace", solid));
+    std::string inMillimetres = text;
+    for (std::size_t at = 0; (at = inMillimetres.find("2.5", at)) != std::string::npos; at += 4)
+        inMillimetres.replace(at, 3, "2500");
+    EXPECT_TRUE(readText(text));
+    const auto doubtful = readText(inMillimetres);
+    ASSERT_FALSE(doubtful);
+    EXPECT_EQ(doubtful.error().code(), Code::UnitInDoubt);
+    ReadOptions options;
+    options.unit = 0.001;
+    const auto model = readIndoorGml(std::as_bytes(std::span(inMillimetres.data(), inMillimetres.size())), "test.gml",
+                                     options, nullptr);
+    ASSERT_TRUE(model) << model.error().toString();
+    EXPECT_NEAR(model->bounds(model->features[0].geometries[0]).max.z, 2.5, 1e-12);
 }
 
 TEST(IndoorGml, CellSpacesAreRoomsThatKnowTheirNeighbors) {
@@ -98,7 +117,7 @@ TEST(IndoorGml, CellSpacesAreRoomsThatKnowTheirNeighbors) {
     EXPECT_EQ(attribute(b, "function"), "corridor");
     EXPECT_EQ(attribute(b, "cellSpaceClass"), "GeneralSpace");
     EXPECT_EQ(attribute(c, "connectsTo"), "none");
-    for (const model::Feature* room : {&a, &b, &c}) EXPECT_NEAR(volumeOf(*model, *room), 15, 1e-9) << room->id;
+    for (const model::Feature* room : {&a, &b, &c}) EXPECT_NEAR(indoorVolume(*model, *room), 15, 1e-9) << room->id;
     EXPECT_EQ(model->features[3].className, "CityObjectGroup");
     ASSERT_EQ(model->memberships.size(), 2u);
     EXPECT_EQ(model->polygons.size(), 6u + 5u + 6u);  // the wall between a and b is one polygon; boundaries have none
@@ -127,7 +146,7 @@ std::string layer(const std::string& id, const std::string& nodes, const std::st
            "</core:nodes><core:edges>" + edges + "</core:edges></core:SpaceLayer></core:spaceLayerMember>";
 }
 
-const model::Feature& featureOf(const model::BuildingModel& model, const std::string& id) {
+const model::Feature& indoorFeature(const model::BuildingModel& model, const std::string& id) {
     const auto found = std::find_if(model.features.begin(), model.features.end(),
                                     [&](const model::Feature& feature) { return feature.id == id; });
     EXPECT_NE(found, model.features.end()) << id;
@@ -149,7 +168,7 @@ TEST(IndoorGml, WeightsThatAreNotNumbersAreReported) {
                                              layer("walk", state("sa", "", "1 1 1") + state("sb", "", "3 1 1"), edge)),
                                     &log);
         ASSERT_TRUE(model) << model.error().message();
-        EXPECT_EQ(attribute(featureOf(*model, "t1"), "weight"), bad);
+        EXPECT_EQ(attribute(indoorFeature(*model, "t1"), "weight"), bad);
         EXPECT_EQ(log.count(Code::BadValue), 1u) << bad;
     }
 }
@@ -172,13 +191,13 @@ TEST(IndoorGml, GraphsAreFeaturesWithLines) {
         &log);
     ASSERT_TRUE(model) << model.error().message();
     EXPECT_EQ(log.items().size(), 0u);
-    const model::Feature& sa = featureOf(*model, "sa");
+    const model::Feature& sa = indoorFeature(*model, "sa");
     EXPECT_EQ(sa.className, "State");
     EXPECT_EQ(attribute(sa, "duality"), "a");
     EXPECT_EQ(model->features[sa.parent].id, "walk");
-    EXPECT_EQ(attribute(featureOf(*model, "ra"), "duality"), "a") << "a cell space may have a state in each layer";
-    EXPECT_EQ(attribute(featureOf(*model, "a"), "state"), "ra; sa");
-    const model::Feature& t1 = featureOf(*model, "t1");
+    EXPECT_EQ(attribute(indoorFeature(*model, "ra"), "duality"), "a") << "a cell space may have a state in each layer";
+    EXPECT_EQ(attribute(indoorFeature(*model, "a"), "state"), "ra; sa");
+    const model::Feature& t1 = indoorFeature(*model, "t1");
     EXPECT_EQ(t1.className, "Transition");
     EXPECT_EQ(attribute(t1, "from"), "sa");
     EXPECT_EQ(attribute(t1, "to"), "sb");
@@ -187,7 +206,7 @@ TEST(IndoorGml, GraphsAreFeaturesWithLines) {
     EXPECT_EQ(lineOf(*model, "t1"), (std::vector<Vec3d>{{1, 1, 1}, {2, 0.5, 1}, {3, 1, 1}}));
     EXPECT_EQ(lineOf(*model, "t2"), (std::vector<Vec3d>{{3, 1, 1}, {1, 1, 1}})) << "straight where it has no curve";
     EXPECT_EQ(lineOf(*model, "up"), (std::vector<Vec3d>{{1, 1, 1}, {0.5, 1, 1}}));
-    EXPECT_EQ(attribute(featureOf(*model, "a"), "connectsTo"), "b") << "connections of layers lead nowhere";
+    EXPECT_EQ(attribute(indoorFeature(*model, "a"), "connectsTo"), "b") << "connections of layers lead nowhere";
     EXPECT_TRUE(std::is_sorted(model->lines.begin(), model->lines.end(),
                                [](const auto& x, const auto& y) { return x.feature < y.feature; }));
     EXPECT_EQ(model->memberships.size(), 3u);
@@ -250,8 +269,8 @@ TEST(IndoorGml, WhatIsWrongIsSaidAndTheRestIsRead) {
                  &log);
     ASSERT_TRUE(model);
     EXPECT_EQ(model->features.size(), 3u);
-    EXPECT_NEAR(volumeOf(*model, model->features[0]), 15, 1e-9);
-    EXPECT_TRUE(std::isnan(volumeOf(*model, model->features[1])));
+    EXPECT_NEAR(indoorVolume(*model, model->features[0]), 15, 1e-9);
+    EXPECT_TRUE(std::isnan(indoorVolume(*model, model->features[1])));
     EXPECT_EQ(log.count(Code::DuplicateId), 1u);
     EXPECT_EQ(log.count(Code::MissingId), 1u);
     EXPECT_EQ(log.count(Code::BadCoordinate), 1u);
@@ -281,7 +300,7 @@ TEST(IndoorGml, TheFzkHouse) {
     for (const model::Feature& feature : model->features) {
         if (feature.className != "BuildingRoom") continue;
         ++rooms;
-        EXPECT_GT(std::abs(volumeOf(*model, feature)), 0) << feature.id;
+        EXPECT_GT(std::abs(indoorVolume(*model, feature)), 0) << feature.id;
         connected += attribute(feature, "connectsTo") != "none" ? 1 : 0;
     }
     EXPECT_EQ(rooms, 24u);

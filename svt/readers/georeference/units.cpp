@@ -1,0 +1,80 @@
+#include <svt/readers/georeference/units.hpp>
+
+#include <svt/crs/crs_facts.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace svt::readers::georeference {
+namespace {
+
+using std::string_view;
+
+constexpr double kHighestRoom = 100;  // metres
+
+// Length of a unit by its label in GML or its code; 0: not known.
+double unitLength(string_view label) noexcept {
+    const std::size_t at = label.find_last_of(":/#");
+    if (at != string_view::npos) label.remove_prefix(at + 1);
+    for (const string_view metre : {"m", "metre", "meter", "9001"})
+        if (label == metre) return 1;
+    for (const string_view small : {"mm", "millimetre", "millimeter", "1025"})
+        if (label == small) return 0.001;
+    for (const string_view small : {"cm", "centimetre", "centimeter", "1033"})
+        if (label == small) return 0.01;
+    for (const string_view foot : {"ft", "foot", "feet", "[ft_i]", "9002"})
+        if (label == foot) return crs::kFoot;
+    for (const string_view foot : {"ftUS", "us-ft", "[ft_us]", "US_survey_foot", "9003"})
+        if (label == foot) return crs::kSurveyFoot;
+    return 0;
+}
+
+// Word `number` of a text, from 1.
+string_view wordOf(string_view text, int number) noexcept {
+    string_view word;
+    for (int count = 0; count < number; ++count) {
+        const std::size_t begin = text.find_first_not_of(" \t\r\n");
+        if (begin == string_view::npos) return {};
+        text.remove_prefix(begin);
+        word = text.substr(0, text.find_first_of(" \t\r\n"));
+        text.remove_prefix(word.size());
+    }
+    return word;
+}
+
+// Half of the rooms are at most as high; 0 without rooms.
+double medianRoomHeight(const model::BuildingModel& model) {
+    std::vector<double> heights;
+    for (const model::Feature& feature : model.features) {
+        if (feature.className != "BuildingRoom") continue;
+        Box3d box;
+        for (const model::Geometry& geometry : feature.geometries) box.add(model.bounds(geometry));
+        if (!box.isEmpty()) heights.push_back(box.size().z);
+    }
+    if (heights.empty()) return 0;
+    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>((heights.size() - 1) / 2);
+    std::nth_element(heights.begin(), middle, heights.end());
+    return *middle;
+}
+
+}  // namespace
+
+double heightUnitOf(string_view uomLabels) noexcept { return unitLength(wordOf(uomLabels, 3)); }
+
+Result<double> unitOfModel(const model::BuildingModel& model, string_view labels, double stated, const Place& place) {
+    if (stated != 0) return stated;
+    if (const double unit = unitLength(wordOf(labels, 1)); unit != 0) return unit < 0.1 ? unit : 1;
+    if (heightUnitOf(labels) != 0) return 1;
+    const double height = medianRoomHeight(model);
+    if (!(height > kHighestRoom)) return 1;
+    return Error(Code::UnitInDoubt,
+                 fmt::format("half of the rooms are {:.0f} units high or more, which cannot be metres, and the file "
+                             "names no unit. State the unit of its coordinates, such as --unit {} (or --unit m, if "
+                             "they are metres)",
+                             height, height > 1000 ? "mm" : "cm"),
+                 place);
+}
+
+}  // namespace svt::readers::georeference
