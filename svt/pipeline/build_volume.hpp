@@ -80,7 +80,8 @@ struct BuildOutput {
 [[nodiscard]] Result<BuildOutput> buildVolume(std::span<const std::filesystem::path> files,
                                               const BuildOptions& options = {}, Diagnostics* log = nullptr);
 
-/// The same for a model in memory; `model` gains ClosureSurface features for caps.
+/// The same for a model in memory; `model` gains the phases of its objects (model/phases.hpp) and ClosureSurface
+/// features for caps.
 [[nodiscard]] Result<BuildOutput> buildVolume(model::BuildingModel& model, const BuildOptions& options = {},
                                               Diagnostics* log = nullptr);
 

@@ -1,6 +1,7 @@
 #include <svt/core/temporary_folder_test.hpp>
 #include <svt/image/color_text.hpp>
 #include <svt/mesh/models_test.hpp>
+#include <svt/model/classes.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/readers/model_joiner.hpp>
 #include <svt/samples/sample.hpp>
@@ -134,7 +135,7 @@ TEST(BuildVolume, CapsAreLabelsWithoutVoxels) {
 }
 
 TEST(BuildVolume, WarnsWhereVoxelsAreFarFromWhatTheShellEncloses) {
-    // Of the two boxes of one solid that overlap by half, the volume counts the common part twice.
+    // Two boxes of one solid overlap by half: the volume counts the common part twice.
     model::BuildingModel model;
     auto uses = test::addBox(model, {0, 0, 0}, {8, 6, 4});
     for (const model::SurfaceUse& use : test::addBox(model, {1, 1, 0.5}, {9, 7, 4.5})) uses.push_back(use);
@@ -149,6 +150,50 @@ TEST(BuildVolume, WarnsWhereVoxelsAreFarFromWhatTheShellEncloses) {
         if (item.code == Code::VolumeDiffers) {
             EXPECT_EQ(item.where.id, "twice");
         }
+    }
+}
+
+// A house of 10 m on a stratum of 24 km.
+TEST(BuildVolume, OneHugeObjectDoesNotDecideTheDefaultSpacing) {
+    model::BuildingModel model;
+    addBoxFeature(model, "Building", "house", {500, 700, 20}, {510, 708, 26});
+    addBoxFeature(model, "GenericOccupiedSpace", "stratum", {-12000, -12000, 0}, {12000, 12000, 20});
+    Diagnostics log;
+    const BuildOutput output = build(model, {}, &log);
+    EXPECT_EQ(output.volume.grid.spacing().x, 0.05);
+    ASSERT_TRUE(output.report.spacing);
+    EXPECT_NE(output.report.spacing->reason.find("the usual 0.05 m; 5 m with one object that is larger"),
+              std::string::npos)
+        << output.report.spacing->reason;
+    EXPECT_EQ(labelOf(output, "house").voxels, 200u * 160 * 120);
+    EXPECT_GT(labelOf(output, "stratum").voxels, 0u);
+    EXPECT_NEAR(labelOf(output, "stratum").volume, 24000.0 * 24000 * 20, 1e3) << "that of its mesh";
+    const auto found = std::ranges::find(log.items(), Code::GridTooLarge, &Diagnostic::code);
+    ASSERT_NE(found, log.items().end()) << "the cut is reported";
+    EXPECT_EQ(found->where.id, "stratum");
+    EXPECT_NE(found->message.find("--spacing 5 covers all"), std::string::npos) << found->message;
+    // A model with two of them keeps the coarse spacing, and terrain of usual size is not cut.
+    addBoxFeature(model, "GenericOccupiedSpace", "rock", {-12000, -12000, -30}, {12000, 12000, 0});
+    EXPECT_GE(build(model, {}).volume.grid.spacing().x, 5);
+    model::BuildingModel usual;
+    addBoxFeature(usual, "Building", "house", {50, 70, 20}, {60, 78, 26});
+    addBoxFeature(usual, "GenericOccupiedSpace", "ground", {0, 0, 15}, {200, 200, 20});
+    EXPECT_NEAR(build(usual, {}).volume.grid.dimension().x * 0.05, 200, 0.2);
+}
+
+TEST(BuildVolume, VolumesOfSmallThingsHaveTheDigitsInWhichTheyDiffer) {
+    model::BuildingModel model;
+    auto uses = test::addBox(model, {0, 0, 0}, {0.08, 0.06, 0.04});
+    for (const model::SurfaceUse& use : test::addBox(model, {0.01, 0.01, 0.005}, {0.09, 0.07, 0.045}))
+        uses.push_back(use);
+    addFeature(model, "BuildingFurniture", "screw", model::kNoFeature, {test::solidOf(uses)});
+    Diagnostics log;
+    (void)build(model, withSpacing(0.001), &log);
+    ASSERT_EQ(log.count(Code::VolumeDiffers), 1u);
+    for (const Diagnostic& item : log.items()) {
+        if (item.code != Code::VolumeDiffers) continue;
+        EXPECT_EQ(item.message.find(" 0.0 m3"), std::string::npos) << item.message;
+        EXPECT_NE(item.message.find("encloses 0.000384 m3"), std::string::npos) << item.message;
     }
 }
 
@@ -226,6 +271,23 @@ TEST(BuildVolume, BuildingFrameTurnsWithTheModel) {
     EXPECT_EQ(labelOf(turned, "house").voxels, 80u * 40 * 20);
     EXPECT_NEAR(double(labelOf(straight, "house").voxels), 80.0 * 40 * 20, 640);
     EXPECT_LT(turned.volume.grid.sampleCount(), straight.volume.grid.sampleCount());
+}
+
+TEST(BuildVolume, BuildingFrameTurnsByAtMost45Degrees) {
+    BuildOptions options = withSpacing(0.5);
+    options.axes = AxesKind::Building;
+    for (const int degrees : {0, 20, 44, 46, 60, 90, 100, 135, 150, 179}) {
+        const double angle = degrees * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+        model::BuildingModel model;
+        addBoxFeature(model, "Building", "house", {0, 0, 0}, {8, 4, 2});
+        for (model::Polygon& polygon : model.polygons)
+            for (Vec3d& p : polygon.points) p = Vec3d{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+        const BuildOutput output = build(model, options);
+        const Vec3d x = output.volume.grid.axes()[0], y = output.volume.grid.axes()[1];
+        EXPECT_GE(x.x, std::cos(std::numbers::pi / 4) - 1e-9) << degrees;
+        EXPECT_GE(y.y, std::cos(std::numbers::pi / 4) - 1e-9) << degrees;
+        EXPECT_EQ(labelOf(output, "house").voxels, 16u * 8 * 4) << degrees;
+    }
 }
 
 TEST(BuildVolume, MaterialGoesToTheSurfacesOrStaysWithTheBuilding) {
@@ -359,7 +421,9 @@ TEST_F(TwoFiles, BothHousesHaveTheSameVolumes) {
     ASSERT_EQ(labels.size() % 2, 0u);
     for (std::size_t l = 0; l < labels.size() / 2; ++l) {
         const Label &a = labels[l], &b = labels[labels.size() / 2 + l];
-        EXPECT_EQ(b.id, a.id + "@2");
+        std::string id = a.id;  // that of a phase begins with the id of its object
+        id.insert(model::isPhase(a.className) ? id.rfind("_phase") : id.size(), "@2");
+        EXPECT_EQ(b.id, id);
         EXPECT_NEAR(a.volume, b.volume, 1e-6 + 1e-9 * a.volume);
         EXPECT_EQ(a.filling, b.filling);
     }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace svt::pipeline {
 namespace {
@@ -36,9 +37,12 @@ std::string excessOf(const GridForecast& forecast, std::uint64_t memoryBytes) {
     if (forecast.surfaceVoxels > SpacingChoice::kMostSurfaceVoxels)
         return fmt::format("have {:.0f} million voxels on surfaces (limit for default spacings: {:.0f})",
                            forecast.surfaceVoxels / 1e6, SpacingChoice::kMostSurfaceVoxels / 1e6);
-    if (forecast.columns > SpacingChoice::kMostColumns)
-        return fmt::format("have {:.0f} million columns (limit for default spacings: {:.0f})", forecast.columns / 1e6,
-                           SpacingChoice::kMostColumns / 1e6);
+    if (forecast.usedColumns > SpacingChoice::kMostColumns)
+        return fmt::format("have {:.0f} million columns (limit for default spacings: {:.0f})",
+                           forecast.usedColumns / 1e6, SpacingChoice::kMostColumns / 1e6);
+    if (forecast.columns > SpacingChoice::kMostAllColumns)
+        return fmt::format("have {:.0f} million columns, most of them empty (limit for default spacings: {:.0f})",
+                           forecast.columns / 1e6, SpacingChoice::kMostAllColumns / 1e6);
     if (forecast.bytes > double(memoryBytes))
         return fmt::format("take about {} of memory (limit for default spacings: {})",
                            bytesText(static_cast<std::uint64_t>(std::min(forecast.bytes, 1e18))),
@@ -48,27 +52,52 @@ std::string excessOf(const GridForecast& forecast, std::uint64_t memoryBytes) {
 
 }  // namespace
 
-GridForecast forecastGrid(Vec3d size, double area, double spacing) noexcept {
+GridForecast forecastGrid(Vec3d size, double area, double spacing, double share) noexcept {
     const Vec3d samples{size.x / spacing + 2, size.y / spacing + 2, size.z / spacing + 2};
     constexpr double kBrick =
         volume::BrickVolume::kBrickSize * volume::BrickVolume::kBrickSize * volume::BrickVolume::kBrickSize;
     GridForecast forecast;
     forecast.largestDimension = std::max({samples.x, samples.y, samples.z});
     forecast.columns = samples.x * samples.y;
+    forecast.usedColumns = forecast.columns * share;
     forecast.surfaceVoxels = area / (spacing * spacing);
-    forecast.bytes = kBytesPerSurfaceVoxel * forecast.surfaceVoxels + kBytesPerColumn * forecast.columns +
+    forecast.bytes = kBytesPerSurfaceVoxel * forecast.surfaceVoxels + kBytesPerColumn * forecast.usedColumns +
                      kBytesPerBrick * forecast.columns * samples.z / kBrick;
     return forecast;
 }
 
-SpacingChoice chooseSpacing(Vec3d size, double area, std::uint64_t memoryBytes) {
+double occupiedShare(const Box3d& box, std::span<const Box3d> parts) {
+    constexpr std::int64_t kCells = 512;
+    const Vec3d size = box.size();
+    if (!(size.x > 0) || !(size.y > 0)) return 1;
+    std::vector<char> isUsed(std::size_t{kCells * kCells}, 0);
+    const auto cellOf = [&](double place, double low, double extent) {
+        const double cell = std::floor((place - low) / extent * double(kCells));
+        return static_cast<std::int64_t>(std::clamp(cell, 0.0, double(kCells - 1)));
+    };
+    std::size_t used = 0;
+    for (const Box3d& part : parts) {
+        if (part.isEmpty()) continue;
+        const std::int64_t west = cellOf(part.min.x, box.min.x, size.x), east = cellOf(part.max.x, box.min.x, size.x);
+        const std::int64_t south = cellOf(part.min.y, box.min.y, size.y), north = cellOf(part.max.y, box.min.y, size.y);
+        for (std::int64_t y = south; y <= north && used < isUsed.size(); ++y)
+            for (std::int64_t x = west; x <= east; ++x) {
+                char& cell = isUsed[static_cast<std::size_t>(y * kCells + x)];
+                used += cell == 0 ? 1 : 0;
+                cell = 1;
+            }
+    }
+    return double(used) / double(isUsed.size());
+}
+
+SpacingChoice chooseSpacing(Vec3d size, double area, std::uint64_t memoryBytes, double share) {
     constexpr int kLast = 60;  // beyond the size of the earth: any finite model is under the limits before
     const double longest = std::max({size.x, size.y, size.z});
     int step = kUsualStep;
     while (step > 0 && longest / spacingOf(step) < SpacingChoice::kFewestSamples) --step;
     SpacingChoice choice;
     choice.spacing = spacingOf(step);
-    choice.forecast = forecastGrid(size, area, choice.spacing);
+    choice.forecast = forecastGrid(size, area, choice.spacing, share);
     if (step == kUsualStep)
         choice.reason = fmt::format("the usual {} m", choice.spacing);
     else
@@ -80,7 +109,7 @@ SpacingChoice chooseSpacing(Vec3d size, double area, std::uint64_t memoryBytes) 
         if (excess.empty()) break;
         const double finer = choice.spacing;
         choice.spacing = spacingOf(step + 1);
-        choice.forecast = forecastGrid(size, area, choice.spacing);
+        choice.forecast = forecastGrid(size, area, choice.spacing, share);
         choice.reason = fmt::format("{} m, because at {} m it would {}", choice.spacing, finer, excess);
     }
     return choice;

@@ -41,6 +41,27 @@ TEST(DefaultSpacing, GetsCoarserUntilAllLimitsHold) {
         }
 }
 
+// 54 buildings of 20 x 20 x 15 m on 9 x 10 km.
+TEST(DefaultSpacing, OfSparseModelsFollowsTheirFeatures) {
+    const Box3d box{{0, 0, 0}, {9000, 10000, 60}};
+    std::vector<Box3d> buildings;
+    for (int n = 0; n < 54; ++n) {
+        const Vec3d low{(n % 9) * 1100.0, (n / 9) * 1900.0, 0};
+        buildings.push_back({low, low + Vec3d{20, 20, 15}});
+    }
+    const double share = occupiedShare(box, buildings), area = 54 * 2000.0;
+    EXPECT_LT(share, 0.001);
+    EXPECT_EQ(occupiedShare(box, std::vector<Box3d>{box}), 1);
+    EXPECT_EQ(occupiedShare(box, std::vector<Box3d>{}), 0);
+    EXPECT_EQ(occupiedShare({{0, 0, 0}, {0, 5, 5}}, std::vector<Box3d>{box}), 1);
+    const SpacingChoice choice = chooseSpacing(box.size(), area, SpacingChoice::kMemoryBytes, share);
+    EXPECT_EQ(choice.spacing, 0.5) << choice.reason;
+    EXPECT_NE(choice.reason.find("because at 0.2 m it would"), std::string::npos) << choice.reason;
+    EXPECT_EQ(chooseSpacing(box.size(), area, SpacingChoice::kMemoryBytes).spacing, 2);
+    // Less memory, a coarser grid.
+    EXPECT_GT(chooseSpacing(box.size(), area, 100'000'000, share).spacing, 0.5);
+}
+
 TEST(DefaultSpacing, SaysWhichLimitMadeItCoarser) {
     const SpacingChoice area = chooseSpacing({300, 300, 20}, 1e6, SpacingChoice::kMemoryBytes);
     EXPECT_NE(area.reason.find("m, because at 0.1 m it would have 100 million voxels on surfaces (limit for default "

@@ -62,7 +62,8 @@ const char* const kDefaultStyleJson = R"json({
     {"select": "material=tiles", "color": "#a8483a"},
     {"select": "material=glass", "color": "#9cc3d8", "opacity": 0.9},
     {"select": "material=insulation", "color": "#e7d98c"},
-    {"select": "material=steel", "color": "#8b959c"}
+    {"select": "material=steel", "color": "#8b959c"},
+    {"select": "phase=glass", "color": "#9cc3d8"}
   ]
 })json";
 

@@ -2,10 +2,12 @@
 
 #include <svt/analyze/selection.hpp>
 #include <svt/model/classes.hpp>
+#include <svt/model/phases.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace svt::pipeline {
@@ -83,7 +85,43 @@ std::optional<Vec3f> materialColor(const model::BuildingModel& model, const mode
     if (uses.empty()) return std::nullopt;
     const auto best =
         std::max_element(uses.begin(), uses.end(), [](const auto& p, const auto& q) { return p.second < q.second; });
-    return model.materials[std::size_t(best->first)].diffuse;
+    const model::Material& material = model.materials[std::size_t(best->first)];
+    return material.hasColor ? std::optional(material.diffuse) : std::nullopt;
+}
+
+// Share of light that a pane stops at least, so that clear glass is visible.
+constexpr double kLeastOpacity = 0.2;
+constexpr float kMostOpaque = 1 - 0x1p-24f;  // the largest opacity per metre that is not opaque
+
+// The opacity per metre of an object of a transparent material, whose mean thickness stops as much light as the file
+// states; nothing for opaque objects.
+std::optional<float> materialOpacity(const volume::Label& label, const mesh::ObjectMesh& mesh, double thinnest) {
+    if (model::isSpace(label.className)) return std::nullopt;
+    for (const Attribute& attribute : label.attributes) {
+        const double* transparency = std::get_if<double>(&attribute.value);
+        if (attribute.name != model::kTransparencyAttribute || transparency == nullptr) continue;
+        if (!(*transparency > 0 && *transparency <= 1)) continue;
+        const double thickness = mesh.isSolid() && mesh.area > 0 ? 2 * mesh.volume / mesh.area : 0;
+        // Sheets stand in pairs, inside and outside of a pane.
+        const double passes = std::pow(std::min(*transparency, 1 - kLeastOpacity), mesh.isSolid() ? 1 : 0.5);
+        const auto opacity = static_cast<float>(1 - std::pow(passes, 1 / std::max(thickness, thinnest)));
+        return std::min(opacity, kMostOpaque);
+    }
+    return std::nullopt;
+}
+
+bool isPane(const volume::Label& label) { return model::isPhase(label.className) && label.name == model::kGlass; }
+
+// The surfaces of windows that bound rooms lie before and behind panes: they are clear where the model has panes.
+void clearWindowSurfaces(const volume::LabelTable& table, const std::vector<std::optional<Vec3f>>& colors,
+                         double thinnest, std::vector<std::optional<float>>& opacities) {
+    constexpr double kPasses = 0.9;
+    if (std::none_of(table.labels.begin(), table.labels.end(), isPane)) return;
+    const auto clear = static_cast<float>(1 - std::pow(kPasses, 1 / thinnest));
+    for (std::size_t l = 0; l < table.labels.size(); ++l)
+        if (table.labels[l].className == "WindowSurface" && table.labels[l].filling == volume::Filling::Surface &&
+            !colors[l] && !opacities[l])
+            opacities[l] = std::min(clear, kMostOpaque);
 }
 
 }  // namespace
@@ -107,7 +145,7 @@ void addCapFeatures(model::BuildingModel& model, const mesh::MeshSet& meshes) {
 }
 
 Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh::MeshSet& meshes,
-                                   std::span<const StyleSheet* const> sheets) {
+                                   std::span<const StyleSheet* const> sheets, double thinnest) {
     LabelledObjects result;
     volume::LabelTable& table = result.table;
     const std::vector<std::uint32_t> labelOf = numberFeatures(model, table);
@@ -115,6 +153,7 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
     for (FeatureIndex f = 0; f < model.features.size(); ++f)
         if (labelOf[f] != volume::kNoLabel) colors[labelOf[f]] = materialColor(model, model.features[f]);
 
+    std::vector<std::optional<float>> opacities(table.labels.size());
     std::vector<std::uint32_t> objectOf(table.labels.size(), volume::kNoLabel);
     result.labelOfObject.resize(meshes.objects.size());
     for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
@@ -123,13 +162,15 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
         result.labelOfObject[o] = l;
         table.labels[l].filling = fillingOf(meshes.objects[o].closingMethod);
         table.labels[l].volume = meshes.objects[o].isSolid() ? meshes.objects[o].volume : 0;
+        opacities[l] = materialOpacity(table.labels[l], meshes.objects[o], thinnest);
     }
+    clearWindowSurfaces(table, colors, thinnest, opacities);
     std::vector<bool> hasLines(table.labels.size(), false);
     for (const model::Polyline& line : model.lines) {
         result.labelOfLine.push_back(labelOf[line.feature]);
         if (line.points.size() > 1) hasLines[labelOf[line.feature]] = true;
     }
-    const std::vector<ResolvedStyle> styles = resolveStyles(analyze::queryRows(table), sheets, colors);
+    const std::vector<ResolvedStyle> styles = resolveStyles(analyze::queryRows(table), sheets, colors, opacities);
 
     std::uint64_t next = 1;
     bool hasPattern = false;
@@ -137,6 +178,10 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
         volume::Label& label = table.labels[l];
         label.color = styles[l].color;
         label.opacity = styles[l].opacity;
+        // A style that sets the opacity replaces the transparency of the model.
+        if (opacities[l] && label.opacity != *opacities[l])
+            std::erase_if(label.attributes,
+                          [](const Attribute& attribute) { return attribute.name == model::kTransparencyAttribute; });
         if (objectOf[l] == volume::kNoLabel && !hasLines[l]) continue;
         label.first = static_cast<volume::Scalar>(next);
         label.count = objectOf[l] == volume::kNoLabel ? 1 : styles[l].pattern.phaseCount();
@@ -152,7 +197,9 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
     for (std::uint32_t o = 0; o < meshes.objects.size(); ++o) {
         const std::uint32_t l = result.labelOfObject[o];
         const volume::Label& label = table.labels[l];
-        result.claims[o] = {label.first, static_cast<std::uint8_t>(model::classRank(label.className)), label.id,
+        // Panes are finer than the surfaces of their windows, which lie on them.
+        const model::ClassRank rank = isPane(label) ? model::ClassRank::Furniture : model::classRank(label.className);
+        result.claims[o] = {label.first, static_cast<std::uint8_t>(rank), label.id,
                             boundsBody(table, objectOf, meshes, l)};
         if (hasPattern)
             for (volume::Scalar s = 0; s < label.count; ++s)

@@ -26,8 +26,9 @@ void addCapFeatures(model::BuildingModel& model, const mesh::MeshSet& meshes);
 
 /// Numbers all features in tree order and assigns every object a contiguous scalar range. A feature with lines is an
 /// object as well, without voxels: a separate scalar gives its lines a style.
+/// \param thinnest  metres: thickness with which thinner parts are drawn, for the opacity of transparent materials
 /// \return the labels, or TooManyLabels over volume::kMaxScalarCount
 [[nodiscard]] Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh::MeshSet& meshes,
-                                                 std::span<const StyleSheet* const> sheets);
+                                                 std::span<const StyleSheet* const> sheets, double thinnest = 0.05);
 
 }  // namespace svt::pipeline

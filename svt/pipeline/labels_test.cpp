@@ -125,7 +125,8 @@ TEST(MakeLabels, MembersKnowTheirGroups) {
 
 TEST(MakeLabels, MaterialOfMostPolygonsColoursTheObject) {
     model::BuildingModel model = village();
-    model.materials = {{"stone", {0.1f, 0.2f, 0.3f}, 0}, {"glass", {0.4f, 0.5f, 0.6f}, 0}};
+    model.materials = {{.name = "stone", .diffuse = {0.1f, 0.2f, 0.3f}},
+                       {.name = "glass", .diffuse = {0.4f, 0.5f, 0.6f}}};
     const auto& uses = model.features[4].geometries[0].solids[0].exterior;  // hall
     for (std::size_t u = 0; u < uses.size(); ++u) model.polygons[uses[u].polygon].material = u < 2 ? 0 : u < 5 ? 1 : -1;
     EXPECT_EQ(labelOf(labelsOf(model), "hall").color, (Vec3f{0.4f, 0.5f, 0.6f}));

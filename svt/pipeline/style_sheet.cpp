@@ -245,14 +245,17 @@ std::vector<std::filesystem::path> filesOfStyle(const std::filesystem::path& fil
 
 std::vector<ResolvedStyle> resolveStyles(std::span<const model::QueryRow> rows,
                                          std::span<const StyleSheet* const> sheets,
-                                         std::span<const std::optional<Vec3f>> materialColors) {
+                                         std::span<const std::optional<Vec3f>> materialColors,
+                                         std::span<const std::optional<float>> materialOpacities) {
     std::vector<ResolvedStyle> styles(rows.size());
     for (std::size_t s = 0; s < sheets.size(); ++s) {
         for (const StyleRule& rule : sheets[s]->rules)
             for (const std::uint32_t row : rule.select.select(rows)) apply(rule, styles[row]);
-        if (s == 0)
-            for (std::size_t row = 0; row < rows.size() && row < materialColors.size(); ++row)
-                if (materialColors[row]) styles[row].color = *materialColors[row];
+        if (s != 0) continue;
+        for (std::size_t row = 0; row < rows.size() && row < materialColors.size(); ++row)
+            if (materialColors[row]) styles[row].color = *materialColors[row];
+        for (std::size_t row = 0; row < rows.size() && row < materialOpacities.size(); ++row)
+            if (materialOpacities[row]) styles[row].opacity = *materialOpacities[row];
     }
     for (ResolvedStyle& style : styles) {
         const std::size_t phases = style.pattern.phaseCount();

@@ -54,8 +54,10 @@ struct ResolvedStyle {
 /// Applies the sheets in order; one entry per row.
 /// \param materialColors  per row: the colour from the model; overrides the built-in sheet (the first), but not
 ///                        the others
+/// \param materialOpacities  per row: the opacity from the model, in the same way; may be empty
 [[nodiscard]] std::vector<ResolvedStyle> resolveStyles(std::span<const model::QueryRow> rows,
                                                        std::span<const StyleSheet* const> sheets,
-                                                       std::span<const std::optional<Vec3f>> materialColors);
+                                                       std::span<const std::optional<Vec3f>> materialColors,
+                                                       std::span<const std::optional<float>> materialOpacities = {});
 
 }  // namespace svt::pipeline

@@ -4,6 +4,7 @@
 /// faces were triangulated.
 
 #include <svt/mesh/mesh_set.hpp>
+#include <svt/model/classes.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/pipeline/split_faces_test.hpp>
 #include <svt/readers/read_model.hpp>
@@ -208,7 +209,20 @@ constexpr Way kWays[] = {
     {.name = "turned, moved and split", .quarters = 3, .shift = {-7.2, 3.1, -0.4}, .splitsFaces = true},
     {.name = "in a larger grid", .moreSamples = {3, 5, 2}}};
 
-// Samples that have another label than before: by label, how many lost it and how many gained it.
+// The component of a label: a frame, leaf or pane is a phase of its door or window.
+std::uint32_t componentOf(const volume::LabelTable& table, std::uint32_t label) {
+    return model::isPhase(table.labels[label].className) ? table.labels[label].parent : label;
+}
+
+// The components of all scalars; that of the background is kNoLabel.
+std::vector<std::uint32_t> componentsOf(const volume::LabelTable& table) {
+    std::vector<std::uint32_t> components = table.labelOfScalar();
+    for (std::uint32_t& label : components)
+        if (label != volume::kNoLabel) label = componentOf(table, label);
+    return components;
+}
+
+// Samples that have another component than before: by label, how many lost it and how many gained it.
 struct Changes {
     std::uint64_t voxels = 0, changed = 0;
     std::vector<std::uint64_t> lost, gained;
@@ -219,7 +233,7 @@ Changes changesBetween(const volume::SemanticVolume& straight, const volume::Sem
     Changes changes;
     changes.lost.resize(straight.labels.labels.size());
     changes.gained.resize(straight.labels.labels.size());
-    const std::vector<std::uint32_t> labelOf = straight.labels.labelOfScalar();
+    const std::vector<std::uint32_t> labelOf = componentsOf(straight.labels);
     const auto before = *volume::toDense<std::uint16_t>(straight.columns),
                after = *volume::toDense<std::uint16_t>(other.columns);
     const Vec3i n = straight.grid.dimension(), m = other.grid.dimension();
@@ -233,7 +247,7 @@ Changes changesBetween(const volume::SemanticVolume& straight, const volume::Sem
                     b = after[std::size_t(v.x) +
                               std::size_t(m.x) * (std::size_t(v.y) + std::size_t(m.y) * std::size_t(v.z))];
                 changes.voxels += a != 0;
-                if (a == b) continue;
+                if (labelOf[a] == labelOf[b]) continue;
                 ++changes.changed;
                 if (a != 0) ++changes.lost[labelOf[a]];
                 if (b != 0) ++changes.gained[labelOf[b]];
@@ -277,7 +291,7 @@ std::vector<double> surfacesOf(const model::BuildingModel& model) {
     for (const volume::VectorParts::Triangle& triangle : parts.triangles) {
         const Vec3d a = parts.position(triangle.corners[0], {}), b = parts.position(triangle.corners[1], {}),
                     c = parts.position(triangle.corners[2], {});
-        surfaces[triangle.label] += 0.5 * length(cross(b - a, c - a));
+        surfaces[componentOf(output->volume.labels, triangle.label)] += 0.5 * length(cross(b - a, c - a));
     }
     return surfaces;
 }

@@ -97,6 +97,9 @@ struct ValidationReport {
 /// The violated requirement of ISO 19107, as a noun, such as "GM_Ring: simple"; empty if the code is not about
 /// geometry.
 [[nodiscard]] std::string_view isoTerm(Code code) noexcept;
+/// Whether a warning or error of this code prevents the use of a model: a part is missing or at the wrong place, a body
+/// is open or counts twice, or links contradict each other. Results from the model are then wrong or incomplete.
+[[nodiscard]] bool preventsUse(Code code) noexcept;
 /// Solid, CompositeSolid, MultiSolid, CompositeSurface or MultiSurface.
 [[nodiscard]] std::string_view primitiveType(const model::Geometry& geometry) noexcept;
 

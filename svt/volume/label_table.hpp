@@ -44,7 +44,10 @@ struct Label {
     Scalar first = 0;                   ///< scalars [first, first + count)
     Scalar count = 0;                   ///< 0: not an object; 1: no pattern; else one scalar per pattern phase
     std::uint64_t voxels = 0;
-    double volume = 0;  ///< m3: of the closed mesh; of the voxels for bodies; 0 for surfaces
+    /// m3: of the closed mesh; of the voxels for bodies. 0: unknown, for surfaces and open shells. Never show it as it
+    /// is, see analyze::KnownVolumes.
+    double volume = 0;
+    double area = 0;  ///< m2 of its mesh, if voxels decide its volume or that of another label; 0: unknown
     Filling filling = Filling::None;
     std::uint64_t thinVoxels = 0;       ///< voxels from the pass for thin parts only
     std::uint64_t uncertainVoxels = 0;  ///< voxels with a winding number over 0.25 from a whole number

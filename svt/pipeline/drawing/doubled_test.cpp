@@ -2,6 +2,7 @@
 /// volume. Solids thinner than a voxel share no voxel with their copies. Only their meshes show the overlap.
 
 #include <svt/analyze/solid_overlaps.hpp>
+#include <svt/model/phases.hpp>
 #include <svt/pipeline/build_volume.hpp>
 #include <svt/readers/read_model.hpp>
 #include <svt/samples/sample.hpp>
@@ -62,6 +63,7 @@ void doubleSolids(model::BuildingModel& model) {
 
 volume::SemanticVolume buildDoubled(samples::SampleFormat format) {
     model::BuildingModel model = readHouse(format);
+    model::splitPhases(model);  // so that panes have copies, too
     doubleSolids(model);
     BuildOptions options;
     options.spacing = Vec3d{0.2, 0.2, 0.2};

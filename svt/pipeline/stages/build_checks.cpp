@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace svt::pipeline {
@@ -40,6 +41,11 @@ std::uint64_t mostVoxels(const volume::LabelTable& table, std::uint32_t label, s
     return sum;
 }
 
+// A volume in m3 with enough digits to differ from another one: 48937.0, 12.3, 0.00123.
+std::string cubicMetres(double volume) {
+    return std::abs(volume) < 100 ? fmt::format("{:.3g}", volume) : fmt::format("{:.1f}", volume);
+}
+
 }  // namespace
 
 Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshSet& meshes, const volume::Grid& grid,
@@ -63,6 +69,22 @@ Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshS
                     low.x, low.y, low.z, high.x, high.y, high.z, grid.origin().x, grid.origin().y, grid.origin().z));
 }
 
+void reportCutObjects(const model::BuildingModel& model, const mesh::MeshSet& meshes, const volume::Grid& grid,
+                      const SpacingChoice& choice, Diagnostics& log) {
+    const Vec3d size = scaled(toDouble(grid.dimension()), grid.spacing());
+    for (const std::uint32_t o : choice.cutObjects) {
+        Box3d box;
+        for (const Vec3d& vertex : meshes.objects[o].vertices) box.add(vertex);
+        const model::Feature& feature = model.features[meshes.objects[o].feature];
+        log.add(
+            Severity::Warning, Code::GridTooLarge,
+            fmt::format("this {} reaches over {:.0f} x {:.0f} m, far beyond all others; the default grid covers the "
+                        "others, {:.0f} x {:.0f} m, and its voxels end there; --spacing {} covers all of it",
+                        feature.className, box.size().x, box.size().y, size.x, size.y, choice.spacingOfAll),
+            {model.source, feature.line, 0, feature.id});
+    }
+}
+
 void checkVolumes(const model::BuildingModel& model, const Prepared& prepared, const voxelize::VoxelizeResult& voxels,
                   Diagnostics& log) {
     constexpr double kPart = 0.02;
@@ -81,13 +103,13 @@ void checkVolumes(const model::BuildingModel& model, const Prepared& prepared, c
         const double least = double(label.voxels - std::min(label.voxels, label.thinVoxels)) * grid.voxelVolume();
         if (most >= object.enclosedVolume - allowed && least <= object.enclosedVolume + allowed) continue;
         const model::Feature& feature = model.features[object.feature];
-        log.add(
-            Severity::Warning, Code::VolumeDiffers,
-            fmt::format("its voxels are {:.1f} m3, its shell encloses {:.1f} m3{}; expected at most {:.1f} m3 between "
-                        "them; look at the object and correct its faces",
-                        most < object.enclosedVolume ? most : least, object.enclosedVolume,
-                        object.isSolid() ? "" : " if its holes are closed straight", allowed),
-            {model.source, feature.line, 0, feature.id});
+        log.add(Severity::Warning, Code::VolumeDiffers,
+                fmt::format(
+                    "its voxels are {} m3, its shell encloses {} m3{}; expected at most {} m3 between them; look at "
+                    "the object and correct its faces",
+                    cubicMetres(most < object.enclosedVolume ? most : least), cubicMetres(object.enclosedVolume),
+                    object.isSolid() ? "" : " if its holes are closed straight", cubicMetres(allowed)),
+                {model.source, feature.line, 0, feature.id});
     }
 }
 

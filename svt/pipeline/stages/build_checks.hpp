@@ -21,6 +21,10 @@ struct Prepared {
 [[nodiscard]] Result<void> checkGivenGrid(const model::BuildingModel& model, const mesh::MeshSet& meshes,
                                           const volume::Grid& grid, Diagnostics* log);
 
+/// Warns of objects that are far larger than all others, so that a default grid ends before they do (GridTooLarge).
+void reportCutObjects(const model::BuildingModel& model, const mesh::MeshSet& meshes, const volume::Grid& grid,
+                      const SpacingChoice& choice, Diagnostics& log);
+
 /// Warns of objects that have too many or too few voxels for the volume that their shells enclose. The tolerance is 2 %
 /// plus area * spacing / 2 plus one voxel. A face that is half a voxel off changes the volume by half a voxel times its
 /// area, and every object gets at least one voxel, so small objects need no special case.

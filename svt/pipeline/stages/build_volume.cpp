@@ -1,9 +1,11 @@
 #include <svt/pipeline/build_volume.hpp>
 
+#include <svt/analyze/plan_faces.hpp>
 #include <svt/analyze/solid_overlaps.hpp>
 #include <svt/core/machine.hpp>
 #include <svt/mesh/thickness.hpp>
 #include <svt/model/classes.hpp>
+#include <svt/model/phases.hpp>
 #include <svt/pipeline/stages/build_checks.hpp>
 #include <svt/readers/model_joiner.hpp>
 #include <svt/voxelize/bodies.hpp>
@@ -64,17 +66,19 @@ Result<Prepared> prepare(model::BuildingModel& model, const BuildOptions& option
     meshOptions.measuresThickness = false;  // measured below: only parts thinner than a voxel matter
     meshOptions.threads = options.threads;
     meshOptions.progress = options.progress;
+    model::splitPhases(model);
     SVT_TRY(meshes, mesh::buildMeshes(model, meshOptions, log));
     std::optional<SpacingChoice> choice;
     SVT_TRY(grid, chooseGrid(*meshes, options, &choice));
     if (options.grid) SVT_DO(checkGivenGrid(model, *meshes, *grid, log));
+    if (choice && log != nullptr) reportCutObjects(model, *meshes, *grid, *choice, *log);
     const Vec3d spacing = grid->spacing();
     constexpr double kRounding = 1 + 1e-6;  // thickness has single precision
     mesh::measureThickness(*meshes, std::max({spacing.x, spacing.y, spacing.z}) * kRounding, options.threads);
     addCapFeatures(model, *meshes);
     std::vector<const StyleSheet*> sheets{&defaultStyle(options.usePatterns)};
     if (options.style != nullptr) sheets.push_back(options.style);
-    SVT_TRY(labelled, makeLabels(model, *meshes, sheets));
+    SVT_TRY(labelled, makeLabels(model, *meshes, sheets, std::max({spacing.x, spacing.y, spacing.z})));
     for (voxelize::PatternedObject& object : labelled->patterns) voxelize::fitPattern(object, grid->spacing());
     return Prepared{std::move(*meshes), *grid, std::move(choice), std::move(*labelled)};
 }
@@ -99,6 +103,20 @@ Result<voxelize::VoxelizeResult> makeVoxels(const Prepared& prepared, const std:
     return voxels;
 }
 
+// Enters the areas of meshes whose voxels decide a volume: they bound its error.
+void fillAreas(Prepared& prepared) {
+    std::vector<volume::Label>& labels = prepared.labelled.table.labels;
+    std::vector<char> isCounted(labels.size(), 0);
+    for (const volume::Overlap& overlap : prepared.labelled.table.overlaps)
+        isCounted[overlap.a] = isCounted[overlap.b] = 1;
+    for (std::size_t o = 0; o < prepared.meshes.objects.size(); ++o) {
+        const std::uint32_t l = prepared.labelled.labelOfObject[o];
+        const volume::Filling filling = labels[l].filling;
+        if (isCounted[l] != 0 || filling == volume::Filling::Winding || filling == volume::Filling::Body)
+            labels[l].area = prepared.meshes.objects[o].area;
+    }
+}
+
 // Enters the figures of the voxels into the label table.
 void fillLabels(const voxelize::VoxelizeResult& voxels, const std::vector<voxelize::BodyGroup>& groups,
                 Prepared& prepared) {
@@ -119,6 +137,7 @@ void fillLabels(const voxelize::VoxelizeResult& voxels, const std::vector<voxeli
             label.filling = volume::Filling::Body;
             label.volume = double(label.voxels) * prepared.grid.voxelVolume();
         }
+    fillAreas(prepared);
 }
 
 void countObjects(const mesh::MeshSet& meshes, BuildReport& report) {
@@ -174,6 +193,11 @@ Result<BuildOutput> buildFrom(model::BuildingModel& model, const BuildOptions& o
     SVT_TRY(vectors, makeVectorParts(meshes, labelled.labelOfObject, grid, options.vectors,
                                      {model.lines, labelled.labelOfLine}, options.threads));
     output.volume.vectors = std::move(*vectors);
+    if (options.vectors.footprints && !options.vectors.meshes) {
+        SVT_TRY(all, makeVectorParts(meshes, labelled.labelOfObject, grid, {.meshes = true, .isRequired = false}, {},
+                                     options.threads));
+        output.volume.footprints = analyze::footprintFaces(labelled.table, *all);
+    }
     Progress::tell(options.progress, "pack", 0.7);
     output.volume.planes = voxelize::findFacePlanes(meshes, grid);
     Progress::tell(options.progress, "pack", 1);

@@ -1,6 +1,62 @@
 #include <svt/pipeline/build_volume.hpp>
 
+#include <svt/pipeline/stages/huge_objects.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 namespace svt::pipeline {
+namespace {
+
+// The axes after quarter turns about z, so that x and y are within 45 degrees of east and north.
+std::array<Vec3d, 3> leastTurned(std::array<Vec3d, 3> axes) {
+    for (int turns = 0; turns < 4 && !(axes[0].x > 0 && std::abs(axes[0].y) <= axes[0].x); ++turns)
+        axes = {axes[1], -axes[0], axes[2]};
+    return axes;
+}
+
+// The boxes of all objects along `axes`. \param origin  of the coordinates, relative to MeshSet::origin
+std::vector<Box3d> boxesOf(const mesh::MeshSet& meshes, const std::array<Vec3d, 3>& axes, Vec3d origin) {
+    std::vector<Box3d> boxes;
+    boxes.reserve(meshes.objects.size());
+    for (const mesh::ObjectMesh& object : meshes.objects) {
+        Box3d& box = boxes.emplace_back();
+        for (const Vec3d& vertex : object.vertices)
+            box.add(Vec3d{dot(vertex, axes[0]), dot(vertex, axes[1]), dot(vertex, axes[2])} + origin);
+    }
+    return boxes;
+}
+
+// The default spacing of a model, and the box of its grid. Huge objects do not decide the spacing if it were ten times as
+// coarse with them.
+// \param box     of all objects, along `axes`; becomes that of the other objects
+// \param origin  of the box's coordinates, relative to MeshSet::origin
+SpacingChoice chooseDefault(const mesh::MeshSet& meshes, const std::array<Vec3d, 3>& axes, Vec3d origin,
+                            std::uint64_t memoryBytes, Box3d& box) {
+    constexpr double kCoarser = 10;
+    double area = 0;
+    for (const mesh::ObjectMesh& object : meshes.objects) area += object.area;
+    const std::vector<Box3d> boxes = boxesOf(meshes, axes, origin);
+    SpacingChoice all = chooseSpacing(box.size(), area, memoryBytes, occupiedShare(box, boxes));
+    const auto core = coreOf(meshes, boxes);
+    if (!core) return all;
+    SpacingChoice finer = chooseSpacing(core->box.size(), core->area, memoryBytes);
+    if (finer.spacing * kCoarser > all.spacing * (1 + 1e-9)) return all;
+    finer.reason += fmt::format("; {} m with {} that {} larger than all others together", all.spacing,
+                                core->huge.size() == 1 ? "one object" : fmt::format("{} objects", core->huge.size()),
+                                core->huge.size() == 1 ? "is" : "are");
+    finer.cutObjects = core->huge;
+    finer.spacingOfAll = all.spacing;
+    for (int axis = 0; axis < 3; ++axis) {
+        box.min[axis] = std::max(box.min[axis], core->box.min[axis]);
+        box.max[axis] = std::min(box.max[axis], core->box.max[axis]);
+    }
+    return finer;
+}
+
+}  // namespace
 
 Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions& options,
                                 std::optional<SpacingChoice>* choice) {
@@ -18,7 +74,7 @@ Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions&
                 all.triangles.push_back(triangle);
             }
         }
-        axes = voxelize::dominantAxes(all).directions;
+        axes = leastTurned(voxelize::dominantAxes(all).directions);
         for (const Vec3d& vertex : all.vertices)
             box.add(Vec3d{dot(vertex, axes[0]), dot(vertex, axes[1]), dot(vertex, axes[2])});
     } else {
@@ -27,9 +83,8 @@ Result<volume::Grid> chooseGrid(const mesh::MeshSet& meshes, const BuildOptions&
     }
     Vec3d spacing = options.spacing.value_or(Vec3d{});
     if (!options.dimension && !options.spacing) {
-        double area = 0;
-        for (const mesh::ObjectMesh& object : meshes.objects) area += object.area;
-        SpacingChoice chosen = chooseSpacing(box.size(), area, options.memoryBytes);
+        const Vec3d origin = options.axes == AxesKind::Building ? Vec3d{} : meshes.origin;
+        SpacingChoice chosen = chooseDefault(meshes, axes, origin, options.memoryBytes, box);
         spacing = {chosen.spacing, chosen.spacing, chosen.spacing};
         if (choice != nullptr) *choice = std::move(chosen);
     }

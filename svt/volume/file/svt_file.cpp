@@ -25,8 +25,10 @@ constexpr std::string_view kBlocks = "columns/blocks";
 // Optional entries:
 constexpr std::string_view kVectors = "meshes/shapes";
 constexpr std::string_view kPlanes = "meshes/planes";
+constexpr std::string_view kFootprints = "meshes/footprints";
 constexpr std::string_view kTenthParts = "meshes/parts";  // of older files, instead of kVectors
-constexpr std::string_view kUsed[] = {kMimeEntry, kHeader, kLabels, kIndex, kBlocks, kVectors, kPlanes, kTenthParts};
+constexpr std::string_view kUsed[] = {kMimeEntry, kHeader, kLabels,     kIndex,     kBlocks,
+                                      kVectors,   kPlanes, kFootprints, kTenthParts};
 
 Error named(const Error& error, const std::string& file) {
     return Error(error.code(), error.message(), Place{file, 0, 0, {}});
@@ -45,6 +47,8 @@ Result<void> checkWritable(const SemanticVolume& volume) {
         for (const Run& run : tile.runs)
             if (run.scalar >= scalarCount) return wrong(fmt::format("scalar {} belongs to no label", run.scalar));
     if (auto checked = checkVectorParts(volume.vectors, volume.labels.labels.size()); !checked)
+        return wrong(checked.error().message());
+    if (auto checked = checkVectorParts(volume.footprints, volume.labels.labels.size()); !checked)
         return wrong(checked.error().message());
     if (auto checked = checkFacePlanes(volume.planes, grid); !checked) return wrong(checked.error().message());
     return {};
@@ -157,6 +161,9 @@ Result<SemanticVolume> readEntries(std::span<const std::byte> bytes) {
     auto planes = readOptional<std::vector<FacePlane>>(
         *entries, kPlanes, [&](Frame frame) { return readFacePlanes(frame, tables->grid.dimension()); });
     if (!planes) return planes.error();
+    auto footprints = readOptional<VectorParts>(
+        *entries, kFootprints, [&](Frame frame) { return readVectorParts(frame, tables->labels.labels.size()); });
+    if (!footprints) return footprints.error();
     return SemanticVolume{tables->grid,
                           std::move(tables->labels),
                           std::move(*columns),
@@ -164,7 +171,8 @@ Result<SemanticVolume> readEntries(std::span<const std::byte> bytes) {
                           std::move(tables->modelName),
                           std::move(tables->source),
                           std::move(*vectors),
-                          std::move(*planes)};
+                          std::move(*planes),
+                          std::move(*footprints)};
 }
 
 }  // namespace
@@ -196,7 +204,7 @@ auto withEntries(const SemanticVolume& volume, Write&& write) -> decltype(write(
         return Error(Code::BadArgument, fmt::format("the label table takes {} bytes as JSON, {} are possible",
                                                     labels.size(), kMaxLabelsBytes));
     SVT_TRY(compressed, compressColumns(volume.columns));
-    std::vector<std::byte> vectors, planes;
+    std::vector<std::byte> vectors, planes, footprints;
     if (!volume.vectors.isEmpty()) {
         SVT_TRY(frame, compressVectorParts(volume.vectors));
         vectors = std::move(*frame);
@@ -204,6 +212,10 @@ auto withEntries(const SemanticVolume& volume, Write&& write) -> decltype(write(
     if (!volume.planes.empty()) {
         SVT_TRY(frame, compressFacePlanes(volume.planes));
         planes = std::move(*frame);
+    }
+    if (!volume.footprints.isEmpty()) {
+        SVT_TRY(frame, compressVectorParts(volume.footprints));
+        footprints = std::move(*frame);
     }
     std::vector<ZipSource> entries(5);
     for (std::size_t e = 0; e < entries.size(); ++e) entries[e].name = kUsed[e];
@@ -216,6 +228,7 @@ auto withEntries(const SemanticVolume& volume, Write&& write) -> decltype(write(
     entries[4].parts.assign(compressed->frames.begin(), compressed->frames.end());
     if (!vectors.empty()) entries.push_back({std::string(kVectors), {std::span<const std::byte>(vectors)}});
     if (!planes.empty()) entries.push_back({std::string(kPlanes), {std::span<const std::byte>(planes)}});
+    if (!footprints.empty()) entries.push_back({std::string(kFootprints), {std::span<const std::byte>(footprints)}});
     return write(std::span<const ZipSource>(entries));
 }
 

@@ -200,6 +200,21 @@ TEST(SvtFile, NotANumberComesBackAsNotANumber) {
     EXPECT_EQ(std::get<double>(attributes[1].value), -std::numeric_limits<double>::infinity());
 }
 
+TEST(SvtFile, KeepsRecordsAreasAndFootprints) {
+    SemanticVolume volume = sampleVolume({8, 8, 8});
+    volume.labels.labels[0].attributes = {{"flood/rank", std::int64_t{1}, ""}, {"flood/rank", std::int64_t{3}, "", 1}};
+    volume.labels.labels[0].area = 12.5;
+    volume.footprints.points = {{0, 0, 0}, {1 << 20, 0, 0}, {0, 1 << 20, 0}};
+    volume.footprints.triangles = {{1, {0, 2, 1}}};
+    const auto read = readBytes(bytesOfVolume(volume));
+    ASSERT_TRUE(read) << read.error().toString();
+    EXPECT_EQ(read->labels, volume.labels);
+    EXPECT_EQ(read->footprints, volume.footprints);
+    EXPECT_TRUE(read->vectors.isEmpty());
+    volume.footprints.triangles[0].label = 99;
+    EXPECT_FALSE(svtBytes(volume));
+}
+
 TEST(SvtFile, WrongUtf8BecomesReplacementCharacters) {
     SemanticVolume volume = sampleVolume({8, 8, 8});
     volume.labels.labels[0].name =

@@ -178,6 +178,7 @@ void readAttributes(Members& members, const std::string& where, std::vector<Attr
         Attribute& made = out.emplace_back();
         attribute.read("name", made.name);
         if (attribute.has("unit")) attribute.read("unit", made.unit);
+        if (attribute.has("record")) attribute.read("record", made.record);
         if (const json* value = attribute.find("value")) readAttributeValue(attribute, *value, made.value);
         if (!attribute.isGood()) return members.fail(attribute.error().message());
     }
@@ -197,6 +198,7 @@ Result<Label> readLabel(const json& object, std::size_t number) {
     members.read("count", label.count);
     members.read("voxels", label.voxels);
     members.read("volume", label.volume);
+    if (members.has("area")) members.read("area", label.area);
     std::string filling;
     members.read("filling", filling);
     if (members.isGood() && !fillingFromName(filling, label.filling))
@@ -351,6 +353,10 @@ void appendJsonLabel(std::string& out, const Label& label, JsonCharacters charac
     number(R"(,"voxels":)", label.voxels);
     out += R"(,"volume":)";
     appendReal(out, label.volume);
+    if (label.area > 0) {
+        out += R"(,"area":)";
+        appendReal(out, label.area);
+    }
     text(R"(,"filling":)", fillingName(label.filling));
     out += R"(,"color":)";
     appendVec(out, label.color);
@@ -369,6 +375,7 @@ void appendJsonLabel(std::string& out, const Label& label, JsonCharacters charac
             out += R"(,"value":)";
             appendValue(out, attribute.value, characters);
             if (!attribute.unit.empty()) text(R"(,"unit":)", attribute.unit);
+            if (attribute.record != 0) number(R"(,"record":)", attribute.record);
             out += '}';
         });
     }
@@ -534,9 +541,9 @@ Result<void> checkLabels(const LabelTable& table) {
                                             label.first, scalarEnd));
             scalarEnd = end;
         }
-        const bool isFinite = std::isfinite(label.volume) && std::isfinite(label.opacity) &&
-                              std::isfinite(label.color.x) && std::isfinite(label.color.y) &&
-                              std::isfinite(label.color.z);
+        const bool isFinite = std::isfinite(label.volume) && std::isfinite(label.area) &&
+                              std::isfinite(label.opacity) && std::isfinite(label.color.x) &&
+                              std::isfinite(label.color.y) && std::isfinite(label.color.z);
         if (!isFinite) return wrong(i, "has a volume, color or opacity that is not a finite number");
         if (fillingName(label.filling) == "none" && label.filling != Filling::None)
             return wrong(i, "has a filling that does not exist");

@@ -15,14 +15,15 @@ namespace {
 constexpr std::int32_t kTile = ColumnVolume::kTileSize;
 constexpr std::uint16_t kNoColumn = 0xFFFF;  // a tile has 4096 columns at most
 
-/// Counts voxels again. A label that is no longer complete gets the volume of its voxels.
+/// Counts voxels again. A solid that is no longer complete has no known volume: its voxels count.
 void recount(SemanticVolume& volume) {
     const auto voxels = volume.columns.countVoxels(volume.labels.scalarCount());
     for (Label& label : volume.labels.labels) {
         std::uint64_t count = 0;
         for (Scalar s = 0; s < label.count; ++s) count += voxels[label.first + s];
         if (count == label.voxels) continue;
-        if (label.volume > 0) label.volume = static_cast<double>(count) * volume.grid.voxelVolume();
+        const bool isBody = label.filling == Filling::Body;
+        label.volume = isBody ? static_cast<double>(count) * volume.grid.voxelVolume() : 0;
         label.thinVoxels = std::min(label.thinVoxels, count);
         label.uncertainVoxels = std::min(label.uncertainVoxels, count);
         label.voxels = count;
