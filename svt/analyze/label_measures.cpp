@@ -53,7 +53,7 @@ std::vector<Measure> ownMeasures(const volume::LabelTable& table, const volume::
 
 std::vector<Measure> measureLabels(const volume::SemanticVolume& volume, const std::vector<Contact>& contacts) {
     std::vector<Measure> measures = ownMeasures(volume.labels, volume.grid);
-    const std::vector<SampleBox> boxes = labelBoxes(volume.columns, volume.labels);
+    const std::vector<Box3d> boxes = labelWorldBoxes(volume);
     for (std::size_t l = 0; l < measures.size(); ++l) measures[l].box = boxes[l];
     for (const Contact& contact : contacts) {
         measures[contact.a].area += contact.area;

@@ -17,7 +17,7 @@ struct Measure {
     std::uint64_t voxels = 0;
     std::optional<double> volume;  ///< m3; empty: unknown, because there is no solid, only sheets or nothing
     double countedVolume = 0;      ///< m3: the part of the volume that is counted in voxels; the rest is that of solids
-    SampleBox box;                 ///< empty without voxels
+    Box3d box;                     ///< of its mesh, or of its voxels (see labelWorldBoxes()); world axes, metres
     double area = 0;               ///< m2: the sum over contacts
     double outsideArea = 0;        ///< m2: the part of `area` in contact with background
 
@@ -37,9 +37,9 @@ struct Measure {
 /// labels are parts of space that do not overlap.
 [[nodiscard]] std::vector<Measure> ownMeasures(const volume::LabelTable& labels, const volume::Grid& grid);
 
-/// ownMeasures() with boxes and areas.
+/// ownMeasures() with boxes (see labelWorldBoxes()) and areas.
 /// \param contacts  of the whole volume, see findContacts(); empty: areas are 0
-/// Cost: that of scalarBoxes().
+/// Cost: that of labelWorldBoxes().
 [[nodiscard]] std::vector<Measure> measureLabels(const volume::SemanticVolume& volume,
                                                  const std::vector<Contact>& contacts);
 
@@ -52,6 +52,12 @@ struct Measure {
 /// Volume of a label's solid, m3. A label without a solid has the sum of the solids below it in the tree; 0: there are
 /// none. For coarse tiles of cities, in which the volume of a building includes its classes; see Measure otherwise.
 [[nodiscard]] double solidVolume(const volume::LabelTable& labels, std::uint32_t label) noexcept;
+
+/// The box of each label itself, along world axes, metres; entry l is label l. It is that of its mesh if the volume keeps
+/// one, however thin the part is and whatever voxels it lost; otherwise that of its voxels. The material behind a
+/// boundary surface (volume::Filling::Body) has no mesh: its box is that of surface and voxels. Empty without both.
+/// Cost: O(triangles), and that of labelBoxes() if a label has no mesh.
+[[nodiscard]] std::vector<Box3d> labelWorldBoxes(const volume::SemanticVolume& volume);
 
 /// The box around the voxels of `box`, along world axes, metres; empty if `box` is.
 [[nodiscard]] Box3d worldBox(const SampleBox& box, const volume::Grid& grid) noexcept;

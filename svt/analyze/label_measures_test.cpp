@@ -13,7 +13,9 @@ TEST(LabelMeasures, AreBoxAndSumOfContacts) {
     const auto measures = measureLabels(volume, contacts);
     ASSERT_EQ(measures.size(), 5u);
     // The wall stands in the middle of 70 x 66 samples, in layers 1 to 7 of 9; voxels of 0.05 x 0.1 x 1/3 m.
-    EXPECT_EQ(measures[2].box, (SampleBox{{35, 0, 1}, {35, 65, 7}}));
+    const Box3d box = worldBox({{35, 0, 1}, {35, 65, 7}}, volume.grid);
+    EXPECT_EQ(measures[2].box.min, box.min);
+    EXPECT_EQ(measures[2].box.max, box.max);
     const double sides = 66 * 7 * 0.1 / 3, ends = 2 * 7 * 0.05 / 3, levels = 2 * 66 * 0.05 * 0.1;
     EXPECT_NEAR(measures[2].area, 2 * sides + ends + levels, 0.03 * measures[2].area);
     EXPECT_GT(measures[2].outsideArea, ends + levels - 1e-9);
@@ -31,6 +33,28 @@ TEST(LabelMeasures, WorldBoxesReachHalfAVoxelFurther) {
     EXPECT_EQ(box.min, (Vec3d{100 - 3.5, 200 + 0.75, 300 + 7}));
     EXPECT_EQ(box.max, (Vec3d{100 - 2.5, 200 + 2.75, 300 + 9}));
     EXPECT_TRUE(worldBox({}, grid).isEmpty());
+}
+
+TEST(LabelMeasures, BoxesAreThoseOfMeshesWhereThereAreAny) {
+    // A beam of 4.1 m and 3 cm keeps one voxel of 5 cm; a surface stands for the material behind it.
+    volume::SemanticVolume volume = volume::test::emptyVolume({100, 4, 4}, {0.05, 0.05, 0.05}, {500000, 5400000, 100});
+    volume::test::addObject(volume, "beam", "BuildingConstructiveElement").filling = volume::Filling::Solid;
+    volume::test::addObject(volume, "wall", "WallSurface").filling = volume::Filling::Body;
+    volume::test::addObject(volume, "without mesh", "Window");
+    volume::test::addBoxMesh(volume, 0, {0.3, 0.06, 0.06}, {4.4, 0.09, 0.09});
+    volume::test::addQuad(volume, 1, {Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{1, 0, 0.1}, Vec3d{0, 0, 0.1}});
+    volume::test::paintBoxes(volume,
+                             {{1, {40, 1, 1}, {41, 2, 2}}, {2, {0, 0, 0}, {20, 2, 2}}, {3, {60, 0, 0}, {62, 1, 1}}});
+    const std::vector<Box3d> boxes = labelWorldBoxes(volume);
+    ASSERT_EQ(boxes.size(), 3u);
+    EXPECT_NEAR(boxes[0].min.x, 500000.3, 1e-6);
+    EXPECT_NEAR(boxes[0].max.x, 500004.4, 1e-6);
+    EXPECT_NEAR(boxes[0].size().y, 0.03, 2e-6);
+    EXPECT_NEAR(boxes[1].size().y, 0.1, 1e-6) << "surface and material";
+    const Box3d voxels = worldBox({{60, 0, 0}, {61, 0, 0}}, volume.grid);
+    EXPECT_EQ(boxes[2].min, voxels.min);
+    EXPECT_EQ(boxes[2].max, voxels.max);
+    EXPECT_EQ(measureLabels(volume, {})[0].box.max.x, boxes[0].max.x);
 }
 
 TEST(LabelMeasures, VolumesAreThoseOfSolidsUnlessVoxelsWereLost) {

@@ -61,6 +61,9 @@ struct LegalUnitOptions {
     double doorReach = 0.5;
 };
 
+/// Whether function, class, usage or name of a unit says that it is common property.
+[[nodiscard]] bool isCommonUnit(const volume::Label& label);
+
 /// Checks the units of `volume`. A gap has at least 27 voxels; smaller ones come from rounding.
 /// \param contacts  of the whole volume, see findContacts()
 /// Cost: that of solidOverlaps(), and O(contacts + labels of the extents of units + samples around doors).

@@ -17,7 +17,8 @@
 
 namespace svt::analyze {
 
-/// The labels as rows for model::Query; row i is label i. The rows refer to `labels`, which must outlive them.
+/// The labels as rows for model::Query; row i is label i. Volumes are those of the features' own solids. The rows refer
+/// to `labels`, which must outlive them.
 [[nodiscard]] std::vector<model::QueryRow> queryRows(const volume::LabelTable& labels);
 
 /// queryRows() for several queries on one table: made once, when the first query needs them. Not thread-safe.
@@ -29,8 +30,17 @@ public:
     ///                 here, once, and the selection is empty
     LabelRows(const volume::LabelTable& labels, std::vector<std::string>* nothing = nullptr) noexcept
         : labels_(labels), nothing_(nothing) {}
+    /// The same, for queries that compare volumes: these are the best known ones of the features with their parts.
+    /// \param volume  must outlive the rows, unchanged
+    LabelRows(const volume::SemanticVolume& volume, std::vector<std::string>* nothing = nullptr) noexcept
+        : LabelRows(volume.labels, volume.grid, nothing) {}
+    LabelRows(const volume::LabelTable& labels, const volume::Grid& grid,
+              std::vector<std::string>* nothing = nullptr) noexcept
+        : labels_(labels), grid_(&grid), nothing_(nothing) {}
 
     [[nodiscard]] std::span<const model::QueryRow> get() const;
+    /// get() with volumes by KnownVolumes. Rows of a table without its grid keep those of the features' own solids.
+    [[nodiscard]] std::span<const model::QueryRow> withVolumes() const;
     /// The extents of the labels, made once.
     [[nodiscard]] const Extents& extents() const;
 
@@ -39,12 +49,14 @@ public:
 
 private:
     const volume::LabelTable& labels_;
+    const volume::Grid* grid_ = nullptr;
     std::vector<std::string>* nothing_;
     mutable std::vector<model::QueryRow> rows_;  // empty: not made yet
+    mutable bool areVolumesKnown_ = false;
     mutable std::optional<Extents> extents_;
 };
 
-/// Labels that the query `text` selects.
+/// Labels that the query `text` selects. A comparison with `volume` is with that of LabelRows::withVolumes().
 /// \return the labels, or BadQuery, or NothingSelected (see LabelRows); the latter names the nearest existing value
 /// Cost: that of queryRows(), once for all queries on the same rows, and of Query::select().
 [[nodiscard]] Result<std::vector<std::uint32_t>> selectLabels(const LabelRows& rows, std::string_view text);

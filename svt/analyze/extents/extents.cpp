@@ -117,6 +117,10 @@ std::vector<std::uint32_t> Extents::of(std::span<const std::uint32_t> labels) co
 
 bool Extents::standsForParts(std::uint32_t label) const {
     if (!hasParts(label)) return false;
+    // A window stands for its panes.
+    std::uint32_t part = label + 1;
+    while (part < ends_[label] && model::isPhase(labels_[part].className)) ++part;
+    if (part > label + 1 && part == ends_[label]) return true;
     return labels_[label].count == 0 || model::classRank(labels_[label].className) >= ClassRank::Unit;
 }
 

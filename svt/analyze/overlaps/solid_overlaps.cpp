@@ -1,6 +1,7 @@
 #include <svt/analyze/solid_overlaps.hpp>
 
 #include <svt/analyze/overlaps/common_volume.hpp>
+#include <svt/analyze/overlaps/solid_clips.hpp>
 #include <svt/core/vec.hpp>
 #include <svt/model/classes.hpp>
 
@@ -15,15 +16,6 @@
 namespace svt::analyze {
 namespace {
 
-using Triangle = volume::VectorParts::Triangle;
-
-// A label with a closed mesh.
-struct Solid {
-    std::uint32_t label = 0;
-    std::span<const Triangle> triangles;
-    Box3d box;  // metres from the grid's lower corner, along world axes
-};
-
 bool isAncestor(const volume::LabelTable& table, std::uint32_t ancestor, std::uint32_t label) {
     return ancestor < label && label < table.labels[ancestor].subtreeEnd;
 }
@@ -36,74 +28,10 @@ bool isMember(const volume::LabelTable& table, std::uint32_t group, std::uint32_
     return false;
 }
 
-bool hasClosedMesh(volume::Filling filling) noexcept {
-    return filling >= volume::Filling::Solid && filling <= volume::Filling::Capped;
-}
-
-std::array<Vec3d, 3> cornersOf(const Triangle& triangle, const volume::VectorParts& parts) {
-    return {parts.position(triangle.corners[0], {}), parts.position(triangle.corners[1], {}),
-            parts.position(triangle.corners[2], {})};
-}
-
-Box3d boxOf(const std::array<Vec3d, 3>& corners) {
-    Box3d box;
-    for (const Vec3d& corner : corners) box.add(corner);
-    return box;
-}
-
-std::vector<Solid> solidsOf(const volume::SemanticVolume& volume) {
-    std::vector<Solid> solids;
-    const std::span<const Triangle> all = volume.vectors.triangles;
-    for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-        while (end < all.size() && all[end].label == all[begin].label) ++end;
-        Solid solid{all[begin].label, all.subspan(begin, end - begin), {}};
-        if (!hasClosedMesh(volume.labels.labels[solid.label].filling)) continue;
-        for (const Triangle& triangle : solid.triangles) solid.box.add(boxOf(cornersOf(triangle, volume.vectors)));
-        solids.push_back(solid);
-    }
-    return solids;
-}
-
-// The box that two boxes share; empty where they have no volume in common.
-Box3d commonBox(const Box3d& a, const Box3d& b) {
-    const Box3d box{{std::max(a.min.x, b.min.x), std::max(a.min.y, b.min.y), std::max(a.min.z, b.min.z)},
-                    {std::min(a.max.x, b.max.x), std::min(a.max.y, b.max.y), std::min(a.max.z, b.max.z)}};
-    const bool hasVolume = box.min.x < box.max.x && box.min.y < box.max.y && box.min.z < box.max.z;
-    return hasVolume ? box : Box3d{};
-}
-
-// The part of a solid in a box.
-struct Clip {
-    std::vector<RoofTriangle> roofs;  // above, in and below the box, in order of minX
-    double area = 0;                  // m2 in the box, at most
-    double lowest = kInfinity;
-};
-
-Clip clip(const Solid& solid, const volume::VectorParts& parts, const Box3d& box) {
-    Clip clip;
-    // The rounding of corners may move each side of the box. No plane cuts more out of it.
-    const Vec3d size = box.size() + Vec3d{1, 1, 1} * (2 * parts.unit);
-    const double largest = length(Vec3d{size.x * size.y, size.y * size.z, size.z * size.x});
-    for (const Triangle& triangle : solid.triangles) {
-        const std::array<Vec3d, 3> corners = cornersOf(triangle, parts);
-        const Box3d of = boxOf(corners);
-        if (of.max.x < box.min.x || of.min.x > box.max.x || of.max.y < box.min.y || of.min.y > box.max.y) continue;
-        RoofTriangle roof;
-        if (makeRoofTriangle(corners, roof)) clip.roofs.push_back(roof);
-        clip.lowest = std::min(clip.lowest, of.min.z);
-        if (of.max.z < box.min.z || of.min.z > box.max.z) continue;
-        clip.area += std::min(0.5 * length(cross(corners[1] - corners[0], corners[2] - corners[0])), largest);
-    }
-    std::sort(clip.roofs.begin(), clip.roofs.end(), [](const RoofTriangle& s, const RoofTriangle& t) {
-        return std::tie(s.minX, s.minY, s.maxX, s.maxY) < std::tie(t.minX, t.minY, t.maxX, t.maxY);
-    });
-    return clip;
-}
-
 class OverlapFinder {
 public:
     OverlapFinder(const volume::SemanticVolume& volume, std::uint64_t work)
-        : volume_(volume), labels_(volume.labels.labels), work_(work), solids_(solidsOf(volume)) {}
+        : volume_(volume), labels_(volume.labels.labels), work_(work), solids_(meshSolids(volume)) {}
 
     SolidOverlaps run() {
         for (const volume::Overlap& overlap : volume_.labels.overlaps) {
@@ -136,22 +64,22 @@ private:
 
     // All pairs whose boxes share volume: a sweep along x.
     void compareAll() {
-        std::sort(solids_.begin(), solids_.end(), [](const Solid& s, const Solid& t) {
+        std::sort(solids_.begin(), solids_.end(), [](const MeshSolid& s, const MeshSolid& t) {
             return std::tie(s.box.min.x, s.label) < std::tie(t.box.min.x, t.label);
         });
-        std::vector<const Solid*> open;
-        for (const Solid& solid : solids_) {
-            std::erase_if(open, [&](const Solid* other) { return other->box.max.x <= solid.box.min.x; });
+        std::vector<const MeshSolid*> open;
+        for (const MeshSolid& solid : solids_) {
+            std::erase_if(open, [&](const MeshSolid* other) { return other->box.max.x <= solid.box.min.x; });
             if (!take(open.size())) return;
-            for (const Solid* other : open)
+            for (const MeshSolid* other : open)
                 if (const Box3d box = commonBox(solid.box, other->box); !box.isEmpty()) compare(solid, *other, box);
             open.push_back(&solid);
         }
     }
 
-    void compare(const Solid& s, const Solid& t, const Box3d& box) {
+    void compare(const MeshSolid& s, const MeshSolid& t, const Box3d& box) {
         if (!take(s.triangles.size() + t.triangles.size())) return;
-        const Clip ofS = clip(s, volume_.vectors, box), ofT = clip(t, volume_.vectors, box);
+        const SolidClip ofS = clipSolid(s, volume_.vectors, box), ofT = clipSolid(t, volume_.vectors, box);
         if (!take(comparisons(ofS.roofs, ofT.roofs))) return;
         const auto [a, b] = inOrder(s.label, t.label);
         SolidOverlap overlap{a, b};
@@ -184,7 +112,7 @@ private:
     const std::vector<volume::Label>& labels_;
     std::uint64_t work_;
     bool isComplete_ = true;
-    std::vector<Solid> solids_;
+    std::vector<MeshSolid> solids_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, SolidOverlap> found_;
 };
 

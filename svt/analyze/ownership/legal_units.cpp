@@ -24,22 +24,6 @@ constexpr std::uint64_t kLeastGapVoxels = 27;
 bool isUnit(const Label& label) noexcept { return model::classRank(label.className) == ClassRank::Unit; }
 bool isDoor(const Label& label) noexcept { return label.className == "Door" || label.className == "DoorSurface"; }
 
-bool saysCommon(const Label& label) {
-    const auto holds = [](std::string_view text) {
-        const std::string lower = lowerAscii(text);
-        constexpr std::string_view kWords[] = {"common", "shared", "gemeinschaft", "allgemein", "circulation"};
-        return std::any_of(std::begin(kWords), std::end(kWords),
-                           [&](std::string_view word) { return lower.find(word) != std::string::npos; });
-    };
-    const auto isUse = [&](const Attribute& attribute) {
-        constexpr std::string_view kNames[] = {"function", "class", "usage"};
-        return std::any_of(std::begin(kNames), std::end(kNames),
-                           [&](std::string_view name) { return equalsIgnoringCase(attribute.name, name); }) &&
-               holds(toText(attribute.value));
-    };
-    return holds(label.name) || std::any_of(label.attributes.begin(), label.attributes.end(), isUse);
-}
-
 // Largest face of the box that two boxes have in common, m2.
 double largestFace(const SampleBox& a, const SampleBox& b, const volume::Grid& grid) {
     std::array<double, 3> side{};
@@ -79,7 +63,7 @@ private:
         std::vector<std::uint32_t> common;
         for (std::uint32_t l = 0; l < labels_.size(); ++l) {
             if (!isUnit(labels_[l])) continue;
-            found_.units.push_back({l, saysCommon(labels_[l]), UnitAccess::Unknown});
+            found_.units.push_back({l, isCommonUnit(labels_[l]), UnitAccess::Unknown});
             extentOf_[l] = extents_.of(l);
             for (const std::uint32_t part : extentOf_[l]) unitsOf_[part].push_back(l);
             if (found_.units.back().isCommon) common.push_back(l);
@@ -242,6 +226,22 @@ private:
 };
 
 }  // namespace
+
+bool isCommonUnit(const volume::Label& label) {
+    const auto holds = [](std::string_view text) {
+        const std::string lower = lowerAscii(text);
+        constexpr std::string_view kWords[] = {"common", "shared", "gemeinschaft", "allgemein", "circulation"};
+        return std::any_of(std::begin(kWords), std::end(kWords),
+                           [&](std::string_view word) { return lower.find(word) != std::string::npos; });
+    };
+    const auto isUse = [&](const Attribute& attribute) {
+        constexpr std::string_view kNames[] = {"function", "class", "usage"};
+        return std::any_of(std::begin(kNames), std::end(kNames),
+                           [&](std::string_view name) { return equalsIgnoringCase(attribute.name, name); }) &&
+               holds(toText(attribute.value));
+    };
+    return holds(label.name) || std::any_of(label.attributes.begin(), label.attributes.end(), isUse);
+}
 
 LegalUnits checkLegalUnits(const volume::SemanticVolume& volume, std::span<const Contact> contacts,
                            const LegalUnitOptions& options) {

@@ -1,0 +1,167 @@
+#include <svt/analyze/exclusive_volumes.hpp>
+
+#include <svt/analyze/overlaps/common_volume_of_all.hpp>
+#include <svt/analyze/overlaps/solid_clips.hpp>
+#include <svt/analyze/solid_overlaps.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <optional>
+#include <unordered_set>
+
+namespace svt::analyze {
+namespace {
+
+// The volume of a closed mesh by its triangles, m3.
+double meshVolume(const MeshSolid& solid, const volume::VectorParts& parts) {
+    const Vec3d corner = solid.box.min;
+    double sum = 0;
+    for (const auto& triangle : solid.triangles) {
+        const Vec3d a = parts.position(triangle.corners[0], {}) - corner;
+        const Vec3d b = parts.position(triangle.corners[1], {}) - corner;
+        const Vec3d c = parts.position(triangle.corners[2], {}) - corner;
+        sum += dot(a, cross(b, c));
+    }
+    return sum / 6;
+}
+
+class ExclusiveVolumes {
+public:
+    ExclusiveVolumes(const volume::SemanticVolume& volume, std::uint64_t work)
+        : volume_(volume), solids_(meshSolids(volume)), work_(work), solidOf_(volume.labels.labels.size(), kNone) {
+        for (std::size_t s = 0; s < solids_.size(); ++s) solidOf_[solids_[s].label] = s;
+    }
+
+    std::vector<Measure> run() {
+        std::vector<Measure> measures = ownMeasures(volume_.labels, volume_.grid);
+        if (solids_.empty()) return measures;
+        const SolidOverlaps overlaps = solidOverlaps(volume_, {.work = work_});
+        if (!overlaps.isComplete) return measures;
+        winners_.resize(solids_.size());
+        std::vector<char> isExact(solids_.size(), 1);
+        for (const SolidOverlap& pair : overlaps.pairs) {
+            if (solidOf_[pair.b] == kNone) continue;
+            if (!pair.isExact) isExact[solidOf_[pair.b]] = 0;
+            if (solidOf_[pair.a] == kNone) continue;
+            winners_[solidOf_[pair.b]].push_back(solidOf_[pair.a]);
+            pairs_.insert(keyOf(pair.a, pair.b));
+        }
+        leaveBodies(isExact);
+        for (std::size_t s = 0; s < solids_.size(); ++s) {
+            if (isExact[s] == 0) continue;
+            const auto volume = exclusiveVolume(s);
+            if (!volume) continue;
+            Measure& measure = measures[solids_[s].label];
+            measure.volume = std::max(0.0, *volume);
+            measure.countedVolume = 0;
+        }
+        return measures;
+    }
+
+private:
+    static constexpr std::size_t kNone = ~std::size_t{0};
+
+    static std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) {
+        return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+    }
+
+    // The material between hull and rooms belongs to surfaces in voxels, so the rest of the hull is counted, too.
+    void leaveBodies(std::vector<char>& isExact) const {
+        const auto& labels = volume_.labels.labels;
+        for (const volume::Label& label : labels) {
+            if (label.filling != volume::Filling::Body) continue;
+            for (std::uint32_t above = label.parent; above != volume::kNoLabel; above = labels[above].parent)
+                if (solidOf_[above] != kNone) isExact[solidOf_[above]] = 0;
+        }
+    }
+
+    // The volume of a mesh, less that of its places in other labels, by inclusion and exclusion.
+    std::optional<double> exclusiveVolume(std::size_t solid) {
+        isComplete_ = true;
+        claims_ = {solid};
+        const double lost = winners_[solid].empty() ? 0 : lostVolume(winners_[solid], solids_[solid].box);
+        if (!isComplete_) return std::nullopt;
+        return meshVolume(solids_[solid], volume_.vectors) - lost;
+    }
+
+    // The volume of the places that all of claims_ have in common with at least one of `others`.
+    double lostVolume(std::span<const std::size_t> others, const Box3d& box) {
+        double lost = 0;
+        for (std::size_t n = 0; n < others.size() && isComplete_; ++n) {
+            const Box3d common = commonBox(box, solids_[others[n]].box);
+            if (common.isEmpty()) continue;
+            claims_.push_back(others[n]);
+            const double volume = commonOfClaims(common);
+            if (volume > 0) {
+                std::vector<std::size_t> next;
+                for (const std::size_t other : others.subspan(n + 1))
+                    if (pairs_.contains(keyOf(solids_[others[n]].label, solids_[other].label))) next.push_back(other);
+                lost += volume - (next.empty() ? 0 : lostVolume(next, common));
+            }
+            claims_.pop_back();
+        }
+        return lost;
+    }
+
+    // The volume that all of claims_ have in common in a box; 0 below the rounding of the meshes.
+    double commonOfClaims(const Box3d& box) {
+        std::vector<SolidClip> clips;
+        std::vector<const std::vector<RoofTriangle>*> roofs;
+        double lowest = box.min.z, area = 0;
+        isComplete_ = isComplete_ && claims_.size() <= kMostClaims;
+        for (const std::size_t claim : claims_) {
+            const std::uint64_t steps = solids_[claim].triangles.size();
+            isComplete_ = isComplete_ && steps <= work_;
+            if (!isComplete_) return 0;
+            work_ -= steps;
+            clips.push_back(clipSolid(solids_[claim], volume_.vectors, box));
+            lowest = std::min(lowest, clips.back().lowest);
+            area += clips.back().area;
+        }
+        for (const SolidClip& clip : clips) roofs.push_back(&clip.roofs);
+        // First the mesh with the fewest triangles, so that others are clipped to few.
+        std::sort(roofs.begin(), roofs.end(), [](const auto* a, const auto* b) { return a->size() < b->size(); });
+        std::optional<double> volume;
+        if (roofs.size() == 2 && comparisons(*roofs[0], *roofs[1]) <= work_) {
+            work_ -= comparisons(*roofs[0], *roofs[1]);
+            volume = commonVolume(*roofs[0], *roofs[1], lowest);
+        } else if (roofs.size() > 2) {
+            volume = commonVolumeOfAll(roofs, lowest, work_);
+        }
+        if (!volume) isComplete_ = false;
+        const double bound = area * volume_.vectors.unit;
+        return volume.value_or(0) > bound ? *volume : 0;
+    }
+
+    const volume::SemanticVolume& volume_;
+    std::vector<MeshSolid> solids_;
+    std::uint64_t work_;
+    std::vector<std::size_t> solidOf_;               // by label
+    std::vector<std::vector<std::size_t>> winners_;  // by solid: those that have space of it
+    std::unordered_set<std::uint64_t> pairs_;        // of labels whose solids overlap
+    std::vector<std::size_t> claims_;
+    bool isComplete_ = true;
+};
+
+}  // namespace
+
+std::vector<Measure> exclusiveMeasures(const volume::SemanticVolume& volume, std::uint64_t work) {
+    return ExclusiveVolumes(volume, work).run();
+}
+
+std::vector<std::uint32_t> finestFeatures(const Extents& extents, std::span<const std::uint32_t> features,
+                                          std::size_t labelCount) {
+    std::vector<std::uint32_t> sizes, order(features.size()), featureOf(labelCount, volume::kNoLabel);
+    sizes.reserve(features.size());
+    for (const std::uint32_t label : features) sizes.push_back(static_cast<std::uint32_t>(extents.of(label).size()));
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return sizes[a] > sizes[b]; });
+    for (const std::uint32_t n : order)
+        for (const std::uint32_t part : extents.of(features[n])) featureOf[part] = features[n];
+    for (const std::uint32_t label : features) featureOf[label] = label;
+    return featureOf;
+}
+
+}  // namespace svt::analyze
