@@ -16,6 +16,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,10 +36,12 @@ struct RoomArea {
     std::string number, name;  ///< number: attribute `number`, or empty
     std::size_t level = 0;     ///< index into the given levels
     RoomUse use = RoomUse::Unknown;
-    double area = 0;       ///< m2: of its mesh seen from above, without furniture and roof slopes
-    double height = 0;     ///< metres, from its lowest to its highest point
-    double volume = 0;     ///< m3
-    bool isExact = false;  ///< from a closed mesh; otherwise from a section of its voxels
+    /// m2, see roomFloorAreas(); from a section of its voxels if `isExact` is false; 0: unknown.
+    double area = 0;
+    std::optional<double> stated{};  ///< m2: the area that the file states, see statedFloorArea()
+    double height = 0;               ///< metres, from its lowest to its highest point
+    double volume = 0;               ///< m3; 0: unknown
+    bool isExact = false;            ///< from a closed mesh; otherwise from a section of its voxels
 };
 
 /// Sums of a level, m2.

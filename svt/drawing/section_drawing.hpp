@@ -13,6 +13,7 @@
 /// for both.
 
 #include <svt/core/diagnostics.hpp>
+#include <svt/core/names.hpp>
 #include <svt/core/result.hpp>
 #include <svt/drawing/section_plane.hpp>
 #include <svt/record/members.hpp>
@@ -21,6 +22,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -74,6 +76,11 @@ struct SectionComponent {
     double areaBound = 0;
     bool isExact = false;   ///< cut from the mesh, not from voxels
     double lineLength = 0;  ///< total length of its lines, metres
+    /// Rooms in plans: the floor area of its closed mesh, m2, see roomFloorAreas(); the area in stamps and schedules.
+    std::optional<double> floorArea{};
+
+    /// The area to print in the room, m2.
+    [[nodiscard]] double stampArea() const noexcept { return floorArea.value_or(area); }
 };
 
 /// The section of an object without an interior, where no object of higher priority covers it.
@@ -106,15 +113,49 @@ struct BeyondLine {
     friend bool operator==(const BeyondLine&, const BeyondLine&) = default;
 };
 
-/// The side of a plan on which a chain of dimensions stands.
+/// The unit of the numbers of dimensions.
+enum class DimensionUnit : std::uint8_t {
+    MetresCentimetres,  ///< metres from 1 m, otherwise centimetres (DIN 1356-1)
+    Millimetres,
+    Centimetres,
+    Metres,
+    FeetInches  ///< to the sixteenth of an inch
+};
+constexpr auto namesOf(DimensionUnit) {
+    return std::to_array<Name<DimensionUnit>>({{DimensionUnit::MetresCentimetres, "m-cm"},
+                                               {DimensionUnit::Millimetres, "mm"},
+                                               {DimensionUnit::Centimetres, "cm"},
+                                               {DimensionUnit::Metres, "m"},
+                                               {DimensionUnit::FeetInches, "ft-in"}});
+}
+
+/// The side of a drawing on which a chain of dimensions stands.
 enum class DimensionSide : std::uint8_t { Below, Right, Above, Left };
 
-/// A chain of dimensions along a side of a plan: the dimensions of the parts that are visible from that side.
+/// A chain of dimensions along a side: of a plan, the dimensions of the parts that are visible from that side; of an
+/// upright section, heights.
 struct DimensionChain {
     DimensionSide side = DimensionSide::Below;
     int row = 0;                ///< 0 is nearest to the building
     std::vector<double> stops;  ///< ascending, two or more, metres: u for a chain below or above, otherwise v
     friend bool operator==(const DimensionChain&, const DimensionChain&) = default;
+};
+
+/// A clear dimension of a room in a plan, along u or v, between the walls of the room.
+struct RoomDimension {
+    std::uint32_t label = 0;
+    PlanePoint from, to;
+    friend bool operator==(const RoomDimension&, const RoomDimension&) = default;
+};
+
+/// The heights of a window or door that a plan cuts, metres above the floor of the level.
+struct OpeningHeights {
+    std::uint32_t label = 0;
+    PlanePoint at;         ///< on the face of the wall where the mark stands: outside, if the wall is external
+    PlanePoint away;       ///< the direction from the wall to the mark, a unit vector
+    double sill = 0;       ///< lower edge of the opening in the wall; 0 or below: a door
+    double head = 0;       ///< upper edge
+    bool isExact = false;  ///< edges of the opening in the wall; otherwise those of the window or door itself
 };
 
 /// The symbol of an opening door in a plan.
@@ -142,14 +183,17 @@ struct SectionDrawing {
     PlaneAxes axes;
     std::vector<SectionComponent> components;  ///< by label, ascending; only those that the plane cuts
     std::vector<SectionBorder> borders;
-    std::vector<SectionLine> lines;          ///< by label
-    std::vector<BeyondLine> beyond;          ///< by kind, then label
-    std::vector<DimensionChain> dimensions;  ///< by side and row; only on request, and only in plans
-    std::vector<DoorSwing> doors;            ///< by label; only in plans, if the model describes how doors open
-    std::vector<ClassArea> classes;          ///< by name
-    double area = 0;                         ///< of all components, m2
-    double drawingUnit = 0;                  ///< all coordinates are integer multiples of it, metres
-    double tolerance = 0;                    ///< the effective tolerance, metres
+    std::vector<SectionLine> lines;             ///< by label
+    std::vector<BeyondLine> beyond;             ///< by kind, then label
+    std::vector<DimensionChain> dimensions;     ///< by side and row; only on request, in plans and upright sections
+    std::vector<RoomDimension> roomDimensions;  ///< by label; only on request, and only in plans
+    std::vector<OpeningHeights> openings;       ///< by label; only on request, and only in plans
+    DimensionUnit dimensionUnit = DimensionUnit::MetresCentimetres;
+    std::vector<DoorSwing> doors;    ///< by label; only in plans, if the model describes how doors open
+    std::vector<ClassArea> classes;  ///< by name
+    double area = 0;                 ///< of all components, m2
+    double drawingUnit = 0;          ///< all coordinates are integer multiples of it, metres
+    double tolerance = 0;            ///< the effective tolerance, metres
     /// The number of mesh edges in the requested plane (within 0.2 mm). The drawing shows the parts just before it, on
     /// the kept side.
     std::size_t edgesInPlane = 0;
@@ -166,8 +210,11 @@ struct BeyondOptions {
     bool visible = false;
     bool hidden = false;
     bool above = false;
+    double depth = 0;  ///< metres: visible and hidden lines that lie farther behind the plane are omitted; 0: none
     [[nodiscard]] bool isAny() const noexcept { return visible || hidden || above; }
 };
+
+struct BuildingLevel;  // building_levels.hpp
 
 struct SectionOptions {
     std::vector<std::string> show;  ///< queries; only labels that one of them selects are drawn; empty: all
@@ -177,9 +224,12 @@ struct SectionOptions {
     /// Largest deviation of a simplified border, metres; below 0: a hundredth of the smallest spacing, or four
     /// micrometres if meshes are cut.
     double tolerance = -1;
-    BeyondOptions beyond;  ///< lines behind the plane, and above it
-    bool dimensions =
-        false;  ///< chains of dimensions around plans, see findDimensions() in dimension/dimension_chains.hpp
+    BeyondOptions beyond;     ///< lines behind the plane, and above it
+    bool dimensions = false;  ///< chains of dimensions, clear dimensions of rooms, heights of openings: see
+                              ///< addDimensions() in dimension/dimension_chains.hpp
+    DimensionUnit dimensionUnit = DimensionUnit::MetresCentimetres;
+    /// Levels of the volume for dimensions, as findLevels() returns them; null: they are found.
+    const std::vector<BuildingLevel>* levels = nullptr;
     bool doorSwings = true;  ///< plans: door symbols, see findDoorSwings() in section/door_swings.hpp
     bool useMeshes = true;   ///< cut the meshes that the volume stores; false: always cut voxels
     int threads = 0;         ///< 0: all cores; the result does not depend on it

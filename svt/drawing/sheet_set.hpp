@@ -31,11 +31,24 @@ struct SetSheet {
     friend bool operator==(const SetSheet&, const SetSheet&) = default;
 };
 
+/// Fields of the title block (ISO 7200); empty ones are not known.
+struct TitleBlock {
+    std::string number;  ///< identifies the drawings; each sheet adds its own number
+    std::string creator, approver, owner;
+    std::string date;  ///< of issue, in any notation
+    std::string revision;
+    std::string documentType;  ///< empty: by the views of a sheet
+    friend bool operator==(const TitleBlock&, const TitleBlock&) = default;
+};
+
 struct SheetSet {
     std::string title;  ///< name of the building; empty: name of the model
-    std::string paper = "A3", language = "en";
+    std::string paper;  ///< A4 to A0; empty: A3, or with a scale the smallest on which all views fit
+    std::string language = "en";
+    TitleBlock titleBlock{};
     double scale = 0;  ///< 0: selected so that all views fit
     bool dimensions = true, above = true, tables = true;
+    DimensionUnit dimensionUnit = DimensionUnit::MetresCentimetres;
     std::vector<std::string> hide;  ///< queries
     std::vector<SetSheet> sheets;
     friend bool operator==(const SheetSet&, const SheetSet&) = default;

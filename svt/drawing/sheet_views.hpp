@@ -30,8 +30,9 @@ struct SheetViews {
 };
 
 /// Chooses the views. Plans are cut 1.1 m above the level; they show the parts below, and the parts above as dashed
-/// lines. Sections are vertical, along both axes of the grid, at the place where they cut most of the rooms. If the
-/// model has stairs, a section passes through one of them.
+/// lines. Sections are vertical, along both axes of the grid, in the main building: the largest group of walls, slabs,
+/// roofs and rooms that touch in plan. They pass through its largest stair. Without one, A-A cuts the ridge of its roof.
+/// Among these places, they cut most of the rooms and least of the walls along their length.
 /// \param threads  0: all cores; the result does not depend on it
 /// \return the views, or an error of drawSection()
 /// Cost: that of 18 sections without lines beyond the cut.

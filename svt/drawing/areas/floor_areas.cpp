@@ -4,6 +4,7 @@
 #include <svt/core/text.hpp>
 #include <svt/drawing/areas/covered_area.hpp>
 #include <svt/drawing/levels/level_parts.hpp>
+#include <svt/drawing/room_floor_areas.hpp>
 #include <svt/model/classes.hpp>
 
 #include <fmt/format.h>
@@ -72,14 +73,12 @@ bool isMeasuredRoom(const volume::Label& label) { return label.count > 0 && isRo
 
 // Sums over the triangles of each label.
 struct MeshSum {
-    double below = 0;  // m2: faces that look down, seen from above
-    Vec3d largest{};   // twice the area times the normal of the largest triangle
-    double seen = 0;   // m2, see ComponentSum::area
+    Vec3d largest{};  // twice the area times the normal of the largest triangle
+    double seen = 0;  // m2, see ComponentSum::area
 };
 
 std::vector<MeshSum> sumMeshes(const volume::SemanticVolume& volume) {
     std::vector<MeshSum> sums(volume.labels.labels.size());
-    const Vec3d up = volume.grid.axes()[2];
     const auto crossOf = [&](const volume::VectorParts::Triangle& t) {
         const Vec3d a = volume.vectors.position(t.corners[0], {});
         return cross(volume.vectors.position(t.corners[1], {}) - a, volume.vectors.position(t.corners[2], {}) - a);
@@ -87,7 +86,6 @@ std::vector<MeshSum> sumMeshes(const volume::SemanticVolume& volume) {
     for (const auto& triangle : volume.vectors.triangles) {
         MeshSum& sum = sums[triangle.label];
         const Vec3d twice = crossOf(triangle);
-        sum.below += std::max(0.0, -0.5 * dot(twice, up));
         if (dot(twice, twice) > dot(sum.largest, sum.largest)) sum.largest = twice;
     }
     for (const auto& triangle : volume.vectors.triangles) {
@@ -111,6 +109,7 @@ public:
           threads_(threads),
           bricks_(bricks),
           meshes_(sumMeshes(volume)),
+          roomAreas_(roomFloorAreas(volume)),
           extents_(labelExtents(volume)),
           levelOf_(levelsOfLabels(volume, levels, extents_)) {}
 
@@ -118,7 +117,7 @@ public:
         areas_.levels.resize(levels_.size());
         findCeilings();
         SVT_DO(cutLevels());
-        addRooms();
+        SVT_DO(addRooms());
         addComponents();
         return std::move(areas_);
     }
@@ -195,8 +194,17 @@ private:
         return {};
     }
 
-    void addRooms() {
-        if (levels_.empty()) return;
+    // The area of a room without a closed mesh: at the cut of its level, or above its own floor if that is elsewhere.
+    Result<double> cutArea(const RoomArea& room, const LabelExtent& extent) const {
+        if (areaAt_[room.level][room.label] > 0) return areaAt_[room.level][room.label];
+        SVT_TRY(drawing, cutAt(extent.floor + kBelowSills));
+        for (const SectionComponent& component : drawing->components)
+            if (component.label == room.label) return component.area;
+        return 0.0;
+    }
+
+    Result<void> addRooms() {
+        if (levels_.empty()) return {};
         for (std::uint32_t l = 0; l < volume_.labels.labels.size(); ++l) {
             const volume::Label& label = volume_.labels.labels[l];
             if (!isMeasuredRoom(label)) continue;
@@ -211,8 +219,10 @@ private:
             room.height = extent.box.size().z;
             if (room.height < kLeastRoomHeight) continue;
             room.level = levelOf_[l];
-            room.isExact = extent.bound == 0 && hasClosedMesh(label.filling);
-            room.area = room.isExact ? meshes_[l].below : areaAt_[room.level][l];
+            room.isExact = extent.bound == 0 && roomAreas_[l];
+            SVT_TRY(area, room.isExact ? Result<double>(*roomAreas_[l]) : cutArea(room, extent));
+            room.area = *area;
+            room.stated = statedFloorArea(label);
             addToLevel(room);
             areas_.rooms.push_back(std::move(room));
         }
@@ -220,6 +230,7 @@ private:
             return std::tie(a.level, a.number, a.name, a.label) < std::tie(b.level, b.number, b.name, b.label);
         });
         for (LevelArea& level : areas_.levels) level.construction = level.gross - level.net;
+        return {};
     }
 
     void addToLevel(const RoomArea& room) {
@@ -254,11 +265,12 @@ private:
     const std::vector<BuildingLevel>& levels_;
     int threads_;
     const volume::BrickVolume* bricks_;
-    std::vector<MeshSum> meshes_;              // by label
-    std::vector<LabelExtent> extents_;         // by label
-    std::vector<std::size_t> levelOf_;         // by label
-    std::vector<double> ceilings_;             // by level, metres above the grid's lower corner
-    std::vector<std::vector<double>> areaAt_;  // by level and label, m2
+    std::vector<MeshSum> meshes_;                   // by label
+    std::vector<std::optional<double>> roomAreas_;  // by label
+    std::vector<LabelExtent> extents_;              // by label
+    std::vector<std::size_t> levelOf_;              // by label
+    std::vector<double> ceilings_;                  // by level, metres above the grid's lower corner
+    std::vector<std::vector<double>> areaAt_;       // by level and label, m2
     FloorAreas areas_;
 };
 

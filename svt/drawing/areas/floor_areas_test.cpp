@@ -2,6 +2,7 @@
 
 #include <svt/drawing/exact/boxes_test.hpp>
 #include <svt/drawing/floor_areas.hpp>
+#include <svt/drawing/room_floor_areas.hpp>
 
 #include <gtest/gtest.h>
 
@@ -123,6 +124,40 @@ TEST(FloorAreas, RoomsWithMoreAreaThanTheirPlanAreReported) {
     EXPECT_NE(log.items()[0].message.find("have 128.00 m2, more than the 67.20 m2"), std::string::npos)
         << log.items()[0].message;
     EXPECT_FALSE(areas->total().isGrossKnown);
+}
+
+TEST(FloorAreas, StampsHaveTheNumbersOfTables) {
+    // A glass panel stands in the room, and takes its part of the plan.
+    Boxes boxes;
+    boxes.addBox("room", "BuildingRoom", {0.3, 0.3, 0}, {6, 4, 2.5});
+    auto& attributes = boxes.volume.labels.labels.back().attributes;
+    attributes = {{"BaseQuantities.GrossFloorArea", 30.0, "m2"}, {"Qto_SpaceBaseQuantities.NetFloorArea", 21.0, "m2"}};
+    boxes.addBox("panel", "BuildingConstructiveElement", {0.3, 0.3, 0}, {6, 0.4, 2.5});
+    const auto areas = measureFloorAreas(boxes.volume, findLevels(boxes.volume));
+    ASSERT_TRUE(areas);
+    ASSERT_EQ(areas->rooms.size(), 1u);
+    EXPECT_NEAR(areas->rooms[0].area, 5.7 * 3.7, 1e-4);
+    EXPECT_EQ(areas->rooms[0].stated, 21.0) << "net before gross";
+    for (const double height : {0.5, 1.1, 2.4}) {
+        const SectionDrawing plan = boxes.cut({0, 0, 1}, {0, 0, height});
+        ASSERT_EQ(plan.components.size(), 2u);
+        EXPECT_NEAR(plan.components[0].area, 5.7 * 3.6, 1e-3) << "the cut itself";
+        EXPECT_EQ(plan.components[0].stampArea(), areas->rooms[0].area);
+        EXPECT_FALSE(plan.components[1].floorArea);
+    }
+    EXPECT_FALSE(boxes.cut({0, 1, 0}, {0, 2, 0}).components[0].floorArea) << "upright sections have no floors";
+}
+
+TEST(FloorAreas, StatedAreasAreQuantitiesOfTheFile) {
+    const auto statedOf = [](std::vector<Attribute> attributes) {
+        volume::Label label;
+        label.attributes = std::move(attributes);
+        return statedFloorArea(label);
+    };
+    EXPECT_EQ(statedOf({{"Dimensions.Area", 12.5, "m2"}}), 12.5);
+    EXPECT_EQ(statedOf({{"floorArea", std::int64_t{12}, ""}, {"area", 13.0, ""}}), 12.0);
+    EXPECT_FALSE(statedOf({{"Energy.Area per Person", 3.0, "m2"}, {"Area", std::string("12"), ""}}));
+    EXPECT_FALSE(statedOf({{"Area", 0.0, "m2"}, {"NetFloorArea", 130.0, "ft2"}}));
 }
 
 TEST(FloorAreas, WithoutConstructionTheGrossAreaIsUnknown) {

@@ -181,6 +181,15 @@ void clipEdges(const std::vector<ViewEdge>& edges, const LineClipper& clipper, B
     for (const std::vector<BeyondLine>& batch : ofBatch) lines.insert(lines.end(), batch.begin(), batch.end());
 }
 
+// Leaves out edges beyond a depth, and the faces that cannot hide the others. Without this, the plan of each storey would
+// search the faces of all storeys below.
+void leaveOutBeyond(double depth, ViewShapes& shapes) {
+    std::erase_if(shapes.edges, [&](const ViewEdge& edge) { return std::min(edge.from.z, edge.to.z) > depth; });
+    double deepest = 0;
+    for (const ViewEdge& edge : shapes.edges) deepest = std::max({deepest, edge.from.z, edge.to.z});
+    std::erase_if(shapes.faces, [&](const ViewFace& face) { return face.leastDepth > deepest; });
+}
+
 }  // namespace
 
 void addLinesBeyond(SectionDrawing& drawing, const volume::SemanticVolume& volume,
@@ -192,8 +201,8 @@ void addLinesBeyond(SectionDrawing& drawing, const volume::SemanticVolume& volum
     for (const bool looksAtCut : {false, true}) {
         if (looksAtCut ? !options.above : !options.visible && !options.hidden) continue;
         const bool wantsHidden = !looksAtCut && options.hidden;
-        const ViewShapes shapes =
-            projectMeshes(volume, drawing.plane, drawing.axes, isDrawn, {looksAtCut, wantsHidden});
+        ViewShapes shapes = projectMeshes(volume, drawing.plane, drawing.axes, isDrawn, {looksAtCut, wantsHidden});
+        if (!looksAtCut && options.depth > 0) leaveOutBeyond(options.depth, shapes);
         const LineClipper clipper(shapes, cut, kinds, wantsHidden);
         const BeyondKind kind = looksAtCut ? BeyondKind::Above : BeyondKind::Visible;
         clipEdges(shapes.edges, clipper, kind, threads, lines);

@@ -69,7 +69,7 @@ TEST(Dimensions, NichesInWallsAlongTheSightAreNoRooms) {
     EXPECT_EQ(chainsOf(drawing, DimensionSide::Left).front(), (std::vector<long>{300, 5400, 300}));
 }
 
-// A handle of a door that reaches into the room is no wall.
+// A handle of a door that reaches into the room is not a wall.
 TEST(Dimensions, WhatIsNarrowDividesNothing) {
     Boxes boxes = house();
     boxes.addBox("handle", "Window", {1.6, 0.2, 0}, {1.61, 5.7, 3});
@@ -103,12 +103,144 @@ TEST(Dimensions, ObliqueBuildingsHaveTheirOverallLengthOnly) {
         EXPECT_EQ(chainsOf(drawing, side), (Chains{{6000}}));
 }
 
-TEST(Dimensions, UprightSectionsHaveNone) {
-    const Boxes boxes = house();
+// A casing of 50 mm around the window, 25 mm before the wall, and a shutter on the east wall.
+TEST(Dimensions, OpeningsAreGapsInWallsAndCasingsDoNotCount) {
+    Boxes boxes = house();
+    boxes.addBox("casing west", "Window", {0.95, -0.025, 0}, {1.0, 0.1, 3});
+    boxes.addBox("casing east", "Window", {2.2, -0.025, 0}, {2.25, 0.1, 3});
+    boxes.addBox("shutter", "Window", {8, 2, 0}, {8.05, 3, 3});
+    boxes.addBox("box of the shutter", "Window", {-0.15, 2, 0}, {0, 3, 3});
+    const SectionDrawing drawing = planOf(boxes);
+    EXPECT_EQ(chainsOf(drawing, DimensionSide::Below),
+              (Chains{{1000, 1200, 5800}, {300, 2700, 200, 4500, 300}, {8000}}));
+    EXPECT_EQ(chainsOf(drawing, DimensionSide::Right), (Chains{{300, 5400, 300}, {6000}}));
+    EXPECT_EQ(chainsOf(drawing, DimensionSide::Left), (Chains{{300, 5400, 300}, {6000}}));
+}
+
+// A partition that ends at the glass does not divide the opening.
+TEST(Dimensions, AWallBehindAWindowIsNotItsCasing) {
+    Boxes boxes = house();
+    boxes.addBox("partition", "BuildingConstructiveElement", {1.4, 0.2, 0}, {1.6, 5.7, 3});
+    EXPECT_EQ(chainsOf(planOf(boxes), DimensionSide::Below).front(), (std::vector<long>{1000, 1200, 5800}));
+}
+
+// Through the gap between the leaves of a door one sees the wall at the other end of the room.
+TEST(Dimensions, ASlitBetweenTwoLeavesIsNotAWall) {
+    Boxes boxes = house();
+    boxes.addBox("leaf", "Door", {4, 0, 0}, {4.798, 0.3, 3});
+    boxes.addBox("other leaf", "Door", {4.802, 0, 0}, {5.6, 0.3, 3});
+    boxes.volume.labels.labels[3].volume = 20;  // the wall is the larger one, so it gives way
+    const auto chains = chainsOf(planOf(boxes), DimensionSide::Below);
+    EXPECT_EQ(chains[1], (std::vector<long>{300, 2700, 200, 4500, 300}));
+}
+
+// The casings of a door in the east wall of one building project into the yard before another.
+TEST(Dimensions, CasingsSeenFromTheirEdgeDoNotCount) {
+    Boxes boxes = house();
+    boxes.addBox("casing", "Door", {8, 2, 0}, {8.025, 3, 3});
+    boxes.addBox("other house", "Building", {12, 0, 0}, {16, 6, 3});
+    EXPECT_EQ(chainsOf(planOf(boxes), DimensionSide::Below),
+              (Chains{{1000, 1200, 5800, 4000, 4000}, {300, 2700, 200, 4500, 300, 4000, 4000}, {16000}}));
+}
+
+void setType(Boxes& boxes, const std::string& ifcType, const std::string& name = "") {
+    volume::Label& label = boxes.volume.labels.labels.back();
+    label.attributes.push_back({"ifcType", ifcType, {}});
+    label.name = name;
+}
+
+TEST(Dimensions, TreesPostsAndTerrainAreNotMeasured) {
+    Boxes boxes = house();
+    boxes.addBox("tree", "BuildingConstructiveElement", {-9, 1, 0}, {-8, 2, 3});
+    setType(boxes, "IfcBuildingElementProxy", "M_RPC Tree - Deciduous:Siberian Crab Apple:356904");
+    boxes.addBox("bush", "SolitaryVegetationObject", {12, 1, 0}, {13, 2, 3});
+    boxes.addBox("post", "BuildingConstructiveElement", {2, -3, 0}, {2.2, -2.8, 3});
+    setType(boxes, "IfcColumn");
+    boxes.addBox("railing", "BuildingInstallation", {0, -3, 0}, {8, -2.9, 3});
+    boxes.addBox("hill", "TINRelief", {-20, 8, 0}, {20, 20, 3});
+    const SectionDrawing drawing = planOf(boxes), plain = planOf(house());
+    for (const DimensionSide side :
+         {DimensionSide::Below, DimensionSide::Right, DimensionSide::Above, DimensionSide::Left})
+        EXPECT_EQ(chainsOf(drawing, side), chainsOf(plain, side));
+}
+
+TEST(Dimensions, AColumnInTheFacadeIsMeasured) {
+    Boxes boxes = house();
+    boxes.addBox("column", "BuildingConstructiveElement", {8, 0, 0}, {8.4, 0.4, 3});
+    setType(boxes, "IfcColumn");
+    EXPECT_EQ(chainsOf(planOf(boxes), DimensionSide::Below).back(), (std::vector<long>{8400}));
+}
+
+TEST(Dimensions, RoomsHaveTheirClearWidthAndDepth) {
+    Boxes boxes = house();
+    const SectionDrawing drawing = planOf(boxes);
+    std::vector<std::pair<std::string, long>> lengths;
+    for (const RoomDimension& dimension : drawing.roomDimensions) {
+        const double length = std::hypot(dimension.to.u - dimension.from.u, dimension.to.v - dimension.from.v);
+        lengths.emplace_back(boxes.volume.labels.labels[dimension.label].id, std::lround(1000 * length));
+    }
+    EXPECT_EQ(lengths, (std::vector<std::pair<std::string, long>>{
+                           {"left", 2700}, {"left", 5400}, {"right", 4500}, {"right", 5400}}));
+}
+
+//   +--------------------+ 2.9
+//   |  lintel            | 2.1   the window is 0.1 m higher and lower than the opening, behind it
+//   |  opening           |
+//   |  parapet           | 0.9
+//   +--------------------+ 0     floor
+TEST(Dimensions, SillAndHeadAreThoseOfTheOpeningInTheWall) {
+    Boxes boxes;
+    boxes.addBox("room", "BuildingRoom", {0, 0.3, 0}, {4, 4, 2.7});
+    boxes.addBox("slab", "BuildingConstructiveElement", {0, 0, -0.2}, {4, 4, 0});
+    boxes.addBox("west", "BuildingConstructiveElement", {0, 0, 0}, {1, 0.3, 2.9});
+    boxes.addBox("east", "BuildingConstructiveElement", {2, 0, 0}, {4, 0.3, 2.9});
+    boxes.addBox("parapet", "BuildingConstructiveElement", {1, 0, 0}, {2, 0.3, 0.9});
+    boxes.addBox("lintel", "BuildingConstructiveElement", {1, 0, 2.1}, {2, 0.3, 2.9});
+    boxes.addBox("window", "Window", {1, 0.1, 0.85}, {2, 0.2, 2.15});
     SectionOptions options;
     options.dimensions = true;
-    const auto drawing = drawSection(boxes.volume, {{1, 0, 0}, boxes.volume.grid.origin() + Vec3d{4, 0, 0}}, options);
-    EXPECT_TRUE(drawing->dimensions.empty());
+    const auto drawing = drawSection(boxes.volume, {{0, 0, 1}, boxes.volume.grid.origin() + Vec3d{0, 0, 1.1}}, options);
+    ASSERT_EQ(drawing->openings.size(), 1u);
+    const OpeningHeights& opening = drawing->openings.front();
+    EXPECT_NEAR(opening.sill, 0.9, 1e-5);
+    EXPECT_NEAR(opening.head, 2.1, 1e-5);
+    EXPECT_TRUE(opening.isExact);
+    EXPECT_NEAR(opening.away.v, -1, 1e-9) << "outside";
+    EXPECT_NEAR(opening.at.v, 0, 1e-3) << "on the outer face of the wall";
+    // The section through the window: its heights are on the left, in the order of parapet, opening, lintel.
+    const auto section =
+        drawSection(boxes.volume, {{-1, 0, 0}, boxes.volume.grid.origin() + Vec3d{1.5, 0, 0}}, options);
+    const Chains left = chainsOf(*section, section->axes.u.y > 0 ? DimensionSide::Left : DimensionSide::Right);
+    ASSERT_FALSE(left.empty());
+    EXPECT_EQ(left.front(), (std::vector<long>{1100, 1200, 800}));
+}
+
+//   2 storeys of 2.5 m clear height, slabs of 0.3 m
+TEST(Dimensions, SectionsHaveClearHeightsStoreysAndTheWhole) {
+    Boxes boxes;
+    boxes.addBox("lower", "BuildingRoom", {0.3, 0.3, 0.3}, {5.7, 3.7, 2.8});
+    boxes.addBox("upper", "BuildingRoom", {0.3, 0.3, 3.1}, {5.7, 3.7, 5.6});
+    boxes.addBox("ground slab", "BuildingConstructiveElement", {0, 0, 0}, {6, 4, 0.3});
+    boxes.addBox("slab", "BuildingConstructiveElement", {0, 0, 2.8}, {6, 4, 3.1});
+    boxes.addBox("roof", "BuildingConstructiveElement", {0, 0, 5.6}, {6, 4, 6});
+    boxes.addBox("flag", "BuildingInstallation", {2, 2, 6}, {2.1, 2.1, 9});
+    for (const double z : {0.3, 3.1}) {
+        boxes.addBox("west", "BuildingConstructiveElement", {0, 0, z}, {0.3, 4, z + 2.5});
+        boxes.addBox("east", "BuildingConstructiveElement", {5.7, 0, z}, {6, 4, z + 2.5});
+    }
+    SectionOptions options;
+    options.dimensions = true;
+    const auto drawing =
+        drawSection(boxes.volume, {{0, -1, 0}, boxes.volume.grid.origin() + Vec3d{0, 2.05, 0}}, options);
+    EXPECT_EQ(chainsOf(*drawing, DimensionSide::Left), (Chains{{2500, 300, 2500}, {300, 2800, 2900}, {6000}}));
+    EXPECT_TRUE(chainsOf(*drawing, DimensionSide::Right).empty());
+    EXPECT_TRUE(drawing->roomDimensions.empty());
+    // An elevation cuts nothing, and an oblique plane has no heights.
+    const auto outside = drawSection(boxes.volume, *elevationPlane("south", boxes.volume), options);
+    EXPECT_TRUE(outside->dimensions.empty());
+    const auto oblique =
+        drawSection(boxes.volume, {{0, 0.6, 0.8}, boxes.volume.grid.origin() + Vec3d{3, 2, 2}}, options);
+    EXPECT_TRUE(oblique->dimensions.empty());
 }
 
 }  // namespace

@@ -137,5 +137,29 @@ TEST(ExactSection, DrawingsOfMeshesCanBeRefused) {
     EXPECT_TRUE(boxes.cut({0, 0, 1}, {0, 0, 1}).isFromMeshes);
 }
 
+TEST(ExactSection, UncertainAreasComeWithARemedyThatIsNotInUse) {
+    Boxes boxes;
+    boxes.addBox("building", "Building", {0, 0, 0}, {8, 6, 3});
+    SectionDrawing drawing;
+    SectionComponent component;
+    component.area = 1;
+    component.areaBound = 2;
+    const auto messageOf = [&](bool isFromMeshes, bool isExact) {
+        component.isExact = isExact;
+        drawing.components = {component};
+        drawing.isFromMeshes = isFromMeshes;
+        Diagnostics log;
+        reportSection(drawing, boxes.volume, log);
+        for (const Diagnostic& item : log.items())
+            if (item.code == Code::UncertainArea) return item.message;
+        return std::string();
+    };
+    EXPECT_NE(messageOf(false, false).find("give the model itself"), std::string::npos);
+    EXPECT_EQ(messageOf(true, false).find("the model itself"), std::string::npos) << "its meshes were cut already";
+    EXPECT_NE(messageOf(true, false).find("shells are open"), std::string::npos);
+    EXPECT_EQ(messageOf(true, true).find("spacing"), std::string::npos) << "voxels do not decide an exact area";
+    EXPECT_NE(messageOf(true, true).find("move the plane"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace svt::drawing

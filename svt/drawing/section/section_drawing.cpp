@@ -4,6 +4,7 @@
 #include <svt/drawing/beyond/lines_beyond.hpp>
 #include <svt/drawing/dimension/dimension_chains.hpp>
 #include <svt/drawing/exact/body_cells.hpp>
+#include <svt/drawing/room_floor_areas.hpp>
 #include <svt/drawing/section/door_swings.hpp>
 #include <svt/drawing/section/draw_labels.hpp>
 #include <svt/drawing/section/exact_section.hpp>
@@ -24,8 +25,9 @@ namespace {
 using volume::kNoLabel;
 
 // Entry per label: 1 if it is drawn.
-Result<std::vector<std::uint8_t>> drawnLabels(const volume::LabelTable& table, const SectionOptions& options) {
-    const analyze::LabelRows rows(table, options.nothing);
+Result<std::vector<std::uint8_t>> drawnLabels(const volume::SemanticVolume& volume, const SectionOptions& options) {
+    const volume::LabelTable& table = volume.labels;
+    const analyze::LabelRows rows(volume, options.nothing);
     std::vector<std::uint8_t> isDrawn(table.labels.size(), options.show.empty() ? 1 : 0);
     for (const bool isShown : {true, false})
         for (const std::string& query : isShown ? options.show : options.hide) {
@@ -252,6 +254,14 @@ Result<std::optional<SectionDrawing>> drawMeshes(const volume::SemanticVolume& v
     return std::optional<SectionDrawing>(maker.make(borders));
 }
 
+// Plans: the floor areas of rooms, so that stamps and schedules have one number.
+void addFloorAreas(SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+    constexpr double kUpright = 1 - 1e-9;
+    if (std::abs(dot(drawing.plane.normal, volume.grid.axes()[2])) < kUpright) return;
+    const std::vector<std::optional<double>> areas = roomFloorAreas(volume);
+    for (SectionComponent& component : drawing.components) component.floorArea = areas[component.label];
+}
+
 Result<SectionDrawing> drawSectionOf(const volume::SemanticVolume& volume, const volume::BrickVolume* bricks,
                                      const SectionPlane& plane, const SectionOptions& options) {
     if (!isFinite(plane.normal) || !isFinite(plane.point) || !(length(plane.normal) > 0))
@@ -260,7 +270,7 @@ Result<SectionDrawing> drawSectionOf(const volume::SemanticVolume& volume, const
         return Error(Code::BadArgument,
                      fmt::format("smallest area {} m2 and tolerance {} m of a section must be finite",
                                  options.smallestArea, options.tolerance));
-    SVT_TRY(drawn, drawnLabels(volume.labels, options));
+    SVT_TRY(drawn, drawnLabels(volume, options));
     return drawLabels(volume, bricks, plane, *drawn, options);
 }
 
@@ -273,9 +283,10 @@ Result<SectionDrawing> drawLabels(const volume::SemanticVolume& volume, const vo
     if (isCut) {
         SVT_TRY(drawing, drawMeshes(volume, bricks, plane, isDrawn, options));
         if (*drawing) {
+            addFloorAreas(**drawing, volume);
             addLinesBeyond(**drawing, volume, isDrawn, options.beyond, options.threads);
-            if (options.dimensions) (*drawing)->dimensions = findDimensions(**drawing, volume);
             if (options.doorSwings) (*drawing)->doors = findDoorSwings(**drawing, volume);
+            if (options.dimensions) addDimensions(**drawing, volume, options);
             return std::move(**drawing);
         }
     }
@@ -289,9 +300,10 @@ Result<SectionDrawing> drawLabels(const volume::SemanticVolume& volume, const vo
     SectionDrawing drawing = drawVoxels(volume, bricks != nullptr ? *bricks : *own, plane, isDrawn, options);
     drawing.isUnsettled = isCut;
     drawing.lacksMeshes = options.beyond.isAny() && !hasMeshes(volume);
+    addFloorAreas(drawing, volume);
     addLinesBeyond(drawing, volume, isDrawn, options.beyond, options.threads);
-    if (options.dimensions) drawing.dimensions = findDimensions(drawing, volume);
     if (options.doorSwings) drawing.doors = findDoorSwings(drawing, volume);
+    if (options.dimensions) addDimensions(drawing, volume, options);
     return drawing;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <string_view>
 
 namespace svt::drawing {
 namespace {
@@ -40,7 +41,7 @@ void reportSections(std::span<const SectionDrawing* const> drawings, const volum
                     Diagnostics& log) {
     // By label, each once, in the order of the drawings.
     std::set<std::size_t> all, areUncertain, areByVoxels;
-    std::vector<std::string> uncertain, byVoxels;
+    std::vector<std::string> coarse, open, narrow, byVoxels;  // the first three: with an uncertain area
     bool isUnsettled = false, lacksMeshes = false;
     for (const SectionDrawing* drawing : drawings) {
         isUnsettled = isUnsettled || drawing->isUnsettled;
@@ -50,7 +51,7 @@ void reportSections(std::span<const SectionDrawing* const> drawings, const volum
             all.insert(component.label);
             if (component.area > 0 && component.areaBound > component.area &&
                 areUncertain.insert(component.label).second)
-                uncertain.push_back(id);
+                (component.isExact ? narrow : drawing->isFromMeshes ? open : coarse).push_back(id);
             if (drawing->isFromMeshes && !component.isExact && areByVoxels.insert(component.label).second)
                 byVoxels.push_back(id);
         }
@@ -72,12 +73,18 @@ void reportSections(std::span<const SectionDrawing* const> drawings, const volum
                 fmt::format("{} of {} components are drawn by their voxels, because their shells are open: {}",
                             byVoxels.size(), all.size(), listed(byVoxels)),
                 place);
-    if (!uncertain.empty())
+    const auto warn = [&](const std::vector<std::string>& uncertain, std::string_view reason, std::string_view remedy) {
+        if (uncertain.empty()) return;
         log.add(Severity::Warning, Code::UncertainArea,
-                fmt::format("{} of {} areas have an error bound above 100 %, because the voxels are too large: {}; "
-                            "give the model itself, a volume that keeps its meshes, or a smaller --spacing",
-                            uncertain.size(), all.size(), listed(uncertain)),
+                fmt::format("{} of {} areas have an error bound above 100 %, because {}: {}; {}", uncertain.size(),
+                            all.size(), reason, listed(uncertain), remedy),
                 place);
+    };
+    warn(coarse, "the voxels are too large",
+         "give the model itself, a volume that keeps its meshes, or a smaller --spacing");
+    warn(open, "their shells are open, and the voxels that stand for them are too large",
+         "close their shells, which svt check names, or give a smaller --spacing");
+    warn(narrow, "they are hardly wider than the rounding of coordinates", "move the plane slightly");
 }
 
 }  // namespace svt::drawing

@@ -1,8 +1,9 @@
 #include <svt/drawing/sheet_views.hpp>
 #include <svt/drawing/storey_floors.hpp>
 
-#include <svt/core/text.hpp>
+#include <svt/drawing/dimension/part_roles.hpp>
 #include <svt/drawing/levels/level_parts.hpp>
+#include <svt/drawing/views/main_building.hpp>
 #include <svt/model/classes.hpp>
 
 #include <algorithm>
@@ -11,56 +12,73 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace svt::drawing {
 namespace {
 
-// Whether a component is a stair by its class, type or name; the door of a stairwell is not a stair.
-bool isStair(const volume::Label& label) {
-    const auto rank = model::classRank(label.className);
-    if (rank != model::ClassRank::Installation && rank != model::ClassRank::Element) return false;
-    if (model::isBoundarySurface(label.className)) return false;
-    const std::string words =
-        lowerAscii(label.className + " " + label.name) + lowerTexts(label, {"ifcType", "function"});
-    return words.find("stair") != std::string::npos || words.find("treppe") != std::string::npos;
-}
+// The places along an axis where a section may stand.
+struct PlaceRange {
+    double low = 0, size = 0;  // metres above the grid's lower corner
+    double spread = 0.0571;    // between two of nine places, as a share of the size
+};
 
-// Selects one of nine planes across an axis, through the stair or the middle half of the building: the one that cuts
-// most of the rooms and least of the walls along their length.
-Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, const Box3d& all,
-                              const std::optional<Box3d>& stair, int threads) {
-    const Box3d& through = stair ? *stair : all;
-    const double low = through.min[axis], size = through.max[axis] - low, spread = stair ? 0.09 : 0.0571;
+// Selects the plane that cuts most of the rooms and least of the walls along their length; nothing if none of nine
+// planes cuts a building.
+Result<std::optional<double>> placeInRange(const volume::SemanticVolume& volume, int axis, const PlaceRange& range,
+                                           int threads) {
     const Vec3d along = volume.grid.axes()[static_cast<std::size_t>(axis)];
     const auto& labels = volume.labels.labels;
     const bool hasRooms = std::any_of(labels.begin(), labels.end(),
                                       [](const volume::Label& label) { return label.count > 0 && isRoomSpace(label); });
+    const std::vector<PartRole> roles = partRoles(volume.labels);
     SectionOptions options;
     options.threads = threads;
-    double best = low + 0.5 * size, most = -kInfinity;
+    std::optional<double> best;
+    double most = -kInfinity;
     for (int n = 0; n < 9; ++n) {
         // From the middle outwards, avoiding round fractions of the extent, where walls often stand.
         const int step = (n + 1) / 2;
-        const double at = low + (0.487 + (n % 2 == 0 ? 1 : -1) * spread * step) * size;
+        const double at = range.low + (0.487 + (n % 2 == 0 ? 1 : -1) * range.spread * step) * range.size;
         const auto drawing =
             drawSection(volume, {along * (axis == 1 ? -1.0 : 1.0), volume.grid.origin() + along * at}, options);
         if (!drawing) return drawing.error();
         // Without rooms, the plane that cuts most of the buildings wins.
         double score = 0;
+        bool cutsBuilding = false;
         for (const SectionComponent& component : drawing->components) {
             const volume::Label& label = volume.labels.labels[component.label];
+            cutsBuilding = cutsBuilding || roles[component.label] == PartRole::Hull || isRoomSpace(label);
             if (isRoomSpace(label))
                 score += component.area + 2;
             else if (!model::isSpace(label.className))
                 score += hasRooms ? -component.area : component.area + component.lineLength;
         }
         if (drawing->edgesInPlane > 0) score -= 1;
-        if (score > most + 0.5) {
+        if (cutsBuilding && score > most + 0.5) {
             best = at;
             most = score;
         }
     }
     return best;
+}
+
+// The place of a section across an axis: through the stair, then through the ridge, then in the middle half of the main
+// building, then anywhere in it.
+Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, const MainBuilding& main, int threads) {
+    std::vector<PlaceRange> ranges;
+    const auto add = [&](const Box3d& box, double spread) {
+        ranges.push_back({box.min[axis], box.size()[axis], spread});
+    };
+    if (main.stair) add(*main.stair, 0.09);
+    if (main.ridge && main.ridge->size()[axis] > main.ridge->size()[1 - axis]) add(*main.ridge, 0.06);
+    add(main.box, 0.0571);
+    add(main.box, 0.12);
+    for (const PlaceRange& range : ranges) {
+        SVT_TRY(place, placeInRange(volume, axis, range, threads));
+        if (*place) return **place;
+    }
+    return main.box.min[axis] + 0.5 * main.box.size()[axis];
 }
 
 }  // namespace
@@ -77,25 +95,17 @@ Result<SheetViews> chooseSheetViews(const volume::SemanticVolume& volume, int th
     }
     if (chosen.views.empty())
         chosen.views.push_back({ViewKind::Plan, "", defaultSectionPlane(volume), 0, {.visible = true, .above = true}});
-    Box3d all;
-    std::optional<Box3d> stair;
-    const std::vector<LabelExtent> extents = labelExtents(volume);
-    for (std::size_t l = 0; l < extents.size(); ++l) {
-        const volume::Label& label = volume.labels.labels[l];
-        const Box3d& box = extents[l].box;
-        if (model::classRank(label.className) == model::ClassRank::Other) continue;  // terrain
-        all.add(box);
-        if (!box.isEmpty() && box.size().z > kLowestRoom && isStair(label) && !stair) stair = box;
+    MainBuilding main = findMainBuilding(volume, labelExtents(volume));
+    if (main.box.isEmpty()) {
+        main.box.add(Vec3d{});
+        main.box.add(scaled(toDouble(grid.dimension()), grid.spacing()));
     }
-    if (all.isEmpty()) {
-        all.add(Vec3d{});
-        all.add(scaled(toDouble(grid.dimension()), grid.spacing()));
-    }
-    // A-A along the shorter side, so that it cuts the ridge of most roofs.
-    const int first = all.size().x >= all.size().y ? 0 : 1;
+    // A-A across the ridge; without one, along the shorter side.
+    const Vec3d size = main.ridge ? main.ridge->size() : main.box.size();
+    const int first = size.x >= size.y ? 0 : 1;
     for (int n = 0; n < 2; ++n) {
         const int axis = n == 0 ? first : 1 - first;
-        SVT_TRY(at, placeOfSection(volume, axis, all, stair, threads));
+        SVT_TRY(at, placeOfSection(volume, axis, main, threads));
         const Vec3d along = grid.axes()[static_cast<std::size_t>(axis)];
         chosen.views.push_back({ViewKind::Section,
                                 n == 0 ? "A" : "B",

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace svt::drawing {
 namespace {
 
@@ -83,6 +86,55 @@ TEST(SheetViews, SectionsGoThroughAStair) {
     const double x = placeAlong(boxes, chosen->views[2], {1, 0, 0}), y = placeAlong(boxes, chosen->views[3], {0, 1, 0});
     EXPECT_TRUE(x > 6 && x < 7) << x;
     EXPECT_TRUE(y > 4 && y < 5) << y;
+}
+
+bool cutsSomething(const Boxes& boxes, const SheetView& view) {
+    return !drawSection(boxes.volume, view.plane)->components.empty();
+}
+
+//   +--+
+//   |  |   small        gaps in x and y
+//   +--+     +------+
+//            | main |
+//            +------+
+TEST(SheetViews, SectionsNeverStandBetweenBuildings) {
+    Boxes boxes;
+    boxes.addBox("small west", "BuildingConstructiveElement", {0, 20, 0}, {0.3, 24, 3});
+    boxes.addBox("small south", "BuildingConstructiveElement", {0.3, 20, 0}, {4, 20.3, 3});
+    boxes.addBox("main west", "BuildingConstructiveElement", {22, 0, 0}, {22.3, 6, 6});
+    boxes.addBox("main south", "BuildingConstructiveElement", {22, 0, 0}, {30, 0.3, 6});
+    boxes.addBox("main east", "BuildingConstructiveElement", {29.7, 0, 0}, {30, 6, 6});
+    boxes.addBox("tree", "SolitaryVegetationObject", {-40, -40, 0}, {-39, -39, 5});
+    const auto chosen = chooseSheetViews(boxes.volume);
+    ASSERT_TRUE(chosen);
+    std::size_t sections = 0;
+    for (const SheetView& view : chosen->views) {
+        if (view.kind != ViewKind::Section) continue;
+        ++sections;
+        EXPECT_TRUE(cutsSomething(boxes, view)) << view.name;
+        const bool isAcrossX = std::abs(view.plane.normal.x) > 0.5;
+        const double at = placeAlong(boxes, view, isAcrossX ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0});
+        EXPECT_TRUE(isAcrossX ? at > 22 && at < 30 : at > 0 && at < 6) << at;
+    }
+    EXPECT_EQ(sections, 2u);
+}
+
+// The ridge runs along the shorter side, from y = 2 to 4: A-A cuts it there.
+TEST(SheetViews, SectionACutsTheRidge) {
+    Boxes boxes;
+    boxes.addBox("walls", "BuildingConstructiveElement", {0, 0, 0}, {8, 6, 3});
+    boxes.addLabel("roof", "RoofSurface", volume::Filling::Surface, 0);
+    const Vec3d from{4, 1, 5}, to{4, 3, 5};
+    boxes.addQuad({Vec3d{0, 0, 3}, Vec3d{0, 6, 3}, to, from});
+    boxes.addQuad({Vec3d{8, 6, 3}, Vec3d{8, 0, 3}, from, to});
+    const auto chosen = chooseSheetViews(boxes.volume);
+    ASSERT_TRUE(chosen);
+    const auto a = std::find_if(chosen->views.begin(), chosen->views.end(),
+                                [](const SheetView& view) { return view.kind == ViewKind::Section; });
+    ASSERT_NE(a, chosen->views.end());
+    EXPECT_NEAR(std::abs(a->plane.normal.y), 1, 1e-9);
+    const double y = placeAlong(boxes, *a, {0, 1, 0});
+    EXPECT_TRUE(y > 1 && y < 3) << y;
 }
 
 TEST(SheetViews, WithoutRoomsThereIsOnePlan) {

@@ -43,6 +43,19 @@ Members<SetSheet> membersOf(const SetSheet*) noexcept {
     return kMembers;
 }
 
+Members<TitleBlock> membersOf(const TitleBlock*) noexcept {
+    static constexpr Member<TitleBlock> kMembers[] = {
+        member<&TitleBlock::number>("number", "number of the drawings; each sheet adds its own"),
+        member<&TitleBlock::creator>("creator", "person who made the drawings"),
+        member<&TitleBlock::approver>("approver", "person who approved the drawings"),
+        member<&TitleBlock::owner>("owner", "legal owner of the drawings"),
+        member<&TitleBlock::date>("date", "date of issue"),
+        member<&TitleBlock::revision>("revision", "index of the revision"),
+        member<&TitleBlock::documentType>("documentType", "type of the document", {.otherwise = "by its views"}),
+    };
+    return kMembers;
+}
+
 Members<SheetSet> membersOf(const SheetSet*) noexcept {
     static constexpr Member<SheetSet> kMembers[] = {
         memberOf<SheetSet, FormatName<SheetSet>>("format", "says that this is a set of sheets",
@@ -50,12 +63,17 @@ Members<SheetSet> membersOf(const SheetSet*) noexcept {
         memberOf<SheetSet, FormatVersion<SheetSet>>("version", "version of the format", {.least = 1, .most = 1}),
         member<&SheetSet::title>("title", "name of the building, in the title block",
                                  {.otherwise = "the name of the model"}),
-        memberAs<Choice, &SheetSet::paper>("paper", "size of the sheets, landscape", {.choices = "A4|A3|A2|A1|A0"}),
+        memberAs<Choice, &SheetSet::paper>(
+            "paper", "size of the sheets, landscape",
+            {.choices = "A4|A3|A2|A1|A0", .otherwise = "A3; with a scale, the smallest on which all views fit"}),
+        member<&SheetSet::titleBlock>("titleBlock", "fields of the title block"),
         memberAs<Choice, &SheetSet::language>("language", "of the words on sheets", {.choices = "en|de"}),
         member<&SheetSet::scale>(
             "scale", "scale of all views: 50 draws 1 m as 20 mm",
             {.least = 0.01, .most = 1e7, .otherwise = "100, or the next of 200, 500, ... at which all views fit"}),
-        member<&SheetSet::dimensions>("dimensions", "chains of dimensions around plans"),
+        member<&SheetSet::dimensions>("dimensions", "dimensions of plans and sections"),
+        member<&SheetSet::dimensionUnit>("dimensionUnit",
+                                         "unit of dimensions; m-cm is metres from 1 m, and centimetres below it"),
         member<&SheetSet::above>("above", "plans show what is above the cut"),
         member<&SheetSet::tables>("tables", "tables of rooms, floor areas and components, after the views"),
         member<&SheetSet::hide>("hide", "leave out what the query selects", {.value = "QUERY"}),

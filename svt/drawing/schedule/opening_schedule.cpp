@@ -1,0 +1,214 @@
+#include <svt/drawing/opening_schedule.hpp>
+
+#include <svt/drawing/levels/level_parts.hpp>
+#include <svt/model/classes.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <variant>
+
+namespace svt::drawing {
+namespace {
+
+using volume::kNoLabel;
+
+std::string openingText(const volume::Label& label, std::string_view name) {
+    for (const Attribute& attribute : label.attributes)
+        if (attribute.name == name)
+            if (const std::string* text = std::get_if<std::string>(&attribute.value)) return *text;
+    return {};
+}
+
+// "Family:Type" of a name such as "Family:Type:285860", as some programs write it.
+std::string typeInName(const std::string& name) {
+    const std::size_t last = name.rfind(':');
+    if (last == std::string::npos || last == 0 || name.find(':') == last) return {};
+    const bool isNumber = name.find_first_not_of("0123456789", last + 1) == std::string::npos;
+    return isNumber ? name.substr(0, last) : std::string();
+}
+
+std::string typeOf(const volume::Label& label) {
+    if (std::string type = typeInName(label.name); !type.empty()) return type;
+    for (const std::string_view name : {"type", "objectType", "function"})
+        if (std::string text = openingText(label, name); !text.empty()) return text;
+    return {};
+}
+
+bool isDoorClass(std::string_view className) noexcept { return className.starts_with("Door"); }
+
+// The outermost opening that each label is part of.
+std::vector<std::uint32_t> openingOfLabels(const volume::LabelTable& table) {
+    std::vector<std::uint32_t> openings(table.labels.size(), kNoLabel);
+    for (std::uint32_t l = 0; l < openings.size(); ++l) {
+        const volume::Label& label = table.labels[l];
+        if (label.parent != kNoLabel && label.parent < l && openings[label.parent] != kNoLabel)
+            openings[l] = openings[label.parent];
+        else if (model::isFilling(label.className))
+            openings[l] = l;
+    }
+    return openings;
+}
+
+// Sums over the triangles of an opening: the products of their normals, weighted by area.
+struct NormalSum {
+    std::array<std::array<double, 3>, 3> products{};
+    std::vector<std::uint32_t> points;
+
+    void add(Vec3d twice) {
+        const double size = length(twice);
+        if (!(size > 0)) return;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) products[std::size_t(i)][std::size_t(j)] += twice[i] * twice[j] / size;
+    }
+    // The direction that most of the faces look along: the eigenvector of the largest eigenvalue, by iteration.
+    [[nodiscard]] std::optional<Vec3d> main() const {
+        Vec3d at{0.6, 0.7, 0.4};
+        for (int n = 0; n < 100; ++n) {
+            Vec3d next{};
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j) next[i] += products[std::size_t(i)][std::size_t(j)] * at[j];
+            const double size = length(next);
+            if (!(size > 0) || !std::isfinite(size)) return std::nullopt;
+            at = next / size;
+        }
+        return at;
+    }
+};
+
+std::optional<OpeningPlace> placeOf(const NormalSum& sum, const volume::SemanticVolume& volume) {
+    constexpr double kFlat = 0.95;  // cosine: hatches lie in floors
+    const auto normal = sum.main();
+    if (!normal) return std::nullopt;
+    const Vec3d up = volume.grid.axes()[2], origin = volume.grid.origin();
+    OpeningPlace place;
+    place.normal = *normal;
+    const bool isFlat = std::abs(dot(*normal, up)) > kFlat;
+    const Vec3d across = isFlat ? volume.grid.axes()[0] : normalized(cross(up, *normal));
+    const Vec3d along = isFlat ? volume.grid.axes()[1] : normalized(cross(*normal, across));
+    const Vec3d directions[] = {across, along, *normal, up};
+    double low[4], high[4];
+    std::fill(std::begin(low), std::end(low), kInfinity);
+    std::fill(std::begin(high), std::end(high), -kInfinity);
+    for (const std::uint32_t point : sum.points)
+        for (std::size_t n = 0; n < 4; ++n) {
+            const double at = dot(volume.vectors.position(point, origin) - origin, directions[n]);
+            low[n] = std::min(low[n], at);
+            high[n] = std::max(high[n], at);
+        }
+    place.width = high[0] - low[0];
+    place.height = high[1] - low[1];
+    place.low = low[3];
+    place.center = origin;
+    for (std::size_t n = 0; n < 3; ++n) place.center = place.center + directions[n] * (0.5 * (low[n] + high[n]));
+    return place;
+}
+
+std::vector<std::optional<OpeningPlace>> placesOf(const volume::SemanticVolume& volume,
+                                                  const std::vector<std::uint32_t>& openings) {
+    std::map<std::uint32_t, NormalSum> sums;
+    for (const auto& triangle : volume.vectors.triangles) {
+        const std::uint32_t opening = openings[triangle.label];
+        if (opening == kNoLabel) continue;
+        NormalSum& sum = sums[opening];
+        const Vec3d a = volume.vectors.position(triangle.corners[0], {});
+        sum.add(cross(volume.vectors.position(triangle.corners[1], {}) - a,
+                      volume.vectors.position(triangle.corners[2], {}) - a));
+        sum.points.insert(sum.points.end(), triangle.corners.begin(), triangle.corners.end());
+    }
+    std::vector<std::optional<OpeningPlace>> places(openings.size());
+    for (const auto& [opening, sum] : sums) places[opening] = placeOf(sum, volume);
+    return places;
+}
+
+// Openings with equal keys share a mark. Sizes are in millimetres; -1: unknown.
+struct OpeningKey {
+    bool isWindow = false;
+    std::string type;
+    std::array<long, 4> size{-1, -1, -1, -1};
+    friend auto operator<=>(const OpeningKey&, const OpeningKey&) = default;
+};
+
+// Points of meshes are whole micrometres; sizes do not show this rounding.
+double roundedSize(double metres) { return std::round(metres * 1e5) / 1e5 + 0.0; }
+
+// Surfaces of doors and windows count only where the model has no bodies of their kind. The two sides of a wall count
+// once: a surface is left out if another one of its size is nearer than a wall is thick.
+bool isOtherSide(const OpeningPlace& place, bool isDoor, const std::vector<std::pair<bool, OpeningPlace>>& surfaces) {
+    constexpr double kWall = 0.7, kSameSize = 0.05;  // metres
+    return std::any_of(surfaces.begin(), surfaces.end(), [&](const auto& other) {
+        return other.first == isDoor && length(other.second.center - place.center) < kWall &&
+               std::abs(other.second.width - place.width) < kSameSize &&
+               std::abs(other.second.height - place.height) < kSameSize;
+    });
+}
+
+long millimetresOf(const std::optional<double>& metres) { return metres ? std::lround(*metres * 1000) : -1; }
+
+}  // namespace
+
+OpeningSchedule scheduleOpenings(const volume::SemanticVolume& volume, std::span<const BuildingLevel> levels) {
+    OpeningSchedule schedule;
+    const auto& labels = volume.labels.labels;
+    schedule.openings = openingOfLabels(volume.labels);
+    schedule.places = placesOf(volume, schedule.openings);
+    schedule.marks.resize(labels.size());
+    const std::vector<std::size_t> levelOf = levels.empty() ? std::vector<std::size_t>(labels.size(), 0)
+                                                            : levelsOfLabels(volume, levels, labelExtents(volume));
+    const auto hasBodies = [&](std::string_view className) {
+        return std::any_of(labels.begin(), labels.end(),
+                           [&](const auto& label) { return label.className == className; });
+    };
+    const bool hasDoors = hasBodies("Door"), hasWindows = hasBodies("Window");
+    std::vector<std::pair<bool, OpeningPlace>> surfaces;             // whether it is a door
+    std::map<OpeningKey, std::map<std::size_t, OpeningRow>> groups;  // by key, then level
+    std::map<OpeningKey, std::size_t> lowest;                        // level at which a key first occurs
+    for (std::uint32_t l = 0; l < labels.size(); ++l) {
+        if (schedule.openings[l] != l) continue;
+        const auto& place = schedule.places[l];
+        OpeningRow row;
+        row.isDoor = isDoorClass(labels[l].className);
+        row.type = typeOf(labels[l]);
+        row.level = levelOf[l];
+        row.statedWidth = numberOf(labels[l], "overallWidth");
+        row.statedHeight = numberOf(labels[l], "overallHeight");
+        if (place) row.measuredWidth = roundedSize(place->width);
+        if (place) row.measuredHeight = roundedSize(place->height);
+        if (!place && !row.statedWidth && !row.statedHeight) continue;
+        if (place && labels[l].className.ends_with("Surface")) {
+            if ((row.isDoor ? hasDoors : hasWindows) || isOtherSide(*place, row.isDoor, surfaces)) continue;
+            surfaces.emplace_back(row.isDoor, *place);
+        }
+        if (place && !levels.empty()) row.sill = roundedSize(place->low - levels[row.level].floor);
+        const OpeningKey key{!row.isDoor,
+                             row.type,
+                             {millimetresOf(row.statedWidth), millimetresOf(row.statedHeight),
+                              millimetresOf(row.measuredWidth), millimetresOf(row.measuredHeight)}};
+        const auto [known, isNew] = lowest.try_emplace(key, row.level);
+        if (!isNew) known->second = std::min(known->second, row.level);
+        OpeningRow& group = groups[key].try_emplace(row.level, row).first->second;
+        if (row.sill && (!group.sill || *row.sill < *group.sill)) group.sill = row.sill;
+        group.labels.push_back(l);
+    }
+    std::vector<std::pair<OpeningKey, std::size_t>> order(lowest.begin(), lowest.end());
+    std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+        return std::tie(a.first.isWindow, a.second) < std::tie(b.first.isWindow, b.second);
+    });
+    int doors = 0, windows = 0;
+    for (const auto& [key, level] : order) {
+        const std::string mark = key.isWindow ? fmt::format("W{}", ++windows) : fmt::format("D{}", ++doors);
+        for (auto& [of, row] : groups[key]) {
+            row.mark = mark;
+            for (const std::uint32_t label : row.labels) schedule.marks[label] = mark;
+            schedule.rows.push_back(std::move(row));
+        }
+    }
+    return schedule;
+}
+
+}  // namespace svt::drawing

@@ -1,0 +1,63 @@
+/// Drawings cropped to the building: terrain ends beside it, and the building keeps every part.
+
+#include <svt/drawing/building_crop.hpp>
+#include <svt/drawing/exact/boxes_test.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace svt::drawing {
+namespace {
+
+std::pair<PlanePoint, PlanePoint> extentOfBorders(const SectionDrawing& drawing) {
+    PlanePoint low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+    for (const SectionBorder& border : drawing.borders)
+        for (const PlanePoint p : border.points) {
+            low = {std::min(low.u, p.u), std::min(low.v, p.v)};
+            high = {std::max(high.u, p.u), std::max(high.v, p.v)};
+        }
+    return {low, high};
+}
+
+Boxes houseInItsGarden() {
+    Boxes boxes;
+    boxes.addBox("house", "Building", {0, 0, 0}, {8, 6, 3});
+    boxes.addBox("terrace", "BuildingInstallation", {8, 0, 0}, {12, 6, 3});
+    boxes.addBox("terrain", "TINRelief", {-50, -50, 0}, {-0.5, 60, 3});
+    boxes.addBox("tree", "SolitaryVegetationObject", {30, 2, 0}, {31, 3, 3});
+    return boxes;
+}
+
+TEST(BuildingCrop, TerrainEndsBesideTheBuilding) {
+    const Boxes boxes = houseInItsGarden();
+    const SectionDrawing drawing = boxes.cut({0, 0, 1}, {0, 0, 1});
+    const SectionDrawing cropped = croppedToBuilding(drawing, boxes.volume);
+    // 12 x 6 m with a margin of 1 m.
+    const auto [low, high] = extentOfBorders(cropped);
+    EXPECT_NEAR(low.u, -0.5, 1e-5) << "the edge of the terrain";
+    EXPECT_NEAR(low.v, -1, 1e-5);
+    EXPECT_NEAR(high.u, 12, 1e-5);
+    EXPECT_NEAR(high.v, 7, 1e-5);
+    for (const SectionComponent& component : cropped.components) {
+        const std::string& id = boxes.volume.labels.labels[component.label].id;
+        const double area = id == "house" ? 48 : id == "terrace" ? 24 : id == "terrain" ? 0.5 * 8 : 0;
+        EXPECT_NEAR(component.area, area, 1e-4) << id;
+    }
+}
+
+TEST(BuildingCrop, WithoutSurroundingsOrWithoutABuildingNothingChanges) {
+    Boxes house, hill;
+    house.addBox("house", "Building", {0, 0, 0}, {8, 6, 3});
+    hill.addBox("hill", "TINRelief", {0, 0, 0}, {80, 60, 3});
+    for (const Boxes* boxes : {&house, &hill}) {
+        const SectionDrawing drawing = boxes->cut({0, 0, 1}, {0, 0, 1});
+        const SectionDrawing cropped = croppedToBuilding(drawing, boxes->volume);
+        ASSERT_EQ(cropped.borders.size(), drawing.borders.size());
+        EXPECT_EQ(cropped.borders.front().points, drawing.borders.front().points);
+        EXPECT_EQ(cropped.components.front().area, drawing.components.front().area);
+    }
+}
+
+}  // namespace
+}  // namespace svt::drawing
