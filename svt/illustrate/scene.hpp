@@ -70,7 +70,9 @@ struct VolumeRepresentation {
 
 /// A pass: a part of the volume, and its style.
 struct ScenePass {
-    std::vector<std::string> show;  ///< queries; if not empty, all other labels are hidden
+    /// Queries; if not empty, all other labels are hidden. If empty, rooms and other spaces are hidden, unless a style
+    /// or a query of Scene::names selects only spaces, or nothing else is drawn.
+    std::vector<std::string> show;
     std::vector<std::string> hide;  ///< queries
     std::vector<SceneStyle> styles;
     std::string cut;   ///< region to cut away; empty: none

@@ -48,7 +48,8 @@ public:
         if (equalsIgnoringCase(key_, "class")) return textOf(model::canonicalClassName(own.className));
         if (equalsIgnoringCase(key_, "id")) return textOf(own.id);
         if (equalsIgnoringCase(key_, "name")) return own.name.empty() ? std::optional<Value>() : textOf(own.name);
-        if (equalsIgnoringCase(key_, "volume")) return Value{fmt::format("{}", own.volume), "m3", false};
+        if (equalsIgnoringCase(key_, "volume"))
+            return own.volume ? std::optional(Value{fmt::format("{}", *own.volume), "m3", false}) : std::nullopt;
         if (equalsIgnoringCase(key_, "voxels")) return Value{fmt::format("{}", own.voxels), "", false};
         if (row < areas_.size() && areas_[row] > 0) return Value{fmt::format("{}", areas_[row]), "m2", false};
         const bool isStorey = equalsIgnoringCase(key_, "storey");

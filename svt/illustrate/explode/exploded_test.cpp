@@ -97,6 +97,7 @@ TEST(ExplodeStoreys, IsDrawn) {
     scene.camera.preset = "front";
     scene.camera.isParallel = true;
     scene.explode = 1.6;
+    scene.passes[0].show = {"all"};  // rooms too
     const auto painting = painter.paint(scene);
     ASSERT_TRUE(painting) << painting.error().toString();
     // 7.2 m fill 92 % of the height: the gap of 1.6 m is about 41 pixels.

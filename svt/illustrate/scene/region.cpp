@@ -409,7 +409,7 @@ bool dependsOnView(std::string_view region) {
 }
 
 std::vector<MovedPlane> planesInFaces(const Scene& scene, const volume::SemanticVolume& volume) {
-    const analyze::LabelRows rows(volume.labels);
+    const analyze::LabelRows rows(volume);
     std::vector<MovedPlane> moved;
     // Drawing reports other errors of a region.
     for (const ScenePass& pass : scene.passes)

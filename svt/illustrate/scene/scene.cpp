@@ -209,6 +209,19 @@ void makeSolidIfAlone(const LabelTable& table, std::vector<LabelLook>& looks) {
         if (look.opacity > 0 && !look.hasOwnOpacity) look.opacity = 1;
 }
 
+bool isAir(const Label& label) { return model::isSpace(label.className); }
+
+// Hides rooms and other spaces where anything else is drawn, except those that a style or a name asks for: its query
+// selects only spaces.
+void hideSpaces(const LabelTable& table, const std::vector<bool>& isAskedFor, std::vector<LabelLook>& looks) {
+    bool isAlone = true;
+    for (std::size_t l = 0; l < looks.size() && isAlone; ++l)
+        isAlone = looks[l].opacity <= 0 || table.labels[l].voxels == 0 || isAir(table.labels[l]) ||
+                  table.labels[l].className == "ClosureSurface";
+    for (std::size_t l = 0; l < looks.size() && !isAlone; ++l)
+        if (isAir(table.labels[l]) && !isAskedFor[l]) looks[l].opacity = 0;
+}
+
 Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass, const volume::SemanticVolume& volume,
                                        const analyze::LabelRows& rows) {
     const LabelTable& table = volume.labels;
@@ -223,8 +236,18 @@ Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass
     std::vector<bool> isShown(table.labels.size(), pass.show.empty()), isHidden(table.labels.size(), false);
     SVT_DO(select(rows, pass.show, isShown));
     SVT_DO(select(rows, pass.hide, isHidden));
+    std::vector<bool> isAskedFor(table.labels.size(), false);
+    const auto askForSpaces = [&](const std::vector<std::uint32_t>& selected) {
+        if (std::all_of(selected.begin(), selected.end(), [&](std::uint32_t l) { return isAir(table.labels[l]); }))
+            for (const std::uint32_t l : selected) isAskedFor[l] = true;
+    };
+    for (const std::string& query : scene.names) {
+        SVT_TRY(named, analyze::selectLabels(rows, query));
+        askForSpaces(*named);
+    }
     for (const SceneStyle& style : pass.styles) {
         SVT_TRY(selected, analyze::selectLabels(rows, style.select));
+        if (!style.isGhost && (style.color || style.opacity)) askForSpaces(*selected);
         for (const std::uint32_t l : *selected) {
             LabelLook& look = looks[l];
             if (style.isGhost) {
@@ -248,6 +271,7 @@ Result<std::vector<LabelLook>> looksOf(const Scene& scene, const ScenePass& pass
     }
     for (std::size_t l = 0; l < looks.size(); ++l)
         if (!isShown[l] || isHidden[l]) looks[l].opacity = 0;
+    if (pass.show.empty() && !pass.representation.shell) hideSpaces(table, isAskedFor, looks);
     if (!pass.show.empty()) makeSolidIfAlone(table, looks);
     return looks;
 }
@@ -290,7 +314,7 @@ Result<PassLooks> passLooks(const Scene& scene, const volume::SemanticVolume& vo
         if (std::count(isShown.begin(), isShown.end(), 1) != 0) break;
     }
     SVT_TRY(areas, areasFor(scene.colorBy, volume));
-    SVT_TRY(coloring, colorBy(scene.colorBy, rows.get(), isShown, *areas));
+    SVT_TRY(coloring, colorBy(scene.colorBy, rows.withVolumes(), isShown, *areas));
     for (auto& looks : all)
         for (std::size_t l = 0; l < labels.size(); ++l)
             if (!looks[l].isRecolored && !looks[l].isGhost) {

@@ -234,14 +234,14 @@ Result<void> ScenePainter::addInsets(const Scene& scene, const Paint& paint, Pai
 // The target box of a named view; empty without a query, or if it selects nothing.
 std::optional<analyze::SampleBox> ScenePainter::targetOf(const Scene& scene) const {
     if (scene.camera.around.empty()) return {};
-    const auto selected = analyze::selectWithParts(volume_.labels, scene.camera.around);
+    const auto selected = analyze::selectWithParts(volume_, scene.camera.around);
     if (!selected) return {};
     const auto box = analyze::boxAround(*selected, volume_, "an inset");
     return box ? std::optional(*box) : std::nullopt;
 }
 
 Result<Painting> ScenePainter::paintPlain(const Scene& scene, const Draw& draw) {
-    const analyze::LabelRows rows(volume_.labels, nothing_);
+    const analyze::LabelRows rows(volume_, nothing_);
     ColorScale scale;
     SVT_TRY(spec, makeFrameSpec(scene, volume_, rows, &scale));
     const float gaps = mixtures_.empty() ? 0 : seenGaps(*spec, volume_.grid);
@@ -260,7 +260,7 @@ Result<Painting> ScenePainter::paintDraft(const Scene& scene, const render::Cast
 }
 
 Result<Painting> ScenePainter::draftPlain(const Scene& scene, const render::CastOptions& options) {
-    const analyze::LabelRows rows(volume_.labels, nothing_);
+    const analyze::LabelRows rows(volume_, nothing_);
     ColorScale scale;
     SVT_TRY(spec, makeFrameSpec(scene, volume_, rows, &scale));
     std::vector<render::DrawnVolume> drawn;

@@ -30,12 +30,12 @@ render::FrameSpec frame(const Scene& scene) {
     return spec ? *spec : render::FrameSpec{};
 }
 
-TEST(Scene, AsItIsShowsAllLabels) {
+TEST(Scene, AsItIsShowsAllLabelsExceptRooms) {
     const render::FrameSpec spec = frame({});
     ASSERT_EQ(spec.passes.size(), 1u);
     ASSERT_EQ(spec.passes[0].styles.size(), 4u);
     EXPECT_EQ(spec.passes[0].styles[0].opacity, 0);
-    EXPECT_EQ(spec.passes[0].styles[1].opacity, 0.1f);
+    EXPECT_EQ(spec.passes[0].styles[1].opacity, 0);
     EXPECT_EQ(spec.passes[0].styles[2].opacity, 1);
     EXPECT_TRUE(spec.passes[0].clips.empty());
     EXPECT_EQ(spec.passes[0].styles[2].hatch, render::Hatch::None);
@@ -210,6 +210,31 @@ TEST(Scene, AirThatIsShownAloneIsSolid) {
     EXPECT_EQ(frame(scene).passes[0].styles[1].opacity, 0.1f);
 }
 
+TEST(Scene, RoomsAreDrawnWhereAQueryAsksForThem) {
+    const auto opacityOfRoom = [](const ScenePass& pass) {
+        Scene scene;
+        scene.passes = {pass};
+        return frame(scene).passes[0].styles[1].opacity;
+    };
+    EXPECT_EQ(opacityOfRoom({}), 0);
+    ScenePass pass;
+    pass.show = {"id=wall", "class=BuildingRoom"};
+    EXPECT_EQ(opacityOfRoom(pass), 0.1f);
+    pass = {};
+    pass.styles = {{"class=BuildingRoom", Vec3f{1, 0, 0}, {}, {}, false}};
+    EXPECT_EQ(opacityOfRoom(pass), 0.1f);
+    pass.styles = {{"id=room", {}, 0.4f, {}, false}};
+    EXPECT_EQ(opacityOfRoom(pass), 0.4f);
+    // A style of all labels, or a hatch, does not ask for rooms.
+    pass.styles = {{"all", {}, 0.4f, {}, false}};
+    EXPECT_EQ(opacityOfRoom(pass), 0);
+    pass.styles = {{"id=room", {}, {}, render::Hatch::Earth, false}};
+    EXPECT_EQ(opacityOfRoom(pass), 0);
+    Scene named;
+    named.names = {"class=BuildingRoom"};
+    EXPECT_EQ(frame(named).passes[0].styles[1].opacity, 0.1f);
+}
+
 TEST(Scene, GhostsLoseMostOfTheirColour) {
     Scene scene;
     ScenePass& pass = scene.passes[0];
@@ -263,7 +288,7 @@ TEST(Scene, TheCameraIsFittedToWhatIsVisible) {
             expectFitted(scene, "a section");
             scene.passes[0].cut = "not box(6,6,6,8,9,7)";
             expectFitted(scene, "a corner");
-            scene.passes[0].cut = "not box(6,6,6,6.2,6.3,6.1)";
+            scene.passes[0].cut = "not box(6,6,5.1,6.2,6.3,5.2)";
             expectFitted(scene, "a part of a voxel");
             scene.passes[0].cut = "1,0,-1,-5 or -1,0,-1,5 or z>6";
             expectFitted(scene, "a wedge that stands on its edge");

@@ -39,7 +39,7 @@ Result<SceneCamera> makeView(const std::string& query, const std::string& preset
                              const volume::SemanticVolume& volume, const volume::Grid* frame) {
     if (!(aspect > 0.01 && aspect < 100))
         return Error(Code::BadCamera, fmt::format("an aspect of {} is out of range; 0.01 to 100 are possible", aspect));
-    const analyze::LabelRows rows(volume.labels);
+    const analyze::LabelRows rows(volume);
     const Vec3d origin = (frame != nullptr ? *frame : volume.grid).origin();
     SceneCamera view = now;
     view.around = query;
