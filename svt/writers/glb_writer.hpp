@@ -13,8 +13,9 @@
 /// `asset.extras.origin` has its world coordinates, `asset.extras.crs` their CRS.
 ///
 /// A label: the node's `name` is the label's name or id, its `extras` hold `id` and `class`. The material has the
-/// label's colour (linear, as glTF requires); its opacity is the fraction of light that one metre of the label stops,
-/// because a surface has no thickness. No normals are written: glTF then requires flat shading.
+/// label's colour, linear as glTF requires. Its opacity is the fraction of light that one metre of the label stops, or
+/// that of a pane of glass in the model, because a surface has no thickness. Spaces have the opacity 0 beside anything
+/// else, as in pictures. No normals are written: glTF then requires flat shading.
 
 #include <svt/core/names.hpp>
 #include <svt/core/progress.hpp>
@@ -30,10 +31,12 @@ namespace svt::writers {
 /// Placement of the surface vertices.
 enum class GlbFaces : std::uint8_t {
     Planes,  ///< on the oblique planes of the original geometry, if known; see SlopeVertices
-    Voxels   ///< on voxel corners: slopes are stairs
+    Voxels,  ///< on voxel corners: slopes are stairs
+    Meshes   ///< triangles of the model, where the volume keeps them; otherwise as Planes
 };
 constexpr auto namesOf(GlbFaces) {
-    return std::to_array<Name<GlbFaces>>({{GlbFaces::Planes, "planes"}, {GlbFaces::Voxels, "voxels"}});
+    return std::to_array<Name<GlbFaces>>(
+        {{GlbFaces::Planes, "planes"}, {GlbFaces::Voxels, "voxels"}, {GlbFaces::Meshes, "meshes"}});
 }
 
 struct GlbOptions {
@@ -55,8 +58,9 @@ struct GlbReport {
 };
 
 /// Writes the surfaces of all labels with voxels as one .glb, all or nothing. Voxel faces are merged into rectangles,
-/// closed per label (see labelSurfaces). Then the vertices on slopes are moved by up to one voxel. Equal volumes give
-/// equal bytes. Cost and memory: those of labelSurfaces; the file itself is not kept in memory.
+/// closed per label (see labelSurfaces). Then the vertices on slopes are moved by up to one voxel. Labels without inside
+/// are written as the triangles of the model, with two sides, if the volume keeps these and `faces` is not Voxels.
+/// `planesOf` excludes triangles of the model. Equal volumes give equal bytes. Cost and memory: those of labelSurfaces; the file itself is not kept in memory.
 /// \return statistics, or
 ///         - CannotWrite, DiskFull, Cancelled
 ///         - NothingSelected  no label has voxels.

@@ -12,11 +12,14 @@
 #include <svt/core/names.hpp>
 #include <svt/core/result.hpp>
 #include <svt/drawing/floor_areas.hpp>
+#include <svt/drawing/opening_schedule.hpp>
+#include <svt/drawing/sheet_set.hpp>
 #include <svt/drawing/sheet_views.hpp>
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,15 +60,23 @@ struct SheetContent {
     std::vector<drawing::BuildingLevel> levels;  ///< heights are stated above the ground floor
     std::vector<DrawnView> views;
     std::vector<SheetGroup> groups;
-    std::vector<SheetTable> tables;  ///< after the views; tables that fit share sheets
-    Diagnostics findings{};          ///< of the tables, see drawing::reportAreas()
+    std::vector<SheetTable> tables;                      ///< after the views; tables that fit share sheets
+    Diagnostics findings{};                              ///< of the tables, see drawing::reportAreas()
+    std::optional<drawing::FloorAreas> areas{};          ///< the source of the tables
+    std::optional<drawing::OpeningSchedule> openings{};  ///< of completeSheets(): plans have its marks
 };
+
+class SheetDetails;
 
 struct SheetOptions {
     double scale = 0;          ///< 100 draws 1 m as 10 mm; 0: 1:100, or the next standard scale at which all views fit
     std::string paper = "A3";  ///< A4 to A0, landscape
     SheetLanguage language = SheetLanguage::English;
     std::string title{};  ///< name of the building; empty: name of the model
+    drawing::TitleBlock block{};
+    /// Stamps, marks, title block and legend, see officeDetails(); without them sheets have names of rooms and a small
+    /// title block.
+    const SheetDetails* details = nullptr;
 };
 
 /// The tables of rooms, floor areas and components; without rooms, only the table of components.

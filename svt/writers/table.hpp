@@ -23,9 +23,16 @@ struct Blob {
     std::string bytes;
 };
 
+/// An array as JSON: the values of an attribute with several. JSON and GeoJSON store it as an array, all others as text.
+struct JsonArray {
+    std::string text;
+};
+
 /// A value, or empty. Cells of one column may differ in type, like attributes of models.
 struct Cell {
-    std::variant<std::monostate, bool, std::int64_t, float, double, std::string, std::vector<std::string>, Blob> value;
+    std::variant<std::monostate, bool, std::int64_t, float, double, std::string, std::vector<std::string>, Blob,
+                 JsonArray>
+        value;
 
     Cell() = default;
     Cell(std::nullptr_t) {}
@@ -39,8 +46,16 @@ struct Cell {
     Cell(std::string text) : value(std::move(text)) {}
     Cell(std::vector<std::string> texts) : value(std::move(texts)) {}
     Cell(Blob blob) : value(std::move(blob)) {}
+    Cell(JsonArray array) : value(std::move(array)) {}
     Cell(const AttributeValue& attribute) {
         std::visit([this](const auto& known) { value = known; }, attribute);
+    }
+    /// The one rule for attributes: a single value with its own type, else an array.
+    Cell(const AttributeList& list) {
+        if (list.isSingle())
+            *this = Cell(list.items.front().attribute->value);
+        else
+            value = JsonArray{toJsonText(list)};
     }
 
     [[nodiscard]] bool isEmpty() const noexcept { return value.index() == 0; }
@@ -76,7 +91,7 @@ struct Table {
 
 /// Variants of comma-separated values.
 enum class CsvForm : std::uint8_t {
-    File,   ///< RFC 4180
+    File,   ///< RFC 4180; numbers have up to twelve digits
     Stream  ///< for shell tools: lines end with LF only, numbers as in JSON, texts with `;` have quotes too
 };
 [[nodiscard]] std::string csvLine(std::span<const Cell> cells, CsvForm form = CsvForm::File);

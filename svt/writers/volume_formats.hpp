@@ -60,8 +60,8 @@ struct PrecomputedWriteOptions {
 struct TilesetWriteOptions {
     /// Latitude, longitude (degrees) and height over the ellipsoid (metres) of the lower corner; unset: by the CRS.
     std::optional<Vec3d> place;
-    double lift = 0;         ///< added to heights, metres
-    bool hasVoxels = false;  ///< voxels by the draft extensions instead of surfaces
+    std::optional<double> lift;  ///< added to heights, metres; unset: nothing (see globeHeights())
+    bool hasVoxels = false;      ///< voxels by the draft extensions instead of surfaces
 };
 struct VdbWriteOptions {
     bool hasLevelSets = false;  ///< each class as signed distances instead of a fog volume

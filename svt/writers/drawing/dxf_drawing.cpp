@@ -34,18 +34,19 @@ constexpr std::size_t kMostCharacters = 255;  // of a text in extended data
 
 // Lines beyond the cut, by kind: narrow lines of ISO 128-2, dashes in widths of the line, gaps below zero.
 struct BeyondStyle {
-    const char *layer, *lineType, *words;
+    const char *layer, *field, *lineType, *words;
     int color;
     std::vector<double> dashes;
 };
 const BeyondStyle& beyondStyle(drawing::BeyondKind kind) {
     static const BeyondStyle kStyles[] = {
-        {"BEYOND_VISIBLE", "Continuous", "", 7, {}},
-        {"BEYOND_HIDDEN", "ACAD_ISO02W100", "ISO dash", 8, {12, -3}},
-        {"BEYOND_ABOVE", "ACAD_ISO05W100", "ISO long-dash double-dot", 8, {24, -3, 0, -3, 0, -3}}};
+        {"BEYOND_VISIBLE", "VISIBLE-", "Continuous", "", 7, {}},
+        {"BEYOND_HIDDEN", "HIDDEN--", "ACAD_ISO02W100", "ISO dash", 8, {12, -3}},
+        {"BEYOND_ABOVE", "ABOVE---", "ACAD_ISO05W100", "ISO long-dash double-dot", 8, {24, -3, 0, -3, 0, -3}}};
     return kStyles[static_cast<std::size_t>(kind)];
 }
-constexpr int kBeyondWidth = 18;            // hundredths of a millimetre
+// Hundredths of a millimetre: the series of ISO 128-2 at 1:100.
+constexpr int kBoldWidth = 50, kMediumWidth = 25, kBeyondWidth = 18, kThinWidth = 13;
 constexpr double kDashUnit = 1.8e-4 * 100;  // metres: the width of the line at a scale of 1:100
 
 // Dimensions are placed for a scale of 1:100.
@@ -159,6 +160,7 @@ private:
         for (const drawing::BeyondLine& line : drawing_.beyond) addBeyond(line);
         for (const drawing::DoorSwing& swing : drawing_.doors) addDoor(swing);
         for (const DimensionMark& mark : dimensions_.marks) addDimension(mark);
+        for (const MarkText& text : dimensions_.heights) addDimensionText(text);
     }
 
     [[nodiscard]] const volume::Label& labelOf(std::uint32_t label) const noexcept {
@@ -167,8 +169,10 @@ private:
     const std::string& layerOf(std::uint32_t label, DxfContent content) {
         const volume::Label& of = labelOf(label);
         const int color = content == DxfContent::Hatch ? 8 : colorOf(of.className);
-        if (hasIsoLayers_) return file_.layer(isoLayerOf(of, content), color);
-        return file_.layer(dxfLayerOf(of) + (content == DxfContent::Hatch ? "_HATCH" : ""), color);
+        const int width =
+            content == DxfContent::Element ? (style_.isBold(label) ? kBoldWidth : kMediumWidth) : kThinWidth;
+        if (hasIsoLayers_) return file_.layer(isoLayerOf(of, content), color, "Continuous", width);
+        return file_.layer(dxfLayerOf(of) + (content == DxfContent::Hatch ? "_HATCH" : ""), color, "Continuous", width);
     }
     const std::string& dimensionLayer() {
         return file_.layer(hasIsoLayers_ ? isoLayerOf(DxfContent::Dimension) : "DIMENSIONS", 7, "Continuous", 13);
@@ -225,8 +229,10 @@ private:
 
     void addBeyond(const drawing::BeyondLine& line) {
         const BeyondStyle& style = beyondStyle(line.kind);
+        const std::string layer =
+            hasIsoLayers_ ? isoLayerOf(labelOf(line.label), DxfContent::Element, style.field) : style.layer;
         addLine(place_.placed(line.from), place_.placed(line.to),
-                file_.layer(style.layer, style.color, style.lineType, kBeyondWidth));
+                file_.layer(layer, style.color, style.lineType, kBeyondWidth));
         addId(line.label);
     }
 
@@ -254,7 +260,7 @@ private:
         const auto [u, v] = place.center;
         if (!isPlan(drawing_, volume_.grid)) return addText(place.center, dxfText(shown), layer, letters);
         addText({u, v + 0.8 * height}, dxfText(shown), layer, letters);
-        addText({u, v - 0.8 * height}, dxfText(fmt::format("{:.2f} m\u00B2", component.area)), layer, letters);
+        addText({u, v - 0.8 * height}, dxfText(fmt::format("{:.2f} m\u00B2", component.stampArea())), layer, letters);
     }
 
     void addHatch(std::uint32_t label, const drawing::SectionPolygon& polygon) {
@@ -318,28 +324,30 @@ private:
 
     static PlanePoint inMetres(PlanePoint p) noexcept { return {p.u / kDimensionScale, p.v / kDimensionScale}; }
 
+    void addDimensionText(const MarkText& text) {
+        const double degrees = (text.isUpright ? 90 : 0) + place_.turnDegrees();
+        const double height = 0.73 * text.size / kDimensionScale;  // of capitals
+        addText(inMetres(text.at), dxfText(text.text), dimensionLayer(),
+                {"SVT_DIMENSIONS", height, degrees, text.isUpright || place_.turnDegrees() != 0, true});
+    }
+
     // A DIMENSION, and the block that says how it looks, as programs write both.
     void addDimension(const DimensionMark& mark) {
         const std::string name = fmt::format("*D{}", file_.blockCount() + 1), content = dxfText(mark.text.text);
         const auto placed = [&](PlanePoint p) { return place_.placed(inMetres(p)); };
         const PlanePoint from = mark.line.from, to = mark.line.to;
-        const PlanePoint at = content.empty() ? PlanePoint{0.5 * (from.u + to.u), 0.5 * (from.v + to.v)} : mark.text.at;
         addBlock(file_.newBlock(name, true), [&] {
             addLine(placed(from), placed(to), dimensionLayer());
             for (const auto* const lines : {&mark.feet, &mark.ticks})
                 for (const MarkLine& line : *lines) addLine(placed(line.from), placed(line.to), dimensionLayer());
-            if (content.empty()) return;
-            const double degrees = (mark.text.isUpright ? 90 : 0) + place_.turnDegrees();
-            const double height = 0.73 * mark.text.size / kDimensionScale;  // of capitals
-            addText(inMetres(at), content, dimensionLayer(),
-                    {"SVT_DIMENSIONS", height, degrees, mark.text.isUpright || place_.turnDegrees() != 0, true});
+            addDimensionText(mark.text);
         });
         begin("DIMENSION", dimensionLayer(), "AcDbDimension");
         out_.add({{2, name}});
         out_.point(10, placed(to));
-        out_.point(11, placed(at));
+        out_.point(11, placed(mark.text.at));
         // Linear; its block is its own; the place of the text is set.
-        out_.add({{70, 32 + 128}, {1, content.empty() ? " " : content}, {3, "Standard"}});
+        out_.add({{70, 32 + 128}, {1, content}, {3, "Standard"}});
         out_.add({{100, "AcDbAlignedDimension"}});
         out_.point(13, placed(from));
         out_.point(14, placed(to));

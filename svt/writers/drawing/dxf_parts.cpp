@@ -77,7 +77,7 @@ std::string dxfLayerOf(const volume::Label& label) {
     return isWord ? name + "_" + plainName(function) : name;
 }
 
-std::string isoLayerOf(const volume::Label& label, DxfContent content) {
+std::string isoLayerOf(const volume::Label& label, DxfContent content, std::string_view field) {
     const std::string name = dxfLayerOf(label);
     std::string code = "--";
     for (const Element& element : kElements)
@@ -92,7 +92,8 @@ std::string isoLayerOf(const volume::Label& label, DxfContent content) {
         });
     if (code == "22" && (isExternal || label.className == "WallSurface")) code = "21";
     if (code == "32" && isExternal) code = "31";
-    return padded("A-", 2) + padded(code, 6) + static_cast<char>(content) + "-";
+    const std::string optional = field.empty() ? std::string() : std::string(10, '-').append(field);
+    return padded("A-", 2) + padded(code, 6) + static_cast<char>(content) + "-" + optional;
 }
 
 std::string isoLayerOf(DxfContent content) { return std::string("A-------") + static_cast<char>(content) + "-"; }

@@ -62,6 +62,24 @@ std::optional<NamePlace> placeName(const drawing::SectionComponent& component, c
     }
     for (const drawing::BeyondLine& line : drawing.beyond)
         if (meets({line.from, line.to}, all)) crossing.push_back({line.from, line.to});
+    for (const drawing::RoomDimension& dimension : drawing.roomDimensions)
+        if (dimension.label == component.label) {
+            // The line, and the number above it.
+            const double above = 2 / millimetres;
+            const bool isFlat = dimension.from.v == dimension.to.v;
+            const auto raised = [&](PlanePoint p) {
+                return isFlat ? PlanePoint{p.u, p.v + above} : PlanePoint{p.u - above, p.v};
+            };
+            crossing.push_back({dimension.from, dimension.to});
+            crossing.push_back({raised(dimension.from), raised(dimension.to)});
+        }
+    for (const drawing::OpeningHeights& opening : drawing.openings) {
+        const double off = 2 / millimetres, half = 4.5 / millimetres;
+        const PlanePoint at{opening.at.u + off * opening.away.u, opening.at.v + off * opening.away.v};
+        const Segment text{{at.u - half * opening.away.v, at.v + half * opening.away.u},
+                           {at.u + half * opening.away.v, at.v - half * opening.away.u}};
+        if (meets(text, all)) crossing.push_back(text);
+    }
     for (const drawing::DoorSwing& door : drawing.doors) {
         std::vector<std::vector<PlanePoint>> parts = door.lines;
         for (const auto& arc : door.arcs) parts.push_back(drawing::pointsOf(arc));

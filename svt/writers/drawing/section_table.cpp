@@ -43,9 +43,22 @@ std::vector<CutSpace> cutSpaces(const drawing::SectionDrawing& drawing, const vo
     return spaces;
 }
 
+std::string hatchesJson(const std::vector<drawing::HatchUse>& uses) {
+    const auto orNull = [](const std::string& text) { return text.empty() ? std::string("null") : jsonText(text); };
+    std::string json;
+    const char* separator = "";
+    for (const auto& [choice, labels] : uses)
+        json += fmt::format(
+            "{}\n    {{\"hatch\": {}, \"source\": {}, \"material\": {}, \"word\": {}, \"components\": {}}}",
+            std::exchange(separator, ","), jsonText(nameOf(choice.hatch)), jsonText(hatchSourceName(choice.source)),
+            orNull(choice.material), orNull(choice.word), labels.size());
+    return json;
+}
+
 }  // namespace
 
-std::string makeSectionJson(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+std::string makeSectionJson(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                            const std::vector<drawing::HatchUse>& hatches) {
     const drawing::PlaneAxes& axes = drawing.axes;
     std::string json = fmt::format(
         "{{\n  \"plane\": {{\"origin\": [{}], \"u\": [{}], \"v\": [{}], \"normal\": [{}], \"edgesInPlane\": {}, "
@@ -77,7 +90,9 @@ std::string makeSectionJson(const drawing::SectionDrawing& drawing, const volume
                             std::exchange(separator, ","), jsonText(label.id), jsonText(label.className),
                             jsonText(label.name), components, shortNumber(area, 6));
     }
-    return json + fmt::format("\n  ],\n  \"area\": {}\n}}\n", shortNumber(drawing.area, 6));
+    json += "\n  ]";
+    if (!hatches.empty()) json += ",\n  \"hatches\": [" + hatchesJson(hatches) + "\n  ]";
+    return json + fmt::format(",\n  \"area\": {}\n}}\n", shortNumber(drawing.area, 6));
 }
 
 std::string makeSectionCsv(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume) {

@@ -94,7 +94,7 @@ private:
                 ".beyond { fill: none; stroke: #000; stroke-width: 0.18; stroke-linecap: round }\n"
                 ".hidden { stroke-linecap: butt; stroke-dasharray: 2.16 0.54 }\n"
                 ".above { stroke-linecap: butt; stroke-dasharray: 4.32 0.54 0.18 0.54 0.18 0.54 }\n";
-        if (!drawing_.dimensions.empty())
+        if (hasDimensions(drawing_))
             svg_ +=
                 ".dimensions { text-anchor: middle }\n"
                 ".tick { fill: none; stroke: #000; stroke-width: 0.35; stroke-linecap: round }\n";
@@ -249,7 +249,7 @@ private:
             if (!style_.isSpace(component.label) || component.polygons.empty()) continue;
             const std::string& name = shownName(labelOf(component.label));
             const std::string area =
-                isPlan(drawing_, volume_.grid) ? fmt::format("{:.2f} m\u00B2", component.area) : std::string();
+                isPlan(drawing_, volume_.grid) ? fmt::format("{:.2f} m\u00B2", component.stampArea()) : std::string();
             const auto longest = static_cast<double>(std::max(characterCount(name), characterCount(area)));
             const auto place =
                 placeName(component, drawing_, page_.millimetres, kTextWidth * longest, area.empty() ? 1 : 2.3);
@@ -264,7 +264,7 @@ private:
 
     // Chains of dimensions: a group each, with its lines, ticks and numbers.
     void addDimensions() {
-        if (drawing_.dimensions.empty()) return;
+        if (!hasDimensions(drawing_)) return;
         const DimensionMarks placed = placeDimensions(drawing_, {page_.low, page_.high}, page_.millimetres);
         const auto at = [&](PlanePoint p) {
             return std::pair(page_.left + p.u - page_.low.u * page_.millimetres,
@@ -284,14 +284,17 @@ private:
             svg_ += "\"/>\n<path class=\"tick\" d=\"";
             for (const MarkLine& tick : mark.ticks) svg_ += lineText(tick);
             svg_ += "\"/>\n";
-            if (mark.text.text.empty()) continue;
-            const auto [x, y] = at(mark.text.at);
-            const std::string turn = mark.text.isUpright ? fmt::format(" transform=\"rotate(-90 {} {})\"",
-                                                                       shortNumber(x, 3), shortNumber(y, 3))
-                                                         : std::string();
-            addText(x, y, mark.text.size, mark.text.text, turn.c_str());
+            addMarkText(mark.text, at(mark.text.at));
         }
+        for (const MarkText& text : placed.heights) addMarkText(text, at(text.at));
         svg_ += "</g>\n";
+    }
+
+    void addMarkText(const MarkText& text, std::pair<double, double> place) {
+        const auto& [x, y] = place;
+        const std::string turn =
+            text.isUpright ? fmt::format(" transform=\"rotate(-90 {} {})\"", shortNumber(x, 3), shortNumber(y, 3)) : "";
+        addText(x, y, text.size, text.text, turn.c_str());
     }
 
     void addText(double x, double y, double size, std::string_view text, const char* extra = "") {

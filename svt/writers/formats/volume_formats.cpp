@@ -51,7 +51,7 @@ Result<std::uint64_t> writeVolume(const volume::SemanticVolume& volume, const st
                                                     path.filename().string()));
     // A faulty query is an error whatever the format, even one that does not use it.
     for (const std::string* query : {&options.boxes.holes, &options.boxes.vents})
-        if (!query->empty()) SVT_DO(analyze::selectLabels(volume.labels, *query));
+        if (!query->empty()) SVT_DO(analyze::selectLabels(volume, *query));
     return format->write(volume, path, options);
 }
 

@@ -96,6 +96,8 @@ private:
             keep(sqlite_.bindNumber(statement, number, double(*small)), kSqliteOk);
         else if (const auto* text = std::get_if<std::string>(&cell.value))
             bindBytes(sqlite_.bindText, *text);
+        else if (const auto* array = std::get_if<JsonArray>(&cell.value))
+            bindBytes(sqlite_.bindText, array->text);
         else if (const auto* blob = std::get_if<Blob>(&cell.value))
             bindBytes(sqlite_.bindBlob, blob->bytes);
     }

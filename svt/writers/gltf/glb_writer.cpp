@@ -4,7 +4,9 @@
 #include <svt/writers/volume_formats.hpp>
 
 #include <svt/core/file.hpp>
+#include <svt/model/classes.hpp>
 #include <svt/writers/gltf/label_surface.hpp>
+#include <svt/writers/gltf/sheet_surfaces.hpp>
 #include <svt/writers/gltf/surface_positions.hpp>
 
 #include <fmt/format.h>
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,16 +41,18 @@ std::uint64_t indexBytes(const LabelSurface& surface) {
     return (bytes + 3) / 4 * 4;
 }
 
-Json materialOf(const volume::Label& label, const std::string& name) {
+Json materialOf(const volume::Label& label, const std::string& name, bool isInvisible) {
     Json material;
     material["name"] = name;
-    const double alpha = std::round(std::clamp(double(label.opacity), 0.0, 1.0) * 1e4) / 1e4;
+    const double opacity = isInvisible ? 0 : double(surfaceOpacity(label));
+    const double alpha = std::round(std::clamp(opacity, 0.0, 1.0) * 1e4) / 1e4;
     material["pbrMetallicRoughness"] = {{"baseColorFactor",
                                          {roundedLinearChannel(label.color.x), roundedLinearChannel(label.color.y),
                                           roundedLinearChannel(label.color.z), alpha}},
                                         {"metallicFactor", 0},
                                         {"roughnessFactor", 1}};
     if (alpha < 1) material["alphaMode"] = "BLEND";
+    if (label.filling == volume::Filling::Surface) material["doubleSided"] = true;
     return material;
 }
 
@@ -137,12 +142,16 @@ std::string sceneText(const volume::SemanticVolume& volume, std::span<const Labe
     json["scenes"] = Json::array({{{"nodes", {0}}}});
     json["nodes"] = nodesOf(volume, surfaces);
     Json meshes = Json::array(), materials = Json::array();
+    const auto isAir = [&](const LabelSurface& surface) {
+        return model::isSpace(volume.labels.labels[surface.label].className);
+    };
+    const bool isAirOnly = std::all_of(surfaces.begin(), surfaces.end(), isAir);
     for (std::size_t m = 0; m < surfaces.size(); ++m) {
         const volume::Label& label = volume.labels.labels[surfaces[m].label];
         const std::string& name = shownName(label);
         Json primitive = {{"attributes", {{"POSITION", 2 * m}}}, {"indices", 2 * m + 1}, {"material", m}};
         meshes.push_back({{"name", name}, {"primitives", Json::array({std::move(primitive)})}});
-        materials.push_back(materialOf(label, name));
+        materials.push_back(materialOf(label, name, !isAirOnly && isAir(surfaces[m])));
     }
     json["meshes"] = std::move(meshes);
     json["materials"] = std::move(materials);
@@ -160,6 +169,16 @@ std::string sceneText(const volume::SemanticVolume& volume, std::span<const Labe
     std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     return text;
+}
+
+// The label of each scalar; none for those of `sheets`.
+std::vector<std::uint32_t> labelsWithout(const volume::SemanticVolume& volume, std::span<const LabelSurface> sheets) {
+    std::vector<bool> isSheet(volume.labels.labels.size(), false);
+    for (const LabelSurface& sheet : sheets) isSheet[sheet.label] = true;
+    std::vector<std::uint32_t> labelOfScalar = volume.labels.labelOfScalar();
+    for (std::uint32_t& label : labelOfScalar)
+        if (label != kNoLabel && isSheet[label]) label = kNoLabel;
+    return labelOfScalar;
 }
 
 Result<void> writeWords(AtomicFile& file, std::initializer_list<std::uint64_t> words) {
@@ -184,13 +203,19 @@ Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::file
                            const GlbOptions& options) {
     for (const volume::SemanticVolume* v : {&volume, options.planesOf})
         if (v != nullptr) SVT_DO(checkDimension(volume.grid, v->columns));
-    SVT_TRY(surfaces, labelSurfaces(volume.columns, volume.labels.labelOfScalar(),
+    SheetSurfaces sheets;
+    if (options.faces != GlbFaces::Voxels && options.planesOf == nullptr)
+        sheets = sheetSurfaces(volume, options.faces == GlbFaces::Meshes);
+    SVT_TRY(surfaces, labelSurfaces(volume.columns, labelsWithout(volume, sheets.surfaces),
                                     {options.maxTriangles, options.threads, options.progress}));
-    if (surfaces->empty()) return Error(Code::NothingSelected, "the volume has no voxels, so there is no surface");
+    if (surfaces->empty() && sheets.surfaces.empty())
+        return Error(Code::NothingSelected, "the volume has no voxels, so there is no surface");
 
     Progress::tell(options.progress, "vertices", 0);
     SVT_TRY(positions,
             placeVertices(volume, *surfaces, options.faces, options.planesOf, options.threads, options.progress));
+    std::move(sheets.surfaces.begin(), sheets.surfaces.end(), std::back_inserter(*surfaces));
+    std::move(sheets.positions.begin(), sheets.positions.end(), std::back_inserter(*positions));
 
     GlbReport report;
     std::uint64_t positionBytes = 0, binBytes = 0;

@@ -280,6 +280,33 @@ TEST_F(GlbWriter, NodesAreTheSemanticTree) {
     EXPECT_NEAR(material["pbrMetallicRoughness"]["baseColorFactor"][0].get<double>(), 0.01, 1e-4);
     EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorFactor"][2], 1.0);
     EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorFactor"][3], 0.25);
+    // A room beside a wall is air.
+    EXPECT_EQ(glb.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][3], 0);
+}
+
+TEST_F(GlbWriter, PanesHaveTheOpacityOfTheirMaterialAndRoomsAloneAreVisible) {
+    volume::SemanticVolume volume = volume::test::sampleVolume();
+    for (volume::Label& label : volume.labels.labels)
+        if (label.className == "WallSurface") {
+            label.className = "WindowPhase";
+            label.opacity = 0.99f;
+            label.attributes.push_back({"transparency", 0.7, ""});
+        }
+    const auto alphaOf = [](const Glb& glb, std::string_view name) {
+        for (const Json& material : glb.json["materials"])
+            if (material["name"] == name) return material["pbrMetallicRoughness"]["baseColorFactor"][3].get<double>();
+        return -1.0;
+    };
+    const Glb glb = written(volume);
+    const auto& labels = volume.labels.labels;
+    const auto pane = std::find_if(labels.begin(), labels.end(),
+                                   [](const volume::Label& label) { return label.className == "WindowPhase"; });
+    ASSERT_NE(pane, labels.end());
+    EXPECT_NEAR(alphaOf(glb, pane->name.empty() ? pane->id : pane->name), 0.3, 1e-4);
+    for (volume::Label& label : volume.labels.labels)
+        if (label.className == "WindowPhase") label.className = "BuildingRoom";
+    const Glb rooms = written(volume);
+    EXPECT_GT(alphaOf(rooms, "Küche"), 0);
 }
 
 // World position of a voxel: through the root's matrix, back to z up, plus the origin.
@@ -299,6 +326,41 @@ TEST_F(GlbWriter, CoordinatesLeadBackToTheWorld) {
     const Vec3d world{origin[0] + turned.x, origin[1] - turned.z, origin[2] + turned.y};
     EXPECT_LT(length(world - volume.grid.worldFromIndex({3, 2, 5})), 1e-6);
     EXPECT_EQ(glb.indices(1).size(), 36u);
+}
+
+// A sheet that rises from 1 to 2 m, and a box: the sheet has the triangles of the model, the box those of its voxels.
+TEST_F(GlbWriter, SheetsAreTheTrianglesOfTheModel) {
+    SemanticVolume volume = volume::test::emptyVolume({40, 40, 40}, {0.1, 0.1, 0.1}, {0.05, 0.05, 0.05});
+    volume::Label& sheet = volume::test::addObject(volume, "ground", "");
+    sheet.filling = volume::Filling::Surface;
+    volume::test::addObject(volume, "box", "");
+    volume::test::paint(volume, [](int i, int j, int k) {
+        if (i >= 10 && i < 20 && j >= 10 && j < 20 && k < 5) return 2;
+        return k == 10 + i / 4 ? 1 : 0;
+    });
+    for (volume::Label& label : volume.labels.labels) label.voxels = 1000;
+    volume::test::addQuad(volume, 0, {Vec3d{0, 0, 1}, Vec3d{4, 0, 2}, Vec3d{4, 4, 2}, Vec3d{0, 4, 1}});
+    const auto trianglesOf = [&](GlbFaces faces) {
+        GlbOptions options;
+        options.faces = faces;
+        EXPECT_TRUE(writeGlb(volume, folder / "v.glb", options));
+        const Glb glb = Glb::read(folder / "v.glb");
+        std::map<std::string, std::size_t> triangles;
+        for (const Json& mesh : glb.json["meshes"])
+            triangles[mesh["name"]] = glb.indices(mesh["primitives"][0]["indices"]).size() / 3;
+        return std::pair(triangles, glb);
+    };
+    const auto& [triangles, glb] = trianglesOf(GlbFaces::Planes);
+    EXPECT_EQ(triangles, (std::map<std::string, std::size_t>{{"box", 12}, {"ground", 2}}));
+    const Json& primitive = glb.json["meshes"][1]["primitives"][0];
+    EXPECT_EQ(glb.json["meshes"][1]["name"], "ground");
+    EXPECT_EQ(glb.json["materials"][primitive["material"].get<std::size_t>()]["doubleSided"], true);
+    const Json& accessor = glb.json["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
+    const Vec3d corner = volume.grid.origin() - volume.grid.worldFromIndex({-0.5, -0.5, -0.5});
+    EXPECT_NEAR(accessor["min"][2].get<double>(), 1 + corner.z, 1e-5);
+    EXPECT_NEAR(accessor["max"][2].get<double>(), 2 + corner.z, 1e-5);
+    EXPECT_NEAR(accessor["max"][0].get<double>(), 4 + corner.x, 1e-5);
+    EXPECT_GT(trianglesOf(GlbFaces::Voxels).first["ground"], 100u);
 }
 
 // A slab under a slope: its oblique faces become flat and have the area of the slope; stairs have that of two sides.

@@ -52,7 +52,7 @@ Result<std::vector<Positions>> placeVertices(const volume::SemanticVolume& volum
     const std::vector<std::uint32_t> labelOfScalar = source.labels.labelOfScalar();
     volume::BrickVolume bricks;
     std::optional<SlopeVertices> slopes;
-    if (faces == GlbFaces::Planes) {
+    if (faces != GlbFaces::Voxels && !surfaces.empty()) {
         SVT_TRY(made, volume::BrickVolume::fromColumns(source.columns, {.planes = source.planes, .threads = threads}));
         bricks = std::move(*made);
         slopes.emplace(bricks, labelOfScalar);

@@ -13,6 +13,7 @@
 #include <svt/core/text.hpp>
 #include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/hulls/label_hulls.hpp>
+#include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/volume_formats.hpp>
 #include <svt/writers/x3d/texture_files.hpp>
 
@@ -48,7 +49,7 @@ Result<void> writeMaterials(const LabelHulls& hulls, const std::filesystem::path
     for (std::size_t s = 0; s < hulls.surfaces.size(); ++s) {
         const Label& label = hulls.label(s);
         text += fmt::format("newmtl label_{}\nKd {} {} {}\nd {}\n", hulls.surfaces[s].label, label.color.x,
-                            label.color.y, label.color.z, label.opacity);
+                            label.color.y, label.color.z, surfaceOpacity(label));
     }
     auto bytes = writeFileAtomically(path, text);
     return bytes ? Result<void>() : Result<void>(bytes.error());

@@ -217,8 +217,7 @@ private:
         const std::uint32_t label = labelOfScalar_[volume_.columns.scalarAt(sample.x, sample.y, sample.z)];
         if (label == kNoLabel || label == label_) return false;
         const std::string& className = volume_.labels.labels[label].className;
-        return !model::isSpace(className) && !model::isFilling(className) &&
-               model::classRank(className) != model::ClassRank::Furniture;
+        return !model::isSpace(className) && model::classRank(className) > model::ClassRank::Filling;
     }
 
     const volume::SemanticVolume& volume_;

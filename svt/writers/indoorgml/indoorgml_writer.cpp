@@ -17,7 +17,6 @@ namespace svt::writers {
 namespace {
 
 using indoor::Boundary;
-using indoor::Cell;
 using indoor::CellPlan;
 using indoor::CellShape;
 using volume::Label;
@@ -38,7 +37,7 @@ std::string uriText(std::string_view text) {
 class DocumentWriter {
 public:
     DocumentWriter(const volume::SemanticVolume& volume, const CellPlan& plan) : volume_(volume), plan_(plan) {
-        for (const Cell& cell : plan.cells) ids_.insert(cell.id);
+        for (const indoor::Cell& cell : plan.cells) ids_.insert(cell.id);
         // The ids of cells are those of the model, all others keep clear of them.
         while (isTaken(prefix_)) prefix_ += '_';
     }
@@ -92,7 +91,7 @@ private:
         out_ += fmt::format(" gml:id=\"{}\">\n", name("building"));
         if (!volume_.modelName.empty()) text("gml:name", volume_.modelName);
         Box3d box;
-        for (const Cell& cell : plan_.cells)
+        for (const indoor::Cell& cell : plan_.cells)
             for (const Vec3d& p : cell.body.shell.points) box.add(p);
         // A projection to which the model was brought stands before the system that it came from.
         const std::string crs = volume_.crsName.substr(0, volume_.crsName.find(" ("));
@@ -132,7 +131,7 @@ private:
     }
 
     void writeCell(std::size_t number) {
-        const Cell& cell = plan_.cells[number];
+        const indoor::Cell& cell = plan_.cells[number];
         const Label& label = volume_.labels.labels[cell.label];
         const bool isNavigable = cell.kind != "CellSpace";
         const std::string element = (isNavigable ? "navi:" : "core:") + std::string(cell.kind);
@@ -160,8 +159,8 @@ private:
         for (const std::string_view property : {"class", "function", "usage"}) {
             if (!isNavigable) break;
             std::string value = "unknown";
-            for (const Attribute& attribute : label.attributes)
-                if (attribute.name == property) value = toText(attribute.value);
+            for (const AttributeList& list : attributeLists(label.attributes))
+                if (list.name == property) value = toText(list);
             text(fmt::format("navi:{}", property), value);
         }
         out_ += fmt::format("</{}>\n</core:cellSpaceMember>\n", element);
@@ -206,7 +205,7 @@ private:
     }
 
     void writeState(std::size_t number) {
-        const Cell& cell = plan_.cells[number];
+        const indoor::Cell& cell = plan_.cells[number];
         const std::string id = name("state", number + 1);
         out_ += fmt::format("<core:stateMember>\n<core:State gml:id=\"{}\">\n", id);
         if (const std::string& label = volume_.labels.labels[cell.label].name; !label.empty()) text("gml:name", label);

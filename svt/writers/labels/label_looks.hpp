@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <variant>
 
 namespace svt::writers {
 
@@ -29,6 +30,18 @@ namespace svt::writers {
 [[nodiscard]] inline Vec3f colorOf(const volume::LabelTable& labels, const volume::Label& label,
                                    volume::Scalar scalar) noexcept {
     return labels.phaseColors.empty() || label.count == 1 ? label.color : labels.phaseColors[scalar];
+}
+
+/// The opacity of a surface of a label, for formats without volumes: that of the model's material for glass, otherwise
+/// the share of light that one metre stops.
+[[nodiscard]] inline float surfaceOpacity(const volume::Label& label) noexcept {
+    // A style that makes the label opaque or hides it wins.
+    if (label.opacity <= 0 || label.opacity >= 1) return label.opacity;
+    for (const Attribute& attribute : label.attributes)
+        if (const double* share = std::get_if<double>(&attribute.value);
+            share != nullptr && attribute.name == "transparency" && *share > 0 && *share <= 1)
+            return std::max(static_cast<float>(1 - *share), 0.05f);
+    return label.opacity;
 }
 
 /// A channel of a colour, 0 to 1, as a byte.

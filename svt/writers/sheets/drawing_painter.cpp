@@ -14,18 +14,18 @@ namespace {
 using drawing::PlanePoint;
 using render::Hatch;
 
-constexpr double kBold = 0.5, kThin = 0.13, kBeyond = 0.18, kTick = 0.35,
-                 kLeaf = 0.25;  // millimetres: widths of ISO 128-2
+constexpr double kTick = 0.35;  // millimetres
 
 class DrawingPainter {
 public:
     DrawingPainter(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                   const DrawingPlace& place, SheetCanvas& canvas, const RoomNotes& notes)
+                   const DrawingPlace& place, SheetCanvas& canvas, const PaintOptions& options)
         : drawing_(drawing),
           volume_(volume),
           place_(place),
           canvas_(canvas),
-          notes_(notes),
+          options_(options),
+          widths_(options.widths),
           style_(drawing, volume, place.millimetres) {}
 
     void paint() {
@@ -34,8 +34,11 @@ public:
             addBeyond(kind);
         inLayer("Outlines", [&] { addBorders(); });
         if (!drawing_.doors.empty()) inLayer("Doors", [&] { addDoors(); });
-        inLayer("Names", [&] { addNames(); });
-        if (!drawing_.dimensions.empty()) inLayer("Dimensions", [&] { addDimensions(); });
+        if (options_.marks == nullptr)
+            inLayer("Names", [&] { addNames(); });
+        else
+            for (const MarkShapes& marks : *options_.marks) inLayer(marks.layer, [&] { addMarks(marks); });
+        if (hasDimensions(drawing_)) inLayer("Dimensions", [&] { addDimensions(); });
     }
 
 private:
@@ -81,7 +84,7 @@ private:
         const LineType type = kind == drawing::BeyondKind::Visible  ? LineType::Continuous
                               : kind == drawing::BeyondKind::Hidden ? LineType::Dashed
                                                                     : LineType::LongDashDoubleDots;
-        inLayer(fmt::format("Beyond: {}", beyondName(kind)), [&] { canvas_.stroke(paths, {kBeyond, type}); });
+        inLayer(fmt::format("Beyond: {}", beyondName(kind)), [&] { canvas_.stroke(paths, {widths_.beyond, type}); });
     }
 
     void addBorders() {
@@ -92,16 +95,16 @@ private:
                 if (bold == style_.isBoldBetween(border.left, border.right))
                     paths.push_back(pathOf(border.points, false));
             }
-            canvas_.stroke(paths, {bold ? kBold : kThin});
+            canvas_.stroke(paths, {bold ? widths_.bold : widths_.thin});
         }
         std::vector<PaperPath> bold, thin, dashed;
         for (const drawing::SectionLine& line : drawing_.lines) {
             const bool isVirtual = volume_.labels.labels[line.label].className == "ClosureSurface";
             (isVirtual ? dashed : style_.isBold(line.label) ? bold : thin).push_back(pathOf(line.points, false));
         }
-        canvas_.stroke(dashed, {kThin, LineType::Dashed});
-        canvas_.stroke(thin, {kThin});
-        canvas_.stroke(bold, {kBold});
+        canvas_.stroke(dashed, {widths_.thin, LineType::Dashed});
+        canvas_.stroke(thin, {widths_.thin});
+        canvas_.stroke(bold, {widths_.bold});
     }
 
     void addDoors() {
@@ -110,8 +113,8 @@ private:
             for (const auto& line : door.lines) leaves.push_back(pathOf(line, false));
             for (const auto& arc : door.arcs) arcs.push_back(pathOf(drawing::pointsOf(arc), false));
         }
-        canvas_.stroke(leaves, {kLeaf});
-        canvas_.stroke(arcs, {kThin});
+        canvas_.stroke(leaves, {widths_.leaf});
+        canvas_.stroke(arcs, {widths_.thin});
     }
 
     void addNames() {
@@ -119,10 +122,10 @@ private:
             if (!style_.isSpace(component.label) || component.polygons.empty()) continue;
             const std::string name = shortened(shownName(volume_.labels.labels[component.label]), 2.5, 40);
             std::vector<std::string> lines{name};
-            if (isPlan(drawing_, volume_.grid)) lines.push_back(fmt::format("{:.2f} m\u00B2", component.area));
-            const auto note = notes_.find(component.label);
-            if (note != notes_.end()) lines.push_back(note->second);
-            if (addStamp(component, lines) || note == notes_.end()) continue;
+            if (isPlan(drawing_, volume_.grid)) lines.push_back(fmt::format("{:.2f} m\u00B2", component.stampArea()));
+            const auto note = options_.notes.find(component.label);
+            if (note != options_.notes.end()) lines.push_back(note->second);
+            if (addStamp(component, lines) || note == options_.notes.end()) continue;
             lines.pop_back();
             addStamp(component, lines);
         }
@@ -145,38 +148,65 @@ private:
         return true;
     }
 
-    void addDimensions() {
-        const DimensionMarks placed = placeDimensions(drawing_, drawnBox(drawing_), place_.millimetres);
-        const auto at = [&](PlanePoint p) {
-            return place_.onPaper({p.u / place_.millimetres, p.v / place_.millimetres});
+    // From millimetres on paper from the drawing's zero.
+    [[nodiscard]] PaperPoint ofMark(PlanePoint p) const {
+        return place_.onPaper({p.u / place_.millimetres, p.v / place_.millimetres});
+    }
+
+    void addMarks(const MarkShapes& marks) {
+        const auto pathsOf = [&](const std::vector<MarkPath>& from) {
+            std::vector<PaperPath> paths;
+            for (const MarkPath& path : from) {
+                paths.emplace_back();
+                for (const PlanePoint p : path) paths.back().push_back(ofMark(p));
+            }
+            return paths;
         };
+        // One by one: the masks of two marks may overlap.
+        for (const PaperPath& mask : pathsOf(marks.masks)) canvas_.fill({mask}, "#ffffff");
+        for (const PaperPath& path : pathsOf(marks.filled)) canvas_.fill({path}, "#000000");
+        if (!marks.thin.empty()) canvas_.stroke(pathsOf(marks.thin), {widths_.thin});
+        if (!marks.axes.empty()) canvas_.stroke(pathsOf(marks.axes), {widths_.thin, LineType::LongDashDotted});
+        if (!marks.medium.empty()) canvas_.stroke(pathsOf(marks.medium), {widths_.leaf});
+        if (!marks.bold.empty()) canvas_.stroke(pathsOf(marks.bold), {widths_.bold});
+        for (const MarkText& text : marks.texts)
+            canvas_.text({ofMark(text.at), text.size, text.text, TextAnchor::Middle, false, text.isUpright});
+    }
+
+    void addDimensions() {
+        const DimensionMarks placed =
+            placeDimensions(drawing_, drawnBox(drawing_), place_.millimetres, options_.openings);
+        const auto at = [&](PlanePoint p) { return ofMark(p); };
         std::vector<PaperPath> thin, ticks;
         for (const DimensionMark& mark : placed.marks) {
             thin.push_back({at(mark.line.from), at(mark.line.to)});
             for (const MarkLine& foot : mark.feet) thin.push_back({at(foot.from), at(foot.to)});
             for (const MarkLine& tick : mark.ticks) ticks.push_back({at(tick.from), at(tick.to)});
         }
-        canvas_.stroke(thin, {kThin});
+        canvas_.stroke(thin, {widths_.thin});
         canvas_.stroke(ticks, {kTick});
-        for (const DimensionMark& mark : placed.marks)
-            if (!mark.text.text.empty())
-                canvas_.text(
-                    {at(mark.text.at), mark.text.size, mark.text.text, TextAnchor::Middle, false, mark.text.isUpright});
+        // Numbers of rooms and openings stand over the lines of the drawing.
+        const auto write = [&](const MarkText& text, bool hasHalo) {
+            canvas_.text({at(text.at), text.size, text.text, TextAnchor::Middle, hasHalo, text.isUpright});
+        };
+        for (const DimensionMark& mark : placed.marks) write(mark.text, mark.feet.empty());
+        for (const MarkText& text : placed.heights) write(text, true);
     }
 
     const drawing::SectionDrawing& drawing_;
     const volume::SemanticVolume& volume_;
     const DrawingPlace& place_;
     SheetCanvas& canvas_;
-    const RoomNotes& notes_;
+    const PaintOptions& options_;
+    const LineWidths widths_;
     DrawingStyle style_;
 };
 
 }  // namespace
 
 void paintDrawing(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                  const DrawingPlace& place, SheetCanvas& canvas, const RoomNotes& notes) {
-    DrawingPainter(drawing, volume, place, canvas, notes).paint();
+                  const DrawingPlace& place, SheetCanvas& canvas, const PaintOptions& options) {
+    DrawingPainter(drawing, volume, place, canvas, options).paint();
 }
 
 }  // namespace svt::writers

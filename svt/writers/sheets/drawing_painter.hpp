@@ -2,11 +2,13 @@
 /// \file
 /// Paints a section drawing onto a sheet: hatched parts, lines beyond, outlines, names of rooms.
 
+#include <svt/writers/sheets/mark_shapes.hpp>
 #include <svt/writers/sheets/sheet_canvas.hpp>
 
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace svt::writers {
 
@@ -24,8 +26,22 @@ struct DrawingPlace {
 /// A further line below the name and the area of a room, by label.
 using RoomNotes = std::map<std::uint32_t, std::string>;
 
-/// \param notes  a note is left out if it does not fit into its room
+/// Widths of lines of ISO 128-2, millimetres.
+struct LineWidths {
+    double bold = 0.5;     ///< outlines of cut parts
+    double leaf = 0.25;    ///< doors, and the medium lines of marks
+    double beyond = 0.18;  ///< lines beyond the cut
+    double thin = 0.13;    ///< other outlines, dimensions
+};
+
+struct PaintOptions {
+    RoomNotes notes{};                               ///< a note is left out if it does not fit into its room
+    const std::vector<MarkShapes>* marks = nullptr;  ///< instead of the names of rooms, one layer each
+    LineWidths widths{};
+    OpeningWords openings{};  ///< letters before the heights of openings
+};
+
 void paintDrawing(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                  const DrawingPlace& place, SheetCanvas& canvas, const RoomNotes& notes = {});
+                  const DrawingPlace& place, SheetCanvas& canvas, const PaintOptions& options = {});
 
 }  // namespace svt::writers

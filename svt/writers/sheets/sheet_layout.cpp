@@ -19,12 +19,15 @@ using drawing::PlanePoint;
 constexpr double kBeside = 14, kAbove = 12, kBelow = 22;
 constexpr double kScales[] = {100, 200, 500, 1000, 2000, 5000, 10000, 20000, 50000};  // ISO 5455
 
-Result<SheetPaper> paperOf(const std::string& name) {
+Result<SheetPaper> paperOf(const SheetOptions& options) {
+    constexpr double kLegend = 14;
+    const std::string& name = options.paper;
     constexpr std::array<std::pair<double, double>, 5> kSizes = {
         {{1189, 841}, {841, 594}, {594, 420}, {420, 297}, {297, 210}}};
     if (name.size() == 2 && lowerAscii(name[0]) == 'a' && name[1] >= '0' && name[1] <= '4') {
         const auto [width, height] = kSizes[static_cast<std::size_t>(name[1] - '0')];
-        return SheetPaper{"A" + name.substr(1), width, height, 20, 10, width - 10, height - 10};
+        const double legend = options.details != nullptr && name[1] == '4' ? kLegend : 0;
+        return SheetPaper{"A" + name.substr(1), width, height, 20, 10, width - 10, height - 10, legend};
     }
     return Error(Code::BadArgument, fmt::format("paper '{}': expected A4, A3, A2, A1 or A0", name));
 }
@@ -41,8 +44,7 @@ ViewMargins marginsOf(const DrawnView& view, const std::vector<drawing::Building
     const drawing::SectionDrawing& drawing = view.drawing;
     ViewMargins margins{dimensionReach(drawing, DimensionSide::Left), dimensionReach(drawing, DimensionSide::Right),
                         dimensionReach(drawing, DimensionSide::Above), dimensionReach(drawing, DimensionSide::Below)};
-    if (view.view.kind == drawing::ViewKind::Section)
-        margins.left = std::max(margins.left, levelNameWidth(levels) - LevelNames::kBeside);
+    if (view.view.kind == drawing::ViewKind::Section) margins.left += levelNameWidth(levels) - LevelNames::kBeside;
     return margins;
 }
 
@@ -110,7 +112,9 @@ private:
         return content_.groups[static_cast<std::size_t>(group)].scale;
     }
     [[nodiscard]] double areaWidth() const { return paper_.right - paper_.left; }
-    [[nodiscard]] double areaHeight() const { return paper_.bottom - SheetPaper::kTitleHeight - paper_.top; }
+    [[nodiscard]] double areaHeight() const {
+        return paper_.bottom - SheetPaper::kTitleHeight - paper_.legend - paper_.top;
+    }
     static double outerWidth(const ViewSize& size, double scale) {
         return size.width * 1000 / scale + 2 * kBeside + size.margins.left + size.margins.right;
     }
@@ -174,7 +178,7 @@ private:
 };
 
 Result<SheetLayout> layOutViews(const SheetContent& content, const SheetOptions& options) {
-    SVT_TRY(paper, paperOf(options.paper));
+    SVT_TRY(paper, paperOf(options));
     if (options.scale != 0 && !(options.scale >= 0.01 && options.scale <= 1e7))
         return Error(Code::BadArgument,
                      fmt::format("a scale of 1:{} is out of range; 1:0.01 to 1:10000000 are possible", options.scale));
@@ -198,7 +202,8 @@ Result<SheetLayout> layOutViews(const SheetContent& content, const SheetOptions&
     }
     if (maker.fits(options.scale)) return maker.make(options.scale);
     for (const char* name : {"A4", "A3", "A2", "A1", "A0"})
-        if (LayoutMaker(*paperOf(name), sizes, content).fits(options.scale))
+        if (SheetOptions other = options;
+            other.paper = name, LayoutMaker(*paperOf(other), sizes, content).fits(options.scale))
             return Error(Code::BadArgument, fmt::format("the views do not fit onto {} at 1:{}; {} is large enough",
                                                         paper->name, shortNumber(options.scale, 2), name));
     const auto* scale = std::find_if(std::begin(kScales), std::end(kScales),

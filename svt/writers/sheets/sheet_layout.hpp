@@ -18,6 +18,8 @@ struct SheetPaper {
     double left = 20, top = 10, right = 410, bottom = 287;  ///< of the frame
     /// The block is at the lower right; views are above the strip beside it.
     static constexpr double kTitleWidth = 180, kTitleHeight = 36;
+    double legend =
+        0;  ///< height of a strip for the legend above the block, on paper too narrow for it beside the block
 };
 
 /// Space for dimensions around a drawing, millimetres.

@@ -116,10 +116,11 @@ std::vector<SheetTable> makeAreaTables(const drawing::FloorAreas& areas,
                          {},
                          1};
         double area = 0, volume = 0;
+        const auto measured = [&](double value) { return value > 0 ? number(value) : std::string("\u2013"); };
         for (const drawing::RoomArea& room : areas.rooms) {
             rooms.rows.push_back({room.number, room.name, levelName(levels[room.level], datum, language),
-                                  std::string(drawing::roomUseName(room.use)), number(room.area), number(room.height),
-                                  number(room.volume)});
+                                  std::string(drawing::roomUseName(room.use)), measured(room.area), number(room.height),
+                                  measured(room.volume)});
             area += room.area;
             volume += room.volume;
         }

@@ -1,11 +1,14 @@
 #include <svt/writers/sheet_writer.hpp>
 
 #include <svt/core/rounding.hpp>
+#include <svt/drawing/building_crop.hpp>
 #include <svt/drawing/north.hpp>
 #include <svt/drawing/storey_floors.hpp>
 #include <svt/model/classes.hpp>
+#include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/sheets/pdf_canvas.hpp>
+#include <svt/writers/sheets/sheet_details.hpp>
 #include <svt/writers/sheets/sheet_layout.hpp>
 #include <svt/writers/sheets/sheet_texts.hpp>
 #include <svt/writers/sheets/svg_canvas.hpp>
@@ -26,9 +29,13 @@ using drawing::ViewKind;
 constexpr LineStyle kFrame{0.7}, kBox{0.35}, kFine{0.18};
 
 // Heights as architects write them: "+2.70", "±0.00".
-std::string heightText(double height, SheetLanguage language) {
+std::string heightText(double height, SheetLanguage language, drawing::DimensionUnit unit) {
     const double rounded = std::round(height * 100) / 100;
-    return (rounded > 0 ? "+" : rounded < 0 ? "\u2212" : "\u00B1") + numberText(std::abs(rounded), 2, language);
+    return (rounded > 0   ? "+"
+            : rounded < 0 ? "\u2212"
+                          : "\u00B1") +
+           (unit == drawing::DimensionUnit::FeetInches ? dimensionText(std::abs(height), unit)
+                                                       : numberText(std::abs(rounded), 2, language));
 }
 
 class SheetPainter {
@@ -45,10 +52,19 @@ public:
             for (const PlacedView& placed : sheet.views) {
                 const DrawnView& view = content_.views[placed.view];
                 const bool isFloorPlan = view.view.kind == ViewKind::Plan;
-                paintDrawing(view.drawing, volume_, placed.place, canvas_,
-                             isFloorPlan ? finishedFloors(view) : RoomNotes());
+                PaintOptions paint{isFloorPlan ? finishedFloors(view) : RoomNotes(), nullptr, {}};
+                ViewMarks marks;
+                if (options_.details != nullptr) {
+                    marks = options_.details->marksOf(
+                        {content_, volume_, options_, view, placed, layout_, sheet, paint.notes});
+                    paint.marks = &marks.layers;
+                    paint.widths = options_.details->widthsOf(sheet.scale);
+                }
+                if (options_.language == SheetLanguage::German) paint.openings = {"BRH", "STH"};
+                paintDrawing(view.drawing, volume_, placed.place, canvas_, paint);
                 canvas_.beginLayer("Marks");
                 addCaption(placed, view, sheet.scale);
+                addBelow(placed, captionOf(view), marks.below);
                 if (view.view.kind == ViewKind::Plan)
                     addSectionMarks(placed, view);
                 else
@@ -73,6 +89,11 @@ private:
     [[nodiscard]] const std::string& modelName() const noexcept {
         return options_.title.empty() ? shownName(volume_) : options_.title;
     }
+    [[nodiscard]] std::string heightMark(double height) const {
+        return heightText(height, options_.language,
+                          content_.views.empty() ? drawing::DimensionUnit::MetresCentimetres
+                                                 : content_.views.front().drawing.dimensionUnit);
+    }
     [[nodiscard]] double datum() const noexcept { return drawing::zeroLevel(content_.levels); }
 
     [[nodiscard]] std::string captionOf(const DrawnView& view) const {
@@ -81,7 +102,7 @@ private:
             case ViewKind::Elevation: return elevationText(view.view.name, options_.language);
             case ViewKind::Plan: break;
         }
-        const std::string height = heightText(view.view.floor - datum(), options_.language);
+        const std::string height = heightMark(view.view.floor - datum());
         if (content_.levels.empty()) return planeText(view.drawing, volume_);
         return fmt::format("{}{}{}, {} {}", word(SheetWord::Plan), view.view.name.empty() ? "" : " ", view.view.name,
                            word(SheetWord::Level), height);
@@ -111,6 +132,17 @@ private:
         const double x = placed.place.corner.x - placed.margins.left, y = placed.place.corner.y + placed.margins.below;
         canvas_.text({{x, y + 14}, 3.5, captionOf(view)});
         canvas_.text({{x, y + 18.5}, 2.5, fmt::format("1:{}", shortNumber(scale, 2))});
+    }
+
+    // Small lines beside the caption.
+    void addBelow(const PlacedView& placed, const std::string& caption, const std::vector<std::string>& lines) {
+        constexpr double kText = 1.8, kPitch = 2.6;
+        const double x = placed.place.corner.x - placed.margins.left + widthOnPaper(caption, 3.5) + 6;
+        double y = placed.place.corner.y + placed.margins.below + 12.5;
+        for (const std::string& text : lines) {
+            canvas_.text({{x, y}, kText, text});
+            y += kPitch;
+        }
     }
 
     // A table with its headings; sums stand below a line.
@@ -176,8 +208,7 @@ private:
                              [](const auto* a, const auto* b) { return a->area > b->area; });
             if (at == main) rooms.resize(1);
             for (const auto* room : rooms)
-                notes[room->label] =
-                    "\u25BD " + heightText(static_cast<double>(at->first) * kHeight, options_.language);
+                notes[room->label] = "\u25BD " + heightMark(static_cast<double>(at->first) * kHeight);
         }
         return notes;
     }
@@ -188,7 +219,8 @@ private:
         const Vec3d up = volume_.grid.axes()[2];
         const drawing::PlaneAxes& axes = section.drawing.axes;
         if (std::abs(dot(axes.v, up)) < 0.999) return;
-        const double right = placed.place.corner.x - 1, width = levelNameWidth(content_.levels), left = right - width;
+        const double right = placed.place.corner.x - 1 - dimensionReach(section.drawing, drawing::DimensionSide::Left),
+                     width = levelNameWidth(content_.levels), left = right - width;
         double last = kInfinity;  // y of the name below
         for (const drawing::BuildingLevel& level : content_.levels) {
             if (level.name.empty()) continue;
@@ -238,7 +270,7 @@ private:
     void addHeights(const PlacedView& placed, const DrawnView& view) {
         if (content_.levels.empty()) return;
         const Vec3d up = volume_.grid.axes()[2], origin = volume_.grid.origin();
-        const double x = placed.place.corner.x + placed.width;
+        const double x = placed.place.corner.x + placed.width + placed.margins.right;
         const double perHeight = dot(view.drawing.axes.v, up);
         const double top = placed.place.low.v + placed.height / placed.place.millimetres;
         double last = 1e9;  // y of the mark below
@@ -247,7 +279,7 @@ private:
             last = y;
             line({x + 1, y}, {x + 13, y}, kFine);
             canvas_.stroke({{{x + 3, y}, {x + 2, y - 1.6}, {x + 4, y - 1.6}, {x + 3, y}}}, kFine);
-            canvas_.text({{x + 4.8, y - 0.8}, 2.2, heightText(height, options_.language)});
+            canvas_.text({{x + 4.8, y - 0.8}, 2.2, heightMark(height)});
         };
         for (const drawing::BuildingLevel& level : content_.levels) {
             const PlanePoint p = view.drawing.axes.planeFromWorld(origin + up * level.floor);
@@ -260,6 +292,20 @@ private:
     void addFrame(const Sheet& sheet, std::size_t number) {
         const SheetPaper& paper = layout_.paper;
         box(paper.left, paper.top, paper.right, paper.bottom, kFrame);
+        if (options_.details != nullptr)
+            options_.details->paintBlock(
+                {content_, volume_, options_, layout_, sheet, number, titleOf(sheet), sourceText()}, canvas_);
+        else
+            addBlock(sheet, number);
+        if (sheet.views.empty()) return;
+        addScaleBar(paper.left + 8, paper.bottom - 10, sheet.scale);
+        if (!content_.levels.empty()) canvas_.text({{paper.left + 8, paper.bottom - 22}, 2.2, datumText()});
+        if (content_.views[sheet.views.front().view].view.kind == ViewKind::Plan)
+            addNorth(sheet, {paper.right - SheetPaper::kTitleWidth - 18, paper.bottom - 18});
+    }
+
+    void addBlock(const Sheet& sheet, std::size_t number) {
+        const SheetPaper& paper = layout_.paper;
         const double left = paper.right - SheetPaper::kTitleWidth, top = paper.bottom - SheetPaper::kTitleHeight;
         const double column = paper.right - 45, middle = top + 14, lower = top + 25;
         line({left, paper.bottom}, {left, top}, kBox);
@@ -281,11 +327,6 @@ private:
         field(column, middle, SheetWord::Sheet,
               fmt::format("{} {} {}", number + 1, word(SheetWord::SheetOf), layout_.sheets.size()), 3.5, 41);
         field(column, lower, SheetWord::Paper, paper.name, 2.5, 41);
-        if (sheet.views.empty()) return;
-        addScaleBar(paper.left + 8, paper.bottom - 10, sheet.scale);
-        if (!content_.levels.empty()) canvas_.text({{paper.left + 8, paper.bottom - 22}, 2.2, datumText()});
-        if (content_.views[sheet.views.front().view].view.kind == ViewKind::Plan)
-            addNorth(sheet, {left - 18, paper.bottom - 18});
     }
 
     [[nodiscard]] std::string sourceText() const {
@@ -299,8 +340,8 @@ private:
         const std::string& name = (ground == content_.levels.end() ? content_.levels.begin() : ground)->name;
         const double height = dot(volume_.grid.origin(), volume_.grid.axes()[2]) + datum();
         return fmt::format("{} {}: {} = {} m{}", word(SheetWord::HeightsAbove),
-                           name.empty() ? word(SheetWord::GroundFloor) : std::string_view(name),
-                           heightText(0, options_.language), numberText(height, 2, options_.language),
+                           name.empty() ? word(SheetWord::GroundFloor) : std::string_view(name), heightMark(0),
+                           numberText(height, 2, options_.language),
                            volume_.crsName.empty() ? std::string_view() : word(SheetWord::InModelHeights));
     }
 
@@ -380,21 +421,30 @@ private:
     std::vector<drawing::LabelExtent> extents_;  // for finishedFloors()
 };
 
+// Terrain and vegetation around a building do not decide the scale of its sheets.
+SheetContent croppedContent(const SheetContent& content, const volume::SemanticVolume& volume) {
+    SheetContent cropped = content;
+    for (DrawnView& view : cropped.views) view.drawing = drawing::croppedToBuilding(view.drawing, volume);
+    return cropped;
+}
+
 }  // namespace
 
 Result<std::vector<std::string>> makeSvgSheets(const SheetContent& content, const volume::SemanticVolume& volume,
                                                const SheetOptions& options) {
-    SVT_TRY(layout, layOutSheets(content, options));
+    const SheetContent cropped = croppedContent(content, volume);
+    SVT_TRY(layout, layOutSheets(cropped, options));
     SvgCanvas canvas;
-    SheetPainter(content, volume, *layout, options, canvas).paint();
+    SheetPainter(cropped, volume, *layout, options, canvas).paint();
     return canvas.takeDocuments();
 }
 
 Result<std::string> makePdfSheets(const SheetContent& content, const volume::SemanticVolume& volume,
                                   const SheetOptions& options) {
-    SVT_TRY(layout, layOutSheets(content, options));
+    const SheetContent cropped = croppedContent(content, volume);
+    SVT_TRY(layout, layOutSheets(cropped, options));
     SVT_TRY(canvas, makePdfCanvas(shownName(volume)));
-    SheetPainter(content, volume, *layout, options, **canvas).paint();
+    SheetPainter(cropped, volume, *layout, options, **canvas).paint();
     return (*canvas)->finish();
 }
 

@@ -12,7 +12,9 @@ namespace svt::writers {
 [[nodiscard]] inline nlohmann::ordered_json cellJson(const Cell& cell) {
     return std::visit(
         [](const auto& value) -> nlohmann::ordered_json {
-            if constexpr (std::is_constructible_v<nlohmann::ordered_json, decltype(value)>)
+            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, JsonArray>)
+                return nlohmann::ordered_json::parse(value.text, nullptr, false);
+            else if constexpr (std::is_constructible_v<nlohmann::ordered_json, decltype(value)>)
                 return value;
             else
                 return nullptr;

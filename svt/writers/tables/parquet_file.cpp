@@ -20,7 +20,7 @@ CellType typeOf(std::span<const Row> rows, std::size_t column) {
     for (const Row& row : rows) {
         const auto& value = row[column].value;
         hasText = hasText || std::holds_alternative<std::string>(value) ||
-                  std::holds_alternative<std::vector<std::string>>(value);
+                  std::holds_alternative<std::vector<std::string>>(value) || std::holds_alternative<JsonArray>(value);
         hasWhole = hasWhole || std::holds_alternative<std::int64_t>(value);
         hasReal = hasReal || std::holds_alternative<double>(value);
         hasSmall = hasSmall || std::holds_alternative<float>(value);

@@ -13,6 +13,7 @@ struct TextOfValue {
     std::string operator()(std::monostate) const { return {}; }
     std::string operator()(const Blob&) const { return {}; }
     std::string operator()(const std::string& text) const { return text; }
+    std::string operator()(const JsonArray& array) const { return array.text; }
     std::string operator()(const std::vector<std::string>& texts) const {
         return fmt::format("{}", fmt::join(texts, " "));
     }
@@ -91,8 +92,11 @@ std::string csvLine(std::span<const Cell> cells, CsvForm form) {
     std::string line;
     for (std::size_t c = 0; c < cells.size(); ++c) {
         if (c > 0) line += ',';
-        const bool isReal = std::holds_alternative<double>(cells[c].value);
-        const std::string text = isReal && !isFile ? cellJson(cells[c]).dump() : cellText(cells[c]);
+        const auto* real = std::get_if<double>(&cells[c].value);
+        // Twelve digits: a sum of 129.98706249999998 is 129.9870625.
+        const std::string text = real == nullptr ? cellText(cells[c])
+                                 : isFile        ? fmt::format("{:.12g}", *real)
+                                                 : cellJson(cells[c]).dump();
         if (text.find_first_of(isFile ? ",\"\r\n" : ",;\"\r\n") == std::string::npos) {
             line += text;
             continue;

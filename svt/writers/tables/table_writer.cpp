@@ -2,7 +2,7 @@
 /// Writes the objects of a volume, and their contacts, as tables: CSV or Parquet for spreadsheets, pandas and
 /// databases. Metres.
 
-#include <svt/analyze/extents.hpp>
+#include <svt/analyze/known_volumes.hpp>
 #include <svt/core/file.hpp>
 #include <svt/image/color_text.hpp>
 #include <svt/writers/table.hpp>
@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -34,15 +34,9 @@ std::map<std::string, std::string> attributesOf(const volume::LabelTable& labels
 /// A cell that is empty without text.
 Cell textCell(std::string_view text) { return text.empty() ? Cell() : Cell(text); }
 
-Cell attributeCell(const volume::Label& label, const std::string& name) {
-    const auto found = std::find_if(label.attributes.begin(), label.attributes.end(),
-                                    [&](const Attribute& attribute) { return attribute.name == name; });
-    if (found == label.attributes.end()) return {};
-    return found->value;
-}
-
 /// The cells of a label, in the order of kObjectColumns.
-Row cellsOf(const volume::SemanticVolume& volume, const analyze::FeatureMeasure& measure) {
+Row cellsOf(const volume::SemanticVolume& volume, const analyze::FeatureMeasure& measure,
+            const analyze::KnownVolume& volumeOf) {
     const auto& [number, own, total] = measure;
     const volume::Label& label = volume.labels.labels[number];
     const std::string_view parent =
@@ -65,19 +59,20 @@ Row cellsOf(const volume::SemanticVolume& volume, const analyze::FeatureMeasure&
               area(total, total.area),
               area(own, own.outsideArea),
               area(total, total.outsideArea)};
-    appendCorners(cells, analyze::worldBox(total.box, volume.grid));
+    appendCorners(cells, total.box);
     cells.insert(cells.end(), {image::colorText(label.color), label.opacity, volume::fillingName(label.filling),
-                               own.voxels, own.volume.value_or(0), own.area, own.outsideArea});
+                               own.voxels, known(volumeOf.volume), own.area, own.outsideArea, known(volumeOf.bound),
+                               textCell(analyze::volumeSourceName(volumeOf.source))});
     return cells;
 }
 
-// The last four are deprecated names of own voxels, volume and areas, 0 where unknown.
+// Deprecated are voxels, surface and outside: own voxels and areas, 0 where unknown.
 constexpr const char* kObjectColumns[] = {
-    "label",      "id",           "class",       "name",         "parent",      "first",
-    "count",      "ownVoxels",    "totalVoxels", "ownVolume",    "totalVolume", "countedVolume",
-    "ownSurface", "totalSurface", "ownOutside",  "totalOutside", "minX",        "minY",
-    "minZ",       "maxX",         "maxY",        "maxZ",         "color",       "opacity",
-    "filling",    "voxels",       "volume",      "surface",      "outside"};
+    "label",      "id",           "class",       "name",        "parent",        "first",      "count",
+    "ownVoxels",  "totalVoxels",  "ownVolume",   "totalVolume", "countedVolume", "ownSurface", "totalSurface",
+    "ownOutside", "totalOutside", "minX",        "minY",        "minZ",          "maxX",       "maxY",
+    "maxZ",       "color",        "opacity",     "filling",     "voxels",        "volume",     "surface",
+    "outside",    "volumeBound",  "volumeSource"};
 constexpr const char* kContactColumns[] = {"a",     "aClass", "aName",  "b",      "bClass",
                                            "bName", "area",   "facesX", "facesY", "facesZ"};
 
@@ -90,8 +85,9 @@ Table emptyTable(std::span<const char* const> names, const volume::SemanticVolum
 
 /// One row per label in table order. The first columns are number, id, class, name, parent's id and scalars. Own and
 /// total figures follow: voxels, volume (m3), surface and its part towards background (m2). The last columns are the box
-/// of the extent along world axes (m), colour, opacity and filling. Unknown volumes and areas are empty. Then follows each attribute of any label, named `attribute:NAME`, with its unit in brackets if all labels have the
-/// same unit.
+/// of the extent along world axes (m), colour, opacity and filling. Then the best known volume with its bound and source,
+/// see analyze::KnownVolumes. Unknown volumes and areas are empty. Then follows each attribute of any label, named
+/// `attribute:NAME`, with its unit in brackets if all labels have the same unit. Several values are a JSON array.
 /// Cost: that of analyze::findContacts().
 Table makeObjectTable(const volume::SemanticVolume& volume, int threads) {
     const auto contacts = analyze::findContacts(volume.columns, volume.grid, volume.labels, threads);
@@ -99,12 +95,19 @@ Table makeObjectTable(const volume::SemanticVolume& volume, int threads) {
     std::vector<std::uint32_t> all(own.size());
     std::iota(all.begin(), all.end(), 0U);
     Table table = emptyTable(kObjectColumns, volume);
-    for (const auto& measure : analyze::measureFeatures(analyze::Extents(volume.labels), all, own, contacts))
-        table.rows.push_back(cellsOf(volume, measure));
+    const analyze::Extents extents(volume.labels);
+    const analyze::KnownVolumes volumes(volume.labels, volume.grid, extents);
+    for (const auto& measure : analyze::measureFeatures(extents, all, own, contacts))
+        table.rows.push_back(cellsOf(volume, measure, volumes.of(measure.label)));
+    std::map<std::string, std::size_t, std::less<>> placeOf;
     for (const auto& [name, unit] : attributesOf(volume.labels)) {
+        placeOf[name] = table.columns.size();
         table.columns.push_back({unit.empty() ? "attribute:" + name : fmt::format("attribute:{} [{}]", name, unit)});
-        for (std::size_t l = 0; l < table.rows.size(); ++l)
-            table.rows[l].push_back(attributeCell(volume.labels.labels[l], name));
+    }
+    for (std::size_t l = 0; l < table.rows.size(); ++l) {
+        table.rows[l].resize(table.columns.size());
+        for (const AttributeList& list : attributeLists(volume.labels.labels[l].attributes))
+            table.rows[l][placeOf.find(list.name)->second] = list;
     }
     return table;
 }

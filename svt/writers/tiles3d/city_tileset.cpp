@@ -1,5 +1,6 @@
 #include <svt/writers/city_tileset.hpp>
 
+#include <svt/analyze/known_volumes.hpp>
 #include <svt/analyze/label_measures.hpp>
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/gltf/label_surface.hpp>
@@ -77,7 +78,7 @@ nlohmann::ordered_json tableOf(const std::vector<Building>& buildings, GltfBuffe
     table.strings("id", "id of the building in the model; of coarse content the classes that stand there", ids);
     table.strings("name", "name of the building, may be empty", names);
     table.strings("class", "class of CityGML", classes);
-    table.numbers("volume", "cubic metres", volumes);
+    table.knownNumbers("volume", "cubic metres", volumes);
     table.numbers("height", "metres from the lowest to the highest voxel", heights);
     table.numbers("lowest", "metres above datum", lowest);
     table.strings("attributes", "attributes of the building as JSON", attributes);
@@ -141,8 +142,7 @@ private:
         for (std::size_t s = 0; s < surfaces->size(); ++s) {
             const LabelSurface& surface = (*surfaces)[s];
             std::vector<Vec3d> places;
-            Building building{&labels[surface.label], analyze::solidVolume(volume.labels, surface.label), INFINITY,
-                              -INFINITY};
+            Building building{&labels[surface.label], volumeOf(volume, surface.label), INFINITY, -INFINITY};
             for (const Vec3f position : (*positions)[s]) {
                 const Vec3d world = low + toDouble(position);
                 building.lowest = std::min(building.lowest, world.z);
@@ -159,6 +159,17 @@ private:
             content.buildings.push_back(building);
         }
         return {};
+    }
+
+    // m3; 0: unknown. Open shells have no volume of their own at detail 0.
+    static double volumeOf(const volume::SemanticVolume& volume, std::uint32_t label) {
+        const auto& labels = volume.labels.labels;
+        const bool isCounted =
+            std::any_of(labels.begin() + label, labels.begin() + labels[label].subtreeEnd,
+                        [](const auto& part) { return part.filling == volume::Filling::Winding && part.volume == 0; });
+        if (!isCounted) return analyze::solidVolume(volume.labels, label);
+        const analyze::Extents extents(volume.labels);
+        return analyze::KnownVolumes(volume.labels, volume.grid, extents).of(label).volume.value_or(0);
     }
 
     [[nodiscard]] std::string document() const {

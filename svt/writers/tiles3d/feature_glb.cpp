@@ -23,7 +23,7 @@ constexpr float kOpaque = 0.999f;
 
 void appendSurface(const LabelHulls& hulls, std::size_t surface, float feature, FlatMesh& mesh) {
     const volume::Label& label = hulls.label(surface);
-    const VertexColor color = linearColor(label.color, label.opacity);
+    const VertexColor color = linearColor(label.color, surfaceOpacity(label));
     std::vector<Vec3d> places;
     for (std::size_t v = 0; v < hulls.positions[surface].size(); ++v) places.push_back(hulls.fromCorner(surface, v));
     mesh.append(hulls.surfaces[surface], places, feature, [&](Vec3d) { return color; });
@@ -143,7 +143,7 @@ GltfJson metadataOf(const LabelHulls& hulls, std::size_t begin, std::size_t end,
     table.strings("class", "class of CityGML", classes);
     table.strings("parent", "id of the feature that it is a part of", parents);
     table.strings("storey", "name of its storey, may be empty", storeys);
-    table.numbers("volume", "cubic metres", volumes);
+    table.knownNumbers("volume", "cubic metres", volumes);
     table.numbers("firstScalar", "first value of its voxels in the volume", firsts);
     table.numbers("scalarCount", "number of values of its voxels", counts);
     table.strings("attributes", "attributes of the feature as JSON", attributes);
@@ -274,7 +274,8 @@ Result<std::string> makeFeatureGlb(const LabelHulls& hulls, std::size_t begin, s
                                    const FeatureTexts& texts) {
     FlatMesh opaque, clear;
     for (std::size_t s = begin; s < end; ++s)
-        appendSurface(hulls, s, static_cast<float>(s - begin), hulls.label(s).opacity >= kOpaque ? opaque : clear);
+        appendSurface(hulls, s, static_cast<float>(s - begin),
+                      surfaceOpacity(hulls.label(s)) >= kOpaque ? opaque : clear);
     return makeMeshGlb(
         opaque, clear, end - begin, [&](GltfBuffer& buffer) { return metadataOf(hulls, begin, end, texts, buffer); },
         {}, VertexStorage::Full);

@@ -44,7 +44,7 @@ Result<std::unique_ptr<GlobeLattice>> GlobeLattice::create(const std::string& cr
     lattice->frame_ = *frame;
     lattice->inverse_ = inverseOf(frame->axes);
     lattice->reference_ = reference;
-    lattice->lift_ = options.tileset.lift;
+    lattice->lift_ = options.tileset.lift.value_or(0);
     lattice->epsg_ = options.tileset.place ? 0 : static_cast<int>(crs::epsgCodeOf(crsName));
     return lattice;
 }

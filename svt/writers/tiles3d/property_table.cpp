@@ -16,7 +16,13 @@ std::size_t GltfBuffer::add(std::span<const std::byte> bytes, int stride, int ta
 
 std::string attributesText(const volume::Label& label) {
     GltfBuffer::Json texts = GltfBuffer::Json::object();
-    for (const Attribute& attribute : label.attributes) texts[attribute.name] = toText(attribute.value);
+    for (const AttributeList& list : attributeLists(label.attributes)) {
+        GltfBuffer::Json& value = texts[std::string(list.name)];
+        if (list.isSingle())
+            value = toText(list.items.front().attribute->value);
+        else
+            value = GltfBuffer::Json::parse(toJsonText(list), nullptr, false);
+    }
     return texts.dump(-1, ' ', false, GltfBuffer::Json::error_handler_t::replace);
 }
 
@@ -46,6 +52,11 @@ void PropertyTable::column(const char* name, std::string_view description, const
 
 void PropertyTable::numbers(const char* name, std::string_view description, const std::vector<double>& values) {
     column(name, description, "FLOAT64", values);
+}
+void PropertyTable::knownNumbers(const char* name, std::string_view description, const std::vector<double>& values) {
+    numbers(name, description, values);
+    class_[name]["required"] = false;
+    class_[name]["noData"] = 0.0;
 }
 void PropertyTable::numbers(const char* name, std::string_view description, const std::vector<std::uint32_t>& values) {
     column(name, description, "UINT32", values);

@@ -34,7 +34,7 @@ private:
     std::string bytes_;
 };
 
-/// The attributes of a label as a JSON object of texts, for a column.
+/// The attributes of a label as a JSON object, for a column: single values as texts, several values as arrays.
 [[nodiscard]] std::string attributesText(const volume::Label& label);
 
 /// Columns of a table of one class.
@@ -47,6 +47,8 @@ public:
     void strings(const char* name, std::string_view description, const std::vector<std::string>& values);
     void numbers(const char* name, std::string_view description, const std::vector<double>& values);
     void numbers(const char* name, std::string_view description, const std::vector<std::uint32_t>& values);
+    /// Numbers of which 0 means that the value is unknown (`noData`).
+    void knownNumbers(const char* name, std::string_view description, const std::vector<double>& values);
 
     /// The extension: schema with the class `name`, and the table.
     [[nodiscard]] Json extension(const char* name, std::string_view description) const;

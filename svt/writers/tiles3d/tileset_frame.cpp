@@ -19,7 +19,7 @@ Result<crs::GlobeFrame> frameOfVolume(const volume::SemanticVolume& volume, Vec3
                 fmt::format("--place {},{},{}: a latitude from -90 to 90 degrees, a longitude from -360 to 360 "
                             "and a height in metres are expected, such as 49.1,8.44,110",
                             place.x, place.y, place.z));
-        return crs::frameAt({place.y, place.x, place.z + options.tileset.lift});
+        return crs::frameAt({place.y, place.x, place.z + options.tileset.lift.value_or(0)});
     }
     const auto epsg = static_cast<int>(epsgCodeOf(volume.crsName));
     if (epsg == 0)
@@ -31,7 +31,7 @@ Result<crs::GlobeFrame> frameOfVolume(const volume::SemanticVolume& volume, Vec3
                 : fmt::format("the CRS '{}' names no code of EPSG, so the place on the globe is not known; give "
                               "latitude, longitude and height of the lower corner by --place",
                               volume.crsName));
-    auto frame = crs::frameOf(epsg, corner + Vec3d{0, 0, options.tileset.lift});
+    auto frame = crs::frameOf(epsg, corner + Vec3d{0, 0, options.tileset.lift.value_or(0)});
     if (!frame)
         return Error(
             frame.error().code(),

@@ -87,7 +87,10 @@ record::Members<TilesetWriteOptions> membersOf(const TilesetWriteOptions*) noexc
         record::member<&All::lift>(
             "lift",
             "of a .3dtiles: metres added to heights, such as the height of the geoid where they are over the sea",
-            {.value = "M", .group = "Output", .option = "--lift"}),
+            {.value = "M",
+             .otherwise = "the height of the geoid, if the CRS names its heights and PROJ has the grid",
+             .group = "Output",
+             .option = "--lift"}),
         record::member<&All::hasVoxels>(
             "voxels", "of a .3dtiles: voxels by draft extensions, as Cesium has them for trial, not surfaces",
             {.group = "Output", .option = "--voxels"}),

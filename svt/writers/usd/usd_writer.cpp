@@ -3,7 +3,7 @@
 /// open.
 ///
 /// A prim `Xform` for each label with a hull in or below it, nested as the labels are, named by its id; `displayName`
-/// is its name, `svt:id`, `svt:class`, `svt:name` and `svt:volume` (m3) are attributes. Its hull is a `Mesh` below it,
+/// is its name, `svt:id`, `svt:class`, `svt:name` and `svt:volume` (m3, if known) are attributes. Its hull is a `Mesh` below it,
 /// `Hull`, of triangles that are closed, with `displayColor` (linear, as USD has colours) and `displayOpacity`, the
 /// fraction of light that a metre of it stops. Metres, z up. Points are metres from the grid's lower corner along its
 /// axes; the matrix of the root, in doubles, leads to world coordinates.
@@ -107,7 +107,8 @@ private:
         if (!label.name.empty()) append(" (\n    displayName = {}\n)", usdText(label.name));
         append("\n{{\ncustom string svt:id = {}\ncustom string svt:class = {}\n", usdText(label.id),
                usdText(label.className));
-        append("custom string svt:name = {}\ncustom double svt:volume = {}\n", usdText(label.name), volumes_[l]);
+        append("custom string svt:name = {}\n", usdText(label.name));
+        if (volumes_[l] > 0) append("custom double svt:volume = {}\n", volumes_[l]);
     }
 
     Result<void> writeMesh(std::size_t s) {
@@ -138,7 +139,8 @@ private:
         append("color3f[] primvars:displayColor = [({}, {}, {})] (\n    interpolation = \"constant\"\n)\n",
                roundedLinearChannel(label.color.x), roundedLinearChannel(label.color.y),
                roundedLinearChannel(label.color.z));
-        append("float[] primvars:displayOpacity = [{}] (\n    interpolation = \"constant\"\n)\n", label.opacity);
+        append("float[] primvars:displayOpacity = [{}] (\n    interpolation = \"constant\"\n)\n",
+               surfaceOpacity(label));
         append("uniform token orientation = \"rightHanded\"\nuniform token subdivisionScheme = \"none\"\n}}\n");
         return done;
     }

@@ -1,0 +1,235 @@
+#include <svt/writers/marks/plan_lines.hpp>
+
+#include <svt/core/text.hpp>
+#include <svt/writers/sheets/sheet_canvas.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace svt::writers {
+namespace {
+
+using drawing::PlanePoint;
+
+MarkPath circleAt(PlanePoint at, double radius) {
+    MarkPath path;
+    for (int n = 0; n <= 32; ++n) {
+        const double turn = 2 * std::numbers::pi * (n % 32) / 32;
+        path.push_back({at.u + radius * std::cos(turn), at.v + radius * std::sin(turn)});
+    }
+    return path;
+}
+
+PlanePoint between(PlanePoint a, PlanePoint b, double t) noexcept {
+    return {a.u + (b.u - a.u) * t, a.v + (b.v - a.v) * t};
+}
+
+class TravelMaker {
+public:
+    TravelMaker(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume, double millimetres)
+        : drawing_(drawing), up_(volume.grid.axes()[2]), millimetres_(millimetres) {}
+
+    // The line up to the cut, and whether the cut ends it.
+    [[nodiscard]] std::pair<MarkPath, bool> lineOf(const drawing::StairFlight& flight, double cut) const {
+        MarkPath line;
+        for (std::size_t n = 0; n < flight.treads.size(); ++n) {
+            const PlanePoint at = onPaper(flight.treads[n].center);
+            if (flight.treads[n].height <= cut) {
+                line.push_back(at);
+                continue;
+            }
+            if (n > 0) {
+                const double low = flight.treads[n - 1].height, high = flight.treads[n].height;
+                line.push_back(between(line.back(), at, (cut - low) / (high - low)));
+            }
+            return {line, true};
+        }
+        return {line, false};
+    }
+
+    // Two strokes with a kink across the end of a line.
+    [[nodiscard]] MarkPath breakLine(const drawing::StairFlight& flight, const MarkPath& line) const {
+        const PlanePoint end = line.back(), before = line[line.size() - 2];
+        const double size = std::hypot(end.u - before.u, end.v - before.v);
+        const PlanePoint along{(end.u - before.u) / size, (end.v - before.v) / size};
+        const double half = 0.55 * widthOf(flight) * millimetres_, kink = std::min(1.2, 0.3 * half);
+        const auto at = [&](double across, double ahead) {
+            const double skew = 0.5 * across + ahead;
+            return PlanePoint{end.u - along.v * across + along.u * skew, end.v + along.u * across + along.v * skew};
+        };
+        return {at(-half, 0),      at(-0.5 * kink, 0), at(-0.5 * kink, 1.5 * kink), at(0.5 * kink, -1.5 * kink),
+                at(0.5 * kink, 0), at(half, 0)};
+    }
+
+private:
+    [[nodiscard]] PlanePoint onPaper(Vec3d world) const noexcept {
+        const PlanePoint p = drawing_.axes.planeFromWorld(world);
+        return {p.u * millimetres_, p.v * millimetres_};
+    }
+    // The width of the usual tread across the line of travel, metres.
+    [[nodiscard]] static double widthOf(const drawing::StairFlight& flight) {
+        std::vector<double> areas;
+        for (const drawing::StairTread& tread : flight.treads) areas.push_back(tread.area);
+        std::sort(areas.begin(), areas.end());
+        return areas[areas.size() / 2] / std::max(flight.going, 0.1);
+    }
+
+    const drawing::SectionDrawing& drawing_;
+    Vec3d up_;
+    double millimetres_;
+};
+
+void addArrowHead(const MarkPath& line, MarkShapes& shapes) {
+    const PlanePoint tip = line.back();
+    PlanePoint from = line.front();
+    for (const PlanePoint p : line)
+        if (std::hypot(tip.u - p.u, tip.v - p.v) > 2) from = p;
+    const double size = std::hypot(tip.u - from.u, tip.v - from.v);
+    if (!(size > 0)) return;
+    const double u = (tip.u - from.u) / size, v = (tip.v - from.v) / size;
+    shapes.filled.push_back({tip,
+                             {tip.u - 2 * u - 0.6 * v, tip.v - 2 * v + 0.6 * u},
+                             {tip.u - 2 * u + 0.6 * v, tip.v - 2 * v - 0.6 * u},
+                             tip});
+}
+
+// A number of centimetres with at most one decimal.
+std::string centimetres(double metres, bool hasComma) {
+    std::string text = fmt::format("{:.1f}", metres * 100);
+    if (text.ends_with(".0")) text.resize(text.size() - 2);
+    if (hasComma) std::replace(text.begin(), text.end(), '.', ',');
+    return text;
+}
+
+// A text near the line, clear of borders if possible; it interrupts the lines of treads.
+void addTravelText(const MarkPath& line, const std::string& text, MarkShapes& shapes, FreeSpace& space) {
+    constexpr double kText = 1.8;
+    const double half = 0.5 * widthOnPaper(text, kText) + 0.4, high = 0.5 * kText + 0.4;
+    std::optional<PlanePoint> best;
+    double least = 1e300;
+    for (std::size_t n = 0; n < line.size(); ++n)
+        for (int turn = 0; turn < 12; ++turn)
+            for (double away = 0; away <= 12; away += 1.5) {
+                const double angle = 2 * std::numbers::pi * turn / 12;
+                const PlanePoint at{line[n].u + away * std::cos(angle), line[n].v + away * std::sin(angle)};
+                const FreeSpace::Hits hits = space.hitsOf({{at.u - half, at.v - high}, {at.u + half, at.v + high}});
+                const double cost = away + 10 * hits.lines + 50 * hits.borders + (hits.isTaken ? 500 : 0);
+                if (cost >= least) continue;
+                least = cost;
+                best = at;
+            }
+    if (!best) return;
+    const MarkBox box{{best->u - half, best->v - high}, {best->u + half, best->v + high}};
+    space.take(box);
+    shapes.masks.push_back({box.low, {box.high.u, box.low.v}, box.high, {box.low.u, box.high.v}, box.low});
+    shapes.texts.push_back({{best->u, best->v - 0.36 * kText}, kText, text, false});
+}
+
+// The ends of an axis as the reader writes them: "x y z, x y z".
+std::optional<std::pair<Vec3d, Vec3d>> axisEnds(const Attribute& attribute) {
+    const std::string* text = std::get_if<std::string>(&attribute.value);
+    if (text == nullptr || !attribute.name.starts_with("axis ")) return std::nullopt;
+    std::vector<double> numbers;
+    for (std::size_t at = 0; at < text->size();) {
+        const std::size_t end = std::min(text->find_first_of(" ,", at), text->size());
+        if (end > at) {
+            const auto number = parseNumber(std::string_view(*text).substr(at, end - at));
+            if (!number) return std::nullopt;
+            numbers.push_back(*number);
+        }
+        at = end + 1;
+    }
+    if (numbers.size() != 6) return std::nullopt;
+    return std::pair(Vec3d{numbers[0], numbers[1], numbers[2]}, Vec3d{numbers[3], numbers[4], numbers[5]});
+}
+
+// The part of a line within a rectangle.
+std::optional<std::pair<PlanePoint, PlanePoint>> clippedTo(PlanePoint from, PlanePoint to,
+                                                           const MarkBox& box) noexcept {
+    double begin = 0, end = 1;
+    const auto clip = [&](double start, double change, double low, double high) {
+        if (change == 0) return start >= low && start <= high;
+        const double a = (low - start) / change, b = (high - start) / change;
+        begin = std::max(begin, std::min(a, b));
+        end = std::min(end, std::max(a, b));
+        return begin < end;
+    };
+    if (!clip(from.u, to.u - from.u, box.low.u, box.high.u) || !clip(from.v, to.v - from.v, box.low.v, box.high.v))
+        return std::nullopt;
+    return std::pair(between(from, to, begin), between(from, to, end));
+}
+
+}  // namespace
+
+MarkShapes drawTravel(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
+                      std::span<const drawing::StairFlight> flights, const PlanHeights& heights, double millimetres,
+                      std::string_view risers, bool hasCommas, FreeSpace& space) {
+    constexpr double kOfLevel = 0.5;  // metres around a floor
+    MarkShapes shapes;
+    shapes.layer = "Stairs";
+    const TravelMaker maker(drawing, volume, millimetres);
+    for (const drawing::StairFlight& flight : flights) {
+        const double low = flight.treads.front().height, top = flight.treads.back().height;
+        const bool begins = low > heights.floor - kOfLevel && low < heights.cut;
+        const bool arrives = top > heights.floor - kOfLevel && top < heights.cut;
+        if (!begins && !arrives) continue;
+        const auto [line, isCut] = maker.lineOf(flight, heights.cut);
+        if (line.size() < 2) continue;
+        shapes.thin.push_back(line);
+        shapes.thin.push_back(circleAt(line.front(), 0.6));
+        addArrowHead(line, shapes);
+        if (isCut) shapes.thin.push_back(maker.breakLine(flight, line));
+        for (const MarkPath& path : {shapes.thin.back(), line}) space.add(path, Obstacle::Line);
+        const int count = flight.risersTo(begins ? heights.floorAbove : heights.floor);
+        addTravelText(line,
+                      fmt::format("{} {} {}/{}", count, risers, centimetres(flight.riser, hasCommas),
+                                  centimetres(flight.going, hasCommas)),
+                      shapes, space);
+    }
+    return shapes;
+}
+
+MarkShapes drawGrids(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume, double millimetres,
+                     const MarkBox& allowed, FreeSpace& space) {
+    constexpr double kRadius = 3.5, kText = 2.5;  // millimetres
+    MarkShapes shapes;
+    shapes.layer = "Grids";
+    const MarkBox inner{{allowed.low.u + 2 * kRadius, allowed.low.v + 2 * kRadius},
+                        {allowed.high.u - 2 * kRadius, allowed.high.v - 2 * kRadius}};
+    for (const volume::Label& label : volume.labels.labels) {
+        if (label.className != "Grid") continue;
+        for (const Attribute& attribute : label.attributes) {
+            const auto ends = axisEnds(attribute);
+            if (!ends) continue;
+            const auto onPaper = [&](Vec3d world) {
+                const PlanePoint p = drawing.axes.planeFromWorld(world);
+                return PlanePoint{p.u * millimetres, p.v * millimetres};
+            };
+            const auto axis = clippedTo(onPaper(ends->first), onPaper(ends->second), inner);
+            if (!axis) continue;
+            const auto [from, to] = *axis;
+            const double size = std::hypot(to.u - from.u, to.v - from.v);
+            if (!(size > 1)) continue;
+            shapes.axes.push_back({from, to});
+            const double u = (to.u - from.u) / size, v = (to.v - from.v) / size;
+            const std::string name = shortened(attribute.name.substr(5), kText, 2 * kRadius - 1);
+            for (const PlanePoint at : {PlanePoint{from.u - u * kRadius, from.v - v * kRadius},
+                                        PlanePoint{to.u + u * kRadius, to.v + v * kRadius}}) {
+                shapes.masks.push_back(circleAt(at, kRadius));
+                shapes.medium.push_back(circleAt(at, kRadius));
+                shapes.texts.push_back({{at.u, at.v - 0.36 * kText}, kText, name, false});
+                space.take({{at.u - kRadius, at.v - kRadius}, {at.u + kRadius, at.v + kRadius}});
+            }
+        }
+    }
+    return shapes;
+}
+
+}  // namespace svt::writers

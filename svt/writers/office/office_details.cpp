@@ -1,0 +1,195 @@
+#include <svt/drawing/stair_flights.hpp>
+#include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/marks/ground_line.hpp>
+#include <svt/writers/marks/opening_marks.hpp>
+#include <svt/writers/marks/plan_lines.hpp>
+#include <svt/writers/office/office_texts.hpp>
+#include <svt/writers/office/stamp_texts.hpp>
+#include <svt/writers/office/title_block.hpp>
+#include <svt/writers/office_sheets.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace svt::writers {
+namespace {
+
+using drawing::PlanePoint;
+using drawing::ViewKind;
+
+// The outer edges of a view on its sheet: drawing, dimensions, marks of sections and heights.
+struct PaperBox {
+    double left, top, right, bottom;
+};
+PaperBox outerOf(const PlacedView& placed) {
+    constexpr double kBeside = 13, kAbove = 11, kBelow = 9;  // millimetres, within the margins of the layout
+    const PaperPoint corner = placed.place.corner;
+    const ViewMargins& margins = placed.margins;
+    return {corner.x - margins.left - kBeside, corner.y - placed.height - margins.above - kAbove,
+            corner.x + placed.width + margins.right + kBeside, corner.y + margins.below + kBelow};
+}
+
+// A rectangle on the sheet, in the millimetres of marks.
+MarkBox marksBox(const PaperBox& box, const DrawingPlace& place) {
+    const auto at = [&](double x, double y) {
+        return PlanePoint{place.low.u * place.millimetres + x - place.corner.x,
+                          place.low.v * place.millimetres + place.corner.y - y};
+    };
+    return {at(box.left, box.bottom), at(box.right, box.top)};
+}
+
+constexpr double kCaption = 12;  // millimetres below the outer edge: title and scale of a view
+
+// The free room around a view: up to the frame, the title block and the other views with their titles.
+MarkBox allowedAround(const ViewContext& context) {
+    constexpr double kFromFrame = 3;
+    const SheetPaper& paper = context.layout.paper;
+    const PaperBox own = outerOf(context.placed);
+    PaperBox free{paper.left + kFromFrame, paper.top + kFromFrame, paper.right - kFromFrame,
+                  paper.bottom - SheetPaper::kTitleHeight - paper.legend - kFromFrame};
+    for (const PlacedView& placed : context.sheet.views) {
+        if (placed.view == context.placed.view) continue;
+        PaperBox other = outerOf(placed);
+        other.bottom += kCaption;
+        // The space between two views is divided.
+        if (other.left >= own.right)
+            free.right = std::min(free.right, 0.5 * (own.right + other.left));
+        else if (other.right <= own.left)
+            free.left = std::max(free.left, 0.5 * (own.left + other.right));
+        else if (other.top >= own.bottom)
+            free.bottom = std::min(free.bottom, std::max(own.bottom, other.top - kCaption));
+        else
+            free.top = std::max(free.top, std::min(own.top, other.bottom));
+    }
+    return marksBox(free, context.placed.place);
+}
+
+// The place of the title below a view.
+void takeCaption(const ViewContext& context, FreeSpace& space) {
+    constexpr double kWide = 130;
+    const PaperBox own = outerOf(context.placed);
+    space.take(marksBox({own.left, own.bottom, own.left + kWide, own.bottom + kCaption}, context.placed.place));
+}
+
+// The places of the marks of sections around a plan.
+void takeSectionMarks(const ViewContext& context, const MarkBox& allowed, FreeSpace& space) {
+    constexpr double kHalf = 6, kLong = 12;  // millimetres
+    const drawing::PlaneAxes& axes = context.view.drawing.axes;
+    const double mm = context.placed.place.millimetres;
+    for (const DrawnView& view : context.content.views) {
+        if (view.view.kind != ViewKind::Section) continue;
+        const PlanePoint at = axes.planeFromWorld(view.view.plane.point);
+        if (std::abs(dot(view.view.plane.normal, axes.u)) > 0.5) {
+            space.take({{at.u * mm - kHalf, allowed.low.v - kLong}, {at.u * mm + kHalf, allowed.low.v + kLong}});
+            space.take({{at.u * mm - kHalf, allowed.high.v - kLong}, {at.u * mm + kHalf, allowed.high.v + kLong}});
+        } else {
+            space.take({{allowed.low.u - kLong, at.v * mm - kHalf}, {allowed.low.u + kLong, at.v * mm + kHalf}});
+            space.take({{allowed.high.u - kLong, at.v * mm - kHalf}, {allowed.high.u + kLong, at.v * mm + kHalf}});
+        }
+    }
+}
+
+PlanHeights heightsOf(const ViewContext& context) {
+    const volume::Grid& grid = context.volume.grid;
+    PlanHeights heights{context.view.view.floor, dot(context.view.view.plane.point - grid.origin(), grid.axes()[2]),
+                        context.view.view.floor};
+    for (const drawing::BuildingLevel& level : context.content.levels)
+        if (level.floor > heights.cut) {
+            heights.floorAbove = level.floor;
+            break;
+        }
+    return heights;
+}
+
+// The rooms without a whole stamp as lines beside the caption.
+std::vector<std::string> listOf(const std::vector<RoomStamp>& stamps, const PlacedStamps& placed,
+                                const ViewContext& context) {
+    constexpr std::size_t kMostLines = 3;
+    constexpr double kText = 1.8, kWide = 110;  // millimetres
+    std::vector<std::size_t> missing = placed.withoutPlace;
+    missing.insert(missing.end(), placed.shortened.begin(), placed.shortened.end());
+    std::sort(missing.begin(), missing.end());
+    if (missing.empty()) return {};
+    const SheetLanguage language = context.options.language;
+    std::vector<std::string> lines{std::string(officeWord(OfficeWord::WithoutStamp, language))};
+    for (std::size_t n = 0; n < missing.size(); ++n) {
+        std::string entry = fmt::format("{}", fmt::join(stamps[missing[n]].lines, ", "));
+        if (n + 1 < missing.size()) entry += "; ";
+        if (widthOnPaper(lines.back() + entry, kText) > kWide && n > 0) {
+            if (lines.size() == kMostLines) {
+                lines.push_back(
+                    fmt::format(fmt::runtime(officeWord(OfficeWord::SeeTable, language)), missing.size() - n));
+                break;
+            }
+            lines.emplace_back();
+        }
+        lines.back() += entry;
+    }
+    return lines;
+}
+
+class OfficeDetails : public SheetDetails {
+public:
+    [[nodiscard]] ViewMarks marksOf(const ViewContext& context) const override {
+        ViewMarks marks;
+        const drawing::SectionDrawing& drawing = context.view.drawing;
+        const double mm = context.placed.place.millimetres;
+        FreeSpace space = freeSpaceOf(drawing, context.volume, mm);
+        const MarkBox allowed = allowedAround(context);
+        takeCaption(context, space);
+        if (context.view.view.kind == ViewKind::Plan) {
+            const MarkBox own = marksBox(outerOf(context.placed), context.placed.place);
+            takeSectionMarks(context, own, space);
+            addPlanMarks(context, own, space, marks);
+        }
+        if (context.view.view.kind == ViewKind::Section)
+            if (MarkShapes ground = drawGround(drawing, context.volume, mm); !ground.bold.empty())
+                marks.layers.push_back(std::move(ground));
+        const std::vector<RoomStamp> stamps = roomStamps(context);
+        PlacedStamps placed = placeStamps(drawing, stamps, mm, allowed, space);
+        marks.layers.push_back(std::move(placed.shapes));
+        marks.below = listOf(stamps, placed, context);
+        return marks;
+    }
+
+    // The groups of lines of DIN 1356-1, in the series of ISO 128-2.
+    [[nodiscard]] LineWidths widthsOf(double scale) const override {
+        if (scale <= 25) return {1.0, 0.5, 0.35, 0.25};
+        if (scale <= 50) return {0.7, 0.35, 0.25, 0.18};
+        if (scale <= 100) return {0.5, 0.25, 0.18, 0.13};
+        if (scale <= 200) return {0.35, 0.18, 0.13, 0.13};
+        return {0.25, 0.13, 0.13, 0.13};
+    }
+
+    void paintBlock(const BlockContext& context, SheetCanvas& canvas) const override {
+        paintTitleBlock(context, canvas);
+        paintLegend(context, canvas);
+    }
+
+private:
+    static void addPlanMarks(const ViewContext& context, const MarkBox& allowed, FreeSpace& space, ViewMarks& marks) {
+        const drawing::SectionDrawing& drawing = context.view.drawing;
+        const double mm = context.placed.place.millimetres;
+        const auto add = [&](MarkShapes shapes) {
+            const bool isEmpty = shapes.thin.empty() && shapes.texts.empty() && shapes.masks.empty();
+            if (!isEmpty) marks.layers.push_back(std::move(shapes));
+        };
+        add(drawGrids(drawing, context.volume, mm, allowed, space));
+        if (context.content.openings) add(drawPanes(drawing, context.volume, *context.content.openings, mm));
+        add(drawTravel(drawing, context.volume, drawing::findStairFlights(context.volume), heightsOf(context), mm,
+                       officeWord(OfficeWord::Risers, context.options.language),
+                       context.options.language == SheetLanguage::German, space));
+        if (context.content.openings) add(placeOpeningMarks(drawing, *context.content.openings, mm, space));
+    }
+};
+
+}  // namespace
+
+const SheetDetails& officeDetails() noexcept {
+    static const OfficeDetails details;
+    return details;
+}
+
+}  // namespace svt::writers

@@ -1,0 +1,340 @@
+/// Sheets as an office expects them: every room has a stamp, the title block its fields, doors their marks, the paper
+/// follows from the scale.
+
+#include <svt/volume/sample_volume_test.hpp>
+#include <svt/writers/draw_sheets.hpp>
+#include <svt/writers/drawing/drawing_files_test.hpp>
+#include <svt/writers/marks/free_space.hpp>
+#include <svt/writers/marks/room_stamps.hpp>
+#include <svt/writers/office/stamp_texts.hpp>
+#include <svt/writers/office/title_block.hpp>
+#include <svt/writers/office_sheets.hpp>
+#include <svt/writers/sheets/sheet_canvas.hpp>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace svt::writers {
+namespace {
+
+using drawing::PlanePoint;
+
+/// A house of box meshes on one storey.
+struct House {
+    volume::SemanticVolume volume = volume::test::emptyVolume({100, 50, 12}, {0.5, 0.5, 0.5}, {0, 0, 0});
+    std::uint32_t storey = 0;
+
+    House() {
+        volume.modelName = "P-1";
+        volume::test::addGroup(volume, "site", "GenericLogicalSpace");
+        volume::test::addGroup(volume, "building", "Building", 0).name = "House at the lake";
+        volume::test::addGroup(volume, "storey", "Storey", 1).name = "EG";
+        storey = 2;
+    }
+
+    volume::Label& add(const std::string& id, const std::string& className, Vec3d low, Vec3d high) {
+        const auto label = static_cast<std::uint32_t>(volume.labels.labels.size());
+        volume::Label& added = volume::test::addObject(volume, id, className, storey);
+        const Vec3d size = high - low;
+        added.volume = size.x * size.y * size.z;
+        added.filling = volume::Filling::Solid;
+        volume::test::addBoxMesh(volume, label, low, high);
+        return volume.labels.labels[label];
+    }
+
+    /// A row of `count` rooms of `width` x 1.5 m between walls of 0.2 m; names R1, R2, ...
+    void addRow(int count, double width) {
+        const double pitch = width + 0.2, length = count * pitch + 0.2;
+        add("south", "BuildingConstructiveElement", {0, 0, 0}, {length, 0.2, 3});
+        add("north", "BuildingConstructiveElement", {0, 1.7, 0}, {length, 1.9, 3});
+        for (int n = 0; n <= count; ++n)
+            add(fmt::format("wall{}", n), "BuildingConstructiveElement", {n * pitch, 0.2, 0},
+                {n * pitch + 0.2, 1.7, 3});
+        for (int n = 0; n < count; ++n)
+            add(fmt::format("room{}", n), "BuildingRoom", {n * pitch + 0.2, 0.2, 0}, {(n + 1) * pitch, 1.7, 3}).name =
+                fmt::format("Room number {}", n + 1);
+    }
+
+    [[nodiscard]] SheetContent content(drawing::SheetSet set = {}) const {
+        auto drawn = drawSheets(set, volume, 1);
+        EXPECT_TRUE(drawn) << drawn.error().message();
+        completeSheets(*drawn, volume, SheetLanguage::English, true);
+        return std::move(*drawn);
+    }
+    [[nodiscard]] std::vector<std::string> sheets(SheetOptions options, drawing::SheetSet set = {}) const {
+        options.details = &officeDetails();
+        const auto made = makeSvgSheets(content(std::move(set)), volume, options);
+        EXPECT_TRUE(made) << made.error().message();
+        return made ? *made : std::vector<std::string>();
+    }
+};
+
+std::size_t countTexts(const std::vector<std::string>& sheets, const std::string& test) {
+    std::size_t count = 0;
+    for (const std::string& sheet : sheets) count += SvgFile(sheet).count("//text[" + test + "]");
+    return count;
+}
+
+// Rooms of 1 x 1.5 m are smaller than their stamps at 1:100: before, they had none.
+TEST(RoomStamps, EachRoomHasOneOnThePlan) {
+    House house;
+    house.addRow(21, 1);
+    const auto sheets = house.sheets({.scale = 100, .paper = "A3"});
+    ASSERT_FALSE(sheets.empty());
+    const SvgFile plan(sheets.front());
+    for (int n = 1; n <= 21; ++n) EXPECT_EQ(plan.count(fmt::format("//text[.='Room number {}']", n)), 1u) << n;
+    EXPECT_EQ(plan.count("//text[.='1.50 m\u00B2']"), 21u);
+    EXPECT_EQ(plan.count("//text[starts-with(., 'h ')]"), 21u);
+    EXPECT_EQ(plan.count("//text[contains(., 'without a stamp')]"), 0u);
+}
+
+// Where no place is left, a list stands on the sheet.
+TEST(RoomStamps, RoomsWithoutPlaceStandInAList) {
+    House house;
+    house.addRow(60, 0.6);
+    const auto sheets = house.sheets({.scale = 500, .paper = "A4"});
+    ASSERT_FALSE(sheets.empty());
+    const SvgFile plan(sheets.front());
+    for (const int n : {1, 30, 60}) {
+        const std::string name = fmt::format("Room number {}", n);
+        const std::size_t placed = plan.count("//text[.='" + name + "']");
+        const std::size_t listed = plan.count("//text[contains(., '" + name + ",')]");
+        EXPECT_GE(placed + listed + plan.count("//text[contains(., 'more: see the table')]"), 1u) << n;
+    }
+    EXPECT_EQ(plan.count("//text[contains(., 'without a stamp')]"), 1u);
+}
+
+// A text covers neither a line nor another text, and a leader leads to a stamp outside.
+TEST(RoomStamps, AreClearOfLinesAndOfEachOther) {
+    House house;
+    house.addRow(6, 1.2);
+    house.add("hall", "BuildingRoom", {0.2, 2.1, 0}, {8, 8, 3}).name = "Hall";
+    house.add("table", "BuildingFurniture", {3.5, 4.5, 0}, {4.7, 5.7, 0.8});
+    drawing::SectionOptions options;
+    options.beyond.visible = true;
+    const auto drawn = *drawing::drawSection(house.volume, {{0, 0, 1}, {0, 0, 1.1}}, options);
+    std::vector<RoomStamp> stamps;
+    for (const auto& component : drawn.components)
+        if (house.volume.labels.labels[component.label].className == "BuildingRoom")
+            stamps.push_back({component.label, {house.volume.labels.labels[component.label].name, "12.34 m\u00B2"}});
+    ASSERT_EQ(stamps.size(), 7u);
+    FreeSpace space = freeSpaceOf(drawn, house.volume, 10), lines = space;
+    const PlacedStamps placed = placeStamps(drawn, stamps, 10, {{-60, -60}, {160, 140}}, space);
+    EXPECT_TRUE(placed.withoutPlace.empty());
+    EXPECT_TRUE(placed.shortened.empty());
+    EXPECT_EQ(placed.shapes.texts.size(), 14u);
+    EXPECT_EQ(placed.shapes.thin.size(), 6u);  // leaders of the small rooms
+    std::vector<MarkBox> boxes;
+    for (const MarkText& text : placed.shapes.texts) {
+        const double half = 0.5 * widthOnPaper(text.text, text.size);
+        const MarkBox box{{text.at.u - half, text.at.v}, {text.at.u + half, text.at.v + 0.73 * text.size}};
+        EXPECT_TRUE(lines.hitsOf(box).isClear()) << text.text;
+        for (const MarkBox& other : boxes)
+            EXPECT_TRUE(box.low.u >= other.high.u || other.low.u >= box.high.u || box.low.v >= other.high.v ||
+                        other.low.v >= box.high.v)
+                << text.text;
+        boxes.push_back(box);
+    }
+}
+
+TEST(RoomStamps, HaveNumberHeightAndFloorFinish) {
+    House house;
+    volume::Label& room = house.add("room", "BuildingRoom", {0, 0, 0}, {6, 5, 2.5});
+    room.name = "Kitchen";
+    room.attributes = {{"number", std::string("0.04"), ""}, {"Pset_Space.FloorCovering", std::string("Oak"), ""}};
+    const auto sheets = house.sheets({.scale = 100, .paper = "A3"});
+    for (const char* text : {"0.04 Kitchen", "30.00 m\u00B2", "h 2.50 m", "Oak"})
+        EXPECT_EQ(countTexts({sheets.front()}, fmt::format(".='{}'", text)), 1u) << text;
+    EXPECT_EQ(floorFinish(house.volume.labels, 3), "Oak");
+    house.volume.labels.labels[3].attributes.pop_back();
+    EXPECT_EQ(floorFinish(house.volume.labels, 3), "");
+}
+
+TEST(TitleBlock, HasTheFieldsOfTheFileAndOfTheOptions) {
+    House house;
+    house.add("room", "BuildingRoom", {0, 0, 0}, {6, 5, 2.5});
+    auto& labels = house.volume.labels.labels;
+    labels[0].attributes = {{"projectName", std::string("New town hall"), ""}};
+    labels[1].attributes = {{"address", std::string("Enter address here, Lake Road 3, 8001 Town"), ""}};
+    SheetOptions options{.scale = 100, .paper = "A3"};
+    options.block = {"A-100", "Ms Smith", "Mr Jones", "City of Town", "2026-11-28", "b", ""};
+    const auto sheets = house.sheets(options);
+    const std::vector<std::string> plan{sheets.front()};
+    for (const char* text :
+         {"New town hall", "House at the lake, Lake Road 3, 8001 Town", "A-100-1", "Ms Smith", "Mr Jones",
+          "City of Town", "2026-11-28", "b", "Floor plan", "Legal owner", "Created by", "Approved by", "Date of issue"})
+        EXPECT_EQ(countTexts(plan, fmt::format(".='{}'", text)), 1u) << text;
+    EXPECT_EQ(countTexts({sheets.back()}, ".='Schedule'"), 1u);
+    options.title = "Other";
+    options.language = SheetLanguage::German;
+    EXPECT_EQ(countTexts({house.sheets(options).front()}, ".='Other' or .='Zeichnungsnummer'"), 2u);
+}
+
+TEST(TitleBlock, PlaceholdersOfTemplatesAreNoFacts) {
+    House house;
+    auto& labels = house.volume.labels.labels;
+    labels[0].attributes = {{"projectName", std::string("// PROJECT/NAME //"), ""}};
+    labels[1].attributes = {{"address", std::string("Enter address here"), ""}};
+    labels[1].name = "Nicht definiert";
+    const ModelFacts facts = modelFacts(house.volume);
+    EXPECT_EQ(facts.project, "P-1");
+    EXPECT_EQ(facts.building, "");
+    EXPECT_EQ(facts.address, "");
+    EXPECT_EQ(emptyBlockOptions({.number = "1",
+                                 .creator = "",
+                                 .approver = "x",
+                                 .owner = "y",
+                                 .date = "z",
+                                 .revision = "",
+                                 .documentType = ""}),
+              std::vector<std::string>{"--creator"});
+}
+
+TEST(SheetPaperChoice, IsTheSmallestOnWhichAllViewsFit) {
+    House house;
+    house.addRow(21, 1);  // 25.4 m
+    const SheetContent content = house.content();
+    SheetOptions options{.scale = 100};
+    options.details = &officeDetails();
+    const auto paperAt = [&](double scale) {
+        options.scale = scale;
+        const auto paper = smallestPaper(content, house.volume, options);
+        return paper ? *paper : paper.error().message();
+    };
+    EXPECT_EQ(paperAt(200), "A4");
+    EXPECT_EQ(paperAt(100), "A3");
+    EXPECT_EQ(paperAt(50), "A1");
+    const std::string message = paperAt(5);
+    EXPECT_NE(message.find("do not fit onto any paper"), std::string::npos) << message;
+    EXPECT_NE(message.find("--hide"), std::string::npos) << message;
+}
+
+TEST(SheetLegend, NamesOnlyTheHatchesOfTheSheet) {
+    House house;
+    house.addRow(3, 3);
+    for (const char* paper : {"A3", "A4"}) {
+        const std::vector<std::string> plan{house.sheets({.scale = 200, .paper = paper}).front()};
+        EXPECT_EQ(countTexts(plan, ".='Materials'"), 1u) << paper;
+        EXPECT_EQ(countTexts(plan, ".='Timber' or .='Steel' or .='Insulation'"), 0u) << paper;
+    }
+}
+
+// One door type in two sizes and a window: three marks, in plan and schedule.
+TEST(OpeningMarks, OfThePlanAreThoseOfTheSchedule) {
+    House house;
+    house.addRow(4, 3);
+    const auto addDoor = [&](const std::string& id, double x, double width) {
+        volume::Label& door = house.add(id, "Door", {x, 0, 0}, {x + width, 0.2, 2.01});
+        door.attributes = {{"overallWidth", 0.885, "m"}, {"overallHeight", 2.01, "m"}};
+    };
+    addDoor("door1", 1, 0.885);
+    addDoor("door2", 4.4, 0.885);
+    addDoor("door3", 7.6, 1.01);
+    house.add("window", "Window", {2, 1.7, 0.9}, {3.2, 1.9, 2.1});
+    drawing::SheetSet set;
+    set.tables = false;
+    const SheetContent content = house.content();
+    ASSERT_TRUE(content.openings);
+    const Table table = openingTable(*content.openings, content.levels, house.volume.labels);
+    const std::string csv = makeCsv(table);
+    EXPECT_NE(csv.find("D1,door,,EG,0.885,2.01,0.885,2.01,0,2,door1 door2"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("D2,door,,EG,0.885,2.01,1.01,2.01,0,1,door3"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("W1,window,,EG,,,1.2,1.2,0.9,1,window"), std::string::npos) << csv;
+    SheetOptions options{.scale = 50, .paper = "A2"};
+    options.details = &officeDetails();
+    const auto sheets = *makeSvgSheets(content, house.volume, options);
+    EXPECT_EQ(countTexts({sheets.front()}, ".='D1'"), 2u);
+    EXPECT_EQ(countTexts({sheets.front()}, ".='D2'"), 1u);
+    EXPECT_EQ(countTexts({sheets.front()}, ".='W1'"), 1u);
+    EXPECT_EQ(countTexts({sheets.back()}, ".='D1'"), 1u);  // the table
+    EXPECT_EQ(countTexts({sheets.back()}, ".='Doors' or .='Windows'"), 2u);
+}
+
+// 16 risers of 17.5 cm; the plan cuts the stair, so that its line of travel ends at a break line.
+TEST(StairMarks, HaveTheNumberOfRisers) {
+    House house;
+    house.addRow(1, 8);
+    const auto stair = static_cast<std::uint32_t>(house.volume.labels.labels.size());
+    volume::Label& label = house.add("stair", "BuildingConstructiveElement", {1, 0.5, 0}, {1.28, 1.5, 0.175});
+    label.name = "Stair";
+    for (int n = 1; n < 15; ++n)
+        volume::test::addBoxMesh(house.volume, stair, {1 + 0.28 * n, 0.5, 0.175 * n},
+                                 {1 + 0.28 * (n + 1), 1.5, 0.175 * (n + 1)});
+    volume::test::addGroup(house.volume, "upper", "Storey", 1).name = "OG";
+    house.storey = static_cast<std::uint32_t>(house.volume.labels.labels.size() - 1);
+    house.add("room above", "BuildingRoom", {0.2, 0.2, 2.8}, {8.2, 1.7, 5.4});
+    const auto sheets = house.sheets({.scale = 50, .paper = "A2"});
+    EXPECT_EQ(countTexts({sheets.front()}, ".='16 R 17.5/28'"), 2u);  // below and above
+    EXPECT_EQ(SvgFile(sheets.front()).count("//g[@inkscape:label='Stairs']"), 2u);
+}
+
+TEST(GridMarks, AxesHaveTheirNamesAtBothEnds) {
+    House house;
+    house.addRow(3, 3);
+    volume::Label& grid = volume::test::addGroup(house.volume, "grid", "Grid", 1);
+    grid.attributes = {{"axis A", std::string("-2 1 0, 12 1 0"), "m"},
+                       {"axis 7", std::string("5 -2 0, 5 4 0"), "m"},
+                       {"axis far", std::string("500 -2 0, 500 4 0"), "m"},
+                       {"axis bad", std::string("1 2"), "m"}};
+    const auto sheets = house.sheets({.scale = 100, .paper = "A3"});
+    EXPECT_EQ(countTexts({sheets.front()}, ".='A'") >= 2u, true);
+    EXPECT_EQ(countTexts({sheets.front()}, ".='7'"), 2u);
+    EXPECT_EQ(countTexts({sheets.front()}, ".='far' or .='bad'"), 0u);
+}
+
+TEST(LineWidths, FollowTheScale) {
+    House house;
+    house.addRow(1, 3);
+    const auto boldAt = [&](double scale, const char* width) {
+        return SvgFile(house.sheets({.scale = scale, .paper = "A1"}).front())
+            .count(fmt::format("//g[@inkscape:label='Outlines']//path[@stroke-width='{}']", width));
+    };
+    EXPECT_GT(boldAt(50, "0.7"), 0u);
+    EXPECT_GT(boldAt(100, "0.5"), 0u);
+    EXPECT_GT(boldAt(200, "0.35"), 0u);
+}
+
+// A section through a surface of terrain has a bold ground line with strokes of earth.
+TEST(GroundLine, IsBoldInSections) {
+    House house;
+    house.addRow(3, 3);
+    const auto ground = static_cast<std::uint32_t>(house.volume.labels.labels.size());
+    volume::test::addObject(house.volume, "ground", "TINRelief").filling = volume::Filling::Surface;
+    volume::test::addQuad(house.volume, ground, {{{-3, -3, 0.1}, {13, -3, 0.1}, {13, 5, 0.1}, {-3, 5, 0.1}}});
+    const SheetContent content = house.content();
+    SheetOptions options{.scale = 100, .paper = "A3"};
+    options.details = &officeDetails();
+    std::size_t layers = 0;
+    const auto sheets = makeSvgSheets(content, house.volume, options);
+    ASSERT_TRUE(sheets);
+    for (const std::string& sheet : *sheets) layers += SvgFile(sheet).count("//g[@inkscape:label='Ground']");
+    EXPECT_EQ(layers, 2u);  // sections A and B
+}
+
+// A plan ends at the floor below: the ground beside a lower storey is not in the plan of the third.
+TEST(PlanDepth, EndsAtTheFloorBelow) {
+    House house;
+    house.addRow(2, 3);
+    house.add("ground", "BuildingConstructiveElement", {-5, -5, -0.4}, {12, 8, -0.2});
+    for (int n = 1; n <= 2; ++n) {
+        volume::test::addGroup(house.volume, fmt::format("upper{}", n), "Storey", 1).name = fmt::format("OG{}", n);
+        house.storey = static_cast<std::uint32_t>(house.volume.labels.labels.size() - 1);
+        house.add(fmt::format("room of {}", n), "BuildingRoom", {0.2, 0.2, 3.0 * n}, {6, 1.7, 3.0 * n + 2.6});
+    }
+    const SheetContent content = house.content();
+    const auto seesGround = [&](std::size_t view) {
+        return std::any_of(
+            content.views[view].drawing.beyond.begin(), content.views[view].drawing.beyond.end(),
+            [&](const drawing::BeyondLine& line) { return house.volume.labels.labels[line.label].id == "ground"; });
+    };
+    ASSERT_GE(content.views.size(), 3u);
+    EXPECT_TRUE(seesGround(0));
+    EXPECT_FALSE(seesGround(2));
+}
+
+}  // namespace
+}  // namespace svt::writers

@@ -1,0 +1,25 @@
+#pragma once
+/// \file
+/// The title block of a sheet with the fields of ISO 7200, and the legend of hatches beside or above it.
+
+#include <svt/writers/sheets/sheet_details.hpp>
+
+#include <string>
+
+namespace svt::writers {
+
+/// Facts of the model for a title block. Placeholders of templates, such as "Enter address here", count as absent.
+struct ModelFacts {
+    std::string project;   ///< long name of the project; else the name of the model
+    std::string building;  ///< names of the buildings
+    std::string address;   ///< of a building, or of the site
+};
+[[nodiscard]] ModelFacts modelFacts(const volume::SemanticVolume& volume);
+
+/// The block of 180 x 36 mm at the lower right. Unknown fields have a dash.
+void paintTitleBlock(const BlockContext& context, SheetCanvas& canvas);
+
+/// The hatches that the views of the sheet use, with their names; nothing without hatches.
+void paintLegend(const BlockContext& context, SheetCanvas& canvas);
+
+}  // namespace svt::writers

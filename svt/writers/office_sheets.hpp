@@ -1,0 +1,44 @@
+#pragma once
+/// \file
+/// The parts of sheets beside the drawings, as an architect's office expects them: stamps of rooms, marks and schedules
+/// of doors and windows, lines of travel, grids. They also have a title block after ISO 7200 and a legend.
+
+#include <svt/writers/dxf_drawing.hpp>
+#include <svt/writers/sheet_writer.hpp>
+#include <svt/writers/table.hpp>
+
+#include <string>
+#include <vector>
+
+namespace svt::writers {
+
+/// For SheetOptions::details.
+[[nodiscard]] const SheetDetails& officeDetails() noexcept;
+
+/// Completes the content of drawSheets(): it makes the schedule of openings, and
+/// appends its tables.
+/// \param hasTables  also append the tables of doors and windows
+void completeSheets(SheetContent& content, const volume::SemanticVolume& volume, SheetLanguage language,
+                    bool hasTables);
+
+/// The schedule of doors and windows: one row per mark and level. Sizes in metres; empty cells are not known.
+[[nodiscard]] Table openingTable(const drawing::OpeningSchedule& schedule,
+                                 const std::vector<drawing::BuildingLevel>& levels, const volume::LabelTable& labels);
+
+/// The smallest paper from A4 to A0 on which every view fits at the scale of the options.
+/// \return its name, or BadArgument: A0 is too small; the message suggests a scale
+[[nodiscard]] Result<std::string> smallestPaper(const SheetContent& content, const volume::SemanticVolume& volume,
+                                                const SheetOptions& options);
+
+/// A view as DXF with a layout: model space has the drawing in metres, and paper space a sheet of the options' paper with
+/// frame, title block, marks, and a viewport at the scale. With world coordinates there is no layout.
+/// \param view  index into content.views
+/// \return the text, or an error of makeSvgSheets() for that view
+[[nodiscard]] Result<std::string> makeSheetDxf(const SheetContent& content, std::size_t view,
+                                               const volume::SemanticVolume& volume, const SheetOptions& options,
+                                               const DxfOptions& dxf);
+
+/// The options of the title block that are empty: `--creator`, ...
+[[nodiscard]] std::vector<std::string> emptyBlockOptions(const drawing::TitleBlock& block);
+
+}  // namespace svt::writers
