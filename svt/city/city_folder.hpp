@@ -47,12 +47,14 @@ struct CityStatus {
     std::vector<std::uint32_t> missing;  ///< packs without a matching report, or with another size
     std::uint64_t bytes = 0, buildings = 0;
     std::vector<SkippedFeature> skipped;
+    bool isUpdate = false;  ///< the packs are those of an update; the city before it is readable
 };
 /// \param isProven  whether the SHA-256 of each pack is compared as well
 [[nodiscard]] CityStatus cityStatus(const std::filesystem::path& folder, const Plan& plan, bool isProven);
 
 /// Merges the existing packs of a plan. Makes the coarse levels (city_levels.hpp) in packs numbered after those of the
 /// plan. Writes packs.bin, index.bin, ids.bin and, last, city.json. Copies no pack.
+/// An update (updatePlan()) replaces the city only when all of its packs exist; otherwise nothing is written.
 /// \param threads  0: all cores; the result does not depend on it
 /// \return the merged and the missing parts, or BadPack, CannotWrite, DiskFull; CityIncomplete if no pack is done
 /// Memory: 80 bytes per tile, 24 per building, and 2 MB per tile along the border of the finished part: 4 sqrt(n) MB
@@ -96,6 +98,9 @@ public:
     [[nodiscard]] std::uint64_t packBytes() const noexcept { return packBytes_; }
     [[nodiscard]] std::uint64_t missingPacks() const noexcept { return missing_; }
     [[nodiscard]] std::uint64_t skippedFeatures() const noexcept { return skipped_; }
+    /// Features that the city lacks because an earlier file had another feature with their id; the ids of the first.
+    [[nodiscard]] std::uint64_t idConflicts() const noexcept { return conflicts_; }
+    [[nodiscard]] const std::vector<std::string>& conflictIds() const noexcept { return conflictIds_; }
     [[nodiscard]] const std::string& planDigest() const noexcept { return plan_; }
     [[nodiscard]] const Box3d& box() const noexcept { return box_; }
     /// The coarsest level of detail: one tile.
@@ -142,7 +147,8 @@ private:
     std::shared_ptr<const Store> store_;
     double spacing_ = 0;
     std::string crsName_, plan_;
-    std::uint64_t buildings_ = 0, tiles_ = 0, packBytes_ = 0, missing_ = 0, skipped_ = 0;
+    std::uint64_t buildings_ = 0, tiles_ = 0, packBytes_ = 0, missing_ = 0, skipped_ = 0, conflicts_ = 0;
+    std::vector<std::string> conflictIds_;
     std::uint32_t packs_ = 0;
     Box3d box_;
     IndexEntry top_;

@@ -25,6 +25,9 @@ struct CityOptions {
     double lod = -1;          ///< finest level of detail of the models to use; -1: the finest that each feature has
     int crs = 0;              ///< EPSG code of a projection in metres; 0: that of the first file
     double packSeconds = 10;  ///< expected work in a pack
+    int axisOrder = 0;        ///< ReadOptions::axisOrder of all files
+    double unit = 0;          ///< ReadOptions::unit of all files
+    std::string date{};       ///< ReadOptions::date
     friend bool operator==(const CityOptions&, const CityOptions&) = default;
 };
 
@@ -52,6 +55,7 @@ struct PlanFeature {
     std::uint32_t file = 0;
     readers::FeatureSpan span;
     std::uint64_t contentHash = 0;
+    std::uint32_t idHash = 0;  ///< of its id; of its content if the file gives no id; 0 in plans of earlier programs
 };
 
 struct PlanTile {
@@ -79,6 +83,9 @@ struct Plan {
     /// digests are the same.
     std::vector<std::string> packDigests;
     std::uint64_t features = 0, replicas = 0, skipped = 0;
+    static constexpr std::size_t kNamedConflicts = 20;
+    std::uint64_t conflicts = 0;
+    std::vector<std::string> conflictIds;  ///< of the first kNamedConflicts
     std::uint32_t packs = 0;
     std::uint32_t tasks = 0;  ///< for a cluster of machines: each task builds packs / tasks packs
 
@@ -94,6 +101,7 @@ struct PlanOptions {
     std::uint32_t tasks = 0;  ///< 0: by cost, about 5 minutes each, at most 1000
     int threads = 0;
     bool allowTruncated = false;  ///< for ReadOptions::allowTruncated
+    double mostLeftOut = 20;      ///< percent of the features that may be left out because they cannot be read
     const Progress* progress = nullptr;
 };
 
@@ -105,26 +113,47 @@ struct PlanOptions {
 /// Reads all files once and writes the plan into `folder`/plan.
 ///
 /// A feature belongs to the tile that holds the middle of its box. A feature is left out if an earlier file has one
-/// with the same id and text (finding Replica, one per file). Features that refer to others are reported
-/// (LinkedFeature). Features that cannot be read or have no geometry are left out and reported (FeatureSkipped).
+/// with the same id: Replica if the text is equal, one finding per file, else IdConflict. Features that do not exist on
+/// the date are left out, too (FeatureEnded), and features that cannot be read or have no geometry (FeatureSkipped).
+/// Features that refer to others are reported (LinkedFeature).
 /// \return the plan, or the error of a file that cannot be cut into features; Truncated; EmptyModel if nothing is left;
-///         BadArgument; CannotWrite, DiskFull; Cancelled
+///         ManySkipped if more features cannot be read than allowed; UnitInDoubt; BadArgument; CannotWrite, DiskFull; Cancelled
 /// Cost: about that of reading the files. Memory: 52 bytes per feature, and a few hundred MB.
 [[nodiscard]] Result<Plan> makePlan(std::span<const std::filesystem::path> files, const std::filesystem::path& folder,
                                     const PlanOptions& options, Diagnostics& diagnostics);
 
 /// Differences of a plan from the previous one.
 struct PlanChanges {
-    std::uint64_t newFeatures = 0, goneFeatures = 0;  ///< by content
+    std::uint64_t newFeatures = 0, goneFeatures = 0;  ///< by id
+    std::uint64_t changedFeatures = 0;                ///< the same id with other content
     std::uint64_t newTiles = 0, changedTiles = 0, goneTiles = 0;
     std::uint64_t keptPacks = 0;  ///< built packs that also belong to the new plan
 };
-/// Replaces the plan of a folder with a new one of the same program, made like makePlan() does. Built packs whose
-/// content stays the same keep their bytes under a new number. Unused packs are removed, and the city must be merged
-/// again. May be called again after a crash; then at most one pack is built again.
+/// Replaces the plan of a folder with a new one of the same program, made like makePlan() does. The packs of the new plan
+/// are built in a folder of their own (workFolder()), so the city stays readable until mergeCity() replaces it. Built
+/// packs whose content stays the same are taken over. May be called again after a crash.
 /// \return the plan; BadPlan if the folder does not have one
 [[nodiscard]] Result<Plan> updatePlan(std::span<const std::filesystem::path> files, const std::filesystem::path& folder,
                                       const PlanOptions& options, Diagnostics& diagnostics, PlanChanges& changes);
+
+/// The folder of the packs and reports of the plan: `folder`, or `folder`/update during an update.
+[[nodiscard]] std::filesystem::path workFolder(const std::filesystem::path& folder);
+
+/// Ends an update: moves a merged update to the place of the city before it. Without one it does nothing. May be called
+/// again after a crash. \return nothing, or CannotWrite
+Result<void> publishUpdate(const std::filesystem::path& folder);
+
+/// A source file that is not the one of the plan.
+struct ChangedInput {
+    std::string path;
+    bool isRemoved = false;  ///< else its content changed
+};
+/// Compares the source files with the plan: all by size, and those that were written after the plan by the content of
+/// their features.
+/// \param isProven  compares the content of all files
+/// \return the removed and changed files, in the order of the plan; BadPlan
+[[nodiscard]] Result<std::vector<ChangedInput>> changedInputs(const std::filesystem::path& folder, const Plan& plan,
+                                                              bool isProven);
 
 /// Reads the plan of a folder.
 /// \param program  version of this program; a plan of another version is PlanVersion; empty: any

@@ -21,7 +21,13 @@ Json gridJson(const volume::Grid& grid) {
             {"frame", Json::array({toJson(grid.axes()[0]), toJson(grid.axes()[1]), toJson(grid.axes()[2])})}};
 }
 
-Json labelJson(const volume::LabelTable& table, const analyze::FeatureMeasure& measure, const volume::Grid& grid) {
+Json toJson(const AttributeList& list) {
+    if (list.isSingle()) return toJson(list.items.front().attribute->value);
+    return Json::parse(toJsonText(list), nullptr, false);
+}
+
+Json labelJson(const volume::LabelTable& table, const analyze::FeatureMeasure& measure,
+               const analyze::KnownVolume& volume, const volume::Grid& grid) {
     const volume::Label& label = table.labels[measure.label];
     const auto known = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
     Json json{{"id", label.id}, {"class", label.className}, {"name", label.name}};
@@ -34,9 +40,11 @@ Json labelJson(const volume::LabelTable& table, const analyze::FeatureMeasure& m
     json["totalVolume"] = known(measure.total.volume);
     json["countedVolume"] = measure.total.volume ? Json(measure.total.countedVolume) : Json(nullptr);
     json["solidVolume"] = known(analyze::solidVolumeOf(label));
-    // Deprecated names: own voxels and their volume; the volume of the mesh, 0 where unknown.
+    json["volume"] = known(volume.volume);
+    json["volumeBound"] = volume.volume ? known(volume.bound) : Json(nullptr);
+    json["volumeSource"] = volume.volume ? Json(analyze::volumeSourceName(volume.source)) : Json(nullptr);
+    // Deprecated names: own voxels and their volume.
     json["voxels"] = label.voxels;
-    json["volume"] = label.volume;
     json["voxelVolume"] = double(label.voxels) * grid.voxelVolume();
     json["closed"] = label.filling == volume::Filling::Solid || label.filling == volume::Filling::TJunctions;
     json["filling"] = volume::fillingName(label.filling);
@@ -49,7 +57,8 @@ Json labelJson(const volume::LabelTable& table, const analyze::FeatureMeasure& m
     }
     if (!label.attributes.empty()) {
         Json attributes = Json::object();
-        for (const Attribute& attribute : label.attributes) attributes[attribute.name] = toJson(attribute.value);
+        for (const AttributeList& list : attributeLists(label.attributes))
+            attributes[std::string(list.name)] = toJson(list);
         json["attributes"] = std::move(attributes);
     }
     return json;
@@ -77,9 +86,11 @@ Json infoJson(const volume::SemanticVolume& volume) {
     std::vector<std::uint32_t> all(volume.labels.labels.size());
     std::iota(all.begin(), all.end(), 0U);
     const auto own = analyze::ownMeasures(volume.labels, volume.grid);
-    for (const auto& measure : analyze::measureFeatures(analyze::Extents(volume.labels), all, own))
+    const analyze::Extents extents(volume.labels);
+    const analyze::KnownVolumes volumes(volume.labels, volume.grid, extents);
+    for (const auto& measure : analyze::measureFeatures(extents, all, own))
         json[volume.labels.labels[measure.label].count != 0 ? "objects" : "features"].push_back(
-            labelJson(volume.labels, measure, volume.grid));
+            labelJson(volume.labels, measure, volumes.of(measure.label), volume.grid));
     json["overlaps"] = overlapsJson(volume.labels);
     return json;
 }

@@ -30,7 +30,7 @@ Result<volume::SemanticVolume> VolumePart::of(volume::SemanticVolume volume, int
         volume = std::move(*cropped);
     }
     if (!select.empty()) {
-        SVT_TRY(labels, analyze::selectWithParts(volume.labels, select));
+        SVT_TRY(labels, analyze::selectWithParts(volume, select));
         SVT_TRY(selected, volume::selectedVolume(volume, *labels));
         volume = std::move(*selected);
     }

@@ -37,6 +37,10 @@ volume::SemanticVolume withLabels(const volume::SemanticVolume& volume, const st
         next += label.count;
         result.labels.labels.push_back(std::move(label));
     }
+    result.footprints = volume.footprints;
+    std::erase_if(result.footprints.triangles,
+                  [&](const auto& triangle) { return newOf[triangle.label] == volume::kNoLabel; });
+    for (auto& triangle : result.footprints.triangles) triangle.label = newOf[triangle.label];
     result.columns = volume::replaceScalars(volume.columns, scalarOf);
     return result;
 }

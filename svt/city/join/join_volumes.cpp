@@ -145,6 +145,35 @@ void addPlanes(const std::vector<volume::FacePlane>& planes, Vec3i begin, std::v
     }
 }
 
+// Adds the faces of a part. \param first  number of its first label in the whole
+void addFootprints(const volume::SemanticVolume& from, std::uint32_t first, volume::SemanticVolume& to) {
+    using Parts = volume::VectorParts;
+    const Parts& faces = from.footprints;
+    if (faces.triangles.empty()) return;
+    Parts& all = to.footprints;
+    const auto points = static_cast<std::uint32_t>(all.points.size());
+    const double reach = double(1 << 30) * all.unit;
+    for (std::uint32_t p = 0; p < faces.points.size(); ++p) {
+        const Vec3d place = faces.position(p, from.grid.origin()) - to.grid.origin();
+        Vec3i& point = all.points.emplace_back();
+        for (int axis = 0; axis < 3; ++axis)
+            point[axis] = static_cast<std::int32_t>(std::lround(std::clamp(place[axis], -reach, reach) / all.unit));
+    }
+    for (const Parts::Triangle& triangle : faces.triangles)
+        all.triangles.push_back(
+            {triangle.label + first,
+             {triangle.corners[0] + points, triangle.corners[1] + points, triangle.corners[2] + points}});
+}
+
+// The unit in which the faces of all parts fit 31 bits.
+double footprintUnit(const volume::Grid& grid) {
+    const Vec3d size = scaled(toDouble(grid.dimension()), grid.spacing());
+    double unit = volume::VectorParts::kFinestUnit;
+    while (unit < volume::VectorParts::kCoarsestUnit && std::max(size.x, size.y) * 1.1 > unit * double(1 << 30))
+        unit *= 2;
+    return unit;
+}
+
 // One table of all labels, each id once below its parent, and the columns of each volume with its numbers.
 volume::LabelTable unite(std::span<const volume::SemanticVolume> volumes, std::vector<ColumnVolume>& columns) {
     using Key = std::pair<std::string, std::string>;  // of a label without parent the second is empty
@@ -224,6 +253,12 @@ Result<volume::SemanticVolume> joinVolumes(std::span<const volume::SemanticVolum
     result.crsName = first.crsName;
     result.modelName = first.modelName;
     for (std::size_t n = 0; n < volumes.size(); ++n) addPlanes(volumes[n].planes, parts[n].begin, result.planes);
+    result.footprints.unit = footprintUnit(result.grid);
+    std::uint32_t firstLabel = 0;
+    for (const volume::SemanticVolume& volume : volumes) {
+        if (!isByClass) addFootprints(volume, firstLabel, result);
+        firstLabel += static_cast<std::uint32_t>(volume.labels.labels.size());
+    }
     result.columns = Joiner(std::move(parts), high - low).run();
     const auto counts = result.columns.countVoxels(result.labels.scalarCount());
     for (volume::Label& label : result.labels.labels) {

@@ -13,7 +13,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 namespace svt::city {
 namespace {
@@ -86,13 +88,31 @@ Error City::damaged(const char* file, std::string_view what) const {
             {(folder_ / file).string(), 0, 0, {}}};
 }
 
-Result<City> City::open(const std::filesystem::path& folder) { return open(openStore(folder.string()), folder); }
+Result<City> City::open(const std::filesystem::path& folder) {
+    constexpr int kTries = 40;
+    for (int n = 1;; ++n) {
+        auto city = open(openStore(folder.string()), folder);
+        std::error_code failed;
+        // While an update moves its files into place, they are those of two merges.
+        if (city || n == kTries || !std::filesystem::exists(folder / "update" / "city.json", failed)) return city;
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+}
 
 Result<City> City::open(std::shared_ptr<const Store> store, const std::filesystem::path& folder) {
     City city(folder);
     city.store_ = std::move(store);
     SVT_TRY(text, city.store_->read("city.json", 0, 1 << 20));
-    if (text->empty()) return city.damaged("city.json", "the folder has no merged city");
+    if (text->empty()) {
+        std::error_code failed;
+        if (city.store_->isLocal() && !std::filesystem::exists(folder / "city.json", failed) &&
+            std::filesystem::exists(folder / "plan" / "plan.json", failed))
+            return Error(
+                Code::BadCity,
+                fmt::format("the city is planned, but not built; 'svt city run {}' builds it", folder.string()),
+                {(folder / "city.json").string(), 0, 0, {}});
+        return city.damaged("city.json", "the folder has no merged city");
+    }
     SVT_DO(city.readJson(*text));
     SVT_DO(city.proveFolder());
     SVT_DO(city.readRoot());
@@ -118,6 +138,10 @@ Result<void> City::readJson(const std::string& text) {
         packBytes_ = json.at("packs").at("bytes").get<std::uint64_t>();
         missing_ = json.at("packs").at("missing").get<std::uint64_t>();
         skipped_ = json.at("skippedFeatures").get<std::uint64_t>();
+        if (json.contains("idConflicts")) {
+            conflicts_ = json.at("idConflicts").at("count").get<std::uint64_t>();
+            conflictIds_ = json.at("idConflicts").at("ids").get<std::vector<std::string>>();
+        }
         const auto box = json.at("box").get<std::array<double, 6>>();
         box_ = {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}};
         if (!readTop(json, top_)) return damaged("city.json", "the top tile is damaged");

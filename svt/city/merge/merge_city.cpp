@@ -255,6 +255,7 @@ std::string cityJson(const Plan& plan, const CityStatus& status, const Merging& 
     json["packs"]["firstMissing"] = named;
     json["skippedFeatures"] = status.skipped.size() + plan.skipped;
     json["replicas"] = plan.replicas;
+    if (plan.conflicts != 0) json["idConflicts"] = {{"count", plan.conflicts}, {"ids", plan.conflictIds}};
     putProofs(json, index, ids, merged.packs);
     return sealedJson(std::move(json));
 }
@@ -264,8 +265,10 @@ std::string cityJson(const Plan& plan, const CityStatus& status, const Merging& 
 CityStatus cityStatus(const std::filesystem::path& folder, const Plan& plan, bool isProven) {
     CityStatus status;
     status.packs = plan.packs;
+    const std::filesystem::path work = workFolder(folder);
+    status.isUpdate = work != folder;
     for (std::uint32_t pack = 0; pack < plan.packs; ++pack) {
-        const auto report = provenReport(folder, plan, pack, isProven);
+        const auto report = provenReport(work, plan, pack, isProven);
         if (!report) {
             status.missing.push_back(pack);
             continue;
@@ -279,11 +282,15 @@ CityStatus cityStatus(const std::filesystem::path& folder, const Plan& plan, boo
 
 Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& plan, int threads,
                              const Progress* progress) {
+    SVT_DO(publishUpdate(folder));
     CityStatus status = cityStatus(folder, plan, false);
+    // An update replaces the city as a whole, or not yet.
+    if (status.isUpdate && !status.missing.empty()) return status;
+    const std::filesystem::path work = workFolder(folder);
     if (status.missing.size() == plan.packs)
         return Error(Code::CityIncomplete, "no pack of the city is done; run its tasks first (svt city run)",
                      {folder.string(), 0, 0, {}});
-    for (const char* name : {"packs.bin", "index.bin", "ids.bin", "city.json"}) SVT_DO(checkNoStream(folder / name));
+    for (const char* name : {"packs.bin", "index.bin", "ids.bin", "city.json"}) SVT_DO(checkNoStream(work / name));
     Merging merged;
     std::size_t missing = 0;
     for (std::uint32_t number = 0; number < plan.packs; ++number) {
@@ -294,19 +301,20 @@ Result<CityStatus> mergeCity(const std::filesystem::path& folder, const Plan& pl
             appendBytes(merged.packs, std::uint64_t{0}, Digest{});
             continue;
         }
-        SVT_TRY(report, provenReport(folder, plan, number, false));
+        SVT_TRY(report, provenReport(work, plan, number, false));
         appendBytes(merged.packs, report->bytes, digestFromHex(report->sha256));
-        SVT_TRY(pack, Pack::open(packPath(folder, number), plan.packDigests[number]));
+        SVT_TRY(pack, Pack::open(packPath(work, number), plan.packDigests[number]));
         addPack(*pack, number, plan.options.spacing, merged);
     }
-    SVT_DO(LevelPacks(folder, plan, merged).run(threads, progress));
+    SVT_DO(LevelPacks(work, plan, merged).run(threads, progress));
     const std::string index = indexBytes(merged.entries), ids = idsBytes(std::move(merged.ids));
     for (const auto& [name, text] : {std::pair<const char*, const std::string*>{"packs.bin", &merged.packs},
                                      {"index.bin", &index},
                                      {"ids.bin", &ids}})
-        SVT_DO(writeFileAtomically(folder / name, *text));
+        SVT_DO(writeFileAtomically(work / name, *text));
     // Last: while it is the one before, it names other files, and the city is merged again.
-    SVT_TRY(written, writeFileAtomically(folder / "city.json", cityJson(plan, status, merged, index, ids)));
+    SVT_TRY(written, writeFileAtomically(work / "city.json", cityJson(plan, status, merged, index, ids)));
+    if (status.isUpdate) SVT_DO(publishUpdate(folder));
     return status;
 }
 

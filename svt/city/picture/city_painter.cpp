@@ -32,7 +32,7 @@ Result<CameraView> viewOf(const illustrate::Scene& scene, const volume::Semantic
     std::vector<std::string> ignored;
     illustrate::Scene plain = scene;
     plain.colorBy.clear();
-    SVT_TRY(spec, illustrate::makeFrameSpec(plain, frame, analyze::LabelRows(frame.labels, &ignored)));
+    SVT_TRY(spec, illustrate::makeFrameSpec(plain, frame, analyze::LabelRows(frame, &ignored)));
     return cameraViewOf(*spec, frame.grid);
 }
 

@@ -57,6 +57,36 @@ public:
         return dropped;
     }
 
+    // A dropped feature, and the one of an earlier file that has its id; numbers of surveyed features.
+    struct Conflict {
+        std::uint32_t dropped = 0, kept = 0;
+    };
+    // Leaves out features whose id an earlier file gives to another feature. Call it after dropReplicas(), whose order
+    // has equal ids next to each other.
+    std::vector<Conflict> dropConflicts() {
+        std::vector<Conflict> conflicts;
+        std::size_t kept = 0;
+        for (std::size_t begin = 0; begin < order_.size();) {
+            std::size_t end = begin;
+            const std::uint64_t id = survey_.features[order_[begin]].idHash;
+            while (end < order_.size() && survey_.features[order_[end]].idHash == id) ++end;
+            const std::uint32_t first = *std::min_element(order_.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                          order_.begin() + static_cast<std::ptrdiff_t>(end));
+            const bool isStated = (id & 1) != 0;
+            for (; begin < end; ++begin) {
+                const std::uint32_t own = order_[begin];
+                if (isStated && survey_.features[own].file != survey_.features[first].file)
+                    conflicts.push_back({own, first});
+                else
+                    order_[kept++] = own;
+            }
+        }
+        order_.resize(kept);
+        std::sort(conflicts.begin(), conflicts.end(),
+                  [](const Conflict& a, const Conflict& b) { return a.dropped < b.dropped; });
+        return conflicts;
+    }
+
     void cut(Plan& plan) {
         const auto key = [&](std::uint32_t n) {
             const Surveyed& f = survey_.features[n];
@@ -176,6 +206,7 @@ private:
         sum_ = Sha256();
         const CityOptions& options = plan_.options;
         sum_.add(fmt::format("svt-city-pack 2\n{}\n{} {}\n", plan_.program, options.spacing, options.lod));
+        if (options.unit != 0 || !options.date.empty()) sum_.add(fmt::format("{} {}\n", options.unit, options.date));
     }
     void end() {
         const Digest digest = sum_.finish();
@@ -203,7 +234,8 @@ Result<void> writePlan(const std::filesystem::path& folder, const Survey& survey
         packDigests.add(tile);
         for (std::uint64_t n = tile.firstFeature; n < tile.firstFeature + tile.featureCount; ++n) {
             const Surveyed& f = survey.features[tiling.order()[n]];
-            const PlanFeature feature{f.file, {f.begin, f.size}, f.contentHash};
+            const std::uint64_t id = (f.idHash & 1) != 0 ? f.idHash : f.contentHash;
+            const PlanFeature feature{f.file, {f.begin, f.size}, f.contentHash, static_cast<std::uint32_t>(id >> 32)};
             const std::string bytes = featureBytes(feature);
             featureSum.add(bytes);
             packDigests.add(feature);
@@ -223,6 +255,48 @@ Result<void> writePlan(const std::filesystem::path& folder, const Survey& survey
     // Last, so that there is no plan without its parts.
     SVT_DO(writeFileAtomically(folder / "plan" / "plan.json", planJson(plan, plan.digest)));
     return {};
+}
+
+// The id of a surveyed feature, read again from its file; empty if it cannot be read.
+std::string idInFile(const Survey& survey, const Surveyed& feature) {
+    auto file = readers::FeatureFile::open(survey.fileNames[feature.file]);
+    if (!file) return {};
+    std::string id;
+    const readers::FeatureSpan span{feature.begin, feature.size};
+    readers::ReadOptions reading;
+    reading.date = "all";
+    reading.keepFarFeatures = true;
+    const auto picked = file->pick({&span, 1}, [&](std::size_t, std::string_view text) -> Result<void> {
+        const auto model = file->read({&text, 1}, reading, nullptr);
+        if (model && !model->roots.empty()) id = model->features[model->roots.front()].id;
+        return {};
+    });
+    return picked ? id : std::string();
+}
+
+void noteConflicts(const Survey& survey, const std::vector<Tiling::Conflict>& conflicts, Plan& plan,
+                   Diagnostics& diagnostics) {
+    plan.conflicts = conflicts.size();
+    for (const Tiling::Conflict& conflict : conflicts) {
+        const Surveyed &dropped = survey.features[conflict.dropped], &kept = survey.features[conflict.kept];
+        if (plan.conflictIds.size() == Plan::kNamedConflicts) break;
+        plan.conflictIds.push_back(idInFile(survey, dropped));
+        diagnostics.add(Severity::Warning, Code::IdConflict,
+                        fmt::format("'{}' has the id of a feature with other content; this one is left out",
+                                    survey.fileNames[kept.file]),
+                        {survey.fileNames[dropped.file], 0, 0, plan.conflictIds.back()});
+    }
+}
+
+// An error if more features cannot be read than allowed.
+Result<void> checkReadable(const Survey& survey, double mostPercent) {
+    const double all = double(survey.features.size() + survey.unreadable);
+    if (double(survey.unreadable) <= all * mostPercent / 100) return {};
+    return Error(Code::ManySkipped,
+                 fmt::format("{} of {} features cannot be read, more than the {:g} % that may be left out; the first "
+                             "because: {}. Correct the files or the options, or allow more (--max-left-out 100)",
+                             survey.unreadable, survey.features.size() + survey.unreadable, mostPercent,
+                             survey.firstUnreadable));
 }
 
 }  // namespace
@@ -266,11 +340,13 @@ Result<Plan> makePlan(std::span<const std::filesystem::path> files, const std::f
 
 Result<Plan> planSurveyed(const Survey& survey, const std::filesystem::path& folder, const PlanOptions& options,
                           Diagnostics& diagnostics) {
+    SVT_DO(checkReadable(survey, options.mostLeftOut));
     if (survey.features.empty()) return Error(Code::EmptyModel, "no file has a feature with geometry");
     if (survey.features.size() > 0xFFFFFFF0u)
         return Error(Code::InputTooBig, "a city has at most 4,294,967,280 features; plan it in parts");
     Tiling tiling(survey, options.city);
     const std::vector<std::uint64_t> replicas = tiling.dropReplicas();
+    const std::vector<Tiling::Conflict> conflicts = tiling.dropConflicts();
     Plan plan;
     plan.options = options.city;
     plan.program = options.program;
@@ -279,6 +355,7 @@ Result<Plan> planSurveyed(const Survey& survey, const std::filesystem::path& fol
     plan.files = survey.files;
     plan.tasks = options.tasks;
     plan.skipped = survey.skipped;
+    noteConflicts(survey, conflicts, plan, diagnostics);
     for (std::size_t f = 0; f < replicas.size(); ++f) {
         plan.replicas += replicas[f];
         if (replicas[f] != 0)

@@ -34,6 +34,9 @@ void readJson(const Json& json, Plan& plan) {
     const Json& options = json.at("options");
     plan.options = {options.at("spacing").get<double>(), options.at("lod").get<double>(), options.at("crs").get<int>(),
                     options.at("packSeconds").get<double>()};
+    plan.options.axisOrder = options.value("axisOrder", 0);
+    plan.options.unit = options.value("unit", 0.0);
+    plan.options.date = options.value("date", std::string());
     for (const Json& file : json.at("files"))
         plan.files.push_back({file.at("path").get<std::string>(), file.at("bytes").get<std::uint64_t>(),
                               file.at("crs").get<int>(), file.at("axisOrder").get<int>(),
@@ -41,6 +44,10 @@ void readJson(const Json& json, Plan& plan) {
     plan.features = json.at("features").get<std::uint64_t>();
     plan.replicas = json.at("replicas").get<std::uint64_t>();
     plan.skipped = json.at("skipped").get<std::uint64_t>();
+    if (json.contains("idConflicts")) {
+        plan.conflicts = json.at("idConflicts").at("count").get<std::uint64_t>();
+        plan.conflictIds = json.at("idConflicts").at("ids").get<std::vector<std::string>>();
+    }
     plan.packs = json.at("packs").get<std::uint32_t>();
     plan.tasks = json.at("tasks").get<std::uint32_t>();
 }
@@ -113,7 +120,7 @@ std::string tileBytes(const PlanTile& tile) {
 
 std::string featureBytes(const PlanFeature& feature) {
     std::string bytes;
-    appendBytes(bytes, feature.span.begin, feature.span.size, feature.contentHash, feature.file, std::uint32_t{0});
+    appendBytes(bytes, feature.span.begin, feature.span.size, feature.contentHash, feature.file, feature.idHash);
     return bytes;
 }
 
@@ -130,9 +137,13 @@ std::string planJson(const Plan& plan, const std::string& digest) {
                        {"lod", plan.options.lod},
                        {"crs", plan.options.crs},
                        {"packSeconds", plan.options.packSeconds}};
+    if (plan.options.axisOrder != 0) json["options"]["axisOrder"] = plan.options.axisOrder;
+    if (plan.options.unit != 0) json["options"]["unit"] = plan.options.unit;
+    if (!plan.options.date.empty()) json["options"]["date"] = plan.options.date;
     json["features"] = plan.features;
     json["replicas"] = plan.replicas;
     json["skipped"] = plan.skipped;
+    if (plan.conflicts != 0) json["idConflicts"] = {{"count", plan.conflicts}, {"ids", plan.conflictIds}};
     json["tiles"] = plan.tiles.size();
     json["packs"] = plan.packs;
     json["tasks"] = plan.tasks;
@@ -216,8 +227,7 @@ Result<std::vector<PlanFeature>> readPlanFeatures(const std::filesystem::path& f
     ByteReader from(bytes);
     while (from.left() > 0) {
         PlanFeature feature;
-        from.take(feature.span.begin, feature.span.size, feature.contentHash, feature.file);
-        from.skip(4);
+        from.take(feature.span.begin, feature.span.size, feature.contentHash, feature.file, feature.idHash);
         if (feature.file >= plan.files.size() || feature.span.size > readers::FeatureFile::kMaxFeatureBytes * 64)
             return badPlan(path, "a feature is damaged");
         features.push_back(feature);

@@ -28,6 +28,7 @@ struct Found {
     std::string id;
     std::uint64_t points = 0;
     double area = 0;
+    bool isThere = false;  ///< false: it does not exist on the date
 };
 
 class FileSurvey {
@@ -37,6 +38,7 @@ public:
 
     Result<void> run() {
         SVT_TRY(file, readers::FeatureFile::open(path_, reading()));
+        isWhole_ = file->format() == readers::FeatureFormat::Whole;
         std::error_code failed;
         entry_ = {std::filesystem::absolute(path_, failed).lexically_normal().string(),
                   std::filesystem::file_size(path_, failed), 0, 0, 0};
@@ -74,7 +76,9 @@ private:
         reading.threads = options_.threads;
         reading.crs = entry_.crs != 0 ? entry_.crs : options_.city.crs;
         reading.likelyCrs = survey_.crs;
-        reading.axisOrder = entry_.axisOrder;
+        reading.axisOrder = entry_.axisOrder != 0 ? entry_.axisOrder : options_.city.axisOrder;
+        reading.unit = options_.city.unit;
+        reading.date = options_.city.date;
         reading.keepFarFeatures = true;
         reading.allowTruncated = options_.allowTruncated;
         return reading;
@@ -84,16 +88,19 @@ private:
         return {batch.texts.begin(), batch.texts.end()};
     }
 
-    // The first batch of a file decides how all of it is read.
+    // The first batch of a file that can be read decides how all of it is read.
     Result<void> decide(const readers::FeatureFile& file, const Batch& batch) {
-        isDecided_ = true;
-        const auto first = file.read(viewsOf(batch), reading(), nullptr);
+        Diagnostics findings;
+        const auto first = file.read(viewsOf(batch), reading(), &findings);
+        if (!first && first.error().code() == Code::UnitInDoubt) return first.error();
         if (!first) return {};  // reported for each feature
+        isDecided_ = true;
+        for (const Diagnostic& item : findings.items())
+            if (item.code == Code::AxisOrder || item.code == Code::MapScale)
+                diagnostics_.add(item.severity, item.code, item.message, {path_.string(), 0, 0, {}});
         entry_.axisOrder = first->crs.axesSwapped ? -1 : 1;
-        if (survey_.crs == 0) {
-            survey_.crs = first->crs.epsg;
-            survey_.crsName = first->crs.name;
-        }
+        if (survey_.crs == 0) survey_.crs = first->crs.epsg;
+        if (survey_.crsName.empty() && survey_.crs == first->crs.epsg) survey_.crsName = first->crs.name;
         // A file without a known CRS is taken as it is.
         entry_.crs = first->crs.epsg == 0 ? 0 : survey_.crs;
         if (first->crs.epsg == 0 && survey_.crs != 0)
@@ -119,6 +126,7 @@ private:
         if (!model) {
             if (model.error().code() == Code::Cancelled || model.error().code() == Code::Truncated)
                 return model.error();
+            if (survey_.unreadable++ == 0) survey_.firstUnreadable = model.error().message();
             skip(fmt::format("the feature at byte {} cannot be read: {}", batch.spans[0].begin,
                              model.error().message()));
             return {};
@@ -128,6 +136,7 @@ private:
             if (item.code == Code::Truncated)
                 diagnostics_.add(item.severity, item.code, item.message, {path_.string(), 0, 0, {}});
         std::vector<Found> found = examine(*model, featureOf, batch.texts.size());
+        noteEnded(findings, found);
         for (std::size_t n = 0; n < found.size(); ++n) add(found[n], batch.spans[n], batch.texts[n]);
         Progress::tell(options_.progress, "plan", file.progress());
         return {};
@@ -140,6 +149,7 @@ private:
         for (std::size_t r = 0; r < model.roots.size(); ++r) {
             numberOf[model.roots[r]] = featureOf[r];
             Found& feature = found[featureOf[r]];
+            feature.isThere = true;
             if (feature.id.empty()) feature.id = model.features[model.roots[r]].id;
         }
         // Parents stand before their children.
@@ -168,6 +178,7 @@ private:
     void add(const Found& found, const readers::FeatureSpan& span, std::string_view text) {
         constexpr double kReach = 2.1e7;  // of centimetres in 32 bits
         const Vec3d middle = found.box.center();
+        if (!found.isThere) return;
         if (found.box.isEmpty() || !isFinite(middle)) {
             ++empty_;
             ++survey_.skipped;
@@ -179,10 +190,24 @@ private:
         const double spacing = options_.city.spacing;
         const double cost = kMicrosecondsEach + kMicrosecondsPerPoint * double(found.points) +
                             kMicrosecondsPerThousandVoxels * found.area / (spacing * spacing) / 1000;
-        survey_.features.push_back({span.begin, span.size, contentHash(text), idHash(found.id),
+        // Readers make ids such as "Building[3]" where a file gives none.
+        // The first id of a whole file is often that of a project with several files.
+        const bool isStated = !isWhole_ && !found.id.empty() && found.id.back() != ']';
+        survey_.features.push_back({span.begin, span.size, contentHash(text),
+                                    (idHash(found.id) & ~std::uint64_t{1}) | (isStated ? 1 : 0),
                                     static_cast<std::int32_t>(std::floor(middle.x * 100)),
                                     static_cast<std::int32_t>(std::floor(middle.y * 100)), number_,
                                     static_cast<std::uint32_t>(std::min(cost, 4e9))});
+    }
+
+    // If no feature ended, those that the model lacks have no content, such as a line that was cut off.
+    void noteEnded(const Diagnostics& findings, std::vector<Found>& found) {
+        if (findings.count(Code::FeatureEnded) == 0)
+            for (Found& feature : found) feature.isThere = true;
+        ended_ += static_cast<std::uint64_t>(
+            std::count_if(found.begin(), found.end(), [](const Found& feature) { return !feature.isThere; }));
+        for (const Diagnostic& item : findings.items())
+            if (item.code == Code::FeatureEnded && firstEnded_.empty()) firstEnded_ = item.message;
     }
 
     void skip(std::string message) {
@@ -194,6 +219,10 @@ private:
         if (empty_ != 0)
             diagnostics_.add(Severity::Warning, Code::FeatureSkipped,
                              fmt::format("{} features without geometry are left out", empty_),
+                             {path_.string(), 0, 0, {}});
+        if (!firstEnded_.empty())
+            diagnostics_.add(Severity::Note, Code::FeatureEnded,
+                             fmt::format("{} whole features are left out, for example: {}", ended_, firstEnded_),
                              {path_.string(), 0, 0, {}});
         if (linked_ != 0)
             diagnostics_.add(
@@ -210,8 +239,9 @@ private:
     Diagnostics& diagnostics_;
     PlanFile entry_;
     std::uint32_t number_ = 0;
-    std::uint64_t empty_ = 0, linked_ = 0;
-    bool isDecided_ = false;
+    std::uint64_t empty_ = 0, linked_ = 0, ended_ = 0;
+    std::string firstEnded_;
+    bool isDecided_ = false, isWhole_ = false;
 };
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace svt::city {
 
 /// A feature between survey and tiles. 48 bytes, because there are millions.
 struct Surveyed {
-    std::uint64_t begin = 0, size = 0, contentHash = 0, idHash = 0;
+    std::uint64_t begin = 0, size = 0, contentHash = 0;
+    std::uint64_t idHash = 0;   ///< its lowest bit: whether the file states the id
     std::int32_t x = 0, y = 0;  ///< middle of its box, centimetres
     std::uint32_t file = 0;
     std::uint32_t cost = 0;  ///< microseconds
@@ -19,7 +20,8 @@ struct Surveyed {
 /// All features of all files.
 struct Survey {
     std::deque<Surveyed> features;  ///< grows without moving
-    std::uint64_t skipped = 0;
+    std::uint64_t skipped = 0, unreadable = 0;
+    std::string firstUnreadable;  ///< the reason
     int crs = 0;
     std::string crsName;
     std::vector<PlanFile> files;
@@ -27,7 +29,7 @@ struct Survey {
 };
 
 /// Adds the features of a file. The first file with a CRS decides that of the city.
-/// \return nothing, or the error of a file that cannot be cut; Cancelled
+/// \return nothing, or the error of a file that cannot be cut; UnitInDoubt; Cancelled
 Result<void> surveyFile(const std::filesystem::path& path, const PlanOptions& options, Survey& survey,
                         Diagnostics& diagnostics);
 

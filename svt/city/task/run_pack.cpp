@@ -116,7 +116,7 @@ std::string oneLine(std::string text) {
 class PackWork {
 public:
     PackWork(const std::filesystem::path& folder, const Plan& plan, std::uint32_t pack, const PackOptions& options)
-        : folder_(folder), plan_(plan), pack_(pack), options_(options) {}
+        : folder_(folder), work_(workFolder(folder)), plan_(plan), pack_(pack), options_(options) {}
 
     Result<PackReport> run() {
         // Each round that fails leaves out at least a feature, or a tile.
@@ -128,7 +128,7 @@ public:
                 inOwnProcess(seconds, [&](const Say& say) { guarded(say, [&] { return build(say); }); });
             const Said said(result.text);
             if (said.error) return *said.error;
-            if (said.isDone) return provenReport(folder_, plan_, pack_, false);
+            if (said.isDone) return provenReport(work_, plan_, pack_, false);
             if (Progress::isCancelled(options_.progress)) return Error(Code::Cancelled, "stopped while building");
             for (const auto& [feature, reason] : said.failed) skips_.emplace(feature, reason);
             if (!said.tile) return failed(fmt::format("its process {}", faultText(result, said)));
@@ -178,7 +178,7 @@ private:
     Result<bool> build(const Say& say) {
         Watch watch;
         SVT_TRY(features, PackFeatures::read(folder_, plan_, pack_));
-        SVT_TRY(writer, PackWriter::create(packPath(folder_, pack_), plan_.packDigests[pack_]));
+        SVT_TRY(writer, PackWriter::create(packPath(work_, pack_), plan_.packDigests[pack_]));
         PackReport report{pack_, plan_.packDigests[pack_], {}, 0, 0, 0, {}};
         const auto [first, last] = plan_.tilesOf(pack_);
         for (std::size_t tile = first; tile < last; ++tile) {
@@ -201,9 +201,9 @@ private:
         report.bytes = writer->size();
         for (const auto& [feature, reason] : skips_) report.skipped.push_back(features->skipped(feature, reason));
         std::error_code ignored;
-        std::filesystem::create_directories(folder_ / "reports", ignored);
-        SVT_DO(checkNoStream(reportPath(folder_, pack_)));
-        SVT_TRY(written, writeFileAtomically(reportPath(folder_, pack_), reportJson(report)));
+        std::filesystem::create_directories(work_ / "reports", ignored);
+        SVT_DO(checkNoStream(reportPath(work_, pack_)));
+        SVT_TRY(written, writeFileAtomically(reportPath(work_, pack_), reportJson(report)));
         return true;
     }
 
@@ -270,6 +270,7 @@ private:
     }
 
     const std::filesystem::path& folder_;
+    const std::filesystem::path work_;  // of packs and reports
     const Plan& plan_;
     std::uint32_t pack_;
     const PackOptions& options_;
@@ -282,7 +283,7 @@ Result<PackReport> runPack(const std::filesystem::path& folder, const Plan& plan
                            const PackOptions& options) {
     if (pack >= plan.packs)
         return Error(Code::BadArgument, fmt::format("pack {}: the plan has {} packs", pack, plan.packs));
-    if (auto done = provenReport(folder, plan, pack, true)) return done;
+    if (auto done = provenReport(workFolder(folder), plan, pack, true)) return done;
     return PackWork(folder, plan, pack, options).run();
 }
 

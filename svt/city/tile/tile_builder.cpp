@@ -79,6 +79,8 @@ Result<model::BuildingModel> PackFeatures::model(std::span<const std::uint32_t> 
         options.threads = threads;
         options.crs = plan_->files[file].crs;
         options.axisOrder = plan_->files[file].axisOrder;
+        options.unit = plan_->options.unit;
+        options.date = plan_->options.date;
         options.keepFarFeatures = true;
         options.allowTruncated = true;  // the plan determines the parts of the file that are read
         SVT_TRY(model, files_.at(file).read(views, options, nullptr));
@@ -117,6 +119,7 @@ Result<std::optional<BuiltTile>> buildTile(const PackFeatures& features, std::sp
     building.grid = *grid;
     building.lod.lod = options.lod;
     building.threads = threads;
+    building.vectors.footprints = true;
     SVT_TRY(built, pipeline::buildVolume(*model, building));
     BuiltTile tile;
     tile.full = std::move(built->volume);

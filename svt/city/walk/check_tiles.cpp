@@ -47,6 +47,14 @@ Result<TileCheck> checkTiles(const City& city, const Progress* progress, Diagnos
     TileCheck counted;
     for (int detail = 0; detail <= city.topDetail(); ++detail)
         SVT_DO(checkDetail(city, detail, progress, counted, findings));
+    for (const std::string& id : city.conflictIds())
+        findings.add(Severity::Error, Code::IdConflict,
+                     "two files have different features with this id; the city contains that of the first file",
+                     {{}, 0, 0, id});
+    if (city.idConflicts() > city.conflictIds().size())
+        findings.add(Severity::Error, Code::IdConflict,
+                     fmt::format("{} more features have the id of a feature of an earlier file, but other content",
+                                 city.idConflicts() - city.conflictIds().size()));
     if (city.missingPacks() > 0)
         findings.add(Severity::Error, Code::CityIncomplete,
                      fmt::format("{} packs are missing; svt city status says how to go on", city.missingPacks()));

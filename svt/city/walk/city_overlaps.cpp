@@ -79,7 +79,7 @@ private:
             made->rootOf.push_back(labels[l].parent == volume::kNoLabel ? l : made->rootOf[labels[l].parent]);
         made->isSelected.assign(labels.size(), false);
         std::vector<std::string> nothing;
-        SVT_TRY(selected, analyze::selectLabels(analyze::LabelRows(made->volume.labels, &nothing), query_));
+        SVT_TRY(selected, analyze::selectLabels(analyze::LabelRows(made->volume, &nothing), query_));
         for (const std::uint32_t l : *selected) made->isSelected[made->rootOf[l]] = true;
         // The last one in the order of the curve is needed last.
         if (tiles_.size() >= kMostTiles) tiles_.erase(std::prev(tiles_.end()));

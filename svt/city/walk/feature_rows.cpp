@@ -1,41 +1,19 @@
 #include <svt/city/feature_rows.hpp>
 
-#include <svt/analyze/extents.hpp>
-#include <svt/plane/hull.hpp>
+#include <svt/core/parallel.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace svt::city {
 namespace {
 
 using volume::kNoLabel;
 
-using Point = std::array<double, 2>;
-
-// The convex hull of points, counter-clockwise.
-std::vector<Point> hullOf(std::vector<Point> points) {
-    std::sort(points.begin(), points.end());
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    if (points.size() < 3) return {};
-    const auto chain = [&] {
-        return plane::hullChain(points, 1, [](const Point& point) { return Vec3d{point[0], point[1], 0}; });
-    };
-    std::vector<Point> hull = chain();
-    std::reverse(points.begin(), points.end());
-    const std::vector<Point> upper = chain();
-    hull.insert(hull.end(), upper.begin() + 1, upper.end() - 1);
-    return hull;
-}
-
 // Sums of a row while columns are read.
 struct Gathered {
     std::int32_t low = INT32_MAX, high = -1;          // samples [low, high)
     double nearest = INFINITY, farthest = -INFINITY;  // of corners of voxels from the plane
-    std::uint64_t columns = 0;
-    std::int32_t lastI = -1, lastJ = -1;
-    std::map<std::int32_t, std::array<std::int32_t, 2>> rows;  // by j: the first and last i
 };
 
 class Gatherer {
@@ -74,11 +52,6 @@ private:
             Gathered& to = gathered_[number];
             to.low = std::min(to.low, begin);
             to.high = std::max(to.high, end);
-            if (to.lastI != i || to.lastJ != j) ++to.columns;
-            to.lastI = i;
-            to.lastJ = j;
-            const auto [row, isNew] = to.rows.emplace(j, std::array<std::int32_t, 2>{i, i});
-            if (!isNew) row->second = {std::min(row->second[0], i), std::max(row->second[1], i)};
             if (plane_ == nullptr) continue;
             for (const std::int32_t k : {begin, end - 1}) {
                 const double distance =
@@ -96,23 +69,12 @@ private:
     double halfVoxel_ = 0;
 };
 
-std::vector<Point> outlineOf(const Gathered& gathered, const volume::Grid& grid) {
-    std::vector<Point> points;
-    for (const auto& [j, ends] : gathered.rows)
-        for (const double x : {ends[0] - 0.5, ends[1] + 0.5})
-            for (const double y : {j - 0.5, j + 0.5}) {
-                const Vec3d world = grid.worldFromIndex({x, y, 0});
-                points.push_back({world.x, world.y});
-            }
-    return hullOf(std::move(points));
-}
-
 // \param parts  labels of the extent of each row
 void addRows(const volume::SemanticVolume& volume, const std::vector<std::vector<std::uint32_t>>& parts,
-             std::span<const analyze::FeatureMeasure> measures, const drawing::SectionPlane* plane,
-             std::vector<FeatureRow>& rows) {
-    const std::vector<Gathered> gathered = Gatherer(volume, parts, plane).run();
-    const Vec3d spacing = volume.grid.spacing();
+             std::span<const analyze::FeatureMeasure> measures, const drawing::Footprints& footprints,
+             const FeatureRowOptions& options, std::vector<FeatureRow>& rows) {
+    const std::vector<Gathered> gathered = Gatherer(volume, parts, options.plane).run();
+    const std::size_t first = rows.size();
     for (std::size_t n = 0; n < parts.size(); ++n) {
         FeatureRow& row = rows.emplace_back();
         row.label = measures[n].label;
@@ -120,13 +82,19 @@ void addRows(const volume::SemanticVolume& volume, const std::vector<std::vector
         row.isOpen = std::any_of(parts[n].begin(), parts[n].end(),
                                  [&](std::uint32_t part) { return isOpenShell(volume.labels.labels[part]); });
         const Gathered& total = gathered[n];
-        if (total.columns == 0) continue;
-        row.area = double(total.columns) * spacing.x * spacing.y;
+        if (total.high < 0) continue;
         row.lowest = volume.grid.worldFromIndex({0, 0, total.low - 0.5}).z;
         row.highest = volume.grid.worldFromIndex({0, 0, total.high - 0.5}).z;
-        row.isCut = plane != nullptr && total.nearest < 0 && total.farthest > 0;
-        row.outline = outlineOf(total, volume.grid);
+        row.isCut = options.plane != nullptr && total.nearest < 0 && total.farthest > 0;
     }
+    parallelFor(parts.size(), 1, options.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) {
+            FeatureRow& row = rows[first + n];
+            row.footprint = footprints.of(parts[n], analyze::PlanOutline::Footprint);
+            if (options.hasRoofs) row.roof = footprints.of(parts[n], analyze::PlanOutline::Roof);
+            row.area = row.footprint.area;
+        }
+    });
 }
 
 }  // namespace
@@ -138,11 +106,13 @@ bool isOpenShell(const volume::Label& label) noexcept {
 }
 
 std::vector<FeatureRow> featureRows(const volume::SemanticVolume& volume, std::span<const std::uint32_t> selected,
-                                    const drawing::SectionPlane* plane) {
+                                    const FeatureRowOptions& options) {
     // In passes, so that memory does not grow with the labels of all extents: many groups may have the same members.
     constexpr std::size_t kLabelsPerPass = std::size_t{1} << 24;
     const analyze::Extents extents(volume.labels);
     const auto measures = analyze::measureFeatures(extents, selected, analyze::ownMeasures(volume.labels, volume.grid));
+    const analyze::KnownVolumes volumes(volume.labels, volume.grid, extents);
+    const drawing::Footprints footprints(volume, extents);
     std::vector<FeatureRow> rows;
     rows.reserve(selected.size());
     while (rows.size() < selected.size()) {
@@ -152,7 +122,17 @@ std::vector<FeatureRow> featureRows(const volume::SemanticVolume& volume, std::s
             parts.push_back(extents.of(selected[n]));
             labels += parts.back().size();
         }
-        addRows(volume, parts, std::span(measures).subspan(rows.size(), parts.size()), plane, rows);
+        addRows(volume, parts, std::span(measures).subspan(rows.size(), parts.size()), footprints, options, rows);
+    }
+    const bool hasMeshes = !volume.vectors.triangles.empty();
+    const std::vector<Box3d> boxes = hasMeshes ? analyze::labelWorldBoxes(volume) : std::vector<Box3d>();
+    for (FeatureRow& row : rows) {
+        row.volume = volumes.of(row.label);
+        if (!hasMeshes || row.measure.total.voxels == 0) continue;
+        Box3d box;
+        for (const std::uint32_t part : extents.of(row.label)) box.add(boxes[part]);
+        row.lowest = box.min.z;
+        row.highest = box.max.z;
     }
     return rows;
 }
