@@ -1,8 +1,8 @@
 #include <apps/cli/check/check_reports.hpp>
 #include <apps/cli/check/other_findings.hpp>
+#include <apps/cli/check/use_findings.hpp>
 #include <apps/cli/output/version.hpp>
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +15,14 @@ namespace {
 
 using validate::Finding;
 
+std::string timeNow() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    ::gmtime_r(&now, &utc);
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02} (UTC)", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday,
+                       utc.tm_hour, utc.tm_min, utc.tm_sec);
+}
+
 std::string placeText(Vec3d at) { return fmt::format("({:.3f}, {:.3f}, {:.3f})", at.x, at.y, at.z); }
 
 Json findingJson(const model::BuildingModel& model, const Finding& finding) {
@@ -25,6 +33,7 @@ Json findingJson(const model::BuildingModel& model, const Finding& finding) {
               {"val3dity", number},
               {"val3dityName", validate::val3dityName(number)},
               {"iso", validate::isoTerm(finding.code)},
+              {"preventsUse", validate::preventsUse(finding.code)},
               {"feature", feature.id},
               {"class", feature.className}};
     if (finding.geometry >= 0) {
@@ -68,11 +77,9 @@ struct ErrorsByRoot {
 
 Json otherJson(const model::BuildingModel& model, const OtherFinding& other) {
     const Diagnostic& item = *other.item;
-    Json json{{"code", codeTag(item.code)},
-              {"name", codeName(item.code)},
-              {"severity", severityName(item.severity)},
-              {"id", item.where.id},
-              {"message", item.message}};
+    Json json{
+        {"code", codeTag(item.code)},       {"name", codeName(item.code)}, {"severity", severityName(item.severity)},
+        {"preventsUse", preventsUse(item)}, {"id", item.where.id},         {"message", item.message}};
     if (other.feature != model::kNoFeature) json["feature"] = model.features[rootOf(model, other.feature)].id;
     if (!item.where.file.empty()) json["file"] = item.where.file;
     if (item.where.line != 0) json["line"] = item.where.line;
@@ -163,7 +170,7 @@ Json val3dityJson(const Checked& checked, const std::string& inputFile) {
             {"val3dity_version", fmt::format("svt {}", versionNumber())},
             {"input_file", inputFile},
             {"input_file_type", format},
-            {"time", fmt::format("{:%FT%T} (UTC)", fmt::gmtime(std::time(nullptr)))},
+            {"time", timeNow()},
             {"validity", collected.all.empty()},
             {"parameters",
              {{"snap_tol", checked.options.snap},

@@ -245,15 +245,16 @@ std::map<Code, Kind> kindsOf(const Checked& checked, const std::vector<OtherFind
 
 std::string kindsTable(const std::map<Code, Kind>& kinds) {
     std::string text =
-        "<h2>By kind</h2><table><tr><th>code</th><th>name</th><th>val3dity</th><th>ISO 19107</th><th>tests</th>"
-        "<th>reading, closing</th></tr>";
+        "<h2>By kind</h2><table><tr><th>code</th><th>name</th><th>prevents use</th><th>val3dity</th><th>ISO 19107</th>"
+        "<th>tests</th><th>reading, closing</th></tr>";
     for (const auto& [code, kind] : kinds) {
         const int number = validate::val3dityCode(code);
         text += fmt::format(
-            "<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td><td class=\"n\">{4}</td><td "
-            "class=\"n\">{5}</td></tr>",
-            codeTag(code), codeName(code), number == 0 ? std::string() : std::to_string(number),
-            xmlAttribute(validate::isoTerm(code)), kind.tested, kind.otherCount);
+            "<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td><td>{4}</td>"
+            "<td class=\"n\">{5}</td><td class=\"n\">{6}</td></tr>",
+            codeTag(code), codeName(code), validate::preventsUse(code) ? "yes" : "no",
+            number == 0 ? std::string() : std::to_string(number), xmlAttribute(validate::isoTerm(code)), kind.tested,
+            kind.otherCount);
     }
     return text + "</table>\n";
 }

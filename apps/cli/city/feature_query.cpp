@@ -1,11 +1,13 @@
 #include <apps/cli/city/feature_query.hpp>
 
 #include <apps/cli/city/city_input.hpp>
+#include <apps/cli/city/feature_sums.hpp>
 #include <apps/cli/options/load_volume.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/table.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
+#include <svt/analyze/known_volumes.hpp>
 #include <svt/analyze/selection.hpp>
 #include <svt/city/city_view.hpp>
 #include <svt/city/city_walk.hpp>
@@ -18,9 +20,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
-#include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace svt::cli {
@@ -43,14 +46,19 @@ const std::vector<Column>& ownColumns() {
                                                  {"totalVoxels", "total voxels", 0, CellType::Whole},
                                                  {"filling", "filling"},
                                                  {"open", "open", 0, CellType::Whole},
-                                                 // Deprecated names of totalVolume and totalVoxels.
-                                                 {"volume", "", 2, CellType::Number},
-                                                 {"voxels", "", 0, CellType::Whole}};
+                                                 // The deprecated name of totalVoxels is voxels.
+                                                 {"volume", "m3", 2, CellType::Number},
+                                                 {"voxels", "", 0, CellType::Whole},
+                                                 {"volumeBound", "+- m3", 2, CellType::Number},
+                                                 {"volumeSource", "m3 from"},
+                                                 {"footprint", "area from"}};
     return kColumns;
 }
 
 Row cellsOf(const city::FeatureRow& row, const volume::Label& label) {
     const analyze::Measure &own = row.measure.own, &total = row.measure.total;
+    const auto hasPlan = [](const drawing::Footprint& footprint) { return !footprint.polygons.empty(); };
+    const auto textCell = [](std::string_view text) { return text.empty() ? Cell() : Cell(text); };
     const auto ofVoxels = [&](double value) { return total.voxels > 0 ? Cell(value) : Cell(); };
     const auto known = [](const std::optional<double>& value) { return value ? Cell(*value) : Cell(); };
     return {label.id,
@@ -59,7 +67,7 @@ Row cellsOf(const city::FeatureRow& row, const volume::Label& label) {
             known(own.volume),
             known(total.volume),
             total.volume ? Cell(total.countedVolume) : Cell(),
-            ofVoxels(row.area),
+            hasPlan(row.footprint) ? Cell(row.area) : Cell(),
             ofVoxels(row.highest - row.lowest),
             ofVoxels(row.lowest),
             ofVoxels(row.highest),
@@ -67,8 +75,11 @@ Row cellsOf(const city::FeatureRow& row, const volume::Label& label) {
             total.voxels,
             volume::fillingName(label.filling),
             row.isOpen ? 1 : 0,
-            known(total.volume),
-            total.voxels};
+            known(row.volume.volume),
+            total.voxels,
+            row.volume.volume ? known(row.volume.bound) : Cell(),
+            textCell(analyze::volumeSourceName(row.volume.source)),
+            textCell(row.footprint.source)};
 }
 
 CellType typeOf(const AttributeValue& value) {
@@ -89,7 +100,9 @@ public:
             frame_ = std::move(*frame);
             return {};
         }
-        SVT_TRY(loaded, loadVolume(query_.input, query_.build, TerminalProgress().get(), false));
+        pipeline::BuildOptions build = query_.build;
+        build.vectors = {.meshes = true, .isRequired = false};
+        SVT_TRY(loaded, loadVolume(query_.input, build, TerminalProgress().get(), false));
         frame_ = std::move(*loaded);
         return {};
     }
@@ -102,13 +115,14 @@ public:
         return city::forEachTile(*city_, rectangleOf(query_.box), query_.build.threads, progress.get(), work);
     }
     // The same with only label tables, without columns.
-    Result<void> forEachTable(const std::function<Result<void>(const volume::LabelTable&)>& work) const {
-        if (!city_) return work(frame_.labels);
+    Result<void> forEachTable(
+        const std::function<Result<void>(const volume::LabelTable&, const volume::Grid&)>& work) const {
+        if (!city_) return work(frame_.labels, frame_.grid);
         SVT_TRY(entries, city_->find(0, rectangleOf(query_.box)));
         for (const city::IndexEntry& entry : *entries) {
             SVT_TRY(bytes, city_->readBytes(entry));
             SVT_TRY(tile, volume::openSvt(std::as_bytes(std::span(*bytes)), entry.tile.toString()));
-            SVT_DO(work(tile->labels));
+            SVT_DO(work(tile->labels, tile->grid));
         }
         return {};
     }
@@ -129,11 +143,7 @@ public:
             SVT_TRY(plane, drawing::parseSectionPlane(query_.cut, source_.frame()));
             plane_ = *plane;
         }
-        for (std::size_t at = 0; at < query_.by.size();) {
-            const std::size_t comma = std::min(query_.by.find(',', at), query_.by.size());
-            keys_.push_back(query_.by.substr(at, comma - at));
-            at = comma + 1;
-        }
+        if (!query_.by.empty()) sums_.emplace(query_.by);
         if (!query_.output.empty()) SVT_DO(beginFile());
         if (auto asked = source_.forEach([&](const volume::SemanticVolume& volume) { return ask(volume); }); !asked)
             return asked;
@@ -141,19 +151,16 @@ public:
     }
 
 private:
-    struct Sum {
-        std::uint64_t count = 0, withoutVolume = 0, withoutVoxels = 0;
-        double volume = 0, area = 0;
-    };
     struct Kept {
         double order = 0;
         Row cells;
-        std::vector<std::array<double, 2>> outline;
+        std::vector<drawing::PlanPolygon> footprint, roof;
+        std::vector<Attribute> lists;  // attributes with several values
     };
 
-    Result<std::vector<std::uint32_t>> select(const volume::LabelTable& labels) const {
+    Result<std::vector<std::uint32_t>> select(const volume::LabelTable& labels, const volume::Grid& grid) const {
         std::vector<std::string> nothing;
-        auto selected = analyze::selectLabels(analyze::LabelRows(labels, &nothing), query_.query);
+        auto selected = analyze::selectLabels(analyze::LabelRows(labels, grid, &nothing), query_.query);
         if (selected && query_.leaks)
             std::erase_if(*selected, [&](std::uint32_t l) { return !city::isOpenShell(labels.labels[l]); });
         return selected;
@@ -162,12 +169,14 @@ private:
     // Collects the columns of attributes, which must be known before the first row.
     Result<void> beginFile() {
         std::map<std::string, CellType> attributes;
-        const auto add = [&](const volume::LabelTable& labels) -> Result<void> {
-            SVT_TRY(selected, select(labels));
+        const auto add = [&](const volume::LabelTable& labels, const volume::Grid& grid) -> Result<void> {
+            SVT_TRY(selected, select(labels, grid));
             for (const std::uint32_t l : *selected)
-                for (const Attribute& attribute : labels.labels[l].attributes) {
-                    const CellType type = typeOf(attribute.value);
-                    const auto [known, isNew] = attributes.emplace(attribute.name, type);
+                for (const AttributeList& list : attributeLists(labels.labels[l].attributes)) {
+                    const CellType type =
+                        list.isSingle() ? typeOf(list.items.front().attribute->value) : CellType::Text;
+                    if (!list.isSingle()) listNames_.emplace(list.name);
+                    const auto [known, isNew] = attributes.emplace(list.name, type);
                     if (isNew || known->second == type) continue;
                     const bool areNumbers = known->second != CellType::Text && type != CellType::Text;
                     known->second = areNumbers ? CellType::Number : CellType::Text;
@@ -175,7 +184,7 @@ private:
             return {};
         };
         SVT_DO(source_.forEachTable(add));
-        columns_ = ownColumns();
+        columns_ = columns();
         for (const auto& [name, type] : attributes) {
             // Names of columns must differ by more than case, and be unique in a table.
             const bool isOwn = std::any_of(columns_.begin(), columns_.end(), [&, &wanted = name](const auto& column) {
@@ -189,7 +198,8 @@ private:
             placeOf_[name] = columns_.size();
             columns_.push_back({unique, unique, 2, type});
         }
-        SVT_TRY(layer, writers::FeatureLayer::create(query_.output, columns_, source_.frame().crsName));
+        SVT_TRY(layer, writers::FeatureLayer::create(query_.output, columns_, source_.frame().crsName,
+                                                     {.hasLists = !listNames_.empty(), .hasRoofs = query_.roofs}));
         layer_ = std::move(*layer);
         return {};
     }
@@ -197,83 +207,68 @@ private:
     [[nodiscard]] bool isInBox(const city::FeatureRow& row) const {
         const std::vector<double>& box = query_.box;
         if (box.empty()) return true;
-        if (row.measure.total.voxels == 0 || row.outline.empty() || row.highest < box[2] || row.lowest > box[5])
+        const auto& polygons = row.footprint.polygons;
+        if (row.measure.total.voxels == 0 || polygons.empty() || row.highest < box[2] || row.lowest > box[5])
             return false;
         std::array<double, 4> own{1e300, 1e300, -1e300, -1e300};
-        for (const auto& [x, y] : row.outline)
-            own = {std::min(own[0], x), std::min(own[1], y), std::max(own[2], x), std::max(own[3], y)};
+        for (const drawing::PlanPolygon& polygon : polygons)
+            for (const auto& [x, y] : polygon.rings.front())
+                own = {std::min(own[0], x), std::min(own[1], y), std::max(own[2], x), std::max(own[3], y)};
         return own[0] <= box[3] && box[0] <= own[2] && own[1] <= box[4] && box[1] <= own[3];
     }
 
     Result<void> ask(const volume::SemanticVolume& volume) {
-        SVT_TRY(selected, select(volume.labels));
+        SVT_TRY(selected, select(volume.labels, volume.grid));
         if (selected->empty()) return {};
-        std::map<std::vector<std::string>, std::vector<city::FeatureRow>> groups;
-        for (city::FeatureRow& row : city::featureRows(volume, *selected, plane_ ? &*plane_ : nullptr)) {
+        std::vector<city::FeatureRow> counted;
+        for (city::FeatureRow& row : rowsOf(volume, *selected)) {
             if ((plane_ && !row.isCut) || !isInBox(row)) continue;
             ++count_;
+            if (sums_) counted.push_back(row);
             const volume::Label& label = volume.labels.labels[row.label];
-            if (!keys_.empty()) groups[valuesOf(label)].push_back(row);
             SVT_DO(take(std::move(row), label));
         }
-        const analyze::Extents extents(volume.labels);
-        const std::vector<analyze::Measure> own = analyze::ownMeasures(volume.labels, volume.grid);
-        for (const auto& [values, rows] : groups) addToSum(rows, extents, own, sums_[values]);
+        if (sums_) sums_->add(volume, counted);
         return {};
     }
 
-    // Values of the keys of --by. The key class is the class of a feature, and "class" in quotes the attribute.
-    [[nodiscard]] std::vector<std::string> valuesOf(const volume::Label& label) const {
-        std::vector<std::string> values;
-        for (const std::string& key : keys_) {
-            std::string& value = values.emplace_back();
-            if (equalsIgnoringCase(key, "class")) {
-                value = label.className;
-                continue;
-            }
-            const bool isQuoted = key.size() > 2 && key.front() == '"' && key.back() == '"';
-            const std::string name = isQuoted ? key.substr(1, key.size() - 2) : key;
-            for (const Attribute& attribute : label.attributes)
-                if (equalsIgnoringCase(attribute.name, name)) value = toText(attribute.value);
-        }
-        return values;
+    [[nodiscard]] std::vector<city::FeatureRow> rowsOf(const volume::SemanticVolume& volume,
+                                                       const std::vector<std::uint32_t>& selected) const {
+        return city::featureRows(
+            volume, selected,
+            {.plane = plane_ ? &*plane_ : nullptr, .hasRoofs = query_.roofs, .threads = query_.build.threads});
     }
 
-    // Adds features of equal values. A label in several of them counts once, and a feature within others adds no area.
-    static void addToSum(const std::vector<city::FeatureRow>& rows, const analyze::Extents& extents,
-                         const std::vector<analyze::Measure>& own, Sum& sum) {
-        std::vector<std::size_t> sizes, order(rows.size());
-        for (const city::FeatureRow& row : rows) sizes.push_back(extents.of(row.label).size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
-        std::vector<char> isCounted(own.size(), 0);
-        for (const std::size_t n : order) {
-            const analyze::Measure& total = rows[n].measure.total;
-            ++sum.count;
-            sum.withoutVolume += !total.volume;
-            sum.withoutVoxels += total.voxels == 0;
-            bool isNew = false;
-            for (const std::uint32_t part : extents.of(rows[n].label)) {
-                if (std::exchange(isCounted[part], 1) != 0) continue;
-                isNew = true;
-                sum.volume += own[part].volume.value_or(0);
+    [[nodiscard]] std::vector<Column> columns() const {
+        std::vector<Column> all = ownColumns();
+        if (query_.roofs) all.push_back({"roofArea", "roof area", 2, CellType::Number});
+        return all;
+    }
+
+    void addAttributes(const volume::Label& label, Kept& kept) const {
+        kept.cells.resize(columns_.size());
+        for (const AttributeList& list : attributeLists(label.attributes)) {
+            const std::size_t place = placeOf_.find(list.name)->second;
+            if (!list.isSingle()) {
+                kept.cells[place] = list;
+                for (const AttributeList::Item& item : list.items)
+                    if (item.attribute != nullptr) kept.lists.push_back(*item.attribute);
+                continue;
             }
-            if (isNew) sum.area += rows[n].area;
+            // Numbers stay numbers beside lists, but not beside texts: all cells of a column are alike then.
+            const AttributeValue& value = list.items.front().attribute->value;
+            const bool isText = columns_[place].type == CellType::Text && !listNames_.contains(list.name);
+            kept.cells[place] = isText || std::holds_alternative<bool>(value) ? Cell(toText(value)) : Cell(value);
         }
     }
 
     Result<void> take(city::FeatureRow row, const volume::Label& label) {
-        Kept kept{0, cellsOf(row, label), std::move(row.outline)};
-        if (layer_) {
-            kept.cells.resize(columns_.size());
-            for (const Attribute& attribute : label.attributes) {
-                const std::size_t place = placeOf_.at(attribute.name);
-                kept.cells[place] =
-                    columns_[place].type == CellType::Text ? Cell(toText(attribute.value)) : Cell(attribute.value);
-            }
-        }
+        Kept kept{0, cellsOf(row, label), std::move(row.footprint.polygons), std::move(row.roof.polygons), {}};
+        if (query_.roofs) kept.cells.push_back(kept.roof.empty() ? Cell() : Cell(row.roof.area));
+        if (layer_) addAttributes(label, kept);
         if (!query_.sort.empty()) {
-            kept.order = query_.sort == "volume" ? row.measure.total.volume.value_or(0)
+            constexpr double kUnknown = -1;  // last
+            kept.order = query_.sort == "volume" ? row.volume.volume.value_or(kUnknown)
                          : query_.sort == "area" ? row.area
                                                  : row.highest - row.lowest;
             return keepLargest(std::move(kept));
@@ -301,8 +296,8 @@ private:
 
     // Writes a row to the file, or prints it as a line.
     Result<void> give(const Kept& kept) {
-        if (layer_) return layer_->add(kept.cells, kept.outline);
-        if (!keys_.empty()) return {};
+        if (layer_) return layer_->add({kept.cells, kept.footprint, kept.roof, attributeLists(kept.lists)});
+        if (sums_) return {};
         table_.rows.push_back(kept.cells);
         if (query_.format == TableFormat::JsonRows || table_.rows.size() < 1000) return {};
         printTable();
@@ -311,37 +306,10 @@ private:
 
     // Prints the rows so far, so that memory does not grow with their number.
     void printTable() {
-        table_.columns = ownColumns();
+        table_.columns = columns();
         print(table_, query_.format, !isBegun_);
         isBegun_ = true;
         table_.rows.clear();
-    }
-
-    void printSums() const {
-        Table table;
-        for (const std::string& key : keys_) table.columns.push_back({key, key, 0});
-        table.columns.push_back({"features", "features", 0});
-        table.columns.push_back({"totalVolume", "total m3", 1});
-        table.columns.push_back({"area", "m2 in plan", 1});
-        table.columns.push_back({"volume"});  // deprecated name of totalVolume
-        std::uint64_t withoutVolume = 0, withoutVoxels = 0;
-        for (const auto& [values, sum] : sums_) {
-            withoutVolume += sum.withoutVolume;
-            withoutVoxels += sum.withoutVoxels;
-            Row& row = table.rows.emplace_back();
-            for (const std::string& value : values) row.push_back(value.empty() ? Cell() : Cell(value));
-            row.push_back(sum.count);
-            const Cell cubicMetres = sum.withoutVolume < sum.count ? Cell(sum.volume) : Cell();
-            row.push_back(cubicMetres);
-            row.push_back(sum.withoutVoxels < sum.count ? Cell(sum.area) : Cell());
-            row.push_back(cubicMetres);
-        }
-        print(table, query_.format);
-        const auto noteMissing = [](std::uint64_t count, const char* measure, const char* basis) {
-            if (count > 0) note(fmt::format("the sums of {} exclude {} features without {}", measure, count, basis));
-        };
-        noteMissing(withoutVolume, "volume", "solids");
-        noteMissing(withoutVoxels, "area", "voxels");
     }
 
     Result<void> finish() {
@@ -352,10 +320,12 @@ private:
         if (layer_)
             if (const auto written = layer_->finish(); !written) return written.error();
         TerminalProgress::hide();
-        if (!keys_.empty())
-            printSums();
-        else if (!layer_ && (!table_.rows.empty() || !isBegun_))
+        if (sums_) {
+            print(sums_->table(), query_.format);
+            sums_->note();
+        } else if (!layer_ && (!table_.rows.empty() || !isBegun_)) {
             printTable();
+        }
         if (count_ == 0) note(fmt::format("the query '{}' selects nothing", query_.query));
         if (layer_)
             summarize(fmt::format("{}: {} features", query_.output.string(),
@@ -366,11 +336,11 @@ private:
     const FeatureQuery& query_;
     Source source_;
     std::optional<drawing::SectionPlane> plane_;
-    std::vector<std::string> keys_;
     std::vector<Column> columns_;
-    std::map<std::string, std::size_t> placeOf_;
+    std::map<std::string, std::size_t, std::less<>> placeOf_;
+    std::set<std::string, std::less<>> listNames_;  // attributes of which a feature has several values
     std::unique_ptr<writers::FeatureLayer> layer_;
-    std::map<std::vector<std::string>, Sum> sums_;
+    std::optional<FeatureSums> sums_;  // with --by
     std::vector<Kept> largest_;
     Table table_;
     bool isBegun_ = false;

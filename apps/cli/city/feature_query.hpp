@@ -19,13 +19,14 @@ struct FeatureQuery {
     std::vector<double> box;
     std::string by, cut, sort;
     int first = 0;
-    bool leaks = false;
+    bool leaks = false, roofs = false;
     TableFormat format = TableFormat::Text;
     pipeline::BuildOptions build;
 
     /// Whether an option is given that only runFeatureQuery() answers.
     [[nodiscard]] bool isAsked() const {
-        return !output.empty() || !box.empty() || !by.empty() || !cut.empty() || !sort.empty() || first > 0 || leaks;
+        return !output.empty() || !box.empty() || !by.empty() || !cut.empty() || !sort.empty() || first > 0 || leaks ||
+               roofs;
     }
 };
 

@@ -117,7 +117,7 @@ Result<void> takePart(const BuildArguments& arguments, volume::SemanticVolume& v
         volume = std::move(*cropped);
     }
     if (arguments.only.empty()) return {};
-    SVT_TRY(labels, analyze::selectWithParts(volume.labels, arguments.only));
+    SVT_TRY(labels, analyze::selectWithParts(volume, arguments.only));
     SVT_DO(analyze::boxAround(*labels, volume, fmt::format("the selection of --only '{}'", arguments.only)));
     SVT_TRY(selected, volume::selectedVolume(volume, *labels));
     // One more sample on each side, as in a build.

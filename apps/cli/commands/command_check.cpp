@@ -1,6 +1,7 @@
 #include <apps/cli/check/check_reports.hpp>
 #include <apps/cli/check/feature_batches.hpp>
 #include <apps/cli/check/unit_findings.hpp>
+#include <apps/cli/check/use_findings.hpp>
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/shared_options.hpp>
@@ -34,7 +35,7 @@ struct CheckArguments {
     ReportFormat format = ReportFormat::Text;
     validate::ValidateOptions validation;
     pipeline::BuildOptions build;  // only its options for reading, the level of detail and the limit of memory
-    bool json = false, verbose = false;
+    bool json = false, verbose = false, strict = false;
 };
 
 // The reason why the volume of an object is unknown although its mesh is closed; Internal: it is known. An invalid
@@ -49,7 +50,9 @@ Code whyNoVolume(const model::BuildingModel& model, const validate::ValidationRe
         const Code reason = found->second.reason;
         const bool isClosedAnew = reason == Code::TriangulationFailed || reason == Code::ShellNotClosed ||
                                   reason == Code::TJunction || reason == Code::FaceTurnedOver;
-        if (!isClosedAnew) return reason;
+        // Bodies that touch along an edge, or lie apart, enclose a definite volume if no edge leaks.
+        const bool isTouching = reason == Code::NonManifold || reason == Code::ShellDisconnected;
+        if (!isClosedAnew && !(isTouching && object.leakCount == 0)) return reason;
     }
     return Code::Internal;
 }
@@ -130,7 +133,10 @@ void printJson(const Checked& checked, const mesh::MeshSet& scene, const Diagnos
     json["tJunctions"] = tight;
     addValidationJson(json, checked);
     json["legalUnits"] = checked.units;
+    json["usable"] = !preventsUse(diagnostics);
     json["diagnostics"] = diagnosticsJson(diagnostics);
+    for (std::size_t i = 0; i < diagnostics.items().size(); ++i)
+        json["diagnostics"][i]["preventsUse"] = preventsUse(diagnostics.items()[i]);
     print(json);
 }
 
@@ -233,8 +239,11 @@ Result<bool> checkInBatches(const CheckArguments& arguments, const readers::Read
     return true;
 }
 
-int exitCodeFor(const Diagnostics& diagnostics) {
-    return diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error) != 0 ? kInvalid : kDone;
+// The report of val3dity counts every violation, as val3dity does.
+int exitCodeFor(const CheckArguments& arguments, const Diagnostics& diagnostics) {
+    const bool isStrict = arguments.strict || arguments.format == ReportFormat::Val3dity;
+    const bool isFlawed = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error) != 0;
+    return isStrict ? (isFlawed ? kInvalid : kDone) : (preventsUse(diagnostics) ? kInvalid : kDone);
 }
 
 Result<void> report(const CheckArguments& arguments, const Checked& checked, const Diagnostics& diagnostics) {
@@ -271,8 +280,8 @@ Result<int> runCheck(const CheckArguments& arguments) {
             arguments, reading, [&] { progress.reset(); }, diagnostics);
         if (!done) return stop(done.error());
         if (*done) {
-            printDiagnostics(diagnostics, arguments.verbose);
-            return exitCodeFor(diagnostics);
+            printByUse(diagnostics, arguments.verbose);
+            return exitCodeFor(arguments, diagnostics);
         }
     }
     const auto model = readers::readModels(arguments.inputs, reading, &diagnostics);
@@ -282,8 +291,8 @@ Result<int> runCheck(const CheckArguments& arguments) {
         return report(arguments, whole, diagnostics);
     });
     if (!checked) return stop(checked.error());
-    if (isText) printDiagnostics(diagnostics, arguments.verbose);
-    return exitCodeFor(diagnostics);
+    if (isText) printByUse(diagnostics, arguments.verbose);
+    return exitCodeFor(arguments, diagnostics);
 }
 
 Members<CheckArguments> membersOf(const CheckArguments*) noexcept {
@@ -308,6 +317,8 @@ Members<CheckArguments> membersOf(const CheckArguments*) noexcept {
                              {.value = "R.html", .group = "Output", .file = FileUse::Output, .formats = "html"}),
         member<&All::format>("--format", "format on stdout: text, JSON, or the JSON report of val3dity",
                              {.group = "Output"}),
+        member<&All::strict>("--strict", "exit 4 at any warning, also if it does not prevent the use of the model",
+                             {.group = "Output"}),
         jsonOption<&All::json>(),
         part<&All::build>("build", "--memory"),
         quietOption<All>(),
@@ -319,6 +330,6 @@ Members<CheckArguments> membersOf(const CheckArguments*) noexcept {
 }  // namespace
 
 extern const CommandText kCheckCommand = commandOf<CheckArguments, runCheck>(
-    "check", "Test a model: open shells, dangling links, bad faces; exit 4 if something is wrong");
+    "check", "Test a model: open shells, dangling links, bad faces; exit 4 if a defect prevents its use");
 
 }  // namespace svt::cli

@@ -25,6 +25,9 @@ Result<int> runCityPlan(CityPlanArguments& arguments) {
     city::PlanOptions& options = arguments.options;
     options.city.crs = arguments.build.read.crs;
     options.city.lod = arguments.build.lod.lod;
+    options.city.axisOrder = arguments.build.read.axisOrder;
+    options.city.unit = arguments.build.read.unit;
+    options.city.date = arguments.build.read.date;
     options.allowTruncated = arguments.build.read.allowTruncated;
     options.program = programOfCity();
     SVT_TRY(files, city::cityInputs(arguments.inputs));
@@ -41,12 +44,13 @@ Result<int> runCityPlan(CityPlanArguments& arguments) {
         fmt::print("{}: {} features of {} files in {} tiles and {} packs; {} replicas, {} left out; {}\n",
                    arguments.output.string(), plan->features, plan->files.size(), plan->tiles.size(), plan->packs,
                    plan->replicas, plan->skipped, plan->crsName.empty() ? "no CRS" : plan->crsName);
-    if (!isQuiet() && arguments.isUpdate)
-        fmt::print(
-            "{} features are new or changed, {} gone; {} tiles are new, {} changed, {} gone; {} of {} packs are "
-            "built, 'svt city run {}' builds the others\n",
-            changes.newFeatures, changes.goneFeatures, changes.newTiles, changes.changedTiles, changes.goneTiles,
-            changes.keptPacks, plan->packs, arguments.output.string());
+    if (isQuiet() || !arguments.isUpdate) return kDone;
+    fmt::print("{} features are new, {} changed, {} gone; {} tiles are new, {} changed, {} gone\n", changes.newFeatures,
+               changes.changedFeatures, changes.goneFeatures, changes.newTiles, changes.changedTiles,
+               changes.goneTiles);
+    fmt::print(
+        "{} of {} packs are built, 'svt city run {}' builds the others; the city before stays readable until then\n",
+        changes.keptPacks, plan->packs, arguments.output.string());
     return kDone;
 }
 
@@ -63,7 +67,10 @@ Members<CityPlanArguments> membersOf(const CityPlanArguments*) noexcept {
         member<&All::options, &PlanOptions::city, &CityOptions::spacing>(
             "--spacing", "distance between samples of the finest level",
             {.unit = "metres", .least = 0.001, .most = 100, .group = "Grid", .isForProjects = true}),
-        part<&All::build>("build", "--lod|--crs|--allow-truncated"),
+        part<&All::build>("build", "--lod|--crs|--axis-order|--unit|--date|--allow-truncated"),
+        member<&All::options, &PlanOptions::mostLeftOut>(
+            "--max-left-out", "end with an error if more of the features cannot be read and would be left out",
+            {.unit = "percent", .least = 0, .most = 100, .group = "Model"}),
         member<&All::options, &PlanOptions::tasks>(
             "--tasks", "number of tasks for a cluster; the city does not depend on it",
             {.least = 1, .most = 1000000, .otherwise = "about 5 minutes each, up to 1000", .group = "Work"}),

@@ -117,6 +117,7 @@ Result<int> runEngine(const CityRunArguments& arguments, const city::Plan& plan)
 
 Result<int> runCityRun(const CityRunArguments& arguments) {
     SVT_TRY(plan, city::readPlan(arguments.folder, programOfCity()));
+    SVT_DO(city::publishUpdate(arguments.folder));
     if (arguments.engine != Engine::Local) return runEngine(arguments, *plan);
     if (!arguments.options.empty() || arguments.isPrinted)
         return Error(Code::BadArgument, "--print and options after -- need --engine slurm or kubernetes");
@@ -167,13 +168,27 @@ Result<int> runCityMerge(const CityMergeArguments& arguments) {
     return tellMissing(arguments.folder, *merged);
 }
 
+// Names the removed and changed source files.
+void tellChanged(const std::filesystem::path& folder, const std::vector<city::ChangedInput>& changed) {
+    constexpr std::size_t kShown = 12;
+    if (changed.empty()) return;
+    for (std::size_t n = 0; n < std::min(kShown, changed.size()); ++n)
+        fmt::print("{} since the plan: {}\n", changed[n].isRemoved ? "removed" : "changed", changed[n].path);
+    if (changed.size() > kShown) fmt::print("{} more source files\n", changed.size() - kShown);
+    fmt::print("'svt city plan FILES -o {} --update' with the same options plans the city again\n", folder.string());
+}
+
 Result<int> runCityStatus(const CityStatusArguments& arguments) {
     SVT_TRY(plan, city::readPlan(arguments.folder, {}));
+    SVT_TRY(changed, city::changedInputs(arguments.folder, *plan, arguments.isProven));
     const city::CityStatus status = city::cityStatus(arguments.folder, *plan, arguments.isProven);
     if (arguments.json) {
-        Json json{{"packs", status.packs},      {"tasks", plan->tasks},          {"missing", status.missing},
-                  {"bytes", status.bytes},      {"buildings", status.buildings}, {"features", plan->features},
-                  {"replicas", plan->replicas}, {"skipped", Json::array()}};
+        Json json{{"packs", status.packs},        {"tasks", plan->tasks},          {"missing", status.missing},
+                  {"bytes", status.bytes},        {"buildings", status.buildings}, {"features", plan->features},
+                  {"replicas", plan->replicas},   {"skipped", Json::array()},      {"isUpdate", status.isUpdate},
+                  {"changedFiles", Json::array()}};
+        for (const city::ChangedInput& input : *changed)
+            json["changedFiles"].push_back({{"file", input.path}, {"isRemoved", input.isRemoved}});
         for (const city::SkippedFeature& feature : status.skipped)
             json["skipped"].push_back({{"file", feature.file}, {"begin", feature.begin}, {"reason", feature.reason}});
         print(json);
@@ -184,6 +199,8 @@ Result<int> runCityStatus(const CityStatusArguments& arguments) {
                double(status.bytes) / 1e6, status.skipped.size());
     if (!status.missing.empty())
         fmt::print("missing: {}\n{}\n", rangesOf(status.missing), resubmitLine(arguments.folder));
+    if (status.isUpdate) fmt::print("this is an update: the city before it stays readable until all packs are done\n");
+    tellChanged(arguments.folder, *changed);
     tellSkipped(status.skipped);
     return kDone;
 }

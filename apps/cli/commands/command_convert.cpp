@@ -11,6 +11,7 @@
 #include <svt/city/city_tiles3d.hpp>
 #include <svt/core/text.hpp>
 #include <svt/frontend/volume_part.hpp>
+#include <svt/writers/globe_heights.hpp>
 #include <svt/writers/volume_formats.hpp>
 
 #include <fmt/format.h>
@@ -26,6 +27,7 @@ struct ConvertArguments {
     std::filesystem::path input, output;
     frontend::VolumePart part;
     writers::VolumeWriteOptions write;
+    bool roofs = false;
     pipeline::BuildOptions build;
 };
 
@@ -38,8 +40,17 @@ Result<int> convertToTable(const ConvertArguments& arguments) {
                   : isCity(arguments.input)      ? "class=Building"
                                                  : "all";
     query.box = arguments.part.box;
+    query.roofs = arguments.roofs;
     query.build = arguments.build;
     return runFeatureQuery(query);
+}
+
+// Without --lift and --place: raises a tileset by the geoid, and says so or that the grid is missing.
+void setLift(const std::string& crsName, Vec3d corner, writers::TilesetWriteOptions& options) {
+    if (options.lift || options.place) return;
+    const writers::GlobeHeights heights = writers::globeHeights(crsName, corner);
+    options.lift = heights.lift;
+    note(heights.remark);
 }
 
 Result<int> convertCity(const ConvertArguments& arguments) {
@@ -57,7 +68,9 @@ Result<int> convertCity(const ConvertArguments& arguments) {
                      "city extract, and convert that");
     SVT_TRY(city, city::City::open(arguments.input));
     const TerminalProgress progress;
-    SVT_DO(city::writeCityTiles(*city, arguments.output, arguments.write, arguments.part.level, arguments.build.threads,
+    writers::VolumeWriteOptions options = arguments.write;
+    setLift(city->crsName(), city->box().min, options.tileset);
+    SVT_DO(city::writeCityTiles(*city, arguments.output, options, arguments.part.level, arguments.build.threads,
                                 progress.get()));
     return kDone;
 }
@@ -68,9 +81,10 @@ Result<int> runConvert(const ConvertArguments& arguments) {
     if (isCity(arguments.input)) return convertCity(arguments);
     const TerminalProgress progress;
     pipeline::BuildOptions build = arguments.build;
-    // IndoorGML gets the bodies of rooms from the model.
+    // IndoorGML gets the bodies of rooms from the model, and glTF its surfaces.
     const writers::VolumeFormat* format = writers::volumeFormatOf(arguments.output);
-    if (format != nullptr && format->name == "indoorgml") build.vectors = {.meshes = true, .isRequired = false};
+    const bool needsMeshes = format != nullptr && (format->name == "indoorgml" || format->name == "glb");
+    if (needsMeshes) build.vectors = {.meshes = true, .isRequired = false};
     SVT_TRY(volume, loadVolume(arguments.input, build, progress.get(), false));
     volume = arguments.part.of(std::move(*volume), build.threads);
     if (!volume) return volume.error();
@@ -80,6 +94,8 @@ Result<int> runConvert(const ConvertArguments& arguments) {
     if (model.empty() && contentOf(arguments.input) == FileContent::CityGml) model = arguments.input;
     options.threads = build.threads;
     options.progress = progress.get();
+    if (format != nullptr && format->name == "tileset" && !volume->crsName.empty())
+        setLift(volume->crsName, volume->grid.origin(), options.tileset);
     SVT_DO(writers::writeVolume(*volume, arguments.output, options));
     return kDone;
 }
@@ -109,6 +125,9 @@ Members<ConvertArguments> membersOf(const ConvertArguments*) noexcept {
                              {.value = "FILE", .isRequired = true, .file = FileUse::Output, .formats = kOutputs.names}),
         part<&All::part>("part"),
         part<&All::write>("write"),
+        member<&All::roofs>("--roofs",
+                            "tables of features: outlines of roofs as well, in a column and as a second layer",
+                            {.group = "Tables"}),
         quietOption<All>(),
         part<&All::build>("build"),
     };

@@ -10,7 +10,7 @@
 
 #include <svt/analyze/selection.hpp>
 #include <svt/city/city_walk.hpp>
-#include <svt/core/file.hpp>
+#include <svt/readers/owner_table.hpp>
 
 #include <fmt/format.h>
 
@@ -24,6 +24,7 @@ struct QueryArguments {
     std::string query;
     std::string with, along;
     std::filesystem::path owners, parcels;
+    std::vector<double> parcelHeights;
     bool neighbors = false, overlaps = false, gaps = false, areas = false;
     pipeline::BuildOptions build;
     FeatureQuery features;
@@ -71,7 +72,7 @@ Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& sel
         SVT_TRY(ray, illustrate::parsePickRay(arguments.along, volume.grid));
         return rayTable(volume, selected, *ray, threads);
     }
-    SVT_TRY(parcels, loadVolume(arguments.parcels, arguments.build, progress, false, &volume.grid));
+    SVT_TRY(parcels, loadParcels(arguments.parcels, arguments.build, progress, volume, arguments.parcelHeights));
     return parcelTable(volume, selected, *parcels, threads);
 }
 
@@ -87,8 +88,8 @@ Result<int> printReport(const volume::SemanticVolume& volume, const Labels& sele
 }
 
 Result<int> printOwners(const volume::SemanticVolume& volume, const Labels& selected, const QueryArguments& arguments) {
-    SVT_TRY(file, FileBytes::read(arguments.owners));
-    SVT_TRY(owners, analyze::parseOwners(file->text(), arguments.owners.string(), volume.labels));
+    SVT_TRY(text, readers::readOwnerTable(arguments.owners));
+    SVT_TRY(owners, analyze::parseOwners(*text, arguments.owners.string(), volume.labels));
     const Labels withParts = analyze::Extents(volume.labels).withParts(selected);
     const OwnerReport report = ownerReport(volume, withParts, *owners, arguments.build.threads);
     if (!owners->shared.empty())
@@ -132,7 +133,7 @@ Result<int> runFeatures(const QueryArguments& arguments) {
                      isCity(arguments.input)
                          ? "reports need one volume; take a part of the city (svt city extract), or leave out "
                            "--with, --neighbours, --along, --gaps, --areas, --owners and --parcels"
-                         : "-o, --box, --by, --cut, --sort, --first and --leaks exclude reports; leave out "
+                         : "-o, --box, --by, --cut, --sort, --first, --leaks and --roofs exclude reports; leave out "
                            "--with, --neighbours, --along, --overlaps, --gaps, --areas, --owners and --parcels");
     FeatureQuery query = arguments.features;
     query.input = arguments.input;
@@ -144,6 +145,8 @@ Result<int> runFeatures(const QueryArguments& arguments) {
 
 Result<int> runQuery(const QueryArguments& arguments) {
     SVT_DO(model::Query::parse(arguments.query));
+    if (!arguments.parcelHeights.empty() && arguments.parcels.empty())
+        return Error(Code::BadArgument, "--parcel-heights is for --parcels; give both");
     if (arguments.reportCount() > 1)
         return Error(
             Code::BadArgument,
@@ -151,9 +154,10 @@ Result<int> runQuery(const QueryArguments& arguments) {
             "give one of them");
     if (isCity(arguments.input) || arguments.features.isAsked()) return runFeatures(arguments);
     pipeline::BuildOptions build = arguments.build;
-    if (arguments.areas || arguments.overlaps) build.vectors.meshes = true;
+    const bool hasBoxes = arguments.with.find("box") != std::string::npos;
+    if (arguments.areas || arguments.overlaps || hasBoxes) build.vectors.meshes = true;
     SVT_TRY(volume, loadVolume(arguments.input, build, TerminalProgress().get(), false));
-    auto selected = analyze::selectLabels(volume->labels, arguments.query);
+    auto selected = analyze::selectLabels(*volume, arguments.query);
     if (!selected && selected.error().code() == Code::NothingSelected) {
         // An answer, not an error: the query is valid, but selects no feature.
         note(selected.error().message());
@@ -185,22 +189,29 @@ Members<QueryArguments> membersOf(const QueryArguments*) noexcept {
                             "rooms with area, height and volume, then floor areas by DIN 277-1 per storey and in total",
                             {.group = "Report"}),
         member<&All::owners>("--owners",
-                             "ownership: a table of feature, owner and share; walls between owners are divided",
+                             "ownership: a table of feature, owner and share (.csv, .gpkg); walls between owners are "
+                             "divided",
                              {.value = "T.csv", .group = "Report", .file = FileUse::OtherInput}),
-        member<&All::parcels>("--parcels",
-                              "share of each feature per parcel; the parcels are a volume on the same grid, or a model",
-                              {.value = "FILE", .group = "Report", .file = FileUse::ModelOrVolume}),
+        member<&All::parcels>(
+            "--parcels",
+            "share of each feature per parcel; the parcels are a volume on the same grid, a model, or "
+            "polygons: .geojson, .gpkg, .shp",
+            {.value = "FILE", .group = "Report", .file = FileUse::ModelOrVolume}),
+        memberAs<record::Numbers<2>, &All::parcelHeights>(
+            "--parcel-heights", "lowest and highest point of parcels that are polygons, in heights of the CRS",
+            {.value = "LOW,HIGH", .unit = "metres", .otherwise = "no limits", .group = "Report"}),
         member<&All::features, &FeatureQuery::output>(
-            "-o,--output", "write rows with outline, height, volume and attributes: .csv, .geojson, .gpkg or .parquet",
+            "-o,--output",
+            "write rows with footprint, height, volume and attributes: .csv, .geojson, .gpkg or .parquet",
             {.value = "FILE",
              .group = "Features",
              .file = FileUse::Output,
              .formats = "csv|geojson|gpkg|objectparquet"}),
         worldBox<&All::features, &FeatureQuery::box>("only features whose box meets this box of world coordinates",
                                                      "Features"),
-        member<&All::features, &FeatureQuery::by>("--by",
-                                                  "sums of m3 and m2 by attributes or class, such as function,district",
-                                                  {.value = "KEYS", .group = "Features"}),
+        member<&All::features, &FeatureQuery::by>(
+            "--by", "sums of m3 and m2 by class, material, storey or other attributes, such as material,storey",
+            {.value = "KEYS", .group = "Features"}),
         member<&All::features, &FeatureQuery::cut>(
             "--cut", "only features that a plane cuts, such as 'z=abs(120)' (metres above datum)",
             {.value = "PLANE", .group = "Features"}),
@@ -211,6 +222,9 @@ Members<QueryArguments> membersOf(const QueryArguments*) noexcept {
             {.least = 1, .most = 1000000, .otherwise = "all; 100 with --sort", .group = "Features"}),
         member<&All::features, &FeatureQuery::leaks>(
             "--leaks", "only solids whose shell has holes in the model, which the build closed or filled",
+            {.group = "Features"}),
+        member<&All::features, &FeatureQuery::roofs>(
+            "--roofs", "outlines of roofs as well: their area, and a second layer of the file of -o",
             {.group = "Features"}),
         member<&All::json>("--json", "print rows as JSON on stdout", {.group = "Output", .excludes = "--csv"}),
         member<&All::csv>("--csv", "print rows as CSV on stdout", {.group = "Output"}),

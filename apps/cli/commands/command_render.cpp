@@ -21,6 +21,7 @@
 #include <svt/illustrate/scene_painter.hpp>
 #include <svt/illustrate/sun.hpp>
 #include <svt/image/png.hpp>
+#include <svt/readers/owner_table.hpp>
 #include <svt/render/frame_buffers.hpp>
 #include <svt/render_gl/egl_context.hpp>
 #include <svt/render_gl/gl_renderer.hpp>
@@ -163,9 +164,8 @@ Result<std::vector<volume::SemanticVolume>> addInputs(const RenderArguments& arg
     }
     SVT_DO(illustrate::joinLabels(volume, details));
     if (arguments.owners.empty()) return details;
-    SVT_TRY(table, FileBytes::read(arguments.owners));
-    if (auto added =
-            illustrate::addOwnerAttributes(volume, table->text(), arguments.owners.string(), arguments.build.threads);
+    SVT_TRY(table, readers::readOwnerTable(arguments.owners));
+    if (auto added = illustrate::addOwnerAttributes(volume, *table, arguments.owners.string(), arguments.build.threads);
         !added)
         return added.error();
     return details;
@@ -174,7 +174,7 @@ Result<std::vector<volume::SemanticVolume>> addInputs(const RenderArguments& arg
 // Lists the targets of a cutaway that are not visible.
 void noteCutaway(const std::string& query, const volume::SemanticVolume& volume, const render::Frame& frame) {
     if (query.empty()) return;
-    const auto selected = analyze::selectLabels(volume.labels, query);
+    const auto selected = analyze::selectLabels(volume, query);
     if (!selected) return;
     const auto wholes = analyze::Extents(volume.labels).wholes(*selected);
     const std::vector<std::uint32_t> labelOf = volume.labels.labelOfScalar();

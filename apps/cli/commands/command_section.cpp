@@ -1,6 +1,7 @@
 #include <apps/cli/city/city_input.hpp>
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/load_volume.hpp>
+#include <apps/cli/options/materials_option.hpp>
 #include <apps/cli/options/paper_scale.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -22,7 +23,7 @@ namespace svt::cli {
 namespace {
 
 struct SectionArguments {
-    std::filesystem::path input;
+    std::filesystem::path input, materials;
     std::vector<std::filesystem::path> outputs, tables;
     std::string plane, elevation;
     double scale = 100;
@@ -50,12 +51,16 @@ drawing::SectionOptions optionsOf(const SectionArguments& arguments, std::vector
 
 // Prints the findings and writes the drawing.
 Result<int> writeSection(const SectionArguments& arguments, const drawing::SectionDrawing& drawing,
-                         const volume::SemanticVolume& volume, const std::vector<std::string>& nothing, double scale) {
+                         const volume::SemanticVolume& volume, const std::vector<drawing::HatchChoice>& hatches,
+                         const std::vector<std::string>& nothing, double scale) {
+    const drawing::SectionDrawing* const drawings[] = {&drawing};
+    const std::vector<drawing::HatchUse> uses = usesIn(drawings, hatches);
     Diagnostics findings;
     if (arguments.elevation.empty() && (arguments.plane.empty() || arguments.plane.starts_with("storey=")))
         drawing::reportStoreys(volume, findings);
     drawing::reportSection(drawing, volume, findings);
     printDiagnostics(findings, true);
+    noteHatches(uses);
     for (const std::string& message : nothing) note(message);
     const bool isEmpty = drawing.components.empty() && drawing.beyond.empty();
     if (isEmpty && !nothing.empty()) note("nothing is drawn");
@@ -70,7 +75,7 @@ Result<int> writeSection(const SectionArguments& arguments, const drawing::Secti
             if (endingOf(path) == ".pdf" && !writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
         }
     TerminalProgress::hide();
-    if (arguments.json) fmt::print(resultStream(), "{}", writers::makeSectionJson(drawing, volume));
+    if (arguments.json) fmt::print(resultStream(), "{}", writers::makeSectionJson(drawing, volume, uses));
     return kDone;
 }
 
@@ -92,7 +97,8 @@ Result<int> runCitySection(const SectionArguments& arguments, double scale) {
     if (!section->drawing.components.empty()) nothing.clear();
     std::sort(nothing.begin(), nothing.end());
     nothing.erase(std::unique(nothing.begin(), nothing.end()), nothing.end());
-    return writeSection(arguments, section->drawing, section->volume, nothing, scale);
+    SVT_TRY(hatches, readHatches(arguments.materials, section->volume.labels));
+    return writeSection(arguments, section->drawing, section->volume, *hatches, nothing, scale);
 }
 
 Result<int> runSection(const SectionArguments& arguments) {
@@ -103,6 +109,7 @@ Result<int> runSection(const SectionArguments& arguments) {
     pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
     SVT_TRY(volume, loadVolume(arguments.input, build, progress.get(), arguments.verbose));
+    SVT_TRY(hatches, readHatches(arguments.materials, volume->labels));
     SVT_TRY(plane, planeOf(arguments, *volume));
     if (plane->bound > 0)
         note(
@@ -112,7 +119,7 @@ Result<int> runSection(const SectionArguments& arguments) {
     std::vector<std::string> nothing;
     Progress::tell(progress.get(), "section", 0);
     SVT_TRY(drawing, drawing::drawSection(*volume, *plane, optionsOf(arguments, nothing)));
-    return writeSection(arguments, *drawing, *volume, nothing, arguments.scale);
+    return writeSection(arguments, *drawing, *volume, *hatches, nothing, arguments.scale);
 }
 
 Members<SectionArguments> membersOf(const SectionArguments*) noexcept {
@@ -135,7 +142,7 @@ Members<SectionArguments> membersOf(const SectionArguments*) noexcept {
             {.choices = "north|north-east|east|south-east|south|south-west|west|north-west",
              .group = "Drawing",
              .isForProjects = true}),
-        part<&All::section>("section", "--beyond|--hidden|--above|--dimensions"),
+        part<&All::section>("section", "--beyond|--hidden|--above|--dimensions|--dimension-unit"),
         part<&All::dxf>("dxf"),
         memberAs<PaperScale, &All::scale>("--scale", "scale of the SVG: 1:50 draws 1 m as 20 mm",
                                           {.value = "1:N", .group = "Drawing", .isForProjects = true}),
@@ -143,6 +150,9 @@ Members<SectionArguments> membersOf(const SectionArguments*) noexcept {
         member<&All::section, &drawing::SectionOptions::smallestArea>(
             "--min-area", "leave out polygons smaller than this",
             {.unit = "m2", .least = 0, .most = 1e9, .group = "Drawing", .isForProjects = true}),
+        member<&All::materials>("--materials",
+                                "table of materials with their hatches (CSV or JSON), before that of SVT",
+                                {.value = "FILE", .group = "Drawing", .file = FileUse::OtherInput}),
         member<&All::tables>("--table", "areas per component and class: .json or .csv",
                              {.value = "T.csv", .group = "Output", .file = FileUse::Output, .formats = "json|csv"}),
         jsonOption<&All::json>("print the areas as JSON on stdout"),

@@ -1,5 +1,6 @@
 #include <apps/cli/options/catalog.hpp>
 #include <apps/cli/options/load_volume.hpp>
+#include <apps/cli/options/materials_option.hpp>
 #include <apps/cli/options/paper_scale.hpp>
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
@@ -9,7 +10,7 @@
 #include <svt/core/file.hpp>
 #include <svt/drawing/building_levels.hpp>
 #include <svt/writers/draw_sheets.hpp>
-#include <svt/writers/drawing_formats.hpp>
+#include <svt/writers/office_sheets.hpp>
 #include <svt/writers/sheet_geopackage.hpp>
 
 #include <fmt/format.h>
@@ -21,9 +22,12 @@ namespace svt::cli {
 namespace {
 
 struct SheetsArguments {
-    std::filesystem::path input, output, folder, dxfFolder, setFile, setOutput;
+    std::filesystem::path input, output, folder, dxfFolder, setFile, setOutput, materials, schedule;
+    std::string title;
+    drawing::TitleBlock block;
     std::optional<double> scale;
     std::optional<std::string> paper, language;
+    std::optional<drawing::DimensionUnit> dimensionUnit;
     std::vector<std::string> hide;
     writers::DxfOptions dxf;
     bool noAbove = false, noDimensions = false, noTables = false, verbose = false;
@@ -40,9 +44,16 @@ Result<drawing::SheetSet> readSet(const SheetsArguments& arguments) {
     }
     if (arguments.paper) set.paper = *arguments.paper;
     if (arguments.language) set.language = *arguments.language;
+    if (!arguments.title.empty()) set.title = arguments.title;
+    const drawing::TitleBlock& block = arguments.block;
+    for (const auto field : {&drawing::TitleBlock::number, &drawing::TitleBlock::creator,
+                             &drawing::TitleBlock::approver, &drawing::TitleBlock::date, &drawing::TitleBlock::revision,
+                             &drawing::TitleBlock::owner, &drawing::TitleBlock::documentType})
+        if (!(block.*field).empty()) set.titleBlock.*field = block.*field;
     set.hide.insert(set.hide.end(), arguments.hide.begin(), arguments.hide.end());
     set.above = set.above && !arguments.noAbove;
     set.dimensions = set.dimensions && !arguments.noDimensions;
+    set.dimensionUnit = arguments.dimensionUnit.value_or(set.dimensionUnit);
     set.tables = set.tables && !arguments.noTables;
     set.scale = arguments.scale.value_or(set.scale);
     return set;
@@ -57,6 +68,12 @@ void printFindings(const writers::SheetContent& content, const volume::SemanticV
     findings.append(content.findings);
     drawing::reportSections(drawings, volume, findings);
     printDiagnostics(findings, true);
+}
+
+void noteHatches(const writers::SheetContent& content, const std::vector<drawing::HatchChoice>& hatches) {
+    std::vector<const drawing::SectionDrawing*> drawings;
+    for (const writers::DrawnView& view : content.views) drawings.push_back(&view.drawing);
+    cli::noteHatches(usesIn(drawings, hatches));
 }
 
 Result<void> makeFolder(const std::filesystem::path& folder) {
@@ -76,12 +93,14 @@ std::string fileNameOf(const writers::SheetContent& content, std::size_t number)
 }
 
 Result<void> writeDxfFolder(const writers::SheetContent& content, const volume::SemanticVolume& volume,
-                            const std::filesystem::path& folder, const writers::DxfOptions& options) {
+                            const std::filesystem::path& folder, const writers::SheetOptions& options,
+                            const writers::DxfOptions& dxf) {
     SVT_DO(makeFolder(folder));
     for (std::size_t n = 0; n < content.views.size(); ++n) {
         const auto path = folder / (fileNameOf(content, n) + ".dxf");
         SVT_DO(checkNoStream(path));
-        SVT_DO(writers::writeDrawing(content.views[n].drawing, volume, path, {.dxf = options}));
+        SVT_TRY(text, writers::makeSheetDxf(content, n, volume, options, dxf));
+        SVT_DO(writeFileAtomically(path, *text));
     }
     return {};
 }
@@ -97,26 +116,50 @@ Result<void> writeSvgFolder(const std::vector<std::string>& sheets, const std::f
 }
 
 const std::filesystem::path& writtenName(const SheetsArguments& arguments) {
-    for (const auto* path : {&arguments.output, &arguments.folder, &arguments.dxfFolder})
+    for (const auto* path : {&arguments.output, &arguments.folder, &arguments.dxfFolder, &arguments.schedule})
         if (!path->empty()) return *path;
     return arguments.setOutput;
 }
 
+// A scale without a paper selects the paper.
+Result<void> selectPaper(const drawing::SheetSet& set, const writers::SheetContent& content,
+                         const volume::SemanticVolume& volume, writers::SheetOptions& options) {
+    if (!set.paper.empty() || !(set.scale > 0)) return {};
+    SVT_TRY(paper, writers::smallestPaper(content, volume, options));
+    options.paper = *paper;
+    note(fmt::format("paper {}: the smallest on which all views fit at 1:{}", options.paper, set.scale));
+    return {};
+}
+
+// Somebody who fills in a part of the title block learns about the rest.
+void noteEmptyFields(const drawing::TitleBlock& block) {
+    const std::vector<std::string> empty = writers::emptyBlockOptions(block);
+    if (!(block == drawing::TitleBlock()) && !empty.empty())
+        note(fmt::format("the title block has fields without a value; {} fill them", fmt::join(empty, ", ")));
+}
+
 Result<int> runSheets(const SheetsArguments& arguments) {
     if (arguments.output.empty() && arguments.folder.empty() && arguments.dxfFolder.empty() &&
-        arguments.setOutput.empty())
-        return Error(Code::BadArgument, "nothing to write; give -o P.pdf, --svg DIR, --dxf DIR or --write-sheets FILE");
+        arguments.setOutput.empty() && arguments.schedule.empty())
+        return Error(Code::BadArgument,
+                     "nothing to write; give -o P.pdf, --svg DIR, --dxf DIR, --schedule S.csv or --write-sheets FILE");
     SVT_TRY(set, readSet(arguments));
-    const writers::SheetOptions options = writers::sheetOptionsOf(*set);
+    writers::SheetOptions options = writers::sheetOptionsOf(*set);
+    options.details = &writers::officeDetails();
     const TerminalProgress progress;
     pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
     SVT_TRY(volume, loadVolume(arguments.input, build, progress.get(), arguments.verbose));
+    SVT_TRY(hatches, readHatches(arguments.materials, volume->labels));
     Progress::tell(progress.get(), "sheets", 0);
     std::vector<std::string> nothing;
     SVT_TRY(content, writers::drawSheets(*set, *volume, arguments.build.threads, &nothing));
     for (const std::string& message : nothing) note(message);
+    writers::completeSheets(*content, *volume, options.language, set->tables);
     printFindings(*content, *volume);
+    SVT_DO(selectPaper(*set, *content, *volume, options));
+    noteEmptyFields(set->titleBlock);
+    noteHatches(*content, *hatches);
     SVT_TRY(sheets, writers::makeSvgSheets(*content, *volume, options));
     if (!arguments.output.empty()) {
         const bool isPdf = endingOf(arguments.output) != ".gpkg";
@@ -126,7 +169,11 @@ Result<int> runSheets(const SheetsArguments& arguments) {
         SVT_DO(writeFileAtomically(arguments.output, *bytes));
     }
     if (!arguments.folder.empty()) SVT_DO(writeSvgFolder(*sheets, arguments.folder));
-    if (!arguments.dxfFolder.empty()) SVT_DO(writeDxfFolder(*content, *volume, arguments.dxfFolder, arguments.dxf));
+    if (!arguments.dxfFolder.empty())
+        SVT_DO(writeDxfFolder(*content, *volume, arguments.dxfFolder, options, arguments.dxf));
+    if (!arguments.schedule.empty())
+        SVT_DO(writeFileAtomically(arguments.schedule, writers::makeCsv(writers::openingTable(
+                                                           *content->openings, content->levels, volume->labels))));
     if (!arguments.setOutput.empty()) SVT_DO(writeFileAtomically(arguments.setOutput, drawing::writeSheetSet(*set)));
     TerminalProgress::hide();
     summarize(fmt::format("{}: {} sheets with {} views", writtenName(arguments).string(), sheets->size(),
@@ -136,6 +183,7 @@ Result<int> runSheets(const SheetsArguments& arguments) {
 
 Members<SheetsArguments> membersOf(const SheetsArguments*) noexcept {
     using All = SheetsArguments;
+    using drawing::TitleBlock;
     using writers::DxfOptions;
     static constexpr Member<All> kMembers[] = {
         modelInput<&All::input>("a .svt or a model file"),
@@ -145,6 +193,8 @@ Members<SheetsArguments> membersOf(const SheetsArguments*) noexcept {
                              {.value = "DIR", .file = FileUse::OutputFolder}),
         member<&All::dxfFolder>("--dxf", "also write each view as NAME.dxf, in metres",
                                 {.value = "DIR", .file = FileUse::OutputFolder}),
+        member<&All::schedule>("--schedule", "also write the schedule of doors and windows",
+                               {.value = "S.csv", .file = FileUse::Output, .formats = "csv"}),
         member<&All::setFile>("--from", "the views of each sheet; other options change them",
                               {.value = "S.sheets.json", .group = "Sheets", .file = FileUse::OtherInput}),
         member<&All::setOutput>(
@@ -156,9 +206,32 @@ Members<SheetsArguments> membersOf(const SheetsArguments*) noexcept {
              .otherwise = "1:100, or the next of 1:200, 1:500, ... at which all views fit",
              .group = "Sheets",
              .isForProjects = true}),
-        memberAs<record::Choice, &All::paper>(
-            "--paper", "size of a sheet, landscape",
-            {.choices = "A4|A3|A2|A1|A0", .otherwise = "A3", .group = "Sheets", .isForProjects = true}),
+        memberAs<record::Choice, &All::paper>("--paper", "size of a sheet, landscape",
+                                              {.choices = "A4|A3|A2|A1|A0",
+                                               .otherwise = "A3; with --scale, the smallest on which all views fit",
+                                               .group = "Sheets",
+                                               .isForProjects = true}),
+        member<&All::title>("--title", "title block: name of the project",
+                            {.value = "TEXT",
+                             .otherwise = "the long name of the project in the file, or the name of the model",
+                             .group = "Title block",
+                             .isForProjects = true}),
+        member<&All::block, &TitleBlock::number>("--number",
+                                                 "title block: number of the drawings; each sheet adds its own",
+                                                 {.value = "TEXT", .group = "Title block", .isForProjects = true}),
+        member<&All::block, &TitleBlock::creator>("--creator", "title block: who made the drawings",
+                                                  {.value = "TEXT", .group = "Title block", .isForProjects = true}),
+        member<&All::block, &TitleBlock::approver>("--approver", "title block: who approved the drawings",
+                                                   {.value = "TEXT", .group = "Title block", .isForProjects = true}),
+        member<&All::block, &TitleBlock::date>("--issued", "title block: date of issue",
+                                               {.value = "TEXT", .group = "Title block", .isForProjects = true}),
+        member<&All::block, &TitleBlock::revision>("--revision", "title block: index of the revision",
+                                                   {.value = "TEXT", .group = "Title block", .isForProjects = true}),
+        member<&All::block, &TitleBlock::owner>("--owner", "title block: legal owner of the drawings",
+                                                {.value = "TEXT", .group = "Title block", .isForProjects = true}),
+        member<&All::block, &TitleBlock::documentType>(
+            "--document-type", "title block: type of the document",
+            {.value = "TEXT", .otherwise = "by the views of a sheet", .group = "Title block", .isForProjects = true}),
         member<&All::hide>("--hide", "leave out what the query selects",
                            {.value = "QUERY", .group = "Sheets", .isForProjects = true}),
         member<&All::dxf, &DxfOptions::isoLayers>("--iso-layers", "DXF: names of layers by ISO 13567",
@@ -168,13 +241,19 @@ Members<SheetsArguments> membersOf(const SheetsArguments*) noexcept {
             {.group = "Sheets", .isForProjects = true}),
         member<&All::noAbove>("--no-above", "plans without parts above the cut",
                               {.group = "Sheets", .isForProjects = true}),
-        member<&All::noDimensions>("--no-dimensions", "plans without dimension chains",
+        member<&All::noDimensions>("--no-dimensions", "plans and sections without dimensions",
                                    {.group = "Sheets", .isForProjects = true}),
+        member<&All::dimensionUnit>("--dimension-unit",
+                                    "unit of dimensions; m-cm is metres from 1 m, and centimetres below it",
+                                    {.otherwise = "m-cm", .group = "Sheets", .isForProjects = true}),
         member<&All::noTables>("--no-tables", "no tables of rooms, floor areas and components",
                                {.group = "Sheets", .isForProjects = true}),
         memberAs<record::Choice, &All::language>(
             "--language", "language of the words on sheets",
             {.choices = "en|de", .otherwise = "en", .group = "Sheets", .isForProjects = true}),
+        member<&All::materials>("--materials",
+                                "table of materials with their hatches (CSV or JSON), before that of SVT",
+                                {.value = "FILE", .group = "Sheets", .file = FileUse::OtherInput}),
         member<&All::verbose>("--verbose", "show all findings", {.group = "Output"}),
         quietOption<All>(),
         part<&All::build>("build"),

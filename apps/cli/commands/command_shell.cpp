@@ -77,7 +77,7 @@ Result<Json> makeShell(const volume::SemanticVolume& volume, const ShellArgument
     options.threads = arguments.build.threads;
     options.progress = progress;
     if (!arguments.of.empty()) {
-        SVT_TRY(selected, analyze::selectWithParts(volume.labels, arguments.of));
+        SVT_TRY(selected, analyze::selectWithParts(volume, arguments.of));
         options.of = std::move(*selected);
     }
     Progress::tell(progress, "shell", 0);

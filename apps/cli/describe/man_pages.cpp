@@ -15,7 +15,7 @@ constexpr std::string_view kExitCodes[][2] = {
     {"1", "internal error"},
     {"2", "wrong usage"},
     {"3", "input that cannot be read"},
-    {"4", "the model has defects (check, build \\-\\-strict)"},
+    {"4", "a defect prevents the use of the model (check), or it has any defect (\\-\\-strict)"},
     {"5", "output that cannot be written"},
     {"6", "no graphics driver (render \\-\\-gl), or no cairo library (sheets as PDF)"},
     {"8", "a limit or the memory is exceeded"},

@@ -8,6 +8,7 @@
 #include <svt/volume/semantic_volume.hpp>
 
 #include <filesystem>
+#include <span>
 
 namespace svt::cli {
 
@@ -20,5 +21,14 @@ namespace svt::cli {
 [[nodiscard]] Result<volume::SemanticVolume> loadVolume(const std::filesystem::path& input,
                                                         const pipeline::BuildOptions& build, const Progress* progress,
                                                         bool isVerbose, const volume::Grid* grid = nullptr);
+
+/// Loads parcels on the grid of a volume: another volume, a model, or polygons of GeoJSON, GeoPackage and shapefiles, which
+/// become solids. Prints the findings.
+/// \param heights  of these solids: lowest and highest point, metres; empty: they are higher and lower than the grid
+/// \return the volume; BadArgument for heights that do not ascend or are given without polygons
+[[nodiscard]] Result<volume::SemanticVolume> loadParcels(const std::filesystem::path& input,
+                                                         const pipeline::BuildOptions& build, const Progress* progress,
+                                                         const volume::SemanticVolume& volume,
+                                                         std::span<const double> heights);
 
 }  // namespace svt::cli

@@ -1,4 +1,6 @@
 #include <apps/cli/output/messages.hpp>
+
+#include <apps/cli/output/finding_kinds.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/core/file.hpp>
@@ -6,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <new>
 #include <utility>
@@ -83,9 +86,21 @@ void printMessage(std::string_view text) noexcept {
     }
 }
 
+namespace {
+
+// The next step if a command got the folder of a planned city, which is not built yet.
+std::string cityHint(const Error& error) {
+    std::error_code failed;
+    const std::filesystem::path folder = error.where().file;
+    if (error.code() != Code::CannotOpen || !std::filesystem::exists(folder / "plan" / "plan.json", failed)) return {};
+    return fmt::format(". It is a city that is planned, but not built: 'svt city run {}' builds it", folder.string());
+}
+
+}  // namespace
+
 int fail(const Error& error) {
     TerminalProgress::hide();
-    printMessage(fmt::format("svt: error {}\n", error.toString()));
+    printMessage(fmt::format("svt: error {}{}\n", error.toString(), cityHint(error)));
     return exitCodeOf(error.code());
 }
 
@@ -105,25 +120,31 @@ int failOfMemory() {
     return kLimit;
 }
 
+bool isAlwaysShown(const Diagnostic& item) noexcept {
+    return item.severity == Severity::Note &&
+           (item.code == Code::ProductsRead || item.code == Code::AxisOrder || item.code == Code::FeatureEnded);
+}
+
 void printDiagnostics(const Diagnostics& diagnostics, bool hasAll) {
-    constexpr int kShown = 12;
     const bool showsAll = hasAll || isVerbose_;
-    int shown = 0;
     TerminalProgress::hide();
+    const std::vector<FindingKind> kinds = kindsOf(diagnostics);
+    if (!isQuiet() && !showsAll) printKinds(kinds);
     for (const Diagnostic& item : diagnostics.items()) {
-        if (isQuiet() && item.severity != Severity::Error) continue;
-        // The summary of read products is always printed.
-        const bool isSummary = item.code == Code::ProductsRead;
-        if (!showsAll && !isSummary && (item.severity == Severity::Note || shown == kShown)) continue;
-        if (!isSummary) ++shown;
-        printMessage(fmt::format("svt: {}\n", item.toString()));
+        const bool isShown = isQuiet() ? item.severity == Severity::Error : showsAll || isAlwaysShown(item);
+        if (isShown) printMessage(fmt::format("svt: {}\n", item.toString()));
     }
-    if (isQuiet()) return;
+    if (!isQuiet() && !showsAll) printTotals(diagnostics, kinds);
+}
+
+void printTotals(const Diagnostics& diagnostics, std::span<const FindingKind> kinds) {
     const std::size_t serious = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error);
-    const std::size_t notes = diagnostics.count(Severity::Note) - diagnostics.count(Code::ProductsRead);
-    if (!showsAll && serious > std::size_t(shown))
-        printMessage(fmt::format("svt: {} more warnings; --verbose shows them\n", serious - std::size_t(shown)));
-    if (!showsAll && notes != 0) printMessage(fmt::format("svt: {} notes; --verbose shows them\n", notes));
+    const auto shown = std::count_if(diagnostics.items().begin(), diagnostics.items().end(), isAlwaysShown);
+    const std::size_t notes = diagnostics.count(Severity::Note) - static_cast<std::size_t>(shown);
+    if (serious > kinds.size())
+        printMessage(fmt::format("svt: {} warnings of {} kind{}; --verbose shows each\n", serious, kinds.size(),
+                                 kinds.size() == 1 ? "" : "s"));
+    if (notes != 0) printMessage(fmt::format("svt: {} notes; --verbose shows them\n", notes));
 }
 
 }  // namespace svt::cli

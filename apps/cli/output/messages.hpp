@@ -2,11 +2,14 @@
 /// \file
 /// Exit codes and messages of all commands.
 
+#include <apps/cli/output/finding_kinds.hpp>
+
 #include <svt/core/diagnostics.hpp>
 #include <svt/core/result.hpp>
 
 #include <cstdio>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -62,8 +65,14 @@ void note(std::string_view text);
 /// Reports exhausted memory on stderr: its amount, the source of the limit, and remedies. Returns kLimit.
 int failOfMemory();
 
-/// Prints findings to stderr: with --verbose or `hasAll` all, else up to a dozen errors and warnings and the number of the rest;
-/// with --quiet only errors.
+/// Whether a note is always printed: the summary of read products, the order of the axes, features that have ended.
+[[nodiscard]] bool isAlwaysShown(const Diagnostic& item) noexcept;
+
+/// Prints findings to stderr: with --verbose or `hasAll` each, else the errors and warnings by kind, and the numbers of
+/// all; with --quiet only errors.
 void printDiagnostics(const Diagnostics& diagnostics, bool hasAll);
+
+/// Prints the number of warnings and errors if some kinds have several of them, and the number of notes.
+void printTotals(const Diagnostics& diagnostics, std::span<const FindingKind> kinds);
 
 }  // namespace svt::cli

@@ -4,6 +4,7 @@
 
 #include <svt/analyze/extents.hpp>
 #include <svt/analyze/gaps.hpp>
+#include <svt/analyze/known_volumes.hpp>
 #include <svt/analyze/label_measures.hpp>
 #include <svt/analyze/solid_overlaps.hpp>
 #include <svt/drawing/floor_areas.hpp>
@@ -237,9 +238,12 @@ Table featureTable(const volume::SemanticVolume& volume, const Labels& selected,
              {"ownOutside", "own m2 outside"},
              {"totalOutside", "total m2 outside"}});
     if (with.box) addBoxColumns(table.columns);
-    add({{"volume"}, {"voxels"}});
+    add({{"volume", "m3"}, {"voxels"}});
     if (with.volume) add({{"voxelVolume"}});
     if (with.surface) add({{"surface"}, {"outside"}});
+    add({{"volumeBound", "+- m3"}, {"volumeSource", "m3 from"}});
+    const analyze::Extents extents(volume.labels);
+    const analyze::KnownVolumes volumes(volume.labels, volume.grid, extents);
     for (const analyze::FeatureMeasure& measure : measuresOf(volume, selected, with, threads)) {
         const volume::Label& label = volume.labels.labels[measure.label];
         const auto& [l, own, total] = measure;
@@ -253,10 +257,13 @@ Table featureTable(const volume::SemanticVolume& volume, const Labels& selected,
         if (with.surface)
             row.insert(row.end(), {areaOf(own, &Measure::area), areaOf(total, &Measure::area),
                                    areaOf(own, &Measure::outsideArea), areaOf(total, &Measure::outsideArea)});
-        if (with.box) appendCorners(row, analyze::worldBox(total.box, volume.grid));
-        row.insert(row.end(), {label.volume, label.voxels});
+        if (with.box) appendCorners(row, total.box);
+        const analyze::KnownVolume best = volumes.of(l);
+        row.insert(row.end(), {known(best.volume), label.voxels});
         if (with.volume) row.emplace_back(double(label.voxels) * volume.grid.voxelVolume());
         if (with.surface) row.insert(row.end(), {own.area, own.outsideArea});
+        row.push_back(best.volume ? known(best.bound) : Cell());
+        row.push_back(best.volume ? Cell(analyze::volumeSourceName(best.source)) : Cell());
         table.rows.push_back(std::move(row));
     }
     return table;
@@ -268,16 +275,18 @@ Json featureJson(const volume::SemanticVolume& volume, const Labels& selected, c
         return {{"area", measure.area}, {"outside", measure.outsideArea}};
     };
     Json rows = Json::array();
+    const analyze::Extents extents(volume.labels);
+    const analyze::KnownVolumes volumes(volume.labels, volume.grid, extents);
     for (const analyze::FeatureMeasure& measure : measuresOf(volume, selected, with, threads)) {
-        Json row = labelJson(volume.labels, measure, volume.grid);
+        Json row = labelJson(volume.labels, measure, volumes.of(measure.label), volume.grid);
         if (with.surface) {
             row["ownSurface"] = areasOf(measure.own);
             row["totalSurface"] = areasOf(measure.total);
             row["surface"] = {{"area", measure.own.area}, {"outside", measure.own.outsideArea}};
         }
         if (with.box) {
-            row["totalBox"] = boxJson(analyze::worldBox(measure.total.box, volume.grid));
-            row["box"] = boxJson(analyze::worldBox(measure.own.box, volume.grid));
+            row["totalBox"] = boxJson(measure.total.box);
+            row["box"] = boxJson(measure.own.box);
         }
         rows.push_back(std::move(row));
     }
@@ -391,7 +400,8 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
                  {"number", "number"},
                  {"name", "name"},
                  {"storey", "storey"},
-                 {"floor", "floor m", 2},
+                 {"level", "level m", 2},
+                 {"floor", "", 2},
                  {"floorBound", "+- m", 2},
                  {"elevation", "elevation m", 2},
                  {"use", "use"},
@@ -405,9 +415,11 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
                  {"nrf", "NRF", 2},
                  {"kgf", "KGF", 2},
                  {"bgf", "BGF", 2},
-                 {"exact", "exact"}},
+                 {"exact", "exact"},
+                 {"statedArea", "stated m2", 2},
+                 {"areaDifference", "difference m2", 2}},
                 {}};
-    const double datum = dot(volume.grid.origin(), volume.grid.axes()[2]);
+    const double datum = dot(volume.grid.origin(), volume.grid.axes()[2]), zero = drawing::zeroLevel(levels);
     for (const drawing::RoomArea& room : areas->rooms) {
         if (!isIn(selected, room.label)) continue;
         const auto use = drawing::roomUseName(room.use);
@@ -416,30 +428,34 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
                 room.number.empty() ? Cell() : Cell(room.number),
                 room.name,
                 levels[room.level].name,
+                levels[room.level].floor - zero,
                 levels[room.level].floor,
                 levels[room.level].bound,
                 datum + levels[room.level].floor,
                 use.empty() ? Cell() : Cell(use),
-                room.area,
+                room.area > 0 ? Cell(room.area) : Cell(),
                 room.height,
-                room.volume};
+                room.volume > 0 ? Cell(room.volume) : Cell()};
         row.insert(row.end(), 7, nullptr);
         row.push_back(room.isExact);
+        const bool isCompared = room.stated && room.area > 0;
+        row.push_back(room.stated ? Cell(*room.stated) : Cell());
+        row.push_back(isCompared ? Cell(std::round((room.area - *room.stated) * 1e4) / 1e4 + 0.0) : Cell());
         table.rows.push_back(std::move(row));
     }
     const auto addSums = [&](const char* kind, const drawing::LevelArea& sums, const drawing::BuildingLevel* level) {
         Row row{kind, nullptr, nullptr, nullptr};
         if (level != nullptr)
-            row.insert(row.end(), {level->name, level->floor, level->bound, datum + level->floor});
+            row.insert(row.end(), {level->name, level->floor - zero, level->floor, level->bound, datum + level->floor});
         else
-            row.insert(row.end(), 4, nullptr);
+            row.insert(row.end(), 5, nullptr);
         row.insert(row.end(), 4, nullptr);
         const auto known = [](bool isKnown, double value) { return isKnown ? Cell(value) : Cell(); };
         const bool hasGross = sums.isFloor && sums.isGrossKnown;
         for (const double value : {sums.use, sums.technical, sums.traffic, sums.unknown, sums.net})
             row.push_back(known(sums.isFloor, value));
         row.insert(row.end(), {known(hasGross && !sums.netExceedsGross(), sums.construction),
-                               known(hasGross, sums.gross), sums.isExact});
+                               known(hasGross, sums.gross), sums.isExact, nullptr, nullptr});
         table.rows.push_back(std::move(row));
     };
     for (std::size_t n = 0; n < levels.size(); ++n) addSums("storey", areas->levels[n], &levels[n]);

@@ -1,0 +1,178 @@
+#include <apps/cli/city/feature_sums.hpp>
+
+#include <apps/cli/output/messages.hpp>
+
+#include <svt/analyze/exclusive_volumes.hpp>
+#include <svt/core/attribute.hpp>
+#include <svt/core/text.hpp>
+#include <svt/drawing/storey_floors.hpp>
+#include <svt/model/classes.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+namespace svt::cli {
+namespace {
+
+bool isQuoted(std::string_view key) { return key.size() > 2 && key.front() == '"' && key.back() == '"'; }
+
+std::string attributeText(const volume::Label& label, std::string_view name) {
+    for (const AttributeList& list : attributeLists(label.attributes))
+        if (equalsIgnoringCase(list.name, name)) return toText(list);
+    return {};
+}
+
+std::string ownValue(const std::string& key, const volume::Label& label, const std::string& attribute) {
+    if (equalsIgnoringCase(key, "class")) return label.className;
+    if (equalsIgnoringCase(key, "name")) return label.name;
+    if (equalsIgnoringCase(key, "id")) return label.id;
+    return attributeText(label, attribute);
+}
+
+// The value of each label for a key; empty: none.
+std::vector<std::string> valuesOf(const std::string& key, const volume::LabelTable& table,
+                                  const analyze::Extents& extents, const std::vector<std::uint32_t>& features) {
+    const auto& labels = table.labels;
+    std::vector<std::string> values(labels.size());
+    if (equalsIgnoringCase(key, "storey")) {
+        const std::vector<std::uint32_t> storeys = drawing::storeysOfLabels(table);
+        for (std::size_t l = 0; l < labels.size(); ++l)
+            if (storeys[l] != volume::kNoLabel)
+                values[l] = labels[storeys[l]].name.empty() ? labels[storeys[l]].id : labels[storeys[l]].name;
+        return values;
+    }
+    constexpr std::string_view kOwn[] = {"class", "name", "id", "material", "ifcType"};
+    const bool isOwn =
+        std::any_of(std::begin(kOwn), std::end(kOwn), [&](auto own) { return equalsIgnoringCase(key, own); });
+    const std::string name = isQuoted(key) ? key.substr(1, key.size() - 2) : key;
+    std::vector<std::string> ofFeatures;
+    std::vector<std::uint32_t> bearers;
+    for (const std::uint32_t feature : features) {
+        std::string value = ownValue(key, labels[feature], name);
+        // A pane or a frame is of the class and the material of its window.
+        const bool isPart = model::isPhase(labels[feature].className) &&
+                            std::binary_search(features.begin(), features.end(), labels[feature].parent);
+        if (isPart && (value.empty() || equalsIgnoringCase(key, "class"))) continue;
+        if (!isOwn && value.empty()) continue;
+        bearers.push_back(feature);
+        ofFeatures.push_back(std::move(value));
+    }
+    const std::vector<std::uint32_t> finest = analyze::finestFeatures(extents, bearers, labels.size());
+    for (std::size_t l = 0; l < labels.size(); ++l) {
+        if (finest[l] == volume::kNoLabel) continue;
+        const auto place = std::lower_bound(bearers.begin(), bearers.end(), finest[l]) - bearers.begin();
+        values[l] = ofFeatures[static_cast<std::size_t>(place)];
+    }
+    return values;
+}
+
+}  // namespace
+
+FeatureSums::FeatureSums(const std::string& keys) {
+    for (std::size_t at = 0; at < keys.size();) {
+        const std::size_t comma = std::min(keys.find(',', at), keys.size());
+        keys_.push_back(keys.substr(at, comma - at));
+        at = comma + 1;
+    }
+}
+
+void FeatureSums::add(const volume::SemanticVolume& volume, std::span<const city::FeatureRow> rows) {
+    const volume::LabelTable& table = volume.labels;
+    const std::size_t count = table.labels.size();
+    const analyze::Extents extents(table);
+    std::vector<std::uint32_t> features;
+    for (const city::FeatureRow& row : rows) features.push_back(row.label);
+    std::vector<std::vector<std::string>> values(count);
+    for (const std::string& key : keys_) {
+        std::vector<std::string> ofKey = valuesOf(key, table, extents, features);
+        for (std::size_t l = 0; l < count; ++l) values[l].push_back(std::move(ofKey[l]));
+    }
+    const std::vector<analyze::Measure> own = analyze::exclusiveMeasures(volume);
+    const std::vector<std::uint32_t> finest = analyze::finestFeatures(extents, features, count);
+    std::vector<Sum*> sumOf(count, nullptr);  // by label of an extent
+    for (std::size_t l = 0; l < count; ++l) {
+        if (finest[l] == volume::kNoLabel) continue;
+        sumOf[l] = &sums_[values[l]];
+        if (own[l].volume.value_or(0) > 0) sumOf[l]->hasVolume = true;
+        sumOf[l]->volume += own[l].volume.value_or(0);
+        sumOf[l]->counted += own[l].countedVolume;
+    }
+    addAreas(rows, extents, own, sumOf);
+}
+
+// Counts the features. One within others of its values adds no area, nor does one whose voxels have other values.
+void FeatureSums::addAreas(std::span<const city::FeatureRow> rows, const analyze::Extents& extents,
+                           std::span<const analyze::Measure> own, const std::vector<Sum*>& sumOf) {
+    std::vector<std::size_t> sizes, order(rows.size());
+    for (const city::FeatureRow& row : rows) sizes.push_back(extents.of(row.label).size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
+    std::vector<char> isCovered(own.size(), 0);
+    for (const std::size_t n : order) {
+        const std::uint32_t feature = rows[n].label;
+        const analyze::Measure& total = rows[n].measure.total;
+        Sum& sum = *sumOf[feature];
+        ++sum.count;
+        withoutVolume_ += !total.volume;
+        withoutVoxels_ += total.voxels == 0;
+        bool isNew = false, isInParts = total.voxels > 0;
+        for (const std::uint32_t part : extents.of(feature)) {
+            if (sumOf[part] != &sum || own[part].voxels == 0) continue;
+            isInParts = false;
+            isNew = std::exchange(isCovered[part], 1) == 0 || isNew;
+        }
+        inParts_ += isInParts;
+        if (!isNew) continue;
+        sum.hasArea = true;
+        sum.area += rows[n].area;
+    }
+}
+
+Table FeatureSums::table() const {
+    Table table;
+    for (const std::string& key : keys_) table.columns.push_back({key, key, 0});
+    const Column columns[] = {{"features", "features", 0},
+                              {"totalVolume", "total m3"},
+                              {"area", "m2 in plan", 1},
+                              {"countedVolume"},
+                              {"volume"}};  // deprecated name of totalVolume
+    table.columns.insert(table.columns.end(), std::begin(columns), std::end(columns));
+    for (const auto& [values, sum] : sums_) {
+        Row& row = table.rows.emplace_back();
+        for (const std::string& value : values) row.push_back(value.empty() ? Cell() : Cell(value));
+        const auto known = [](bool isKnown, double value) { return isKnown ? Cell(value) : Cell(); };
+        row.push_back(sum.count);
+        row.push_back(known(sum.hasVolume, sum.volume));
+        row.push_back(known(sum.hasArea, sum.area));
+        row.push_back(known(sum.hasVolume, sum.counted));
+        row.push_back(known(sum.hasVolume, sum.volume));
+    }
+    return table;
+}
+
+void FeatureSums::note() const {
+    if (inParts_ > 0)
+        cli::note(
+            fmt::format("{} features count only with their parts, which have values of their own: each m3 counts "
+                        "once",
+                        inParts_));
+    double volume = 0, counted = 0;
+    for (const auto& [values, sum] : sums_) {
+        volume += sum.volume;
+        counted += sum.counted;
+    }
+    if (counted > 0)
+        cli::note(fmt::format("{:.3f} of {:.3f} m3 are counted in voxels; the rest is exact", counted, volume));
+    const auto noteMissing = [](std::uint64_t without, const char* measure, const char* basis) {
+        if (without > 0)
+            cli::note(fmt::format("the sums of {} exclude {} features without {}", measure, without, basis));
+    };
+    noteMissing(withoutVolume_, "volume", "solids");
+    noteMissing(withoutVoxels_, "area", "voxels");
+}
+
+}  // namespace svt::cli

@@ -1,0 +1,53 @@
+#pragma once
+/// \file
+/// Sums of features by keys, in which each cubic metre counts once: `svt query --by`.
+
+#include <apps/cli/output/table.hpp>
+
+#include <svt/analyze/extents.hpp>
+#include <svt/city/feature_rows.hpp>
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace svt::cli {
+
+/// Adds up the features of one or more volumes by the values of keys.
+///
+/// Each label counts once, with the values of the finest feature that contains it. The keys `class`, `name`, `id`,
+/// `ifcType` and `material` describe this feature itself. `storey` is the storey that contains the label. All other keys
+/// are attributes, like keys in quotes. A feature without one has that of the next feature around it: a room has the
+/// owner of its flat.
+class FeatureSums {
+public:
+    /// \param keys  separated by commas
+    explicit FeatureSums(const std::string& keys);
+
+    /// Cost: that of analyze::exclusiveMeasures(), and O(labels of all extents) for each key.
+    void add(const volume::SemanticVolume& volume, std::span<const city::FeatureRow> rows);
+
+    /// One row for each combination of values. Volumes and areas of groups without any are null.
+    [[nodiscard]] Table table() const;
+    /// Prints notes on features that the sums exclude, and on volumes that are counted in voxels.
+    void note() const;
+
+private:
+    struct Sum {
+        std::uint64_t count = 0;
+        bool hasVolume = false, hasArea = false;
+        double volume = 0, counted = 0, area = 0;
+    };
+
+    void addAreas(std::span<const city::FeatureRow> rows, const analyze::Extents& extents,
+                  std::span<const analyze::Measure> own, const std::vector<Sum*>& sumOf);
+
+    std::vector<std::string> keys_;
+    std::map<std::vector<std::string>, Sum> sums_;
+    std::uint64_t withoutVolume_ = 0, withoutVoxels_ = 0;
+    std::uint64_t inParts_ = 0;  // features whose voxels all count to other values
+};
+
+}  // namespace svt::cli
