@@ -44,7 +44,7 @@ const VolumeObject::Measures& measuresOf(const SharedVolume& volume) {
 }
 
 py::object boxOf(const LabelReference& label) {
-    const Box3d box = analyze::worldBox(measuresOf(label.volume).labels[label.index].box, label.volume->volume().grid);
+    const Box3d box = measuresOf(label.volume).labels[label.index].box;
     if (box.isEmpty()) return py::none();
     py::array_t<double> array({2, 3});
     for (int axis = 0; axis < 3; ++axis) {
@@ -130,7 +130,7 @@ std::uint64_t save(const SharedVolume& volume, const Path& path, const py::dict&
 
 std::vector<std::uint32_t> query(const SharedVolume& volume, const std::string& text) {
     std::vector<std::string> nothing;
-    const analyze::LabelRows rows(volume->volume().labels, &nothing);
+    const analyze::LabelRows rows(volume->volume(), &nothing);
     return valueOf(analyze::selectLabels(rows, text));
 }
 
@@ -147,6 +147,10 @@ SharedVolume partOf(const SharedVolume& whole, const std::optional<std::array<do
 
 const analyze::FeatureMeasure& measureOf(const LabelReference& label) {
     return measuresOf(label.volume).features[label.index];
+}
+
+const analyze::KnownVolume& bestVolumeOf(const LabelReference& label) {
+    return measuresOf(label.volume).volumes[label.index];
 }
 
 py::object known(const std::optional<double>& value) { return value ? py::object(py::float_(*value)) : py::none(); }
@@ -182,8 +186,18 @@ void bindLabelMeasures(py::class_<LabelReference>& label) {
         .def_property_readonly(
             "voxels", [](const LabelReference& l) { return l.get().voxels; }, "Number of its voxels.")
         .def_property_readonly(
-            "volume", [](const LabelReference& l) { return l.get().volume; },
-            "Volume in m3: of its closed mesh; of its voxels for bodies; 0 for surfaces.")
+            "volume", [](const LabelReference& l) { return known(bestVolumeOf(l).volume); },
+            "Best known volume in m3 with its parts, as `svt query` compares it; None if unknown, as for surfaces.")
+        .def_property_readonly(
+            "volume_bound",
+            [](const LabelReference& l) {
+                return bestVolumeOf(l).volume ? known(bestVolumeOf(l).bound) : py::object(py::none());
+            },
+            "m3 by which `volume` may be off: 0 from closed meshes; None if unknown.")
+        .def_property_readonly(
+            "volume_source",
+            [](const LabelReference& l) { return std::string(analyze::volumeSourceName(bestVolumeOf(l).source)); },
+            "'meshes', 'voxels', 'meshes and voxels', or '' if the volume is unknown.")
         .def_property_readonly(
             "voxel_volume",
             [](const LabelReference& l) { return double(l.get().voxels) * l.volume->volume().grid.voxelVolume(); },
@@ -194,10 +208,10 @@ void bindLabelMeasures(py::class_<LabelReference>& label) {
         .def_property_readonly(
             "outside_area", [](const LabelReference& l) { return measuresOf(l.volume).labels[l.index].outsideArea; },
             "The part of `area` that touches background, m2.")
-        .def_property_readonly(
-            "box", &boxOf,
-            "Box around its voxels: array (2, 3) of the lower and upper corner, world space, metres; "
-            "None without voxels.");
+        .def_property_readonly("box", &boxOf,
+                               "Box of its mesh, or of its voxels without one: array (2, 3) of the lower and upper "
+                               "corner, world space, metres; "
+                               "None without voxels.");
 }
 
 void bindLabels(py::module_& module) {
@@ -214,7 +228,8 @@ void bindLabels(py::module_& module) {
             "name", [](const LabelReference& l) { return textOf(l.get().name); }, "Name, or ''.")
         .def_property_readonly(
             "attributes", [](const LabelReference& l) { return attributesOf(l.get().attributes); },
-            "Attributes by name: str, int, float or bool.")
+            "Attributes by name: str, int, float or bool; a list if there are several values, None in it for records "
+            "without one.")
         .def_property_readonly(
             "parent",
             [](const LabelReference& l) -> py::object {

@@ -69,15 +69,26 @@ py::str textOf(std::string_view text) {
 
 py::dict attributesOf(const std::vector<Attribute>& attributes) {
     py::dict dict;
-    for (const Attribute& attribute : attributes)
-        dict[textOf(attribute.name)] = std::visit(
+    const auto valueOf = [](const Attribute* attribute) -> py::object {
+        if (attribute == nullptr) return py::none();
+        return std::visit(
             [](const auto& value) -> py::object {
                 if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
                     return textOf(value);
                 else
                     return py::cast(value);
             },
-            attribute.value);
+            attribute->value);
+    };
+    for (const AttributeList& list : attributeLists(attributes)) {
+        if (list.isSingle()) {
+            dict[textOf(list.name)] = valueOf(list.items.front().attribute);
+            continue;
+        }
+        py::list values;
+        for (const AttributeList::Item& item : list.items) values.append(valueOf(item.attribute));
+        dict[textOf(list.name)] = values;
+    }
     return dict;
 }
 

@@ -23,7 +23,10 @@ const VolumeObject::Measures& VolumeObject::measures() {
         made.labels = analyze::measureLabels(volume_, made.contacts);
         std::vector<std::uint32_t> all(made.labels.size());
         std::iota(all.begin(), all.end(), 0U);
-        made.features = analyze::measureFeatures(analyze::Extents(volume_.labels), all, made.labels, made.contacts);
+        const analyze::Extents extents(volume_.labels);
+        made.features = analyze::measureFeatures(extents, all, made.labels, made.contacts);
+        const analyze::KnownVolumes volumes(volume_.labels, volume_.grid, extents);
+        for (const std::uint32_t label : all) made.volumes.push_back(volumes.of(label));
         measures_ = std::move(made);
     }
     return *measures_;

@@ -4,6 +4,7 @@
 
 #include <svt/analyze/contacts.hpp>
 #include <svt/analyze/extents.hpp>
+#include <svt/analyze/known_volumes.hpp>
 #include <svt/analyze/label_measures.hpp>
 #include <svt/analyze/selection.hpp>
 #include <svt/core/diagnostics.hpp>
@@ -41,6 +42,7 @@ public:
         std::vector<analyze::Contact> contacts;
         std::vector<analyze::Measure> labels;
         std::vector<analyze::FeatureMeasure> features;  ///< by label: own, and with its parts
+        std::vector<analyze::KnownVolume> volumes;      ///< by label, with its parts
     };
     /// Contacts and areas of all labels. Cost: analyze::findContacts() once.
     [[nodiscard]] const Measures& measures();

@@ -20,7 +20,7 @@ class Feature:
     @property
     def name(self) -> str: ...
     @property
-    def attributes(self) -> dict[str, str | int | float | bool]: ...
+    def attributes(self) -> dict[str, Any]: ...
     @property
     def parent(self) -> Optional[Feature]: ...
     @property
@@ -53,7 +53,7 @@ class Label:
     @property
     def name(self) -> str: ...
     @property
-    def attributes(self) -> dict[str, str | int | float | bool]: ...
+    def attributes(self) -> dict[str, Any]: ...
     @property
     def parent(self) -> Optional[Label]: ...
     @property
@@ -71,8 +71,14 @@ class Label:
     @property
     def voxels(self) -> int: ...
     @property
-    def volume(self) -> float:
-        """m3: of its closed mesh; of its voxels for bodies; 0 for surfaces."""
+    def volume(self) -> Optional[float]:
+        """m3 with its parts, the best known value; None: unknown."""
+    @property
+    def volume_bound(self) -> Optional[float]:
+        """m3 by which ``volume`` may be off; 0 from closed meshes; None: unknown."""
+    @property
+    def volume_source(self) -> str:
+        """'meshes', 'voxels', 'meshes and voxels', or '' if the volume is unknown."""
     @property
     def voxel_volume(self) -> float:
         """m3."""

@@ -60,15 +60,16 @@ class Labels(Sequence):
     def to_pandas(self, query: str = "all", *, attributes: bool = False) -> Any:
         """The labels that a query selects, as a pandas.DataFrame with one row per label.
 
-        The index is the number of the label. The columns are id, class_name, name, parent (an id), voxels, volume (m3),
-        voxel_volume, area (m2), outside_area, total_volume and total_area (with all parts), and filling, as of
+        The index is the number of the label. The columns are id, class_name, name, parent (an id), voxels, volume (m3
+        with all parts), volume_bound, volume_source, voxel_volume, area (m2), outside_area, total_volume and total_area (with all parts), and filling, as of
         :class:`svt.Label`. NaN: a surface has no volume, and a label without voxels has no area. The areas of all labels
         are measured once.
 
         Parameters
         ----------
         attributes
-            Add a column ``attributes.NAME`` for each attribute; None where a label has no such attribute.
+            Add a column ``attributes.NAME`` for each attribute; None where a label has no such attribute, a list where
+            it has several values.
         """
         labels = [self._native.label(index) for index in self._native.query(query)]
         return to_pandas(columns_of_labels(labels, attributes), "Labels.to_pandas()")

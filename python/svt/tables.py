@@ -11,9 +11,6 @@ from .optional import load
 if TYPE_CHECKING:
     from .section import Component
 
-#: Labels with these filling methods have no inside, so their volume is unknown and not 0.
-_WITHOUT_INSIDE = ("none", "surface")
-
 
 def _known(values: list[float | None]) -> np.ndarray:
     """Numbers as float64; unknown ones are NaN."""
@@ -30,7 +27,9 @@ def columns_of_labels(labels: Sequence[_native.Label], attributes: bool) -> dict
         "name": [label.name for label in labels],
         "parent": [None if parent is None else parent.id for parent in parents],
         "voxels": np.array([label.voxels for label in labels], np.int64),
-        "volume": _known([None if label.filling in _WITHOUT_INSIDE else label.volume for label in labels]),
+        "volume": _known([label.volume for label in labels]),
+        "volume_bound": _known([label.volume_bound for label in labels]),
+        "volume_source": [label.volume_source for label in labels],
         "voxel_volume": _known([label.voxel_volume if label.voxels else None for label in labels]),
         "area": _known([label.area if label.voxels else None for label in labels]),
         "outside_area": _known([label.outside_area if label.voxels else None for label in labels]),

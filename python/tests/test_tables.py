@@ -33,7 +33,8 @@ class Tables(unittest.TestCase):
         self.assertEqual(list(table.index), [label.index for label in v.labels])
         self.assertEqual(
             list(table.columns),
-            "id class_name name parent voxels volume voxel_volume area outside_area total_volume total_area filling".split(),
+            "id class_name name parent voxels volume volume_bound volume_source voxel_volume area outside_area "
+            "total_volume total_area filling".split(),
         )
         kitchen = v.labels["Kitchen"]
         row = table.loc[kitchen.index]
@@ -52,7 +53,10 @@ class Tables(unittest.TestCase):
         self.assertTrue((surfaces.area > 0).all())
         building = table[table.class_name == "Building"].iloc[0]
         self.assertEqual(building.voxels, 0)
-        self.assertTrue(math.isnan(building.volume) and math.isnan(building.area) and math.isnan(building.voxel_volume))
+        self.assertTrue(math.isnan(building.area) and math.isnan(building.voxel_volume))
+        self.assertGreater(building.volume, 300)  # with its parts
+        self.assertIn(building.volume_source, ("meshes", "meshes and voxels"))
+        self.assertTrue((surfaces.volume_source == "").all())
         self.assertIsNone(building.parent)
         self.assertGreater(building.total_volume, 300)  # that of its rooms, walls and slabs
         solids = table[table.filling == "solid"]

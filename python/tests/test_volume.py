@@ -220,13 +220,16 @@ class House(unittest.TestCase):
         self.assertEqual(v.labels[-1], v.labels[len(v.labels) - 1])
         self.assertEqual(v.labels[np.int32(3)], v.labels[3])
 
-    def test_areas_and_boxes_are_those_of_the_voxels(self):
+    def test_areas_are_those_of_the_voxels_and_boxes_those_of_meshes(self):
         v = house()
         kitchen = v.labels["Kitchen"]
         k, j, i = np.nonzero(v.labels.of_scalar[v.dense()] == kitchen.index)
         lower = v.world([i.min() - 0.5, j.min() - 0.5, k.min() - 0.5])
         upper = v.world([i.max() + 0.5, j.max() + 0.5, k.max() + 0.5])
-        np.testing.assert_allclose(kitchen.box, [lower, upper])
+        np.testing.assert_allclose(kitchen.box, [lower, upper], rtol=0, atol=0.05 + 1e-6)
+        np.testing.assert_allclose(np.diff(kitchen.box, axis=0)[0, 2], 2.76, atol=1e-5)
+        plain = svt.build(house_file(), spacing=0.1, vectors="none")
+        np.testing.assert_allclose(plain.labels["Kitchen"].box, [lower, upper])
         contacts = v.contacts()
         mine = contacts[(contacts["a"] == kitchen.index) | (contacts["b"] == kitchen.index)]
         self.assertAlmostEqual(mine["area"].sum(), kitchen.area)

@@ -169,7 +169,7 @@ Result<Reply> font(const Arguments& arguments) {
 Result<Reply> legend(const Arguments& arguments) {
     SVT_TRY(scene, arguments.scene(0));
     illustrate::ColorScale scale;
-    const analyze::LabelRows rows(session->volume().labels);
+    const analyze::LabelRows rows(session->volume());
     SVT_DO(illustrate::makeFrameSpec(*scene, session->volume(), rows, &scale));
     Json entries = Json::array();
     for (const auto& entry : scale.entries) entries.push_back({{"text", entry.text}, {"count", entry.count}});

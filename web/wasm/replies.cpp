@@ -13,11 +13,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <span>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -117,7 +115,7 @@ Vec3d worldSize(const volume::Grid& grid) {
 
 // The box of a feature with its parts, metres from the corner of the grid.
 Box3d boxOf(const analyze::Measure& total, const volume::Grid& grid) {
-    Box3d world = analyze::worldBox(total.box, grid);
+    Box3d world = total.box;
     if (world.isEmpty()) return {{}, {}};
     world.min = world.min - grid.origin();
     world.max = world.max - grid.origin();
@@ -176,14 +174,17 @@ std::string propertiesIn(Session& session, std::uint32_t index, Vec3d by) {
     box.max = box.max + by;
     Json json = namesOf(*found);
     json["attributes"] = Json::object();
-    for (const Attribute& attribute : found->attributes)
-        json["attributes"][attribute.name] =
-            attribute.unit.empty() ? toText(attribute.value) : toText(attribute.value) + " " + attribute.unit;
+    for (const AttributeList& list : attributeLists(found->attributes)) {
+        const Attribute* first = list.items.front().attribute;
+        const std::string unit = first == nullptr || first->unit.empty() ? "" : " " + first->unit;
+        json["attributes"][std::string(list.name)] = toText(list) + unit;
+    }
     // Repeats numbers as numbers, for languages with a decimal comma.
     json["numbers"] = Json::object();
-    for (const Attribute& attribute : found->attributes)
-        if (const auto* number = std::get_if<double>(&attribute.value))
-            json["numbers"][attribute.name] = {{"value", *number}, {"unit", attribute.unit}};
+    for (const AttributeList& list : attributeLists(found->attributes))
+        if (const Attribute* only = list.isSingle() ? list.items.front().attribute : nullptr)
+            if (const auto* number = std::get_if<double>(&only->value))
+                json["numbers"][only->name] = {{"value", *number}, {"unit", only->unit}};
     json["voxelVolume"] = double(measure.own.voxels) * volume.grid.voxelVolume();
     json["modelVolume"] = isClosed ? Json(found->volume) : Json(nullptr);
     json["surface"] = measure.own.area;
@@ -192,6 +193,18 @@ std::string propertiesIn(Session& session, std::uint32_t index, Vec3d by) {
     json["box"] = {{"low", pointOf(box.min)}, {"high", pointOf(box.max)}};
     json["neighbours"] = neighborsJson(session, extents.of(index));
     return textOf(json);
+}
+
+// Without streams, which would be the only users of std::locale in the module.
+std::vector<std::string> wordsOf(const std::string& text) {
+    constexpr const char* kBlanks = " \t\r\n";
+    std::vector<std::string> words;
+    for (std::size_t from = text.find_first_not_of(kBlanks), to = 0; from != std::string::npos;
+         from = text.find_first_not_of(kBlanks, to)) {
+        to = std::min(text.find_first_of(kBlanks, from), text.size());
+        words.push_back(text.substr(from, to - from));
+    }
+    return words;
 }
 
 }  // namespace
@@ -258,15 +271,14 @@ Result<std::string> intervalsOf(Session& session, double x, double y) {
 
 Result<std::string> selectionOf(const Session& session, const std::string& query) {
     const auto& table = session.volume().labels;
-    SVT_TRY(selected, analyze::selectLabels(table, query));
+    SVT_TRY(selected, analyze::selectLabels(session.volume(), query));
     Json list = Json::array();
     for (const std::uint32_t l : *selected) list.push_back(table.labels[l].id);
     return textOf(list);
 }
 
 std::string attributesFoundIn(const Session& session, const std::string& words) {
-    std::istringstream stream(lowerAscii(words));
-    const std::vector<std::string> wanted{std::istream_iterator<std::string>(stream), {}};
+    const std::vector<std::string> wanted = wordsOf(lowerAscii(words));
     Json list = Json::array();
     const auto hasAll = [&](const Attribute& attribute) {
         const std::string text = lowerAscii(attribute.name + " " + toText(attribute.value));

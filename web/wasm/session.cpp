@@ -112,7 +112,7 @@ const volume::SemanticVolume& Session::volumeOf(std::uint32_t label) const {
 Result<illustrate::SceneCamera> Session::view(const std::string& query, const std::string& preset,
                                               const illustrate::SceneCamera& now) const {
     if (!isOfParts_ || query.empty()) return illustrate::makeView(query, preset, now, aspect(), volume_);
-    SVT_TRY(selected, analyze::selectLabels(volume_.labels, query));
+    SVT_TRY(selected, analyze::selectLabels(volume_, query));
     for (const std::uint32_t label : *selected) {
         const volume::SemanticVolume& part = volumeOf(label);
         if (&part != &volume_) return illustrate::makeView(query, preset, now, aspect(), part, &volume_.grid);

@@ -39,7 +39,7 @@ describe("access", () => {
     await visit.page.keyboard.press("Enter");
     await visit.page.waitForFunction(() => document.querySelector("svt-app").session.view.state.selection[0] === "house_hidden_beam");
     await visit.page.keyboard.press(" ");
-    assert.deepEqual((await state()).hide, ['id="house_hidden_beam"']);
+    assert.deepEqual((await state()).hide, ["class=BuildingRoom", 'id="house_hidden_beam"']);
     await visit.page.keyboard.press(" ");
     await visit.page.keyboard.press("x");
     await visit.page.locator("#card").waitFor();

@@ -149,10 +149,10 @@ describe("keeping", () => {
     await visit.page.keyboard.press("Control+z");
     assert.deepEqual((await state()).sections, []);
     await visit.page.click("#undo");
-    assert.deepEqual((await state()).hide, []);
+    assert.deepEqual((await state()).hide, ["class=BuildingRoom"]);
     assert.ok(await visit.page.locator("#undo").isDisabled());
     await visit.page.keyboard.press("Control+y");
-    assert.deepEqual((await state()).hide, ['id="house_hidden_beam"']);
+    assert.deepEqual((await state()).hide, ["class=BuildingRoom", 'id="house_hidden_beam"']);
     assert.equal(await visit.page.locator("#redo").getAttribute("title"), "Redo: Section");
     await visit.page.keyboard.press("Control+Shift+z");
     assert.deepEqual((await state()).sections, cut);

@@ -33,13 +33,22 @@ describe("tree and query", () => {
     await visit.page.fill("#search", "");
   });
 
-  it("hides what is chosen, and a class", async () => {
+  it("hides what is chosen, and a class; rooms are hidden at first", async () => {
     const item = visit.page.getByRole("treeitem", { name: /Hidden beam/ });
+    const rooms = async () => inPage("s.view.describe([64, 36]).scene.passes[0].styles");
+    assert.deepEqual((await state()).hide, ["class=BuildingRoom"]);
     await item.locator("button.eye").click();
-    assert.deepEqual((await state()).hide, ['id="house_hidden_beam"']);
+    assert.deepEqual((await state()).hide, ["class=BuildingRoom", 'id="house_hidden_beam"']);
     await item.locator("button.eye").click();
-    assert.deepEqual((await state()).hide, []);
+    assert.deepEqual((await state()).hide, ["class=BuildingRoom"]);
+    assert.equal(await rooms(), undefined);
     await visit.page.getByRole("tab", { name: "Classes" }).click();
+    await visit.page.getByRole("button", { name: "Hide: BuildingRoom" }).click();
+    assert.deepEqual((await state()).hide, []);
+    assert.deepEqual(
+      (await rooms()).map((style) => style.select),
+      ["class=BuildingRoom"],
+    );
     await visit.page.getByRole("button", { name: "Hide: BuildingRoom" }).click();
     assert.deepEqual((await state()).hide, ["class=BuildingRoom"]);
     await visit.page.getByRole("button", { name: "Show all" }).click();

@@ -6,6 +6,7 @@ import { kCancelled } from "../engine";
 import type { EngineError, FileBytes, OpenOptions, Point, VolumeInfo } from "../engine";
 import { sub } from "../camera/vec";
 import { batch, until } from "../observable";
+import { hiddenSpaces } from "../state/spaces";
 import { initialState, shifted, type ViewState } from "../state/view_state";
 import { stageText, t } from "../texts";
 import { Owners } from "./owners";
@@ -166,13 +167,15 @@ export class Model extends ViewPart {
     this.volume.file = from.file;
     this.volume.otherFiles = from.otherFiles;
     this.owners.forget();
-    this.take(info, from.state ?? { ...initialState(this.view.state.look), wireframe: null });
+    this.take(info, from.state ?? { ...initialState(this.view.state.look), wireframe: null }, from.state === null);
   }
 
-  private take(info: VolumeInfo, state: ViewState): void {
+  /** @param isNew  a new view, in which spaces are hidden */
+  private take(info: VolumeInfo, given: ViewState, isNew: boolean): void {
     const { volume, view } = this;
     batch(() => {
       volume.take(info);
+      const state = isNew ? { ...given, hide: hiddenSpaces(volume.index) } : given;
       this.parts.selection.forget();
       this.parts.picture.forget();
       // The selected features of a city may not be visible yet.

@@ -6,6 +6,7 @@ import { kSceneMembers } from "../generated/scene_members";
 import { computed, membersOf, Observable } from "../observable";
 import { History, type Changed } from "../state/history";
 import { sceneCamera, sceneOf, type Described } from "../state/scene_of";
+import { withSpaces } from "../state/spaces";
 import { initialState, type Camera, type ViewState } from "../state/view_state";
 import { hiddenFlags, hideQueries, switched } from "../state/visibility";
 import { t, type TextKey } from "../texts";
@@ -72,6 +73,8 @@ export class View extends Observable {
 
   describe(size: [number, number], samples?: Samples): Described {
     const described = sceneOf(this.state, this.volume.box, size, samples);
+    if (!this.state.custom)
+      described.scene.passes = described.scene.passes!.map((pass) => withSpaces(pass, this.volume.index, this.hidden));
     // Tiles of a city fit the pixels. Levels of detail of the tiles would cost time and memory without benefit.
     if (this.volume.isCity) described.scene.passes = described.scene.passes!.map((pass) => ({ level: 0, ...pass }));
     return described;
