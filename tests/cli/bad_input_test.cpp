@@ -50,8 +50,8 @@ std::string nameOf(const ::testing::TestParamInfo<BadInput>& info) { return info
 
 const Arguments kBuild{"build", "bad.gml", "-o", "o.svt", "--spacing", "0.5"};
 const Arguments kBuildJson{"build", "bad.json", "-o", "o.svt", "--spacing", "0.5"};
-const Arguments kCheck{"check", "bad.gml", "--verbose"};
-const Arguments kCheckJson{"check", "bad.json", "--verbose"};
+const Arguments kCheck{"check", "bad.gml", "--verbose", "--strict"};
+const Arguments kCheckJson{"check", "bad.json", "--verbose", "--strict"};
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);

@@ -88,7 +88,9 @@ TEST_F(TwoBoxes, InfoJsonHasItsKeysAndUnits) {
     const json& left = byId(info["objects"], "left");
     EXPECT_EQ(keysOf(left), (Keys{"class", "closed", "count", "countedVolume", "filling", "first", "id", "name",
                                   "ownVolume", "ownVoxels", "parent", "solidVolume", "totalVolume", "totalVoxels",
-                                  "volume", "voxelVolume", "voxels"}));
+                                  "volume", "volumeBound", "volumeSource", "voxelVolume", "voxels"}));
+    EXPECT_EQ(left["volumeSource"], "meshes");
+    EXPECT_EQ(left["volumeBound"], 0.0);
     EXPECT_EQ(left["class"], "Building");
     EXPECT_EQ(left["parent"], nullptr);
     EXPECT_EQ(left["closed"], true);
@@ -125,7 +127,7 @@ TEST_F(TwoBoxes, QueryJsonIsRowsOfInfo) {
 TEST_F(TwoBoxes, CheckJsonHasItsKeysAndFindsNothing) {
     const json check = runSvtForJson(folder.path(), {"check", "two.gml", "--json"});
     EXPECT_EQ(keysOf(check), (Keys{"counts", "diagnostics", "features", "findings", "leaking", "legalUnits", "objects",
-                                   "polygons", "primitives", "solids", "tJunctions", "valid"}));
+                                   "polygons", "primitives", "solids", "tJunctions", "usable", "valid"}));
     EXPECT_EQ(check["solids"], 2);
     EXPECT_EQ(check["leaking"], 0);
     EXPECT_EQ(check["tJunctions"], 0);

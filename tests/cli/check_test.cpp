@@ -163,7 +163,7 @@ TEST_F(Check, ThePageHasWhatReadingAndClosingFoundByKindAndPlace) {
           "<td><a href=\"#E209\">E209</a></td><td>ShellCapped</td>", "<h2 id=\"E209\">", "<h2 id=\"E207\">",
           "closed with 1 planar caps", "<td>Building</td><td><code>b</code></td>", "Reading or closing found defects"})
         EXPECT_NE(page.find(expected), std::string::npos) << expected;
-    // What stderr lists stands in the page.
+    // The page has the findings that stderr lists.
     for (const char* code : {"E110", "E207", "E209"})
         EXPECT_NE(result.err.find(code), std::string::npos) << code << "\n" << result.err;
     std::size_t pictures = 0;
@@ -237,6 +237,62 @@ TEST_F(Check, ALargeFileIsCheckedFeatureByFeatureWithTheSameFindings) {
     const CommandResult linked = runSvt(folder.path(), {"check", "linked.gml", "--verbose"}, limits);
     EXPECT_EQ(linked.err.find("E110"), std::string::npos) << linked.err.substr(0, 2000);
     EXPECT_NE(linked.out.find("  linked\n"), std::string::npos);
+}
+
+// A box with `count` faces that repeat a point, each with two findings: the body is whole.
+json repeatsPoints(int count) {
+    json shell = boxShell(0);
+    for (int f = 0; f < count; ++f) {
+        json& ring = shell[static_cast<std::size_t>(f)][0];
+        ring.insert(ring.begin(), ring[0]);
+    }
+    return cityJson("Solid", json::array({shell}), {corners(0, 0, 0, 9)});
+}
+
+TEST_F(Check, FindingsThatDoNotPreventUseChangeTheExitCodeOnlyIfStrict) {
+    const CommandResult result = check(repeatsPoints(3));
+    EXPECT_EQ(result.exitCode, 0) << result.toString();
+    EXPECT_NE(result.err.find("svt: 6 findings do not prevent use:\n"), std::string::npos) << result.err;
+    EXPECT_EQ(check(repeatsPoints(3), {"--strict"}).exitCode, 4);
+    EXPECT_EQ(check(repeatsPoints(3), {"--format", "val3dity"}).exitCode, 4) << "as val3dity counts";
+    EXPECT_EQ(check(repeatsPoints(0), {"--strict"}).exitCode, 0);
+    const CommandResult quiet = check(openAndDangling(), {"--quiet"});
+    EXPECT_EQ(quiet.exitCode, 4);
+    EXPECT_EQ(quiet.err, "");
+}
+
+TEST_F(Check, JsonStatesWhatPreventsUse) {
+    const json report = check(repeatsPoints(1), {"--json"}).json();
+    EXPECT_EQ(report["valid"], false);
+    EXPECT_EQ(report["usable"], true);
+    EXPECT_EQ(report["findings"][0]["preventsUse"], false);
+    const json open = check(openAndDangling(), {"--json"}).json();
+    EXPECT_EQ(open["usable"], false);
+    for (const json& finding : open["diagnostics"]) EXPECT_EQ(finding["preventsUse"], true) << finding;
+}
+
+TEST_F(Check, FindingsOfOneCauseAreOneWithTheirNumber) {
+    const CommandResult result = check(repeatsPoints(3));
+    const std::size_t first = result.err.find("warning E220 RepeatedPoint");
+    ASSERT_NE(first, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("warning E220", first + 1), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("svt:   3 findings of this kind: 'b'\n"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("svt: 6 warnings of 2 kinds; --verbose shows each\n"), std::string::npos) << result.err;
+    const CommandResult all = check(repeatsPoints(3), {"--verbose"});
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = all.err.find("warning E220", at)) != std::string::npos; ++at) ++count;
+    EXPECT_EQ(count, 3u) << all.err;
+    EXPECT_EQ(check(repeatsPoints(3), {"--json"}).json()["findings"].size(), 3u);
+}
+
+TEST_F(Check, BodiesThatTouchAlongAnEdgeHaveTheirVolume) {
+    json shell = boxShell(0);
+    for (const json& face : boxShell(8)) shell.push_back(face);
+    const CommandResult result =
+        check(cityJson("Solid", json::array({shell}), {corners(0, 0, 0, 2), corners(2, 2, 0, 2)}), {"--json"});
+    EXPECT_EQ(result.exitCode, 0) << result.toString();
+    EXPECT_EQ(result.json()["counts"], json::parse(R"({"E230":1})"));
+    EXPECT_NEAR(result.json()["objects"][0]["volume"].get<double>(), 16, 1e-6);
 }
 
 TEST_F(Check, APageThatCannotBeWrittenIsAnError) {

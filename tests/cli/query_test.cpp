@@ -101,7 +101,7 @@ TEST_F(TwoBoxReports, WithAddsColumns) {
     EXPECT_EQ(
         csv.substr(0, csv.find('\n')),
         "id,class,name,ownVolume,totalVolume,ownVoxels,totalVoxels,solidVolume,countedVolume,filling,volume,voxels,"
-        "voxelVolume");
+        "voxelVolume,volumeBound,volumeSource");
     const CommandResult wrong = runSvt(folder.path(), {"query", "two.svt", "all", "--with", "volume,surfaces"});
     EXPECT_EQ(wrong.exitCode, 2);
     EXPECT_NE(wrong.err.find("'surfaces'"), std::string::npos) << wrong.toString();

@@ -87,6 +87,7 @@ const std::vector<Picture> kPictures{
     {"iso_north_west", {"--camera", "iso-nw"}, {}},
     {"front", {"--camera", "front", "--ortho"}, {}},
     {"plan", {"--camera", "top", "--ortho", "--section", "z=1.6"}, {}},
+    {"glass", {"--around", "id=house_window_terrace", "--camera", "iso-sw"}, {}},
     {"cut", {"--camera", "front", "--section", "y<5"}, {}},
     {"corner_cut", {"--section", "x>6", "--section", "z>3.4"}, {}},
     {"oblique_cut", {"--section", "1,-1,0.5,-2"}, {}},
@@ -380,8 +381,8 @@ TEST_F(SmallHouse, WhatIsHighlightedIsSeenInAllLooks) {
 }
 
 TEST_F(SmallHouse, NamesWithoutRoomAreCounted) {
-    const std::vector<std::string> arguments{"render", "house.svt", "-o",      "p.png",
-                                             "--size", "160x90",    "--names", "all"};
+    const std::vector<std::string> arguments{"render", "house.svt", "-o",  "p.png",     "--size",
+                                             "160x90", "--names",   "all", "--section", "y<5"};
     const CommandResult result = runSvt(folder.path(), arguments);
     EXPECT_EQ(result.exitCode, 0) << result.toString();
     EXPECT_NE(result.err.find("do not fit; choose a larger --size"), std::string::npos) << result.toString();

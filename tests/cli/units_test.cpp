@@ -105,9 +105,17 @@ TEST_F(Units, HaveTheVoxelsBoxAndSurfaceOfTheirParts) {
         const Counted total = count(partsOf(id)), own = count({id});
         EXPECT_EQ(row["totalVoxels"], total.voxels) << id;
         EXPECT_EQ(row["ownVoxels"], own.voxels) << id;
+        // Boxes of meshes end within a voxel of those of voxels.
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            EXPECT_NEAR(row["totalBox"]["min"][axis].get<double>(), total.low[axis], 1e-6) << id;
-            EXPECT_NEAR(row["totalBox"]["max"][axis].get<double>(), total.high[axis], 1e-6) << id;
+            EXPECT_NEAR(row["totalBox"]["min"][axis].get<double>(), total.low[axis], 0.12) << id;
+            EXPECT_NEAR(row["totalBox"]["max"][axis].get<double>(), total.high[axis], 0.12) << id;
+        }
+        if (id == "tower") {
+            const std::array<double, 2> low{500000, 5399998.5}, high{500020.48, 5400018.38};
+            for (std::size_t axis = 0; axis < 2; ++axis) {
+                EXPECT_NEAR(row["totalBox"]["min"][axis].get<double>(), low[axis], 2e-6);
+                EXPECT_NEAR(row["totalBox"]["max"][axis].get<double>(), high[axis], 2e-6);
+            }
         }
         EXPECT_GT(row["totalSurface"]["area"].get<double>(), 1) << id;
     }
@@ -146,8 +154,9 @@ TEST_F(Units, HaveTheirOutlineAndPlanAreaInTables) {
         const Counted total = count(partsOf(row["id"]));
         EXPECT_EQ(row["totalVoxels"], total.voxels);
         EXPECT_NEAR(row["area"].get<double>(), double(total.columns) * 0.12 * 0.12, 1e-6);
-        EXPECT_NEAR(row["lowest"].get<double>(), total.low[2], 1e-6);
-        EXPECT_NEAR(row["highest"].get<double>(), total.high[2], 1e-6);
+        // Heights of meshes lie within a voxel of those of voxels.
+        EXPECT_NEAR(row["lowest"].get<double>(), total.low[2], 0.12);
+        EXPECT_NEAR(row["highest"].get<double>(), total.high[2], 0.12);
         std::array<double, 2> low{1e300, 1e300}, high{-1e300, -1e300};
         double twice = 0;
         const auto ring = ringOf(feature);
@@ -230,14 +239,22 @@ TEST_F(Units, AreSummedByOwnerEachVoxelOnce) {
     for (const json& row : ask({"all", "--by", "owner"}))
         if (row["owner"].is_string()) byOwner[row["owner"]] = row;
     ASSERT_TRUE(byOwner.count("F. Weber"));
-    EXPECT_NEAR(byOwner["F. Weber"]["area"].get<double>(), double(count(partsOf("tower_S00_F1")).columns) * 0.12 * 0.12,
-                1e-6);
+    const json flat = ask({kFlat, "--sort", "area"})[0];
+    EXPECT_NEAR(byOwner["F. Weber"]["area"].get<double>(), flat["area"].get<double>(), 1e-6) << "its rooms add nothing";
     EXPECT_NEAR(byOwner["F. Weber"]["totalVolume"].get<double>(), 198.69, 0.01);
     // All features together are the building: rooms are not added to flats, nor flats to storeys.
     const json all = ask({"all", "--by", "nothing"});
     const json building = ask({"class=Building"})[0];
     ASSERT_EQ(all.size(), 1u);
-    EXPECT_NEAR(all[0]["totalVolume"].get<double>(), building["totalVolume"].get<double>(), 1e-6);
+    // The list counts in voxels what solids lost to others. The sums are exact, on any grid.
+    const double total = all[0]["totalVolume"].get<double>();
+    EXPECT_NEAR(total, building["totalVolume"].get<double>(), 0.001 * total);
+    EXPECT_NEAR(total, 2263.4405, 0.01);
+    EXPECT_EQ(all[0]["countedVolume"], 0);
+    double ofClasses = 0;
+    for (const json& row : ask({"all", "--by", "class"}))
+        ofClasses += row["totalVolume"].is_null() ? 0 : row["totalVolume"].get<double>();
+    EXPECT_NEAR(ofClasses, all[0]["totalVolume"].get<double>(), 1e-6);
     EXPECT_EQ(all[0]["features"], features_.empty() ? all[0]["features"] : json(features_.size()));
 }
 

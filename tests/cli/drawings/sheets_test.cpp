@@ -103,6 +103,65 @@ TEST(Sheets, WhatDoesNotFitIsRefusedWithWhatWould) {
     EXPECT_NE(nothing.err.find("give -o P.pdf, --svg DIR"), std::string::npos) << nothing.err;
 }
 
+// Before, a scale of 1:50 on the default paper was an error.
+TEST(Sheets, AScaleSelectsThePaper) {
+    const TemporaryFolder folder;
+    prepareHouse(folder.path(), "0.1");
+    const auto drawn = runSvt(folder.path(), {"sheets", "house.svt", "--svg", "s", "--scale", "1:50"});
+    ASSERT_EQ(drawn.exitCode, 0) << drawn.toString();
+    EXPECT_NE(drawn.err.find("paper A2: the smallest on which all views fit at 1:50"), std::string::npos) << drawn.err;
+    EXPECT_NE(readText(folder / "s" / "sheet-1.svg").find("width=\"594mm\""), std::string::npos);
+    const auto never = runSvt(folder.path(), {"sheets", "house.svt", "-o", "s.pdf", "--scale", "1:5"});
+    EXPECT_EQ(never.exitCode, 2);
+    EXPECT_NE(never.err.find("do not fit onto any paper at 1:5"), std::string::npos) << never.err;
+    EXPECT_NE(never.err.find("--hide"), std::string::npos) << never.err;
+    EXPECT_FALSE(fs::exists(folder / "s.pdf"));
+}
+
+TEST(Sheets, TheTitleBlockAndTheScheduleAreFilled) {
+    const TemporaryFolder folder;
+    prepare(folder.path(), {"sample", "house", "-o", "house.ifc"});
+    const auto drawn =
+        runSvt(folder.path(), {"sheets", "house.ifc", "--svg", "s", "--schedule", "openings.csv", "--number", "A-100",
+                               "--creator", "M. Smith", "--title", "Town hall", "--write-sheets", "s.sheets.json"});
+    ASSERT_EQ(drawn.exitCode, 0) << drawn.toString();
+    EXPECT_NE(drawn.err.find("--approver, --issued, --owner"), std::string::npos) << drawn.err;
+    const std::string sheet = readText(folder / "s" / "sheet-1.svg");
+    for (const char* text : {">A-100-1<", ">M. Smith<", ">Town hall<", ">Materials<", ">Masonry<", ">Floor plan<"})
+        EXPECT_NE(sheet.find(text), std::string::npos) << text;
+    const std::string csv = readText(folder / "openings.csv");
+    EXPECT_TRUE(
+        csv.starts_with("mark,kind,type,storey,overallWidth,overallHeight,measuredWidth,measuredHeight,sill,count,"))
+        << csv;
+    // The entrance door: 1.11 x 2.25 m, as stated and as measured.
+    EXPECT_TRUE(std::regex_search(csv, std::regex("D[0-9]+,door,door,Ground floor,1\\.11,2\\.25,1\\.11,2\\.25,0,1,")))
+        << csv;
+    EXPECT_TRUE(std::regex_search(sheet, std::regex(">D[0-9]+<")));
+    EXPECT_TRUE(std::regex_search(sheet, std::regex(">W[0-9]+<")));
+    runSvtWell(folder.path(), {"sheets", "house.ifc", "--svg", "again", "--from", "s.sheets.json"});
+    EXPECT_EQ(readText(folder / "again" / "sheet-1.svg"), sheet);
+}
+
+// Model space in metres, and a layout in paper space; lines beyond the cut on layers of ISO 13567.
+TEST(Sheets, DxfHasWidthsAndALayout) {
+    const TemporaryFolder folder;
+    prepareHouse(folder.path(), "0.1");
+    runSvtWell(folder.path(), {"sheets", "house.svt", "--dxf", "cad", "--scale", "1:100", "--iso-layers"});
+    const std::string dxf = readText(folder / "cad" / "plan-1.dxf");
+    for (const char* part : {"\nAcDbLayout\n  1\nA3 1 to 100\n", "\nVIEWPORT\n", "  3\nACAD_LAYOUT\n", "-VISIBLE-\n",
+                             "\n370\n50\n", "Floor plan"})
+        EXPECT_NE(dxf.find(part), std::string::npos) << part;
+    EXPECT_EQ(dxf.find("BEYOND_"), std::string::npos);
+    // Each handle once.
+    std::vector<std::string> handles;
+    for (std::size_t at = 0; (at = dxf.find("\n  5\n", at)) != std::string::npos; ++at)
+        handles.push_back(dxf.substr(at + 5, dxf.find('\n', at + 5) - at - 5));
+    std::sort(handles.begin(), handles.end());
+    // The header repeats the next free one.
+    EXPECT_EQ(std::adjacent_find(handles.begin(), handles.end()), handles.end());
+    EXPECT_GT(handles.size(), 100u);
+}
+
 TEST(Sheets, ASetThatWasWrittenGivesTheSameSheets) {
     const TemporaryFolder folder;
     writeText(folder / "boxes.gml", twoBoxes());
@@ -139,6 +198,49 @@ TEST(Sheets, BoxesWithoutStoreysHaveOnePlan) {
     runSvtWell(folder.path(), {"sheets", "boxes.gml", "--svg", "s"});
     EXPECT_NE(readText(folder / "s" / "sheet-1.svg").find(">Plan at z = "), std::string::npos);
     EXPECT_TRUE(fs::exists(folder / "s" / "sheet-3.svg"));
+}
+
+std::string houseAndTree() {
+    return cityModel(building("house", solid(boxFaces(500000, 5400000, 100, 500008, 5400006, 103))) +
+                     "<cityObjectMember><veg:SolitaryVegetationObject gml:id=\"tree\" "
+                     "xmlns:veg=\"http://www.opengis.net/citygml/vegetation/2.0\"><veg:lod2Geometry>" +
+                     solid(boxFaces(500080, 5400002, 100, 500081, 5400003, 105)) +
+                     "</veg:lod2Geometry></veg:SolitaryVegetationObject></cityObjectMember>");
+}
+
+TEST(Sheets, ATreeFarAwayIsNeitherMeasuredNorDecidesTheScale) {
+    const TemporaryFolder folder;
+    writeText(folder / "garden.gml", houseAndTree());
+    runSvtWell(folder.path(), {"sheets", "garden.gml", "--svg", "s", "--keep-far-features"});
+    const std::string plan = readText(folder / "s" / "sheet-1.svg");
+    EXPECT_NE(plan.find(">1:100<"), std::string::npos);
+    EXPECT_NE(plan.find(">8.00<"), std::string::npos);
+    EXPECT_NE(plan.find(">6.00<"), std::string::npos);
+    EXPECT_EQ(plan.find(">81.00<"), std::string::npos);
+    // Both sections cut the house, not the garden: their heights are there.
+    const std::string sections = readText(folder / "s" / "sheet-2.svg");
+    const std::size_t first = sections.find(">3.00<");
+    ASSERT_NE(first, std::string::npos);
+    EXPECT_NE(sections.find(">3.00<", first + 1), std::string::npos);
+}
+
+TEST(Sheets, DimensionsHaveTheirUnit) {
+    const TemporaryFolder folder;
+    writeText(folder / "boxes.gml", twoBoxes());
+    for (const auto& [unit, length] : {std::pair("mm", ">8000<"), std::pair("cm", ">800<"), std::pair("m", ">8.00<"),
+                                       std::pair("m-cm", ">8.00<"), std::pair("ft-in", ">26&#39;-2 15/16")}) {
+        runSvtWell(folder.path(), {"sheets", "boxes.gml", "--svg", unit, "--dimension-unit", unit});
+        EXPECT_NE(readText(folder / unit / "sheet-1.svg").find(length), std::string::npos) << unit;
+    }
+    runSvtWell(folder.path(), {"section", "boxes.gml", "-o", "plan.svg", "--dimensions", "--dimension-unit", "cm"});
+    EXPECT_NE(readText(folder / "plan.svg").find(">800<"), std::string::npos);
+    // A set keeps its unit.
+    runSvtWell(folder.path(), {"sheets", "boxes.gml", "--write-sheets", "s.sheets.json", "--dimension-unit", "mm"});
+    runSvtWell(folder.path(), {"sheets", "boxes.gml", "--svg", "again", "--from", "s.sheets.json"});
+    EXPECT_NE(readText(folder / "again" / "sheet-1.svg").find(">8000<"), std::string::npos);
+    const auto unknown = runSvt(folder.path(), {"sheets", "boxes.gml", "--svg", "x", "--dimension-unit", "inch"});
+    EXPECT_EQ(unknown.exitCode, 2);
+    EXPECT_NE(unknown.err.find("ft-in"), std::string::npos) << unknown.err;
 }
 
 TEST(Sheets, OfAnOpenShellAreDrawnAndSaySo) {

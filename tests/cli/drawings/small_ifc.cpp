@@ -42,7 +42,7 @@ int SmallIfc::storey(std::string_view name, double height, std::string_view elev
     return static_cast<int>(storeys_.size()) - 1;
 }
 
-void SmallIfc::box(std::string_view type, std::string_view name, int storey, Corner low, Corner high) {
+int SmallIfc::box(std::string_view type, std::string_view name, int storey, Corner low, Corner high) {
     const int body = add(fmt::format("IFCBLOCK(#{},{},{},{})", place(low), real(high.x - low.x), real(high.y - low.y),
                                      real(high.z - low.z)));
     const int shown = add(fmt::format("IFCSHAPEREPRESENTATION(#20,'Body','CSG',(#{}))", body));
@@ -52,6 +52,27 @@ void SmallIfc::box(std::string_view type, std::string_view name, int storey, Cor
                                         isSpace ? "$,.ELEMENT.,.INTERNAL.,$" : "$,$"));
     auto& parts = (isSpace ? spaces_ : elements_)[static_cast<std::size_t>(storey)];
     parts += fmt::format("{}#{}", parts.empty() ? "" : ",", product);
+    return product;
+}
+
+void SmallIfc::layers(int product, const std::vector<Layer>& layers) {
+    std::string list;
+    for (const Layer& layer : layers) {
+        const int material = add(fmt::format("IFCMATERIAL('{}',$,$)", layer.material));
+        const int made = add(fmt::format("IFCMATERIALLAYER(#{},{},$,$,$,$,$)", material, real(layer.thickness)));
+        list += fmt::format("{}#{}", list.empty() ? "" : ",", made);
+    }
+    const int set = add(fmt::format("IFCMATERIALLAYERSET(({}),'set',$)", list));
+    const int usage = add(fmt::format("IFCMATERIALLAYERSETUSAGE(#{},.AXIS2.,.POSITIVE.,0.,$)", set));
+    add(fmt::format("IFCRELASSOCIATESMATERIAL('layers{}',$,$,$,(#{}),#{})", next_, product, usage));
+}
+
+void SmallIfc::materials(int product, const std::vector<std::string_view>& names) {
+    std::string list;
+    for (const std::string_view name : names)
+        list += fmt::format("{}#{}", list.empty() ? "" : ",", add(fmt::format("IFCMATERIAL('{}',$,$)", name)));
+    const int made = add(fmt::format("IFCMATERIALLIST(({}))", list));
+    add(fmt::format("IFCRELASSOCIATESMATERIAL('list{}',$,$,$,(#{}),#{})", next_, product, made));
 }
 
 void SmallIfc::shell(int storey, Corner low, Corner high) {

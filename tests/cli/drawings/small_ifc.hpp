@@ -28,7 +28,17 @@ public:
 
     /// Adds a product with a box as its body to a storey; spaces become parts of it, others are contained.
     /// \param type  such as "WALL", "SLAB", "SPACE"
-    void box(std::string_view type, std::string_view name, int storey, Corner low, Corner high);
+    /// \return its number, for layers()
+    int box(std::string_view type, std::string_view name, int storey, Corner low, Corner high);
+
+    struct Layer {
+        std::string_view material;
+        double thickness = 0;  ///< metres
+    };
+    /// Gives a product layers, from its lower side along the y axis: a wall along x.
+    void layers(int product, const std::vector<Layer>& layers);
+    /// Gives a product a list of materials, without thickness.
+    void materials(int product, const std::vector<std::string_view>& names);
 
     /// Adds four walls around a rectangle, 0.3 m thick, and a slab of 0.3 m below them.
     void shell(int storey, Corner low, Corner high);

@@ -1,0 +1,264 @@
+// `svt cadastre`: the land administration as GeoPackage, CityGML and report, relations of legal units, and parcels and
+// owners from GIS files. GDAL, SQLite, xmllint and poppler read the output.
+#include "../run_command.hpp"
+
+#include <svt/core/test_data_test.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+namespace svt::test {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kShares =
+    "feature,owner,share\ntower_S00_F1,Weber,1/3\ntower_S00_F1,Klein,2/3\ntower_S00_F2,Weber\n";
+
+class Cadastre : public ::testing::Test {
+protected:
+    Cadastre() {
+        prepare(folder.path(), {"sample", "tower", "-o", "tower.gml", "--storeys", "1"});
+        prepare(folder.path(), {"build", "tower.gml", "-o", "tower.svt", "--spacing", "0.12"});
+        writeText(folder / "shares.csv", kShares);
+    }
+    TemporaryFolder folder;
+};
+
+json relationOf(const json& report, const std::string& kind, const std::string& a, const std::string& b) {
+    for (const json& relation : report["relations"])
+        if (relation["kind"] == kind && relation["a"] == a && relation["b"] == b) return relation;
+    return nullptr;
+}
+
+json unitOf(const json& report, const std::string& id) {
+    for (const json& unit : report["units"])
+        if (unit["id"] == id) return unit;
+    return nullptr;
+}
+
+TEST_F(Cadastre, TheGeoPackageHasATablePerClassWithValidKeysAndGeometries) {
+    runSvtWell(folder.path(), {"cadastre", "tower.svt", "-o", "units.gpkg", "--owners", "shares.csv"});
+    std::string said;
+    if (!isRun(folder.path(), pythonOf("read_ladm.py") + "units.gpkg", said)) GTEST_SKIP() << said;
+    const json counts = json::parse(said);
+    EXPECT_EQ(counts["la_party"], 2);
+    EXPECT_EQ(counts["la_baunit"], 2);
+    EXPECT_EQ(counts["la_right"], 3);
+    EXPECT_EQ(counts["la_spatialunit"], 5) << "units without owners are registered, too";
+    EXPECT_EQ(counts["la_source"], 2);
+    EXPECT_EQ(counts["epsg"], 25832);
+    EXPECT_EQ(counts["shares"]["tower_S00_F1 Weber"], "1/3");
+    EXPECT_EQ(counts["shares"]["tower_S00_F1 Klein"], "2/3");
+    EXPECT_EQ(counts["shares"]["tower_S00_F2 Weber"], "1/1");
+    EXPECT_NEAR(counts["volumes"]["tower_S00_F1"].get<double>(), 197.266, 1e-3) << "the solid of the model";
+    runSvtWell(folder.path(), {"cadastre", "tower.svt", "-o", "again.gpkg", "--owners", "shares.csv"});
+    EXPECT_TRUE(readText(folder / "units.gpkg") == readText(folder / "again.gpkg"));
+}
+
+TEST_F(Cadastre, UnitsAndTheirRelationsAreThoseOfTheModel) {
+    const json report = runSvtForJson(folder.path(), {"cadastre", "tower.svt", "--json"});
+    EXPECT_EQ(report["parties"].size(), 5u) << "the attribute owner of four flats and the common area";
+    ASSERT_EQ(report["units"].size(), 5u);
+    const json flat = unitOf(report, "tower_S00_F1");
+    EXPECT_EQ(flat["rights"][0]["party"], "F. Weber");
+    EXPECT_EQ(flat["body"], "solid");
+    EXPECT_EQ(unitOf(report, "tower_S00_common")["common"], true);
+    // The party wall of 0.24 m between flats 1 and 2: 7.00 x 2.84 m on each side.
+    const json gap = relationOf(report, "gap", "tower_S00_F1", "tower_S00_F2");
+    ASSERT_FALSE(gap.is_null()) << report["relations"];
+    EXPECT_NEAR(gap["narrowest"].get<double>(), 0.24, 1e-3);
+    EXPECT_NEAR(gap["area"].get<double>(), 7.00 * 2.84, 0.02);
+    EXPECT_EQ(gap["between"], json::array({"tower_S00_wall_party_south_1"}));
+    EXPECT_EQ(gap["open"], false);
+    EXPECT_TRUE(gap["exact"]);
+    for (const json& relation : report["relations"]) EXPECT_NE(relation["kind"], "overlap") << relation;
+    // Without meshes, bodies are voxels, and nothing is called exact.
+    runSvtWell(folder.path(), {"build", "tower.gml", "-o", "plain.svt", "--spacing", "0.24", "--vectors", "none"});
+    const json voxels = runSvtForJson(folder.path(), {"cadastre", "plain.svt", "--json"});
+    EXPECT_EQ(unitOf(voxels, "tower_S00_F1")["body"], "voxels");
+    for (const json& relation : voxels["relations"]) EXPECT_FALSE(relation["exact"]) << relation;
+}
+
+// Boxes of CityJSON: id and x0, x1 in metres; 6 x 3 m in y and z.
+std::string boxesModel(const std::vector<std::tuple<std::string, double, double>>& units) {
+    std::string objects = R"("house":{"type":"Building","children":[)", vertices;
+    for (std::size_t n = 0; n < units.size(); ++n)
+        objects += fmt::format("{}\"{}\"", n ? "," : "", std::get<0>(units[n]));
+    objects += "]}";
+    int first = 0;
+    for (const auto& [id, x0, x1] : units) {
+        std::string faces;
+        for (const auto& face :
+             {std::array{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}})
+            faces += fmt::format("{}[[{},{},{},{}]]", faces.empty() ? "" : ",", first + face[0], first + face[1],
+                                 first + face[2], first + face[3]);
+        objects += fmt::format(
+            R"(,"{}":{{"type":"BuildingUnit","parents":["house"],"geometry":[{{"type":"Solid","lod":"3","boundaries":[[{}]]}}]}})",
+            id, faces);
+        for (const double z : {0.0, 3.0})
+            for (const auto& [x, y] : {std::pair{x0, 0.0}, {x1, 0.0}, {x1, 6.0}, {x0, 6.0}})
+                vertices +=
+                    fmt::format("{}[{:.0f},{:.0f},{:.0f}]", vertices.empty() ? "" : ",", 1000 * x, 1000 * y, 1000 * z);
+        first += 8;
+    }
+    return R"({"type":"CityJSON","version":"2.0","transform":{"scale":[0.001,0.001,0.001],"translate":[0,0,0]},"CityObjects":{)" +
+           objects + "},\"vertices\":[" + vertices + "]}";
+}
+
+TEST(CadastreRelations, AreSharedFacesOverlapsAndGaps) {
+    const TemporaryFolder folder;
+    writeText(folder / "m.json", boxesModel({{"a", 0, 4}, {"b", 4, 8}, {"c", 7.99, 12}, {"d", 12.1, 16}}));
+    const json report = runSvtForJson(folder.path(), {"cadastre", "m.json", "--json"});
+    const json shared = relationOf(report, "shared face", "a", "b");
+    ASSERT_FALSE(shared.is_null()) << report;
+    EXPECT_NEAR(shared["area"].get<double>(), 18, 1e-4);
+    ASSERT_EQ(shared["faces"].size(), 1u);
+    EXPECT_EQ(shared["faces"][0]["minus"], "a");
+    EXPECT_EQ(shared["faces"][0]["plus"], "b");
+    EXPECT_FALSE(shared["faces"][0]["id"].get<std::string>().empty());
+    EXPECT_EQ(shared["faces"][0]["rings"][0].size(), 4u);
+    const json overlap = relationOf(report, "overlap", "b", "c");
+    ASSERT_FALSE(overlap.is_null()) << report;
+    EXPECT_NEAR(overlap["volume"].get<double>(), 0.01 * 18, 1e-4);
+    const json gap = relationOf(report, "gap", "c", "d");
+    ASSERT_FALSE(gap.is_null()) << report;
+    EXPECT_NEAR(gap["narrowest"].get<double>(), 0.1, 1e-4);
+    EXPECT_EQ(gap["open"], true) << "nothing is between them";
+    EXPECT_EQ(report["relations"].size(), 3u);
+    const json narrow = runSvtForJson(folder.path(), {"cadastre", "m.json", "--gap", "0.05", "--json"});
+    EXPECT_TRUE(relationOf(narrow, "gap", "c", "d").is_null());
+    const std::string csv = runSvtWell(folder.path(), {"cadastre", "m.json", "--csv"});
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4) << csv;
+}
+
+TEST_F(Cadastre, TheCityGmlIsValidAndComesBackWithTheSameUnits) {
+    runSvtWell(folder.path(), {"cadastre", "tower.svt", "-o", "units.gml", "--owners", "shares.csv"});
+    const json before = runSvtForJson(folder.path(), {"cadastre", "tower.svt", "--owners", "shares.csv", "--json"});
+    const json after = runSvtForJson(folder.path(), {"cadastre", "units.gml", "--owners", "shares.csv", "--json"});
+    ASSERT_EQ(after["units"].size(), before["units"].size());
+    for (const json& unit : before["units"]) {
+        const json again = unitOf(after, unit["id"]);
+        ASSERT_FALSE(again.is_null()) << unit;
+        EXPECT_EQ(again["name"], unit["name"]);
+        EXPECT_EQ(again["class"], unit["class"]);
+        EXPECT_EQ(again["rights"], unit["rights"]);
+        EXPECT_NEAR(again["bodyVolume"].get<double>(), unit["bodyVolume"].get<double>(), 1e-3);
+        EXPECT_NEAR(again["area"].get<double>(), unit["area"].get<double>(), 1e-3);
+    }
+    // The rights are attributes that a query finds.
+    const json found = runSvtForJson(folder.path(), {"query", "units.gml", "\"LA_Right/party\"=Klein", "--json"});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0]["id"], "tower_S00_F1");
+    if (const auto schemas = dataDir() / "schemas";
+        std::filesystem::exists(schemas / "all_citygml.xsd") && hasProgram("xmllint --version")) {
+        std::string all = readText(schemas / "all_citygml.xsd");
+        const std::string from = "schemaLocation=\"";
+        for (std::size_t at = 0; (at = all.find(from, at)) != std::string::npos;) {
+            at += from.size();
+            all.insert(at, schemas.string() + "/");
+        }
+        writeText(folder / "all.xsd", all);
+        runShellWell(folder.path(), "xmllint --nonet --noout --schema all.xsd units.gml");
+    }
+}
+
+TEST_F(Cadastre, TheReportOfAUnitIsAPage) {
+    runSvtWell(folder.path(),
+               {"cadastre", "tower.svt", "-o", "flat.pdf", "--pages-of", "id=tower_S00_F1", "--owners", "shares.csv"});
+    ASSERT_TRUE(readText(folder / "flat.pdf").starts_with("%PDF-"));
+    std::string said;
+    if (!isRun(folder.path(), "pdftotext -layout flat.pdf -", said)) GTEST_SKIP() << said;
+    for (const char* text : {"S00 Flat 1", "tower_S00_F1", "Plan 1:", "Section 1:", "197.27", "Weber", "1/3", "2/3",
+                             "S00 Flat 2", "0.24", "S00 Flat 1 living room", "tower.gml", "EPSG::25832"})
+        EXPECT_NE(said.find(text), std::string::npos) << text << "\n" << said;
+    EXPECT_EQ(said.find('\f'), said.rfind('\f')) << "one page";
+    runSvtWell(folder.path(), {"cadastre", "tower.svt", "-o", "all.pdf"});
+    ASSERT_TRUE(isRun(folder.path(), "pdfinfo all.pdf", said));
+    EXPECT_NE(said.find("Pages:           5"), std::string::npos) << said;
+    const CommandResult none =
+        runSvt(folder.path(), {"cadastre", "tower.svt", "-o", "x.pdf", "--pages-of", "class=Window"});
+    EXPECT_EQ(none.exitCode, kUsage) << none.toString();
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.pdf"));
+}
+
+TEST_F(Cadastre, ModelsWithoutUnitsSaySo) {
+    writeText(folder / "m.json", boxesModel({}));
+    prepare(folder.path(), {"sample", "house", "-o", "house.gml"});
+    const CommandResult none = runSvt(folder.path(), {"cadastre", "house.gml", "--spacing", "0.5"});
+    EXPECT_EQ(none.exitCode, kUsage) << none.toString();
+    EXPECT_NE(none.err.find("no legal units"), std::string::npos) << none.err;
+    writeText(folder / "rooms.csv", "name=Kitchen,Ada\n");
+    const json rooms =
+        runSvtForJson(folder.path(), {"cadastre", "house.gml", "--spacing", "0.5", "--owners", "rooms.csv", "--json"});
+    ASSERT_EQ(rooms["units"].size(), 1u);
+    EXPECT_EQ(rooms["units"][0]["class"], "BuildingRoom");
+}
+
+// Two parcels whose border is 8 m east of the tower's corner.
+constexpr const char* kParcels = R"({"type":"FeatureCollection",
+  "crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::25832"}},"features":[
+  {"type":"Feature","properties":{"id":"west"},"geometry":{"type":"Polygon","coordinates":
+    [[[499990,5399990],[500008,5399990],[500008,5400030],[499990,5400030],[499990,5399990]]]}},
+  {"type":"Feature","properties":{"id":"east"},"geometry":{"type":"Polygon","coordinates":
+    [[[500008,5399990],[500030,5399990],[500030,5400030],[500008,5400030],[500008,5399990]]]}}]})";
+
+TEST_F(Cadastre, ParcelsMayBePolygonsOfGisFiles) {
+    writeText(folder / "parcels.geojson", kParcels);
+    const auto parts = [&](const std::string& file, std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"query", "tower.svt", "id=tower_S00_F1", "--parcels", file, "--json"});
+        std::map<std::string, double> found;
+        for (const json& row : runSvtForJson(folder.path(), more))
+            found[row["parcel"].is_null() ? "-" : row["parcel"].get<std::string>()] = row["part"];
+        return found;
+    };
+    const auto whole = parts("parcels.geojson");
+    ASSERT_EQ(whole.size(), 2u);
+    EXPECT_NEAR(whole.at("west"), 0.79, 0.01);
+    EXPECT_NEAR(whole.at("west") + whole.at("east"), 1, 1e-9) << "without limit in height";
+    const auto low = parts("parcels.geojson", {"--parcel-heights", "90,101.42"});
+    EXPECT_NEAR(low.at("-"), 0.5, 0.03) << "the upper half of the flat is in no parcel";
+    EXPECT_NEAR(low.at("west") / low.at("east"), whole.at("west") / whole.at("east"), 0.2);
+    if (hasProgram("ogr2ogr --version")) {
+        runShellWell(folder.path(),
+                     "ogr2ogr -f GPKG parcels.gpkg parcels.geojson && ogr2ogr parcels.shp parcels.geojson && "
+                     "ogr2ogr -t_srs EPSG:4326 -lco RFC7946=YES degrees.geojson parcels.geojson");
+        EXPECT_EQ(parts("parcels.gpkg"), whole);
+        EXPECT_EQ(parts("parcels.shp"), whole);
+        EXPECT_NEAR(parts("degrees.geojson").at("west"), whole.at("west"), 0.02) << "degrees have seven decimals";
+    }
+    EXPECT_EQ(
+        runSvt(folder.path(), {"query", "tower.svt", "all", "--parcels", "parcels.geojson", "--parcel-heights", "2,1"})
+            .exitCode,
+        kUsage);
+    EXPECT_EQ(runSvt(folder.path(), {"query", "tower.svt", "all", "--parcel-heights", "1,2"}).exitCode, kUsage);
+    EXPECT_EQ(runSvt(folder.path(), {"query", "tower.svt", "all", "--parcels", "tower.gml", "--parcel-heights", "1,2"})
+                  .exitCode,
+              kUsage);
+}
+
+TEST_F(Cadastre, OwnersMayBeATableOfAGeoPackage) {
+    runShellWell(folder.path(), pythonOf("make_owner_table.py") + "t.gpkg none.gpkg endless.gpkg");
+    writeText(folder / "t.csv", "tower_S00_F1,\"Weber, A.\",1/2\ntower_S00_F1,Klein,1/2\ntower_S00_F2,\"Weber, A.\"\n");
+    for (const char* command : {"query", "cadastre"}) {
+        const auto ask = [&](const char* table) {
+            std::vector<std::string> arguments{command, "tower.svt", "--owners", table, "--json"};
+            if (std::string(command) == "query") arguments.insert(arguments.begin() + 2, "id=tower_S00_F1");
+            return runSvtForJson(folder.path(), arguments);
+        };
+        json table = ask("t.gpkg"), text = ask("t.csv");
+        table.erase("sources");
+        text.erase("sources");
+        EXPECT_EQ(table, text) << command;
+    }
+    const CommandResult none = runSvt(folder.path(), {"query", "tower.svt", "all", "--owners", "none.gpkg"});
+    EXPECT_EQ(none.exitCode, kInput) << none.toString();
+    EXPECT_NE(none.err.find("feature and owner"), std::string::npos) << none.err;
+    const CommandResult endless = runSvt(folder.path(), {"query", "tower.svt", "all", "--owners", "endless.gpkg"});
+    EXPECT_NE(endless.err.find("InputTooBig"), std::string::npos) << endless.toString();
+}
+
+}  // namespace
+}  // namespace svt::test

@@ -1,0 +1,234 @@
+// Tables for GIS: footprints, volumes and attributes of generated models whose figures are known.
+#include "../run_command.hpp"
+
+#include <svt/core/test_data_test.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+namespace svt::test {
+namespace {
+
+using nlohmann::json;
+
+// Counter-clockwise rings of x, y as a polygon of CityGML at height z.
+std::string polygon(const std::vector<std::vector<std::array<double, 2>>>& rings, double z) {
+    std::string text = "<gml:surfaceMember><gml:Polygon>";
+    for (std::size_t r = 0; r < rings.size(); ++r) {
+        const char* side = r == 0 ? "exterior" : "interior";
+        text += fmt::format("<gml:{}><gml:LinearRing><gml:posList>", side);
+        for (std::size_t n = 0; n <= rings[r].size(); ++n) {
+            const auto& [x, y] = rings[r][n % rings[r].size()];
+            text += fmt::format("{} {} {} ", x + 391000, y + 5820000, z);
+        }
+        text += fmt::format("</gml:posList></gml:LinearRing></gml:{}>", side);
+    }
+    return text + "</gml:Polygon></gml:surfaceMember>";
+}
+
+std::string surface(const char* className, const std::string& polygons) {
+    return fmt::format(
+        "<bldg:boundedBy><bldg:{0}><bldg:lod2MultiSurface><gml:MultiSurface>{1}</gml:MultiSurface>"
+        "</bldg:lod2MultiSurface></bldg:{0}></bldg:boundedBy>",
+        className, polygons);
+}
+
+// A wall from (x0, y0) to (x1, y1), z from 0 to `top`.
+std::string wall(double x0, double y0, double x1, double y1, double top) {
+    const auto at = [](double x, double y, double z) { return fmt::format("{} {} {} ", x + 391000, y + 5820000, z); };
+    return "<gml:surfaceMember><gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>" + at(x0, y0, 0) +
+           at(x1, y1, 0) + at(x1, y1, top) + at(x0, y0, top) + at(x0, y0, 0) +
+           "</gml:posList></gml:LinearRing></gml:exterior></gml:Polygon></gml:surfaceMember>";
+}
+
+// Walls of a box without that in the south if it is open, floor and roof.
+std::string boxFaces(double x0, double y0, double x1, double y1, double top, bool hasSouth = true) {
+    return polygon({{{x0, y0}, {x0, y1}, {x1, y1}, {x1, y0}}}, 0) +
+           polygon({{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}}, top) + (hasSouth ? wall(x0, y0, x1, y0, top) : "") +
+           wall(x1, y0, x1, y1, top) + wall(x1, y1, x0, y1, top) + wall(x0, y1, x0, y0, top);
+}
+
+std::string solid(const std::string& faces) {
+    return "<bldg:lod2Solid><gml:Solid><gml:exterior><gml:CompositeSurface>" + faces +
+           "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod2Solid>";
+}
+
+std::string building(const char* id, const std::string& content, const char* element = "Building") {
+    return fmt::format("<bldg:{0} gml:id=\"{1}\">{2}</bldg:{0}>", element, id, content);
+}
+
+std::string flood(const char* members) {
+    return fmt::format("<ade:flood><ade:RiverFlood>{}</ade:RiverFlood></ade:flood>", members);
+}
+
+// Four buildings: one around a court whose roof is larger than its ground; one of two parts side by side, the second with
+// a ground surface, the first without; one that is a solid with a gap; one with several values of attributes.
+std::string town() {
+    const std::vector<std::vector<std::array<double, 2>>> court = {{{0, 0}, {0, 10}, {12, 10}, {12, 0}},
+                                                                   {{4, 4}, {8, 4}, {8, 7}, {4, 7}}};
+    std::string text =
+        "<?xml version=\"1.0\"?><core:CityModel xmlns:core=\"http://www.opengis.net/citygml/2.0\" "
+        "xmlns:bldg=\"http://www.opengis.net/citygml/building/2.0\" xmlns:gml=\"http://www.opengis.net/gml\" "
+        "xmlns:gen=\"http://www.opengis.net/citygml/generics/2.0\" xmlns:ade=\"http://example.org/ade\">"
+        "<gml:boundedBy><gml:Envelope srsName=\"urn:ogc:def:crs:EPSG::25833\" srsDimension=\"3\"><gml:lowerCorner>"
+        "391000 5820000 0</gml:lowerCorner><gml:upperCorner>391080 5820020 9</gml:upperCorner></gml:Envelope>"
+        "</gml:boundedBy>";
+    const auto add = [&](const std::string& object) {
+        text += "<core:cityObjectMember>" + object + "</core:cityObjectMember>";
+    };
+    add(building("court", surface("GroundSurface", polygon(court, 0)) +
+                              surface("RoofSurface", polygon({{{-1, -1}, {13, -1}, {13, 11}, {-1, 11}}}, 6))));
+    const auto part = [&](const char* id, const std::string& content) {
+        return "<bldg:consistsOfBuildingPart>" + building(id, content, "BuildingPart") +
+               "</bldg:consistsOfBuildingPart>";
+    };
+    add(building("pair",
+                 part("west", solid(boxFaces(20, 0, 25, 8, 4))) +
+                     part("east", solid(boxFaces(25, 0, 31, 8, 6)) +
+                                      surface("GroundSurface", polygon({{{25, 0}, {25, 8}, {31, 8}, {31, 0}}}, 0)))));
+    add(building("floods",
+                 "<gen:stringAttribute name=\"use\"><gen:value>shop</gen:value></gen:stringAttribute>"
+                 "<gen:stringAttribute name=\"use\"><gen:value>flat, small</gen:value></gen:stringAttribute>" +
+                     flood("<ade:depth uom=\"m\">0.5</ade:depth><ade:rank>1</ade:rank>") +
+                     flood("<ade:rank>3</ade:rank>") + solid(boxFaces(40, 0, 44, 5, 3))));
+    add(building("dry", flood("<ade:depth uom=\"m\">0.25</ade:depth><ade:rank>1</ade:rank>") +
+                            solid(boxFaces(50, 0, 52, 2, 3))));
+    return text + "</core:CityModel>";
+}
+
+double areaOf(const json& ring) {
+    double twice = 0;
+    for (std::size_t n = 1; n + 1 < ring.size(); ++n)
+        twice += (ring[n][0].get<double>() - ring[0][0].get<double>()) *
+                     (ring[n + 1][1].get<double>() - ring[0][1].get<double>()) -
+                 (ring[n][1].get<double>() - ring[0][1].get<double>()) *
+                     (ring[n + 1][0].get<double>() - ring[0][0].get<double>());
+    return twice / 2;
+}
+
+double areaOfGeometry(const json& geometry) {
+    double area = 0;
+    const json polygons =
+        geometry["type"] == "Polygon" ? json::array({geometry["coordinates"]}) : geometry["coordinates"];
+    for (const json& rings : polygons)
+        for (const json& ring : rings) area += areaOf(ring);
+    return area;
+}
+
+class GisTables : public ::testing::Test {
+protected:
+    GisTables() { writeText(folder / "town.gml", town()); }
+
+    std::map<std::string, json> featuresOf(const std::string& file) const {
+        std::map<std::string, json> features;
+        const json layer = json::parse(readText(folder / file));
+        for (const json& feature : layer.at("features")) features[feature.at("properties").at("id")] = feature;
+        return features;
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(GisTables, HaveTrueFootprints) {
+    // Of the file, and of a volume at a spacing that says nothing about the outlines.
+    runSvtWell(folder.path(), {"convert", "town.gml", "a.geojson", "--select", "class=Building", "--roofs"});
+    runSvtWell(folder.path(), {"build", "town.gml", "-o", "town.svt", "--spacing", "0.9"});
+    runSvtWell(folder.path(), {"convert", "town.svt", "b.geojson", "--select", "class=Building or class=BuildingPart"});
+    for (const char* file : {"a.geojson", "b.geojson"}) {
+        auto features = featuresOf(file);
+        const std::pair<const char*, double> expected[] = {
+            {"court", 120 - 12}, {"pair", 88}, {"floods", 20}, {"dry", 4}};
+        for (const auto& [id, area] : expected) {
+            EXPECT_NEAR(areaOfGeometry(features[id]["geometry"]), area, 1e-4) << file << " " << id;
+            EXPECT_NEAR(features[id]["properties"]["area"].get<double>(), area, 1e-4) << file << " " << id;
+        }
+        EXPECT_EQ(features["court"]["geometry"]["coordinates"].size(), 2u) << "the court is a hole";
+        EXPECT_EQ(features["court"]["properties"]["footprint"], "ground surfaces");
+        EXPECT_EQ(features["pair"]["properties"]["footprint"], "ground surfaces and meshes");
+        EXPECT_EQ(features["floods"]["properties"]["footprint"], "meshes");
+    }
+    EXPECT_NEAR(areaOfGeometry(featuresOf("a.roofs.geojson")["court"]["geometry"]), 14 * 12, 1e-4);
+    EXPECT_NEAR(featuresOf("a.geojson")["court"]["properties"]["roofArea"].get<double>(), 14 * 12, 1e-4);
+    // Without meshes, the footprints are those of voxels, and the column says so.
+    runSvtWell(folder.path(), {"build", "town.gml", "-o", "bare.svt", "--spacing", "0.5", "--vectors", "none"});
+    runSvtWell(folder.path(), {"query", "bare.svt", "id=floods", "-o", "bare.geojson"});
+    const json bare = featuresOf("bare.geojson")["floods"];
+    EXPECT_EQ(bare["properties"]["footprint"], "voxels");
+    EXPECT_NEAR(areaOfGeometry(bare["geometry"]), bare["properties"]["area"].get<double>(), 1e-4);
+}
+
+TEST_F(GisTables, VolumesIncludePartsAndSayWhereTheyComeFrom) {
+    const json rows = runSvtForJson(
+        folder.path(), {"query", "town.gml", "class=Building or class=BuildingPart", "--sort", "volume", "--json"});
+    std::map<std::string, json> row;
+    for (const json& each : rows) row[each["id"]] = each;
+    EXPECT_NEAR(row["pair"]["volume"].get<double>(), 5 * 8 * 4 + 6 * 8 * 6, 1e-6) << "as its voxels and area";
+    EXPECT_EQ(row["pair"]["volumeSource"], "meshes");
+    EXPECT_EQ(row["pair"]["volumeBound"], 0.0);
+    EXPECT_EQ(rows[0]["id"], "pair");
+    for (const json& each : rows) EXPECT_NE(each["volume"], 0) << each;
+    const json selected = runSvtForJson(folder.path(), {"query", "town.gml", "volume>440", "--json"});
+    ASSERT_EQ(selected.size(), 1u);
+    EXPECT_EQ(selected[0]["id"], "pair");
+    EXPECT_NEAR(selected[0]["volume"].get<double>(), 448, 1e-6);
+}
+
+TEST_F(GisTables, KeepSeveralValuesOfAnAttribute) {
+    const json depths = {0.5, nullptr}, ranks = {"1", "3"}, uses = {"shop", "flat, small"};
+    for (const char* file : {"f.geojson", "f.csv", "f.gpkg", "f.parquet"})
+        runSvtWell(folder.path(), {"query", "town.gml", "class=Building", "-o", file});
+    const json floods = featuresOf("f.geojson")["floods"]["properties"];
+    EXPECT_EQ(floods["flood/depth"], depths);
+    EXPECT_EQ(floods["flood/rank"], ranks);
+    EXPECT_EQ(floods["use"], uses);
+    EXPECT_EQ(featuresOf("f.geojson")["dry"]["properties"]["flood/depth"], 0.25) << "one value keeps its type";
+    const std::string csv = readText(folder / "f.csv");
+    EXPECT_NE(csv.find("\"[0.5,null]\",\"[\"\"1\"\",\"\"3\"\"]\""), std::string::npos) << csv;
+    // The same rule in JSON, and in the table of objects.
+    const json printed = runSvtForJson(folder.path(), {"query", "town.gml", "id=floods", "--json"});
+    EXPECT_EQ(printed[0]["attributes"]["flood/depth"], depths);
+    EXPECT_EQ(printed[0]["attributes"]["flood/rank"], ranks);
+    runSvtWell(folder.path(), {"convert", "town.gml", "objects.csv"});
+    EXPECT_NE(readText(folder / "objects.csv").find("\"[0.5,null]\""), std::string::npos);
+    // Any value counts.
+    const auto idsOf = [&](const char* query) {
+        std::vector<std::string> ids;
+        for (const json& row : runSvtForJson(folder.path(), {"query", "town.gml", query, "--json"}))
+            ids.push_back(row["id"]);
+        return ids;
+    };
+    using Ids = std::vector<std::string>;
+    EXPECT_EQ(idsOf("flood/rank>=3"), Ids{"floods"});
+    EXPECT_EQ(idsOf("flood/rank=1"), (Ids{"floods", "dry"}));
+    EXPECT_EQ(idsOf("flood/rank!=1"), Ids{"floods"});
+    EXPECT_EQ(idsOf("use='flat, small'"), Ids{"floods"});
+}
+
+TEST_F(GisTables, ListTheValuesInATableOfTheirOwn) {
+    runSvtWell(folder.path(), {"query", "town.gml", "class=Building", "-o", "f.gpkg", "--roofs"});
+    const std::string script =
+        "import sqlite3; c = sqlite3.connect('f.gpkg'); "
+        "print(c.execute('select feature, name, record, position, value, unit from attribute_values order by fid')"
+        ".fetchall()); "
+        "print(c.execute('select v.value from attribute_values v join features f on f.fid = v.feature_fid "
+        "where f.id = ? and v.name = ?', ('floods', 'use')).fetchall()); "
+        "print(c.execute('select table_name, data_type from gpkg_contents order by 1').fetchall()); "
+        "print(c.execute('select geometry_type_name from gpkg_geometry_columns').fetchall())";
+    const ShellResult said = runShell(folder.path(), "python3 -c \"" + script + "\"");
+    if (said.isMissing()) GTEST_SKIP() << said.text;
+    EXPECT_EQ(said.text,
+              "[('floods', 'use', 1, 1, 'shop', None), ('floods', 'use', 1, 2, 'flat, small', None), "
+              "('floods', 'flood/depth', 1, 1, '0.5', 'm'), ('floods', 'flood/rank', 1, 1, '1', None), "
+              "('floods', 'flood/rank', 2, 2, '3', None)]\n"
+              "[('shop',), ('flat, small',)]\n"
+              "[('attribute_values', 'attributes'), ('features', 'features'), ('roofs', 'features')]\n"
+              "[('MULTIPOLYGON',), ('MULTIPOLYGON',)]\n");
+    runSvtWell(folder.path(), {"query", "town.gml", "class=Building", "-o", "f.parquet", "--roofs"});
+    for (const char* file : {"f.parquet", "f.roofs.parquet", "f.attributes.parquet"})
+        EXPECT_EQ(readText(folder / file).substr(0, 4), "PAR1") << file;
+}
+
+}  // namespace
+}  // namespace svt::test
