@@ -11,10 +11,10 @@ Entry = Union[str, dict[str, Union[str, list]]]
 TUTORIALS = ["cadastre", "architecture", "research", "city", "teaching"]
 HOWTO = [
     *("viewer", "publish", "web-component", "sheets", "styles", "scenes", "regions", "coordinates", "ifc", "city"),
-    *("configuration", "trouble"),
+    *("cadastre-office", "configuration", "trouble"),
 ]
 COMMANDS = [
-    *("sample", "sample-city", "build", "info", "check", "render", "section", "query", "shell", "convert"),
+    *("sample", "sample-city", "build", "info", "check", "render", "section", "query", "cadastre", "shell", "convert"),
     *("serve", "view", "city-plan", "city-run", "city-task", "city-status", "city-merge", "city-info", "city-extract"),
     *("thumbnail", "doctor", "describe"),
 ]
