@@ -16,7 +16,7 @@ COLORS = np.array([[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [2
 
 
 def clearance(volume):
-    """Metres from each sample to the nearest sample that is no air: array [k, j, i], 0 outside of rooms."""
+    """Metres from each sample to the nearest sample that is not air: array [k, j, i], 0 outside of rooms."""
     labels = volume.labels.of_scalar[volume.dense()]
     # Surfaces that bound a room are its outermost voxels.
     is_air = np.array(
@@ -51,13 +51,13 @@ def main():
             )
     # A plan one metre above the lowest floor: where a wheelchair of 0.75 m (white line) finds no place.
     floor = min(room.box[0][2] for room in rooms)
-    k = int(round(volume.index([[*volume.origin[:2], floor + 1.0]])[0, 2]))
+    k = int(np.ceil(volume.index([[*volume.origin[:2], floor + 1.0]])[0, 2]))  # the first samples above it
     plane = ndimage.distance_transform_edt(field[k] > 0, sampling=volume.spacing[1::-1])
     picture = colored(plane, plane.max()).repeat(3, axis=0).repeat(3, axis=1)
     wide = (plane > 0.375).repeat(3, axis=0).repeat(3, axis=1)
     picture[wide ^ ndimage.binary_erosion(wide)] = 255
     svt.write_png(os.path.join(folder, "distance.png"), picture[::-1])
-    print(f"distance.png: 1 m above the floor; yellow is {plane.max():.2f} m from what is nearest")
+    print(f"distance.png: 1 m above the floor; yellow is {plane.max():.2f} m from the nearest object")
 
 
 if __name__ == "__main__":

@@ -72,7 +72,7 @@ def envelope(volume, step):
             origins[:, axis] = lower[axis] - 1 if side > 0 else upper[axis] + 1
             origins[:, across[0]], origins[:, across[1]] = grids[0].ravel(), grids[1].ravel()
             for layers in outermost(volume.rays(origins, np.eye(3)[axis] * side), is_inside):
-                labels = [volume.labels[number] for number in layers["label"]]
+                labels = [object_of(volume.labels[number]) for number in layers["label"]]
                 thickness = layers["leave"] - layers["enter"]
                 whole = [label for label in labels if label.class_name in WHOLE]
                 owner = whole[0] if whole else labels[int(np.argmax(thickness))]
@@ -85,6 +85,11 @@ def envelope(volume, step):
                     )
                 ] += 1
     return found
+
+
+def object_of(label):
+    """The object of a phase: the window of a pane. Another label is an object itself."""
+    return label.parent if label.class_name.endswith("Phase") else label
 
 
 def transmittance(label, layers):
@@ -109,7 +114,7 @@ def table(volume, step=0.1):
 
 
 def name_of(label):
-    """Its name, or where it has none its class and the room that it bounds."""
+    """Its name; without a name, its class and the room that it bounds."""
     room = label
     while room.parent is not None and room.class_name != "BuildingRoom":
         room = room.parent
@@ -146,11 +151,13 @@ def main():
         if u:
             heat = min(max((u - 0.3) / 2.2, 0), 1)
             red, green = min(2 * heat, 1), min(2 - 2 * heat, 1)
-            colors[f"id='{label.id}'"] = f"#{int(40 + 190 * red):02x}{int(40 + 160 * green):02x}28"
+            for part in (label, *(phase for phase in label.children if object_of(phase) == label)):
+                colors[f"id='{part.id}'"] = f"#{int(40 + 190 * red):02x}{int(40 + 160 * green):02x}28"
     volume.frame(
         size=(960, 600),
         hide="class=BuildingRoom",
         color={"all": "#d8d8d8", **colors},
+        opacity={"phase=glass": 1},
         camera="iso-sw",
         title="Envelope by U: green 0.3 to red 2.5 W/(m2 K)",
     ).save(os.path.join(folder, "energy.png"))

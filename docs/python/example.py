@@ -1,4 +1,4 @@
-"""What the examples share: a model, its volume, where results go."""
+"""Functions of all examples: the model, its volume, the folder of the results."""
 import argparse
 import os
 import tempfile

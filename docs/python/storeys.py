@@ -1,9 +1,14 @@
 #!/usr/bin/env python3
-"""Volumes by storey: rooms, their exact floor areas and volumes, and what is built around them."""
+"""Volumes by storey: rooms, their exact floor areas and volumes, and the construction around them."""
 import csv
 import os
 
 from example import arguments
+
+
+def known_sum(values):
+    """The sum of the values that are known; the volume of a room without geometry is not."""
+    return sum(value for value in values if value is not None)
 
 
 def storeys(volume):
@@ -17,9 +22,11 @@ def storeys(volume):
         plan = volume.section(f"storey={storey.name or storey.id}+1")
         numbers = {room.index for room in rooms}
         area = sum(part.area for part in plan.components if part.label.index in numbers)
-        rows.append(
-            (storey.name, len(rooms), area, sum(room.volume for room in rooms), sum(part.volume for part in parts))
-        )
+        air = known_sum(room.volume for room in rooms)
+        # The volume of an element includes its parts, which the query selects, too.
+        elements = {part.index for part in parts}
+        whole = [part for part in parts if part.parent is None or part.parent.index not in elements]
+        rows.append((storey.name, len(rooms), area, air, known_sum(part.volume for part in whole)))
     return rows
 
 

@@ -11,10 +11,17 @@ PICTURES, WIDTH, HEIGHT = 8, 256, 192
 POINTS = 200_000
 
 
+def class_of_object(label):
+    """Its class; for a phase, such as the panes of a window, that of the object."""
+    return label.class_name.removesuffix("Phase")
+
+
 def class_table(volume):
     """Names of the classes, background first, and the class of each label."""
-    names = ["background", *sorted({label.class_name for label in volume.labels if label.voxels})]
-    return names, np.array([names.index(label.class_name) if label.voxels else 0 for label in volume.labels] + [0])
+    names = ["background", *sorted({class_of_object(label) for label in volume.labels if label.voxels})]
+    return names, np.array(
+        [names.index(class_of_object(label)) if label.voxels else 0 for label in volume.labels] + [0]
+    )
 
 
 def pictures(volume, class_of, random):
@@ -45,7 +52,7 @@ def pictures(volume, class_of, random):
 
 def scan(volume, class_of, random):
     """Points that a laser scanner in each room would see, with class and label."""
-    rooms = [room for room in volume.query("class=BuildingRoom") if room.volume > 5]
+    rooms = volume.query("class=BuildingRoom and volume>5")
     is_air = np.array([label.class_name in ("BuildingRoom", "ClosureSurface") for label in volume.labels])
     points, labels = [], []
     for room in rooms:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Visibility by rays: what somebody standing in a room sees, how far, and how much of it is sky."""
+"""Visibility by rays: the objects that a person in a room sees, their distance, and the share of sky."""
 import csv
 import os
 
@@ -8,8 +8,14 @@ import numpy as np
 import svt
 from example import arguments
 
-EYE = 1.6  # metres above the floor
+EYE = 1.58  # metres above the floor
 CLEAR = ("BuildingRoom", "Window", "WindowSurface", "ClosureSurface", "BuildingUnit", "Storey")
+
+
+def is_clear(label):
+    """Whether one sees through it: glass and air. A window with panes of their own is its frame, which is opaque."""
+    phase = label.attributes.get("phase")
+    return label.class_name in CLEAR if phase is None else phase == "glass"
 
 
 def sphere(count):
@@ -22,10 +28,10 @@ def sphere(count):
 
 def first_hits(volume, origins, directions):
     """For each ray the index of the label that ends the view (-1: none, open air) and the distance in metres (inf)."""
-    is_clear = np.array([label.class_name in CLEAR for label in volume.labels])
+    clear = np.array([is_clear(label) for label in volume.labels])
     runs = volume.rays(origins, directions)
     label, distance = np.full(len(runs), -1), np.full(len(runs), np.inf)
-    opaque = ~is_clear[runs.all["label"]]
+    opaque = ~clear[runs.all["label"]]
     # Of the opaque runs the first of each ray: np.unique gives the first place of each value.
     rays, first = np.unique(runs.ray[opaque], return_index=True)
     label[rays] = runs.all["label"][opaque][first]
@@ -41,7 +47,7 @@ def plan(volume, height):
     shades = np.array(
         [
             [246, 243, 236]
-            if label.class_name in CLEAR
+            if is_clear(label)
             else [150, 170, 190]
             if "Window" in label.class_name
             else [196, 164, 120]
@@ -71,7 +77,7 @@ def overlay(volume, picture, eye, distance, directions, height):
 
 def main():
     volume, folder = arguments(__doc__, spacing=0.05)
-    rooms = [room for room in volume.query("class=BuildingRoom") if room.volume > 15]
+    rooms = volume.query("class=BuildingRoom and volume>15")
     rows = []
     for room in rooms:
         lower, upper = room.box

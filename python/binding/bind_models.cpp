@@ -100,7 +100,8 @@ void bindFeatures(py::module_& module) {
             "name", [](const FeatureReference& f) { return textOf(f.get().name); }, "Name, or ''.")
         .def_property_readonly(
             "attributes", [](const FeatureReference& f) { return attributesOf(f.get().attributes); },
-            "Attributes by name: str, int, float or bool; a list if there are several values.")
+            "Attributes by name: str, int, float or bool; a list if there are several values. In it, None is a record "
+            "without a value, a list one with several.")
         .def_property_readonly(
             "parent",
             [](const FeatureReference& f) -> py::object {

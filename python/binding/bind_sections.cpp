@@ -5,8 +5,10 @@
 #include "volume_object.hpp"
 
 #include <svt/core/file.hpp>
+#include <svt/drawing/hatches.hpp>
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/writers/drawing_formats.hpp>
+#include <svt/writers/section_table.hpp>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -77,11 +79,22 @@ py::list linesOf(const py::object& self) {
     return lines;
 }
 
+/// The areas as `svt section --json` prints them, with the hatches of the cut components.
+std::string jsonOf(const SectionObject& section) {
+    const volume::SemanticVolume& volume = section.volume->volume();
+    std::vector<std::uint32_t> cut;
+    for (const SectionComponent& component : section.drawing.components)
+        if (!component.polygons.empty()) cut.push_back(component.label);
+    return writers::makeSectionJson(section.drawing, volume,
+                                    drawing::hatchUses(drawing::chooseHatches(volume.labels), cut));
+}
+
 /// The drawing in a format, also written atomically to `path` unless it is None. Bytes, because DXF has a code page.
 py::bytes writeAs(const SectionObject& section, const std::string& format, double scale,
                   const std::optional<std::filesystem::path>& path) {
     const std::string text = longCall(py::none(), [&](const Progress*) -> Result<std::string> {
-        auto made = writers::makeDrawing(section.drawing, section.volume->volume(), format, {scale});
+        auto made = format == "json" ? Result<std::string>(jsonOf(section))
+                                     : writers::makeDrawing(section.drawing, section.volume->volume(), format, {scale});
         if (made && path) SVT_DO(writeFileAtomically(*path, *made));
         return made;
     });

@@ -228,8 +228,8 @@ void bindLabels(py::module_& module) {
             "name", [](const LabelReference& l) { return textOf(l.get().name); }, "Name, or ''.")
         .def_property_readonly(
             "attributes", [](const LabelReference& l) { return attributesOf(l.get().attributes); },
-            "Attributes by name: str, int, float or bool; a list if there are several values, None in it for records "
-            "without one.")
+            "Attributes by name: str, int, float or bool; a list if there are several values. In it, None is a record "
+            "without a value, a list one with several.")
         .def_property_readonly(
             "parent",
             [](const LabelReference& l) -> py::object {

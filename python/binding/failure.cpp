@@ -36,6 +36,33 @@ std::string inKeywords(const std::string& message) {
     return text;
 }
 
+py::object attributeValue(const Attribute* attribute) {
+    if (attribute == nullptr) return py::none();
+    return std::visit(
+        [](const auto& value) -> py::object {
+            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
+                return textOf(value);
+            else
+                return py::cast(value);
+        },
+        attribute->value);
+}
+
+// The array of toJsonText() as a list: a record with several values is a list in it.
+py::list attributeValues(const AttributeList& list) {
+    const auto& items = list.items;
+    const bool hasRecords = items.front().record != items.back().record;
+    py::list values;
+    for (std::size_t begin = 0, end = 0; begin < items.size(); begin = end) {
+        end = begin + 1;
+        while (hasRecords && end < items.size() && items[end].record == items[begin].record) ++end;
+        py::list ofRecord;
+        for (std::size_t n = begin; n < end; ++n) ofRecord.append(attributeValue(items[n].attribute));
+        values.append(end - begin > 1 ? py::object(ofRecord) : py::object(ofRecord[0]));
+    }
+    return values;
+}
+
 }  // namespace
 
 void registerFailures() {
@@ -57,7 +84,7 @@ py::list toPython(const Diagnostics& findings) {
     py::list list;
     for (const Diagnostic& item : findings.items())
         list.append(type(std::string(severityName(item.severity)), codeTag(item.code), std::string(codeName(item.code)),
-                         textOf(item.message), placeOf(item.where)));
+                         textOf(inKeywords(item.message)), placeOf(item.where)));
     return list;
 }
 
@@ -69,26 +96,9 @@ py::str textOf(std::string_view text) {
 
 py::dict attributesOf(const std::vector<Attribute>& attributes) {
     py::dict dict;
-    const auto valueOf = [](const Attribute* attribute) -> py::object {
-        if (attribute == nullptr) return py::none();
-        return std::visit(
-            [](const auto& value) -> py::object {
-                if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
-                    return textOf(value);
-                else
-                    return py::cast(value);
-            },
-            attribute->value);
-    };
-    for (const AttributeList& list : attributeLists(attributes)) {
-        if (list.isSingle()) {
-            dict[textOf(list.name)] = valueOf(list.items.front().attribute);
-            continue;
-        }
-        py::list values;
-        for (const AttributeList::Item& item : list.items) values.append(valueOf(item.attribute));
-        dict[textOf(list.name)] = values;
-    }
+    for (const AttributeList& list : attributeLists(attributes))
+        dict[textOf(list.name)] =
+            list.isSingle() ? attributeValue(list.items.front().attribute) : py::object(attributeValues(list));
     return dict;
 }
 

@@ -44,7 +44,8 @@ void registerFailures();
 /// Text as a Python string. Bytes that are not UTF-8, as in some file names, become U+FFFD. Needs the GIL.
 [[nodiscard]] py::str textOf(std::string_view text);
 
-/// Attributes by name. Needs the GIL.
+/// Attributes by name. Several values are a list as toJsonText() writes it: None for a record without a value, a list
+/// for one with several. Needs the GIL.
 [[nodiscard]] py::dict attributesOf(const std::vector<Attribute>& attributes);
 
 }  // namespace svt::python

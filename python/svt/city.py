@@ -26,7 +26,7 @@ class City:
     Raises
     ------
     svt.Error
-        E601 to E610 if a file of the city is missing or damaged.
+        E101 or E601 to E605 if a file of the city is missing or damaged.
     """
 
     def __init__(self, path: PathLike, *, memory: float = 1000) -> None:

@@ -61,9 +61,9 @@ class Labels(Sequence):
         """The labels that a query selects, as a pandas.DataFrame with one row per label.
 
         The index is the number of the label. The columns are id, class_name, name, parent (an id), voxels, volume (m3
-        with all parts), volume_bound, volume_source, voxel_volume, area (m2), outside_area, total_volume and total_area (with all parts), and filling, as of
-        :class:`svt.Label`. NaN: a surface has no volume, and a label without voxels has no area. The areas of all labels
-        are measured once.
+        with all parts), volume_bound, volume_source, voxel_volume, area (m2), outside_area, total_volume and total_area
+        (with all parts), and filling, as of :class:`svt.Label`. NaN: a surface has no volume, and a label without voxels
+        has no area. The areas of all labels are measured once.
 
         Parameters
         ----------

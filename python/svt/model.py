@@ -1,6 +1,7 @@
 """Models as read from a file: the tree of features before any voxel."""
 from __future__ import annotations
 
+import datetime
 import operator
 import os
 from collections.abc import Sequence
@@ -76,6 +77,9 @@ def read(
     paths: PathLike | Sequence[PathLike],
     *,
     crs: str | int = "",
+    axis_order: str = "by-name",
+    unit: str = "of-file",
+    date: str | datetime.date | None = None,
     keep_far_features: bool = False,
     allow_truncated: bool = False,
     extrude_footprints: bool = False,
@@ -90,6 +94,15 @@ def read(
         A file, or several that together are one model.
     crs
         EPSG code of a projection in metres to which the model is transformed, such as 25832; default: that of the file.
+    axis_order
+        Order of the first two coordinates in the file: 'east-north' or 'north-east', regardless of its CRS; 'by-name': as
+        the name of the CRS defines it.
+    unit
+        GML, CityJSON: unit of the coordinates in the file, if they are lengths: 'm', 'dm', 'cm', 'mm', 'in', 'ft' or
+        'ftUS'; 'of-file': the unit that the file states, else metres.
+    date
+        Read the features that exist on this day: 'YYYY-MM-DD' or a datetime.date; 'all' reads all features. Default:
+        those that have not ended today. A finding (E128) names the features that are left out.
     keep_far_features
         Keep features that lie far away from all others.
     allow_truncated
@@ -104,10 +117,13 @@ def read(
     Raises
     ------
     svt.Error
-        E101 to E137 if the file cannot be read.
+        E101 to E137 if the file cannot be read, E904 for an invalid argument.
     """
     options = {
         "crs": crs or None,
+        "axis_order": axis_order,
+        "unit": unit,
+        "date": date,
         "keep_far_features": keep_far_features,
         "allow_truncated": allow_truncated,
         "extrude_footprints": extrude_footprints,

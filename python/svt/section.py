@@ -175,7 +175,7 @@ class Section:
         return to_pandas(columns_of_components(self.components), "Section.to_pandas()")
 
     def to_dict(self) -> dict:
-        """The plane and the areas: the output of `svt section --json`."""
+        """The plane, the areas and the hatches: the output of `svt section --json`."""
         return json.loads(self._text("json", None))
 
     def _repr_svg_(self) -> str:

@@ -44,6 +44,12 @@ def command(*arguments):
     return done.stdout
 
 
+def known_volume(label):
+    """The volume of a label that has one, m3."""
+    assert label.volume is not None, label
+    return label.volume
+
+
 def needs(module):
     """Skips a test with the reason where a package that adds functions is missing."""
     is_there = importlib.util.find_spec(module) is not None

@@ -1,5 +1,6 @@
 """The examples of docs/python: they run, print known values of the generated house, and write pictures."""
 import csv
+import json
 import os
 import pathlib
 import subprocess
@@ -9,7 +10,7 @@ import unittest
 import numpy as np
 
 import svt
-from common import path
+from common import command, known_volume, path
 
 EXAMPLES = pathlib.Path(__file__).resolve().parent.parent.parent / "docs" / "python"
 
@@ -42,8 +43,23 @@ class Examples(unittest.TestCase):
         self.assertEqual([row["storey"] for row in rows], ["Ground floor", "Upper floor", "Attic"])
         self.assertEqual([int(row["rooms"]) for row in rows], [7, 6, 1])
         volume = svt.build(self.house(), spacing=0.2)
-        total = sum(room.volume for room in volume.query("class=BuildingRoom"))
+        total = sum(known_volume(room) for room in volume.query("class=BuildingRoom"))
         self.assertAlmostEqual(sum(float(row["rooms_m3"]) for row in rows), total, 2)
+        query = (
+            "query",
+            self.house(),
+            "class=BuildingConstructiveElement",
+            "--by",
+            "storey",
+            "--json",
+            "--spacing",
+            0.05,
+        )
+        built = json.loads(command(*query))
+        self.assertEqual(
+            {row["storey"]: float(row["construction_m3"]) for row in rows},
+            {row["storey"]: round(row["totalVolume"], 3) for row in built},
+        )
         # The ground floor is 11 m x 9 m outside, with walls of 35 cm.
         self.assertLess(float(rows[0]["area_1m_m2"]), (11 - 0.7) * (9 - 0.7))
         self.assertGreater(float(rows[0]["area_1m_m2"]), 0.9 * (11 - 0.7) * (9 - 0.7))

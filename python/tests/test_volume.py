@@ -226,13 +226,28 @@ class House(unittest.TestCase):
         k, j, i = np.nonzero(v.labels.of_scalar[v.dense()] == kitchen.index)
         lower = v.world([i.min() - 0.5, j.min() - 0.5, k.min() - 0.5])
         upper = v.world([i.max() + 0.5, j.max() + 0.5, k.max() + 0.5])
-        np.testing.assert_allclose(kitchen.box, [lower, upper], rtol=0, atol=0.05 + 1e-6)
-        np.testing.assert_allclose(np.diff(kitchen.box, axis=0)[0, 2], 2.76, atol=1e-5)
+        # The corners of its solid in the model. Its boundary surfaces have the outermost layer of voxels.
+        solid = [(500007.315, 5400000.167, 100), (500010.833, 5400004.62, 102.76)]
+        np.testing.assert_allclose(kitchen.box, solid, rtol=0, atol=1e-5)
+        np.testing.assert_allclose([lower, upper], solid, rtol=0, atol=1.5 * 0.1)
         plain = svt.build(house_file(), spacing=0.1, vectors="none")
         np.testing.assert_allclose(plain.labels["Kitchen"].box, [lower, upper])
         contacts = v.contacts()
         mine = contacts[(contacts["a"] == kitchen.index) | (contacts["b"] == kitchen.index)]
         self.assertAlmostEqual(mine["area"].sum(), kitchen.area)
+
+    def test_panes_are_phases_below_their_window(self):
+        v = house()
+        panes = v.query("phase=glass")
+        self.assertEqual({pane.class_name for pane in panes}, {"WindowPhase"})
+        self.assertEqual([pane.parent for pane in panes], v.query("class=Window"))
+        for pane in panes:
+            window = pane.parent
+            self.assertEqual((pane.attributes["phase"], window.attributes["phase"]), ("glass", "painted timber"))
+            self.assertIn(pane, window.parts)
+            self.assertLess(pane.opacity, 1)
+            self.assertEqual(window.opacity, 1)
+            self.assertEqual(window.total_voxels, window.voxels + pane.voxels)
 
     def test_model_is_read_and_left_as_it_is(self):
         m = svt.read(house_file())
