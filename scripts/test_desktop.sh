@@ -156,7 +156,7 @@ if [ -n "$(compgen -G '/usr/lib/*/tumbler-1/tumblerd' || true)" ] && command -v 
   # shellcheck disable=SC2016  # the variables are those of the session
   dbus-run-session -- bash -euo pipefail -c '
     gdbus call --session -d org.freedesktop.thumbnails.Thumbnailer1 -o /org/freedesktop/thumbnails/Thumbnailer1 \
-      -m org.freedesktop.thumbnails.Thumbnailer1.Queue "[\"file://$SVT_SAMPLE\"]" "[\"application/x-ifc\"]" normal foreground 0
+      -m org.freedesktop.thumbnails.Thumbnailer1.Queue "[\"file://$SVT_SAMPLE\"]" "[\"application/x-ifc\"]" normal foreground "uint32 0"
     for _ in $(seq 150); do
       [ -z "$(find "$XDG_CACHE_HOME/thumbnails" -name "*.png" -size +1k 2>/dev/null)" ] || exit 0
       sleep 0.2

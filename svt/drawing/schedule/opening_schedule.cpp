@@ -131,7 +131,9 @@ struct OpeningKey {
     bool isWindow = false;
     std::string type;
     std::array<long, 4> size{-1, -1, -1, -1};
-    friend auto operator<=>(const OpeningKey&, const OpeningKey&) = default;
+    friend bool operator<(const OpeningKey& a, const OpeningKey& b) {
+        return std::tie(a.isWindow, a.type, a.size) < std::tie(b.isWindow, b.type, b.size);
+    }
 };
 
 // Points of meshes are whole micrometres; sizes do not show this rounding.

@@ -44,9 +44,10 @@ TEST(DrawingText, EpsgCodesAreFoundInTheUsualNames) {
     EXPECT_EQ(epsgCodeOf("urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::5783"), 25832u);
     EXPECT_EQ(epsgCodeOf("EPSG:31467"), 31467u);
     EXPECT_EQ(epsgCodeOf("epsg:4979"), 4979u);
-    EXPECT_EQ(epsgCodeOf("https://www.opengis.net/def/crs/EPSG/0/7415"), 7415u);
-    EXPECT_EQ(epsgCodeOf("http://www.opengis.net/gml/srs/epsg.xml#28992"), 0u);
-    EXPECT_EQ(epsgCodeOf("urn:adv:crs:ETRS89_UTM32*DE_DHHN92_NH"), 0u);
+    EXPECT_EQ(epsgCodeOf("https://www.opengis.net/def/crs/EPSG/0/7415"), 28992u)
+        << "the horizontal part of the compound";
+    EXPECT_EQ(epsgCodeOf("http://www.opengis.net/gml/srs/epsg.xml#28992"), 28992u);
+    EXPECT_EQ(epsgCodeOf("urn:adv:crs:ETRS89_UTM32*DE_DHHN92_NH"), 25832u);
     EXPECT_EQ(epsgCodeOf("EPSG"), 0u);
     EXPECT_EQ(epsgCodeOf("EPSG:"), 0u);
     EXPECT_EQ(epsgCodeOf(""), 0u);

@@ -95,6 +95,8 @@ const std::vector<Written>& writtenByCommands() {
         {"section two.svt --plane z=1 -o OUT", ".dxf", "dxf"},
         {"section two.svt --plane z=1 -o OUT", ".geojson", "geojson"},
         {"sheets two.gml --spacing 0.5 -o OUT", ".pdf", "pdf"},
+        {"cadastre tower.svt -o OUT", ".gml", "citygml"},
+        {"cadastre tower.svt -o OUT", ".pdf", "pdf"},
         {"query two.svt all -o OUT", ".csv", "csv"},
         {"query two.svt all -o OUT", ".geojson", "geojson"},
         {"query two.svt all -o OUT", ".parquet", "objectparquet"},
@@ -111,6 +113,8 @@ const std::vector<Written>& writtenByCommands() {
 
 TEST_F(Dash, IsStdoutForEveryCommandWithOneOutput) {
     runLineWell(folder.path(), "svt city plan two.gml -o town --spacing 1 -q && svt city run town -q");
+    runLineWell(folder.path(),
+                "svt sample tower --storeys 1 -o tower.gml && svt build tower.gml -o tower.svt --spacing 1 -q");
     std::set<std::string> tested;
     for (const Written& written : writtenByCommands()) {
         const auto with = [&](const std::string& output) {

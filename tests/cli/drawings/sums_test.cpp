@@ -129,6 +129,28 @@ TEST(Sums, SayThatGroupsCountWithTheirParts) {
     }
 }
 
+// One of the buildings has rooms, whose walls and slabs are counted in voxels, but the building is a closed solid.
+TEST(Sums, OfWholeBuildingsAreTheirKnownVolumes) {
+    const TemporaryFolder folder;
+    prepare(folder.path(),
+            {"sample", "city", "--profile", "berlin", "--buildings", "300", "--files", "4", "-o", "files"});
+    for (const char* vectors : {"meshes", "none"}) {
+        prepare(folder.path(),
+                {"build", "files/00001.gml", "-o", "town.svt", "--spacing", "0.5", "--vectors", vectors});
+        const auto sums = sumsOf(folder.path(), "town.svt", "class=Building", "id");
+        int withRooms = 0, exact = 0;
+        for (const json& row : runSvt(folder.path(), {"query", "town.svt", "class=Building", "--json"}).json()) {
+            if (row["volumeSource"] != "meshes") continue;
+            const double volume = row["volume"];
+            EXPECT_NEAR(sums.at(row["id"]), volume, 1e-4 * volume) << row["id"];
+            ++exact;
+            withRooms += std::abs(row["totalVolume"].get<double>() - volume) > 1;
+        }
+        EXPECT_GT(exact, 50);
+        EXPECT_GT(withRooms, 0) << "the sum of parts counted in voxels is another one";
+    }
+}
+
 TEST(Sums, OfASampleHouseAreTheVolumeOfItsUnion) {
     const TemporaryFolder folder;
     prepare(folder.path(), {"sample", "house", "--format", "ifc", "-o", "house.ifc"});

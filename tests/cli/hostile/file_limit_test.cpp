@@ -49,7 +49,11 @@ const LimitedOutput kLimitedOutputs[] = {
     {"--output", {"sheets", "two.svt", "-o", "o.gpkg"}},
     {"--svg", {"sheets", "two.svt", "--svg", "o"}},
     {"--dxf", {"sheets", "two.svt", "--dxf", "o"}},
+    {"--schedule", {"sheets", "tower.svt", "-o", "o.pdf", "--schedule", "o.csv"}},
     {"--write-sheets", {"sheets", "two.svt", "--write-sheets", "o.sheets.json"}},
+    {"--output", {"cadastre", "tower.svt", "-o", "o.gpkg"}},
+    {"--output", {"cadastre", "tower.svt", "-o", "o.gml"}},
+    {"--output", {"cadastre", "tower.svt", "-o", "o.pdf"}},
     {"--output", {"query", "two.svt", "all", "-o", "o.geojson"}},
     {"--output", {"query", "two.svt", "all", "-o", "o.csv"}},
     {"--output", {"query", "two.svt", "all", "-o", "o.gpkg"}},
@@ -67,6 +71,8 @@ protected:
     FileLimit() {
         writeText(folder / "two.gml", twoBoxes());
         runSvtWell(folder.path(), {"build", "two.gml", "-o", "two.svt", "--spacing", "0.5"});
+        runSvtWell(folder.path(), {"sample", "tower", "--storeys", "1", "-o", "tower.gml"});
+        runSvtWell(folder.path(), {"build", "tower.gml", "-o", "tower.svt", "--spacing", "1"});
     }
 
     // At a limit of a few bytes and at one that the largest file reaches at its half, the command fails and leaves no output; of
