@@ -15,7 +15,8 @@ namespace svt::analyze {
 /// ownMeasures() with exact volumes where meshes give them. A label with a closed mesh has the volume of its mesh without
 /// the space that other labels have, however thin. If more than kMostClaims labels have one place, if a label with space
 /// in the mesh has no closed mesh, or if the work does not suffice, the volume stays that of ownMeasures().
-/// Measure::countedVolume is 0 for exact volumes.
+/// Measure::countedVolume is 0 for exact volumes. A hull and the bodies in it (volume::Filling::Body) have an exact sum, which
+/// their voxels divide.
 /// \param work  maximum number of steps, see SolidOverlapOptions
 /// Cost: that of solidOverlaps(), and for each place that n labels claim, of the tuples of their triangles there.
 [[nodiscard]] std::vector<Measure> exclusiveMeasures(const volume::SemanticVolume& volume,

@@ -290,7 +290,7 @@ private:
         const std::string name = group.isGlass            ? std::string(kGlass)
                                  : !material.part.empty() ? material.part
                                  : !material.name.empty() ? material.name
-                                                          : std::string("rest");
+                                                          : std::string("unstyled");
         if (isSplit || group.isGlass) add(kPhaseAttribute, name);
         if (isSplit && !material.name.empty()) add("style", material.name);
         if (!group.isTransparent) return;

@@ -92,6 +92,16 @@ TEST(Phases, HandlesAndNamedPartsArePhasesToo) {
     EXPECT_EQ(valueOf(model.features[model.features[door].children[1]], "phase"), "Stahl");
 }
 
+TEST(Phases, APartWithoutStyleSaysSo) {
+    BuildingModel model = modelWithMaterials();
+    const FeatureIndex door = addParts(model, "Door", {{0.2, kWood}, {0.1, kNone}});
+    EXPECT_EQ(splitPhases(model), 1u);
+    const Feature& leaf = model.features[model.features[door].children.front()];
+    EXPECT_EQ(leaf.name, "unstyled");
+    EXPECT_EQ(valueOf(leaf, "phase"), "unstyled");
+    EXPECT_EQ(valueOf(leaf, "style"), "-");
+}
+
 TEST(Phases, ColoursOfWallsDoNotSplitThemButGlassDoes) {
     BuildingModel model = modelWithMaterials();
     addParts(model, "BuildingConstructiveElement", {{0.2, kWood}, {0.1, kSteel}, {0.1, kNone}});

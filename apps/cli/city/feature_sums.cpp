@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -94,14 +95,56 @@ void FeatureSums::add(const volume::SemanticVolume& volume, std::span<const city
     const std::vector<analyze::Measure> own = analyze::exclusiveMeasures(volume);
     const std::vector<std::uint32_t> finest = analyze::finestFeatures(extents, features, count);
     std::vector<Sum*> sumOf(count, nullptr);  // by label of an extent
+    for (std::size_t l = 0; l < count; ++l)
+        if (finest[l] != volume::kNoLabel) sumOf[l] = &sums_[values[l]];
+    const std::vector<char> isAdded = addWholes(table, extents, rows, own, sumOf);
     for (std::size_t l = 0; l < count; ++l) {
-        if (finest[l] == volume::kNoLabel) continue;
-        sumOf[l] = &sums_[values[l]];
+        if (sumOf[l] == nullptr || isAdded[l] != 0) continue;
         if (own[l].volume.value_or(0) > 0) sumOf[l]->hasVolume = true;
         sumOf[l]->volume += own[l].volume.value_or(0);
         sumOf[l]->counted += own[l].countedVolume;
     }
     addAreas(rows, extents, own, sumOf);
+}
+
+// The largest of features that contain each other counts. Volumes without counted parts are exact as they are. A feature
+// that lost voxels to others has less than its known volume.
+std::vector<char> FeatureSums::addWholes(const volume::LabelTable& table, const analyze::Extents& extents,
+                                         std::span<const city::FeatureRow> rows, std::span<const analyze::Measure> own,
+                                         const std::vector<Sum*>& sumOf) {
+    constexpr std::size_t kNone = ~std::size_t{0};
+    std::vector<std::vector<std::uint32_t>> wholes;
+    std::vector<double> volumes;
+    for (const city::FeatureRow& row : rows) {
+        if (row.volume.source != analyze::VolumeSource::Meshes || !row.volume.volume) continue;
+        std::vector<std::uint32_t> parts = extents.of(row.label);
+        const bool isWhole = std::all_of(parts.begin(), parts.end(),
+                                         [&](std::uint32_t part) { return sumOf[part] == sumOf[row.label]; });
+        const bool isCounted =
+            std::any_of(parts.begin(), parts.end(), [&](std::uint32_t part) { return own[part].countedVolume > 0; });
+        if (!isWhole || !isCounted) continue;
+        wholes.push_back(std::move(parts));
+        volumes.push_back(*row.volume.volume);
+    }
+    std::vector<std::size_t> order(wholes.size()), wholeOf(own.size(), kNone);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return wholes[a].size() > wholes[b].size(); });
+    std::vector<char> isUsed(wholes.size(), 0), isAdded(own.size(), 0);
+    for (const std::size_t w : order) {
+        isUsed[w] = std::all_of(wholes[w].begin(), wholes[w].end(), [&](auto part) { return wholeOf[part] == kNone; });
+        if (isUsed[w] != 0)
+            for (const std::uint32_t part : wholes[w]) wholeOf[part] = w;
+    }
+    for (const volume::Overlap& overlap : table.overlaps)
+        if (wholeOf[overlap.b] != kNone && wholeOf[overlap.a] != wholeOf[overlap.b]) isUsed[wholeOf[overlap.b]] = 0;
+    for (std::size_t w = 0; w < wholes.size(); ++w) {
+        if (isUsed[w] == 0) continue;
+        Sum& sum = *sumOf[wholes[w].front()];
+        sum.hasVolume = true;
+        sum.volume += volumes[w];
+        for (const std::uint32_t part : wholes[w]) isAdded[part] = 1;
+    }
+    return isAdded;
 }
 
 // Counts the features. One within others of its values adds no area, nor does one whose voxels have other values.

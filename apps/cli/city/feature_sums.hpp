@@ -21,6 +21,9 @@ namespace svt::cli {
 /// `ifcType` and `material` describe this feature itself. `storey` is the storey that contains the label. All other keys
 /// are attributes, like keys in quotes. A feature without one has that of the next feature around it: a room has the
 /// owner of its flat.
+///
+/// Volumes are those of analyze::exclusiveMeasures(). A feature that would be counted in voxels has its known volume
+/// instead, if all its parts have the same values and lost no voxels to other features.
 class FeatureSums {
 public:
     /// \param keys  separated by commas
@@ -41,6 +44,10 @@ private:
         double volume = 0, counted = 0, area = 0;
     };
 
+    /// Adds the known volumes of features whose parts all count to one sum. \return by label: 1 if it counts with one of them
+    static std::vector<char> addWholes(const volume::LabelTable& table, const analyze::Extents& extents,
+                                       std::span<const city::FeatureRow> rows, std::span<const analyze::Measure> own,
+                                       const std::vector<Sum*>& sumOf);
     void addAreas(std::span<const city::FeatureRow> rows, const analyze::Extents& extents,
                   std::span<const analyze::Measure> own, const std::vector<Sum*>& sumOf);
 

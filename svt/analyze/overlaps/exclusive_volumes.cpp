@@ -3,6 +3,7 @@
 #include <svt/analyze/overlaps/common_volume_of_all.hpp>
 #include <svt/analyze/overlaps/solid_clips.hpp>
 #include <svt/analyze/solid_overlaps.hpp>
+#include <svt/model/classes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -48,14 +49,15 @@ public:
             winners_[solidOf_[pair.b]].push_back(solidOf_[pair.a]);
             pairs_.insert(keyOf(pair.a, pair.b));
         }
-        leaveBodies(isExact);
+        findBodies(isExact);
         for (std::size_t s = 0; s < solids_.size(); ++s) {
             if (isExact[s] == 0) continue;
             const auto volume = exclusiveVolume(s);
             if (!volume) continue;
-            Measure& measure = measures[solids_[s].label];
-            measure.volume = std::max(0.0, *volume);
-            measure.countedVolume = 0;
+            if (bodiesOf_[s].empty())
+                setVolume(measures[solids_[s].label], std::max(0.0, *volume), false);
+            else
+                divide(std::max(0.0, *volume), s, measures);
         }
         return measures;
     }
@@ -67,14 +69,37 @@ private:
         return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
     }
 
-    // The material between hull and rooms belongs to surfaces in voxels, so the rest of the hull is counted, too.
-    void leaveBodies(std::vector<char>& isExact) const {
+    static void setVolume(Measure& measure, double volume, bool isCounted) {
+        measure.volume = volume;
+        measure.countedVolume = isCounted ? volume : 0;
+    }
+
+    // The material between hull and rooms belongs to the surfaces around it, those of rooms as well. With several hulls,
+    // it stays counted.
+    void findBodies(std::vector<char>& isExact) {
         const auto& labels = volume_.labels.labels;
-        for (const volume::Label& label : labels) {
-            if (label.filling != volume::Filling::Body) continue;
-            for (std::uint32_t above = label.parent; above != volume::kNoLabel; above = labels[above].parent)
-                if (solidOf_[above] != kNone) isExact[solidOf_[above]] = 0;
+        bodiesOf_.resize(solids_.size());
+        for (std::uint32_t l = 0; l < labels.size(); ++l) {
+            if (labels[l].filling != volume::Filling::Body) continue;
+            std::vector<std::size_t> hulls;
+            for (std::uint32_t above = labels[l].parent; above != volume::kNoLabel; above = labels[above].parent)
+                if (solidOf_[above] != kNone && !model::isSpace(labels[above].className))
+                    hulls.push_back(solidOf_[above]);
+            if (hulls.size() == 1) bodiesOf_[hulls.front()].push_back(l);
+            if (hulls.size() > 1)
+                for (const std::size_t hull : hulls) isExact[hull] = 0;
         }
+    }
+
+    // Divides the volume that a hull has beside its rooms among the hull and its bodies, in proportion to their voxels.
+    void divide(double volume, std::size_t hull, std::vector<Measure>& measures) const {
+        std::vector<std::uint32_t> claimants = bodiesOf_[hull];
+        claimants.push_back(solids_[hull].label);
+        double voxels = 0;
+        for (const std::uint32_t label : claimants) voxels += double(measures[label].voxels);
+        if (voxels == 0) return setVolume(measures[claimants.back()], volume, false);
+        for (const std::uint32_t label : claimants)
+            setVolume(measures[label], volume * double(measures[label].voxels) / voxels, true);
     }
 
     // The volume of a mesh, less that of its places in other labels, by inclusion and exclusion.
@@ -138,9 +163,10 @@ private:
     const volume::SemanticVolume& volume_;
     std::vector<MeshSolid> solids_;
     std::uint64_t work_;
-    std::vector<std::size_t> solidOf_;               // by label
-    std::vector<std::vector<std::size_t>> winners_;  // by solid: those that have space of it
-    std::unordered_set<std::uint64_t> pairs_;        // of labels whose solids overlap
+    std::vector<std::size_t> solidOf_;                  // by label
+    std::vector<std::vector<std::size_t>> winners_;     // by solid: those that have space of it
+    std::unordered_set<std::uint64_t> pairs_;           // of labels whose solids overlap
+    std::vector<std::vector<std::uint32_t>> bodiesOf_;  // by solid: labels of its material
     std::vector<std::size_t> claims_;
     bool isComplete_ = true;
 };

@@ -97,6 +97,32 @@ TEST(ExclusiveVolumes, OfThreeWedgesHaveTheirCommonVolume) {
     EXPECT_NEAR(*measures[2].volume, 0, 1e-4);
 }
 
+// A hull of 1000 m3 with a room of 512 m3. Its voxels are coarse: walls have some of those that lie in the room.
+TEST(ExclusiveVolumes, OfHullRoomAndWallsAddUpToTheHull) {
+    volume::SemanticVolume volume = volume::test::emptyVolume({12, 12, 12}, {1, 1, 1});
+    addSolid(volume, "hull", {0, 0, 0}, {10, 10, 10});
+    addSolid(volume, "room", {1, 1, 1}, {9, 9, 9});
+    for (const std::uint64_t voxels : {450, 150}) {
+        volume::Label& wall = volume::test::addObject(volume, "wall" + std::to_string(voxels), "InteriorWallSurface");
+        wall.filling = Filling::Body;
+        wall.voxels = voxels;
+    }
+    auto& labels = volume.labels.labels;
+    labels[0].voxels = 0;
+    labels[0].subtreeEnd = 4;
+    labels[1].className = "BuildingRoom";
+    labels[1].subtreeEnd = 4;
+    labels[1].parent = 0;
+    labels[2].parent = labels[3].parent = 1;
+    labels[1].voxels = 400;
+    volume.labels.overlaps = {{1, 0, 512, true}};
+    const auto measures = exclusiveMeasures(volume);
+    EXPECT_NEAR(measures[1].volume.value_or(0), 512, 1e-6);
+    EXPECT_NEAR(measures[2].volume.value_or(0), 488 * 0.75, 1e-6);
+    EXPECT_NEAR(measures[3].countedVolume, 488 * 0.25, 1e-6);
+    EXPECT_NEAR(sumOf(measures), 1000, 1e-6);
+}
+
 TEST(ExclusiveVolumes, StayCountedWithoutClosedMeshes) {
     volume::SemanticVolume volume = volume::test::emptyVolume({8, 8, 4}, {1, 1, 1});
     addSolid(volume, "room", {-0.5, -0.5, -0.5}, {7.5, 7.5, 3.5});

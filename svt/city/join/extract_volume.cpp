@@ -37,6 +37,11 @@ volume::SemanticVolume withLabels(const volume::SemanticVolume& volume, const st
         next += label.count;
         result.labels.labels.push_back(std::move(label));
     }
+    for (volume::Overlap overlap : volume.labels.overlaps) {
+        overlap.a = newOf[overlap.a];
+        overlap.b = newOf[overlap.b];
+        if (overlap.a != volume::kNoLabel && overlap.b != volume::kNoLabel) result.labels.overlaps.push_back(overlap);
+    }
     result.footprints = volume.footprints;
     std::erase_if(result.footprints.triangles,
                   [&](const auto& triangle) { return newOf[triangle.label] == volume::kNoLabel; });
@@ -113,7 +118,11 @@ Result<volume::SemanticVolume> extractVolume(const City& city, const Extract& ex
     if (extract.hasBox) return volume::volumeIn(*joined, {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}});
     if (extract.ids.empty()) return joined;
     const volume::IndexBox box = volume::samplesAround(joined->columns);
-    return box.begin.x < box.end.x ? volume::croppedVolume(*joined, box) : std::move(joined);
+    if (box.begin.x >= box.end.x) return joined;
+    SVT_TRY(cropped, volume::croppedVolume(*joined, box));
+    // No voxel is cut off, so the buildings share what they shared.
+    cropped->labels.overlaps = joined->labels.overlaps;
+    return cropped;
 }
 
 Result<volume::SemanticVolume> wholeVolume(const City& city, std::uint64_t mostBytes, double mostSamples) {

@@ -54,6 +54,11 @@ const std::string* textOf(const model::QueryRow& row, std::string_view name) noe
     return nullptr;
 }
 
+// A phase that has the material of its object: the leaf of a door.
+bool isWithoutMaterial(const model::QueryRow& row) noexcept {
+    return model::isPhase(row.className) && textOf(row, "material") == nullptr && textOf(row, "hatch") == nullptr;
+}
+
 struct Layer {
     std::string name;
     double thickness = 0;  // metres; 0: unknown
@@ -177,7 +182,10 @@ std::vector<HatchChoice> chooseHatches(const analyze::LabelRows& labels, const M
     HatchChooser chooser(table);
     std::vector<HatchChoice> choices;
     choices.reserve(rows.size());
-    for (std::size_t l = 0; l < rows.size(); ++l) choices.push_back(chooser.choose(rows[l], ofClass[l]));
+    for (std::size_t l = 0; l < rows.size(); ++l) {
+        const bool isOfObject = isWithoutMaterial(rows[l]) && rows[l].parent < l && ofClass[l] != Hatch::Glass;
+        choices.push_back(isOfObject ? choices[rows[l].parent] : chooser.choose(rows[l], ofClass[l]));
+    }
     return choices;
 }
 

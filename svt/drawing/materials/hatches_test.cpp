@@ -102,6 +102,15 @@ TEST(Hatches, OfWindowsAreGlassWhateverTheirFramesAreMadeOf) {
     EXPECT_EQ(choiceOf(label("Door", "door", "Glass")).hatch, Hatch::Glass);
 }
 
+TEST(Hatches, OfPhasesAreThoseOfTheirObjectsExceptForGlass) {
+    volume::LabelTable table;
+    table.labels = {label("Door", "door", "steel"), label("DoorPhase", "leaf"), label("DoorPhase", "sill", "timber"),
+                    label("WindowPhase", "glass")};
+    for (std::uint32_t l = 1; l < 4; ++l) table.labels[l].parent = 0;
+    EXPECT_EQ(labelHatches(table), (std::vector<Hatch>{Hatch::Steel, Hatch::Steel, Hatch::Timber, Hatch::Glass}));
+    EXPECT_EQ(chooseHatches(table)[1].source, HatchSource::Material);
+}
+
 TEST(Hatches, AreStatedByAnAttribute) {
     EXPECT_EQ(choiceOf(element({{"hatch", "earth"}, {"material", "brick"}})),
               (HatchChoice{Hatch::Earth, HatchSource::Stated, "", ""}));

@@ -151,6 +151,25 @@ TEST(Sums, OfWholeBuildingsAreTheirKnownVolumes) {
     }
 }
 
+TEST(Sums, OfExtractedBuildingsAreThoseOfTheirCity) {
+    const TemporaryFolder folder;
+    prepare(folder.path(),
+            {"sample", "city", "--profile", "berlin", "--buildings", "300", "--files", "4", "-o", "files"});
+    runSvtWell(folder.path(), {"city", "plan", "files/00001.gml", "-o", "town", "--spacing", "0.5"});
+    runSvtWell(folder.path(), {"city", "run", "town"});
+    int withRooms = 0;
+    for (const json& row : runSvt(folder.path(), {"query", "town", "class=Building", "--json"}).json()) {
+        const double volume = row["volume"];
+        if (row["volumeSource"] != "meshes" || std::abs(row["totalVolume"].get<double>() - volume) < 1) continue;
+        ++withRooms;
+        runSvtWell(folder.path(), {"city", "extract", "town", "-o", "one.svt", "--id", row["id"]});
+        const json one = runSvt(folder.path(), {"query", "one.svt", "class=Building", "--json"}).json().at(0);
+        EXPECT_EQ(one["volumeSource"], "meshes");
+        EXPECT_NEAR(one["volume"], volume, 1e-4 * volume);
+    }
+    EXPECT_GT(withRooms, 0);
+}
+
 TEST(Sums, OfASampleHouseAreTheVolumeOfItsUnion) {
     const TemporaryFolder folder;
     prepare(folder.path(), {"sample", "house", "--format", "ifc", "-o", "house.ifc"});

@@ -220,7 +220,7 @@ describe("languages", () => {
     assert.equal(await visit.page.evaluate(() => document.documentElement.lang), "tlh");
     assert.equal(await visit.page.locator("#tool-section span").innerText(), "pe'");
     assert.equal(await visit.page.locator("#tool-lens span").innerText(), "Lens", "what is missing is English");
-    const windows = (await inPage("s.volume.engine.select('class=IfcWindow')")).length;
+    const windows = (await inPage("s.volume.engine.select('class=IfcWindow or class=WindowPhase')")).length;
     await visit.page.fill("#search", "qorwagh");
     await visit.eventually(async () =>
       assert.equal(await visit.page.locator("svt-tree [role=status]").first().innerText(), `${windows} tu'`),
