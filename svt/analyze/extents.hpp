@@ -45,8 +45,9 @@ public:
     /// The union of the extents of several labels.
     [[nodiscard]] std::vector<std::uint32_t> of(std::span<const std::uint32_t> labels) const;
 
-    /// Whether a selection of the feature means its parts: it has parts, and it is a unit, storey, building, bridge,
-    /// tunnel, group, another feature without a body of its own, or an object whose only parts are its phases. A room does not: its furniture is selected apart.
+    /// Whether a selection of the feature means its parts. Units, storeys, buildings, bridges, tunnels, groups and other
+    /// features without a body of their own stand for their parts, and so do objects whose only parts are phases. A room
+    /// does not: its furniture is selected apart.
     [[nodiscard]] bool standsForParts(std::uint32_t label) const;
 
     /// Labels that each selected label stands for: entry n is the extent of selected[n] if that stands for its parts

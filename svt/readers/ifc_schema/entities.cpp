@@ -23,7 +23,7 @@ constexpr string_view kNames[] = {"Other",
 string_view entityName(Entity entity) noexcept { return kNames[static_cast<std::size_t>(entity)]; }
 
 Entity entityNamed(string_view typeName) noexcept {
-    // Of IFC2x3; a name in C++ does not begin with a digit.
+    // The curve of IFC2x3. A name in C++ does not begin with a digit.
     if (equalsIgnoringCase(typeName, "Ifc2DCompositeCurve")) return Entity::CompositeCurve;
     for (std::size_t i = 1; i < std::size(kNames); ++i)
         if (equalsIgnoringCase(kNames[i], typeName)) return static_cast<Entity>(i);

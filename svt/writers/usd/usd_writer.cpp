@@ -2,10 +2,10 @@
 /// Writes the hulls of labels as USD in its text form (.usda), which Blender, Omniverse, Houdini, Maya and usdview
 /// open.
 ///
-/// A prim `Xform` for each label with a hull in or below it, nested as the labels are, named by its id; `displayName`
-/// is its name, `svt:id`, `svt:class`, `svt:name` and `svt:volume` (m3, if known) are attributes. Its hull is a `Mesh` below it,
-/// `Hull`, of triangles that are closed, with `displayColor` (linear, as USD has colours) and `displayOpacity`, the
-/// fraction of light that a metre of it stops. Metres, z up. Points are metres from the grid's lower corner along its
+/// Each label with a hull in or below it is a prim `Xform`, nested as the labels are and named by its id. `displayName`
+/// is its name. The attributes are `svt:id`, `svt:class`, `svt:name` and `svt:volume` (m3, if known). Its hull is the
+/// `Mesh` below it, `Hull`, of closed triangles. `displayColor` is linear, as in USD. `displayOpacity` is the fraction of
+/// light that a metre of it stops. Metres, z up. Points are metres from the grid's lower corner along its
 /// axes; the matrix of the root, in doubles, leads to world coordinates.
 
 #include <svt/analyze/label_measures.hpp>
