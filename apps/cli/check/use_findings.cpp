@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -45,8 +47,10 @@ void printByUse(const Diagnostics& diagnostics, bool hasAll) {
     std::vector<FindingKind> kinds = kindsOf(diagnostics);
     const auto middle = std::stable_partition(kinds.begin(), kinds.end(),
                                               [](const FindingKind& kind) { return preventsUse(*kind.first); });
-    printPart({kinds.begin(), middle}, diagnostics, showsAll, true);
-    printPart({middle, kinds.end()}, diagnostics, showsAll, false);
+    const auto preventing = static_cast<std::size_t>(middle - kinds.begin());
+    const std::span<const FindingKind> all(kinds.data(), kinds.size());
+    printPart(all.first(preventing), diagnostics, showsAll, true);
+    printPart(all.subspan(preventing), diagnostics, showsAll, false);
     for (const Diagnostic& item : diagnostics.items())
         if (item.severity == Severity::Note && (showsAll || isAlwaysShown(item)))
             printMessage(fmt::format("svt: {}\n", item.toString()));
