@@ -13,7 +13,7 @@ namespace svt::writers {
 /// Scale, paper, language and title of a set.
 [[nodiscard]] SheetOptions sheetOptionsOf(const drawing::SheetSet& set);
 
-/// Draws all views of a set, and its tables of areas. Bricks are made once, with the first view that needs them.
+/// Draws all views of a set, and its tables of areas and openings. Bricks are made once, with the first view that needs them.
 /// \param set      if it has no sheets, chooseSheetViews() adds them
 /// \param threads  0: all cores; the result does not depend on it
 /// \param nothing  if given, receives the queries of the set that select nothing

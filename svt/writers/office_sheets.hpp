@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// The parts of sheets beside the drawings, as an architect's office expects them: stamps of rooms, marks and schedules
-/// of doors and windows, lines of travel, grids. They also have a title block after ISO 7200 and a legend.
+/// Sheets as an architect's office exchanges them: the schedule of doors and windows, the choice of paper, and DXF with
+/// layouts.
 
 #include <svt/writers/dxf_drawing.hpp>
 #include <svt/writers/sheet_writer.hpp>
@@ -11,15 +11,6 @@
 #include <vector>
 
 namespace svt::writers {
-
-/// For SheetOptions::details.
-[[nodiscard]] const SheetDetails& officeDetails() noexcept;
-
-/// Completes the content of drawSheets(): it makes the schedule of openings, and
-/// appends its tables.
-/// \param hasTables  also append the tables of doors and windows
-void completeSheets(SheetContent& content, const volume::SemanticVolume& volume, SheetLanguage language,
-                    bool hasTables);
 
 /// The schedule of doors and windows: one row per mark and level. Sizes in metres; empty cells are not known.
 [[nodiscard]] Table openingTable(const drawing::OpeningSchedule& schedule,
@@ -31,7 +22,7 @@ void completeSheets(SheetContent& content, const volume::SemanticVolume& volume,
                                                 const SheetOptions& options);
 
 /// A view as DXF with a layout: model space has the drawing in metres, and paper space a sheet of the options' paper with
-/// frame, title block, marks, and a viewport at the scale. With world coordinates there is no layout.
+/// frame, title block, marks, and a viewport at the scale. A file in world coordinates has no layout.
 /// \param view  index into content.views
 /// \return the text, or an error of makeSvgSheets() for that view
 [[nodiscard]] Result<std::string> makeSheetDxf(const SheetContent& content, std::size_t view,

@@ -63,10 +63,8 @@ struct SheetContent {
     std::vector<SheetTable> tables;                      ///< after the views; tables that fit share sheets
     Diagnostics findings{};                              ///< of the tables, see drawing::reportAreas()
     std::optional<drawing::FloorAreas> areas{};          ///< the source of the tables
-    std::optional<drawing::OpeningSchedule> openings{};  ///< of completeSheets(): plans have its marks
+    std::optional<drawing::OpeningSchedule> openings{};  ///< plans have its marks
 };
-
-class SheetDetails;
 
 struct SheetOptions {
     double scale = 0;          ///< 100 draws 1 m as 10 mm; 0: 1:100, or the next standard scale at which all views fit
@@ -74,9 +72,6 @@ struct SheetOptions {
     SheetLanguage language = SheetLanguage::English;
     std::string title{};  ///< name of the building; empty: name of the model
     drawing::TitleBlock block{};
-    /// Stamps, marks, title block and legend, see officeDetails(); without them sheets have names of rooms and a small
-    /// title block.
-    const SheetDetails* details = nullptr;
 };
 
 /// The tables of rooms, floor areas and components; without rooms, only the table of components.
@@ -84,7 +79,12 @@ struct SheetOptions {
                                                      const std::vector<drawing::BuildingLevel>& levels,
                                                      SheetLanguage language);
 
-/// The sheets as SVG documents, in order. `volume` is the volume from which the drawings were made. Equal drawings give
+/// The tables of doors and of windows; none for a kind without openings.
+[[nodiscard]] std::vector<SheetTable> makeOpeningTables(const drawing::OpeningSchedule& openings,
+                                                        const std::vector<drawing::BuildingLevel>& levels,
+                                                        SheetLanguage language);
+
+/// The sheets as SVG documents, in order. Each has stamps and marks, a title block after ISO 7200 and a legend. `volume` is the volume from which the drawings were made. Equal drawings give
 /// equal bytes.
 /// \return the documents, or BadArgument: an unknown paper, a scale outside of 1:0.01 to 1:10000000, or a view that is
 ///         larger than the paper (the message suggests a paper or scale that works)

@@ -12,7 +12,6 @@
 #include <svt/illustrate/view.hpp>
 #include <svt/writers/draw_sheets.hpp>
 #include <svt/writers/drawing_formats.hpp>
-#include <svt/writers/office_sheets.hpp>
 
 #include <emscripten.h>
 #include <fmt/format.h>
@@ -367,10 +366,7 @@ Result<Reply> sheets(const Arguments& arguments) {
     drawing::SheetSet set;
     set.language = arguments.text(0);
     SVT_TRY(content, writers::drawSheets(set, volume));
-    writers::SheetOptions options = writers::sheetOptionsOf(set);
-    options.details = &writers::officeDetails();
-    writers::completeSheets(*content, volume, options.language, set.tables);
-    SVT_TRY(made, writers::makeSvgSheets(*content, volume, options));
+    SVT_TRY(made, writers::makeSvgSheets(*content, volume, writers::sheetOptionsOf(set)));
     return Reply(Json(*made).dump());
 }
 

@@ -145,7 +145,6 @@ Result<int> runSheets(const SheetsArguments& arguments) {
                      "nothing to write; give -o P.pdf, --svg DIR, --dxf DIR, --schedule S.csv or --write-sheets FILE");
     SVT_TRY(set, readSet(arguments));
     writers::SheetOptions options = writers::sheetOptionsOf(*set);
-    options.details = &writers::officeDetails();
     const TerminalProgress progress;
     pipeline::BuildOptions build = arguments.build;
     build.vectors.meshes = true;
@@ -155,7 +154,6 @@ Result<int> runSheets(const SheetsArguments& arguments) {
     std::vector<std::string> nothing;
     SVT_TRY(content, writers::drawSheets(*set, *volume, arguments.build.threads, &nothing));
     for (const std::string& message : nothing) note(message);
-    writers::completeSheets(*content, *volume, options.language, set->tables);
     printFindings(*content, *volume);
     SVT_DO(selectPaper(*set, *content, *volume, options));
     noteEmptyFields(set->titleBlock);

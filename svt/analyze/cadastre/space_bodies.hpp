@@ -16,7 +16,7 @@ public:
     BodyMaker(const volume::SemanticVolume& volume, const Extents& extents, std::size_t maxBoxes);
 
     /// The legal space of a label: its body, the volumes and the box, relative to the lower corner of the grid.
-    /// \param hasBoxes  false if the voxels need more than `maxBoxes` boxes; then there are no solids
+    /// \param hasBoxes  false if the voxels need more than `maxBoxes` boxes; the space then has no solids
     [[nodiscard]] LegalSpace make(std::uint32_t label, bool& hasBoxes) const;
 
 private:

@@ -174,7 +174,7 @@ Result<void> publishUpdate(const fs::path& folder) {
     // Options of a cluster belong to the folder, not to a plan.
     if (fs::exists(folder / "reports" / "slurm.json", failed) && fs::exists(update / "reports", failed))
         move(folder / "reports" / "slurm.json", update / "reports" / "slurm.json");
-    // A name that is no longer in the folder of the update was moved before a crash.
+    // A name that the folder of the update lacks was moved before a crash.
     for (const char* name : {"reports", "packs"}) {
         if (!fs::exists(update / name, failed)) continue;
         fs::remove_all(update / "old" / name, failed);

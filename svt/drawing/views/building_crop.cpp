@@ -1,4 +1,5 @@
 #include <svt/drawing/building_crop.hpp>
+#include <svt/drawing/clip_segment.hpp>
 
 #include <svt/drawing/dimension/part_roles.hpp>
 
@@ -24,28 +25,13 @@ struct CropBox {
     [[nodiscard]] bool contains(PlanePoint p) const noexcept {
         return p.u >= low.u && p.u <= high.u && p.v >= low.v && p.v <= high.v;
     }
-    // The part of a segment within the box.
-    [[nodiscard]] std::optional<std::pair<PlanePoint, PlanePoint>> clip(PlanePoint a, PlanePoint b) const noexcept {
-        double from = 0, to = 1;
-        const auto within = [&](double start, double change, double least, double most) {
-            if (change == 0) return start >= least && start <= most;
-            const double x = (least - start) / change, y = (most - start) / change;
-            from = std::max(from, std::min(x, y));
-            to = std::min(to, std::max(x, y));
-            return from < to;
-        };
-        const double du = b.u - a.u, dv = b.v - a.v;
-        if (!within(a.u, du, low.u, high.u) || !within(a.v, dv, low.v, high.v)) return std::nullopt;
-        const auto at = [&](double t) { return t == 0 ? a : t == 1 ? b : PlanePoint{a.u + t * du, a.v + t * dv}; };
-        return std::pair(at(from), at(to));
-    }
 };
 
 // The pieces of a polyline within the box.
 std::vector<std::vector<PlanePoint>> piecesOf(const std::vector<PlanePoint>& points, const CropBox& box) {
     std::vector<std::vector<PlanePoint>> pieces;
     for (std::size_t n = 0; n + 1 < points.size(); ++n) {
-        const auto part = box.clip(points[n], points[n + 1]);
+        const auto part = clipSegment(points[n], points[n + 1], box.low, box.high);
         if (!part) continue;
         if (pieces.empty() || !(pieces.back().back() == part->first)) pieces.push_back({part->first});
         pieces.back().push_back(part->second);
@@ -145,7 +131,7 @@ SectionDrawing croppedToBuilding(const SectionDrawing& drawing, const volume::Se
         for (auto& piece : piecesOf(line.points, box)) cropped.lines.push_back({std::move(piece), line.label});
     cropped.beyond.clear();
     for (const BeyondLine& line : drawing.beyond)
-        if (const auto part = box.clip(line.from, line.to))
+        if (const auto part = clipSegment(line.from, line.to, box.low, box.high))
             cropped.beyond.push_back({part->first, part->second, line.label, line.kind});
     return cropped;
 }

@@ -99,7 +99,7 @@ TEST(Truncated, CityGmlAndCityJsonAreErrorsWhereverTheyAreCut) {
     const std::string gml = cityGml(), json = cityJson();
     expectErrors(gml, 0, gml.rfind('>'));
     expectErrors(json, 0, json.rfind('}'));
-    EXPECT_FALSE(readEnding(json.substr(0, json.size() - 1), true)) << "there is no part that could be read";
+    EXPECT_FALSE(readEnding(json.substr(0, json.size() - 1), true)) << "no part of it can be read";
     EXPECT_FALSE(readEnding(gml.substr(0, gml.rfind('>')), true));
 }
 

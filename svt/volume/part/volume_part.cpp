@@ -15,7 +15,7 @@ namespace {
 constexpr std::int32_t kTile = ColumnVolume::kTileSize;
 constexpr std::uint16_t kNoColumn = 0xFFFF;  // a tile has 4096 columns at most
 
-/// Counts voxels again. A solid that is no longer complete has no known volume: its voxels count.
+/// Counts voxels again. The volume of a solid that was cut is unknown, so its voxels count.
 void recount(SemanticVolume& volume) {
     const auto voxels = volume.columns.countVoxels(volume.labels.scalarCount());
     for (Label& label : volume.labels.labels) {

@@ -209,7 +209,7 @@ Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::file
     SVT_TRY(surfaces, labelSurfaces(volume.columns, labelsWithout(volume, sheets.surfaces),
                                     {options.maxTriangles, options.threads, options.progress}));
     if (surfaces->empty() && sheets.surfaces.empty())
-        return Error(Code::NothingSelected, "the volume has no voxels, so there is no surface");
+        return Error(Code::NothingSelected, "the volume has no voxels and therefore no surface");
 
     Progress::tell(options.progress, "vertices", 0);
     SVT_TRY(positions,

@@ -9,7 +9,7 @@ Result<LabelHulls> makeLabelHulls(const volume::SemanticVolume& volume, const Vo
     SVT_DO(checkDimension(volume.grid, volume.columns));
     SVT_TRY(surfaces, labelSurfaces(volume.columns, volume.labels.labelOfScalar(),
                                     {std::uint64_t{1} << 27, options.threads, options.progress}));
-    if (surfaces->empty()) return Error(Code::NothingSelected, "the volume has no voxels, so there is no surface");
+    if (surfaces->empty()) return Error(Code::NothingSelected, "the volume has no voxels and therefore no surface");
     SVT_TRY(positions, placeVertices(volume, *surfaces, options.faces, nullptr, options.threads, options.progress));
     return LabelHulls{std::move(*surfaces), std::move(*positions), &volume};
 }

@@ -1,6 +1,7 @@
 #include <svt/writers/marks/plan_lines.hpp>
 
 #include <svt/core/text.hpp>
+#include <svt/drawing/clip_segment.hpp>
 #include <svt/writers/sheets/sheet_canvas.hpp>
 
 #include <fmt/format.h>
@@ -150,22 +151,6 @@ std::optional<std::pair<Vec3d, Vec3d>> axisEnds(const Attribute& attribute) {
     return std::pair(Vec3d{numbers[0], numbers[1], numbers[2]}, Vec3d{numbers[3], numbers[4], numbers[5]});
 }
 
-// The part of a line within a rectangle.
-std::optional<std::pair<PlanePoint, PlanePoint>> clippedTo(PlanePoint from, PlanePoint to,
-                                                           const MarkBox& box) noexcept {
-    double begin = 0, end = 1;
-    const auto clip = [&](double start, double change, double low, double high) {
-        if (change == 0) return start >= low && start <= high;
-        const double a = (low - start) / change, b = (high - start) / change;
-        begin = std::max(begin, std::min(a, b));
-        end = std::min(end, std::max(a, b));
-        return begin < end;
-    };
-    if (!clip(from.u, to.u - from.u, box.low.u, box.high.u) || !clip(from.v, to.v - from.v, box.low.v, box.high.v))
-        return std::nullopt;
-    return std::pair(between(from, to, begin), between(from, to, end));
-}
-
 }  // namespace
 
 MarkShapes drawTravel(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
@@ -212,7 +197,7 @@ MarkShapes drawGrids(const drawing::SectionDrawing& drawing, const volume::Seman
                 const PlanePoint p = drawing.axes.planeFromWorld(world);
                 return PlanePoint{p.u * millimetres, p.v * millimetres};
             };
-            const auto axis = clippedTo(onPaper(ends->first), onPaper(ends->second), inner);
+            const auto axis = drawing::clipSegment(onPaper(ends->first), onPaper(ends->second), inner.low, inner.high);
             if (!axis) continue;
             const auto [from, to] = *axis;
             const double size = std::hypot(to.u - from.u, to.v - from.v);

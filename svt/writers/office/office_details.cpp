@@ -5,8 +5,7 @@
 #include <svt/writers/marks/plan_lines.hpp>
 #include <svt/writers/office/office_texts.hpp>
 #include <svt/writers/office/stamp_texts.hpp>
-#include <svt/writers/office/title_block.hpp>
-#include <svt/writers/office_sheets.hpp>
+#include <svt/writers/sheets/sheet_details.hpp>
 
 #include <fmt/format.h>
 
@@ -130,66 +129,51 @@ std::vector<std::string> listOf(const std::vector<RoomStamp>& stamps, const Plac
     return lines;
 }
 
-class OfficeDetails : public SheetDetails {
-public:
-    [[nodiscard]] ViewMarks marksOf(const ViewContext& context) const override {
-        ViewMarks marks;
-        const drawing::SectionDrawing& drawing = context.view.drawing;
-        const double mm = context.placed.place.millimetres;
-        FreeSpace space = freeSpaceOf(drawing, context.volume, mm);
-        const MarkBox allowed = allowedAround(context);
-        takeCaption(context, space);
-        if (context.view.view.kind == ViewKind::Plan) {
-            const MarkBox own = marksBox(outerOf(context.placed), context.placed.place);
-            takeSectionMarks(context, own, space);
-            addPlanMarks(context, own, space, marks);
-        }
-        if (context.view.view.kind == ViewKind::Section)
-            if (MarkShapes ground = drawGround(drawing, context.volume, mm); !ground.bold.empty())
-                marks.layers.push_back(std::move(ground));
-        const std::vector<RoomStamp> stamps = roomStamps(context);
-        PlacedStamps placed = placeStamps(drawing, stamps, mm, allowed, space);
-        marks.layers.push_back(std::move(placed.shapes));
-        marks.below = listOf(stamps, placed, context);
-        return marks;
-    }
-
-    // The groups of lines of DIN 1356-1, in the series of ISO 128-2.
-    [[nodiscard]] LineWidths widthsOf(double scale) const override {
-        if (scale <= 25) return {1.0, 0.5, 0.35, 0.25};
-        if (scale <= 50) return {0.7, 0.35, 0.25, 0.18};
-        if (scale <= 100) return {0.5, 0.25, 0.18, 0.13};
-        if (scale <= 200) return {0.35, 0.18, 0.13, 0.13};
-        return {0.25, 0.13, 0.13, 0.13};
-    }
-
-    void paintBlock(const BlockContext& context, SheetCanvas& canvas) const override {
-        paintTitleBlock(context, canvas);
-        paintLegend(context, canvas);
-    }
-
-private:
-    static void addPlanMarks(const ViewContext& context, const MarkBox& allowed, FreeSpace& space, ViewMarks& marks) {
-        const drawing::SectionDrawing& drawing = context.view.drawing;
-        const double mm = context.placed.place.millimetres;
-        const auto add = [&](MarkShapes shapes) {
-            const bool isEmpty = shapes.thin.empty() && shapes.texts.empty() && shapes.masks.empty();
-            if (!isEmpty) marks.layers.push_back(std::move(shapes));
-        };
-        add(drawGrids(drawing, context.volume, mm, allowed, space));
-        if (context.content.openings) add(drawPanes(drawing, context.volume, *context.content.openings, mm));
-        add(drawTravel(drawing, context.volume, drawing::findStairFlights(context.volume), heightsOf(context), mm,
-                       officeWord(OfficeWord::Risers, context.options.language),
-                       context.options.language == SheetLanguage::German, space));
-        if (context.content.openings) add(placeOpeningMarks(drawing, *context.content.openings, mm, space));
-    }
-};
+void addPlanMarks(const ViewContext& context, const MarkBox& allowed, FreeSpace& space, ViewMarks& marks) {
+    const drawing::SectionDrawing& drawing = context.view.drawing;
+    const double mm = context.placed.place.millimetres;
+    const auto add = [&](MarkShapes shapes) {
+        const bool isEmpty = shapes.thin.empty() && shapes.texts.empty() && shapes.masks.empty();
+        if (!isEmpty) marks.layers.push_back(std::move(shapes));
+    };
+    add(drawGrids(drawing, context.volume, mm, allowed, space));
+    if (context.content.openings) add(drawPanes(drawing, context.volume, *context.content.openings, mm));
+    add(drawTravel(drawing, context.volume, drawing::findStairFlights(context.volume), heightsOf(context), mm,
+                   officeWord(OfficeWord::Risers, context.options.language),
+                   context.options.language == SheetLanguage::German, space));
+    if (context.content.openings) add(placeOpeningMarks(drawing, *context.content.openings, mm, space));
+}
 
 }  // namespace
 
-const SheetDetails& officeDetails() noexcept {
-    static const OfficeDetails details;
-    return details;
+ViewMarks marksOf(const ViewContext& context) {
+    ViewMarks marks;
+    const drawing::SectionDrawing& drawing = context.view.drawing;
+    const double mm = context.placed.place.millimetres;
+    FreeSpace space = freeSpaceOf(drawing, context.volume, mm);
+    const MarkBox allowed = allowedAround(context);
+    takeCaption(context, space);
+    if (context.view.view.kind == ViewKind::Plan) {
+        const MarkBox own = marksBox(outerOf(context.placed), context.placed.place);
+        takeSectionMarks(context, own, space);
+        addPlanMarks(context, own, space, marks);
+    }
+    if (context.view.view.kind == ViewKind::Section)
+        if (MarkShapes ground = drawGround(drawing, context.volume, mm); !ground.bold.empty())
+            marks.layers.push_back(std::move(ground));
+    const std::vector<RoomStamp> stamps = roomStamps(context);
+    PlacedStamps placed = placeStamps(drawing, stamps, mm, allowed, space);
+    marks.layers.push_back(std::move(placed.shapes));
+    marks.below = listOf(stamps, placed, context);
+    return marks;
+}
+
+LineWidths widthsOf(double scale) noexcept {
+    if (scale <= 25) return {1.0, 0.5, 0.35, 0.25};
+    if (scale <= 50) return {0.7, 0.35, 0.25, 0.18};
+    if (scale <= 100) return {0.5, 0.25, 0.18, 0.13};
+    if (scale <= 200) return {0.35, 0.18, 0.13, 0.13};
+    return {0.25, 0.13, 0.13, 0.13};
 }
 
 }  // namespace svt::writers

@@ -62,11 +62,9 @@ struct House {
     [[nodiscard]] SheetContent content(drawing::SheetSet set = {}) const {
         auto drawn = drawSheets(set, volume, 1);
         EXPECT_TRUE(drawn) << drawn.error().message();
-        completeSheets(*drawn, volume, SheetLanguage::English, true);
         return std::move(*drawn);
     }
-    [[nodiscard]] std::vector<std::string> sheets(SheetOptions options, drawing::SheetSet set = {}) const {
-        options.details = &officeDetails();
+    [[nodiscard]] std::vector<std::string> sheets(const SheetOptions& options, drawing::SheetSet set = {}) const {
         const auto made = makeSvgSheets(content(std::move(set)), volume, options);
         EXPECT_TRUE(made) << made.error().message();
         return made ? *made : std::vector<std::string>();
@@ -199,7 +197,6 @@ TEST(SheetPaperChoice, IsTheSmallestOnWhichAllViewsFit) {
     house.addRow(21, 1);  // 25.4 m
     const SheetContent content = house.content();
     SheetOptions options{.scale = 100};
-    options.details = &officeDetails();
     const auto paperAt = [&](double scale) {
         options.scale = scale;
         const auto paper = smallestPaper(content, house.volume, options);
@@ -245,7 +242,6 @@ TEST(OpeningMarks, OfThePlanAreThoseOfTheSchedule) {
     EXPECT_NE(csv.find("D2,door,,EG,0.885,2.01,1.01,2.01,0,1,door3"), std::string::npos) << csv;
     EXPECT_NE(csv.find("W1,window,,EG,,,1.2,1.2,0.9,1,window"), std::string::npos) << csv;
     SheetOptions options{.scale = 50, .paper = "A2"};
-    options.details = &officeDetails();
     const auto sheets = *makeSvgSheets(content, house.volume, options);
     EXPECT_EQ(countTexts({sheets.front()}, ".='D1'"), 2u);
     EXPECT_EQ(countTexts({sheets.front()}, ".='D2'"), 1u);
@@ -307,7 +303,6 @@ TEST(GroundLine, IsBoldInSections) {
     volume::test::addQuad(house.volume, ground, {{{-3, -3, 0.1}, {13, -3, 0.1}, {13, 5, 0.1}, {-3, 5, 0.1}}});
     const SheetContent content = house.content();
     SheetOptions options{.scale = 100, .paper = "A3"};
-    options.details = &officeDetails();
     std::size_t layers = 0;
     const auto sheets = makeSvgSheets(content, house.volume, options);
     ASSERT_TRUE(sheets);

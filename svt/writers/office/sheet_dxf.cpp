@@ -1,6 +1,7 @@
 #include <svt/core/text.hpp>
 #include <svt/drawing/building_crop.hpp>
 #include <svt/writers/drawing/dxf_text.hpp>
+#include <svt/writers/office/title_block.hpp>
 #include <svt/writers/office_sheets.hpp>
 #include <svt/writers/sheets/sheet_details.hpp>
 #include <svt/writers/sheets/sheet_texts.hpp>
@@ -241,11 +242,10 @@ Result<std::string> makeSheetDxf(const SheetContent& content, std::size_t view, 
                     {paper.left, paper.top}}},
                   {0.7});
     const std::string title = titleOfView(drawn.view, options.language);
-    if (options.details != nullptr) {
-        drawMarks(options.details->marksOf({own, volume, options, own.views.front(), placed, *layout, sheet, {}}),
-                  placed.place, canvas);
-        options.details->paintBlock({own, volume, options, *layout, sheet, view, title, volume.source}, canvas);
-    }
+    drawMarks(marksOf({own, volume, options, own.views.front(), placed, *layout, sheet, {}}), placed.place, canvas);
+    const BlockContext block{own, volume, options, *layout, sheet, view, title, volume.source};
+    paintTitleBlock(block, canvas);
+    paintLegend(block, canvas);
     canvas.text({{placed.place.corner.x, placed.place.corner.y + margins.below + 14}, 3.5, title});
     addLayout(dxf, canvas.take(), fmt::format("{} 1 to {:g}", paper.name, sheet.scale), paper, handles);
     return dxf;

@@ -1,5 +1,6 @@
 #include <svt/writers/draw_sheets.hpp>
 
+#include <svt/drawing/opening_schedule.hpp>
 #include <svt/volume/brick_volume.hpp>
 
 #include <algorithm>
@@ -69,10 +70,14 @@ Result<SheetContent> drawSheets(drawing::SheetSet& set, const volume::SemanticVo
         }
         content.views.push_back({std::move(view), std::move(*drawing), groups[content.views.size()]});
     }
+    content.openings = drawing::scheduleOpenings(volume, content.levels);
     if (!set.tables) return content;
     SVT_TRY(areas, drawing::measureFloorAreas(volume, content.levels, threads, bricks ? &*bricks : nullptr));
     drawing::reportAreas(*areas, content.levels, volume, content.findings);
-    content.tables = makeAreaTables(*areas, content.levels, sheetOptionsOf(set).language);
+    const SheetLanguage language = sheetOptionsOf(set).language;
+    content.tables = makeAreaTables(*areas, content.levels, language);
+    for (SheetTable& table : makeOpeningTables(*content.openings, content.levels, language))
+        content.tables.push_back(std::move(table));
     content.areas = std::move(*areas);
     return content;
 }

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Parts of sheets that only some programs draw: stamps and marks, the title block with all its fields, a legend. Sheets
-/// call them by this interface, so a program that does not need them does not contain their code (the page).
+/// Parts of sheets beside the drawings, in millimetres on paper: stamps and marks, line widths, the title block and the
+/// legend.
 
 #include <svt/writers/sheet_writer.hpp>
 #include <svt/writers/sheets/drawing_painter.hpp>
@@ -42,13 +42,9 @@ struct ViewMarks {
     std::vector<std::string> below;  ///< lines beside the caption: rooms without a stamp
 };
 
-class SheetDetails {
-public:
-    virtual ~SheetDetails() = default;
-    [[nodiscard]] virtual ViewMarks marksOf(const ViewContext& context) const = 0;
-    [[nodiscard]] virtual LineWidths widthsOf(double scale) const = 0;
-    /// The title block, and the legend beside or above it.
-    virtual void paintBlock(const BlockContext& context, SheetCanvas& canvas) const = 0;
-};
+/// Stamps of rooms, and in plans the marks of openings, stairs and grids.
+[[nodiscard]] ViewMarks marksOf(const ViewContext& context);
+/// The groups of lines of DIN 1356-1, in the series of ISO 128-2. `scale` is 100 for 1:100.
+[[nodiscard]] LineWidths widthsOf(double scale) noexcept;
 
 }  // namespace svt::writers

@@ -26,7 +26,7 @@ Result<SheetPaper> paperOf(const SheetOptions& options) {
         {{1189, 841}, {841, 594}, {594, 420}, {420, 297}, {297, 210}}};
     if (name.size() == 2 && lowerAscii(name[0]) == 'a' && name[1] >= '0' && name[1] <= '4') {
         const auto [width, height] = kSizes[static_cast<std::size_t>(name[1] - '0')];
-        const double legend = options.details != nullptr && name[1] == '4' ? kLegend : 0;
+        const double legend = name[1] == '4' ? kLegend : 0;
         return SheetPaper{"A" + name.substr(1), width, height, 20, 10, width - 10, height - 10, legend};
     }
     return Error(Code::BadArgument, fmt::format("paper '{}': expected A4, A3, A2, A1 or A0", name));

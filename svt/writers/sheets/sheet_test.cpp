@@ -180,7 +180,7 @@ TEST(SvgSheets, AreToScaleWithFrameAndTitle) {
     EXPECT_GT(svg.count("//path[starts-with(@d, '" + outline + "')]"), 0u) << sheets->front();
     for (const char* text : {"Haus <1>", "1:50", "Plan EG, level \u00B10.00", "1 of 1", "A4", "house.gml, EPSG:25832"})
         EXPECT_GT(svg.count(fmt::format("//text[.='{}']", text)), 0u) << text;
-    EXPECT_EQ(svg.count("//path[@fill='url(#masonry)']"), 1u);
+    EXPECT_EQ(svg.count("//path[@fill='url(#masonry)']"), 2u) << "the wall, and its hatch in the legend";
     EXPECT_EQ(svg.count("//g[@inkscape:label='Outlines']"), 1u);
     EXPECT_EQ(*sheets, *makeSvgSheets(content, volume, {.scale = 50, .paper = "A4"}));
 }

@@ -7,6 +7,7 @@
 #include <svt/model/classes.hpp>
 #include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
+#include <svt/writers/office/title_block.hpp>
 #include <svt/writers/sheets/pdf_canvas.hpp>
 #include <svt/writers/sheets/sheet_details.hpp>
 #include <svt/writers/sheets/sheet_layout.hpp>
@@ -53,13 +54,10 @@ public:
                 const DrawnView& view = content_.views[placed.view];
                 const bool isFloorPlan = view.view.kind == ViewKind::Plan;
                 PaintOptions paint{isFloorPlan ? finishedFloors(view) : RoomNotes(), nullptr, {}};
-                ViewMarks marks;
-                if (options_.details != nullptr) {
-                    marks = options_.details->marksOf(
-                        {content_, volume_, options_, view, placed, layout_, sheet, paint.notes});
-                    paint.marks = &marks.layers;
-                    paint.widths = options_.details->widthsOf(sheet.scale);
-                }
+                const ViewMarks marks =
+                    marksOf({content_, volume_, options_, view, placed, layout_, sheet, paint.notes});
+                paint.marks = &marks.layers;
+                paint.widths = widthsOf(sheet.scale);
                 if (options_.language == SheetLanguage::German) paint.openings = {"BRH", "STH"};
                 paintDrawing(view.drawing, volume_, placed.place, canvas_, paint);
                 canvas_.beginLayer("Marks");
@@ -292,41 +290,15 @@ private:
     void addFrame(const Sheet& sheet, std::size_t number) {
         const SheetPaper& paper = layout_.paper;
         box(paper.left, paper.top, paper.right, paper.bottom, kFrame);
-        if (options_.details != nullptr)
-            options_.details->paintBlock(
-                {content_, volume_, options_, layout_, sheet, number, titleOf(sheet), sourceText()}, canvas_);
-        else
-            addBlock(sheet, number);
+        const std::string title = titleOf(sheet), source = sourceText();
+        const BlockContext block{content_, volume_, options_, layout_, sheet, number, title, source};
+        paintTitleBlock(block, canvas_);
+        paintLegend(block, canvas_);
         if (sheet.views.empty()) return;
         addScaleBar(paper.left + 8, paper.bottom - 10, sheet.scale);
         if (!content_.levels.empty()) canvas_.text({{paper.left + 8, paper.bottom - 22}, 2.2, datumText()});
         if (content_.views[sheet.views.front().view].view.kind == ViewKind::Plan)
             addNorth(sheet, {paper.right - SheetPaper::kTitleWidth - 18, paper.bottom - 18});
-    }
-
-    void addBlock(const Sheet& sheet, std::size_t number) {
-        const SheetPaper& paper = layout_.paper;
-        const double left = paper.right - SheetPaper::kTitleWidth, top = paper.bottom - SheetPaper::kTitleHeight;
-        const double column = paper.right - 45, middle = top + 14, lower = top + 25;
-        line({left, paper.bottom}, {left, top}, kBox);
-        line({left, top}, {paper.right, top}, kBox);
-        line({left, middle}, {paper.right, middle}, kFine);
-        line({left, lower}, {paper.right, lower}, kFine);
-        line({column, top}, {column, paper.bottom}, kFine);
-        const double room = column - left - 4;
-        const std::string scale = sheet.views.empty() ? std::string(word(SheetWord::NoScale))
-                                                      : fmt::format("1:{}", shortNumber(sheet.scale, 2));
-        const auto field = [&](double x, double y, SheetWord what, const std::string& text, double size, double width) {
-            canvas_.text({{x + 2, y + 3}, 1.8, std::string(word(what))});
-            canvas_.text({{x + 2, y + 4.2 + size * 1.25}, size, shortened(text, size, width)});
-        };
-        field(left, top, SheetWord::Building, modelName(), 5, room);
-        field(left, middle, SheetWord::Drawing, titleOf(sheet), 3.5, room);
-        field(left, lower, SheetWord::Model, sourceText(), 2.5, room);
-        field(column, top, SheetWord::Scale, scale, 5, 41);
-        field(column, middle, SheetWord::Sheet,
-              fmt::format("{} {} {}", number + 1, word(SheetWord::SheetOf), layout_.sheets.size()), 3.5, 41);
-        field(column, lower, SheetWord::Paper, paper.name, 2.5, 41);
     }
 
     [[nodiscard]] std::string sourceText() const {

@@ -21,7 +21,8 @@ std::string levelText(const std::vector<drawing::BuildingLevel>& levels, std::si
                        numberText(levels[level].floor - drawing::zeroLevel(levels), 2, language));
 }
 
-SheetTable tableOfOpenings(const SheetContent& content, bool ofDoors, SheetLanguage language) {
+SheetTable tableOfOpenings(const drawing::OpeningSchedule& openings, const std::vector<drawing::BuildingLevel>& levels,
+                           bool ofDoors, SheetLanguage language) {
     const auto word = [&](OfficeWord w) { return std::string(officeWord(w, language)); };
     SheetTable table{word(ofDoors ? OfficeWord::Doors : OfficeWord::Windows),
                      {{word(OfficeWord::Mark)},
@@ -39,9 +40,9 @@ SheetTable tableOfOpenings(const SheetContent& content, bool ofDoors, SheetLangu
     const auto size = [&](const std::optional<double>& metres) {
         return metres ? numberText(*metres, 3, language) : std::string("\u2013");
     };
-    for (const drawing::OpeningRow& row : content.openings->rows) {
+    for (const drawing::OpeningRow& row : openings.rows) {
         if (row.isDoor != ofDoors) continue;
-        table.rows.push_back({row.mark, row.type, levelText(content.levels, row.level, language), size(row.statedWidth),
+        table.rows.push_back({row.mark, row.type, levelText(levels, row.level, language), size(row.statedWidth),
                               size(row.measuredWidth), size(row.statedHeight), size(row.measuredHeight), size(row.sill),
                               fmt::format("{}", row.labels.size())});
         count += row.labels.size();
@@ -56,13 +57,13 @@ Cell cellOf(const std::optional<double>& metres) { return metres ? Cell(*metres)
 
 }  // namespace
 
-void completeSheets(SheetContent& content, const volume::SemanticVolume& volume, SheetLanguage language,
-                    bool hasTables) {
-    content.openings = drawing::scheduleOpenings(volume, content.levels);
-    if (!hasTables) return;
+std::vector<SheetTable> makeOpeningTables(const drawing::OpeningSchedule& openings,
+                                          const std::vector<drawing::BuildingLevel>& levels, SheetLanguage language) {
+    std::vector<SheetTable> tables;
     for (const bool ofDoors : {true, false})
-        if (SheetTable table = tableOfOpenings(content, ofDoors, language); !table.rows.empty())
-            content.tables.push_back(std::move(table));
+        if (SheetTable table = tableOfOpenings(openings, levels, ofDoors, language); !table.rows.empty())
+            tables.push_back(std::move(table));
+    return tables;
 }
 
 Table openingTable(const drawing::OpeningSchedule& schedule, const std::vector<drawing::BuildingLevel>& levels,
