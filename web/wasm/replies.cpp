@@ -7,6 +7,7 @@
 #include <svt/drawing/sheet_views.hpp>
 #include <svt/drawing/storey_floors.hpp>
 #include <svt/image/color_text.hpp>
+#include <svt/model/classes.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -86,6 +87,7 @@ Json featuresJson(const volume::LabelTable& table) {
         feature["count"] = label.count;
         feature["color"] = image::colorText(label.color);
         feature["opacity"] = label.opacity;
+        if (model::isSpace(label.className)) feature["isSpace"] = true;
         if (std::string type = typeOf(label); !type.empty()) feature["type"] = std::move(type);
         list.push_back(std::move(feature));
     }

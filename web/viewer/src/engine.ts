@@ -45,6 +45,8 @@ export interface Feature {
   /** sRGB from the volume's style, `#rrggbb`; opacity as in styles. */
   color: string;
   opacity: number;
+  /** A room, flat or storey: pictures leave it out unless a query asks for it. Absent: false. */
+  isSpace?: boolean;
 }
 
 export interface VolumeInfo {

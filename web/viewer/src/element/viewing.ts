@@ -53,6 +53,7 @@ export class Viewing {
     const place = { mayUseThreads: true, ...(host.assets ? { assets: host.assets } : {}) };
     this.starting = createEngine(canvas, null, place, this.ended.signal);
     this.starting.catch(() => undefined);
+    this.session.view.hasSwitches = false;
     this.picture.session = this.session;
     this.picture.canvas = canvas;
     this.picture.addEventListener("svt-pick", (event) => this.picked(event as PickEvent));

@@ -52,6 +52,11 @@ export class View extends Observable {
     parallel: kSceneMembers["/camera/parallel"].default,
     fieldOfView: kSceneMembers["/camera/fieldOfView"].default,
   };
+  /**
+   * Spaces that are not hidden are drawn, because the page has a switch for each. Without switches, as in the web component,
+   * spaces are drawn where a query asks for them, as by the command.
+   */
+  hasSwitches = true;
   private flight = 0;
   /** The view fitted to the whole building, and its aspect ratio; it is recomputed for another aspect ratio. */
   private fitted: { camera: Camera; aspect: number } | null = null;
@@ -73,7 +78,7 @@ export class View extends Observable {
 
   describe(size: [number, number], samples?: Samples): Described {
     const described = sceneOf(this.state, this.volume.box, size, samples);
-    if (!this.state.custom)
+    if (this.hasSwitches && !this.state.custom)
       described.scene.passes = described.scene.passes!.map((pass) => withSpaces(pass, this.volume.index, this.hidden));
     // Tiles of a city fit the pixels. Levels of detail of the tiles would cost time and memory without benefit.
     if (this.volume.isCity) described.scene.passes = described.scene.passes!.map((pass) => ({ level: 0, ...pass }));

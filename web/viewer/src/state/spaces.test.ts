@@ -5,7 +5,7 @@ import { hiddenSpaces, withSpaces } from "./spaces";
 
 const feature = (id: string, name: string, parent: string, first: number): Feature => ({
   ...{ id, class: name, name: id, parent, depth: parent ? 1 : 0, first, count: first ? 1 : 0 },
-  ...{ color: "#808080", opacity: name === "BuildingRoom" ? 0.08 : 1 },
+  ...{ color: "#808080", opacity: name === "BuildingRoom" ? 0.08 : 1, isSpace: name === "BuildingRoom" },
 });
 const rooms = [feature("b", "Building", "", 0), feature("r0", "BuildingRoom", "b", 1), feature("r1", "BuildingRoom", "b", 2)];
 const house = indexFeatures([...rooms, feature("w", "Wall", "b", 3), feature("s", "Storey", "b", 0)]);

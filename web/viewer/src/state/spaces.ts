@@ -7,13 +7,11 @@ import type { ScenePass } from "../engine";
 import type { FeatureIndex } from "./feature_index";
 import { ofClass } from "./queries";
 
-const kSpaces = ["BuildingRoom", "BuildingUnit", "Storey", "HollowSpace", "BridgeRoom", "TunnelRoom"];
-
 /** Classes of spaces with voxels; none if the model consists of spaces. */
 function spaceClasses(index: FeatureIndex): string[] {
-  const isBody = (name: string) => !kSpaces.includes(name) && name !== "ClosureSurface";
-  const hasVoxels = (name: string) => (index.classes.get(name) ?? []).some((i) => index.features[i]!.count > 0);
-  return [...index.classes.keys()].some((name) => isBody(name) && hasVoxels(name)) ? kSpaces.filter(hasVoxels) : [];
+  const solids = index.features.filter(({ count }) => count > 0);
+  if (solids.every((feature) => feature.isSpace || feature.class === "ClosureSurface")) return [];
+  return [...new Set(solids.flatMap((feature) => (feature.isSpace ? [feature.class] : [])))];
 }
 
 /** Queries that hide the spaces of a model that was just opened. */
