@@ -104,7 +104,7 @@ void FeatureSums::add(const volume::SemanticVolume& volume, std::span<const city
         sumOf[l]->volume += own[l].volume.value_or(0);
         sumOf[l]->counted += own[l].countedVolume;
     }
-    addAreas(rows, extents, own, sumOf);
+    addAreas(table, rows, extents, own, sumOf);
 }
 
 // The largest of features that contain each other counts. Volumes without counted parts are exact as they are. A feature
@@ -147,9 +147,18 @@ std::vector<char> FeatureSums::addWholes(const volume::LabelTable& table, const 
     return isAdded;
 }
 
-// Counts the features. One within others of its values adds no area, nor does one whose voxels have other values.
-void FeatureSums::addAreas(std::span<const city::FeatureRow> rows, const analyze::Extents& extents,
-                           std::span<const analyze::Measure> own, const std::vector<Sum*>& sumOf) {
+// Counts the features, a window with its panes as one. A feature within others of its values adds no area, nor does one
+// whose voxels have other values.
+void FeatureSums::addAreas(const volume::LabelTable& table, std::span<const city::FeatureRow> rows,
+                           const analyze::Extents& extents, std::span<const analyze::Measure> own,
+                           const std::vector<Sum*>& sumOf) {
+    std::vector<char> isRow(own.size(), 0);
+    for (const city::FeatureRow& row : rows) isRow[row.label] = 1;
+    const auto isPartOfRow = [&](std::uint32_t feature) {
+        const volume::Label& label = table.labels[feature];
+        return model::isPhase(label.className) && label.parent < isRow.size() && isRow[label.parent] != 0 &&
+               sumOf[label.parent] == sumOf[feature];
+    };
     std::vector<std::size_t> sizes, order(rows.size());
     for (const city::FeatureRow& row : rows) sizes.push_back(extents.of(row.label).size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -159,7 +168,7 @@ void FeatureSums::addAreas(std::span<const city::FeatureRow> rows, const analyze
         const std::uint32_t feature = rows[n].label;
         const analyze::Measure& total = rows[n].measure.total;
         Sum& sum = *sumOf[feature];
-        ++sum.count;
+        sum.count += !isPartOfRow(feature);
         withoutVolume_ += !total.volume;
         withoutVoxels_ += total.voxels == 0;
         bool isNew = false, isInParts = total.voxels > 0;

@@ -44,12 +44,14 @@ private:
         double volume = 0, counted = 0, area = 0;
     };
 
-    /// Adds the known volumes of features whose parts all count to one sum. \return by label: 1 if it counts with one of them
+    /// Adds the known volumes of features whose parts all count to one sum.
+    /// \return by label: 1 if it counts with one of them
     static std::vector<char> addWholes(const volume::LabelTable& table, const analyze::Extents& extents,
                                        std::span<const city::FeatureRow> rows, std::span<const analyze::Measure> own,
                                        const std::vector<Sum*>& sumOf);
-    void addAreas(std::span<const city::FeatureRow> rows, const analyze::Extents& extents,
-                  std::span<const analyze::Measure> own, const std::vector<Sum*>& sumOf);
+    void addAreas(const volume::LabelTable& table, std::span<const city::FeatureRow> rows,
+                  const analyze::Extents& extents, std::span<const analyze::Measure> own,
+                  const std::vector<Sum*>& sumOf);
 
     std::vector<std::string> keys_;
     std::map<std::vector<std::string>, Sum> sums_;

@@ -170,6 +170,27 @@ TEST(Sums, OfExtractedBuildingsAreThoseOfTheirCity) {
     EXPECT_GT(withRooms, 0);
 }
 
+// A window with its panes is one feature; panes that are selected without their windows count by themselves.
+TEST(Sums, CountAWindowWithItsPanesOnce) {
+    TemporaryFolder folder;
+    prepareHouse(folder.path(), "0.15");
+    const auto countsOf = [&](const std::string& query, const std::string& keys) {
+        std::map<std::string, std::size_t> counts;
+        const json rows = runSvtForJson(folder.path(), {"query", "house.svt", query, "--by", keys, "--json"});
+        for (const json& row : rows) counts[row.at(keys).is_null() ? "-" : row.at(keys)] = row.at("features");
+        return counts;
+    };
+    const auto numberOf = [&](const std::string& query) {
+        return runSvtForJson(folder.path(), {"query", "house.svt", query, "--json"}).size();
+    };
+    const auto counts = countsOf("all", "class");
+    EXPECT_GT(numberOf("class=WindowPhase"), 0u);
+    EXPECT_EQ(counts.at("Window"), numberOf("class=Window"));
+    EXPECT_EQ(counts.at("Door"), numberOf("class=Door"));
+    EXPECT_FALSE(counts.contains("WindowPhase"));
+    EXPECT_EQ(countsOf("class=WindowPhase", "class").at("WindowPhase"), numberOf("class=WindowPhase"));
+}
+
 TEST(Sums, OfASampleHouseAreTheVolumeOfItsUnion) {
     const TemporaryFolder folder;
     prepare(folder.path(), {"sample", "house", "--format", "ifc", "-o", "house.ifc"});
