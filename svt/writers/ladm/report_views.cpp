@@ -2,8 +2,8 @@
 
 #include <svt/analyze/extents.hpp>
 #include <svt/drawing/section_drawing.hpp>
+#include <svt/writers/canvas/drawing_painter.hpp>
 #include <svt/writers/drawing/drawing_style.hpp>
-#include <svt/writers/sheets/drawing_painter.hpp>
 
 #include <fmt/format.h>
 

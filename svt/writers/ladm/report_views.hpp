@@ -4,7 +4,7 @@
 
 #include <svt/analyze/legal_spaces.hpp>
 #include <svt/drawing/line_view.hpp>
-#include <svt/writers/sheets/sheet_canvas.hpp>
+#include <svt/writers/canvas/sheet_canvas.hpp>
 
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,8 @@
 #include <svt/analyze/extents.hpp>
 #include <svt/drawing/building_levels.hpp>
 #include <svt/drawing/floor_areas.hpp>
+#include <svt/writers/canvas/pdf_canvas.hpp>
 #include <svt/writers/ladm/report_views.hpp>
-#include <svt/writers/sheets/pdf_canvas.hpp>
 #include <svt/writers/unit_report.hpp>
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #include <svt/writers/marks/free_space.hpp>
 
 #include <svt/model/classes.hpp>
+#include <svt/writers/canvas/sheet_canvas.hpp>
 #include <svt/writers/drawing/drawing_style.hpp>
-#include <svt/writers/sheets/sheet_canvas.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/volume/semantic_volume.hpp>
-#include <svt/writers/sheets/mark_shapes.hpp>
+#include <svt/writers/canvas/mark_shapes.hpp>
 
 #include <cstdint>
 #include <unordered_map>

@@ -3,7 +3,7 @@
 /// The ground in sections: a bold line where terrain without a body is cut, with strokes of earth below it.
 
 #include <svt/volume/semantic_volume.hpp>
-#include <svt/writers/sheets/mark_shapes.hpp>
+#include <svt/writers/canvas/mark_shapes.hpp>
 
 namespace svt::writers {
 

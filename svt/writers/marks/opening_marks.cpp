@@ -1,7 +1,7 @@
 #include <svt/writers/marks/opening_marks.hpp>
 
 #include <svt/model/classes.hpp>
-#include <svt/writers/sheets/sheet_canvas.hpp>
+#include <svt/writers/canvas/sheet_canvas.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <svt/core/text.hpp>
 #include <svt/drawing/clip_segment.hpp>
-#include <svt/writers/sheets/sheet_canvas.hpp>
+#include <svt/writers/canvas/sheet_canvas.hpp>
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 /// Parts of sheets beside the drawings, in millimetres on paper: stamps and marks, line widths, the title block and the
 /// legend.
 
+#include <svt/writers/canvas/drawing_painter.hpp>
 #include <svt/writers/sheet_writer.hpp>
-#include <svt/writers/sheets/drawing_painter.hpp>
 #include <svt/writers/sheets/sheet_layout.hpp>
 
 #include <string>

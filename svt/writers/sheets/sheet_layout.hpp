@@ -2,8 +2,8 @@
 /// \file
 /// The place of each view: its sheet, position and scale.
 
+#include <svt/writers/canvas/drawing_painter.hpp>
 #include <svt/writers/sheet_writer.hpp>
-#include <svt/writers/sheets/drawing_painter.hpp>
 
 #include <string>
 #include <utility>

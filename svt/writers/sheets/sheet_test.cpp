@@ -1,14 +1,14 @@
 /// Sheets of boxes whose places on paper are known.
 
 #include <svt/volume/sample_volume_test.hpp>
+#include <svt/writers/canvas/pdf_canvas.hpp>
+#include <svt/writers/canvas/pdf_layers.hpp>
+#include <svt/writers/canvas/tile_path.hpp>
 #include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_files_test.hpp>
 #include <svt/writers/sheet_geopackage.hpp>
 #include <svt/writers/sheet_writer.hpp>
-#include <svt/writers/sheets/pdf_canvas.hpp>
-#include <svt/writers/sheets/pdf_layers.hpp>
 #include <svt/writers/sheets/sheet_layout.hpp>
-#include <svt/writers/sheets/tile_path.hpp>
 #include <svt/writers/view_drawing.hpp>
 
 #include <fmt/format.h>

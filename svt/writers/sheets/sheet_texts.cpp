@@ -12,13 +12,13 @@ namespace svt::writers {
 namespace {
 
 using W = SheetWord;
+using render::Hatch;
 
 struct Words {
     SheetWord word;
     std::string_view english, german;
 };
 constexpr Words kWords[] = {
-    {W::Building, "Building", "Bauwerk"},
     {W::Drawing, "Drawing", "Zeichnung"},
     {W::Model, "Model", "Modell"},
     {W::Scale, "Scale", "Maßstab"},
@@ -64,6 +64,45 @@ constexpr Words kWords[] = {
     {W::Total, "Total", "Summe"},
     {W::NoScale, "\u2013", "\u2013"},
     {W::Tables, "Tables", "Tabellen"},
+    {W::Project, "Project", "Projekt"},
+    {W::BuildingAddress, "Building, address", "Bauwerk, Adresse"},
+    {W::DocumentType, "Document type", "Dokumentart"},
+    {W::DrawingNumber, "Drawing number", "Zeichnungsnummer"},
+    {W::Owner, "Legal owner", "Eigentümer"},
+    {W::Creator, "Created by", "Erstellt von"},
+    {W::Approver, "Approved by", "Genehmigt von"},
+    {W::Revision, "Revision", "Änderung"},
+    {W::Date, "Date of issue", "Ausgabedatum"},
+    {W::FloorPlan, "Floor plan", "Grundriss"},
+    {W::ElevationType, "Elevation", "Ansicht"},
+    {W::ScheduleType, "Schedule", "Liste"},
+    {W::WithoutStamp, "Rooms without a stamp: ", "Räume ohne Stempel: "},
+    {W::SeeTable, "{} more: see the table of rooms", "{} weitere: siehe Raumtabelle"},
+    {W::Risers, "R", "Stg"},
+    {W::Legend, "Materials", "Baustoffe"},
+    {W::Doors, "Doors", "Türen"},
+    {W::Windows, "Windows", "Fenster"},
+    {W::Mark, "Mark", "Pos."},
+    {W::Width, "Width m", "Breite m"},
+    {W::WidthMeasured, "measured", "gemessen"},
+    {W::HeightMeasured, "measured", "gemessen"},
+    {W::Sill, "Sill m", "Brüstung m"},
+};
+
+struct HatchWords {
+    Hatch hatch;
+    std::string_view english, german;
+};
+constexpr HatchWords kHatchWords[] = {
+    {Hatch::Masonry, "Masonry", "Mauerwerk"},
+    {Hatch::Concrete, "Concrete", "Beton"},
+    {Hatch::ReinforcedConcrete, "Reinforced concrete", "Stahlbeton"},
+    {Hatch::Timber, "Timber", "Holz"},
+    {Hatch::Insulation, "Insulation", "Dämmung"},
+    {Hatch::Earth, "Earth", "Erdreich"},
+    {Hatch::Steel, "Steel", "Stahl"},
+    {Hatch::Glass, "Glass", "Glas"},
+    {Hatch::General, "Material not stated", "Baustoff ohne Angabe"},
 };
 
 std::string levelName(const drawing::BuildingLevel& level, double datum, SheetLanguage language) {
@@ -78,6 +117,13 @@ std::string_view sheetWord(SheetWord word, SheetLanguage language) noexcept {
     const auto* found =
         std::find_if(std::begin(kWords), std::end(kWords), [&](const Words& words) { return words.word == word; });
     if (found == std::end(kWords)) return {};
+    return language == SheetLanguage::German ? found->german : found->english;
+}
+
+std::string_view hatchWord(render::Hatch hatch, SheetLanguage language) noexcept {
+    const auto* found = std::find_if(std::begin(kHatchWords), std::end(kHatchWords),
+                                     [&](const HatchWords& words) { return words.hatch == hatch; });
+    if (found == std::end(kHatchWords)) return {};
     return language == SheetLanguage::German ? found->german : found->english;
 }
 

@@ -2,15 +2,16 @@
 /// \file
 /// The words on sheets, in English and German.
 
+#include <svt/drawing/hatches.hpp>
 #include <svt/writers/sheet_writer.hpp>
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace svt::writers {
 
 enum class SheetWord : std::uint8_t {
-    Building,
     Drawing,
     Model,
     Scale,
@@ -55,10 +56,36 @@ enum class SheetWord : std::uint8_t {
     Count,
     Total,
     NoScale,
-    Tables
+    Tables,
+    Project,
+    BuildingAddress,
+    DocumentType,
+    DrawingNumber,
+    Owner,
+    Creator,
+    Approver,
+    Revision,
+    Date,
+    FloorPlan,
+    ElevationType,
+    ScheduleType,
+    WithoutStamp,  ///< before a list of rooms
+    SeeTable,      ///< "{} more in the table of rooms"
+    Risers,
+    Legend,
+    Doors,
+    Windows,
+    Mark,
+    Width,
+    WidthMeasured,
+    HeightMeasured,
+    Sill
 };
 
 [[nodiscard]] std::string_view sheetWord(SheetWord word, SheetLanguage language) noexcept;
+
+/// The material of a hatch.
+[[nodiscard]] std::string_view hatchWord(render::Hatch hatch, SheetLanguage language) noexcept;
 
 /// "Elevation from the north", "Ansicht von Norden".
 [[nodiscard]] std::string elevationText(std::string_view side, SheetLanguage language);

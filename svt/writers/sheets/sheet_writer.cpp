@@ -5,14 +5,14 @@
 #include <svt/drawing/north.hpp>
 #include <svt/drawing/storey_floors.hpp>
 #include <svt/model/classes.hpp>
+#include <svt/writers/canvas/pdf_canvas.hpp>
+#include <svt/writers/canvas/svg_canvas.hpp>
 #include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
-#include <svt/writers/office/title_block.hpp>
-#include <svt/writers/sheets/pdf_canvas.hpp>
 #include <svt/writers/sheets/sheet_details.hpp>
 #include <svt/writers/sheets/sheet_layout.hpp>
 #include <svt/writers/sheets/sheet_texts.hpp>
-#include <svt/writers/sheets/svg_canvas.hpp>
+#include <svt/writers/sheets/title_block.hpp>
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
+#include <svt/writers/canvas/drawing_painter.hpp>
+#include <svt/writers/canvas/pdf_canvas.hpp>
+#include <svt/writers/canvas/svg_canvas.hpp>
 #include <svt/writers/drawing/drawing_page.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
-#include <svt/writers/sheets/drawing_painter.hpp>
-#include <svt/writers/sheets/pdf_canvas.hpp>
-#include <svt/writers/sheets/svg_canvas.hpp>
 #include <svt/writers/view_drawing.hpp>
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 /// Sheets as SVG, one document each, with layers that Inkscape knows.
 
 #include <svt/drawing/hatches.hpp>
-#include <svt/writers/sheets/sheet_canvas.hpp>
+#include <svt/writers/canvas/sheet_canvas.hpp>
 
 #include <set>
 

@@ -2,14 +2,14 @@
 /// follows from the scale.
 
 #include <svt/volume/sample_volume_test.hpp>
+#include <svt/writers/canvas/sheet_canvas.hpp>
 #include <svt/writers/draw_sheets.hpp>
 #include <svt/writers/drawing/drawing_files_test.hpp>
 #include <svt/writers/marks/free_space.hpp>
 #include <svt/writers/marks/room_stamps.hpp>
-#include <svt/writers/office/stamp_texts.hpp>
-#include <svt/writers/office/title_block.hpp>
 #include <svt/writers/office_sheets.hpp>
-#include <svt/writers/sheets/sheet_canvas.hpp>
+#include <svt/writers/sheets/stamp_texts.hpp>
+#include <svt/writers/sheets/title_block.hpp>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

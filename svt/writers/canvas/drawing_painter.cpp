@@ -1,4 +1,4 @@
-#include <svt/writers/sheets/drawing_painter.hpp>
+#include <svt/writers/canvas/drawing_painter.hpp>
 
 #include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>

@@ -1,7 +1,6 @@
 #include <svt/drawing/building_crop.hpp>
 #include <svt/drawing/opening_schedule.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
-#include <svt/writers/office/office_texts.hpp>
 #include <svt/writers/office_sheets.hpp>
 #include <svt/writers/sheets/sheet_layout.hpp>
 #include <svt/writers/sheets/sheet_texts.hpp>
@@ -23,16 +22,16 @@ std::string levelText(const std::vector<drawing::BuildingLevel>& levels, std::si
 
 SheetTable tableOfOpenings(const drawing::OpeningSchedule& openings, const std::vector<drawing::BuildingLevel>& levels,
                            bool ofDoors, SheetLanguage language) {
-    const auto word = [&](OfficeWord w) { return std::string(officeWord(w, language)); };
-    SheetTable table{word(ofDoors ? OfficeWord::Doors : OfficeWord::Windows),
-                     {{word(OfficeWord::Mark)},
+    const auto word = [&](SheetWord w) { return std::string(sheetWord(w, language)); };
+    SheetTable table{word(ofDoors ? SheetWord::Doors : SheetWord::Windows),
+                     {{word(SheetWord::Mark)},
                       {std::string(sheetWord(SheetWord::Type, language))},
                       {std::string(sheetWord(SheetWord::Storey, language))},
-                      {word(OfficeWord::Width), true},
-                      {word(OfficeWord::WidthMeasured), true},
-                      {word(OfficeWord::Height), true},
-                      {word(OfficeWord::HeightMeasured), true},
-                      {word(OfficeWord::Sill), true},
+                      {word(SheetWord::Width), true},
+                      {word(SheetWord::WidthMeasured), true},
+                      {word(SheetWord::Height), true},
+                      {word(SheetWord::HeightMeasured), true},
+                      {word(SheetWord::Sill), true},
                       {std::string(sheetWord(SheetWord::Count, language)), true}},
                      {},
                      1};

@@ -1,4 +1,4 @@
-#include <svt/writers/sheets/sheet_canvas.hpp>
+#include <svt/writers/canvas/sheet_canvas.hpp>
 
 #include <svt/image/text.hpp>
 

@@ -2,8 +2,8 @@
 /// \file
 /// Paints a section drawing onto a sheet: hatched parts, lines beyond, outlines, names of rooms.
 
-#include <svt/writers/sheets/mark_shapes.hpp>
-#include <svt/writers/sheets/sheet_canvas.hpp>
+#include <svt/writers/canvas/mark_shapes.hpp>
+#include <svt/writers/canvas/sheet_canvas.hpp>
 
 #include <cstdint>
 #include <map>

@@ -1,11 +1,11 @@
-#include <svt/writers/sheets/pdf_canvas.hpp>
+#include <svt/writers/canvas/pdf_canvas.hpp>
 
 #include <svt/core/machine.hpp>
 #include <svt/core/text.hpp>
 #include <svt/image/text.hpp>
+#include <svt/writers/canvas/pdf_layers.hpp>
+#include <svt/writers/canvas/tile_path.hpp>
 #include <svt/writers/sheet_writer.hpp>
-#include <svt/writers/sheets/pdf_layers.hpp>
-#include <svt/writers/sheets/tile_path.hpp>
 
 #include <cairo/cairo-ft.h>
 #include <cairo/cairo-pdf.h>

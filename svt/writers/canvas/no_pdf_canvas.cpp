@@ -1,5 +1,5 @@
+#include <svt/writers/canvas/pdf_canvas.hpp>
 #include <svt/writers/sheet_writer.hpp>
-#include <svt/writers/sheets/pdf_canvas.hpp>
 
 namespace svt::writers {
 

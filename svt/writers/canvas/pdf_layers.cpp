@@ -1,4 +1,4 @@
-#include <svt/writers/sheets/pdf_layers.hpp>
+#include <svt/writers/canvas/pdf_layers.hpp>
 
 #include <svt/core/machine.hpp>
 #include <svt/writers/sheet_writer.hpp>

@@ -1,9 +1,8 @@
-#include <svt/writers/office/title_block.hpp>
+#include <svt/writers/sheets/title_block.hpp>
 
 #include <svt/core/text.hpp>
 #include <svt/writers/drawing/drawing_style.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
-#include <svt/writers/office/office_texts.hpp>
 #include <svt/writers/sheets/sheet_texts.hpp>
 
 #include <fmt/format.h>
@@ -66,11 +65,11 @@ void writeFitted(SheetCanvas& canvas, PaperPoint at, double size, double width, 
 
 std::string documentTypeOf(const BlockContext& context) {
     if (!context.options.block.documentType.empty()) return context.options.block.documentType;
-    const OfficeWord word = !context.sheet.tables.empty()                      ? OfficeWord::ScheduleType
-                            : context.sheet.kind == drawing::ViewKind::Plan    ? OfficeWord::FloorPlan
-                            : context.sheet.kind == drawing::ViewKind::Section ? OfficeWord::SectionType
-                                                                               : OfficeWord::ElevationType;
-    return std::string(officeWord(word, context.options.language));
+    const SheetWord word = !context.sheet.tables.empty()                      ? SheetWord::ScheduleType
+                           : context.sheet.kind == drawing::ViewKind::Plan    ? SheetWord::FloorPlan
+                           : context.sheet.kind == drawing::ViewKind::Section ? SheetWord::Section
+                                                                              : SheetWord::ElevationType;
+    return std::string(sheetWord(word, context.options.language));
 }
 
 std::vector<Hatch> usedHatches(const BlockContext& context) {
@@ -124,28 +123,28 @@ void paintTitleBlock(const BlockContext& context, SheetCanvas& canvas) {
         writeFitted(canvas, {x + 1.5, y + 3.3 + size * 1.25}, size, width - 3, text.empty() ? "\u2013" : text);
     };
     const auto word = [&](SheetWord w) { return sheetWord(w, language); };
-    const auto office = [&](OfficeWord w) { return officeWord(w, language); };
+    const auto office = [&](SheetWord w) { return sheetWord(w, language); };
     const std::string place =
         facts.building + (facts.building.empty() || facts.address.empty() ? "" : ", ") + facts.address;
     const std::string scale = context.sheet.views.empty() ? std::string(word(SheetWord::NoScale))
                                                           : fmt::format("1:{}", shortNumber(context.sheet.scale, 2));
     const std::string number = block.number.empty() ? "" : fmt::format("{}-{}", block.number, context.number + 1);
-    field(0, 135, 0, 5, office(OfficeWord::Project),
+    field(0, 135, 0, 5, office(SheetWord::Project),
           context.options.title.empty() ? facts.project : context.options.title);
     field(135, 45, 0, 5, word(SheetWord::Scale), scale);
     field(0, 90, 12, 2.8, word(SheetWord::Drawing), context.title);
-    field(90, 45, 12, 2.8, office(OfficeWord::DocumentType), documentTypeOf(context));
-    field(135, 45, 12, 2.8, office(OfficeWord::DrawingNumber), number);
-    field(0, 90, 20, 2.5, office(OfficeWord::Building), place);
+    field(90, 45, 12, 2.8, office(SheetWord::DocumentType), documentTypeOf(context));
+    field(135, 45, 12, 2.8, office(SheetWord::DrawingNumber), number);
+    field(0, 90, 20, 2.5, office(SheetWord::BuildingAddress), place);
     field(90, 45, 20, 2.5, word(SheetWord::Model), context.source);
     field(135, 22.5, 20, 2.5, word(SheetWord::Sheet),
           fmt::format("{} {} {}", context.number + 1, word(SheetWord::SheetOf), context.layout.sheets.size()));
     field(157.5, 22.5, 20, 2.5, word(SheetWord::Paper), paper.name);
-    field(0, 45, 28, 2.5, office(OfficeWord::Owner), block.owner);
-    field(45, 45, 28, 2.5, office(OfficeWord::Creator), block.creator);
-    field(90, 45, 28, 2.5, office(OfficeWord::Approver), block.approver);
-    field(135, 22.5, 28, 2.5, office(OfficeWord::Revision), block.revision);
-    field(157.5, 22.5, 28, 2.5, office(OfficeWord::Date), block.date);
+    field(0, 45, 28, 2.5, office(SheetWord::Owner), block.owner);
+    field(45, 45, 28, 2.5, office(SheetWord::Creator), block.creator);
+    field(90, 45, 28, 2.5, office(SheetWord::Approver), block.approver);
+    field(135, 22.5, 28, 2.5, office(SheetWord::Revision), block.revision);
+    field(157.5, 22.5, 28, 2.5, office(SheetWord::Date), block.date);
 }
 
 void paintLegend(const BlockContext& context, SheetCanvas& canvas) {
@@ -162,7 +161,7 @@ void paintLegend(const BlockContext& context, SheetCanvas& canvas) {
     const double width = (isBeside ? right : paper.right) - left;
     const double top = isBeside ? blockTop + 6 : blockTop - paper.legend + 4;
     const auto columns = std::max<std::size_t>(1, static_cast<std::size_t>(width / kColumn));
-    canvas.text({{left, top - 1.2}, 1.6, std::string(officeWord(OfficeWord::Legend, context.options.language))});
+    canvas.text({{left, top - 1.2}, 1.6, std::string(sheetWord(SheetWord::Legend, context.options.language))});
     for (std::size_t n = 0; n < used.size(); ++n) {
         const double x = left + kColumn * static_cast<double>(n % columns),
                      y = top + kRow * static_cast<double>(n / columns);

@@ -3,7 +3,7 @@
 /// Sheets as one PDF, with the cairo library. Two source files: one calls it, the other is for builds without it.
 
 #include <svt/core/result.hpp>
-#include <svt/writers/sheets/sheet_canvas.hpp>
+#include <svt/writers/canvas/sheet_canvas.hpp>
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-#include <svt/writers/office/stamp_texts.hpp>
+#include <svt/writers/sheets/stamp_texts.hpp>
 
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>

@@ -3,9 +3,9 @@
 #include <svt/writers/marks/ground_line.hpp>
 #include <svt/writers/marks/opening_marks.hpp>
 #include <svt/writers/marks/plan_lines.hpp>
-#include <svt/writers/office/office_texts.hpp>
-#include <svt/writers/office/stamp_texts.hpp>
 #include <svt/writers/sheets/sheet_details.hpp>
+#include <svt/writers/sheets/sheet_texts.hpp>
+#include <svt/writers/sheets/stamp_texts.hpp>
 
 #include <fmt/format.h>
 
@@ -112,14 +112,14 @@ std::vector<std::string> listOf(const std::vector<RoomStamp>& stamps, const Plac
     std::sort(missing.begin(), missing.end());
     if (missing.empty()) return {};
     const SheetLanguage language = context.options.language;
-    std::vector<std::string> lines{std::string(officeWord(OfficeWord::WithoutStamp, language))};
+    std::vector<std::string> lines{std::string(sheetWord(SheetWord::WithoutStamp, language))};
     for (std::size_t n = 0; n < missing.size(); ++n) {
         std::string entry = fmt::format("{}", fmt::join(stamps[missing[n]].lines, ", "));
         if (n + 1 < missing.size()) entry += "; ";
         if (widthOnPaper(lines.back() + entry, kText) > kWide && n > 0) {
             if (lines.size() == kMostLines) {
                 lines.push_back(
-                    fmt::format(fmt::runtime(officeWord(OfficeWord::SeeTable, language)), missing.size() - n));
+                    fmt::format(fmt::runtime(sheetWord(SheetWord::SeeTable, language)), missing.size() - n));
                 break;
             }
             lines.emplace_back();
@@ -139,7 +139,7 @@ void addPlanMarks(const ViewContext& context, const MarkBox& allowed, FreeSpace&
     add(drawGrids(drawing, context.volume, mm, allowed, space));
     if (context.content.openings) add(drawPanes(drawing, context.volume, *context.content.openings, mm));
     add(drawTravel(drawing, context.volume, drawing::findStairFlights(context.volume), heightsOf(context), mm,
-                   officeWord(OfficeWord::Risers, context.options.language),
+                   sheetWord(SheetWord::Risers, context.options.language),
                    context.options.language == SheetLanguage::German, space));
     if (context.content.openings) add(placeOpeningMarks(drawing, *context.content.openings, mm, space));
 }

@@ -1,4 +1,4 @@
-#include <svt/writers/sheets/tile_path.hpp>
+#include <svt/writers/canvas/tile_path.hpp>
 
 #include <svt/core/text.hpp>
 

@@ -1,4 +1,4 @@
-#include <svt/writers/sheets/svg_canvas.hpp>
+#include <svt/writers/canvas/svg_canvas.hpp>
 
 #include <svt/core/text.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>

@@ -1,10 +1,10 @@
 #include <svt/core/text.hpp>
 #include <svt/drawing/building_crop.hpp>
 #include <svt/writers/drawing/dxf_text.hpp>
-#include <svt/writers/office/title_block.hpp>
 #include <svt/writers/office_sheets.hpp>
 #include <svt/writers/sheets/sheet_details.hpp>
 #include <svt/writers/sheets/sheet_texts.hpp>
+#include <svt/writers/sheets/title_block.hpp>
 
 #include <fmt/format.h>
 
