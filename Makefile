@@ -68,7 +68,7 @@ fast: setup
 web:
 	@scripts/setup.sh web
 	@scripts/web_dependencies.sh
-	@scripts/build.sh web svt_web svt_web_threads
+	@scripts/build.sh web svt_web
 
 site: build viewer python
 	@scripts/setup.sh site

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Packs two npm packages: the command as WebAssembly with the library and the page, and the web component <svt-viewer>:
 # build/npm/semantic-volume-texture-svt-VERSION.tgz and semantic-volume-texture-viewer-VERSION.tgz.
-# Needs node with npm (scripts/setup.sh web), build/web (targets svt_web, svt_web_threads and svt_node) and the page (make viewer).
+# Needs node with npm (scripts/setup.sh web), build/web (targets svt_web and svt_node) and the page (make viewer).
 # REPOSITORY is the address of the repository on the web, for package.json; by default `repository-code` of CITATION.cff.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 page=build/release/share/svt/viewer
-for file in build/web/svt_node.wasm build/web/svt.wasm build/web/svt_threads.wasm "$page/index.html"; do
+for file in build/web/svt_node.wasm build/web/svt.wasm build/web/svt_view.wasm "$page/index.html"; do
   [ -f "$file" ] || { echo "npm: $file is missing; 'make npm' builds it" >&2; exit 1; }
 done
 repository=${REPOSITORY:-$(sed -n 's/^repository-code: *"\{0,1\}\([^"]*\)"\{0,1\} *$/\1/p' CITATION.cff)}

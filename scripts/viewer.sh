@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 page=build/release/share/svt/viewer
-module=build/web/svt.wasm
+module=build/web/svt_view.wasm
 [ -f "$module" ] || { echo "viewer: $module is missing; 'make web' builds it" >&2; exit 1; }
 
 log=$(mktemp)
@@ -19,7 +19,7 @@ quietly() {
 
 scripts/npm_packages.sh
 cd web/viewer
-if [ -f "../../$page/index.html" ] && [ -z "$(find . ../../$module ../../build/web/svt.js ../../build/web/svt_threads.js ../../build/web-sources/components.tsv -path ./node_modules -prune -o -type f -newer "../../$page/index.html" -print -quit)" ]; then
+if [ -f "../../$page/index.html" ] && [ -z "$(find . ../../$module ../../build/web/svt*.js ../../build/web-sources/components.tsv -path ./node_modules -prune -o -type f -newer "../../$page/index.html" -print -quit)" ]; then
   exit 0
 fi
 quietly npx --no-install tsc

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from .volume import Volume
 
 #: Files of a published page that one without a server does not use: threads need headers of the server.
-_UNUSED = re.compile(r"index\.html|preview\.png|sbom\.cdx\.json|languages/template\.json|.*svt_threads.*")
+_UNUSED = re.compile(r"index\.html|preview\.png|sbom\.cdx\.json|languages/template\.json|.*_threads.*")
 
 
 def _publish(volume: Volume, folder: str) -> pathlib.Path:

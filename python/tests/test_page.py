@@ -38,6 +38,7 @@ def published():
         "assets/index-1.js": 'console.log("</script>")',
         "assets/index-2.css": "body { color: red }",
         "assets/svt_threads-3.wasm": "threads",
+        "assets/svt_view_threads-3.js": "threads",
         "assets/svt-4.wasm": "wasm",
         "models.json": '{"models": []}',
         "models/volume.svt": "volume",

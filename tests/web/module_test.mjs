@@ -303,3 +303,15 @@ test("a real house is the same", { skip: !existsSync(real) && `no ${real}` }, ()
   open(at("real.svt"));
   comparePictures(at("real.svt"), ["plain", "cut"]);
 });
+
+test("the module that draws gives the same pictures, and names what it lacks", async () => {
+  const { default: createView } = await import(pathToFileURL(join(moduleFolder, "svt_view.js")).href);
+  const view = await createView({ wasmBinary: readFileSync(join(moduleFolder, "svt_view.wasm")) });
+  open(houseVolume);
+  view.call("open", ["house.svt"], readFileSync(houseVolume));
+  const scene = { size: [320, 200], ...kScenes.cut };
+  assert.ok(Buffer.from(view.call("picture", [scene])).equals(bytes("picture", scene)));
+  assert.throws(() => view.call("open", ["house.gml"], readFileSync(houseModel)), { code: "E904", message: /reads no models/ });
+  for (const name of ["drawing", "sheets"]) assert.throws(() => view.call(name, []), { code: "E904" }, name);
+  assert.ok(Buffer.from(view.call("picture", [scene])).equals(bytes("picture", scene)), "the volume stays open");
+});

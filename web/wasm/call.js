@@ -38,3 +38,8 @@ Module["startGl"] = (canvas) => {
   const context = GL.createContext(canvas, attributes);
   return context > 0 && GL.makeContextCurrent(context);
 };
+
+/** Ends the threads of the module. It cannot be used afterwards. */
+Module["close"] = () => {
+  if (typeof PThread !== "undefined") PThread.terminateAllThreads();
+};

@@ -1,17 +1,15 @@
 // Interface for JavaScript: one function that takes the name of a call, its arguments as a JSON array, and bytes. It
 // stores a reply, JSON or bytes, that must be read before the next call. See calls() for the calls.
+#include "calls.hpp"
 #include "city.hpp"
 #include "font.hpp"
 #include "replies.hpp"
 #include "walk.hpp"
+#include "whole.hpp"
 
 #include <svt/core/parallel.hpp>
-#include <svt/drawing/section_drawing.hpp>
-#include <svt/drawing/section_plane.hpp>
 #include <svt/illustrate/color_by.hpp>
 #include <svt/illustrate/view.hpp>
-#include <svt/writers/draw_sheets.hpp>
-#include <svt/writers/drawing_formats.hpp>
 
 #include <emscripten.h>
 #include <fmt/format.h>
@@ -29,62 +27,9 @@ EM_JS(void, svt_progress, (const char* stage, int size, double done), {
 namespace svt::web {
 namespace {
 
-using Json = nlohmann::json;
-
-/// JSON text or bytes. Pixels are not copied; they are valid until the next picture.
-struct Reply {
-    std::vector<std::byte> owned;
-    std::span<const std::byte> bytes;
-
-    Reply() = default;
-    Reply(std::vector<std::byte> data) : owned(std::move(data)), bytes(owned) {}
-    Reply(const std::string& text) : owned(asBytes(text).begin(), asBytes(text).end()), bytes(owned) {}
-    explicit Reply(std::span<const std::byte> elsewhere) : bytes(elsewhere) {}
-    Reply(Reply&&) = default;
-    Reply& operator=(Reply&&) = default;
-
-    static std::span<const std::byte> asBytes(const std::string& text) {
-        return std::as_bytes(std::span(text.data(), text.size()));
-    }
-};
-
 std::unique_ptr<Session> session;
 std::unique_ptr<CityPage> cityPage;
 Reply lastReply;
-
-/// Arguments of a call. They come from the page itself, so a wrong type is a programming error, not a bad user file.
-class Arguments {
-public:
-    Arguments(const Json& values, std::span<const std::byte> bytes) : values_(values), bytes_(bytes) {}
-
-    [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
-    [[nodiscard]] const Json& at(std::size_t n) const {
-        static const Json kNone;
-        return n < values_.size() ? values_[n] : kNone;
-    }
-    [[nodiscard]] std::string text(std::size_t n) const {
-        return at(n).is_string() ? at(n).get_ref<const std::string&>() : std::string();
-    }
-    [[nodiscard]] double number(std::size_t n) const { return at(n).is_number() ? at(n).get<double>() : 0; }
-    /// A size in pixels; values out of range stay out of range.
-    [[nodiscard]] std::int32_t pixels(std::size_t n) const {
-        return static_cast<std::int32_t>(std::clamp(number(n), 0.0, 1e6));
-    }
-    [[nodiscard]] Result<illustrate::Scene> scene(std::size_t n) const {
-        return illustrate::parseScene(at(n).dump(), "scene");
-    }
-    /// A scene to draw.
-    [[nodiscard]] Result<illustrate::Scene> picture(std::size_t n) const {
-        auto parsed = scene(n);
-        if (parsed && !parsed->names.empty() && !hasFont())
-            return Error(Code::BadArgument, "names cannot be drawn without their font; give it first");
-        return parsed;
-    }
-
-private:
-    const Json& values_;
-    std::span<const std::byte> bytes_;
-};
 
 // The context of a page's argument; Ghost by default.
 illustrate::Context contextOf(const Json& value) {
@@ -226,11 +171,6 @@ Result<Reply> pick(const Arguments& arguments) {
     return Reply(pickOf(*session, arguments.number(0), arguments.number(1), arguments.number(2)));
 }
 
-Result<Reply> replyOf(Result<std::string> text) {
-    if (!text) return text.error();
-    return Reply(*text);
-}
-
 Result<Reply> along(const Arguments& arguments) {
     return replyOf(intervalsOf(*session, arguments.number(0), arguments.number(1)));
 }
@@ -343,33 +283,6 @@ Result<Reply> labels(const Arguments& arguments) {
     return Reply(std::move(*png));
 }
 
-// (plane, format, {beyond, above, dimensions}) -> the file's bytes
-Result<Reply> drawing(const Arguments& arguments) {
-    const volume::SemanticVolume& volume = session->volume();
-    SVT_TRY(plane, drawing::parseSectionPlane(arguments.text(0), volume));
-    const Json& wanted = arguments.at(2);
-    drawing::SectionOptions options;
-    options.beyond.visible = wanted.is_object() && wanted.value("beyond", false);
-    options.beyond.above = wanted.is_object() && wanted.value("above", false);
-    options.dimensions = wanted.is_object() && wanted.value("dimensions", false);
-    SVT_TRY(drawn, drawing::drawSection(volume, *plane, options));
-    if (drawn->components.empty() && drawn->beyond.empty())
-        return Error(Code::BadSection,
-                     fmt::format("the plane '{}' cuts no visible feature; move it", arguments.text(0)));
-    return replyOf(writers::makeDrawing(*drawn, volume, arguments.text(1)));
-}
-
-// ("en" or "de") -> the sheets of `svt sheets --svg`: SVG documents. Needs the font.
-Result<Reply> sheets(const Arguments& arguments) {
-    if (!hasFont()) return Error(Code::BadArgument, "sheets cannot be drawn without their font; give it first");
-    const volume::SemanticVolume& volume = session->volume();
-    drawing::SheetSet set;
-    set.language = arguments.text(0);
-    SVT_TRY(content, writers::drawSheets(set, volume));
-    SVT_TRY(made, writers::makeSvgSheets(*content, volume, writers::sheetOptionsOf(set)));
-    return Reply(Json(*made).dump());
-}
-
 // () -> the number of threads that work together; starts the further ones. 1 in the module without threads
 Result<Reply> threads(const Arguments&) {
     const int count = hardwareThreads();
@@ -377,11 +290,6 @@ Result<Reply> threads(const Arguments&) {
     return Reply(Json(count).dump());
 }
 
-struct Call {
-    std::string_view name;
-    Result<Reply> (*run)(const Arguments& arguments);
-    bool needsVolume = true;
-};
 constexpr Call kCalls[] = {{"open", open, false},
                            {"threads", threads, false},
                            {"font", font, false},
@@ -397,8 +305,6 @@ constexpr Call kCalls[] = {{"open", open, false},
                            {"view", view},
                            {"picture", picture},
                            {"labels", labels},
-                           {"drawing", drawing},
-                           {"sheets", sheets},
                            {"owners", owners},
                            {"stand", stand},
                            {"step", step},
@@ -412,8 +318,11 @@ constexpr Call kCalls[] = {{"open", open, false},
 Result<Reply> run(std::string_view name, std::string_view json, std::span<const std::byte> bytes) {
     const Json values = Json::parse(json, nullptr, false);
     if (!values.is_array()) return Error(Code::BadArgument, "the arguments of a call are a JSON array");
-    for (const Call& call : kCalls) {
-        if (call.name != name) continue;
+    for (const std::span<const Call> calls : {std::span<const Call>(kCalls), wholeCalls()}) {
+        const auto found =
+            std::find_if(calls.begin(), calls.end(), [&](const Call& call) { return call.name == name; });
+        if (found == calls.end()) continue;
+        const Call& call = *found;
         if (call.name.starts_with("city") && call.name != "cityLook" && !cityPage)
             return Error(Code::BadArgument, "no city is open; open one first");
         if (call.needsVolume && !session) return Error(Code::BadArgument, "no volume is open; open one first");
@@ -435,6 +344,9 @@ Result<Reply> runGuarded(std::string_view name, std::string_view json, std::span
 }
 
 }  // namespace
+
+Session& openSession() noexcept { return *session; }
+
 }  // namespace svt::web
 
 extern "C" {

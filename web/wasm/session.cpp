@@ -1,12 +1,13 @@
 #include "session.hpp"
 
+#include "whole.hpp"
+
 #include <svt/analyze/selection.hpp>
 #include <svt/illustrate/color_by.hpp>
 #include <svt/illustrate/details.hpp>
 #include <svt/illustrate/view.hpp>
 #include <svt/image/png.hpp>
 #include <svt/model/classes.hpp>
-#include <svt/pipeline/build_volume.hpp>
 #include <svt/render/frame_buffers.hpp>
 #include <svt/render/view_ray.hpp>
 #include <svt/volume/svt_file.hpp>
@@ -20,9 +21,6 @@
 namespace svt::web {
 namespace {
 
-// Size of a draft, which is built immediately.
-constexpr std::uint64_t kDraftBytes = 40'000'000;
-
 struct Loaded {
     std::vector<volume::SemanticVolume> volumes;
     std::string spacingReason;
@@ -31,19 +29,9 @@ struct Loaded {
 // The models as one volume.
 Result<void> build(std::span<const NamedBytes> files, const OpenOptions& options, const Progress* progress,
                    Diagnostics& findings, Loaded& into) {
-    readers::ReadOptions reading;
-    reading.progress = progress;
-    SVT_TRY(model, readers::readModels(files, reading, &findings));
-    pipeline::BuildOptions building;
-    if (!options.isDraft) building.vectors = {.edges = true, .meshes = true, .isRequired = false};
-    if (options.isDraft)
-        building.memoryBytes = kDraftBytes;
-    else if (options.memoryBytes != 0)
-        building.memoryBytes = std::min(building.memoryBytes, options.memoryBytes);
-    building.progress = progress;
-    SVT_TRY(output, pipeline::buildVolume(*model, building, &findings));
-    if (output->report.spacing) into.spacingReason = output->report.spacing->reason;
-    into.volumes.push_back(std::move(output->volume));
+    SVT_TRY(built, buildModels(files, options, progress, findings));
+    if (!built->spacingReason.empty()) into.spacingReason = std::move(built->spacingReason);
+    into.volumes.push_back(std::move(built->volume));
     return {};
 }
 

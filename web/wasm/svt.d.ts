@@ -1,6 +1,7 @@
 /**
- * The library as a module; `make web` writes to build/web: svt.js, svt.wasm, and DejaVuSans.ttf for names. svt_threads.js is
- * the same for pages that are isolated from other sites (COOP and COEP): its calls use all cores.
+ * The library as a module; `make web` writes to build/web: svt.js, svt.wasm, and DejaVuSans.ttf for names. svt_view.js draws
+ * volumes and cities, but reads no models and makes no drawings and sheets. svt_threads.js and svt_view_threads.js are
+ * the same for pages that are isolated from other sites (COOP and COEP): their calls use all cores.
  */
 export interface SvtModule {
   /**
@@ -11,6 +12,8 @@ export interface SvtModule {
   call(name: string, args: readonly unknown[], bytes?: Uint8Array): Uint8Array;
   /** Creates a WebGL2 context on the canvas and makes it current, for drawGl; false if WebGL2 is unavailable. */
   startGl(canvas: OffscreenCanvas): boolean;
+  /** Ends the threads of the module, which is then unusable. */
+  close(): void;
 }
 
 export interface SvtModuleOptions {

@@ -15,7 +15,8 @@ function run(program, ...words) {
   return stdout;
 }
 /** Files that esbuild leaves to the page. */
-const kBeside = ["worker.js", "svt.wasm", "svt_threads.js", "svt_threads.wasm", "svt_threads.worker.js", "DejaVuSans.ttf"];
+const kThreads = ["svt_threads", "svt_view_threads"].flatMap((name) => [`${name}.js`, `${name}.wasm`, `${name}.worker.js`]);
+const kBeside = ["worker.js", "svt_view.wasm", "svt.js", "svt.wasm", ...kThreads, "DejaVuSans.ttf"];
 const kBody = '<svt-viewer id="a" src="/house.svt" section="z>1.6" names="class=BuildingRoom"></svt-viewer>';
 const visitor = new Visitor();
 

@@ -34,11 +34,12 @@ describe("loading", () => {
     assert.ok(!site.requests.includes("/house.svt"));
     await visitor.page.evaluate(() => scrollTo(0, 4000));
     await visitor.loaded("a");
-    assert.deepEqual(asked(), ["svt-viewer.js", "svt.wasm", "viewing.js", "worker.js"]);
+    assert.deepEqual(asked(), ["svt-viewer.js", "svt_view.wasm", "viewing.js", "worker.js"]);
     // Limits of what a visit transfers, compressed; the manual states the sizes.
     const size = (name) => gzipSync(readFileSync(at(`${kDist}${name}`))).length;
     assert.ok(size("svt-viewer.js") < 6_000, `svt-viewer.js: ${size("svt-viewer.js")} bytes`);
     assert.ok(size("viewing.js") + size("worker.js") < 64_000, `viewing.js and worker.js: ${size("viewing.js") + size("worker.js")} bytes`);
+    assert.ok(size("svt_view.wasm") < 1_100_000, `svt_view.wasm: ${size("svt_view.wasm")} bytes`);
     assert.ok(size("svt.wasm") < 1_900_000, `svt.wasm: ${size("svt.wasm")} bytes`);
   });
 
@@ -236,7 +237,7 @@ describe("servers", () => {
     await visitor.show(isolated, `<svt-viewer id="a" src="house.svt"></svt-viewer>`);
     await visitor.loaded("a");
     assert.equal((await visitor.events("load"))[0].detail.threads, Math.min(8, cpus().length));
-    assert.ok(asked(isolated).includes("svt_threads.wasm"));
+    assert.ok(asked(isolated).includes("svt_view_threads.wasm"));
     await isolated.close();
   });
 
@@ -247,7 +248,7 @@ describe("servers", () => {
       <script type="module" src="${scripts.url}${kElement.slice(1)}"></script>`;
     await visitor.show(site, `<svt-viewer id="a" src="${models.url}house.svt"></svt-viewer>`, { head });
     await visitor.loaded("a");
-    assert.deepEqual(asked(scripts), ["svt-viewer.js", "svt.wasm", "viewing.js", "worker.js"]);
+    assert.deepEqual(asked(scripts), ["svt-viewer.js", "svt_view.wasm", "viewing.js", "worker.js"]);
     assert.deepEqual(visitor.problems, []);
     const closed = await serve();
     await visitor.ask("a", "(e.src = v)", `${closed.url}house.svt`);

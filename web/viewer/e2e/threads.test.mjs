@@ -87,7 +87,7 @@ describe("threads", () => {
   });
 
   it("are left out where their module cannot be loaded", async () => {
-    const script = readdirSync(join(page, "assets")).find((name) => /^svt_threads-.*\.js$/.test(name) && !name.includes("worker"));
+    const script = readdirSync(join(page, "assets")).find((name) => /^svt_view_threads-.*\.js$/.test(name) && !name.includes("worker"));
     const broken = await serve({ ...models(), [`assets/${script}`]: files.at("missing.js") }, true);
     await visit.open(broken.url);
     assert.equal(await visit.page.evaluate(() => crossOriginIsolated), true);

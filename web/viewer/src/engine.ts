@@ -257,6 +257,12 @@ export const kCalls = {
   movedPlanes: call<(scene: Scene) => MovedPlane[]>(),
   /** Plans, sections, elevations and tables on sheets, as SVG documents; as in `svt sheets`. */
   sheets: call<(language: "en" | "de") => string[]>(),
+  /**
+   * Loads the font, and the part of the library that reads models and makes drawings and sheets, for later calls, also
+   * without a connection. Without this call they are loaded when they are needed. Does nothing if the browser is to
+   * save data.
+   */
+  prepare: call<() => null>(),
   /** The volume that followCity() has opened, with its features; null: nothing is open. The worker answers without the library. */
   cityInfo: call<() => VolumeInfo | null>(),
 };

@@ -51,6 +51,11 @@ function loadComponents(): void {
   });
 }
 
+/** Loads the rest of the library once a picture is fine. Cities need it only for models that are opened later. */
+void until(() => session.picture.quality === "fine" && !session.volume.isCity).then(() =>
+  session.volume.engine?.prepare().catch(() => undefined),
+);
+
 /** The library in the browser; else pictures from the server. */
 async function startEngine(): Promise<Engine> {
   try {

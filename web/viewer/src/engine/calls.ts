@@ -19,6 +19,21 @@ export function openFiles(svt: SvtModule, files: readonly FileBytes[], options: 
   return json(svt.call("open", [files.map(({ name }) => name), sizes, options], joined(files)));
 }
 
+/** The first bytes of a `.svt`: a ZIP that begins with its media type (docs/formats/svt.md). */
+const kMediaType = "mimetypeapplication/vnd.svt+zip";
+const kMediaTypeAt = 30;
+
+/** Whether a call needs the whole module: it reads a model, or makes a drawing. */
+export function needsWhole(name: string, args: readonly unknown[]): boolean {
+  if (name === "open") return !(args[0] as readonly FileBytes[]).every(isVolume);
+  return name === "drawing" || name === "sheets";
+}
+
+function isVolume({ bytes }: FileBytes): boolean {
+  const text = new TextDecoder("latin1").decode(bytes.slice(0, kMediaTypeAt + kMediaType.length));
+  return text.startsWith("PK\x03\x04") && text.endsWith(kMediaType);
+}
+
 function joined(files: readonly FileBytes[]): Uint8Array {
   if (files.length === 1) return new Uint8Array(files[0]!.bytes);
   const all = new Uint8Array(files.reduce((sum, file) => sum + file.bytes.byteLength, 0));

@@ -28,11 +28,12 @@ export class Drawer {
   private gl: WebGL2RenderingContext | null = null;
   private canvas: OffscreenCanvas | null = null;
   private last: Last | null = null;
+  private font: Uint8Array | null = null;
   private hasFont = false;
 
   /** @param wanted  use only this renderer, if possible; null: the faster one */
   constructor(
-    private readonly svt: SvtModule,
+    private svt: SvtModule,
     private readonly wanted: EngineKind | null,
   ) {
     if (wanted === "webgl2" && this.startGl()) this.kind = "webgl2";
@@ -66,10 +67,26 @@ export class Drawer {
 
   async fetchFont(): Promise<void> {
     if (this.hasFont) return;
+    this.svt.call("font", [], await this.fontBytes());
+    this.hasFont = true;
+  }
+
+  /** Fetches the font once. */
+  async fontBytes(): Promise<Uint8Array> {
+    if (this.font) return this.font;
     const response = await fetch(new URL("../../../../build/web/DejaVuSans.ttf", import.meta.url));
     if (!response.ok) throw { code: "E101", message: `the font of names cannot be fetched (${response.status})` };
-    this.svt.call("font", [], new Uint8Array(await response.arrayBuffer()));
-    this.hasFont = true;
+    return (this.font = new Uint8Array(await response.arrayBuffer()));
+  }
+
+  /** Takes another module, with the same volume, and draws its last picture there, for picking. */
+  async moveTo(svt: SvtModule): Promise<void> {
+    this.stopGl();
+    this.svt = svt;
+    this.hasFont = false;
+    this.isDecided = false;
+    if (this.wanted === "webgl2" && this.startGl()) this.kind = "webgl2";
+    if (this.last) (await this.draw(this.last.scene, this.last.width, this.last.height)).bitmap.close();
   }
 
   /** Called when another volume is opened. */

@@ -1,40 +1,97 @@
 /**
- * Loads the library: with threads if the page is isolated from other sites (headers COOP and COEP), else without. Both
- * modules give the same results.
+ * Loads the library. A visit begins with the module that draws volumes and cities. The whole module also reads models and
+ * makes drawings and sheets; it is loaded when one of them is needed. Both exist with threads, for pages that are isolated
+ * from other sites (headers COOP and COEP), and without. All give the same results.
  */
-import createSvt, { type SvtModule, type SvtModuleOptions } from "../../../../build/web/svt.js";
+import createView, { type SvtModule, type SvtModuleOptions } from "../../../../build/web/svt_view.js";
+import type { EngineError } from "../engine";
 import { kWithoutThreads } from "./protocol";
 
-const kPlain = new URL("../../../../build/web/svt.wasm", import.meta.url);
-/** Not bundled: each thread loads these files again. */
-const kThreads: Record<string, URL> = {
-  "svt_threads.js": new URL("../../../../build/web/svt_threads.js", import.meta.url),
-  "svt_threads.wasm": new URL("../../../../build/web/svt_threads.wasm", import.meta.url),
-  "svt_threads.worker.js": new URL("../../../../build/web/svt_threads.worker.js", import.meta.url),
-};
+export type ModuleKind = "view" | "whole";
 
 type OnProgress = NonNullable<SvtModuleOptions["onProgress"]>;
+type Create = typeof createView;
 
-export async function loadModule(onProgress: OnProgress): Promise<SvtModule> {
+/** Files of a module. Its script is not bundled, unless it is the one of a visit: each thread loads the script again. */
+interface Files {
+  wasm: URL;
+  script: URL | null;
+  /** The script of a thread. */
+  worker?: [name: string, address: URL];
+}
+
+const kPlain: Record<ModuleKind, Files> = {
+  view: { wasm: new URL("../../../../build/web/svt_view.wasm", import.meta.url), script: null },
+  whole: {
+    wasm: new URL("../../../../build/web/svt.wasm", import.meta.url),
+    script: new URL("../../../../build/web/svt.js", import.meta.url),
+  },
+};
+const kThreads: Record<ModuleKind, Files> = {
+  view: {
+    wasm: new URL("../../../../build/web/svt_view_threads.wasm", import.meta.url),
+    script: new URL("../../../../build/web/svt_view_threads.js", import.meta.url),
+    worker: ["svt_view_threads.worker.js", new URL("../../../../build/web/svt_view_threads.worker.js", import.meta.url)],
+  },
+  whole: {
+    wasm: new URL("../../../../build/web/svt_threads.wasm", import.meta.url),
+    script: new URL("../../../../build/web/svt_threads.js", import.meta.url),
+    worker: ["svt_threads.worker.js", new URL("../../../../build/web/svt_threads.worker.js", import.meta.url)],
+  },
+};
+
+/** A module whose compilation has begun, with the function of its script. */
+interface Begun {
+  files: Files;
+  wasm: WebAssembly.Module;
+  create: Create;
+}
+
+const begun: Partial<Record<ModuleKind, Promise<Begun>>> = {};
+
+/** Fetches and compiles a module, once. Begins anew after a failure. */
+function begin(kind: ModuleKind): Promise<Begun> {
   const hasThreads = self.crossOriginIsolated && navigator.hardwareConcurrency > 1 && self.name !== kWithoutThreads;
-  // If the module with threads cannot run, for example without enough address space, the one without threads may.
-  return hasThreads ? withThreads(onProgress).catch(() => withoutThreads(onProgress)) : withoutThreads(onProgress);
+  const plain = () => load(kPlain[kind]);
+  const loading = (begun[kind] ??= hasThreads ? load(kThreads[kind]).catch(plain) : plain());
+  loading.catch(() => delete begun[kind]);
+  return loading;
 }
 
-async function withoutThreads(onProgress: OnProgress): Promise<SvtModule> {
-  return made(createSvt, await compiled(kPlain), { onProgress });
-}
-
-async function withThreads(onProgress: OnProgress): Promise<SvtModule> {
+async function load(files: Files): Promise<Begun> {
   // Compiles while the script is still loading.
-  const compiling = compiled(kThreads["svt_threads.wasm"]!);
+  const compiling = compiled(files.wasm);
   compiling.catch(() => undefined);
-  const { default: create } = (await import(/* @vite-ignore */ kThreads["svt_threads.js"]!.href)) as { default: typeof createSvt };
-  return made(create, await compiling, {
-    onProgress,
-    mainScriptUrlOrBlob: kThreads["svt_threads.js"]!.href,
-    locateFile: (name) => kThreads[name]?.href ?? name,
+  const create = files.script ? ((await import(/* @vite-ignore */ files.script.href)) as { default: Create }).default : createView;
+  return { files, wasm: await compiling, create };
+}
+
+export async function loadModule(kind: ModuleKind, onProgress: OnProgress): Promise<SvtModule> {
+  const first = await begin(kind);
+  try {
+    return await made(first, onProgress);
+  } catch (error) {
+    // A module with threads may lack address space where the one without threads has enough.
+    if (first.files === kPlain[kind]) throw error;
+    return made(await (begun[kind] = load(kPlain[kind])), onProgress);
+  }
+}
+
+/** The whole module, or an EngineError that leaves the open volume as it is. */
+export function loadWhole(onProgress: OnProgress): Promise<SvtModule> {
+  return loadModule("whole", onProgress).catch((error: unknown) => {
+    const reason = error instanceof Error ? error.message : String(error);
+    const message = `the part of the program that reads models and makes drawings cannot be loaded (${reason}); check the connection and try again`;
+    throw { code: "E101", message } satisfies EngineError;
   });
+}
+
+/** Begins to load the whole module for later. False: the browser is to save data. */
+export function prepareWhole(): boolean {
+  const { connection } = navigator as { connection?: { saveData?: boolean } };
+  if (connection?.saveData) return false;
+  begin("whole").catch(() => undefined);
+  return true;
 }
 
 /** Compiles during the download. If a server sends the wrong type, compiles after the download, which is slower. */
@@ -43,18 +100,22 @@ async function compiled(url: URL): Promise<WebAssembly.Module> {
 }
 
 /** Reports an error if the instance cannot be made. Emscripten's script would wait for it forever. */
-function made(create: typeof createSvt, module: WebAssembly.Module, options: SvtModuleOptions): Promise<SvtModule> {
+function made({ files, wasm, create }: Begun, onProgress: OnProgress): Promise<SvtModule> {
   return new Promise((resolve, reject) => {
     const instantiateWasm: SvtModuleOptions["instantiateWasm"] = (imports, receive) => {
       try {
-        const instance = new WebAssembly.Instance(module, imports);
-        receive(instance, module);
+        const instance = new WebAssembly.Instance(wasm, imports);
+        receive(instance, wasm);
         return instance.exports;
       } catch (error) {
         reject(error);
         throw error;
       }
     };
-    create({ ...options, instantiateWasm }).then(resolve, reject);
+    const { script, worker } = files;
+    const ofThreads: SvtModuleOptions = worker
+      ? { mainScriptUrlOrBlob: script!.href, locateFile: (name) => (name === worker[0] ? worker[1].href : name) }
+      : {};
+    create({ onProgress, ...ofThreads, instantiateWasm }).then(resolve, reject);
   });
 }

@@ -1,18 +1,23 @@
 /** The worker: owns the library and the open volume, and answers the page's requests in order. */
-import type { SvtModule } from "../../../../build/web/svt.js";
-import { json, makeCall, needsFont, openFiles } from "./calls";
+import type { SvtModule } from "../../../../build/web/svt_view.js";
+import { json, makeCall, needsFont, needsWhole, openFiles } from "./calls";
 import { Drawer } from "./drawer";
 import { isEngineError } from "./errors";
-import { loadModule } from "./module";
+import { loadModule, loadWhole, prepareWhole } from "./module";
 import type { CityLook, VolumeInfo } from "../engine";
 import type { Answer, Calls, CityNeeds, Request } from "./protocol";
 
 /** Idle time of the page before longer work starts. */
 const idleMilliseconds = 700;
 
-const loaded = loadModule((step, done) => post({ id: current, step, done }));
+const onProgress = (step: string, done: number) => post({ id: current, step, done });
+/** The module in use. */
+let loaded = loadModule("view", onProgress);
 // The code that awaits it handles a rejection; an unhandled one must not end the worker.
 loaded.catch(() => undefined);
+let isWhole = false;
+/** The open volume, from which the whole module continues. */
+let opened: { files: Calls["open"]["args"][0]; options: Calls["open"]["args"][1]; owners: Calls["owners"]["args"] | null } | null = null;
 
 let drawer: Drawer | null = null;
 /** Id of the current request. */
@@ -30,18 +35,42 @@ function drawerOf(svt: SvtModule): Drawer {
   return (drawer ??= new Drawer(svt, null));
 }
 
+/** The whole module with the open volume in place of the module that draws only. */
+async function continueInWhole(): Promise<void> {
+  const svt = await loadWhole(onProgress);
+  if (opened) openFiles(svt, opened.files, opened.options);
+  if (opened?.owners) makeCall(svt, "owners", opened.owners);
+  await adopt(svt);
+}
+
+async function adopt(svt: SvtModule): Promise<void> {
+  const before = await loaded;
+  await drawerOf(before).moveTo(svt);
+  before.close();
+  loaded = Promise.resolve(svt);
+  isWhole = true;
+  opened = null;
+}
+
 async function answer(request: Request): Promise<void> {
   const { id, name, args } = request;
-  const svt = await loaded;
+  await loaded;
   if (stopped) throw stopped;
   current = id;
+  const isTooMuch = !isWhole && needsWhole(name, args);
+  if (isTooMuch && name !== "open") await continueInWhole();
+  const svt = await loaded;
   switch (name) {
     case "start":
       drawer = new Drawer(svt, args[0]);
       return post({ id, result: { kind: drawer.kind, threads: json(svt.call("threads", [])) } });
     case "open": {
-      const info = openFiles(svt, ...args);
+      const own = isTooMuch ? await loadWhole(onProgress) : svt;
+      // If this fails, the open volume stays.
+      const info = openFiles(own, ...args);
       drawerOf(svt).forgetPicture();
+      if (own !== svt) await adopt(own);
+      else if (!isWhole) opened = { files: args[0], options: args[1], owners: null };
       return post({ id, result: info });
     }
     case "draw": {
@@ -51,7 +80,14 @@ async function answer(request: Request): Promise<void> {
     case "cityDrop":
       drawerOf(svt).forgetPicture();
       cityInfo = null;
+      opened = null;
       return post({ id, result: json(svt.call(name, args)) });
+    case "prepare":
+      if (!isWhole && prepareWhole())
+        await drawerOf(svt)
+          .fontBytes()
+          .catch(() => undefined);
+      return post({ id, result: null });
     case "cityInfo":
       return post({ id, result: cityInfo });
     case "cityLook": {
@@ -63,6 +99,7 @@ async function answer(request: Request): Promise<void> {
     }
     default: {
       if (needsFont(name, args)) await drawerOf(svt).fetchFont();
+      if (name === "owners" && opened) opened.owners = args;
       const result = makeCall(svt, name, args) as Calls[typeof name]["result"];
       return post({ id, result }, result instanceof ArrayBuffer ? [result] : []);
     }

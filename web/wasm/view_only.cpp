@@ -1,0 +1,11 @@
+#include "whole.hpp"
+
+namespace svt::web {
+
+Result<BuiltVolume> buildModels(std::span<const NamedBytes>, const OpenOptions&, const Progress*, Diagnostics&) {
+    return Error(Code::BadArgument, "this module reads no models; the whole module does");
+}
+
+std::span<const Call> wholeCalls() noexcept { return {}; }
+
+}  // namespace svt::web

@@ -1,0 +1,30 @@
+#pragma once
+/// \file
+/// Parts that only the whole module has: it reads models and makes drawings and sheets. The module that a visit starts
+/// with has neither, and is smaller by two fifths.
+
+#include "calls.hpp"
+
+#include <svt/core/diagnostics.hpp>
+#include <svt/core/progress.hpp>
+#include <svt/volume/semantic_volume.hpp>
+
+#include <span>
+#include <string>
+
+namespace svt::web {
+
+struct BuiltVolume {
+    volume::SemanticVolume volume;
+    std::string spacingReason;
+};
+
+/// The models as one volume.
+/// \return the volume, or an error of readModels() or buildVolume(); BadArgument in the module without readers
+[[nodiscard]] Result<BuiltVolume> buildModels(std::span<const NamedBytes> files, const OpenOptions& options,
+                                              const Progress* progress, Diagnostics& findings);
+
+/// The calls of drawings and sheets; none in the module without writers.
+[[nodiscard]] std::span<const Call> wholeCalls() noexcept;
+
+}  // namespace svt::web
