@@ -77,11 +77,21 @@ Result<void> closeShells(const ShellInput& input, const std::vector<MeshSource>&
         if (mesh.openEdges.empty()) return;
         if (!finder) finder.emplace(input.polygons, input.model);
         shell.pointIds.resize(mesh.vertices.size(), kNoPoint);
+        const auto vertexCount = static_cast<std::ptrdiff_t>(mesh.vertices.size());
+        const auto triangleCount = static_cast<std::ptrdiff_t>(mesh.triangles.size());
         mesh.complementedFaces = finder->complement(mesh, shell.pointIds, shell.polygons);
-        if (mesh.openEdges.empty())
+        if (mesh.openEdges.empty()) {
             mesh.closingMethod = ClosingMethod::Complemented;
-        else
-            closeByItself(mesh, input.options);
+            if (!isFlat(mesh)) return;
+        }
+        closeByItself(mesh, input.options);
+        if (mesh.closingMethod != ClosingMethod::Surface || mesh.complementedFaces == 0) return;
+        // A sheet, such as a footprint, does not include the sheets beside it.
+        mesh.vertices.erase(mesh.vertices.begin() + vertexCount, mesh.vertices.end());
+        mesh.triangles.erase(mesh.triangles.begin() + triangleCount, mesh.triangles.end());
+        shell.pointIds.resize(mesh.vertices.size());
+        mesh.openEdges = findOpenEdges(mesh.triangles);
+        mesh.complementedFaces = 0;
     };
     for (std::size_t i = 0; i < work.size(); ++i) {
         if (work[i].shell.mesh.openEdges.empty() || !sources[i].hasSolidMeaning) continue;

@@ -178,6 +178,28 @@ TEST(BuildMeshes, FlatFootprintIsASheetWithoutCaps) {
     EXPECT_EQ(mesh.lod, 0);
 }
 
+TEST(BuildMeshes, FootprintsThatTouchKeepTheirOwnFaces) {
+    // The second one closes more edges of the first than it opens.
+    BuildingModel model;
+    const auto add = [&](const char* id, Ring ring) {
+        addFeature(model, "Building", id, model::kNoFeature,
+                   {surfaceOf({{addRings(model, {std::move(ring)}), false}}, 0)});
+    };
+    add("block", {{0, 0, 0}, {6, 0, 0}, {6, 6, 0}, {4, 6, 0}, {4, 2, 0}, {2, 2, 0}, {2, 6, 0}, {0, 6, 0}});
+    add("infill", {{2, 2, 0}, {4, 2, 0}, {4, 6, 0}, {2, 6, 0}});
+    // The same area twice, as that of two zones.
+    add("zone", {{10, 0, 0}, {14, 0, 0}, {14, 4, 0}, {10, 4, 0}});
+    add("zone beneath", {{10, 0, 0}, {10, 4, 0}, {14, 4, 0}, {14, 0, 0}});
+    const MeshSet meshes = meshesOf(model);
+    for (const auto& [id, area] : {std::pair("block", 28.0), std::pair("infill", 8.0), std::pair("zone", 16.0),
+                                   std::pair("zone beneath", 16.0)}) {
+        const ObjectMesh& mesh = *meshOf(model, meshes, id);
+        EXPECT_EQ(mesh.closingMethod, ClosingMethod::Surface);
+        EXPECT_NEAR(mesh.area, area, 1e-12) << id;
+        EXPECT_EQ(mesh.complementedFaces, 0u) << id;
+    }
+}
+
 TEST(BuildMeshes, BuildingOfBoundarySurfacesAloneIsAssembled) {
     BuildingModel model;
     const FeatureIndex house = addFeature(model, "Building", "house");
@@ -238,6 +260,27 @@ TEST(BuildMeshes, CoarserSurfacesOfTheSameClassAreLeftOut) {
     EXPECT_NE(meshOf(model, meshes, "wall-3"), nullptr);
     EXPECT_NE(meshOf(model, meshes, "roof-2"), nullptr);  // no finer roof
     EXPECT_EQ(log.count(Code::NoGeometry), 1u);
+}
+
+// As in 3DBAG: the building has its registered outline at height 0, and its part has the solid.
+TEST(BuildMeshes, OutlinesOfBuildingsWithPartsAreLeftOut) {
+    for (const double lod : {1.0, 2.2, 0.0}) {
+        BuildingModel model;
+        const FeatureIndex house =
+            addFeature(model, "Building", "house", model::kNoFeature,
+                       {surfaceOf({{addRings(model, {{{0, 0, -1}, {6, 0, -1}, {6, 3, -1}, {0, 3, -1}}}), false}}, 0)});
+        model::Geometry solid = solidOf(addBox(model, kLow, kHigh));
+        solid.lod = lod;
+        addFeature(model, "BuildingPart", "part", house, {solid});
+        addFeature(model, "Building", "shed", model::kNoFeature,
+                   {surfaceOf({{addRings(model, {{{9, 0, 0}, {12, 0, 0}, {12, 3, 0}}}), false}}, 0)});
+        Diagnostics log;
+        const MeshSet meshes = meshesOf(model, &log);
+        EXPECT_EQ(meshOf(model, meshes, "house") == nullptr, lod >= 1) << lod;
+        EXPECT_NE(meshOf(model, meshes, "part"), nullptr);
+        EXPECT_NE(meshOf(model, meshes, "shed"), nullptr) << "it has nothing but its outline";
+        EXPECT_EQ(log.count(Code::NoGeometry), lod >= 1 ? 1u : 0u);
+    }
 }
 
 TEST(BuildMeshes, SharedWallIsOnePolygonUsedInBothDirections) {
@@ -327,6 +370,24 @@ TEST(BuildMeshes, VoidsAreTakenAwayWhicheverWayTheShellsFace) {
             EXPECT_NEAR(meshes.objects[0].volume, 23, 1e-12);
             EXPECT_EQ(meshes.objects[0].flippedFaces, (isExteriorReversed ? 12u : 0u) + (isVoidReversed ? 0u : 12u));
             EXPECT_EQ(log.count(Code::FaceFlipped), isVoidReversed && !isExteriorReversed ? 0u : 1u);
+        }
+}
+
+TEST(BuildMeshes, VoidsWithFacesThatRunAgainstTheOthersAreTakenAway) {
+    // A court of full height in a box. Any two faces of it are turned.
+    for (std::size_t first = 0; first < 6; ++first)
+        for (std::size_t second = 0; second < first; ++second) {
+            BuildingModel model;
+            const auto exterior = addBox(model, kLow, kHigh);
+            auto court = addBox(model, {1, 1, 0}, {2, 2, 2});
+            court[first].isReversed = !court[first].isReversed;
+            court[second].isReversed = !court[second].isReversed;
+            model::Geometry geometry = solidOf(exterior);
+            geometry.solids[0].interiors.push_back(court);
+            addFeature(model, "BuildingRoom", "hall", model::kNoFeature, {geometry});
+            const MeshSet meshes = meshesOf(model);
+            EXPECT_EQ(meshes.objects[0].closingMethod, ClosingMethod::Closed);
+            EXPECT_NEAR(meshes.objects[0].volume, 24 - 2, 1e-12) << first << " and " << second;
         }
 }
 

@@ -17,29 +17,41 @@ using model::BuildingModel;
 using model::FeatureIndex;
 using model::SurfaceUse;
 
-// Reverses closed void shells that face outwards: the file declares them as voids, so they must face inwards.
-// Returns the count of reversed triangles.
+// Turns the faces of closed void shells inwards, because the file declares them as voids. Faces of a void that run
+// against the others are turned as well. Returns the count of reversed triangles.
 std::uint32_t turnVoidsInwards(const MeshSource& source, const LocalPolygons& polygons, std::vector<SurfaceUse>& uses) {
     std::uint32_t turned = 0;
-    std::vector<Triangle> shell;
     for (const auto& [begin, end] : source.voids) {
-        shell.clear();
-        double volume = 0;
+        std::vector<Triangle> shell;
+        std::vector<double> parts;       // six times the signed volume of each triangle and the first corner
+        std::vector<std::size_t> useOf;  // by triangle
         Vec3d base{};
         for (std::size_t u = begin; u < end; ++u)
             for (const auto& corners : polygons.trianglesOf(uses[u].polygon)) {
                 if (shell.empty()) base = polygons.points[corners[0]];
                 const double part = dot(polygons.points[corners[0]] - base,
                                         cross(polygons.points[corners[1]] - base, polygons.points[corners[2]] - base));
-                volume += uses[u].isReversed ? -part : part;
+                parts.push_back(uses[u].isReversed ? -part : part);
+                useOf.push_back(u);
                 Triangle triangle;
                 for (std::size_t c = 0; c < 3; ++c) triangle.corners[c] = polygons.pointIds[corners[c]];
                 if (uses[u].isReversed) std::swap(triangle.corners[1], triangle.corners[2]);
                 shell.push_back(triangle);
             }
-        if (!(volume > 0) || !findOpenEdges(shell).empty()) continue;
-        for (std::size_t u = begin; u < end; ++u) uses[u].isReversed = !uses[u].isReversed;
-        turned += static_cast<std::uint32_t>(shell.size());
+        const std::vector<Triangle> given = shell;
+        orientConsistently(shell);
+        if (!findOpenEdges(shell).empty()) continue;
+        const auto isAgainst = [&](std::size_t t) { return shell[t].corners != given[t].corners; };
+        double volume = 0;
+        for (std::size_t t = 0; t < shell.size(); ++t) volume += isAgainst(t) ? -parts[t] : parts[t];
+        std::vector<char> isTurned(end - begin, 0);
+        for (std::size_t t = 0; t < shell.size(); ++t)
+            if (isAgainst(t) != (volume > 0)) {
+                isTurned[useOf[t] - begin] = 1;
+                ++turned;
+            }
+        for (std::size_t u = begin; u < end; ++u)
+            if (isTurned[u - begin] != 0) uses[u].isReversed = !uses[u].isReversed;
     }
     return turned;
 }
@@ -68,17 +80,6 @@ std::vector<model::Orientation> orientationsOf(const ShellInput& input, const Ob
             orientations[t] = model::orientationOf(model.features[surface].className, isSpace);
     }
     return orientations;
-}
-
-// True if the volume of a closed mesh is zero up to rounding errors.
-bool isFlat(const ObjectMesh& mesh) {
-    if (!mesh.isSolid()) return false;
-    double area = 0;
-    for (const Triangle& triangle : mesh.triangles) {
-        const Vec3d a = mesh.vertices[triangle.corners[0]];
-        area += length(cross(mesh.vertices[triangle.corners[1]] - a, mesh.vertices[triangle.corners[2]] - a)) / 2;
-    }
-    return std::abs(signedVolume(mesh.vertices, mesh.triangles)) < 1e-6 * area * std::sqrt(area);
 }
 
 // Gives a sheet a back: closed, but without a volume.
@@ -186,6 +187,16 @@ void testClosing(Shell& shell, const ShellInput& input, bool usesRays) {
     }
     if (mesh.openEdges.empty())
         mesh.closingMethod = mesh.tJunctionCount != 0 ? ClosingMethod::TJunctions : ClosingMethod::Closed;
+}
+
+bool isFlat(const ObjectMesh& mesh) {
+    if (!mesh.isSolid()) return false;
+    double area = 0;
+    for (const Triangle& triangle : mesh.triangles) {
+        const Vec3d a = mesh.vertices[triangle.corners[0]];
+        area += length(cross(mesh.vertices[triangle.corners[1]] - a, mesh.vertices[triangle.corners[2]] - a)) / 2;
+    }
+    return std::abs(signedVolume(mesh.vertices, mesh.triangles)) < 1e-6 * area * std::sqrt(area);
 }
 
 void closeByItself(ObjectMesh& mesh, const MeshOptions& options) {

@@ -37,8 +37,11 @@ struct ShellInput {
 /// \param usesRays  if the shell is open, also orients faces by class and by rays
 void testClosing(Shell& shell, const ShellInput& input, bool usesRays);
 
+/// Whether the volume of a closed mesh is zero up to rounding errors. False for an open one.
+[[nodiscard]] bool isFlat(const ObjectMesh& mesh);
+
 /// Closes an open shell by joining gaps, bridges and caps. If there is no volume to fill, it becomes a Surface.
-/// \pre the shell is open
+/// \pre the shell is open, or flat
 void closeByItself(ObjectMesh& mesh, const MeshOptions& options);
 
 /// Joins the meshes of the solids of one object. The result has the worst closing method of the parts. A part that is

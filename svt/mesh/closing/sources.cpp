@@ -1,5 +1,7 @@
 #include <svt/mesh/closing/sources.hpp>
 
+#include <svt/model/classes.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -73,24 +75,49 @@ std::vector<std::uint8_t> findCoarserSurfaces(const BuildingModel& model, const 
     return isCoarser;
 }
 
+// Marks buildings whose geometry is an outline at level of detail 0, if a part of them has more: the outline stands for
+// the parts. Some files have it at a height of 0.
+std::vector<std::uint8_t> findOutlinesOfParts(const BuildingModel& model, const model::LodChoice& lod) {
+    std::vector<std::uint8_t> isOutline(model.features.size(), 0);
+    for (const Feature& fine : model.features) {
+        if (chosenLod(fine, lod) < 1) continue;
+        bool isInPart = fine.className == "BuildingPart";
+        for (FeatureIndex f = fine.parent; f != model::kNoFeature; f = model.features[f].parent) {
+            const Feature& above = model.features[f];
+            const double lodAbove = chosenLod(above, lod);
+            const bool isBuilding = model::classRank(above.className) == model::ClassRank::Building;
+            if (isInPart && isBuilding && lodAbove >= 0 && lodAbove < 1) isOutline[f] = 1;
+            isInPart = isInPart || above.className == "BuildingPart";
+        }
+    }
+    return isOutline;
+}
+
+void note(Diagnostics* log, const BuildingModel& model, std::string_view text,
+          const std::vector<std::uint8_t>& isLeftOut) {
+    const auto count = std::count(isLeftOut.begin(), isLeftOut.end(), 1);
+    if (count == 0 || log == nullptr) return;
+    log->add(Severity::Note, Code::NoGeometry, fmt::format("{} {}", count, text), {model.source, 0, 0, {}});
+}
+
 }  // namespace
 
 std::vector<MeshSource> collectSources(const BuildingModel& model, const model::LodChoice& lod, Diagnostics* log) {
     std::vector<MeshSource> sources;
     const std::vector<FeatureIndex> order = model.treeOrder();
     const std::vector<std::uint8_t> isCoarser = findCoarserSurfaces(model, order, lod);
-    if (const auto count = std::count(isCoarser.begin(), isCoarser.end(), 1); count != 0 && log != nullptr)
-        log->add(Severity::Note, Code::NoGeometry,
-                 fmt::format("{} boundary surfaces and openings are of a coarser level of detail than others of their "
-                             "class and are left out",
-                             count),
-                 {model.source, 0, 0, {}});
+    const std::vector<std::uint8_t> isOutline = findOutlinesOfParts(model, lod);
+    note(log, model,
+         "boundary surfaces and openings are of a coarser level of detail than others of their class and are left out",
+         isCoarser);
+    note(log, model, "outlines of buildings at level of detail 0 are left out, because their parts have more",
+         isOutline);
     for (const FeatureIndex index : order) {
         if (isCoarser[index]) continue;
         const Feature& feature = model.features[index];
         const model::Inside inside = model::insideOf(feature.className);
         MeshSource own{index, -1, false, false, {}, {}, {}};
-        if (const int chosen = lod.choose(feature); chosen >= 0) {
+        if (const int chosen = lod.choose(feature); chosen >= 0 && isOutline[index] == 0) {
             const model::Geometry& geometry = feature.geometries[std::size_t(chosen)];
             own.lod = geometry.lod;
             // Doors and windows can be bodies (CityGML 3.0) or sheets (openings of CityGML 2.0), and so can trees,

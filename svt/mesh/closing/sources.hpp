@@ -23,8 +23,9 @@ struct MeshSource {
     std::vector<std::size_t> solids;                         ///< where each solid begins in `uses`, with its voids
 };
 
-/// The sources of all meshes, in tree order.
-/// \param log  receives a note on coarser surfaces that are left out; may be null
+/// The sources of all meshes, in tree order. An outline of a building at level of detail 0 is left out if a part of the
+/// building has geometry of a finer level.
+/// \param log  receives a note on outlines and on coarser surfaces that are left out; may be null
 [[nodiscard]] std::vector<MeshSource> collectSources(const model::BuildingModel& model, const model::LodChoice& lod,
                                                      Diagnostics* log);
 

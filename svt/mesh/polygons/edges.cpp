@@ -207,8 +207,7 @@ public:
 
     // True if a component larger than `c` encloses it.
     [[nodiscard]] bool isEnclosed(std::uint32_t c) {
-        const auto& corners = triangles_[members_[c][0]].corners;
-        const Vec3d probe = (vertices_[corners[0]] + vertices_[corners[1]] + vertices_[corners[2]]) / 3.0;
+        const Vec3d probe = pointInside(c);
         if (!boundsTree_) boundsTree_.emplace(bounds_);
         return boundsTree_->visit([&](const Box3d& box) { return box.contains(probe); },
                                   [&](std::uint32_t other) {
@@ -218,6 +217,32 @@ public:
     }
 
 private:
+    // A point between the faces of `c`. A point of a face is not enough: the faces of a court lie on those of its house.
+    [[nodiscard]] Vec3d pointInside(std::uint32_t c) const {
+        const auto cornerOf = [&](std::uint32_t t, std::size_t n) { return vertices_[triangles_[t].corners[n]]; };
+        const auto normalOf = [&](std::uint32_t t) {
+            return cross(cornerOf(t, 1) - cornerOf(t, 0), cornerOf(t, 2) - cornerOf(t, 0));
+        };
+        const std::uint32_t widest = *std::max_element(
+            members_[c].begin(), members_[c].end(),
+            [&](std::uint32_t a, std::uint32_t b) { return std::abs(normalOf(a).z) < std::abs(normalOf(b).z); });
+        Vec3d point = (cornerOf(widest, 0) + cornerOf(widest, 1) + cornerOf(widest, 2)) / 3.0;
+        const Vec3d below{point.x, point.y, bounds_[c].min.z - 1};
+        std::vector<double> heights;
+        for (const std::uint32_t t : members_[c]) {
+            if (crossingAlongZ(below, vertices_, triangles_[t]) == 0) continue;
+            const Vec3d normal = normalOf(t);
+            heights.push_back(below.z + dot(normal, cornerOf(t, 0) - below) / normal.z);
+        }
+        std::sort(heights.begin(), heights.end());
+        double widestGap = 0;
+        for (std::size_t n = 0; n + 1 < heights.size(); n += 2) {
+            if (heights[n + 1] - heights[n] <= widestGap) continue;
+            widestGap = heights[n + 1] - heights[n];
+            point.z = (heights[n] + heights[n + 1]) / 2;
+        }
+        return point;
+    }
     [[nodiscard]] int windingAlongZ(Vec3d point, std::uint32_t c) {
         const std::vector<std::uint32_t>& members = members_[c];
         if (!trees_[c]) {

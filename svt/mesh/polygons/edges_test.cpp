@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 #include <random>
 
@@ -302,6 +303,24 @@ TEST(OrientOutwards, VoidsKeepFacingInwards) {
         EXPECT_EQ(orientOutwards(mesh->vertices, mesh->triangles), 0u);
         EXPECT_NEAR(signedVolume(mesh->vertices, mesh->triangles), 23, 1e-12);
     }
+}
+
+TEST(OrientOutwards, CourtsOfFullHeightAreVoids) {
+    // Their faces lie on the floor and the ceiling of the box, or on one of its walls.
+    for (const auto& [low, high] : {std::pair<Vec3d, Vec3d>{{1, 1, 0}, {2, 2, 2}},
+                                    {{1, 1, 0}, {2, 2, 1}},
+                                    {{1, 1, 1}, {2, 2, 2}},
+                                    {{0, 1, 0.5}, {1, 2, 1.5}}})
+        for (std::ptrdiff_t first = 0; first < 12; ++first) {
+            auto court = boxMesh(low, high);
+            test::turnOver(court.triangles);
+            std::rotate(court.triangles.begin(), court.triangles.begin() + first, court.triangles.end());
+            auto mesh = boxMesh(kNear, kFar);
+            append(mesh, court);
+            EXPECT_EQ(orientOutwards(mesh.vertices, mesh.triangles), 0u) << low.z << ", first face " << first;
+            const Vec3d size = high - low;
+            EXPECT_NEAR(signedVolume(mesh.vertices, mesh.triangles), 24 - size.x * size.y * size.z, 1e-12);
+        }
 }
 
 TEST(OrientOutwards, VeryManyVoidsInAFineShellTakeNoTime) {
