@@ -35,7 +35,8 @@ struct IndexBox {
 [[nodiscard]] ColumnVolume replaceScalars(const ColumnVolume& columns, std::span<const Scalar> newOf);
 
 /// The part of the volume in `box`; sample (0, 0, 0) of the result is box.begin. Voxels are counted again, and a label
-/// that lost voxels gets the volume of its voxels. Overlaps and vector parts are left out.
+/// that lost voxels gets the volume of its voxels. Overlaps with the voxels of labels in the part are kept; if such a label
+/// lost voxels, its overlaps shrink in proportion. Vector parts are left out.
 /// \param box  inside the grid, at least two samples along each axis
 /// \return the part, or BadArgument for another box
 [[nodiscard]] Result<SemanticVolume> croppedVolume(const SemanticVolume& volume, const IndexBox& box);

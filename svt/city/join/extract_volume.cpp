@@ -119,10 +119,7 @@ Result<volume::SemanticVolume> extractVolume(const City& city, const Extract& ex
     if (extract.ids.empty()) return joined;
     const volume::IndexBox box = volume::samplesAround(joined->columns);
     if (box.begin.x >= box.end.x) return joined;
-    SVT_TRY(cropped, volume::croppedVolume(*joined, box));
-    // No voxel is cut off, so the buildings share what they shared.
-    cropped->labels.overlaps = joined->labels.overlaps;
-    return cropped;
+    return volume::croppedVolume(*joined, box);
 }
 
 Result<volume::SemanticVolume> wholeVolume(const City& city, std::uint64_t mostBytes, double mostSamples) {

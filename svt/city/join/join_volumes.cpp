@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
+#include <utility>
 
 namespace svt::city {
 namespace {
@@ -24,16 +26,21 @@ struct Part {
     Scalar before = 0;  // scalars of the parts before
 };
 
+// Samples that two parts fill: by the scalar that gets them, then the one that loses them.
+using SharedSamples = std::map<std::pair<Scalar, Scalar>, std::uint64_t>;
+
 class Joiner {
 public:
     Joiner(std::vector<Part> parts, Vec3i dimension) : parts_(std::move(parts)), dimension_(dimension) {}
 
     // Tiles do not depend on each other, nor on the number of threads.
-    [[nodiscard]] ColumnVolume run() const {
+    // \param shared  empty; receives the samples that several parts fill
+    [[nodiscard]] ColumnVolume run(SharedSamples& shared) const {
         constexpr std::int32_t kSize = ColumnVolume::kTileSize;
         const auto across = static_cast<std::size_t>((dimension_.x + kSize - 1) / kSize);
         const auto along = static_cast<std::size_t>((dimension_.y + kSize - 1) / kSize);
         std::vector<ColumnTileData> tiles(across * along);
+        std::mutex isAdding;
         parallelFor(tiles.size(), 16, 0, [&](std::size_t begin, std::size_t end) {
             Scratch scratch;
             for (std::size_t n = begin; n < end; ++n) {
@@ -41,6 +48,8 @@ public:
                 const auto j = static_cast<std::int32_t>(n / across) * kSize;
                 tiles[n] = tile(i, j, std::min(kSize, dimension_.x - i), std::min(kSize, dimension_.y - j), scratch);
             }
+            const std::lock_guard lock(isAdding);
+            for (const auto& [scalars, samples] : scratch.shared) shared[scalars] += samples;
         });
         return ColumnVolume::fromTiles(dimension_, std::move(tiles));
     }
@@ -48,6 +57,7 @@ public:
 private:
     struct Scratch {
         std::vector<Run> whole, next;
+        SharedSamples shared;
     };
 
     ColumnTileData tile(std::int32_t iBegin, std::int32_t jBegin, std::int32_t width, std::int32_t height,
@@ -87,7 +97,7 @@ private:
 
     // Adds the runs of a part where no earlier part fills the column.
     static void lay(const Part& part, std::span<const Run> runs, Scratch& scratch) {
-        auto& [whole, next] = scratch;
+        auto& [whole, next, shared] = scratch;
         if (runs.size() == 1 && runs[0].scalar == 0) return;
         next.clear();
         std::uint32_t from = 0;
@@ -106,6 +116,7 @@ private:
                         scalar = runs[under].scalar == 0 ? 0 : runs[under].scalar + part.before;
                     }
                 }
+                if (over.scalar != 0 && scalar != 0) shared[{over.scalar, scalar}] += end - from;
                 if (over.scalar != 0) scalar = over.scalar;
                 if (!next.empty() && next.back().scalar == scalar)
                     next.back().end = end;
@@ -130,6 +141,25 @@ void appendLabels(volume::LabelTable& into, const volume::LabelTable& from, Scal
         if (label.count > 0) label.first += before;
         into.labels.push_back(std::move(label));
     }
+    for (volume::Overlap overlap : from.overlaps) {
+        overlap.a += first;
+        overlap.b += first;
+        into.overlaps.push_back(overlap);
+    }
+}
+
+// Adds the samples that several parts fill. The labels of different parts have no other overlaps.
+void addOverlaps(const SharedSamples& shared, volume::LabelTable& table) {
+    if (shared.empty()) return;
+    const std::vector<std::uint32_t> labelOf = table.labelOfScalar();
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> samplesOf;
+    for (const auto& [scalars, samples] : shared)
+        samplesOf[{labelOf[scalars.first], labelOf[scalars.second]}] += samples;
+    for (const auto& [labels, samples] : samplesOf)
+        table.overlaps.push_back({labels.first, labels.second, samples, false});
+    std::sort(table.overlaps.begin(), table.overlaps.end(), [](const volume::Overlap& p, const volume::Overlap& q) {
+        return std::pair(p.a, p.b) < std::pair(q.a, q.b);
+    });
 }
 
 // Adds planes of a part. \param begin  of its first sample in the whole
@@ -259,7 +289,9 @@ Result<volume::SemanticVolume> joinVolumes(std::span<const volume::SemanticVolum
         if (!isByClass) addFootprints(volume, firstLabel, result);
         firstLabel += static_cast<std::uint32_t>(volume.labels.labels.size());
     }
-    result.columns = Joiner(std::move(parts), high - low).run();
+    SharedSamples shared;
+    result.columns = Joiner(std::move(parts), high - low).run(shared);
+    if (!isByClass) addOverlaps(shared, result.labels);
     const auto counts = result.columns.countVoxels(result.labels.scalarCount());
     for (volume::Label& label : result.labels.labels) {
         label.voxels = 0;

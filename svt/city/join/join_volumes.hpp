@@ -10,7 +10,8 @@
 namespace svt::city {
 
 /// Joins volumes whose samples lie on one lattice. Where several fill a sample, the first determines it. Label tables
-/// are appended to each other, as are planes of faces. Vectors and overlaps are left out.
+/// are appended to each other, as are planes of faces. Overlaps are those of the volumes, and samples that several fill,
+/// except if `isByClass`. Vectors are left out.
 /// \param volumes      at least one, along the axes of the world, with equal spacing
 /// \param isByClass    labels with the same id below the same one are one (levels whose labels are classes); ordered by
 ///                     the id of the parent, then their own

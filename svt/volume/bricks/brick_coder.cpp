@@ -931,6 +931,38 @@ private:
         return std::abs(middle) < reach - 1e-3;
     }
 
+    // Whether a point that belongs to both neighbouring bricks lies on this side of the plane.
+    [[nodiscard]] bool sharePointOnSide(const BrickPlane& plane, Vec3i a, Vec3i b, bool isPositive) const noexcept {
+        constexpr double kSize = BrickVolume::kBrickSize;
+        double value = plane.offset;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double low = std::max(corner(a)[axis], corner(b)[axis]);
+            const double high = std::min(corner(a)[axis], corner(b)[axis]) + kSize;
+            const double n = plane.normal[axis];
+            value += isPositive ? std::max(n * low, n * high) : std::min(n * low, n * high);
+        }
+        return isPositive ? value > 0 : value <= 0;
+    }
+
+    [[nodiscard]] bool hasLabel(Vec3i at, Scalar scalar) const noexcept {
+        if (!isMixed(at)) return places_.scalarOf[place(at)] == scalar;
+        const std::vector<Scalar>& palette = patternAt(at).palette;
+        return std::find(palette.begin(), palette.end(), scalar) != palette.end();
+    }
+
+    // Whether a surface on the plane reaches a uniform brick, so that the sliver on the other side of the plane has a
+    // neighbour with its label. Beyond the end of a surface, its plane may cut a corner of a brick of air.
+    [[nodiscard]] bool isReached(const BrickPlane& plane, Vec3i at, bool isPositive, Scalar scalar) const noexcept {
+        for (int axis = 0; axis < 3; ++axis)
+            for (const int step : {-1, 1}) {
+                Vec3i next = at;
+                next[axis] += step;
+                if (isInside(next) && hasLabel(next, scalar) && sharePointOnSide(plane, at, next, isPositive))
+                    return true;
+            }
+        return false;
+    }
+
     void extendToUniformNeighbors() {
         const std::size_t count = result_.codes.size();
         for (std::size_t n = 0; n < count; ++n) {
@@ -943,7 +975,10 @@ private:
             forEachNeighbor(from, [&](Vec3i at) {
                 if (isMixed(at) || codeAt(at) != nullptr || !cutsBox(plane, at)) return;
                 const auto side = sideOfAll(plane, at);
-                if (side && code.sideScalars[*side] == places_.scalarOf[this->place(at)]) setCode(at, code);
+                if (!side || code.sideScalars[*side] != places_.scalarOf[this->place(at)]) return;
+                if (sharePointOnSide(plane, from, at, *side == 0) ||
+                    isReached(plane, at, *side == 0, code.sideScalars[1 - *side]))
+                    setCode(at, code);
             });
         }
     }

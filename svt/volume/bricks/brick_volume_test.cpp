@@ -178,6 +178,25 @@ TEST(BrickVolume, EachFloorIsOneCodedBoxHoweverFarTheNextOneIs) {
     EXPECT_EQ(bricks.arrays().boxes.size() - bricks.boxes().size(), 8u);
 }
 
+// A slope down to y = 8 ends at a border between bricks. Beyond it, its plane cuts a corner of a brick of air.
+TEST(BrickVolume, ASurfaceDoesNotGoOnBeyondItsEnd) {
+    const Vec3i dimension{8, 24, 16};
+    BrickPlane plane;
+    plane.normal = normalized(Vec3d{0, 0.8, 1});
+    plane.offset = -dot(plane.normal, Vec3d{0, 16, 7.7});
+    std::vector<Scalar> scalars(std::size_t{8} * 24 * 16, 0);
+    for (int k = 0; k < 16; ++k)
+        for (int j = 0; j < 8; ++j)
+            for (int i = 0; i < 8; ++i)
+                if (dot(plane.normal, Vec3d{i + 0.5, j + 0.5, k + 0.5}) + plane.offset > 0)
+                    scalars[std::size_t(i + 8 * (j + 24 * k))] = 1;
+    const FacePlane face{plane, {0, 0, 8}, {8, 8, 16}};
+    const auto bricks = BrickVolume::fromColumns(ColumnVolume::fromDense(dimension, scalars), {.planes = {&face, 1}});
+    ASSERT_TRUE(bricks);
+    EXPECT_TRUE(bricks->entry(0, 0, 1).isCoded());
+    EXPECT_FALSE(bricks->entry(0, 1, 0).isCoded());
+}
+
 TEST(BrickVolume, RowsAndTheFlatIndexSayWhatTheEntriesSay) {
     const Vec3i n{141, 77, 61};
     const auto scalars = dense(n, [](std::int32_t i, std::int32_t j, std::int32_t k) {

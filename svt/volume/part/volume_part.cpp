@@ -30,6 +30,22 @@ void recount(SemanticVolume& volume) {
     }
 }
 
+// The overlaps of a part, by labels before and after recount(). A label that lost voxels is taken to have lost its shared
+// ones at the same rate.
+std::vector<Overlap> overlapsOf(const SemanticVolume& part, const LabelTable& before) {
+    std::vector<Overlap> overlaps;
+    for (Overlap overlap : before.overlaps) {
+        const std::uint64_t whole = before.labels[overlap.a].voxels, left = part.labels.labels[overlap.a].voxels;
+        if (left == 0) continue;  // nothing of it is here that could have taken voxels
+        if (left < whole && overlap.voxels > 0) {
+            const double share = double(overlap.voxels) * double(left) / double(whole);
+            overlap.voxels = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(share)));
+        }
+        overlaps.push_back(overlap);
+    }
+    return overlaps;
+}
+
 void appendRun(std::vector<Run>& runs, Run run) {
     if (!runs.empty() && runs.back().scalar == run.scalar)
         runs.back().end = run.end;
@@ -228,8 +244,8 @@ Result<SemanticVolume> croppedVolume(const SemanticVolume& volume, const IndexBo
     SemanticVolume part{*grid,          volume.labels,    ColumnVolume::fromTiles(size, std::move(tiles)),
                         volume.crsName, volume.modelName, volume.source};
     part.planes = croppedPlanes(volume.planes, box);
-    part.labels.overlaps.clear();
     recount(part);
+    part.labels.overlaps = overlapsOf(part, volume.labels);
     return part;
 }
 
@@ -249,8 +265,8 @@ Result<SemanticVolume> selectedVolume(const SemanticVolume& volume, std::span<co
     SemanticVolume part{volume.grid,    volume.labels,    replaceScalars(volume.columns, newOf),
                         volume.crsName, volume.modelName, volume.source};
     part.planes = volume.planes;
-    part.labels.overlaps.clear();
     recount(part);
+    part.labels.overlaps = overlapsOf(part, volume.labels);
     return part;
 }
 

@@ -88,6 +88,27 @@ TEST(VolumePart, SelectionKeepsScalarsAndTableAndCountsAgain) {
     EXPECT_EQ(selectedVolume(whole, std::vector<std::uint32_t>{9}).error().code(), Code::BadArgument);
 }
 
+// Two rooms in a house, of which a box takes one whole and half of the other.
+TEST(VolumePart, KeepsWhatItsLabelsShare) {
+    SemanticVolume whole = test::emptyVolume({12, 6, 6}, {1, 1, 1});
+    test::addObject(whole, "house", "Building").volume = 200;
+    test::addObject(whole, "hall", "BuildingRoom", 0).volume = 32;
+    test::addObject(whole, "attic", "BuildingRoom", 0).volume = 32;
+    test::paintBoxes(whole, {{1, {1, 1, 1}, {11, 5, 5}}, {2, {1, 1, 1}, {3, 5, 5}}, {3, {7, 1, 1}, {9, 5, 5}}});
+    whole.labels.overlaps = {{1, 0, 32, true}, {2, 0, 30, true}};
+    const auto part = croppedVolume(whole, {{0, 0, 0}, {8, 6, 6}});
+    ASSERT_TRUE(part);
+    EXPECT_EQ(part->labels.overlaps, (std::vector<Overlap>{{1, 0, 32, true}, {2, 0, 15, true}}));
+    EXPECT_EQ(part->labels.labels[1].volume, 32);
+    EXPECT_EQ(part->labels.labels[2].volume, 0) << "it lost voxels";
+    const auto west = croppedVolume(whole, {{0, 0, 0}, {5, 6, 6}});
+    ASSERT_TRUE(west);
+    EXPECT_EQ(west->labels.overlaps, (std::vector<Overlap>{{1, 0, 32, true}})) << "the attic is not in it";
+    const auto rooms = selectedVolume(whole, std::vector<std::uint32_t>{0, 1});
+    ASSERT_TRUE(rooms);
+    EXPECT_EQ(rooms->labels.overlaps, (std::vector<Overlap>{{1, 0, 32, true}}));
+}
+
 TEST(VolumePart, LevelHasTheLabelThatFillsMostOfACell) {
     SemanticVolume whole = sampleVolume({8, 8, 8});
     whole.grid = *Grid::fromParts({8, 8, 8}, {1, 1, 1}, {10, 20, 30}, {Vec3d{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
