@@ -27,15 +27,15 @@ volume::Filling fillingOf(mesh::ClosingMethod closingMethod) noexcept {
     return volume::Filling::None;
 }
 
-// Whether a label is a surface around a body above it in the tree.
-bool boundsBody(const volume::LabelTable& table, const std::vector<std::uint32_t>& objectOf,
-                const mesh::MeshSet& meshes, std::uint32_t label) {
-    if (!model::isBoundarySurface(table.labels[label].className)) return false;
+// The object of the closest body above a boundary surface in the tree, or kNoBody.
+std::uint32_t bodyOf(const volume::LabelTable& table, const std::vector<std::uint32_t>& objectOf,
+                     const mesh::MeshSet& meshes, std::uint32_t label) {
+    if (!model::isBoundarySurface(table.labels[label].className)) return voxelize::kNoBody;
     for (std::uint32_t l = table.labels[label].parent; l != volume::kNoLabel; l = table.labels[l].parent)
         if (objectOf[l] != volume::kNoLabel &&
             meshes.objects[objectOf[l]].closingMethod != mesh::ClosingMethod::Surface)
-            return true;
-    return false;
+            return objectOf[l];
+    return voxelize::kNoBody;
 }
 
 // Labels in tree order, without scalars, and the label of each feature.
@@ -199,8 +199,7 @@ Result<LabelledObjects> makeLabels(const model::BuildingModel& model, const mesh
         const volume::Label& label = table.labels[l];
         // Panes are finer than the surfaces of their windows, which lie on them.
         const model::ClassRank rank = isPane(label) ? model::ClassRank::Furniture : model::classRank(label.className);
-        result.claims[o] = {label.first, static_cast<std::uint8_t>(rank), label.id,
-                            boundsBody(table, objectOf, meshes, l)};
+        result.claims[o] = {label.first, static_cast<std::uint8_t>(rank), label.id, bodyOf(table, objectOf, meshes, l)};
         if (hasPattern)
             for (volume::Scalar s = 0; s < label.count; ++s)
                 table.phaseColors[label.first + s] =

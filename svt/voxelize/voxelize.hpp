@@ -24,15 +24,18 @@
 
 namespace svt::voxelize {
 
+inline constexpr std::uint32_t kNoBody = 0xFFFFFFFFu;
+
 /// The properties of an object that the voxelizer needs besides its mesh.
 struct ObjectClaim {
     volume::Scalar scalar = 0;  ///< written to its voxels, > 0
     std::uint8_t rank = 0;      ///< where objects overlap, the lower rank wins, then the smaller volume, then the id
     std::string id;             ///< last tie-break
-    /// The surface bounds a body that is also an object, such as the roof of a building with a solid. As a thin sheet,
-    /// it gets no voxels that only separate its two sides from each other. The body already does that, and such voxels
-    /// would stick out beyond the edges of its faces.
-    bool boundsBody = false;
+    /// Object index of the body that this surface bounds, such as the building of a roof. As a thin sheet, the surface
+    /// gets no voxels that only separate its two sides from each other. The body already does that, and such voxels
+    /// would stick out beyond the edges of its faces. The sheet follows the faces of the body that come from the
+    /// polygons of the surface. Voxels on the outside of the body that no surface takes go to the nearest face.
+    std::uint32_t body = kNoBody;
 };
 
 enum class SheetMode : std::uint8_t {
@@ -45,7 +48,8 @@ constexpr auto namesOf(SheetMode) {
 
 struct VoxelizeOptions {
     SheetMode sheets = SheetMode::Thin;         ///< for objects that are not solids
-    bool keepThinParts = true;                  ///< keep parts of solids thinner than a voxel by a 6-separating pass
+    bool keepThinParts = true;                  ///< keep parts of solids thinner than a voxel by a 6-separating pass,
+                                                ///< and faces of open shells that their filling leaves out
     std::uint64_t solidAngles = 1'000'000'000;  ///< an open shell that needs more, beyond 20,000 * (samples of its
                                                 ///< bounding box)^(2/3), is kept as a sheet
     int threads = 0;                            ///< 0: all cores; the result does not depend on it
@@ -59,6 +63,12 @@ struct ClaimPair {
     friend bool operator==(const ClaimPair&, const ClaimPair&) = default;
 };
 
+/// An open shell whose filling leaves out faces.
+struct LostShare {
+    std::uint32_t object = 0;
+    double share = 0;  ///< of its surface, 0 to 1
+};
+
 struct VoxelizeResult {
     volume::ColumnVolume columns;
     std::vector<std::uint64_t>
@@ -66,9 +76,11 @@ struct VoxelizeResult {
     std::vector<std::uint64_t>
         uncertainVoxels;                  ///< per object: voxels with a winding number over 0.25 from a whole number
     std::vector<std::uint32_t> unfilled;  ///< open shells with too many holes for winding numbers: kept as sheets
-    std::vector<ClaimPair> overlaps;      ///< ordered by (a, b); between solids only. Where more than 16 solids claim a
-                                          ///< voxel, only pairs with one of the first 16 count it
-    std::uint64_t crowdedVoxels = 0;      ///< claimed by more than 16 solids
+    std::vector<LostShare> lostFaces;  ///< open shells whose filling left out over 0.1 % of their surface; these faces
+                                       ///< got a sheet of voxels, counted as thin
+    std::vector<ClaimPair> overlaps;   ///< ordered by (a, b); between solids only. Where more than 16 solids claim a
+                                       ///< voxel, only pairs with one of the first 16 count it
+    std::uint64_t crowdedVoxels = 0;   ///< claimed by more than 16 solids
 };
 
 /// Voxelizes all objects of `meshes` into one volume.

@@ -123,6 +123,14 @@ void reportBounds(const model::BuildingModel& model, const mesh::MeshSet& meshes
                         meshes.objects[o].openEdges.size()),
             {model.source, feature.line, 0, feature.id});
     }
+    for (const voxelize::LostShare& lost : voxels.lostFaces) {
+        const model::Feature& feature = model.features[meshes.objects[lost.object].feature];
+        log.add(Severity::Note, Code::WindingFilled,
+                fmt::format("its filling by winding number leaves out {:.{}f} % of its surface; there, voxels draw its "
+                            "faces, and no volume counts them",
+                            100 * lost.share, lost.share < 0.01 ? 1 : 0),
+                {model.source, feature.line, 0, feature.id});
+    }
     if (voxels.crowdedVoxels != 0)
         log.add(Severity::Warning, Code::Overlap,
                 fmt::format("{} voxels are claimed by more than 16 solids each; of these only overlaps with the first "

@@ -31,6 +31,53 @@ void joinEqualRuns(std::vector<Run>& runs) {
     runs.resize(kept + 1);
 }
 
+// Appends the runs of a column with the edits of its voxels, bottom up.
+void editRuns(std::span<const Run> runs, std::span<const VoxelEdit> edits, std::vector<Run>& out) {
+    auto edit = edits.begin();
+    for (const Run& run : runs) {
+        for (; edit != edits.end() && static_cast<std::uint32_t>(edit->voxel.z) < run.end; ++edit) {
+            const auto k = static_cast<std::uint32_t>(edit->voxel.z);
+            const std::uint32_t begin = out.empty() ? 0 : out.back().end;
+            if (k > begin) out.push_back({k, run.scalar});
+            if (k >= begin) out.push_back({k + 1, edit->scalar});
+        }
+        if (out.empty() || out.back().end < run.end) out.push_back(run);
+    }
+    joinEqualRuns(out);
+}
+
+// A tile with edits by row, column and height. Columns without edits are looked up once each.
+ColumnTileData editTile(const ColumnTile& tile, std::int32_t width, std::span<const VoxelEdit> edits) {
+    if (edits.empty()) return copyTile(tile);
+    constexpr std::uint32_t kUnknown = 0xFFFFFFFFu;
+    volume::ColumnTileBuilder builder(width);
+    std::vector<std::uint32_t> numbers(tile.columnStart.size(), kUnknown);
+    std::vector<std::uint16_t> row(static_cast<std::size_t>(width));
+    std::vector<Run> runs;
+    auto edit = edits.begin();
+    for (std::size_t y = 0; y < tile.rowOf.size(); ++y) {
+        for (std::size_t x = 0; x < row.size(); ++x) {
+            const std::uint16_t old = tile.rowColumns[std::size_t(tile.rowOf[y]) * row.size() + x];
+            const auto first = edit;
+            const auto isHere = [&](const VoxelEdit& e) {
+                return std::size_t(e.voxel.y) % ColumnVolume::kTileSize == y &&
+                       std::size_t(e.voxel.x) % ColumnVolume::kTileSize == x;
+            };
+            while (edit != edits.end() && isHere(*edit)) ++edit;
+            if (first != edit) {
+                runs.clear();
+                editRuns(tile.column(old), std::span(&*first, static_cast<std::size_t>(edit - first)), runs);
+                row[x] = builder.addColumn(runs);
+                continue;
+            }
+            if (numbers[old] == kUnknown) numbers[old] = builder.addColumn(tile.column(old));
+            row[x] = static_cast<std::uint16_t>(numbers[old]);
+        }
+        builder.addRow(row);
+    }
+    return builder.finish();
+}
+
 }  // namespace
 
 ColumnVolume rewriteColumns(const ColumnVolume& columns, const TileRewriterFactory& makeRewriter, int threads) {
@@ -74,35 +121,29 @@ ColumnVolume editVoxels(const ColumnVolume& columns, std::vector<VoxelEdit> edit
         const Vec3i v = edit.voxel;
         return v.x < 0 || v.y < 0 || v.z < 0 || v.x >= d.x || v.y >= d.y || v.z >= d.z;
     });
-    const auto place = [](const Vec3i& v) { return std::tuple(v.y, v.x, v.z); };
+    const auto tileOf = [&](const VoxelEdit& edit) {
+        return std::size_t(edit.voxel.x / ColumnVolume::kTileSize) +
+               std::size_t(columns.tilesX()) * std::size_t(edit.voxel.y / ColumnVolume::kTileSize);
+    };
+    const auto place = [&](const VoxelEdit& edit) {
+        return std::tuple(tileOf(edit), edit.voxel.y, edit.voxel.x, edit.voxel.z);
+    };
     std::stable_sort(edits.begin(), edits.end(),
-                     [&](const VoxelEdit& p, const VoxelEdit& q) { return place(p.voxel) < place(q.voxel); });
-    return rewriteColumns(
-        columns,
-        [&](std::int32_t tileX, std::int32_t tileY, const ColumnTile&) -> ColumnRewriter {
-            const bool isTouched = std::any_of(edits.begin(), edits.end(), [&](const VoxelEdit& edit) {
-                return edit.voxel.x / ColumnVolume::kTileSize == tileX &&
-                       edit.voxel.y / ColumnVolume::kTileSize == tileY;
-            });
-            if (!isTouched) return {};
-            return [&edits](std::int32_t i, std::int32_t j, std::span<const Run> runs, std::vector<Run>& out) {
-                auto edit = std::lower_bound(
-                    edits.begin(), edits.end(), std::tuple(j, i),
-                    [](const VoxelEdit& e, const auto& at) { return std::tuple(e.voxel.y, e.voxel.x) < at; });
-                for (const Run& run : runs) {
-                    for (; edit != edits.end() && edit->voxel.y == j && edit->voxel.x == i &&
-                           static_cast<std::uint32_t>(edit->voxel.z) < run.end;
-                         ++edit) {
-                        const auto k = static_cast<std::uint32_t>(edit->voxel.z);
-                        const std::uint32_t begin = out.empty() ? 0 : out.back().end;
-                        if (k > begin) out.push_back({k, run.scalar});
-                        if (k >= begin) out.push_back({k + 1, edit->scalar});
-                    }
-                    if (out.empty() || out.back().end < run.end) out.push_back(run);
-                }
-            };
-        },
-        threads);
+                     [&](const VoxelEdit& p, const VoxelEdit& q) { return place(p) < place(q); });
+    std::vector<ColumnTileData> tiles(columns.tiles().size());
+    parallelFor(tiles.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+            const auto first = std::lower_bound(edits.begin(), edits.end(), t,
+                                                [&](const VoxelEdit& edit, std::size_t n) { return tileOf(edit) < n; });
+            const auto last = std::upper_bound(first, edits.end(), t,
+                                               [&](std::size_t n, const VoxelEdit& edit) { return n < tileOf(edit); });
+            const auto width = columns.tileWidth(static_cast<std::int32_t>(t % std::size_t(columns.tilesX())));
+            tiles[t] =
+                editTile(columns.tiles()[t], width,
+                         std::span(edits).subspan(std::size_t(first - edits.begin()), std::size_t(last - first)));
+        }
+    });
+    return ColumnVolume::fromTiles(d, std::move(tiles));
 }
 
 }  // namespace svt::voxelize

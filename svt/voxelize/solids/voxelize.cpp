@@ -3,6 +3,8 @@
 #include <svt/core/check.hpp>
 #include <svt/core/parallel.hpp>
 #include <svt/voxelize/rewrite/rewrite.hpp>
+#include <svt/voxelize/surfaces/bare_voxels.hpp>
+#include <svt/voxelize/surfaces/lost_faces.hpp>
 #include <svt/voxelize/surfaces/sheets.hpp>
 #include <svt/voxelize/surfaces/winding.hpp>
 #include <svt/voxelize/tiles/tile_columns.hpp>
@@ -50,7 +52,7 @@ Claims orderClaims(const mesh::MeshSet& meshes, std::span<const ObjectClaim> cla
         return key(p) < key(q);
     });
     Claims result;
-    for (const ObjectClaim& claim : claims) result.boundsBody.push_back(claim.boundsBody);
+    for (const ObjectClaim& claim : claims) result.boundsBody.push_back(claim.body != kNoBody);
     for (auto* orders : {&result.solidOrder, &result.tiedOrder, &result.thinOrder}) orders->resize(claims.size());
     for (std::uint32_t order = 0; order < entries.size(); ++order) {
         const auto [object, kind] = entries[order];
@@ -140,6 +142,8 @@ struct Geometry {
     std::vector<ObjectParts> objects;
     std::vector<std::uint64_t> thinVoxels, uncertainVoxels;  // per object
     std::vector<std::uint32_t> unfilled;
+    std::vector<BoundedBody> bodies;
+    std::vector<mesh::ObjectMesh> bodyFaces;  // per object; see makeBodyFaces()
 };
 
 void addSheet(const IndexMesh& index, const volume::Grid& grid, std::uint32_t claim, bool boundsBody,
@@ -161,12 +165,14 @@ void prepareObject(const mesh::MeshSet& meshes, const volume::Grid& grid, const 
                    const VoxelizeOptions& options, std::uint32_t object, HeightPlanes& ownHeightPlanes, Geometry& all) {
     const mesh::ObjectMesh& mesh = meshes.objects[object];
     if (mesh.closingMethod == mesh::ClosingMethod::Open) return;  // see fillOpenShells()
-    const IndexMesh index = makeIndexMesh(mesh, indexFromLocal);
     ObjectParts& parts = all.objects[object];
     if (mesh.closingMethod == mesh::ClosingMethod::Surface) {
-        addSheet(index, grid, claims.thinOrder[object], claims.boundsBody[object], options, parts);
+        const bool boundsBody = claims.boundsBody[object];
+        addSheet(makeIndexMesh(boundsBody ? all.bodyFaces[object] : mesh, indexFromLocal), grid,
+                 claims.thinOrder[object], boundsBody, options, parts);
         return;
     }
+    const IndexMesh index = makeIndexMesh(mesh, indexFromLocal);
     const Vec3i dimension = grid.dimension();
     parts.faces = groupCoplanarFaces(index, heightPlaneOfPlane, dimension, claims.solidOrder[object], ownHeightPlanes);
     if (options.keepThinParts)
@@ -234,6 +240,58 @@ ColumnVolume restoreVanishedObjects(ColumnVolume columns, const mesh::MeshSet& m
     return edits.empty() ? columns : editVoxels(columns, std::move(edits), threads);
 }
 
+// Adds the faces that the filling of open shells left out, and lists these shells.
+void addLostFaces(const mesh::MeshSet& meshes, const IndexFromLocal& indexFromLocal,
+                  std::span<const ObjectClaim> claims, int threads, std::vector<std::uint8_t>& usedScalars,
+                  VoxelizeResult& result) {
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t o = 0; o < meshes.objects.size(); ++o)
+        if (meshes.objects[o].closingMethod == mesh::ClosingMethod::Open && !std::ranges::count(result.unfilled, o))
+            open.push_back(o);
+    if (open.empty()) return;
+    std::stable_sort(open.begin(), open.end(),
+                     [&](std::uint32_t p, std::uint32_t q) { return claims[p].rank < claims[q].rank; });
+    constexpr std::uint8_t kBackground = 255;
+    std::vector<std::uint8_t> ranks(usedScalars.size(), kBackground);
+    for (const ObjectClaim& claim : claims) {
+        if (ranks.size() <= claim.scalar) ranks.resize(std::size_t{claim.scalar} + 1, kBackground);
+        ranks[claim.scalar] = claim.rank;
+    }
+    std::vector<LostFaces> lost(open.size());
+    parallelFor(open.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n)
+            lost[n] = findLostFaces(makeIndexMesh(meshes.objects[open[n]], indexFromLocal), result.columns, ranks,
+                                    claims[open[n]].scalar);
+    });
+    std::vector<VoxelEdit> edits;
+    for (std::size_t n = 0; n < open.size(); ++n) {
+        if (lost[n].voxels.empty()) continue;
+        edits.insert(edits.end(), lost[n].voxels.begin(), lost[n].voxels.end());
+        result.thinVoxels[open[n]] += lost[n].voxels.size();
+        result.lostFaces.push_back({open[n], lost[n].share});
+    }
+    if (edits.empty()) return;
+    result.columns = editVoxels(result.columns, std::move(edits), threads);
+    const std::vector<std::uint64_t> counts = result.columns.countVoxels(static_cast<volume::Scalar>(ranks.size()));
+    usedScalars.assign(counts.size(), 0);
+    for (std::size_t scalar = 0; scalar < counts.size(); ++scalar) usedScalars[scalar] = counts[scalar] != 0;
+    std::ranges::sort(result.lostFaces, {}, &LostShare::object);
+}
+
+// Gives the voxels on the outside of bodies that no surface took to the nearest surface.
+void coverBareVoxels(const Geometry& geometry, const volume::Grid& grid, Vec3d origin,
+                     std::span<const ObjectClaim> claims, int threads, std::vector<std::uint8_t>& usedScalars,
+                     ColumnVolume& columns) {
+    std::vector<VoxelEdit> edits =
+        findBareVoxels(columns, grid, origin, geometry.bodies, geometry.bodyFaces, claims, threads);
+    if (edits.empty()) return;
+    columns = editVoxels(columns, std::move(edits), threads);
+    // Every run in the dictionary of a tile is in use.
+    std::ranges::fill(usedScalars, std::uint8_t{0});
+    for (const volume::ColumnTile& tile : columns.tiles())
+        for (const volume::Run& run : tile.runs) usedScalars[run.scalar] = 1;
+}
+
 // Fills the open objects by winding number: all their parts on all cores.
 Result<void> fillOpenShells(const mesh::MeshSet& meshes, const volume::Grid& grid, const IndexFromLocal& indexFromLocal,
                             std::span<const std::uint32_t> heightPlaneOfPlane, const Claims& claims,
@@ -294,9 +352,11 @@ Result<void> fillOpenShells(const mesh::MeshSet& meshes, const volume::Grid& gri
 }
 
 Result<Geometry> prepareObjects(const mesh::MeshSet& meshes, const volume::Grid& grid,
-                                const IndexFromLocal& indexFromLocal, const Claims& claims,
-                                const VoxelizeOptions& options) {
+                                const IndexFromLocal& indexFromLocal, std::span<const ObjectClaim> objectClaims,
+                                const Claims& claims, const VoxelizeOptions& options) {
     Geometry all;
+    all.bodies = findBoundedBodies(meshes, objectClaims);
+    all.bodyFaces = makeBodyFaces(meshes, all.bodies, options.threads);
     all.heightPlanes.depth = grid.dimension().z;
     all.heightPlanes.first = static_cast<std::uint32_t>(grid.dimension().z) + 1;
     std::vector<std::uint32_t> heightPlaneOfPlane;
@@ -476,7 +536,7 @@ Result<VoxelizeResult> voxelize(const mesh::MeshSet& meshes, const volume::Grid&
             sheetVoxels += estimateSheetVoxels(object, indexFromLocal);
     SVT_DO(checkSheetVoxels(sheetVoxels));
     const Claims ordered = orderClaims(meshes, claims);
-    SVT_TRY(geometry, prepareObjects(meshes, grid, indexFromLocal, ordered, options));
+    SVT_TRY(geometry, prepareObjects(meshes, grid, indexFromLocal, claims, ordered, options));
     Tiles swept = sweepTiles(*geometry, grid.dimension(), ordered, options);
     if (Progress::isCancelled(options.progress)) return Error(Code::Cancelled, "stopped while voxelizing");
 
@@ -490,9 +550,11 @@ Result<VoxelizeResult> voxelize(const mesh::MeshSet& meshes, const volume::Grid&
     result.crowdedVoxels = swept.shared.crowded();
     std::sort(result.overlaps.begin(), result.overlaps.end(),
               [](const ClaimPair& p, const ClaimPair& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); });
-    result.columns =
-        restoreVanishedObjects(ColumnVolume::fromTiles(grid.dimension(), std::move(swept.tiles)), meshes, grid,
-                               indexFromLocal, claims, swept.usedScalars, result.thinVoxels, options.threads);
+    result.columns = ColumnVolume::fromTiles(grid.dimension(), std::move(swept.tiles));
+    if (options.keepThinParts) addLostFaces(meshes, indexFromLocal, claims, options.threads, swept.usedScalars, result);
+    coverBareVoxels(*geometry, grid, meshes.origin, claims, options.threads, swept.usedScalars, result.columns);
+    result.columns = restoreVanishedObjects(std::move(result.columns), meshes, grid, indexFromLocal, claims,
+                                            swept.usedScalars, result.thinVoxels, options.threads);
     Progress::tell(options.progress, "voxelize", 1);
     return result;
 }
