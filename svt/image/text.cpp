@@ -10,6 +10,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 extern "C" {
@@ -20,14 +23,16 @@ extern const std::size_t svt_font_size;
 namespace svt::image {
 namespace {
 
+// The em size is about three quarters of the line height.
+FT_UInt pixelsOf(double height) noexcept { return static_cast<FT_UInt>(std::clamp(0.78 * height, 3.0, 400.0) + 0.5); }
+
 // FreeType faces are not thread-safe, so each text has its own.
 class Font {
 public:
     explicit Font(double height) {
         SVT_CHECK(FT_Init_FreeType(&library_) == 0);
         SVT_CHECK(FT_New_Memory_Face(library_, svt_font, static_cast<FT_Long>(svt_font_size), 0, &face_) == 0);
-        // The em size is about three quarters of the line height.
-        FT_Set_Pixel_Sizes(face_, 0, static_cast<FT_UInt>(std::clamp(0.78 * height, 3.0, 400.0) + 0.5));
+        FT_Set_Pixel_Sizes(face_, 0, pixelsOf(height));
     }
     ~Font() {
         FT_Done_Face(face_);
@@ -40,6 +45,11 @@ public:
     [[nodiscard]] FT_GlyphSlot glyph(char32_t letter) const {
         return FT_Load_Char(face_, letter, FT_LOAD_RENDER | FT_LOAD_NO_HINTING) == 0 ? face_->glyph : nullptr;
     }
+    // The advance of a glyph, without rendering it; 0 if it cannot be loaded.
+    [[nodiscard]] double advanceOf(char32_t letter) const {
+        return FT_Load_Char(face_, letter, FT_LOAD_NO_HINTING) == 0 ? advance(face_->glyph) : 0;
+    }
+    [[nodiscard]] bool has(char32_t letter) const { return FT_Get_Char_Index(face_, letter) != 0; }
     [[nodiscard]] double advance(FT_GlyphSlot glyph) const { return static_cast<double>(glyph->advance.x) / 64; }
     // Distance from the vertical centre to the baseline: half the height of capitals.
     [[nodiscard]] double baseline() const { return 0.36 * face_->size->metrics.y_ppem; }
@@ -59,6 +69,28 @@ std::vector<char32_t> lettersOf(std::string_view text) {
     }
     return letters;
 }
+
+// The advances of letters that a thread has measured. Sheets measure the same letters in thousands of texts, and
+// opening the font takes longer than all of them.
+class MeasuredLetters {
+public:
+    explicit MeasuredLetters(double height) : height_(height), size_(pixelsOf(height)) {}
+
+    double advanceOf(char32_t letter) {
+        constexpr std::size_t kMostLetters = 4096;
+        thread_local std::unordered_map<std::uint64_t, double> known;  // by size and letter
+        const std::uint64_t key = std::uint64_t{size_} << 32 | letter;
+        if (const auto found = known.find(key); found != known.end()) return found->second;
+        if (!font_) font_.emplace(height_);
+        if (known.size() >= kMostLetters) known.clear();
+        return known[key] = font_->advanceOf(letter);
+    }
+
+private:
+    double height_;
+    FT_UInt size_;
+    std::optional<Font> font_;
+};
 
 bool isIn(const Image<Rgba8>& image, std::int32_t x, std::int32_t y) {
     return x >= 0 && y >= 0 && x < image.width() && y < image.height();
@@ -125,11 +157,23 @@ Coverage cover(double x, double y, std::string_view text, double height) {
 
 std::span<const std::byte> embeddedFont() noexcept { return std::as_bytes(std::span(svt_font, svt_font_size)); }
 
+std::string missingLetters(std::string_view text) {
+    const Font font(12);
+    std::string missing;
+    for (std::size_t n = 0; n < text.size();) {
+        const Utf8Character character = firstCharacter(text.substr(n));
+        const std::string_view letter = text.substr(n, std::max<std::size_t>(character.size, 1));
+        n += letter.size();
+        if (character.size == 0 || character.code < 0x80 || font.has(character.code)) continue;
+        if (missing.find(letter) == std::string::npos) missing += letter;
+    }
+    return missing;
+}
+
 double textWidth(std::string_view text, double height) {
-    const Font font(height);
+    MeasuredLetters letters(height);
     double width = 0;
-    for (const char32_t letter : lettersOf(text))
-        if (const FT_GlyphSlot glyph = font.glyph(letter); glyph != nullptr) width += font.advance(glyph);
+    for (const char32_t letter : lettersOf(text)) width += letters.advanceOf(letter);
     return width;
 }
 

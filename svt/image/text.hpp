@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace svt::image {
@@ -24,6 +25,10 @@ struct TextStyle {
 
 /// Width of `text` (UTF-8), pixels. Characters that are missing in the font have the width of a box.
 [[nodiscard]] double textWidth(std::string_view text, double height);
+
+/// The characters of `text` (UTF-8) that the font does not have, each once, in order. Control characters do not count.
+/// Cost: O(length).
+[[nodiscard]] std::string missingLetters(std::string_view text);
 
 /// Draws `text` with its left end at `x`, vertically centred at `y`; clipped to the image. Cost: O(pixels covered).
 void drawText(Image<Rgba8>& image, double x, double y, std::string_view text, const TextStyle& style);

@@ -72,5 +72,11 @@ TEST(Line, IsAsWideAsAskedFor) {
     EXPECT_NEAR(static_cast<double>(inked.count), 4 * 42, 8);
 }
 
+TEST(ImageText, NamesTheCharactersThatTheFontDoesNotHave) {
+    EXPECT_EQ(missingLetters("Level \u00B10.00, \u25BD, \u0416, line\nbreak"), "");
+    EXPECT_EQ(missingLetters("\u6807\u9AD8 1, \u6807\u9AD8 2"), "\u6807\u9AD8");
+    EXPECT_EQ(missingLetters("\xFF"), "") << "not UTF-8";
+}
+
 }  // namespace
 }  // namespace svt::image

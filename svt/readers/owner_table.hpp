@@ -10,7 +10,7 @@
 namespace svt::readers {
 
 /// Reads a table for analyze::parseOwners(). The table of a GeoPackage or SQLite file is the first one with the columns
-/// `feature` and `owner`; its column `share` is optional.
+/// `feature` and `owner`; its columns `share`, `right` and `source` are optional. The text then has a heading.
 /// \return the text, or CannotOpen, InputTooBig (over 64 MiB), BadValue: no such table
 [[nodiscard]] Result<std::string> readOwnerTable(const std::filesystem::path& path);
 

@@ -36,6 +36,8 @@ public:
         findUsed(given_.anchors);
         SVT_TRY(unit, unitOfModel(model_, given_.units, options_.unit, given_.place));
         unit_ = *unit;
+        if (given_.name.empty() && given_.units.empty() && options_.unit == 0 && options_.crs == 0)
+            warnOfHighRooms(model_, given_.place, diagnostics_);
         gml::AxisDecision axes = decide();
         if (axes.isGeographic && !given_.anchors.empty()) {
             placeInDegrees(axes.isNorthFirst);

@@ -275,6 +275,9 @@ TEST(Georeference, TheUnitIsThatOfTheUserOrOfTheFileOrPlausible) {
     EXPECT_EQ(placed(rooms(1000), "").result.error().code(), Code::UnitInDoubt);
     EXPECT_NE(placed(rooms(1000), "").result.error().message().find("--unit mm"), std::string::npos);
     EXPECT_NE(placed(rooms(100), "local").result.error().message().find("--unit cm"), std::string::npos);
+    EXPECT_EQ(placed(rooms(1), "").diagnostics.count(Code::UnitInDoubt), 0u);
+    EXPECT_EQ(placed(rooms(8), "").diagnostics.count(Code::UnitInDoubt), 1u) << "rooms of 22 units: a warning";
+    EXPECT_EQ(placed(rooms(8), "EPSG:25832").diagnostics.count(Code::UnitInDoubt), 0u);
     ReadOptions options;
     options.unit = 0.001;
     for (const Placed& found : {placed(rooms(1000), "", options), placed(rooms(1000), "EPSG:4326", options),

@@ -12,7 +12,7 @@ namespace {
 
 using std::string_view;
 
-constexpr double kHighestRoom = 100;  // metres
+constexpr double kHighestRoom = 100, kHighRoom = 10;  // metres
 
 // Length of a unit by its label in GML or its code; 0: not known.
 double unitLength(string_view label) noexcept {
@@ -75,6 +75,17 @@ Result<double> unitOfModel(const model::BuildingModel& model, string_view labels
                              "they are metres)",
                              height, height > 1000 ? "mm" : "cm"),
                  place);
+}
+
+void warnOfHighRooms(const model::BuildingModel& model, const Place& place, Diagnostics& diagnostics) {
+    const double height = medianRoomHeight(model);
+    if (!(height > kHighRoom)) return;
+    diagnostics.add(
+        Severity::Warning, Code::UnitInDoubt,
+        fmt::format("half of the rooms are {:.0f} units high or more, and the file names neither a unit nor "
+                    "a CRS; the units are taken as metres. State the unit with --unit if they are not",
+                    height),
+        place);
 }
 
 }  // namespace svt::readers::georeference

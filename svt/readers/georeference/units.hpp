@@ -22,4 +22,7 @@ namespace svt::readers::georeference {
 [[nodiscard]] Result<double> unitOfModel(const model::BuildingModel& model, std::string_view labels, double stated,
                                          const Place& place);
 
+/// Warns of a model whose unit nobody states, if half of its rooms are higher than 10 units.
+void warnOfHighRooms(const model::BuildingModel& model, const Place& place, Diagnostics& diagnostics);
+
 }  // namespace svt::readers::georeference

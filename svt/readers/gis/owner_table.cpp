@@ -7,7 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <string_view>
+#include <utility>
 
 namespace svt::readers {
 namespace {
@@ -28,14 +29,17 @@ std::string csvField(const SqliteValue& value) {
     return quoted + "\"";
 }
 
-// The columns feature, owner and share of a table, in this order; empty: it has no owners.
-std::vector<std::string> ownerColumns(const std::vector<std::string>& names) {
-    std::vector<std::string> columns;
-    for (const std::string_view wanted : {"feature", "owner", "share"}) {
+constexpr std::string_view kOwnerColumns[] = {"feature", "owner", "share", "right", "source"};
+
+// The columns of a table that its rows of owners have, as (name in SQL, name in the CSV); empty: it has no owners.
+std::vector<std::pair<std::string, std::string_view>> ownerColumns(const std::vector<std::string>& names) {
+    std::vector<std::pair<std::string, std::string_view>> columns;
+    for (const std::string_view wanted : kOwnerColumns) {
         const auto at = std::find_if(names.begin(), names.end(),
                                      [&](const std::string& name) { return equalsIgnoringCase(name, wanted); });
-        if (at == names.end() && wanted != "share") return {};
-        if (at != names.end()) columns.push_back(gis::quotedName(*at));
+        const bool isNeeded = wanted == "feature" || wanted == "owner";
+        if (at == names.end() && isNeeded) return {};
+        if (at != names.end()) columns.emplace_back(gis::quotedName(*at), wanted);
     }
     return columns;
 }
@@ -54,15 +58,17 @@ Result<std::string> readOwnerTable(const std::filesystem::path& path) {
         const auto names =
             database->select("SELECT * FROM " + gis::quotedName(table) + " LIMIT 0", [](const SqliteRow&) {});
         if (!names) continue;  // a virtual table whose module is not loaded
-        const std::vector<std::string> columns = ownerColumns(*names);
+        const auto columns = ownerColumns(*names);
         if (columns.empty()) continue;
-        // Rows without a share leave the column out, as in a CSV.
         std::string text, list;
-        for (const std::string& column : columns) list += (list.empty() ? "" : ",") + column;
+        for (const auto& [column, name] : columns) {
+            list += (list.empty() ? "" : ",") + column;
+            text += (text.empty() ? "" : ",") + std::string(name);
+        }
+        text += "\n";
         SVT_DO(
             database->select(fmt::format("SELECT {} FROM {}", list, gis::quotedName(table)), [&](const SqliteRow& row) {
-                text += csvField(row[0]) + "," + csvField(row[1]);
-                if (row.size() > 2 && row[2].index() != 0) text += "," + csvField(row[2]);
+                for (std::size_t n = 0; n < row.size(); ++n) text += (n == 0 ? "" : ",") + csvField(row[n]);
                 text += "\n";
             }));
         return text;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,12 +14,21 @@
 namespace svt::readers::ifc {
 namespace {
 
-constexpr std::size_t kMostAxes = 1000;
+constexpr std::size_t kMostAxes = 1000, kMostAxisPoints = 2000;
 
 void addPositive(const IfcFile& file, std::string_view name, Value length, model::Feature& feature) {
     // Whole nanometres: 2010 mm is 2.01 m, without the rounding error of the product.
     const double metres = std::round(file.metres(length) * 1e9) / 1e9;
     if (length.number() && metres > 0) feature.attributes.push_back({std::string(name), metres, "m"});
+}
+
+// Without line breaks and blanks at the ends: some writers have "MA\r" as a region.
+std::string onOneLine(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+    const std::size_t begin = text.find_first_not_of(' ');
+    if (begin == std::string::npos) return {};
+    return text.substr(begin, text.find_last_not_of(' ') - begin + 1);
 }
 
 // Building name or room, lines of the address, post code and town, region, country.
@@ -30,9 +40,10 @@ std::string addressText(const IfcFile& file, RecordIndex address) {
         if (part.empty()) return;
         text += (text.empty() ? "" : std::string(separator)) + part;
     };
-    const auto textOf = [&](AttributePosition at) { return fields[at].string().value_or(""); };
+    const auto textOf = [&](AttributePosition at) { return onOneLine(fields[at].string().value_or("")); };
     add(textOf(at::PostalAddress::InternalLocation), ", ");
-    for (const Value line : itemsOf(fields[at::PostalAddress::AddressLines])) add(line.string().value_or(""), ", ");
+    for (const Value line : itemsOf(fields[at::PostalAddress::AddressLines]))
+        add(onOneLine(line.string().value_or("")), ", ");
     const std::string code = textOf(at::PostalAddress::PostalCode);
     add(code, ", ");
     add(textOf(at::PostalAddress::Town), code.empty() ? ", " : " ");
@@ -54,13 +65,16 @@ void addAxes(const IfcFile& file, const Product& grid, const MapPlace& map, mode
             std::vector<Vec3d> points;
             std::string why;
             if (name.empty() || ++count > kMostAxes) continue;
-            if (!readCurve(file, file.follow(of[at::GridAxis::AxisCurve]), points, why) || points.size() != 2) continue;
-            const Vec3d a = map.mapFromProject.point(place.point(points[0])),
-                        b = map.mapFromProject.point(place.point(points[1]));
-            if (!isFinite(a) || !isFinite(b)) continue;
-            feature.attributes.push_back(
-                {"axis " + name,
-                 fmt::format("{:.6f} {:.6f} {:.6f}, {:.6f} {:.6f} {:.6f}", a.x, a.y, a.z, b.x, b.y, b.z), "m"});
+            if (!readCurve(file, file.follow(of[at::GridAxis::AxisCurve]), points, why)) continue;
+            std::string text;
+            for (const Vec3d& point : points) {
+                const Vec3d p = map.mapFromProject.point(place.point(point));
+                if (!isFinite(p)) text.clear();
+                if (!isFinite(p)) break;
+                text += fmt::format("{}{:.6f} {:.6f} {:.6f}", text.empty() ? "" : ", ", p.x, p.y, p.z);
+            }
+            if (points.size() >= 2 && points.size() <= kMostAxisPoints && !text.empty())
+                feature.attributes.push_back({"axis " + name, std::move(text), "m"});
         }
 }
 

@@ -559,7 +559,7 @@ TEST(DrawingFacts, AreAttributesInMetres) {
         "#112=IFCPOLYLINE((#113,#114));\n"
         "#113=IFCCARTESIANPOINT((-1000.,0.));\n"
         "#114=IFCCARTESIANPOINT((9000.,500.));\n"
-        "#120=IFCPOSTALADDRESS($,$,$,'Hall 2',('Lake Road 3'),$,'Town',$,'8001','CH');\n",
+        "#120=IFCPOSTALADDRESS($,$,$,'Hall 2',('Lake Road 3'),$,'Town','ZH\\X\\0D','8001','CH');\n",
         "#100,#101,#102,#103");
     const auto replace = [&](const std::string& from, const std::string& to) {
         file.replace(file.find(from), from.size(), to);
@@ -574,11 +574,30 @@ TEST(DrawingFacts, AreAttributesInMetres) {
     EXPECT_EQ(attribute(*find(*model, "window"), "overallWidth"), "none");
     EXPECT_EQ(attribute(*find(*model, "flight"), "numberOfRisers"), "16");
     EXPECT_EQ(attribute(*find(*model, "flight"), "riserHeight"), "0.175 m");
-    EXPECT_EQ(attribute(*find(*model, "0building"), "address"), "Hall 2, Lake Road 3, 8001 Town, CH");
+    EXPECT_EQ(attribute(*find(*model, "0building"), "address"), "Hall 2, Lake Road 3, 8001 Town, ZH, CH");
     EXPECT_EQ(attribute(*find(*model, "0site"), "projectName"), "Town hall");
     EXPECT_EQ(model->name, "P-7");
     EXPECT_EQ(attribute(*find(*model, "grid"), "axis A"), "-1.000000 0.000000 0.000000, 9.000000 0.500000 0.000000 m");
     EXPECT_EQ(attribute(*find(*model, "grid"), "axis 1"), "none");
+}
+
+// A quarter of a circle of 4 m from the east to the north, and a polyline with a bend.
+TEST(DrawingFacts, CurvedAxesOfGridsHaveAllTheirPoints) {
+    const auto model = readText(ifcFile(
+        "#103=IFCGRID('grid',$,'G',$,$,#15,$,(#110),(#111),$,$);\n"
+        "#110=IFCGRIDAXIS('A',#112,.T.);\n#111=IFCGRIDAXIS('1',#120,.T.);\n"
+        "#112=IFCTRIMMEDCURVE(#113,(IFCPARAMETERVALUE(0.)),(IFCPARAMETERVALUE(1.5707963267949)),.T.,.PARAMETER.);\n"
+        "#113=IFCCIRCLE(#17,4000.);\n#120=IFCPOLYLINE((#121,#122,#123));\n"
+        "#121=IFCCARTESIANPOINT((0.,0.));\n#122=IFCCARTESIANPOINT((5000.,0.));\n"
+        "#123=IFCCARTESIANPOINT((5000.,3000.));\n",
+        "#103"));
+    ASSERT_TRUE(model) << model.error().message();
+    EXPECT_EQ(attribute(*find(*model, "grid"), "axis 1"),
+              "0.000000 0.000000 0.000000, 5.000000 0.000000 0.000000, 5.000000 3.000000 0.000000 m");
+    const std::string arc = attribute(*find(*model, "grid"), "axis A");
+    EXPECT_TRUE(arc.starts_with("4.000000 0.000000 0.000000, ")) << arc;
+    EXPECT_TRUE(arc.ends_with(", 0.000000 4.000000 0.000000 m")) << arc;
+    EXPECT_GE(std::count(arc.begin(), arc.end(), ','), 12) << arc;
 }
 
 }  // namespace

@@ -154,7 +154,12 @@ namespace svt::readers::ifc {
     E(CompositeCurveOnSurface, CompositeCurve) E(GradientCurve, CompositeCurve, SelfIntersect, BaseCurve) \
     E(SegmentedReferenceCurve, GradientCurve) \
     E(CurveSegment, None, Transition, Placement, SegmentStart, SegmentLength, ParentCurve) \
-    E(Clothoid, Conic, ClothoidConstant) \
+    E(Clothoid, Conic, ClothoidConstant) E(CosineSpiral, Conic, CosineTerm, ConstantTerm) \
+    E(SineSpiral, Conic, SineTerm, LinearTerm, ConstantTerm) \
+    E(SecondOrderPolynomialSpiral, Conic, QuadraticTerm, LinearTerm, ConstantTerm) \
+    E(ThirdOrderPolynomialSpiral, Conic, CubicTerm, QuadraticTerm, LinearTerm, ConstantTerm) \
+    E(SeventhOrderPolynomialSpiral, Conic, SepticTerm, SexticTerm, QuinticTerm, QuarticTerm, CubicTerm, QuadraticTerm, \
+      LinearTerm, ConstantTerm) \
     E(CompositeCurveSegment, None, Transition, SameSense, ParentCurve) \
     E(ReparametrisedCompositeCurveSegment, CompositeCurveSegment) \
     E(TrimmedCurve, None, BasisCurve, Trim1, Trim2, SenseAgreement, MasterRepresentation) E(Circle, Conic, Radius) \

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <optional>
 
 namespace svt::readers::ifc {
 namespace {
@@ -32,50 +34,145 @@ std::vector<SegmentStart> readStarts(const IfcFile& file, RecordIndex curve) {
     return starts;
 }
 
-// Curvature along a segment, in the direction of travel and counter-clockwise: `start` + `rate` * distance.
-struct Curvature {
-    double start = 0, rate = 0;
+constexpr std::size_t kPowers = 9;
+
+// The direction of a parent curve against that at its zero, in radians: the sum of powers[k] s^k, sine * sin(wave s) and
+// cosine * (1 - cos(wave s)).
+struct Turning {
+    std::array<double, kPowers> powers{};
+    double sine = 0, cosine = 0, wave = 0;
+
+    [[nodiscard]] double at(double s) const noexcept {
+        double turn = 0;
+        for (std::size_t k = kPowers; k-- > 0;) turn = turn * s + powers[k];
+        if (wave == 0) return turn;
+        const SineCosine round = sineCosine(wave * s);
+        return turn + sine * round.sine + cosine * (1 - round.cosine);
+    }
+    // At least the greatest curvature up to a distance from zero.
+    [[nodiscard]] double sharpestUpTo(double s) const noexcept {
+        double sharpest = wave * (std::abs(sine) + std::abs(cosine)), power = 1;
+        for (std::size_t k = 1; k < kPowers; ++k, power *= s)
+            sharpest += static_cast<double>(k) * std::abs(powers[k]) * power;
+        return sharpest;
+    }
 };
 
-// Nothing for a parent curve whose curvature is of another kind, or invalid values.
-std::optional<Curvature> curvatureOf(const IfcFile& file, const SegmentStart& segment) {
-    const Fields fields = file.fieldsOf(segment.record);
-    const RecordIndex parent = file.follow(fields[at::CurveSegment::ParentCurve]);
-    const double sense = segment.length < 0 ? -1 : 1;
+// The curvature of a spiral of IFC is a sum of terms. The one of the power k is (s / constant)^k / constant, and keeps the
+// sign of its constant also for even numbers of factors.
+bool addTerm(const IfcFile& file, Value constant, std::size_t power, Turning& turning) {
+    const auto number = constant.number();
+    if (!number) return constant.isNothing();  // optional
+    const double length = file.metres(constant);
+    if (!(std::abs(length) > 0)) return false;
+    double whole = length;
+    for (std::size_t k = 0; k < power; ++k) whole *= std::abs(length);
+    turning.powers[power + 1] = 1 / (whole * static_cast<double>(power + 1));
+    return true;
+}
+
+// The terms of a polynomial spiral, from the highest power.
+bool addTerms(const IfcFile& file, const Fields& fields, std::initializer_list<AttributePosition> terms,
+              Turning& turning) {
+    std::size_t power = terms.size();
+    bool isValid = true;
+    for (const AttributePosition term : terms) isValid = addTerm(file, fields[term], --power, turning) && isValid;
+    return isValid;
+}
+
+// Nothing for a parent curve of another kind, or invalid values.
+// \param size  of the segment, metres: the period of waves follows from it
+std::optional<Turning> turningOf(const IfcFile& file, RecordIndex parent, double size) {
+    Turning turning;
+    const Fields fields = file.fieldsOf(parent);
     switch (file.entityOf(parent)) {
-        case Entity::Line: return Curvature{};
+        case Entity::Line: return turning;
         case Entity::Circle: {
-            const double radius = file.metres(file.fieldsOf(parent)[at::Circle::Radius]);
-            return radius > 0 ? std::optional(Curvature{sense / radius, 0}) : std::nullopt;
+            const double radius = file.metres(fields[at::Circle::Radius]);
+            turning.powers[1] = 1 / radius;
+            return radius > 0 ? std::optional(turning) : std::nullopt;
         }
         case Entity::Clothoid: {
-            const double constant = file.metres(file.fieldsOf(parent)[at::Clothoid::ClothoidConstant]);
-            const Value from = fields[at::CurveSegment::SegmentStart];
-            if (!(std::abs(constant) > 0) || from.typeName() == "IFCPARAMETERVALUE") return std::nullopt;
-            const double rate = 1 / (constant * std::abs(constant));
-            return Curvature{sense * file.metres(from) * rate, rate};
+            const bool isValid = fields[at::Clothoid::ClothoidConstant].number() &&
+                                 addTerm(file, fields[at::Clothoid::ClothoidConstant], 1, turning);
+            return isValid ? std::optional(turning) : std::nullopt;
+        }
+        case Entity::CosineSpiral: {
+            const double term = file.metres(fields[at::CosineSpiral::CosineTerm]);
+            if (!(std::abs(term) > 0) || !addTerm(file, fields[at::CosineSpiral::ConstantTerm], 0, turning))
+                return std::nullopt;
+            turning.wave = kPi / size;
+            turning.sine = 1 / (term * turning.wave);
+            return turning;
+        }
+        case Entity::SineSpiral: {
+            const double term = file.metres(fields[at::SineSpiral::SineTerm]);
+            if (!(std::abs(term) > 0) ||
+                !addTerms(file, fields, {at::SineSpiral::LinearTerm, at::SineSpiral::ConstantTerm}, turning))
+                return std::nullopt;
+            turning.wave = 2 * kPi / size;
+            turning.cosine = 1 / (term * turning.wave);
+            return turning;
+        }
+        case Entity::SecondOrderPolynomialSpiral: {
+            namespace of = at::SecondOrderPolynomialSpiral;
+            const bool isValid = addTerms(file, fields, {of::QuadraticTerm, of::LinearTerm, of::ConstantTerm}, turning);
+            return isValid ? std::optional(turning) : std::nullopt;
+        }
+        case Entity::ThirdOrderPolynomialSpiral: {
+            namespace of = at::ThirdOrderPolynomialSpiral;
+            const bool isValid =
+                addTerms(file, fields, {of::CubicTerm, of::QuadraticTerm, of::LinearTerm, of::ConstantTerm}, turning);
+            return isValid ? std::optional(turning) : std::nullopt;
+        }
+        case Entity::SeventhOrderPolynomialSpiral: {
+            namespace of = at::SeventhOrderPolynomialSpiral;
+            const bool isValid = addTerms(file, fields,
+                                          {of::SepticTerm, of::SexticTerm, of::QuinticTerm, of::QuarticTerm,
+                                           of::CubicTerm, of::QuadraticTerm, of::LinearTerm, of::ConstantTerm},
+                                          turning);
+            return isValid ? std::optional(turning) : std::nullopt;
         }
         default: return std::nullopt;
     }
 }
 
+// The part of a parent curve that a segment uses.
+struct TurningPart {
+    Turning turning;
+    double start = 0;  // metres along the parent curve
+};
+
+std::optional<TurningPart> turningOf(const IfcFile& file, const SegmentStart& segment) {
+    const Fields fields = file.fieldsOf(segment.record);
+    const RecordIndex parent = file.follow(fields[at::CurveSegment::ParentCurve]);
+    const Value from = fields[at::CurveSegment::SegmentStart];
+    const auto turning = turningOf(file, parent, std::abs(segment.length));
+    const Entity kind = file.entityOf(parent);
+    const bool isEven = kind == Entity::Line || kind == Entity::Circle;  // the same from every start
+    if (!turning || (!isEven && from.typeName() == "IFCPARAMETERVALUE")) return std::nullopt;
+    return TurningPart{*turning, isEven ? 0 : file.metres(from)};
+}
+
 // Moves along a segment. The direction is known at every distance, and three Gauss points per step give the place.
-bool appendCurved(const IfcFile& file, const SegmentStart& segment, Curvature curvature, std::vector<Vec3d>& points) {
+bool appendCurved(const IfcFile& file, const SegmentStart& segment, const TurningPart& part,
+                  std::vector<Vec3d>& points) {
     constexpr std::array<std::pair<double, double>, 3> kGauss{
         {{0.1127016653792583, 5.0 / 18}, {0.5, 8.0 / 18}, {0.8872983346207417, 5.0 / 18}}};
-    const double size = std::abs(segment.length);
-    const double sharpest = std::max(std::abs(curvature.start), std::abs(curvature.start + curvature.rate * size));
+    const double size = std::abs(segment.length), sense = segment.length < 0 ? -1 : 1;
+    const double sharpest =
+        part.turning.sharpestUpTo(std::max(std::abs(part.start), std::abs(part.start + segment.length)));
     const double chord = sharpest > 0 ? std::min(kLongestChord, std::sqrt(8 * kChordError / sharpest)) : size;
     const double steps = std::ceil(size / chord);
-    if (!(steps >= 1 && steps <= kMostSteps) || !file.guard().takeSteps(std::uint64_t(steps) * 8)) return false;
-    const double first = std::atan2(segment.ahead.y, segment.ahead.x), step = size / steps;
+    if (!(steps >= 1 && steps <= kMostSteps) || !file.guard().takeSteps(std::uint64_t(steps) * 16)) return false;
+    const double first = std::atan2(segment.ahead.y, segment.ahead.x) - part.turning.at(part.start),
+                 step = size / steps;
     Vec3d at = segment.at;
     points.push_back(at);
     for (double done = 0; done < steps; ++done) {
         for (const auto& [share, weight] : kGauss) {
             const double distance = (done + share) * step;
-            const auto [sine, cosine] =
-                sineCosine(first + curvature.start * distance + curvature.rate * distance * distance / 2);
+            const auto [sine, cosine] = sineCosine(first + part.turning.at(part.start + sense * distance));
             at = at + Vec3d{cosine, sine, 0} * (weight * step);
         }
         points.push_back(at);
@@ -87,8 +184,8 @@ bool appendCurved(const IfcFile& file, const SegmentStart& segment, Curvature cu
 bool appendCubic(const IfcFile& file, const SegmentStart& from, const SegmentStart& to, std::vector<Vec3d>& points) {
     const double size = std::abs(from.length), steps = std::ceil(std::clamp(size, 16.0, 1000.0));
     if (!file.guard().takeSteps(std::uint64_t(steps) * 4)) return false;
-    for (double done = 0; done <= steps; ++done) {
-        const double t = done / steps, u = 1 - t;
+    for (std::size_t done = 0; double(done) <= steps; ++done) {
+        const double t = double(done) / steps, u = 1 - t;
         points.push_back(from.at * (u * u * (1 + 2 * t)) + from.ahead * (size * t * u * u) +
                          to.at * (t * t * (1 + 2 * u)) - to.ahead * (size * t * t * u));
     }
@@ -103,8 +200,8 @@ bool readPlan(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points
         // The start of a segment stands for the end of the one before.
         if (!all.empty()) all.pop_back();
         bool isRead = false;
-        if (const auto curvature = curvatureOf(file, starts[s]))
-            isRead = appendCurved(file, starts[s], *curvature, all);
+        if (const auto part = turningOf(file, starts[s]))
+            isRead = appendCurved(file, starts[s], *part, all);
         else if (s + 1 < starts.size())
             isRead = appendCubic(file, starts[s], starts[s + 1], all);
         if (!isRead) {
@@ -160,8 +257,8 @@ bool readGradient(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& po
         const Vec3d step = plan[p] - plan[p - 1];
         const double size = std::hypot(step.x, step.y), parts = std::max(1.0, std::ceil(size / kGradientStep));
         if (!(parts <= kMostSteps) || !file.guard().takeSteps(std::uint64_t(parts) * 8)) return false;
-        for (double part = 1; part <= parts; ++part) {
-            const double share = part / parts;
+        for (std::size_t part = 1; double(part) <= parts; ++part) {
+            const double share = double(part) / parts;
             points.push_back(plan[p - 1] + step * share + Vec3d{0, 0, gradient.heightAt(done + size * share)});
         }
         done += size;
@@ -180,6 +277,23 @@ bool isOfCurveSegments(const IfcFile& file, RecordIndex curve) {
 
 bool isMeasuredInPlan(const IfcFile& file, RecordIndex curve) noexcept {
     return file.entityOf(curve) == Entity::GradientCurve || file.entityOf(curve) == Entity::SegmentedReferenceCurve;
+}
+
+std::string inexactParts(const IfcFile& file, RecordIndex curve) {
+    ReadGuard::Scope scope(file.guard());
+    std::string why;
+    if (!scope.enter(curve, why) || !isOfCurveSegments(file, curve)) return {};
+    if (isMeasuredInPlan(file, curve)) {
+        if (file.entityOf(curve) == Entity::SegmentedReferenceCurve) return "the cant of its place along a curve";
+        return inexactParts(file, file.follow(curve, at::GradientCurve::BaseCurve));
+    }
+    for (const SegmentStart& start : readStarts(file, curve)) {
+        if (!(std::abs(start.length) > kNoLength) || turningOf(file, start)) continue;
+        const RecordIndex parent = file.follow(start.record, at::CurveSegment::ParentCurve);
+        return fmt::format("its exact place along a curve with a segment of the type {}",
+                           file.typeName(parent).substr(0, 60));
+    }
+    return {};
 }
 
 bool readCurveSegments(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points, std::string& why) {

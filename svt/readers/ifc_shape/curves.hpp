@@ -2,10 +2,11 @@
 /// \file
 /// Curves as polylines. Arcs are cut so that no chord is farther from its arc than kChordError, with at least
 /// kMinSegments and at most kMaxSegments per full turn; all points lie on the arc. Curves of alignments (IFC 4.3) are
-/// composite curves of IfcCurveSegment in plan (lines, arcs, clothoids), and gradient curves above them.
+/// composite curves of IfcCurveSegment in plan (lines, arcs, spirals), and gradient curves above them.
 
 #include <svt/readers/ifc_shape/ifc_file.hpp>
 
+#include <string>
 #include <vector>
 
 namespace svt::readers::ifc {
@@ -42,12 +43,16 @@ void appendArc(const Transform& axes, double radiusX, double radiusY, double fro
 /// Whether distances along a curve are measured in plan: on gradient curves and those above them.
 [[nodiscard]] bool isMeasuredInPlan(const IfcFile& file, RecordIndex curve) noexcept;
 
-/// Appends the points of a curve of isOfCurveSegments(), metres. Chords are within kChordError of arcs and clothoids;
-/// gradients have a point every 5 m. A segment of another parent curve becomes the cubic curve between its start and the
-/// start of the next segment. Cant is not applied.
+/// Appends the points of a curve of isOfCurveSegments(), metres. Chords are within kChordError of arcs and spirals;
+/// gradients have a point every 5 m. A segment of another parent curve, such as a cubic parabola, becomes the cubic curve
+/// between its start and the start of the next segment. Cant is not applied.
 /// \return false for invalid values or a limit of file.guard(); `why` names the reason
 [[nodiscard]] bool readCurveSegments(const IfcFile& file, RecordIndex curve, std::vector<Vec3d>& points,
                                      std::string& why);
+
+/// The parts of a curve of isOfCurveSegments() that readCurveSegments() does not read exactly: its cant, a transition
+/// curve of another kind. Empty for other curves.
+[[nodiscard]] std::string inexactParts(const IfcFile& file, RecordIndex curve);
 
 /// Points of the part of a curve between two points on it, as an edge uses it. Lines are two points.
 /// \param isForward  whether the edge runs with the curve

@@ -186,8 +186,13 @@ Transform IfcFile::placement(RecordIndex record, std::string& lost) const {
                     lost = "its place on a grid (of straight axes that meet)";
                 break;
             case Entity::LinearPlacement:
-                if (const auto axes = linearAxes(follow(fields[at::LinearPlacement::RelativePlacement]))) {
+                if (const RecordIndex relative = follow(fields[at::LinearPlacement::RelativePlacement]);
+                    const auto axes = linearAxes(relative)) {
                     result = axes->after(result);
+                    const RecordIndex location = follow(relative, at::Axis2PlacementLinear::Location);
+                    std::string inexact =
+                        inexactParts(*this, follow(location, at::PointByDistanceExpression::BasisCurve));
+                    if (!inexact.empty()) lost = std::move(inexact);
                     break;
                 }
                 if (const auto axes = cartesianAxes(fields, above)) {

@@ -103,8 +103,9 @@ public:
     [[nodiscard]] Transform transformation(Value reference) const;
     /// IfcLocalPlacement, IfcGridPlacement (on straight axes) or IfcLinearPlacement (by its distance along a curve that
     /// readCurve() knows, else by its Cartesian position) and those above it, in the world of the project.
-    /// \param lost  names an unreadable level; unchanged if there is none. The placement then is that of the readable
-    ///              levels: a circle ends it. Without a place along a curve its origin is NaN
+    /// \param lost  names an unreadable level, or parts of a curve that are not exact; unchanged if there are none. The
+    ///              placement then is that of the readable levels: a circle ends it. Without a place along a curve its
+    ///              origin is NaN
     [[nodiscard]] Transform placement(RecordIndex record, std::string& lost) const;
 
     /// IfcAxis2PlacementLinear at a distance along a curve that readCurve() knows: x along it, y to its left.

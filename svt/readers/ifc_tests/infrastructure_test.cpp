@@ -141,6 +141,91 @@ TEST(IfcInfrastructure, ClothoidsTurnWithTheirDistance) {
     EXPECT_NEAR(back.y, 2.081009, 1e-4);
 }
 
+// Where a curve leads whose curvature is a function of the distance, by many small steps.
+template <class CurvatureAt>
+Vec3d endOf(double size, const CurvatureAt& curvatureAt) {
+    constexpr int kSteps = 100'000;
+    const double step = size / kSteps;
+    double direction = 0;
+    Vec3d at{};
+    for (int n = 0; n < kSteps; ++n) {
+        const double half = 0.5 * step * curvatureAt((n + 0.25) * step);
+        at = at + Vec3d{std::cos(direction + half), std::sin(direction + half), 0} * step;
+        direction += step * curvatureAt((n + 0.5) * step);
+    }
+    return at;
+}
+
+// Transition curves of 100 m from a straight line to an arc with a radius of 300 m.
+TEST(IfcInfrastructure, SpiralsTurnAsTheirCurvatureSays) {
+    constexpr double kSize = 100, kRadius = 300, kTurn = 2 * std::numbers::pi;
+    struct Spiral {
+        const char* type;
+        std::vector<double> terms;  // metres; 0: none
+        double (*shape)(double t);  // curvature of the end at t = 1, from 0 to 1
+    };
+    const auto term = [&](double factor, int power) {  // of factor * t^power
+        const double value = factor * std::pow(kSize, -power) / kRadius;
+        return std::copysign(std::pow(std::abs(value), -1.0 / (power + 1)), value);
+    };
+    const std::vector<Spiral> spirals{
+        {"IFCTHIRDORDERPOLYNOMIALSPIRAL",  // Bloss
+         {term(-2, 3), term(3, 2), 0, 0},
+         [](double t) { return 3 * t * t - 2 * t * t * t; }},
+        {"IFCCOSINESPIRAL", {-2 * kRadius, 2 * kRadius}, [](double t) { return 0.5 - 0.5 * std::cos(kTurn * t / 2); }},
+        {"IFCSINESPIRAL", {-kTurn * kRadius, term(1, 1), 0}, [](double t) { return t - std::sin(kTurn * t) / kTurn; }},
+        {"IFCSECONDORDERPOLYNOMIALSPIRAL",  // the first half of Helmert
+         {term(2, 2), 0, 0},
+         [](double t) { return 2 * t * t; }},
+        {"IFCSEVENTHORDERPOLYNOMIALSPIRAL",  // Vienna
+         {term(-20, 7), term(70, 6), term(-84, 5), term(35, 4), 0, 0, 0, 0},
+         [](double t) { return std::pow(t, 4) * (35 + t * (-84 + t * (70 - 20 * t))); }}};
+    for (const Spiral& spiral : spirals) {
+        std::string terms;
+        for (const double value : spiral.terms) terms += value == 0 ? ",$" : fmt::format(",{:.9f}", 1000 * value);
+        const std::string curve =
+            "#120=IFCCOMPOSITECURVE((#122,#123),.F.);\n"
+            "#122=IFCCURVESEGMENT(.CONTINUOUS.,#125,IFCLENGTHMEASURE(0.),IFCLENGTHMEASURE(100000.),#140);\n"
+            "#123=IFCCURVESEGMENT(.DISCONTINUOUS.,#126,IFCLENGTHMEASURE(0.),IFCLENGTHMEASURE(0.),#141);\n"
+            "#125=IFCAXIS2PLACEMENT2D(#16,$);\n#126=IFCAXIS2PLACEMENT2D(#127,$);\n"
+            "#127=IFCCARTESIANPOINT((99000.,9000.));\n#141=IFCCIRCLE(#125,300000.);\n" +
+            fmt::format("#140={}(#125{});\n", spiral.type, terms);
+        Diagnostics log;
+        const std::string text = signAlong(60, curve);
+        ASSERT_TRUE(readText(text, &log));
+        EXPECT_EQ(log.count(Code::ReadInPart), 0u) << spiral.type;
+        const Vec3d found = placeOfSign(text);
+        const Vec3d place = endOf(60, [&](double s) { return spiral.shape(s / kSize) / kRadius; });
+        EXPECT_NEAR(found.x, place.x, 2e-3) << spiral.type;
+        EXPECT_NEAR(found.y, place.y, 1e-3) << spiral.type;
+    }
+}
+
+// A place along a curve of another kind is near the right one: the finding says so.
+TEST(IfcInfrastructure, PlacesAlongInexactCurvesAreReported) {
+    const auto findingOf = [](const std::string& curve) {
+        Diagnostics log;
+        const auto model = readText(signAlong(30, curve), &log);
+        EXPECT_TRUE(model);
+        EXPECT_FALSE(productNamed(*model, "sign")->geometries.empty());
+        const auto found = std::ranges::find(log.items(), Code::ReadInPart, &Diagnostic::code);
+        return found == log.items().end() ? std::string() : found->message;
+    };
+    EXPECT_EQ(findingOf(kPlan + kGradient), "");
+    std::string cant = kPlan + kGradient;
+    cant.replace(cant.find("#120="), 5, "#119=");
+    const std::string ofCant = findingOf(cant + "#120=IFCSEGMENTEDREFERENCECURVE((#150),.F.,#119,$);\n");
+    EXPECT_NE(ofCant.find("the cant of its place along a curve"), std::string::npos) << ofCant;
+    const std::string ofParabola = findingOf(
+        "#120=IFCCOMPOSITECURVE((#122,#123),.F.);\n"
+        "#122=IFCCURVESEGMENT(.CONTINUOUS.,#125,IFCLENGTHMEASURE(0.),IFCLENGTHMEASURE(100000.),#140);\n"
+        "#123=IFCCURVESEGMENT(.DISCONTINUOUS.,#126,IFCLENGTHMEASURE(0.),IFCLENGTHMEASURE(0.),#141);\n"
+        "#125=IFCAXIS2PLACEMENT2D(#16,$);\n#126=IFCAXIS2PLACEMENT2D(#127,$);\n"
+        "#127=IFCCARTESIANPOINT((99000.,5000.));\n#141=IFCCIRCLE(#125,300000.);\n"
+        "#140=IFCPOLYNOMIALCURVE(#125,(0.,1.),(0.,0.,0.,5.E-12),$);\n");
+    EXPECT_NE(ofParabola.find("IFCPOLYNOMIALCURVE"), std::string::npos) << ofParabola;
+}
+
 TEST(IfcInfrastructure, AProductWithoutItsPlaceAlongACurveHasNoShape) {
     for (const char* curve :
          {"#120=IFCUNKNOWNCURVE(#16);\n", "#120=IFCPOLYLINE((#10,#130));\n#130=IFCCARTESIANPOINT((9.,0.,0.));\n"}) {
