@@ -32,8 +32,9 @@ enum class VolumeSource : std::uint8_t {
 
 struct KnownVolume {
     std::optional<double> volume;  ///< m3; empty: unknown
-    /// m3 by which the volume may be off: 0 for closed meshes; half a voxel along the surface of all that is counted,
-    /// and all voxels with an uncertain winding number. Empty: unknown, in files of older versions.
+    /// m3 by which the volume may be off: 0 for closed meshes. For a counted part, half a voxel along its surface, and all
+    /// voxels with an uncertain winding number. Its surface is that of its mesh, or of its voxels if these have less.
+    /// Empty: unknown, in files of older versions.
     std::optional<double> bound;
     VolumeSource source = VolumeSource::None;
 };
@@ -62,6 +63,7 @@ private:
     std::vector<double> lostArea_;             // by label: m2 of the meshes that took voxels of it; NaN: unknown
     mutable std::vector<char> isInside_;       // by label: in the extent; 0 between calls
     double halfVoxel_ = 0, voxelVolume_ = 0;
+    double voxelSurface_ = 0;  // m2 of one voxel
 };
 
 }  // namespace svt::analyze

@@ -2,6 +2,8 @@
 
 #include <svt/model/classes.hpp>
 
+#include <algorithm>
+
 namespace svt::analyze {
 
 namespace {
@@ -45,7 +47,10 @@ std::vector<Measure> ownMeasures(const volume::LabelTable& table, const volume::
             measure.volume = label.volume;
             if (!isClosedSolid(label.filling)) measure.countedVolume = label.volume;
         } else if ((label.count > 0 || label.voxels > 0) && label.filling != volume::Filling::Surface) {
-            measure.volume = measure.countedVolume = double(label.voxels + sheets[l]) * grid.voxelVolume();
+            // The inside of an open shell does not include voxels that only draw its faces.
+            const bool isOpen = label.filling == volume::Filling::Winding;
+            const std::uint64_t inside = label.voxels - (isOpen ? std::min(label.voxels, label.thinVoxels) : 0);
+            measure.volume = measure.countedVolume = double(inside + sheets[l]) * grid.voxelVolume();
         }
     }
     return measures;

@@ -1,10 +1,11 @@
 #pragma once
 /// \file
-/// Parties, basic administrative units, rights and sources of a building: ISO 19152, from a table of owners.
+/// Parties, basic administrative units, rights, restrictions, responsibilities and sources of a building: ISO 19152,
+/// from a table of owners.
 ///
-///     LA_Party --- LA_Right (share) --- LA_BAUnit --- LA_LegalSpaceBuildingUnit --- LA_BoundaryFace
-///                                           |                    |
-///                                       LA_Source            LA_Source
+///     LA_Party --- LA_RRR (type, share) --- LA_BAUnit --- LA_LegalSpaceBuildingUnit --- LA_BoundaryFace
+///                        |                                         |
+///              LA_AdministrativeSource                     LA_SpatialSource
 
 #include <svt/analyze/legal_spaces.hpp>
 #include <svt/analyze/owners.hpp>
@@ -27,12 +28,15 @@ struct RightShare {
 /// The simplest fraction within 1e-14 of a share, with a denominator up to 10^6; nothing if there is none.
 [[nodiscard]] std::optional<RightShare> shareOf(double fraction) noexcept;
 
-/// A right of ownership of a party in a unit.
-struct OwnershipRight {
-    std::uint32_t party = 0;  ///< index into LandAdministration::parties
-    std::uint32_t unit = 0;   ///< index into LandAdministration::units
-    double fraction = 1;
-    std::optional<RightShare> share;  ///< empty: the fraction has no simple form
+/// A right, restriction or responsibility of a party in a unit.
+struct PartyRight {
+    std::uint32_t party = 0;          ///< index into LandAdministration::parties
+    std::uint32_t unit = 0;           ///< index into LandAdministration::units
+    std::uint8_t type = kOwnership;   ///< index into rightTypes()
+    std::uint32_t source = 0;         ///< index into LandAdministration::sources
+    std::optional<double> fraction;   ///< always known for ownership
+    std::optional<RightShare> share;  ///< empty: the fraction is unknown or has no simple form
+    [[nodiscard]] const RightType& rightType() const noexcept { return rightTypes()[type]; }
 };
 
 /// A basic administrative unit: a feature with rights.
@@ -50,12 +54,20 @@ enum class PartySource : std::uint8_t {
 struct LandAdministration {
     std::vector<std::string> parties;
     std::vector<AdministrativeUnit> units;  ///< by label
-    std::vector<OwnershipRight> rights;     ///< by unit, then party
-    LegalSpaces spaces;                     ///< of the units of the model, and of the features of the table
+    std::vector<PartyRight> rights;         ///< by unit, then type; in order of the table
+    /// Administrative sources of rights: the table or the model, then the documents that rows of the table name.
+    std::vector<std::string> sources;
+    LegalSpaces spaces;  ///< of the units of the model, and of the features of the table
     PartySource partySource = PartySource::Attributes;
-    std::string partyFile;    ///< name of the table, or of the model
+    std::string partyFile;    ///< name of the table, or of the model; the first of `sources`
     std::string spatialFile;  ///< name of the model
 };
+
+/// The share of a right: "1/3"; the decimal fraction if it has no simple form, empty if it is unknown.
+[[nodiscard]] std::string shareText(const PartyRight& right);
+
+/// The sum of the shares of a type of right in a unit; nothing if no right of this type has a share.
+[[nodiscard]] std::optional<double> sumOfShares(const LandAdministration& all, std::uint32_t unit, std::uint8_t type);
 
 /// \param table      null: parties from the attribute `owner` of the units, each with the whole unit
 /// \param tableName  name of the table's file

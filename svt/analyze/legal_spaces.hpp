@@ -50,7 +50,7 @@ struct LegalSpace {
     SpaceBody body = SpaceBody::None;
     std::vector<std::vector<SpaceTriangle>> solids;  ///< closed; of Voxels: boxes
     std::optional<double> bodyVolume;                ///< m3 that the body encloses
-    std::optional<double> totalVolume;               ///< m3 of the feature with its parts, as `svt query` states it
+    std::optional<double> totalVolume;               ///< best known m3 of the feature with its parts, see KnownVolumes
     Box3d box;                                       ///< around the body
     std::vector<PlanPolygon> outline;                ///< of the body in plan
 };

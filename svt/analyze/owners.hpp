@@ -18,10 +18,12 @@
 ///                                       60 %, 30 %, and 10 % unowned
 
 #include <svt/analyze/contacts.hpp>
+#include <svt/analyze/right_types.hpp>
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,25 +46,41 @@ struct OwnedFeature {
     std::vector<std::uint32_t> parts;   ///< labels of its extent that no finer feature of the table has, ascending
 };
 
+/// A right, restriction or responsibility of a party in a feature, as the table states it.
+struct TableRight {
+    std::uint32_t label = 0;
+    std::uint32_t party = 0;         ///< index into OwnerTable::parties
+    std::uint32_t source = 0;        ///< index into OwnerTable::sources
+    std::uint8_t type = kOwnership;  ///< index into rightTypes()
+    std::optional<double> fraction;  ///< more than 0, up to 1; always known for ownership
+    friend bool operator==(const TableRight&, const TableRight&) = default;
+};
+
 struct OwnerTable {
     std::vector<std::string> names;                   ///< of the owners, in order of first occurrence
     std::vector<OwnedFeature> features;               ///< by label
     std::vector<std::vector<OwnerFraction>> ofLabel;  ///< entry l: owners of label l, by owner; empty: not in the table
     std::vector<std::uint32_t> shared;                ///< labels that are parts of several features, ascending
+    std::vector<std::string> parties;                 ///< of all rights, in order of first occurrence
+    std::vector<std::string> sources;                 ///< documents; the first is empty: the row names none
+    std::vector<TableRight> rights;                   ///< by label, type, then row; equal rows once
 };
 
-/// Reads a CSV table of feature, owner and optionally share: UTF-8, separated by commas or semicolons; fields with
-/// separators or quotes are in "...", with "" for a quote. The separator is the first of the two in the first line,
-/// outside of quotes. A first line `feature,owner` or `feature,owner,share` and empty lines are skipped.
+/// Reads a CSV table: UTF-8, separated by commas or semicolons; fields with separators or quotes are in "...", with ""
+/// for a quote. The separator is the first of the two in the first line, outside of quotes. Empty lines are skipped.
 ///
-/// A feature is an id or a query. A share is a fraction (1/2), a percentage (50%) or a number (0.5). Several owners of a
-/// feature have a row each, with their shares. The same owner may have any number of features.
+/// The first line may name the columns in any order: `feature`, `owner`, and optionally `share`, `right` and `source`.
+/// Optional fields may then be empty or missing. Without this line, the columns are feature, owner and optionally share.
+///
+/// A feature is an id or a query. A share is a fraction (1/2), a percentage (50%) or a number (0.5). A right is one of
+/// rightTypes(), ownership by default. Several owners of a feature have a row each, with their shares, which add up to 1
+/// at most. Other rights do not restrict each other. The same owner may have any number of features.
 /// \param file  name for messages
 /// \return the table, or an error with its line:
-///         - BadValue         not two or three columns, an empty field, an open quote, a bad share, or no rows.
-///                            Several owners of a feature without shares, or with more than 1 in all.
+///         - BadValue         unknown or missing columns, an empty field, an open quote, a bad share, an unknown right,
+///                            or no rows. Several owners of a feature without shares, or with more than 1 in all.
 ///         - NothingSelected  neither an id nor a query that selects something (names the nearest).
-///         - InputTooBig      over 64 MiB, or rows that look at more than 2^30 features in all.
+///         - InputTooBig      over 64 MiB, rows that look at more than 2^30 features in all, or more than 2^24 rights.
 /// Cost: O(bytes + labels of all extents) for ids; a query O(labels).
 [[nodiscard]] Result<OwnerTable> parseOwners(std::string_view text, std::string_view file,
                                              const volume::LabelTable& labels);

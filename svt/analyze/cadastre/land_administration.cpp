@@ -2,6 +2,8 @@
 
 #include <svt/core/text.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
@@ -28,7 +30,10 @@ OwnerTable tableOfAttributes(const volume::LabelTable& labels) {
         const auto [at, isNew] = numberOf.try_emplace(owner, static_cast<std::uint32_t>(table.names.size()));
         if (isNew) table.names.push_back(owner);
         table.features.push_back({unit, {{at->second, 1}}, {}});
+        table.rights.push_back({unit, at->second, 0, kOwnership, 1.0});
     }
+    table.parties = table.names;
+    table.sources = {{}};
     return table;
 }
 
@@ -52,6 +57,18 @@ std::optional<RightShare> shareOf(double fraction) noexcept {
     return std::nullopt;
 }
 
+std::string shareText(const PartyRight& right) {
+    if (right.share) return fmt::format("{}/{}", right.share->numerator, right.share->denominator);
+    return right.fraction ? fmt::format("{}", *right.fraction) : std::string();
+}
+
+std::optional<double> sumOfShares(const LandAdministration& all, std::uint32_t unit, std::uint8_t type) {
+    std::optional<double> sum;
+    for (const PartyRight& right : all.rights)
+        if (right.unit == unit && right.type == type && right.fraction) sum = sum.value_or(0) + *right.fraction;
+    return sum;
+}
+
 Result<LandAdministration> makeLandAdministration(const volume::SemanticVolume& volume, const OwnerTable* table,
                                                   const std::string& tableName, const LegalSpaceOptions& options) {
     LandAdministration administration;
@@ -60,9 +77,11 @@ Result<LandAdministration> makeLandAdministration(const volume::SemanticVolume& 
     administration.partySource = table == nullptr ? PartySource::Attributes : PartySource::Table;
     administration.partyFile = table == nullptr ? volume.source : tableName;
     administration.spatialFile = volume.source;
-    administration.parties = owners.names;
+    administration.parties = owners.parties;
+    administration.sources = owners.sources;
+    administration.sources.front() = administration.partyFile;
     std::vector<std::uint32_t> labels = unitsOf(volume.labels);
-    for (const OwnedFeature& feature : owners.features) labels.push_back(feature.label);
+    for (const TableRight& right : owners.rights) labels.push_back(right.label);
     std::sort(labels.begin(), labels.end());
     labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
     if (labels.empty())
@@ -70,12 +89,14 @@ Result<LandAdministration> makeLandAdministration(const volume::SemanticVolume& 
                      "the model has no legal units (BuildingUnit); name features that belong to somebody in a table "
                      "(--owners)");
     administration.spaces = makeLegalSpaces(volume, labels, options);
-    for (const OwnedFeature& feature : owners.features) {
-        const auto space = std::lower_bound(labels.begin(), labels.end(), feature.label) - labels.begin();
-        const auto unit = static_cast<std::uint32_t>(administration.units.size());
-        administration.units.push_back({feature.label, static_cast<std::uint32_t>(space)});
-        for (const auto& [party, fraction] : feature.owners)
-            administration.rights.push_back({party, unit, fraction, shareOf(fraction)});
+    for (const TableRight& right : owners.rights) {
+        if (administration.units.empty() || administration.units.back().label != right.label) {
+            const auto space = std::lower_bound(labels.begin(), labels.end(), right.label) - labels.begin();
+            administration.units.push_back({right.label, static_cast<std::uint32_t>(space)});
+        }
+        const auto unit = static_cast<std::uint32_t>(administration.units.size()) - 1;
+        const std::optional<RightShare> share = right.fraction ? shareOf(*right.fraction) : std::nullopt;
+        administration.rights.push_back({right.party, unit, right.type, right.source, right.fraction, share});
     }
     return administration;
 }

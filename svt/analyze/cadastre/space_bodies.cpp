@@ -45,7 +45,7 @@ BodyMaker::BodyMaker(const volume::SemanticVolume& volume, const Extents& extent
       extents_(extents),
       maxBoxes_(maxBoxes),
       firstTriangle_(volume.labels.labels.size() + 1, 0),
-      own_(ownMeasures(volume.labels, volume.grid)) {
+      known_(volume.labels, volume.grid, extents) {
     for (const auto& triangle : volume.vectors.triangles) ++firstTriangle_[triangle.label + 1];
     for (std::size_t l = 0; l + 1 < firstTriangle_.size(); ++l) firstTriangle_[l + 1] += firstTriangle_[l];
 }
@@ -99,7 +99,7 @@ LegalSpace BodyMaker::make(std::uint32_t label, bool& hasBoxes) const {
     LegalSpace space;
     space.label = label;
     space.isCommon = isCommonUnit(volume_.labels.labels[label]);
-    space.totalVolume = extents_.total(label, own_).volume;
+    space.totalVolume = known_.of(label).volume;
     hasBoxes = true;
     const std::vector<std::uint32_t> extent = extents_.of(label);
     if (hasSolid(label)) {

@@ -3,6 +3,7 @@
 /// The bodies of legal spaces: closed triangle meshes from solids or voxels.
 
 #include <svt/analyze/extents.hpp>
+#include <svt/analyze/known_volumes.hpp>
 #include <svt/analyze/legal_spaces.hpp>
 
 #include <cstddef>
@@ -29,7 +30,7 @@ private:
     const Extents& extents_;
     std::size_t maxBoxes_;
     std::vector<std::size_t> firstTriangle_;  // of label l: [l], end: [l + 1]
-    std::vector<Measure> own_;
+    KnownVolumes known_;
 };
 
 }  // namespace svt::analyze

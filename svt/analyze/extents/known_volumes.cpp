@@ -41,6 +41,7 @@ KnownVolumes::KnownVolumes(const volume::LabelTable& labels, const volume::Grid&
       voxelVolume_(grid.voxelVolume()) {
     const Vec3d spacing = grid.spacing();
     halfVoxel_ = std::max({spacing.x, spacing.y, spacing.z}) / 2;
+    voxelSurface_ = 2 * (spacing.x * spacing.y + spacing.y * spacing.z + spacing.z * spacing.x);
     for (const volume::Overlap& overlap : labels.overlaps) {
         ++firstOverlap_[overlap.a + 1];
         const double area = labels.labels[overlap.a].area;
@@ -123,8 +124,10 @@ std::optional<double> KnownVolumes::ofSolids(const std::vector<std::uint32_t>& e
 std::optional<double> KnownVolumes::countingBound(std::uint32_t label) const {
     const volume::Label& l = labels_.labels[label];
     const double sides = l.filling == Filling::Body ? 2 : 1;
-    const double area = sides * l.area + lostArea_[label];
+    double area = sides * l.area + lostArea_[label];
     if (!(l.area > 0) || !std::isfinite(area)) return std::nullopt;
+    // Others may have taken nearly all of it: a flat leaves single voxels between its rooms and walls.
+    area = std::min(area, own_[label].countedVolume / voxelVolume_ * voxelSurface_);
     return area * halfVoxel_ + double(l.uncertainVoxels) * voxelVolume_;
 }
 

@@ -93,6 +93,28 @@ TEST(KnownVolumes, OfPartsThatShareSpaceAreCounted) {
     EXPECT_EQ(known.source, VolumeSource::Both);
 }
 
+// A flat whose rooms and walls took all voxels but two.
+TEST(KnownVolumes, BoundsCoverOnlyWhatIsCounted) {
+    volume::SemanticVolume volume = volume::test::emptyVolume({20, 10, 4}, {1, 1, 0.5});
+    const auto add = [&](const char* id, const char* className, std::uint32_t parent, double solid, double area) {
+        volume::Label& label = volume::test::addObject(volume, id, className, parent);
+        label.filling = Filling::Solid;
+        label.volume = solid;
+        label.area = area;
+    };
+    add("flat", "BuildingUnit", kNoLabel, 64, 112);
+    add("room", "BuildingRoom", 0, 63, 110);
+    add("wall", "BuildingConstructiveElement", 0, 7.5, 50);
+    volume::test::paintBoxes(
+        volume,
+        {{1, {0, 0, 0}, {8, 4, 4}}, {2, {0, 0, 0}, {8, 4, 4}}, {1, {0, 0, 0}, {2, 1, 1}}, {3, {8, 0, 0}, {12, 4, 4}}});
+    volume.labels.overlaps = {{1, 0, 126, true}, {2, 0, 4, true}};
+    const KnownVolume flat = volumeOf(volume, 0);
+    EXPECT_EQ(flat.source, VolumeSource::Both);
+    EXPECT_DOUBLE_EQ(flat.volume.value_or(0), 63 + 7.5 + 2 * 0.5);
+    EXPECT_DOUBLE_EQ(flat.bound.value_or(0), 2 * 4 * 0.5) << "half a voxel along the surface of two voxels";
+}
+
 TEST(KnownVolumes, AreThoseOfQueries) {
     const volume::SemanticVolume volume = town();
     EXPECT_EQ(*selectLabels(volume, "class=Building and volume>95"), (std::vector<std::uint32_t>{0, 3}));

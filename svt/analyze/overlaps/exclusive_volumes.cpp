@@ -1,6 +1,7 @@
 #include <svt/analyze/exclusive_volumes.hpp>
 
 #include <svt/analyze/overlaps/common_volume_of_all.hpp>
+#include <svt/analyze/overlaps/exclusive_parts.hpp>
 #include <svt/analyze/overlaps/solid_clips.hpp>
 #include <svt/analyze/solid_overlaps.hpp>
 #include <svt/model/classes.hpp>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <unordered_set>
@@ -37,19 +39,7 @@ public:
 
     std::vector<Measure> run() {
         std::vector<Measure> measures = ownMeasures(volume_.labels, volume_.grid);
-        if (solids_.empty()) return measures;
-        const SolidOverlaps overlaps = solidOverlaps(volume_, {.work = work_});
-        if (!overlaps.isComplete) return measures;
-        winners_.resize(solids_.size());
-        std::vector<char> isExact(solids_.size(), 1);
-        for (const SolidOverlap& pair : overlaps.pairs) {
-            if (solidOf_[pair.b] == kNone) continue;
-            if (!pair.isExact) isExact[solidOf_[pair.b]] = 0;
-            if (solidOf_[pair.a] == kNone) continue;
-            winners_[solidOf_[pair.b]].push_back(solidOf_[pair.a]);
-            pairs_.insert(keyOf(pair.a, pair.b));
-        }
-        findBodies(isExact);
+        const std::vector<char> isExact = findWinners();
         for (std::size_t s = 0; s < solids_.size(); ++s) {
             if (isExact[s] == 0) continue;
             const auto volume = exclusiveVolume(s);
@@ -62,7 +52,66 @@ public:
         return measures;
     }
 
+    ExclusiveParts partsIn(std::span<const std::uint32_t> labels, const volume::SemanticVolume& others) {
+        ExclusiveParts parts;
+        parts.all.assign(solidOf_.size(), std::numeric_limits<double>::quiet_NaN());
+        const std::vector<char> isExact = findWinners();
+        const std::vector<MeshSolid> otherSolids = meshSolids(others);
+        for (const std::uint32_t label : labels) {
+            const std::size_t s = solidOf_[label];
+            if (s == kNone || isExact[s] == 0 || !bodiesOf_[s].empty()) continue;
+            const auto all = exclusiveVolume(s);
+            std::vector<std::pair<std::uint32_t, BoundedVolume>> found;
+            bool isComplete = all.has_value();
+            for (const MeshSolid& other : otherSolids) {
+                if (!isComplete) break;
+                if (commonBox(solids_[s].box, other.box).isEmpty()) continue;
+                const auto part = partIn(s, other, others.vectors);
+                isComplete = part.has_value();
+                if (part) found.emplace_back(other.label, *part);
+            }
+            if (!isComplete) continue;
+            parts.all[label] = std::max(0.0, *all);
+            for (const auto& [other, part] : found) parts.shared[{label, other}] = part;
+        }
+        return parts;
+    }
+
 private:
+    // Finds the solids that have space of each solid. \return by solid: whether its own volume is exact
+    std::vector<char> findWinners() {
+        winners_.resize(solids_.size());
+        bodiesOf_.resize(solids_.size());
+        if (solids_.empty()) return {};
+        const SolidOverlaps overlaps = solidOverlaps(volume_, {.work = work_});
+        if (!overlaps.isComplete) return std::vector<char>(solids_.size(), 0);
+        std::vector<char> isExact(solids_.size(), 1);
+        for (const SolidOverlap& pair : overlaps.pairs) {
+            if (solidOf_[pair.b] == kNone) continue;
+            if (!pair.isExact) isExact[solidOf_[pair.b]] = 0;
+            if (solidOf_[pair.a] == kNone) continue;
+            winners_[solidOf_[pair.b]].push_back(solidOf_[pair.a]);
+            pairs_.insert(keyOf(pair.a, pair.b));
+        }
+        findBodies(isExact);
+        return isExact;
+    }
+
+    // The own volume of a solid in a solid of another volume.
+    std::optional<BoundedVolume> partIn(std::size_t solid, const MeshSolid& other, const volume::VectorParts& parts) {
+        isComplete_ = true;
+        claims_ = {solid};
+        clip_ = &other;
+        clipParts_ = &parts;
+        const Box3d box = commonBox(solids_[solid].box, other.box);
+        bound_ = 0;
+        const double whole = commonOfClaims(box);
+        const double lost = whole > 0 && !winners_[solid].empty() ? lostVolume(winners_[solid], box) : 0;
+        clip_ = nullptr;
+        if (!isComplete_) return std::nullopt;
+        return BoundedVolume{std::max(0.0, whole - lost), bound_};
+    }
+
     static constexpr std::size_t kNone = ~std::size_t{0};
 
     static std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) {
@@ -78,7 +127,6 @@ private:
     // it stays counted.
     void findBodies(std::vector<char>& isExact) {
         const auto& labels = volume_.labels.labels;
-        bodiesOf_.resize(solids_.size());
         for (std::uint32_t l = 0; l < labels.size(); ++l) {
             if (labels[l].filling != volume::Filling::Body) continue;
             std::vector<std::size_t> hulls;
@@ -145,6 +193,17 @@ private:
             lowest = std::min(lowest, clips.back().lowest);
             area += clips.back().area;
         }
+        double unit = volume_.vectors.unit;
+        if (clip_ != nullptr) {
+            const std::uint64_t steps = clip_->triangles.size();
+            isComplete_ = isComplete_ && steps <= work_;
+            if (!isComplete_) return 0;
+            work_ -= steps;
+            clips.push_back(clipSolid(*clip_, *clipParts_, box));
+            lowest = std::min(lowest, clips.back().lowest);
+            area += clips.back().area;
+            unit = std::max(unit, clipParts_->unit);
+        }
         for (const SolidClip& clip : clips) roofs.push_back(&clip.roofs);
         // First the mesh with the fewest triangles, so that others are clipped to few.
         std::sort(roofs.begin(), roofs.end(), [](const auto* a, const auto* b) { return a->size() < b->size(); });
@@ -156,7 +215,8 @@ private:
             volume = commonVolumeOfAll(roofs, lowest, work_);
         }
         if (!volume) isComplete_ = false;
-        const double bound = area * volume_.vectors.unit;
+        const double bound = area * unit;
+        bound_ += bound;
         return volume.value_or(0) > bound ? *volume : 0;
     }
 
@@ -169,12 +229,20 @@ private:
     std::vector<std::vector<std::uint32_t>> bodiesOf_;  // by solid: labels of its material
     std::vector<std::size_t> claims_;
     bool isComplete_ = true;
+    const MeshSolid* clip_ = nullptr;                 // joins claims_, if any
+    const volume::VectorParts* clipParts_ = nullptr;  // has its triangles
+    double bound_ = 0;                                // m3: sum of the rounding of commonOfClaims()
 };
 
 }  // namespace
 
 std::vector<Measure> exclusiveMeasures(const volume::SemanticVolume& volume, std::uint64_t work) {
     return ExclusiveVolumes(volume, work).run();
+}
+
+ExclusiveParts exclusiveParts(const volume::SemanticVolume& volume, std::span<const std::uint32_t> labels,
+                              const volume::SemanticVolume& others, std::uint64_t work) {
+    return ExclusiveVolumes(volume, work).partsIn(labels, others);
 }
 
 std::vector<std::uint32_t> finestFeatures(const Extents& extents, std::span<const std::uint32_t> features,

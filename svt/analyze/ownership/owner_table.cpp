@@ -8,10 +8,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
 
 namespace svt::analyze {
@@ -20,6 +22,7 @@ namespace {
 constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
 // Maximum number of features that all rows together may test: about a minute of work.
 constexpr std::uint64_t kMaxVisits = std::uint64_t{1} << 30;
+constexpr std::size_t kMaxRights = std::size_t{1} << 24;
 
 struct TableRow {
     std::vector<std::string> fields;
@@ -144,12 +147,44 @@ private:
     std::unordered_map<std::string_view, std::uint32_t> byId_;
 };
 
-bool isHeader(const TableRow& row) {
-    constexpr std::string_view kNames[] = {"feature", "owner", "share"};
-    if (row.line != 1 || row.fields.size() < 2 || row.fields.size() > 3) return false;
-    for (std::size_t n = 0; n < row.fields.size(); ++n)
-        if (!equalsIgnoringCase(row.fields[n], kNames[n])) return false;
-    return true;
+// The columns of a table: the place of each field in a row.
+struct TableColumns {
+    enum Name : std::size_t { Feature, Owner, Share, Right, Source, Count };
+    static constexpr std::array<std::string_view, Count> kNames{"feature", "owner", "share", "right", "source"};
+    std::array<std::size_t, Count> at{0, 1, 2, kNone, kNone};
+    bool areNamed = false;
+
+    /// The field of a column; empty if the row or the table does not have it.
+    [[nodiscard]] std::string_view field(const TableRow& row, Name name) const {
+        return at[name] < row.fields.size() ? std::string_view(row.fields[at[name]]) : std::string_view();
+    }
+    static constexpr std::size_t kNone = ~std::size_t{0};
+};
+
+// \return the columns that the first row names, or nothing if it is not a heading
+Result<std::optional<TableColumns>> columnsOf(const TableRow& row, std::string_view file) {
+    const auto hasField = [&](std::string_view name) {
+        return std::any_of(row.fields.begin(), row.fields.end(),
+                           [&](const std::string& field) { return equalsIgnoringCase(field, name); });
+    };
+    if (row.line != 1 || !hasField("feature") || !hasField("owner")) return std::optional<TableColumns>();
+    TableColumns columns;
+    columns.at.fill(TableColumns::kNone);
+    columns.areNamed = true;
+    for (std::size_t n = 0; n < row.fields.size(); ++n) {
+        const auto known = std::find_if(TableColumns::kNames.begin(), TableColumns::kNames.end(),
+                                        [&](std::string_view name) { return equalsIgnoringCase(row.fields[n], name); });
+        const auto name = std::size_t(known - TableColumns::kNames.begin());
+        if (name == TableColumns::Count || columns.at[name] != TableColumns::kNone)
+            return Error(
+                Code::BadValue,
+                fmt::format("owners table: the column '{}' is {}; columns are feature, owner, share, right and "
+                            "source",
+                            row.fields[n], name == TableColumns::Count ? "unknown" : "there twice"),
+                {std::string(file), row.line, 0, {}});
+        columns.at[name] = n;
+    }
+    return std::optional<TableColumns>(columns);
 }
 
 // 1/2, 50 % or 0.5 as a number over 0, up to 1; empty for anything else.
@@ -178,44 +213,57 @@ class TableMaker {
 public:
     TableMaker(std::string_view file, const volume::LabelTable& labels) : file_(file), labels_(labels), find_(labels) {
         table_.ofLabel.resize(labels.labels.size());
+        table_.sources.emplace_back();
     }
 
     Result<void> add(const TableRow& row) {
         const Place place{std::string(file_), row.line, 0, {}};
-        const std::vector<std::string>& fields = row.fields;
-        const auto isEmpty = [](const std::string& field) { return field.empty(); };
-        if (fields.size() < 2 || fields.size() > 3 || std::any_of(fields.begin(), fields.end(), isEmpty))
-            return Error(
-                Code::BadValue,
-                fmt::format("owners table: expected two or three columns, feature, owner and share, found {}; "
-                            "put fields with commas in quotes",
-                            fields.size() == 2 || fields.size() == 3 ? "an empty one" : std::to_string(fields.size())),
-                place);
+        SVT_DO(checkFields(row, place));
         std::optional<double> share;
-        if (fields.size() == 3) {
-            share = parseShare(fields[2]);
+        if (const std::string_view text = columns_.field(row, TableColumns::Share); !text.empty()) {
+            share = parseShare(text);
             if (!share)
                 return Error(Code::BadValue,
                              fmt::format("owners table: '{}' is not a share; expected a fraction over 0 and up to 1, "
                                          "such as 1/2, 50% or 0.5",
-                                         fields[2]),
+                                         text),
                              place);
         }
-        const auto selected = find_.find(fields[0], visits_);
+        std::uint8_t type = kOwnership;
+        if (const std::string_view text = columns_.field(row, TableColumns::Right); !text.empty()) {
+            const auto known = rightTypeOf(text);
+            if (!known)
+                return Error(
+                    Code::BadValue,
+                    fmt::format("owners table: '{}' is not a known right; expected one of {}", text, rightTypeNames()),
+                    place);
+            type = *known;
+        }
+        const auto selected = find_.find(std::string(columns_.field(row, TableColumns::Feature)), visits_);
         if (!selected) return Error(selected.error().code(), selected.error().message(), place);
         visits_ += selected->size();
         SVT_DO(checkVisits(place));
-        const auto [owner, isNew] = numberOf_.try_emplace(fields[1], static_cast<std::uint32_t>(table_.names.size()));
-        if (isNew) table_.names.push_back(fields[1]);
-        for (const std::uint32_t label : *selected) SVT_DO(give(label, owner->second, share, place));
+        const std::string party(columns_.field(row, TableColumns::Owner));
+        TableRight right{0, numberIn(parties_, table_.parties, party),
+                         numberIn(sources_, table_.sources, std::string(columns_.field(row, TableColumns::Source))),
+                         type, share};
+        const std::uint32_t owner = type == kOwnership ? numberIn(numberOf_, table_.names, party) : kNoOwner;
+        for (const std::uint32_t label : *selected) {
+            if (type == kOwnership) SVT_DO(give(label, owner, share, place));
+            right.label = label;
+            SVT_DO(addRight(right, place));
+        }
         return {};
     }
 
     Result<OwnerTable> finish() {
-        if (table_.names.empty())
+        if (table_.parties.empty())
             return Error(Code::BadValue, "owners table: no rows; expected lines such as flat-1,Smith",
                          {std::string(file_), 0, 0, {}});
         SVT_DO(findParts());
+        std::stable_sort(table_.rights.begin(), table_.rights.end(), [](const TableRight& r, const TableRight& s) {
+            return std::tie(r.label, r.type) < std::tie(s.label, s.type);
+        });
         for (const OwnedFeature& feature : table_.features)
             for (const std::uint32_t part : feature.parts)
                 for (const auto& [owner, fraction] : feature.owners)
@@ -223,7 +271,84 @@ public:
         return std::move(table_);
     }
 
+    /// Takes the columns that a heading names.
+    void setColumns(const TableColumns& columns) noexcept { columns_ = columns; }
+
 private:
+    [[nodiscard]] Result<void> checkFields(const TableRow& row, const Place& place) const {
+        const auto isEmpty = [](const std::string& field) { return field.empty(); };
+        if (columns_.areNamed) {
+            const std::size_t most = std::size_t(std::count_if(
+                columns_.at.begin(), columns_.at.end(), [](std::size_t at) { return at != TableColumns::kNone; }));
+            for (const auto name : {TableColumns::Feature, TableColumns::Owner})
+                if (columns_.field(row, name).empty())
+                    return Error(Code::BadValue,
+                                 fmt::format("owners table: the column '{}' is empty", TableColumns::kNames[name]),
+                                 place);
+            if (row.fields.size() > most)
+                return Error(
+                    Code::BadValue,
+                    fmt::format("owners table: expected {} columns, as in the first line, found {}; put fields "
+                                "with commas in quotes",
+                                most, row.fields.size()),
+                    place);
+            return {};
+        }
+        const std::size_t count = row.fields.size();
+        if (count >= 2 && count <= 3 && std::none_of(row.fields.begin(), row.fields.end(), isEmpty)) return {};
+        return Error(Code::BadValue,
+                     fmt::format("owners table: expected two or three columns, feature, owner and share, found {}; put "
+                                 "fields with commas in quotes, and name further columns in the first line",
+                                 count == 2 || count == 3 ? "an empty one" : std::to_string(count)),
+                     place);
+    }
+
+    static std::uint32_t numberIn(std::map<std::string, std::uint32_t>& numbers, std::vector<std::string>& names,
+                                  const std::string& name) {
+        const auto [at, isNew] = numbers.try_emplace(name, static_cast<std::uint32_t>(names.size()));
+        if (isNew) names.push_back(name);
+        return at->second;
+    }
+
+    // Adds a right. Rows with the same feature, party, type and source are one right: shares of ownership add up.
+    Result<void> addRight(const TableRight& right, const Place& place) {
+        const auto [at, isNew] =
+            rightOf_.try_emplace({right.label, right.party, right.source, right.type}, table_.rights.size());
+        if (isNew) {
+            if (right.type == kOwnership && !right.fraction && isOwnedBySource(right))
+                return Error(
+                    Code::BadValue,
+                    fmt::format("owners table: '{}' is given to '{}' twice, with several sources; give each row "
+                                "a share, such as 1/2",
+                                labels_.labels[right.label].id, table_.parties[right.party]),
+                    place);
+            if (table_.rights.size() == kMaxRights)
+                return Error(Code::InputTooBig,
+                             fmt::format("owners table: the rows up to here state more than {} rights; name features "
+                                         "by id",
+                                         kMaxRights),
+                             place);
+            table_.rights.push_back(right);
+            if (right.type == kOwnership && !right.fraction) table_.rights.back().fraction = 1;
+            return {};
+        }
+        std::optional<double>& known = table_.rights[at->second].fraction;
+        if (right.type != kOwnership) {
+            if (right.fraction) known = right.fraction;
+        } else if (right.fraction) {
+            *known += *right.fraction;
+        }
+        return {};
+    }
+
+    // Whether another source gives the feature to the same owner.
+    [[nodiscard]] bool isOwnedBySource(const TableRight& right) const {
+        for (auto at = rightOf_.lower_bound({right.label, right.party, 0, 0});
+             at != rightOf_.end() && at->first[0] == right.label && at->first[1] == right.party; ++at)
+            if (at->first[2] != right.source && at->first[3] == kOwnership) return true;
+        return false;
+    }
+
     [[nodiscard]] Result<void> checkVisits(const Place& place) const {
         if (visits_ <= kMaxVisits) return {};
         return Error(
@@ -302,10 +427,12 @@ private:
     std::string_view file_;
     const volume::LabelTable& labels_;
     Features find_;
+    TableColumns columns_;
     OwnerTable table_;
-    std::map<std::string, std::uint32_t> numberOf_;
-    std::map<std::uint32_t, Owners> ownersOf_;  // by label
-    std::vector<std::uint32_t> featuresOf_;     // by label: number of features that have it
+    std::map<std::string, std::uint32_t> numberOf_, parties_, sources_{{std::string(), 0}};
+    std::map<std::array<std::uint32_t, 4>, std::size_t> rightOf_;  // by label, party, source and type
+    std::map<std::uint32_t, Owners> ownersOf_;                     // by label
+    std::vector<std::uint32_t> featuresOf_;                        // by label: number of features that have it
     std::uint64_t visits_ = 0;
 };
 
@@ -320,8 +447,12 @@ Result<OwnerTable> parseOwners(std::string_view text, std::string_view file, con
     TableReader reader(text, file);
     while (!reader.isAtEnd()) {
         SVT_TRY(row, reader.next());
-        if (row->fields.empty() || isHeader(*row)) continue;
-        SVT_DO(maker.add(*row));
+        if (row->fields.empty()) continue;
+        SVT_TRY(columns, columnsOf(*row, file));
+        if (*columns)
+            maker.setColumns(**columns);
+        else
+            SVT_DO(maker.add(*row));
     }
     return maker.finish();
 }

@@ -192,6 +192,46 @@ TEST(Owners, CommonPropertyIsByStoreyAndBuilding) {
     EXPECT_NEAR(common + result.ofFeature[0], result.all, 1e-9);
 }
 
+TEST(Owners, RightsOtherThanOwnershipAreKeptApart) {
+    const auto volume = threeRooms();
+    const auto table = parseOwners(
+        "source,owner,right,feature,share\n"
+        "deed 7,Ada,,a,1/3\ndeed 8,Ada,ownership,a,1/6\n,Bob,Ownership,a,1/2\n"
+        "deed 9,Bank,mortgage,a\n,Bank,mortgage,b\n,Cid,lease,a,1/4\n,Dora,lease,a,1\n,City,Monument Maintenance,b,\n",
+        "t.csv", volume.labels);
+    ASSERT_TRUE(table) << table.error().toString();
+    EXPECT_EQ(table->names, (std::vector<std::string>{"Ada", "Bob"})) << "owners only";
+    EXPECT_EQ(table->parties, (std::vector<std::string>{"Ada", "Bob", "Bank", "Cid", "Dora", "City"}));
+    EXPECT_EQ(table->sources, (std::vector<std::string>{"", "deed 7", "deed 8", "deed 9"}));
+    ASSERT_EQ(table->features.size(), 1u) << "nobody owns room b";
+    ASSERT_EQ(table->features[0].owners.size(), 2u);
+    EXPECT_DOUBLE_EQ(table->features[0].owners[0].fraction, 0.5);
+    ASSERT_EQ(table->rights.size(), 8u);
+    const auto typeOf = [&](std::size_t n) { return rightTypes()[table->rights[n].type].name; };
+    EXPECT_EQ(typeOf(2), "ownership");
+    EXPECT_EQ(typeOf(3), "lease");
+    EXPECT_EQ(table->rights[3].fraction, 0.25) << "leases add up to more than 1";
+    EXPECT_EQ(typeOf(5), "mortgage");
+    EXPECT_EQ(table->rights[5].fraction, std::nullopt);
+    EXPECT_EQ(table->sources[table->rights[5].source], "deed 9");
+    EXPECT_EQ(typeOf(7), "monument maintenance");
+    EXPECT_EQ(rightTypes()[table->rights[7].type].of, RightClass::Responsibility);
+    const auto errorOf = [&](std::string_view text) {
+        const auto wrong = parseOwners(text, "t.csv", volume.labels);
+        return wrong ? Error() : wrong.error();
+    };
+    const Error unknown = errorOf("feature,owner,right\na,Ada,\na,Bob,rent\n");
+    EXPECT_EQ(unknown.code(), Code::BadValue);
+    EXPECT_EQ(unknown.where().line, 3u);
+    for (const char* name : {"'rent'", "lease", "usufruct", "easement", "mortgage", "maintenance"})
+        EXPECT_NE(unknown.message().find(name), std::string::npos) << name << unknown.message();
+    EXPECT_NE(errorOf("feature,owner,note\na,Ada,x\n").message().find("'note' is unknown"), std::string::npos);
+    EXPECT_NE(errorOf("feature,owner,owner\na,Ada,x\n").message().find("there twice"), std::string::npos);
+    EXPECT_EQ(errorOf("feature,owner,right\na,,lease\n").where().line, 2u);
+    EXPECT_EQ(errorOf("feature,owner,source\na,Ada,d1\na,Ada,d2\n").where().line, 3u) << "two deeds need shares";
+    EXPECT_EQ(errorOf("feature,owner,right\na,Ada,lease,x\n").where().line, 2u);
+}
+
 TEST(Owners, SayWhatIsWrongAndWhere) {
     const auto volume = threeRooms();
     const auto errorOf = [&](std::string_view text) {
