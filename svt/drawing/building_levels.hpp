@@ -30,7 +30,9 @@ struct BuildingLevel {
 
 /// The levels of the model, from the lowest: its storeys, as returned by findStoreys(). Storeys of different buildings
 /// form one level if their floors are less than 1.2 m apart. So do storeys of one building if one of them has no rooms,
-/// such as a roof. The storey with most room area gives name and floor.
+/// such as a roof. The storey with most room area gives name and floor; without rooms, one whose name has no word for
+/// foundations. Rooms that the plan of their storey does not cut have a level of their own with the name of the storey,
+/// if they have at least a fifth of its area.
 ///
 /// Without storeys, levels are floors of rooms that are at least 1.5 m high: first the floor with most area, then those
 /// of rooms that are 1.2 m or more away from it. A room that the plan of a level cuts, and that has less than a fifth of
@@ -48,7 +50,8 @@ struct BuildingLevel {
 /// The floor of the ground floor, metres above the grid's lower corner: the zero level of drawings. 0 without levels.
 [[nodiscard]] double zeroLevel(std::span<const BuildingLevel> levels) noexcept;
 
-/// The level of each label, as an index into `levels`: that of its storey. A label without storey belongs to the highest
+/// The level of each label, as an index into `levels`: that of its storey; of several, the highest that is at most 0.3 m
+/// above the label's floor. A label without storey belongs to the highest
 /// level at most 0.3 m above its floor. The next level takes it if the label begins nearer to that one and reaches its
 /// plan.
 /// \return one index per label; 0 for labels below all levels and for labels without extent
@@ -56,8 +59,8 @@ struct BuildingLevel {
                                                       std::span<const BuildingLevel> levels,
                                                       std::span<const LabelExtent> extents);
 
-/// Reports storeys whose declared level contradicts their rooms, slabs or other parts, with both heights
-/// (StoreyLevelDiffers).
+/// Reports storeys whose declared level contradicts their rooms, slabs or other parts, with both heights, and storeys
+/// whose rooms stand on several floors (StoreyLevelDiffers).
 void reportStoreys(const volume::SemanticVolume& volume, Diagnostics& log);
 
 }  // namespace svt::drawing

@@ -11,7 +11,6 @@
 
 #include <svt/core/result.hpp>
 #include <svt/drawing/building_levels.hpp>
-#include <svt/volume/brick_volume.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
 #include <cstddef>
@@ -60,7 +59,7 @@ struct LevelArea {
     [[nodiscard]] bool netExceedsGross() const noexcept;
 };
 
-/// All components of one class and IFC type.
+/// All components of one class and IFC type, with their parts that have a style of their own, such as panes.
 struct ComponentSum {
     std::string className, type;  ///< type: attribute `ifcType`, or empty
     std::size_t count = 0;
@@ -69,23 +68,26 @@ struct ComponentSum {
 };
 
 struct FloorAreas {
-    std::vector<RoomArea> rooms;           ///< by level, number, name
-    std::vector<LevelArea> levels;         ///< one per given level
-    std::vector<ComponentSum> components;  ///< by class and type; without spaces and features that have no voxels
+    std::vector<RoomArea> rooms;    ///< by level, number, name
+    std::vector<LevelArea> levels;  ///< one per given level
+    std::vector<ComponentSum>
+        components;  ///< by class and type; without spaces, notes and features that have no voxels
     [[nodiscard]] LevelArea total() const noexcept;  ///< of levels that are floors
 };
+
+class DrawingTables;  // drawing_tables.hpp
 
 /// Measures the floors. Rooms lower than 1.5 m are voids and do not count; nor do spaces that are named after a roof,
 /// such as "Roof". For the level of a room, see levelsOfLabels().
 /// Storeys and units do not count as rooms.
 /// \param levels   of findLevels()
 /// \param threads  0: all cores; the result does not depend on it
-/// \param bricks   bricks of the volume, if the caller has them; objects with open shells need them
+/// \param tables   of the volume, or null: they are made
 /// \return the areas, or an error of drawSection()
 /// Cost: O(triangles), and one section per level.
 [[nodiscard]] Result<FloorAreas> measureFloorAreas(const volume::SemanticVolume& volume,
                                                    const std::vector<BuildingLevel>& levels, int threads = 0,
-                                                   const volume::BrickVolume* bricks = nullptr);
+                                                   const DrawingTables* tables = nullptr);
 
 /// Reports levels whose rooms have more area than their plan encloses (NetExceedsGross).
 void reportAreas(const FloorAreas& areas, const std::vector<BuildingLevel>& levels,

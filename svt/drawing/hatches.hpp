@@ -15,7 +15,7 @@ namespace svt::drawing {
 /// The source of a hatch, in order of precedence.
 enum class HatchSource : std::uint8_t {
     Stated,     ///< the attribute `hatch` of the component
-    Window,     ///< windows are glass, whatever their frames are made of
+    Window,     ///< panes of windows and windows without parts are glass, whatever their frames are made of
     Structure,  ///< a property that names the structural material (`... Structural Material`)
     Thickest,   ///< the thickest load-bearing layer; without one, the thickest layer
     Material,   ///< the only material, or the only one that matches
@@ -38,7 +38,8 @@ struct HatchChoice {
 };
 
 /// The hatch of each label by index, with its source. Walls without a matching material are masonry, slabs and beams
-/// reinforced concrete, rafters timber, ground earth. Spaces have no hatch.
+/// reinforced concrete, rafters timber, ground earth. Spaces have no hatch. Parts of windows beside the pane have that
+/// of their own material or style, otherwise none.
 ///
 /// Layers come from the attribute `materialLayers` ("NAME 0.1 m; NAME 0.2 m"), materials from `material`, separated by
 /// semicolons, otherwise by commas.

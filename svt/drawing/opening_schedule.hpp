@@ -40,6 +40,7 @@ struct OpeningSchedule {
     std::vector<std::string> marks;                   ///< by label; empty for labels that are not openings
     std::vector<std::optional<OpeningPlace>> places;  ///< by label, likewise
     std::vector<std::uint32_t> openings;              ///< by label: the opening that it is part of, or kNoLabel
+    std::size_t unknown = 0;                          ///< openings without a mesh and a stated size, which have no row
 };
 
 /// Lists the doors and windows that have a mesh or a stated size. A feature within another opening, such as its surface,

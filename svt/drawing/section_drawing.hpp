@@ -17,11 +17,13 @@
 #include <svt/core/result.hpp>
 #include <svt/drawing/section_plane.hpp>
 #include <svt/record/members.hpp>
+#include <svt/render/hatch.hpp>
 #include <svt/volume/brick_volume.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -203,6 +205,9 @@ struct SectionDrawing {
     bool isUnsettled = false;
     bool lacksMeshes = false;  ///< lines beyond the cut were requested, but the volume stores no meshes
     double planeShift = 0;     ///< distance that `plane` was moved to the kept side to avoid such edges, metres
+    /// The hatches of all labels, if the drawing needed them or SectionOptions::tables were given; null: see
+    /// labelHatches(). Drawings of one set share them.
+    std::shared_ptr<const std::vector<render::Hatch>> hatches{};
 };
 
 /// The kinds of lines beyond the cut to draw. They come from the meshes that the volume stores, not from voxels.
@@ -215,6 +220,7 @@ struct BeyondOptions {
 };
 
 struct BuildingLevel;  // building_levels.hpp
+class DrawingTables;   // drawing_tables.hpp
 
 struct SectionOptions {
     std::vector<std::string> show;  ///< queries; only labels that one of them selects are drawn; empty: all
@@ -230,6 +236,8 @@ struct SectionOptions {
     DimensionUnit dimensionUnit = DimensionUnit::MetresCentimetres;
     /// Levels of the volume for dimensions, as findLevels() returns them; null: they are found.
     const std::vector<BuildingLevel>* levels = nullptr;
+    /// Tables of the volume, for several drawings of it; null: they are made.
+    const DrawingTables* tables = nullptr;
     bool doorSwings = true;  ///< plans: door symbols, see findDoorSwings() in section/door_swings.hpp
     bool useMeshes = true;   ///< cut the meshes that the volume stores; false: always cut voxels
     int threads = 0;         ///< 0: all cores; the result does not depend on it

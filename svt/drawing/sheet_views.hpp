@@ -34,8 +34,10 @@ struct SheetViews {
 /// roofs and rooms that touch in plan. They pass through its largest stair. Without one, A-A cuts the ridge of its roof.
 /// Among these places, they cut most of the rooms and least of the walls along their length.
 /// \param threads  0: all cores; the result does not depend on it
+/// \param tables   of the volume, or null: they are made
 /// \return the views, or an error of drawSection()
 /// Cost: that of 18 sections without lines beyond the cut.
-[[nodiscard]] Result<SheetViews> chooseSheetViews(const volume::SemanticVolume& volume, int threads = 0);
+[[nodiscard]] Result<SheetViews> chooseSheetViews(const volume::SemanticVolume& volume, int threads = 0,
+                                                  const DrawingTables* tables = nullptr);
 
 }  // namespace svt::drawing

@@ -20,7 +20,7 @@ struct StairFlight {
     std::uint32_t label = 0;
     std::vector<StairTread> treads;  ///< from below, 3 or more; landings are treads too
     double riser = 0;                ///< mean height from tread to tread, metres
-    double going = 0;                ///< mean horizontal distance from tread to tread along the line of travel, metres
+    double going = 0;                ///< median horizontal distance from tread to tread, so that landings do not count
 
     /// The number of risers from the floor below to the floor above; a floor up to a riser and a half above the last
     /// tread adds one.
@@ -29,7 +29,8 @@ struct StairFlight {
 };
 
 /// The stairs of the model, by class, IFC type, function or name, whose meshes have treads: horizontal faces that look
-/// up, 8 to 30 cm apart. Stairs without such treads, such as ramps, are left out.
+/// up, 8 to 30 cm apart. Faces that carry another part of the stair, such as the top of a riser, are not treads. Nor are
+/// smaller faces between two treads. Stairs without treads, such as ramps, are left out.
 /// Cost: O(triangles of stairs).
 [[nodiscard]] std::vector<StairFlight> findStairFlights(const volume::SemanticVolume& volume);
 

@@ -3,6 +3,7 @@
 
 #include <svt/core/text.hpp>
 #include <svt/drawing/areas/covered_area.hpp>
+#include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/levels/level_parts.hpp>
 #include <svt/drawing/room_floor_areas.hpp>
 #include <svt/model/classes.hpp>
@@ -103,13 +104,13 @@ bool hasClosedMesh(volume::Filling filling) noexcept {
 class AreaMaker {
 public:
     AreaMaker(const volume::SemanticVolume& volume, const std::vector<BuildingLevel>& levels, int threads,
-              const volume::BrickVolume* bricks)
+              const DrawingTables& tables)
         : volume_(volume),
           levels_(levels),
           threads_(threads),
-          bricks_(bricks),
+          tables_(tables),
           meshes_(sumMeshes(volume)),
-          roomAreas_(roomFloorAreas(volume)),
+          roomAreas_(tables.roomAreas()),
           extents_(labelExtents(volume)),
           levelOf_(levelsOfLabels(volume, levels, extents_)) {}
 
@@ -143,9 +144,9 @@ private:
         const SectionPlane plane{up, volume_.grid.origin() + up * height};
         SectionOptions options;
         options.threads = threads_;
+        options.tables = &tables_;
         if (!meetsGrid(plane, volume_.grid)) return SectionDrawing{};
-        return bricks_ != nullptr ? drawSection(volume_, *bricks_, plane, options)
-                                  : drawSection(volume_, plane, options);
+        return drawSection(volume_, plane, options);
     }
 
     // Measures the area that each level encloses, and the area of each label at its level.
@@ -247,14 +248,20 @@ private:
 
     void addComponents() {
         std::map<std::pair<std::string, std::string>, ComponentSum> sums;
-        for (std::uint32_t l = 0; l < volume_.labels.labels.size(); ++l) {
-            const volume::Label& label = volume_.labels.labels[l];
-            if (label.count == 0 || model::isSpace(label.className)) continue;
-            const std::string* type = attributeText(label, "ifcType");
-            ComponentSum& sum = sums[{label.className, type != nullptr ? *type : std::string()}];
-            sum.className = label.className;
+        const auto& labels = volume_.labels.labels;
+        std::vector<char> isCounted(labels.size(), 0);
+        for (std::uint32_t l = 0; l < labels.size(); ++l) {
+            const volume::Label& label = labels[l];
+            // A pane or a frame belongs to its window.
+            const bool isPart = model::isPhase(label.className) && label.parent < labels.size();
+            const std::uint32_t object = isPart ? label.parent : l;
+            const volume::Label& owner = labels[object];
+            if (label.count == 0 || model::isSpace(owner.className) || owner.className == "Annotation") continue;
+            const std::string* type = attributeText(owner, "ifcType");
+            ComponentSum& sum = sums[{owner.className, type != nullptr ? *type : std::string()}];
+            sum.className = owner.className;
             if (type != nullptr) sum.type = *type;
-            ++sum.count;
+            sum.count += std::exchange(isCounted[object], 1) == 0;
             sum.area += hasClosedMesh(label.filling) ? 0.5 * meshes_[l].seen : meshes_[l].seen;
             sum.volume += label.volume;
         }
@@ -264,13 +271,13 @@ private:
     const volume::SemanticVolume& volume_;
     const std::vector<BuildingLevel>& levels_;
     int threads_;
-    const volume::BrickVolume* bricks_;
-    std::vector<MeshSum> meshes_;                   // by label
-    std::vector<std::optional<double>> roomAreas_;  // by label
-    std::vector<LabelExtent> extents_;              // by label
-    std::vector<std::size_t> levelOf_;              // by label
-    std::vector<double> ceilings_;                  // by level, metres above the grid's lower corner
-    std::vector<std::vector<double>> areaAt_;       // by level and label, m2
+    const DrawingTables& tables_;
+    std::vector<MeshSum> meshes_;                          // by label
+    const std::vector<std::optional<double>>& roomAreas_;  // by label
+    std::vector<LabelExtent> extents_;                     // by label
+    std::vector<std::size_t> levelOf_;                     // by label
+    std::vector<double> ceilings_;                         // by level, metres above the grid's lower corner
+    std::vector<std::vector<double>> areaAt_;              // by level and label, m2
     FloorAreas areas_;
 };
 
@@ -324,8 +331,9 @@ LevelArea FloorAreas::total() const noexcept {
 }
 
 Result<FloorAreas> measureFloorAreas(const volume::SemanticVolume& volume, const std::vector<BuildingLevel>& levels,
-                                     int threads, const volume::BrickVolume* bricks) {
-    return AreaMaker(volume, levels, threads, bricks).run();
+                                     int threads, const DrawingTables* tables) {
+    const DrawingTables own(volume);
+    return AreaMaker(volume, levels, threads, tables != nullptr ? *tables : own).run();
 }
 
 void reportAreas(const FloorAreas& areas, const std::vector<BuildingLevel>& levels,

@@ -178,6 +178,23 @@ TEST(FloorAreas, WithoutLevelsThereAreComponentsOnly) {
     EXPECT_EQ(areas->components.size(), 1u);
 }
 
+TEST(FloorAreas, PanesAndFramesCountWithTheirWindow) {
+    Boxes boxes;
+    boxes.addBox("wall", "BuildingConstructiveElement", {0, 0, 0}, {4, 0.3, 3});
+    boxes.addBox("window", "Window", {1, 0.1, 1}, {2, 0.2, 1.1});
+    for (const double x : {1.0, 1.5}) {
+        boxes.addBox("pane", "WindowPhase", {x, 0.14, 1.1}, {x + 0.5, 0.16, 2});
+        boxes.volume.labels.labels.back().parent = 1;
+    }
+    boxes.addBox("note", "Annotation", {0, 0, 3}, {1, 0.3, 3.2});
+    const auto areas = measureFloorAreas(boxes.volume, findLevels(boxes.volume));
+    ASSERT_TRUE(areas);
+    ASSERT_EQ(areas->components.size(), 2u);
+    EXPECT_EQ(areas->components[1].className, "Window");
+    EXPECT_EQ(areas->components[1].count, 1u);
+    EXPECT_NEAR(areas->components[1].volume, 0.1 * 0.1 + 2 * 0.5 * 0.02 * 0.9, 1e-9);
+}
+
 TEST(RoomUse, WordsOfNamesAndAttributesTell) {
     const auto useOf = [](const std::string& name, const std::string& function = "") {
         volume::Label label;

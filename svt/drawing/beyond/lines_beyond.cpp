@@ -2,15 +2,14 @@
 
 #include <svt/core/parallel.hpp>
 #include <svt/drawing/beyond/cut_region.hpp>
+#include <svt/drawing/beyond/labels_in_view.hpp>
 #include <svt/drawing/beyond/merge_lines.hpp>
 #include <svt/drawing/beyond/piercing.hpp>
 #include <svt/drawing/beyond/view_shapes.hpp>
-#include <svt/drawing/hatches.hpp>
-#include <svt/model/classes.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <memory>
 
 namespace svt::drawing {
 namespace {
@@ -24,34 +23,25 @@ constexpr double kBesideEdge = 2e-4;  // metres: where to look for the face on t
 constexpr double kSameDirection = 0.99999;
 
 // Whether faces of two labels that lie in one plane show no joint.
-struct JointKind {
-    std::uint32_t building = 0;  // or kNoLabel
-    bool isPaper = false;        // a boundary surface that is a sheet: it lies on the object that it bounds
-    bool joins = false;
-    render::Hatch hatch{};
-    const std::string* className = nullptr;
-};
+class JointRule {
+public:
+    JointRule(const volume::LabelTable& table, const DrawingTables& tables)
+        : table_(table), facts_(tables.facts()), hatches_(tables.hatches()) {}
 
-std::vector<JointKind> jointKinds(const volume::LabelTable& table) {
-    const std::vector<render::Hatch> hatches = labelHatches(table);
-    std::vector<JointKind> kinds(table.labels.size());
-    for (std::uint32_t l = 0; l < kinds.size(); ++l) {
-        const volume::Label& label = table.labels[l];
-        std::uint32_t top = l;
-        while (top != volume::kNoLabel && model::classRank(table.labels[top].className) != model::ClassRank::Building)
-            top = table.labels[top].parent;
-        const auto rank = model::classRank(label.className);
-        kinds[l] = {top, model::isBoundarySurface(label.className) && label.filling == volume::Filling::Surface,
-                    rank >= model::ClassRank::Element, hatches[l], &label.className};
+    [[nodiscard]] bool isJoint(std::uint32_t a, std::uint32_t b) const noexcept {
+        if (a == b) return true;
+        const LabelFacts &x = facts_[a], &y = facts_[b];
+        if (!x.isElement || !y.isElement || x.building != y.building) return false;
+        // A sheet lies on the object that it bounds.
+        if (x.isSheet != y.isSheet) return true;
+        return (*hatches_)[a] == (*hatches_)[b] && table_.labels[a].className == table_.labels[b].className;
     }
-    return kinds;
-}
 
-bool isJoint(const JointKind& a, const JointKind& b, bool isSame) noexcept {
-    if (isSame) return true;
-    if (!a.joins || !b.joins || a.building != b.building) return false;
-    return a.isPaper != b.isPaper || (a.hatch == b.hatch && *a.className == *b.className);
-}
+private:
+    const volume::LabelTable& table_;
+    const std::vector<LabelFacts>& facts_;
+    std::shared_ptr<const std::vector<render::Hatch>> hatches_;
+};
 
 // Buffers of one thread.
 struct ClipScratch {
@@ -62,8 +52,8 @@ struct ClipScratch {
 
 class LineClipper {
 public:
-    LineClipper(const ViewShapes& shapes, const CutRegion& cut, const std::vector<JointKind>& kinds, bool wantsHidden)
-        : shapes_(shapes), cut_(cut), kinds_(kinds), wantsHidden_(wantsHidden), index_(indexOf(shapes)) {}
+    LineClipper(const ViewShapes& shapes, const CutRegion& cut, const JointRule& rule, bool wantsHidden)
+        : shapes_(shapes), cut_(cut), rule_(rule), wantsHidden_(wantsHidden), index_(indexOf(shapes)) {}
 
     // The visible parts of an edge, and, if asked for, the others.
     void clip(const ViewEdge& edge, BeyondKind kind, ClipScratch& scratch, std::vector<BeyondLine>& lines) const {
@@ -151,7 +141,7 @@ private:
     // Where a face lies in the plane of the edge's own, on its other side.
     void addJoint(const ViewEdge& edge, double length, const ViewFace& face, std::vector<LinePart>& joints) const {
         if (dot(face.normal, edge.normal) < kSameDirection) return;
-        if (!isJoint(kinds_[edge.label], kinds_[face.label], edge.label == face.label)) return;
+        if (!rule_.isJoint(edge.label, face.label)) return;
         const Vec3d along = edge.to - edge.from;
         const double begin = dot(face.normal, edge.from - face.corners[0]), change = dot(face.normal, along);
         LinePart part;
@@ -163,7 +153,7 @@ private:
 
     const ViewShapes& shapes_;
     const CutRegion& cut_;
-    const std::vector<JointKind>& kinds_;
+    const JointRule& rule_;
     bool wantsHidden_;
     PlaneIndex index_;
 };
@@ -193,17 +183,21 @@ void leaveOutBeyond(double depth, ViewShapes& shapes) {
 }  // namespace
 
 void addLinesBeyond(SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                    std::span<const std::uint8_t> isDrawn, const BeyondOptions& options, int threads) {
+                    std::span<const std::uint8_t> isDrawn, const BeyondOptions& options, const DrawingTables& tables,
+                    int threads) {
     if (!options.isAny() || volume.vectors.triangles.empty()) return;
     const CutRegion cut(drawing, volume.labels);
-    const std::vector<JointKind> kinds = jointKinds(volume.labels);
+    const JointRule rule(volume.labels, tables);
     std::vector<BeyondLine> lines;
     for (const bool looksAtCut : {false, true}) {
         if (looksAtCut ? !options.above : !options.visible && !options.hidden) continue;
         const bool wantsHidden = !looksAtCut && options.hidden;
-        ViewShapes shapes = projectMeshes(volume, drawing.plane, drawing.axes, isDrawn, {looksAtCut, wantsHidden});
-        if (!looksAtCut && options.depth > 0) leaveOutBeyond(options.depth, shapes);
-        const LineClipper clipper(shapes, cut, kinds, wantsHidden);
+        const ViewOptions view{looksAtCut, wantsHidden};
+        const double depth = looksAtCut ? 0 : options.depth;
+        const std::vector<std::uint8_t> isNeeded = labelsInView(volume, drawing, isDrawn, view, depth, tables);
+        ViewShapes shapes = projectMeshes(volume, drawing.plane, drawing.axes, isDrawn, view, tables, isNeeded);
+        if (depth > 0) leaveOutBeyond(depth, shapes);
+        const LineClipper clipper(shapes, cut, rule, wantsHidden);
         const BeyondKind kind = looksAtCut ? BeyondKind::Above : BeyondKind::Visible;
         clipEdges(shapes.edges, clipper, kind, threads, lines);
         clipEdges(findPiercingLines(shapes.faces), clipper, kind, threads, lines);
@@ -216,10 +210,11 @@ void addLinesBeyond(SectionDrawing& drawing, const volume::SemanticVolume& volum
 void addLinesOfView(SectionDrawing& drawing, const volume::SemanticVolume& volume,
                     std::span<const std::uint8_t> isDrawn, const EyeView& eye, bool isHidden, int threads) {
     if (volume.vectors.triangles.empty()) return;
+    const DrawingTables tables(volume);
     const CutRegion cut(drawing, volume.labels);
-    const std::vector<JointKind> kinds = jointKinds(volume.labels);
-    const ViewShapes shapes = projectMeshes(volume, eye, isDrawn, isHidden);
-    const LineClipper clipper(shapes, cut, kinds, isHidden);
+    const JointRule rule(volume.labels, tables);
+    const ViewShapes shapes = projectMeshes(volume, eye, isDrawn, isHidden, tables);
+    const LineClipper clipper(shapes, cut, rule, isHidden);
     std::vector<BeyondLine> lines;
     clipEdges(shapes.edges, clipper, BeyondKind::Visible, threads, lines);
     clipEdges(findPiercingLines(shapes.faces), clipper, BeyondKind::Visible, threads, lines);

@@ -26,10 +26,12 @@ namespace svt::drawing {
 /// A face does not hide lines within 0.2 mm of it. Lines closer than 0.1 mm count as one. Joints between objects of one
 /// class and hatch whose faces lie in one plane are not drawn. Pieces below 0.5 mm are omitted.
 /// \param isDrawn  by label; other labels are neither drawn nor hide anything
+/// \param tables   of the volume
 /// \param threads  0: all cores; the result does not depend on it
 /// Cost: O(faces + edges * faces that a grid cell along them meets). FZK-Haus, 21,740 triangles: 20 to 60 ms.
 void addLinesBeyond(SectionDrawing& drawing, const volume::SemanticVolume& volume,
-                    std::span<const std::uint8_t> isDrawn, const BeyondOptions& options, int threads);
+                    std::span<const std::uint8_t> isDrawn, const BeyondOptions& options, const DrawingTables& tables,
+                    int threads);
 
 /// Adds the lines that an eye sees to a drawing whose cut is in the coordinates of the picture, see EyeView.
 /// \param isHidden  also add hidden edges

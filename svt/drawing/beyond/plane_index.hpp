@@ -29,13 +29,18 @@ public:
     /// Calls `visit(item)` once for each item that may lie near the line. It returns whether to go on.
     template <class Visit>
     void visitNear(PlanePoint from, PlanePoint to, Seen& seen, const Visit& visit) const {
+        const PlanePoint line[2] = {from, to};
+        visitNear(line, seen, visit);
+    }
+    /// The same for a convex polygon of one point or more.
+    template <class Visit>
+    void visitNear(std::span<const PlanePoint> polygon, Seen& seen, const Visit& visit) const {
         if (cellStart_.empty()) return;
         if (seen.lineOfItem.size() != items_) seen = {std::vector<std::uint32_t>(items_, 0), 0};
         ++seen.line;
-        const PlanePoint line[2] = {from, to};
-        const Rows rows = rowsOf(line);
+        const Rows rows = rowsOf(polygon);
         for (std::int32_t row = rows.first; row <= rows.last; ++row) {
-            const Rows columns = columnsOf(line, row);
+            const Rows columns = columnsOf(polygon, row);
             for (std::int32_t column = columns.first; column <= columns.last; ++column) {
                 const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                                          static_cast<std::size_t>(column);

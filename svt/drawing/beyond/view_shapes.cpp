@@ -1,7 +1,5 @@
 #include <svt/drawing/beyond/view_shapes.hpp>
 
-#include <svt/model/classes.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,7 +7,6 @@
 namespace svt::drawing {
 namespace {
 
-using volume::Filling;
 using volume::kNoLabel;
 
 constexpr double kOnViewPlane = 1e-5;         // metres, as for the cut
@@ -18,8 +15,6 @@ constexpr double kSeen = 1e-3;                // cosine: faces of outlines
 constexpr double kFromTheSide = 1e-7;         // cosine below which a face is seen from the side
 constexpr double kSliver = 5e-6;              // metres: lower triangles have no direction
 
-bool isClosedFilling(Filling filling) noexcept { return filling >= Filling::Solid && filling <= Filling::Capped; }
-
 // How the faces of a label are looked at.
 struct LabelView {
     bool isShown = false;
@@ -27,51 +22,48 @@ struct LabelView {
     double turn = 1;        // -1: seen from within
 };
 
-std::vector<LabelView> viewsOf(const volume::LabelTable& table, std::span<const std::uint8_t> isDrawn) {
-    std::vector<LabelView> views(table.labels.size());
-    std::vector<std::uint8_t> hasSurfaces(table.labels.size(), 0);
-    for (const volume::Label& label : table.labels)
-        if (label.parent != kNoLabel && label.count > 0 && model::isBoundarySurface(label.className))
-            hasSurfaces[label.parent] = 1;
-    for (std::uint32_t l = 0; l < views.size(); ++l) {
-        const volume::Label& label = table.labels[l];
-        LabelView& view = views[l];
-        view.isClosed = isClosedFilling(label.filling);
-        if (!model::isSpace(label.className)) {
-            view.isShown = isDrawn[l] != 0 && label.className != "ClosureSurface";
-            continue;
-        }
-        if (!view.isClosed || hasSurfaces[l] != 0) continue;
-        std::uint32_t building = label.parent;
-        while (building != kNoLabel && model::classRank(table.labels[building].className) != model::ClassRank::Building)
-            building = table.labels[building].parent;
-        view.isShown =
-            building != kNoLabel && isDrawn[building] != 0 && isClosedFilling(table.labels[building].filling);
-        view.turn = -1;
+LabelView labelViewOf(std::uint32_t l, const volume::LabelTable& table, const std::vector<LabelFacts>& facts,
+                      std::span<const std::uint8_t> isDrawn) {
+    const volume::Label& label = table.labels[l];
+    LabelView view;
+    view.isClosed = facts[l].isClosed;
+    if (!facts[l].isSpace) {
+        view.isShown = isDrawn[l] != 0 && label.className != "ClosureSurface";
+        return view;
     }
-    return views;
+    if (!view.isClosed || facts[l].hasSurfaces) return view;
+    const std::uint32_t building = label.parent == kNoLabel ? kNoLabel : facts[label.parent].building;
+    view.isShown = building != kNoLabel && isDrawn[building] != 0 && facts[building].isClosed;
+    view.turn = -1;
+    return view;
 }
 
 class MeshProjector {
 public:
     MeshProjector(const volume::SemanticVolume& volume, const SectionPlane& plane, const PlaneAxes& axes,
-                  std::span<const std::uint8_t> isDrawn, const ViewOptions& options)
-        : parts_(volume.vectors), options_(options), views_(viewsOf(volume.labels, isDrawn)) {
-        const Vec3d away = plane.normal * (options.looksAtCut ? 1.0 : -1.0);
-        handedness_ = dot(axes.normal, away) > 0 ? 1 : -1;
-        const Vec3d base = volume.grid.origin() - axes.origin;
-        points_.reserve(parts_.points.size());
-        for (const Vec3i& point : parts_.points) {
-            const Vec3d p = base + toDouble(point) * parts_.unit;
-            const double depth = dot(p, away);
-            points_.push_back({dot(p, axes.u), dot(p, axes.v), std::abs(depth) <= kOnViewPlane ? 0 : depth});
-            heights_.push_back(points_.back().z);
-        }
+                  std::span<const std::uint8_t> isDrawn, const ViewOptions& options, const DrawingTables& tables)
+        : parts_(volume.vectors),
+          table_(volume.labels),
+          isDrawn_(isDrawn),
+          options_(options),
+          tables_(tables),
+          axes_(axes),
+          away_(plane.normal * (options.looksAtCut ? 1.0 : -1.0)),
+          base_(volume.grid.origin() - axes.origin) {
+        handedness_ = dot(axes.normal, away_) > 0 ? 1 : -1;
+        points_.resize(parts_.points.size());
+        heights_.resize(parts_.points.size());
+        isPlaced_.resize(parts_.points.size());
     }
 
     MeshProjector(const volume::SemanticVolume& volume, const EyeView& eye, std::span<const std::uint8_t> isDrawn,
-                  const ViewOptions& options)
-        : parts_(volume.vectors), options_(options), views_(viewsOf(volume.labels, isDrawn)), eye_(&eye) {
+                  const ViewOptions& options, const DrawingTables& tables)
+        : parts_(volume.vectors),
+          table_(volume.labels),
+          isDrawn_(isDrawn),
+          options_(options),
+          tables_(tables),
+          eye_(&eye) {
         handedness_ = dot(cross(eye.axes.u, eye.axes.v), eye.away) > 0 ? 1 : -1;
         for (const Vec3i& point : parts_.points) {
             const Vec3d world = volume.grid.origin() + toDouble(point) * parts_.unit;
@@ -81,12 +73,18 @@ public:
         }
     }
 
-    ViewShapes run() {
-        for (std::size_t first = 0; first < parts_.triangles.size();) {
-            std::size_t end = first;
-            while (end < parts_.triangles.size() && parts_.triangles[end].label == parts_.triangles[first].label) ++end;
-            if (views_[parts_.triangles[first].label].isShown) addLabel(first, end);
-            first = end;
+    /// \param isNeeded  by label; empty: all
+    ViewShapes run(std::span<const std::uint8_t> isNeeded) {
+        const std::vector<MeshRun>& runs = tables_.runs();
+        for (std::size_t run = 0; run < runs.size();) {
+            const std::uint32_t label = runs[run].label;
+            std::size_t next = run;
+            while (next < runs.size() && runs[next].label == label) ++next;
+            const LabelView view = isNeeded.empty() || isNeeded[label] != 0
+                                       ? labelViewOf(label, table_, tables_.facts(), isDrawn_)
+                                       : LabelView();
+            if (view.isShown) addLabel(runs[run].first, runs[next - 1].end, view);
+            run = next;
         }
         sortFaces();
         return std::move(shapes_);
@@ -112,13 +110,23 @@ private:
         return length(normal) > kSliver * longest ? normalized(normal) : Vec3d{};
     }
 
-    void addLabel(std::size_t first, std::size_t end) {
-        const LabelView& view = views_[parts_.triangles[first].label];
+    // Points of view space of a parallel view, where a label needs them.
+    void place(std::uint32_t point) {
+        if (eye_ != nullptr || isPlaced_[point] != 0) return;
+        isPlaced_[point] = 1;
+        const Vec3d p = base_ + toDouble(parts_.points[point]) * parts_.unit;
+        const double depth = dot(p, away_);
+        points_[point] = {dot(p, axes_.u), dot(p, axes_.v), std::abs(depth) <= kOnViewPlane ? 0 : depth};
+        heights_[point] = points_[point].z;
+    }
+
+    void addLabel(std::size_t first, std::size_t end, const LabelView& view) {
         normals_.clear();
         halfEdges_.clear();
         for (std::size_t t = first; t < end; ++t) {
             const auto& triangle = parts_.triangles[t];
             const auto& c = triangle.corners;
+            for (const std::uint32_t corner : c) place(corner);
             const bool isBehind = heights_[c[0]] > 0 || heights_[c[1]] > 0 || heights_[c[2]] > 0;
             if (!isBehind) continue;
             const Vec3d normal = normalOf(triangle, view.turn);
@@ -301,8 +309,13 @@ private:
     }
 
     const volume::VectorParts& parts_;
+    const volume::LabelTable& table_;
+    std::span<const std::uint8_t> isDrawn_;
     const ViewOptions& options_;
-    std::vector<LabelView> views_;
+    const DrawingTables& tables_;
+    PlaneAxes axes_;     // of a parallel view, as away_ and base_
+    Vec3d away_, base_;  // depth; from the axes' origin to that of the points
+    std::vector<std::uint8_t> isPlaced_;
     double handedness_ = 1;              // of u, v and depth
     const EyeView* eye_ = nullptr;       // or the plane's
     std::vector<Vec3d> points_;          // view space
@@ -315,14 +328,15 @@ private:
 }  // namespace
 
 ViewShapes projectMeshes(const volume::SemanticVolume& volume, const SectionPlane& plane, const PlaneAxes& axes,
-                         std::span<const std::uint8_t> isDrawn, const ViewOptions& options) {
-    return MeshProjector(volume, plane, axes, isDrawn, options).run();
+                         std::span<const std::uint8_t> isDrawn, const ViewOptions& options, const DrawingTables& tables,
+                         std::span<const std::uint8_t> isNeeded) {
+    return MeshProjector(volume, plane, axes, isDrawn, options, tables).run(isNeeded);
 }
 
 ViewShapes projectMeshes(const volume::SemanticVolume& volume, const EyeView& eye,
-                         std::span<const std::uint8_t> isDrawn, bool everyEdge) {
+                         std::span<const std::uint8_t> isDrawn, bool everyEdge, const DrawingTables& tables) {
     const ViewOptions options{false, everyEdge};
-    return MeshProjector(volume, eye, isDrawn, options).run();
+    return MeshProjector(volume, eye, isDrawn, options, tables).run({});
 }
 
 }  // namespace svt::drawing

@@ -9,6 +9,7 @@
 ///              |         +------+       what is cut
 ///              d = 0
 
+#include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
@@ -80,12 +81,16 @@ struct EyeView {
 /// no surfaces of its own shows its shell from within. Edges are ends of faces, creases over 20 degrees, and
 /// silhouettes of round surfaces.
 /// \param isDrawn  by label
+/// \param tables   of the volume
+/// \param isNeeded by label: only these are projected, see labelsInView(); empty: all
 [[nodiscard]] ViewShapes projectMeshes(const volume::SemanticVolume& volume, const SectionPlane& plane,
                                        const PlaneAxes& axes, std::span<const std::uint8_t> isDrawn,
-                                       const ViewOptions& options);
+                                       const ViewOptions& options, const DrawingTables& tables,
+                                       std::span<const std::uint8_t> isNeeded = {});
 
 /// The same as seen by an eye, without the parts in front of the plane of a cut.
 [[nodiscard]] ViewShapes projectMeshes(const volume::SemanticVolume& volume, const EyeView& eye,
-                                       std::span<const std::uint8_t> isDrawn, bool everyEdge);
+                                       std::span<const std::uint8_t> isDrawn, bool everyEdge,
+                                       const DrawingTables& tables);
 
 }  // namespace svt::drawing

@@ -1,6 +1,7 @@
 #include <svt/drawing/dimension/dimension_chains.hpp>
 
 #include <svt/drawing/dimension/side_reader.hpp>
+#include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/levels/level_parts.hpp>
 
 #include <algorithm>
@@ -89,22 +90,35 @@ std::vector<double> cleanStops(std::vector<double> stops) {
     return kept;
 }
 
+// The clear height of a room where a section cuts it.
+struct RoomHeight {
+    double area = 0, low = 0, high = 0;
+};
+
+std::vector<RoomHeight> roomHeights(const SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+    std::vector<RoomHeight> heights;
+    for (const SectionComponent& component : drawing.components) {
+        if (!isRoomSpace(volume.labels.labels[component.label])) continue;
+        for (const SectionPolygon& polygon : component.polygons) {
+            const auto [low, high] = findClearHeight(drawing, volume, polygon, component.label);
+            if (high - low >= kLowestRoom) heights.push_back({polygon.area, low, high});
+        }
+    }
+    return heights;
+}
+
 // Floors and ceilings of the room with the largest section per level.
 std::vector<double> clearHeights(const SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                  const std::vector<double>& floors) {
     std::vector<double> stops;
+    const std::vector<RoomHeight> rooms = floors.empty() ? std::vector<RoomHeight>() : roomHeights(drawing, volume);
     for (const double floor : floors) {
         double area = 0;
         std::pair<double, double> best;
-        for (const SectionComponent& component : drawing.components) {
-            if (!isRoomSpace(volume.labels.labels[component.label])) continue;
-            for (const SectionPolygon& polygon : component.polygons) {
-                if (polygon.area <= area) continue;
-                const auto [low, high] = findClearHeight(drawing, volume, polygon, component.label);
-                if (std::abs(low - floor) > kSameFoot || high - low < kLowestRoom) continue;
-                area = polygon.area;
-                best = {low, high};
-            }
+        for (const RoomHeight& room : rooms) {
+            if (room.area <= area || std::abs(room.low - floor) > kSameFoot) continue;
+            area = room.area;
+            best = {room.low, room.high};
         }
         // A room of two storeys ends the chain of those that it passes.
         if (area == 0 || (!stops.empty() && best.first < stops.back() - kShortestPart)) continue;
@@ -116,12 +130,13 @@ std::vector<double> clearHeights(const SectionDrawing& drawing, const volume::Se
 
 }  // namespace
 
-void addDimensions(SectionDrawing& drawing, const volume::SemanticVolume& volume, const SectionOptions& options) {
+void addDimensions(SectionDrawing& drawing, const volume::SemanticVolume& volume, const SectionOptions& options,
+                   const DrawingTables& tables) {
     drawing.dimensionUnit = options.dimensionUnit;
     const double upright = std::abs(dot(drawing.axes.normal, volume.grid.axes()[2]));
     const bool isPlan = upright > 1 - 1e-12;
     if (!isPlan && upright > 1e-9) return;
-    const std::vector<PartRole> roles = rolesIn(drawing, partRoles(volume.labels));
+    const std::vector<PartRole> roles = rolesIn(drawing, tables.roles());
     const std::vector<BuildingLevel> levels = options.levels != nullptr ? *options.levels : findLevels(volume);
     if (!isPlan) {
         drawing.dimensions = findHeightChains(drawing, volume, roles, levels);
@@ -129,7 +144,7 @@ void addDimensions(SectionDrawing& drawing, const volume::SemanticVolume& volume
     }
     drawing.dimensions = findPlanChains(drawing, roles);
     drawing.roomDimensions = findRoomDimensions(drawing, volume);
-    drawing.openings = findOpeningHeights(drawing, volume, roles, levels);
+    drawing.openings = findOpeningHeights(drawing, volume, roles, levels, tables);
 }
 
 std::vector<DimensionChain> findPlanChains(const SectionDrawing& drawing, const std::vector<PartRole>& roles) {

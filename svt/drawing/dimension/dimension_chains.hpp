@@ -13,6 +13,7 @@
 
 #include <svt/drawing/building_levels.hpp>
 #include <svt/drawing/dimension/part_roles.hpp>
+#include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/volume/semantic_volume.hpp>
 
@@ -26,9 +27,11 @@ namespace svt::drawing {
 /// Adds chains to a plan or an upright section, and to a plan the dimensions of rooms and the heights of openings.
 /// \param drawing  with borders, lines and doors
 /// \param options  unit and levels
+/// \param tables   of the volume
 /// Cost: that of findPlanChains(), findHeightChains(), findRoomDimensions() and findOpeningHeights(), and without levels
 /// that of findLevels().
-void addDimensions(SectionDrawing& drawing, const volume::SemanticVolume& volume, const SectionOptions& options);
+void addDimensions(SectionDrawing& drawing, const volume::SemanticVolume& volume, const SectionOptions& options,
+                   const DrawingTables& tables);
 
 /// Finds the chains of a plan.
 ///
@@ -70,10 +73,13 @@ void addDimensions(SectionDrawing& drawing, const volume::SemanticVolume& volume
 
 /// Finds the lower and upper edges of the openings in walls around the windows and doors that a plan cuts. They are the
 /// faces of the hull below and above the middle of the window, otherwise the ends of the window itself.
-/// Cost: O(triangles + openings).
+/// \param tables  of the volume
+/// Cost: O(openings + runs of triangles + triangles of the runs near the plane that contain an opening in u). An opening
+/// without hull within 8 m above and below searches all triangles.
 [[nodiscard]] std::vector<OpeningHeights> findOpeningHeights(const SectionDrawing& drawing,
                                                              const volume::SemanticVolume& volume,
                                                              const std::vector<PartRole>& roles,
-                                                             std::span<const BuildingLevel> levels);
+                                                             std::span<const BuildingLevel> levels,
+                                                             const DrawingTables& tables);
 
 }  // namespace svt::drawing

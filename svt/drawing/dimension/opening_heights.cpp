@@ -74,39 +74,82 @@ bool isInRing(PlanePoint p, const Ring& ring) noexcept {
     return inside;
 }
 
-// Faces of the hull above and below the middle of each opening.
-void findEdges(std::vector<CutOpening>& openings, const SectionDrawing& drawing, const volume::SemanticVolume& volume,
-               const std::vector<PartRole>& roles, double cut) {
-    std::sort(openings.begin(), openings.end(),
-              [](const CutOpening& a, const CutOpening& b) { return a.middle.u < b.middle.u; });
-    const Vec3d up = volume.grid.axes()[2], origin = volume.grid.origin();
-    for (const auto& triangle : volume.vectors.triangles) {
-        if (roles[triangle.label] != PartRole::Hull) continue;
+// Finds the faces of the hull above and below the middle of each opening.
+class EdgeFinder {
+public:
+    EdgeFinder(std::vector<CutOpening>& openings, const SectionDrawing& drawing, const volume::SemanticVolume& volume,
+               double cut)
+        : openings_(openings),
+          axes_(drawing.axes),
+          parts_(volume.vectors),
+          origin_(volume.grid.origin()),
+          up_(volume.grid.axes()[2]),
+          cut_(cut) {
+        std::sort(openings.begin(), openings.end(),
+                  [](const CutOpening& a, const CutOpening& b) { return a.middle.u < b.middle.u; });
+    }
+
+    void run(const std::vector<MeshRun>& runs, const std::vector<PartRole>& roles) {
+        constexpr double kNear = 8;  // metres: faces farther away matter only for openings without nearer ones
+        for (const bool isNear : {true, false}) {
+            for (const MeshRun& run : runs) {
+                if (roles[run.label] != PartRole::Hull) continue;
+                const auto [low, high] = run.rangeAlong(up_);
+                const bool isIn = low * parts_.unit <= cut_ + kNear && high * parts_.unit >= cut_ - kNear;
+                if (isIn == isNear && hasOpening(run))
+                    for (std::uint32_t t = run.first; t < run.end; ++t) add(parts_.triangles[t]);
+            }
+            const bool isDone = std::all_of(openings_.begin(), openings_.end(), [&](const CutOpening& opening) {
+                return opening.low >= cut_ - kNear && opening.high <= cut_ + kNear;
+            });
+            if (isDone) return;
+        }
+    }
+
+private:
+    using Openings = std::vector<CutOpening>::iterator;
+    [[nodiscard]] Openings firstFrom(double u) const {
+        return std::lower_bound(openings_.begin(), openings_.end(), u,
+                                [](const CutOpening& o, double at) { return o.middle.u < at; });
+    }
+    [[nodiscard]] bool hasOpening(const MeshRun& run) const {
+        constexpr double kRounding = 1e-6;  // metres
+        const auto [low, high] = run.rangeAlong(axes_.u);
+        const double base = dot(origin_ - axes_.origin, axes_.u);
+        const auto opening = firstFrom(low * parts_.unit + base - kRounding);
+        return opening != openings_.end() && opening->middle.u <= high * parts_.unit + base + kRounding;
+    }
+
+    void add(const volume::VectorParts::Triangle& triangle) {
         PlanePoint p[3];
         double height[3];
         for (std::size_t n = 0; n < 3; ++n) {
-            const Vec3d at = volume.vectors.position(triangle.corners[n], {});
-            height[n] = dot(at, up);
-            p[n] = drawing.axes.planeFromWorld(at + origin);
+            const Vec3d at = parts_.position(triangle.corners[n], {});
+            height[n] = dot(at, up_);
+            p[n] = axes_.planeFromWorld(at + origin_);
         }
         const auto [left, right] = std::minmax({p[0].u, p[1].u, p[2].u});
         const double twice = (p[1].u - p[0].u) * (p[2].v - p[0].v) - (p[2].u - p[0].u) * (p[1].v - p[0].v);
-        if (std::abs(twice) < 1e-9) continue;
-        auto opening = std::lower_bound(openings.begin(), openings.end(), left,
-                                        [](const CutOpening& o, double u) { return o.middle.u < u; });
-        for (; opening != openings.end() && opening->middle.u <= right; ++opening) {
+        if (std::abs(twice) < 1e-9) return;
+        for (auto opening = firstFrom(left); opening != openings_.end() && opening->middle.u <= right; ++opening) {
             const PlanePoint m = opening->middle;
             const double b = ((m.u - p[0].u) * (p[2].v - p[0].v) - (p[2].u - p[0].u) * (m.v - p[0].v)) / twice,
                          c = ((p[1].u - p[0].u) * (m.v - p[0].v) - (m.u - p[0].u) * (p[1].v - p[0].v)) / twice;
             if (b < 0 || c < 0 || b + c > 1) continue;
             const double at = height[0] + b * (height[1] - height[0]) + c * (height[2] - height[0]);
-            if (at <= cut)
+            if (at <= cut_)
                 opening->low = std::max(opening->low, at);
             else
                 opening->high = std::min(opening->high, at);
         }
     }
-}
+
+    std::vector<CutOpening>& openings_;
+    const PlaneAxes& axes_;
+    const volume::VectorParts& parts_;
+    Vec3d origin_, up_;
+    double cut_;  // metres above the grid's lower corner
+};
 
 // The side of the wall for the mark: outside of all rooms, otherwise away from where a door opens.
 PlanePoint awayOf(const CutOpening& opening, const SectionDrawing& drawing, const std::vector<PartRole>& roles) {
@@ -186,7 +229,7 @@ std::pair<double, double> ownHeights(std::uint32_t label, const volume::Semantic
 
 std::vector<OpeningHeights> findOpeningHeights(const SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                                const std::vector<PartRole>& roles,
-                                               std::span<const BuildingLevel> levels) {
+                                               std::span<const BuildingLevel> levels, const DrawingTables& tables) {
     std::map<std::uint32_t, std::vector<SectionPolygon>> parts;  // by the whole window or door
     for (const SectionComponent& component : drawing.components) {
         if (roles[component.label] != PartRole::Opening) continue;
@@ -208,7 +251,7 @@ std::vector<OpeningHeights> findOpeningHeights(const SectionDrawing& drawing, co
     double floor = 0;
     for (const BuildingLevel& level : levels)
         if (level.floor <= cut) floor = level.roomFloor.value_or(level.floor);
-    findEdges(openings, drawing, volume, roles, cut);
+    EdgeFinder(openings, drawing, volume, cut).run(tables.runs(), roles);
     for (const CutOpening& opening : openings) {
         OpeningHeights heights{opening.label, {}, awayOf(opening, drawing, roles), 0, 0, true};
         double low = opening.low, high = opening.high;

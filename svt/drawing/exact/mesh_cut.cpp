@@ -11,23 +11,34 @@ constexpr double kOnPlane = 1e-5;    // metres: rounding of coordinates, and dis
 constexpr double kNearPlane = 2e-4;  // metres: edges within it should lie in the plane
 constexpr double kHair = 3e-4;       // metres: how far the plane is moved from them
 constexpr double kShortEdge = 1e-3;  // metres
+constexpr double kCutReach = 1e-3;   // metres: triangles farther away are not cut, wherever the plane moves
 
 class TriangleCutter {
 public:
-    TriangleCutter(const volume::VectorParts& parts, Vec3d origin, const PlaneAxes& axes, bool keepsAbove)
+    TriangleCutter(const volume::VectorParts& parts, Vec3d origin, const PlaneAxes& axes, bool keepsAbove,
+                   std::span<const MeshRun> runs)
         : parts_(parts), axes_(axes), toPoints_(origin - axes.origin), keepsAbove_(keepsAbove) {
-        heights_.reserve(parts.points.size());
         const double base = dot(toPoints_, axes.normal);
-        for (const Vec3i& point : parts.points)
-            heights_.push_back(dot(toDouble(point), axes.normal) * parts.unit + base);
+        heights_.resize(parts.points.size());
+        for (const MeshRun& run : runs) {
+            const auto [low, high] = run.rangeAlong(axes.normal);
+            if (low * parts.unit + base > kCutReach || high * parts.unit + base < -kCutReach) continue;
+            for (std::uint32_t t = run.first; t < run.end; ++t) {
+                near_.push_back(t);
+                for (const std::uint32_t corner : parts.triangles[t].corners)
+                    heights_[corner] = dot(toDouble(parts.points[corner]), axes.normal) * parts.unit + base;
+            }
+        }
     }
 
     MeshCut run() {
         MeshCut cut;
+        cut.visited = near_.size();
         bool isExact = true;
-        for (const auto& triangle : parts_.triangles)
+        for (const std::uint32_t t : near_)
             for (std::size_t n = 0; n < 3; ++n) {
-                const std::uint32_t a = triangle.corners[n], b = triangle.corners[(n + 1) % 3];
+                const auto& corners = parts_.triangles[t].corners;
+                const std::uint32_t a = corners[n], b = corners[(n + 1) % 3];
                 const double high = std::max(std::abs(heights_[a]), std::abs(heights_[b]));
                 if (high > kNearPlane || a > b || lengthOf(a, b) < kShortEdge) continue;
                 ++cut.edgesInPlane;
@@ -39,7 +50,7 @@ public:
             height -= raise;
             if (std::abs(height) <= kOnPlane) height = 0;
         }
-        for (const auto& triangle : parts_.triangles) addSegment(triangle, cut.segments);
+        for (const std::uint32_t t : near_) addSegment(parts_.triangles[t], cut.segments);
         return cut;
     }
 
@@ -80,13 +91,15 @@ private:
     const PlaneAxes& axes_;
     Vec3d toPoints_;
     bool keepsAbove_;
-    std::vector<double> heights_;  // above the plane, metres, by point
+    std::vector<double> heights_;      // above the plane, metres, by point; only of triangles near it
+    std::vector<std::uint32_t> near_;  // triangles that may meet the plane, in their order
 };
 
 }  // namespace
 
-MeshCut cutMeshes(const volume::VectorParts& parts, Vec3d origin, const PlaneAxes& axes, bool keepsAbove) {
-    return TriangleCutter(parts, origin, axes, keepsAbove).run();
+MeshCut cutMeshes(const volume::VectorParts& parts, Vec3d origin, const PlaneAxes& axes, bool keepsAbove,
+                  std::span<const MeshRun> runs) {
+    return TriangleCutter(parts, origin, axes, keepsAbove, runs).run();
 }
 
 }  // namespace svt::drawing

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -81,9 +82,60 @@ std::uint32_t buildingOf(std::uint32_t storey, const volume::LabelTable& table,
     return above;
 }
 
+// Whether the rooms of a storey may stand on several floors.
+bool isTall(const StoreyHeights& storey) {
+    return storey.roomArea > 0 &&
+           (storey.top - storey.floor > kSameStorey + kLowestRoom || storey.floor - storey.low > kSameStorey);
+}
+
+// The floor area of the rooms at about the height of a level.
+double areaNear(const std::vector<LooseFloor>& rooms, double height) {
+    double area = 0;
+    for (const LooseFloor& room : rooms)
+        if (std::abs(room.floor.at - height) < kSameStorey) area += room.floor.area;
+    return area;
+}
+
+// Adds levels for the rooms of a storey that its plan does not cut: authors of small models put all floors into one
+// storey. The plan of another level can cut them. Small ones, such as voids above a ceiling, have no level.
+void addFloorsOfStoreys(const volume::SemanticVolume& volume, std::vector<BuildingLevel>& levels) {
+    const std::vector<LabelExtent> extents = labelExtents(volume);
+    const std::vector<std::uint32_t> storeyOf = storeysOfLabels(volume.labels);
+    std::map<std::uint32_t, std::vector<LooseFloor>> roomsOf;  // by storey
+    for (std::size_t l = 0; l < extents.size(); ++l)
+        if (storeyOf[l] != volume::kNoLabel && isRoomOfSize(volume.labels.labels[l], extents[l]))
+            roomsOf[storeyOf[l]].push_back(
+                {{extents[l].floor, extents[l].floorArea, extents[l].bound}, extents[l].box.max.z});
+    const std::size_t count = levels.size();
+    for (std::size_t n = 0; n < count; ++n) {
+        std::vector<LooseFloor> rooms;
+        for (const std::uint32_t storey : levels[n].storeys)
+            rooms.insert(rooms.end(), roomsOf[storey].begin(), roomsOf[storey].end());
+        const double least = kSmallPart * areaNear(rooms, levels[n].floor), cut = levels[n].floor + kCutAboveFloor;
+        std::vector<LooseFloor> uncut = rooms;
+        std::erase_if(uncut, [&](const LooseFloor& room) { return room.floor.at < cut && room.top > cut; });
+        for (BuildingLevel& added : levelsOfFloors(std::move(uncut))) {
+            const bool isCutElsewhere = std::any_of(levels.begin(), levels.end(), [&](const BuildingLevel& other) {
+                return std::abs(other.floor - added.floor) < kSameStorey;
+            });
+            if (isCutElsewhere || areaNear(rooms, added.floor) < least) continue;
+            added.name = levels[n].name;
+            added.storeys = levels[n].storeys;
+            added.hasRooms = true;
+            levels.push_back(std::move(added));
+        }
+    }
+    std::stable_sort(levels.begin(), levels.end(), [](const auto& a, const auto& b) { return a.floor < b.floor; });
+}
+
 std::vector<BuildingLevel> levelsOfStoreys(const volume::SemanticVolume& volume, std::vector<StoreyHeights> storeys) {
-    std::stable_sort(storeys.begin(), storeys.end(), [](const StoreyHeights& a, const StoreyHeights& b) {
-        return std::tuple(-a.roomArea, b.features, a.floor) < std::tuple(-b.roomArea, a.features, b.floor);
+    // Without rooms, foundations do not give name and height to the floor above them.
+    const auto isFoundation = [&](const StoreyHeights& storey) {
+        return isNamedBelowGround(volume.labels.labels[storey.label].name);
+    };
+    std::stable_sort(storeys.begin(), storeys.end(), [&](const StoreyHeights& a, const StoreyHeights& b) {
+        return std::tuple(-a.roomArea, isFoundation(a), b.features, a.floor) <
+               std::tuple(-b.roomArea, isFoundation(b), a.features, b.floor);
     });
     const std::vector<std::uint32_t> storeyOf = storeysOfLabels(volume.labels);
     struct Group {
@@ -118,6 +170,7 @@ std::vector<BuildingLevel> levelsOfStoreys(const volume::SemanticVolume& volume,
         const std::optional<double> rooms = group.main.measured;
         if (level.hasRooms && rooms && std::abs(*rooms - level.floor) > uncertainty) level.roomFloor = rooms;
     }
+    if (std::any_of(storeys.begin(), storeys.end(), isTall)) addFloorsOfStoreys(volume, levels);
     return levels;
 }
 
@@ -130,6 +183,25 @@ std::string partsOf(FloorSource source) {
         case FloorSource::Lowest: break;
     }
     return "its components begin";
+}
+
+// Reports storeys with rooms on several floors, each of which has a level.
+template <class InModel>
+void reportSeveralFloors(const volume::SemanticVolume& volume, const InModel& inModel, Diagnostics& log) {
+    std::map<std::uint32_t, std::vector<std::string>> floorsOf;  // by storey
+    for (const BuildingLevel& level : findLevels(volume))
+        for (const std::uint32_t storey : level.storeys)
+            floorsOf[storey].push_back(fmt::format("{:.2f} m", inModel(level.floor)));
+    for (const auto& [storey, floors] : floorsOf) {
+        if (floors.size() < 2) continue;
+        const volume::Label& label = volume.labels.labels[storey];
+        log.add(
+            Severity::Warning, Code::StoreyLevelDiffers,
+            fmt::format("the rooms of the storey '{}' stand on {} floors, at {}; each has a plan; make a storey for "
+                        "each",
+                        label.name.empty() ? label.id : label.name, floors.size(), fmt::join(floors, ", ")),
+            {volume.source, 0, 0, label.id});
+    }
 }
 
 }  // namespace
@@ -158,14 +230,14 @@ std::vector<std::size_t> levelsOfLabels(const volume::SemanticVolume& volume, st
                                         std::span<const LabelExtent> extents) {
     std::vector<std::size_t> found(volume.labels.labels.size(), 0);
     if (levels.empty()) return found;
-    std::vector<std::size_t> levelOf(found.size(), levels.size());  // of storeys
+    std::map<std::uint32_t, std::vector<std::size_t>> levelsOf;  // by storey, from the lowest
     for (std::size_t n = 0; n < levels.size(); ++n)
-        for (const std::uint32_t storey : levels[n].storeys)
-            if (storey < levelOf.size()) levelOf[storey] = n;
+        for (const std::uint32_t storey : levels[n].storeys) levelsOf[storey].push_back(n);
     const std::vector<std::uint32_t> storeys = storeysOfLabels(volume.labels);
     for (std::size_t l = 0; l < found.size(); ++l) {
-        if (storeys[l] != volume::kNoLabel && levelOf[storeys[l]] < levels.size()) {
-            found[l] = levelOf[storeys[l]];
+        if (const auto own = levelsOf.find(storeys[l]); own != levelsOf.end()) {
+            for (const std::size_t n : own->second)
+                if (n == own->second.front() || levels[n].floor <= extents[l].floor + kFloorBuildUp) found[l] = n;
             continue;
         }
         const double floor = extents[l].floor, top = extents[l].box.max.z;
@@ -192,6 +264,7 @@ void reportStoreys(const volume::SemanticVolume& volume, Diagnostics& log) {
                             partsOf(storey.source), inModel(storey.floor)),
                 {volume.source, 0, 0, label.id});
     }
+    reportSeveralFloors(volume, inModel, log);
 }
 
 }  // namespace svt::drawing

@@ -67,6 +67,61 @@ TEST(BuildingLevels, WithoutStoreysAPitBelongsToTheFloorAboveIt) {
     EXPECT_EQ(levelsOfLabels(boxes.volume, levels, labelExtents(boxes.volume)), (std::vector<std::size_t>{0, 1, 1}));
 }
 
+TEST(BuildingLevels, AStoreyWithRoomsOnTwoFloorsHasALevelForEach) {
+    House house;
+    const auto storey = house.addStorey("Default storey", 0, 0);
+    house.addOn(storey, "living room", "BuildingRoom", {0, 0, 0}, {8, 8, 2.8});
+    house.addOn(storey, "bedroom", "BuildingRoom", {0, 0, 3.1}, {8, 4, 5.9});
+    house.addOn(storey, "void above the ceiling", "BuildingRoom", {0, 4, 3.1}, {2, 6, 4.7});
+    house.addOn(storey, "upper wall", "BuildingConstructiveElement", {8, 0, 3.1}, {8.3, 8, 5.9});
+    const auto levels = findLevels(house.volume);
+    ASSERT_EQ(levels.size(), 2u);
+    EXPECT_NEAR(levels[0].floor, 0, 2e-6);
+    EXPECT_NEAR(levels[1].floor, 3.1, 2e-6);
+    EXPECT_EQ(levels[1].name, "Default storey");
+    EXPECT_TRUE(levels[0].isGround);
+    const auto found = levelsOfLabels(house.volume, levels, labelExtents(house.volume));
+    EXPECT_EQ(std::vector<std::size_t>(found.begin() + 2, found.end()), (std::vector<std::size_t>{0, 1, 1, 1}));
+    const auto areas = measureFloorAreas(house.volume, levels);
+    ASSERT_TRUE(areas);
+    EXPECT_NEAR(areas->levels[0].net, 64, 1e-4);
+    EXPECT_NEAR(areas->levels[1].net, 32 + 4, 1e-4);
+    Diagnostics log;
+    reportStoreys(house.volume, log);
+    ASSERT_EQ(log.items().size(), 1u);
+    EXPECT_NE(log.items().front().message.find("stand on 2 floors, at 100.00 m, 103.10 m"), std::string::npos);
+}
+
+TEST(BuildingLevels, SmallRoomsAboveAStoreyAndThoseOfOtherPlansHaveNoLevel) {
+    House house;
+    const auto lower = house.addStorey("Level 1", 0, 0), upper = house.addStorey("Level 2", 3, 3);
+    house.addOn(lower, "hall", "BuildingRoom", {0, 0, 0}, {8, 8, 2.7});
+    house.addOn(lower, "on the wrong storey", "BuildingRoom", {0, 0, 3}, {8, 4, 5.7});
+    house.addOn(upper, "bedroom", "BuildingRoom", {0, 4, 3}, {8, 8, 5.7});
+    house.addOn(upper, "tank room", "BuildingRoom", {0, 4, 6}, {2, 6, 8});
+    const auto levels = findLevels(house.volume);
+    ASSERT_EQ(levels.size(), 2u);
+    EXPECT_EQ(levels[0].name, "Level 1");
+    EXPECT_EQ(levels[1].name, "Level 2");
+}
+
+TEST(BuildingLevels, AFoundationDoesNotTakeTheNameOfTheGroundFloor) {
+    House house;
+    const auto foundation = house.addStorey("Bk fundering", -0.75, -0.75),
+               ground = house.addStorey("Begane grondvloer", 0, 0), upper = house.addStorey("1e verdieping", 3, 3);
+    for (int n = 0; n < 4; ++n)
+        house.addOn(foundation, "beam " + std::to_string(n), "BuildingConstructiveElement", {2.0 * n, 0, -0.75},
+                    {2.0 * n + 0.4, 8, -0.35});
+    house.addOn(ground, "wall", "BuildingConstructiveElement", {0, 0, 0}, {0.3, 8, 2.7});
+    house.addOn(upper, "upper wall", "BuildingConstructiveElement", {0, 0, 3}, {0.3, 8, 5.7});
+    const auto levels = findLevels(house.volume);
+    ASSERT_EQ(levels.size(), 2u);
+    EXPECT_EQ(levels[0].name, "Begane grondvloer");
+    EXPECT_NEAR(levels[0].floor, 0, 2e-6);
+    EXPECT_TRUE(levels[0].isGround);
+    EXPECT_EQ(levels[0].storeys.size(), 2u);
+}
+
 // Its eaves hang below the floor of the upper storey, and it has no rooms.
 TEST(BuildingLevels, ARoofDoesNotTakeTheNameOfTheStoreyBelowIt) {
     House house;

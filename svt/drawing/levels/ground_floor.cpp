@@ -56,8 +56,10 @@ std::size_t storeysBelowGround(const volume::SemanticVolume& volume) {
 
 }  // namespace
 
+bool isNamedBelowGround(std::string_view name) { return namesOne(name, kBelow, kBelowWords); }
+
 std::size_t groundFloorOf(const std::vector<BuildingLevel>& levels, const volume::SemanticVolume& volume) {
-    const auto isBelow = [](const BuildingLevel& level) { return namesOne(level.name, kBelow, kBelowWords); };
+    const auto isBelow = [](const BuildingLevel& level) { return isNamedBelowGround(level.name); };
     for (std::size_t n = 0; n < levels.size(); ++n)
         if (namesOne(levels[n].name, kGround, kGroundWords) && !isBelow(levels[n])) return n;
     std::size_t nearest = levels.size();

@@ -3,6 +3,7 @@
 #include <svt/core/check.hpp>
 #include <svt/core/text.hpp>
 #include <svt/model/classes.hpp>
+#include <svt/model/phases.hpp>
 
 #include <algorithm>
 #include <map>
@@ -34,7 +35,7 @@ constexpr Rule kRules[] = {
     {"class=Door or class=DoorSurface or class=BuildingFurniture or ifcType~Door", Hatch::Timber},
     {"class=DoorPhase or class=BuildingFurniturePhase", Hatch::Timber},
     {"class=Window or class=WindowSurface or class=WindowPhase or ifcType~Window or phase=glass", Hatch::Glass},
-    {"class=TINRelief or class=ReliefFeature or class=LandUse", Hatch::Earth},
+    {"class=TINRelief or class=ReliefFeature or class=LandUse or ifcType=IfcSite", Hatch::Earth},
     {"class=SolitaryVegetationObject or class=PlantCover or class~Water", Hatch::None},
 };
 
@@ -52,6 +53,12 @@ const std::string* textOf(const model::QueryRow& row, std::string_view name) noe
     for (const Attribute& attribute : row.attributes)
         if (attribute.name == name) return std::get_if<std::string>(&attribute.value);
     return nullptr;
+}
+
+// A part of a window that is not its pane: its phases, and the window itself if the file names its parts.
+bool isFrame(const model::QueryRow& row) noexcept {
+    const std::string* phase = textOf(row, model::kPhaseAttribute);
+    return phase != nullptr && *phase != model::kGlass;
 }
 
 // A phase that has the material of its object: the leaf of a door.
@@ -97,6 +104,7 @@ public:
         // Rooms, plants and water have no hatch, whatever their material.
         if (ofClass == Hatch::None) return choice;
         if (ofClass == Hatch::Glass) {
+            if (isFrame(row)) return ofFrame(row);
             choice.source = HatchSource::Window;
             return choice;
         }
@@ -118,6 +126,18 @@ public:
     }
 
 private:
+    // By its own material or style. The material of a window names that of its panes, too.
+    HatchChoice ofFrame(const model::QueryRow& row) {
+        for (const char* attribute : {"material", "style"}) {
+            const std::string* stated = textOf(row, attribute);
+            if (stated == nullptr) continue;
+            for (const std::string& name : splitNames(*stated, stated->find(';') != std::string::npos ? ';' : ','))
+                if (const auto& match = find(name); match && match->row.hatch != Hatch::Glass)
+                    return choiceOf(name, *match, HatchSource::Material);
+        }
+        return {Hatch::None, HatchSource::Class, {}, {}};
+    }
+
     // By the structural material of a wall. Its layers inherit this property, but have their own materials.
     std::optional<HatchChoice> byStructure(const model::QueryRow& row) {
         const bool isLayer = std::any_of(row.attributes.begin(), row.attributes.end(),
@@ -183,8 +203,12 @@ std::vector<HatchChoice> chooseHatches(const analyze::LabelRows& labels, const M
     std::vector<HatchChoice> choices;
     choices.reserve(rows.size());
     for (std::size_t l = 0; l < rows.size(); ++l) {
-        const bool isOfObject = isWithoutMaterial(rows[l]) && rows[l].parent < l && ofClass[l] != Hatch::Glass;
-        choices.push_back(isOfObject ? choices[rows[l].parent] : chooser.choose(rows[l], ofClass[l]));
+        const bool hasParent = rows[l].parent < l;
+        const bool isOfWindow =
+            hasParent && model::isPhase(rows[l].className) && ofClass[rows[l].parent] == Hatch::Glass;
+        const Hatch own = isOfWindow ? Hatch::Glass : ofClass[l];
+        const bool isOfObject = isWithoutMaterial(rows[l]) && hasParent && own != Hatch::Glass;
+        choices.push_back(isOfObject ? choices[rows[l].parent] : chooser.choose(rows[l], own));
     }
     return choices;
 }

@@ -111,6 +111,12 @@ TEST(Hatches, OfPhasesAreThoseOfTheirObjectsExceptForGlass) {
     EXPECT_EQ(chooseHatches(table)[1].source, HatchSource::Material);
 }
 
+TEST(Hatches, OfTheGroundOfASiteAreEarth) {
+    volume::Label site = label("GenericLogicalSpace", "plot");
+    site.attributes.push_back({"ifcType", std::string("IfcSite"), ""});
+    EXPECT_EQ(choiceOf(site).hatch, Hatch::Earth);
+}
+
 TEST(Hatches, AreStatedByAnAttribute) {
     EXPECT_EQ(choiceOf(element({{"hatch", "earth"}, {"material", "brick"}})),
               (HatchChoice{Hatch::Earth, HatchSource::Stated, "", ""}));
@@ -231,6 +237,32 @@ TEST(MaterialTable, IsReadFromCsvAndJson) {
     ASSERT_TRUE(json) << json.error().message();
     EXPECT_EQ(json->find("Xyz")->row.hatch, Hatch::Earth);
     EXPECT_FALSE(json->find("Brick"));
+}
+
+// A window with its pane as a phase: the frame is not glass.
+TEST(Hatches, FramesOfWindowsHaveThatOfTheirMaterial) {
+    const auto hatchesOf = [](const char* windowClass, const char* material, const char* style) {
+        volume::LabelTable table;
+        table.labels = {label(windowClass, "window", material), label("WindowPhase", "pane"),
+                        label("WindowPhase", "handle")};
+        table.labels[0].attributes.push_back({"phase", std::string("frame"), ""});
+        table.labels[0].attributes.push_back({"ifcType", std::string("IfcWindow"), ""});
+        if (style != nullptr) table.labels[0].attributes.push_back({"style", std::string(style), ""});
+        table.labels[1].attributes.push_back({"phase", std::string("glass"), ""});
+        table.labels[2].attributes.push_back({"phase", std::string("handle"), ""});
+        table.labels[2].attributes.push_back({"material", std::string("Aluminium"), ""});
+        table.labels[1].parent = table.labels[2].parent = 0;
+        if (std::string_view(windowClass) != "Window")
+            table.labels[1].className = table.labels[2].className = "BuildingConstructiveElementPhase";
+        return labelHatches(table);
+    };
+    for (const char* const name : {"Window", "BuildingConstructiveElement"}) {
+        EXPECT_EQ(hatchesOf(name, nullptr, nullptr), (std::vector<Hatch>{Hatch::None, Hatch::Glass, Hatch::Steel}));
+        EXPECT_EQ(hatchesOf(name, "Glass; Oak wood", nullptr).front(), Hatch::Timber) << name;
+        EXPECT_EQ(hatchesOf(name, nullptr, "Aluminium, grey").front(), Hatch::Steel) << name;
+        EXPECT_EQ(hatchesOf(name, "Glass", "white").front(), Hatch::None) << name;
+    }
+    EXPECT_EQ(choiceOf(label("Window", "whole")).hatch, Hatch::Glass) << "without parts";
 }
 
 TEST(MaterialTable, OfBadFilesIsAnError) {

@@ -181,7 +181,10 @@ OpeningSchedule scheduleOpenings(const volume::SemanticVolume& volume, std::span
         row.statedHeight = numberOf(labels[l], "overallHeight");
         if (place) row.measuredWidth = roundedSize(place->width);
         if (place) row.measuredHeight = roundedSize(place->height);
-        if (!place && !row.statedWidth && !row.statedHeight) continue;
+        if (!place && !row.statedWidth && !row.statedHeight) {
+            ++schedule.unknown;
+            continue;
+        }
         if (place && labels[l].className.ends_with("Surface")) {
             if ((row.isDoor ? hasDoors : hasWindows) || isOtherSide(*place, row.isDoor, surfaces)) continue;
             surfaces.emplace_back(row.isDoor, *place);

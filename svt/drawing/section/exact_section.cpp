@@ -40,14 +40,20 @@ struct MaterialGroup {
 class ExactCutter {
 public:
     ExactCutter(const volume::SemanticVolume& volume, const volume::BrickVolume* bricks, const SectionPlane& plane,
-                const PlaneAxes& axes, std::span<const std::uint8_t> isDrawn, int threads)
-        : volume_(volume), bricks_(bricks), plane_(plane), axes_(axes), isDrawn_(isDrawn), threads_(threads) {}
+                const PlaneAxes& axes, std::span<const std::uint8_t> isDrawn, const DrawingTables& tables, int threads)
+        : volume_(volume),
+          bricks_(bricks),
+          plane_(plane),
+          axes_(axes),
+          isDrawn_(isDrawn),
+          tables_(tables),
+          threads_(threads) {}
 
     Result<std::optional<ExactSection>> run() {
+        const MeshCut cut = cutMeshes(volume_.vectors, volume_.grid.origin(), axes_,
+                                      dot(plane_.normal, axes_.normal) < 0, tables_.runs());
         findGroups();
-        orderClaims();
-        const MeshCut cut =
-            cutMeshes(volume_.vectors, volume_.grid.origin(), axes_, dot(plane_.normal, axes_.normal) < 0);
+        orderClaims(cut);
         section_.edgesInPlane = cut.edgesInPlane;
         section_.planeShift = cut.shift;
         chooseUnit(cut);
@@ -68,7 +74,7 @@ private:
         for (std::uint32_t l = 0; l < labelCount(); ++l) {
             const volume::Label& building = labelOf(l);
             const bool isSolid = isClosedShell(building.filling) || building.filling == Filling::Winding;
-            if (!isSolid || model::classRank(building.className) != model::ClassRank::Building) continue;
+            if (!isSolid || !tables_.facts()[l].isBuilding) continue;
             MaterialGroup group{l, static_cast<std::uint32_t>(bodies_.size()), 0};
             for (std::uint32_t below = l + 1; below < building.subtreeEnd; ++below)
                 if (labelOf(below).filling == Filling::Body) bodies_.push_back(below);
@@ -77,14 +83,19 @@ private:
         }
     }
 
-    // Lower rank first; at equal rank solids before sheets, then the smaller volume, then the id.
-    void orderClaims() {
+    // Lower rank first; at equal rank solids before sheets, then the smaller volume, then the id. Only labels that the
+    // plane cuts have claims.
+    void orderClaims(const MeshCut& cut) {
         section_.isExact.assign(labelCount(), 1);
+        std::vector<std::uint8_t> isCut(labelCount(), 0);
+        for (const CutSegment& segment : cut.segments) isCut[segment.label] = 1;
+        for (const MaterialGroup& group : groups_) isCut[group.building] = 1;
         for (std::uint32_t l = 0; l < labelCount(); ++l) {
             const volume::Label& label = labelOf(l);
             if (label.count == 0) continue;
-            const auto rank = static_cast<std::uint8_t>(model::classRank(label.className));
             if (label.filling == Filling::Winding) section_.isExact[l] = 0;
+            if (isCut[l] == 0 && section_.isExact[l] != 0) continue;
+            const auto rank = static_cast<std::uint8_t>(model::classRank(label.className));
             if (isClosedShell(label.filling) || label.filling == Filling::Winding)
                 claims_.push_back({l, rank, false, isClosedShell(label.filling) ? label.volume : 0});
             else
@@ -109,6 +120,9 @@ private:
         sheetClaim_.assign(labelCount(), kNoClaim);
         for (std::uint32_t c = 0; c < claims_.size(); ++c)
             (claims_[c].isSheet ? sheetClaim_ : solidClaim_)[claims_[c].label] = c;
+        std::vector<const MaterialGroup*> groupOf(labelCount(), nullptr);
+        for (auto group = groups_.rbegin(); group != groups_.rend(); ++group) groupOf[group->building] = &*group;
+        for (const SectionClaim& claim : claims_) groupOfClaim_.push_back(groupOf[claim.label]);
     }
 
     // A power of two, so that all coordinates are within 2^29.
@@ -153,12 +167,9 @@ private:
             isNeeded = isNeeded || label != kNoLabel;
         }
         if (!isNeeded) return {};
-        std::optional<volume::BrickVolume> own;
         if (bricks_ == nullptr) {
-            auto made =
-                volume::BrickVolume::fromColumns(volume_.columns, {.planes = volume_.planes, .threads = threads_});
-            if (!made) return made.error();
-            bricks_ = &own.emplace(std::move(*made));
+            SVT_TRY(made, tables_.bricks(threads_));
+            bricks_ = *made;
         }
         const CutPlane cut(plane_, axes_, volume_.grid);
         std::vector<DrawingBorder> borders = joinEdges(cutPieces(*bricks_, volume_.planes, cut, labels));
@@ -173,7 +184,6 @@ private:
                 if (border.left != kNoLabel) segments_.push_back({a, b, solidClaim_[border.left], 1});
                 if (border.right != kNoLabel) segments_.push_back({b, a, solidClaim_[border.right], 1});
             }
-        bricks_ = nullptr;
         return {};
     }
 
@@ -182,9 +192,8 @@ private:
         for (const plane::ClaimCount& count : counts) {
             if (count.winding <= 0) continue;
             if (count.claim >= claims_.size()) return kNoClaim;
-            for (const MaterialGroup& group : groups_)
-                if (claims_[count.claim].label == group.building) return bodyClaim(counts, group, count.claim);
-            return count.claim;
+            const MaterialGroup* const group = groupOfClaim_[count.claim];
+            return group != nullptr ? bodyClaim(counts, *group, count.claim) : count.claim;
         }
         return kNoClaim;
     }
@@ -227,16 +236,21 @@ private:
     }
 
     [[nodiscard]] std::vector<BodyFace> facesOf(const MaterialGroup& group) const {
-        std::vector<std::uint32_t> bodyOf(labelCount(), kNoLabel);
-        for (std::uint32_t b = group.firstBody; b < group.endBody; ++b) bodyOf[bodies_[b]] = b - group.firstBody;
+        const std::uint32_t first = group.building, end = bodies_[group.endBody - 1] + 1;
+        std::vector<std::uint32_t> bodyOf(end - first, kNoLabel);
+        for (std::uint32_t b = group.firstBody; b < group.endBody; ++b)
+            bodyOf[bodies_[b] - first] = b - group.firstBody;
         std::vector<BodyFace> faces;
         const auto place = [&](std::uint32_t point) {
             return volume_.vectors.position(point, volume_.grid.origin() - axes_.origin);
         };
-        for (const auto& triangle : volume_.vectors.triangles)
-            if (bodyOf[triangle.label] != kNoLabel)
-                faces.push_back({place(triangle.corners[0]), place(triangle.corners[1]), place(triangle.corners[2]),
-                                 bodyOf[triangle.label]});
+        const auto& triangles = volume_.vectors.triangles;
+        auto triangle = std::lower_bound(triangles.begin(), triangles.end(), first,
+                                         [](const auto& t, std::uint32_t label) { return t.label < label; });
+        for (; triangle != triangles.end() && triangle->label < end; ++triangle)
+            if (const std::uint32_t body = bodyOf[triangle->label - first]; body != kNoLabel)
+                faces.push_back(
+                    {place(triangle->corners[0]), place(triangle->corners[1]), place(triangle->corners[2]), body});
         return faces;
     }
 
@@ -273,12 +287,14 @@ private:
     const SectionPlane& plane_;
     const PlaneAxes& axes_;
     std::span<const std::uint8_t> isDrawn_;
+    const DrawingTables& tables_;
     int threads_;
     ExactSection section_;
     std::vector<SectionClaim> claims_;
     std::vector<std::uint32_t> solidClaim_, sheetClaim_;  // by label
     std::vector<MaterialGroup> groups_;
-    std::vector<std::uint32_t> bodies_;  // labels
+    std::vector<const MaterialGroup*> groupOfClaim_;  // null: the material is whole
+    std::vector<std::uint32_t> bodies_;               // labels
     std::vector<plane::ClaimSegment> segments_;
 };
 
@@ -288,8 +304,9 @@ bool hasMeshes(const volume::SemanticVolume& volume) noexcept { return !volume.v
 
 Result<std::optional<ExactSection>> cutExactly(const volume::SemanticVolume& volume, const volume::BrickVolume* bricks,
                                                const SectionPlane& plane, const PlaneAxes& axes,
-                                               std::span<const std::uint8_t> isDrawn, int threads) {
-    return ExactCutter(volume, bricks, plane, axes, isDrawn, threads).run();
+                                               std::span<const std::uint8_t> isDrawn, const DrawingTables& tables,
+                                               int threads) {
+    return ExactCutter(volume, bricks, plane, axes, isDrawn, tables, threads).run();
 }
 
 }  // namespace svt::drawing

@@ -8,6 +8,7 @@
 ///     sheets              lines, unless objects of higher priority are on both sides.
 ///     open shells         the polygons of their voxels.
 
+#include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/section/section_pieces.hpp>
 
 #include <cstddef>
@@ -34,11 +35,13 @@ struct ExactSection {
 /// Cuts `volume` with the plane through `axes`.
 /// \param bricks   bricks of the volume, or null: made if open shells are cut
 /// \param isDrawn  by label; other labels are gaps
+/// \param tables   of the volume
 /// \return the section; nothing if plane::arrangeSegments() returns nothing; or the error of
 ///         BrickVolume::fromColumns()
 [[nodiscard]] Result<std::optional<ExactSection>> cutExactly(const volume::SemanticVolume& volume,
                                                              const volume::BrickVolume* bricks,
                                                              const SectionPlane& plane, const PlaneAxes& axes,
-                                                             std::span<const std::uint8_t> isDrawn, int threads);
+                                                             std::span<const std::uint8_t> isDrawn,
+                                                             const DrawingTables& tables, int threads);
 
 }  // namespace svt::drawing

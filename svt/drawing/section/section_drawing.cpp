@@ -3,8 +3,8 @@
 #include <svt/analyze/selection.hpp>
 #include <svt/drawing/beyond/lines_beyond.hpp>
 #include <svt/drawing/dimension/dimension_chains.hpp>
+#include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/exact/body_cells.hpp>
-#include <svt/drawing/room_floor_areas.hpp>
 #include <svt/drawing/section/door_swings.hpp>
 #include <svt/drawing/section/draw_labels.hpp>
 #include <svt/drawing/section/exact_section.hpp>
@@ -228,11 +228,11 @@ SectionDrawing drawVoxels(const volume::SemanticVolume& volume, const volume::Br
 Result<std::optional<SectionDrawing>> drawMeshes(const volume::SemanticVolume& volume,
                                                  const volume::BrickVolume* bricks, const SectionPlane& plane,
                                                  const std::vector<std::uint8_t>& isDrawn,
-                                                 const SectionOptions& options) {
+                                                 const SectionOptions& options, const DrawingTables& tables) {
     SectionDrawing drawing;
     drawing.plane = {normalized(plane.normal), plane.point, plane.bound};
     drawing.axes = makePlaneAxes(plane, volume.grid);
-    SVT_TRY(cut, cutExactly(volume, bricks, drawing.plane, drawing.axes, isDrawn, options.threads));
+    SVT_TRY(cut, cutExactly(volume, bricks, drawing.plane, drawing.axes, isDrawn, tables, options.threads));
     if (!*cut) return std::optional<SectionDrawing>{};
     ExactSection& section = **cut;
     drawing.isFromMeshes = true;
@@ -255,11 +255,20 @@ Result<std::optional<SectionDrawing>> drawMeshes(const volume::SemanticVolume& v
 }
 
 // Plans: the floor areas of rooms, so that stamps and schedules have one number.
-void addFloorAreas(SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+void addFloorAreas(SectionDrawing& drawing, const volume::SemanticVolume& volume, const DrawingTables& tables) {
     constexpr double kUpright = 1 - 1e-9;
     if (std::abs(dot(drawing.plane.normal, volume.grid.axes()[2])) < kUpright) return;
-    const std::vector<std::optional<double>> areas = roomFloorAreas(volume);
-    for (SectionComponent& component : drawing.components) component.floorArea = areas[component.label];
+    for (SectionComponent& component : drawing.components) component.floorArea = tables.roomAreas()[component.label];
+}
+
+// Adds floor areas, lines beyond the cut, doors and dimensions.
+void addDetails(SectionDrawing& drawing, const volume::SemanticVolume& volume, const std::vector<std::uint8_t>& isDrawn,
+                const SectionOptions& options, const DrawingTables& tables) {
+    addFloorAreas(drawing, volume, tables);
+    addLinesBeyond(drawing, volume, isDrawn, options.beyond, tables, options.threads);
+    if (options.doorSwings) drawing.doors = findDoorSwings(drawing, volume);
+    if (options.dimensions) addDimensions(drawing, volume, options, tables);
+    if (options.tables != nullptr || options.beyond.isAny()) drawing.hatches = tables.hatches();
 }
 
 Result<SectionDrawing> drawSectionOf(const volume::SemanticVolume& volume, const volume::BrickVolume* bricks,
@@ -279,31 +288,24 @@ Result<SectionDrawing> drawSectionOf(const volume::SemanticVolume& volume, const
 Result<SectionDrawing> drawLabels(const volume::SemanticVolume& volume, const volume::BrickVolume* bricks,
                                   const SectionPlane& plane, const std::vector<std::uint8_t>& isDrawn,
                                   const SectionOptions& options) {
+    const DrawingTables ownTables(volume);
+    const DrawingTables& tables = options.tables != nullptr ? *options.tables : ownTables;
     const bool isCut = options.useMeshes && hasMeshes(volume);
     if (isCut) {
-        SVT_TRY(drawing, drawMeshes(volume, bricks, plane, isDrawn, options));
+        SVT_TRY(drawing, drawMeshes(volume, bricks, plane, isDrawn, options, tables));
         if (*drawing) {
-            addFloorAreas(**drawing, volume);
-            addLinesBeyond(**drawing, volume, isDrawn, options.beyond, options.threads);
-            if (options.doorSwings) (*drawing)->doors = findDoorSwings(**drawing, volume);
-            if (options.dimensions) addDimensions(**drawing, volume, options);
+            addDetails(**drawing, volume, isDrawn, options, tables);
             return std::move(**drawing);
         }
     }
-    std::optional<volume::BrickVolume> own;
     if (bricks == nullptr) {
-        auto made =
-            volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes, .threads = options.threads});
-        if (!made) return made.error();
-        own.emplace(std::move(*made));
+        SVT_TRY(made, tables.bricks(options.threads));
+        bricks = *made;
     }
-    SectionDrawing drawing = drawVoxels(volume, bricks != nullptr ? *bricks : *own, plane, isDrawn, options);
+    SectionDrawing drawing = drawVoxels(volume, *bricks, plane, isDrawn, options);
     drawing.isUnsettled = isCut;
     drawing.lacksMeshes = options.beyond.isAny() && !hasMeshes(volume);
-    addFloorAreas(drawing, volume);
-    addLinesBeyond(drawing, volume, isDrawn, options.beyond, options.threads);
-    if (options.doorSwings) drawing.doors = findDoorSwings(drawing, volume);
-    if (options.dimensions) addDimensions(drawing, volume, options);
+    addDetails(drawing, volume, isDrawn, options, tables);
     return drawing;
 }
 

@@ -1,3 +1,4 @@
+#include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/sheet_views.hpp>
 #include <svt/drawing/storey_floors.hpp>
 
@@ -26,14 +27,15 @@ struct PlaceRange {
 // Selects the plane that cuts most of the rooms and least of the walls along their length; nothing if none of nine
 // planes cuts a building.
 Result<std::optional<double>> placeInRange(const volume::SemanticVolume& volume, int axis, const PlaceRange& range,
-                                           int threads) {
+                                           const DrawingTables& tables, int threads) {
     const Vec3d along = volume.grid.axes()[static_cast<std::size_t>(axis)];
     const auto& labels = volume.labels.labels;
     const bool hasRooms = std::any_of(labels.begin(), labels.end(),
                                       [](const volume::Label& label) { return label.count > 0 && isRoomSpace(label); });
-    const std::vector<PartRole> roles = partRoles(volume.labels);
+    const std::vector<PartRole>& roles = tables.roles();
     SectionOptions options;
     options.threads = threads;
+    options.tables = &tables;
     std::optional<double> best;
     double most = -kInfinity;
     for (int n = 0; n < 9; ++n) {
@@ -65,7 +67,8 @@ Result<std::optional<double>> placeInRange(const volume::SemanticVolume& volume,
 
 // The place of a section across an axis: through the stair, then through the ridge, then in the middle half of the main
 // building, then anywhere in it.
-Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, const MainBuilding& main, int threads) {
+Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, const MainBuilding& main,
+                              const DrawingTables& tables, int threads) {
     std::vector<PlaceRange> ranges;
     const auto add = [&](const Box3d& box, double spread) {
         ranges.push_back({box.min[axis], box.size()[axis], spread});
@@ -75,7 +78,7 @@ Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, co
     add(main.box, 0.0571);
     add(main.box, 0.12);
     for (const PlaceRange& range : ranges) {
-        SVT_TRY(place, placeInRange(volume, axis, range, threads));
+        SVT_TRY(place, placeInRange(volume, axis, range, tables, threads));
         if (*place) return **place;
     }
     return main.box.min[axis] + 0.5 * main.box.size()[axis];
@@ -83,7 +86,8 @@ Result<double> placeOfSection(const volume::SemanticVolume& volume, int axis, co
 
 }  // namespace
 
-Result<SheetViews> chooseSheetViews(const volume::SemanticVolume& volume, int threads) {
+Result<SheetViews> chooseSheetViews(const volume::SemanticVolume& volume, int threads, const DrawingTables* tables) {
+    const DrawingTables own(volume);
     SheetViews chosen;
     chosen.levels = findLevels(volume);
     const volume::Grid& grid = volume.grid;
@@ -105,7 +109,7 @@ Result<SheetViews> chooseSheetViews(const volume::SemanticVolume& volume, int th
     const int first = size.x >= size.y ? 0 : 1;
     for (int n = 0; n < 2; ++n) {
         const int axis = n == 0 ? first : 1 - first;
-        SVT_TRY(at, placeOfSection(volume, axis, main, threads));
+        SVT_TRY(at, placeOfSection(volume, axis, main, tables != nullptr ? *tables : own, threads));
         const Vec3d along = grid.axes()[static_cast<std::size_t>(axis)];
         chosen.views.push_back({ViewKind::Section,
                                 n == 0 ? "A" : "B",

@@ -2,11 +2,13 @@
 #include <svt/drawing/clip_segment.hpp>
 
 #include <svt/drawing/dimension/part_roles.hpp>
+#include <svt/model/classes.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -14,6 +16,9 @@ namespace svt::drawing {
 namespace {
 
 constexpr double kMarginShare = 0.05, kLeastMargin = 1;  // of the building; metres
+constexpr double kReachShare = 0.25, kLeastReach = 2;    // of the building; metres: parts within it belong to it
+constexpr double kSmallShare = 0.3;                      // of the building: larger parts belong to it
+constexpr double kPlotShare = 1.5;                       // of the building: larger slabs of the site are plots
 
 struct CropBox {
     PlanePoint low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
@@ -22,10 +27,88 @@ struct CropBox {
         low = {std::min(low.u, p.u), std::min(low.v, p.v)};
         high = {std::max(high.u, p.u), std::max(high.v, p.v)};
     }
+    void add(const CropBox& other) noexcept {
+        add(other.low);
+        add(other.high);
+    }
     [[nodiscard]] bool contains(PlanePoint p) const noexcept {
         return p.u >= low.u && p.u <= high.u && p.v >= low.v && p.v <= high.v;
     }
+    [[nodiscard]] bool isEmpty() const noexcept { return !(low.u <= high.u); }
+    [[nodiscard]] double width() const noexcept { return high.u - low.u; }
+    [[nodiscard]] double depth() const noexcept { return high.v - low.v; }
+    [[nodiscard]] double length() const noexcept { return std::max(width(), depth()); }
+    // Along one axis; negative if the boxes overlap.
+    [[nodiscard]] double distanceTo(const CropBox& other) const noexcept {
+        return std::max({other.low.u - high.u, low.u - other.high.u, other.low.v - high.v, low.v - other.high.v});
+    }
 };
+
+// The meshes of each label seen from above, along the grid's axes.
+std::vector<CropBox> planBoxes(const volume::SemanticVolume& volume) {
+    std::vector<CropBox> boxes(volume.labels.labels.size());
+    const auto axes = volume.grid.axes();
+    for (const auto& triangle : volume.vectors.triangles)
+        for (const auto corner : triangle.corners) {
+            const Vec3d p = volume.vectors.position(corner, {});
+            boxes[triangle.label].add(PlanePoint{dot(p, axes[0]), dot(p, axes[1])});
+        }
+    return boxes;
+}
+
+bool isInBuilding(std::uint32_t label, const volume::LabelTable& table) {
+    for (std::uint32_t at = label; at < table.labels.size(); at = table.labels[at].parent) {
+        const model::ClassRank rank = model::classRank(table.labels[at].className);
+        if (rank == model::ClassRank::Storey || rank == model::ClassRank::Building) return true;
+        if (table.labels[at].parent >= at) return false;
+    }
+    return false;
+}
+
+// Labels outside of the building, by their meshes.
+struct OutsideParts {
+    std::vector<std::uint32_t> plots, away;
+};
+
+OutsideParts findOutsideParts(const volume::SemanticVolume& volume, const std::vector<PartRole>& roles) {
+    OutsideParts found;
+    const std::vector<CropBox> boxes = planBoxes(volume);
+    CropBox building;
+    std::vector<std::uint32_t> ofSite, unmeasured;
+    for (std::uint32_t l = 0; l < boxes.size(); ++l) {
+        if (boxes[l].isEmpty() || roles[l] == PartRole::Surroundings) continue;
+        if (roles[l] == PartRole::Nothing)
+            unmeasured.push_back(l);
+        else if (isInBuilding(l, volume.labels))
+            building.add(boxes[l]);
+        else
+            ofSite.push_back(l);
+    }
+    const bool hasBuilding = !building.isEmpty();
+    const CropBox core = building;
+    for (const std::uint32_t l : ofSite) {
+        const bool isPlot =
+            hasBuilding && std::max(boxes[l].width() / core.width(), boxes[l].depth() / core.depth()) > kPlotShare;
+        if (isPlot)
+            found.plots.push_back(l);
+        else
+            building.add(boxes[l]);
+    }
+    if (building.isEmpty()) return found;
+    const double reach = std::max(kLeastReach, kReachShare * building.length());
+    const double small = kSmallShare * building.length();
+    for (bool isChanged = true; isChanged;) {
+        const auto isFar = [&](std::uint32_t l) {
+            return boxes[l].length() <= small && boxes[l].distanceTo(building) > reach;
+        };
+        const auto near = std::stable_partition(unmeasured.begin(), unmeasured.end(), isFar);
+        isChanged = near != unmeasured.end();
+        for (auto part = near; part != unmeasured.end(); ++part) building.add(boxes[*part]);
+        unmeasured.erase(near, unmeasured.end());
+    }
+    found.away = std::move(unmeasured);
+    return found;
+}
 
 // The pieces of a polyline within the box.
 std::vector<std::vector<PlanePoint>> piecesOf(const std::vector<PlanePoint>& points, const CropBox& box) {
@@ -106,14 +189,27 @@ void cropComponents(SectionDrawing& drawing, const CropBox& box) {
 
 }  // namespace
 
-SectionDrawing croppedToBuilding(const SectionDrawing& drawing, const volume::SemanticVolume& volume) {
-    SectionDrawing cropped = drawing;
+std::vector<std::uint8_t> labelsAroundBuilding(const volume::SemanticVolume& volume) {
     const std::vector<PartRole> roles = partRoles(volume.labels);
+    const OutsideParts outside = findOutsideParts(volume, roles);
+    std::vector<std::uint8_t> isAround;
+    for (const PartRole role : roles) isAround.push_back(role == PartRole::Surroundings ? 1 : 0);
+    for (const auto* parts : {&outside.plots, &outside.away})
+        for (const std::uint32_t label : *parts) isAround[label] = 1;
+    return isAround;
+}
+
+SectionDrawing croppedToBuilding(const SectionDrawing& drawing, const volume::SemanticVolume& volume) {
+    return croppedToBuilding(drawing, labelsAroundBuilding(volume));
+}
+
+SectionDrawing croppedToBuilding(const SectionDrawing& drawing, std::span<const std::uint8_t> isAround) {
+    SectionDrawing cropped = drawing;
     CropBox box;
     visitPoints(drawing, [&](std::uint32_t label, PlanePoint p) {
-        if (roles[label] != PartRole::Surroundings) box.add(p);
+        if (isAround[label] == 0) box.add(p);
     });
-    if (!(box.low.u <= box.high.u)) return cropped;
+    if (box.isEmpty()) return cropped;
     const double margin =
         std::max(kLeastMargin, kMarginShare * std::max(box.high.u - box.low.u, box.high.v - box.low.v));
     box.low = {box.low.u - margin, box.low.v - margin};
@@ -134,6 +230,10 @@ SectionDrawing croppedToBuilding(const SectionDrawing& drawing, const volume::Se
         if (const auto part = clipSegment(line.from, line.to, box.low, box.high))
             cropped.beyond.push_back({part->first, part->second, line.label, line.kind});
     return cropped;
+}
+
+std::vector<std::uint32_t> partsAwayFromBuilding(const volume::SemanticVolume& volume) {
+    return findOutsideParts(volume, partRoles(volume.labels)).away;
 }
 
 }  // namespace svt::drawing

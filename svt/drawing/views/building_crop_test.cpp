@@ -6,6 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace svt::drawing {
 namespace {
@@ -57,6 +61,49 @@ TEST(BuildingCrop, WithoutSurroundingsOrWithoutABuildingNothingChanges) {
         EXPECT_EQ(cropped.borders.front().points, drawing.borders.front().points);
         EXPECT_EQ(cropped.components.front().area, drawing.components.front().area);
     }
+}
+
+// A house of 8 x 6 m with walls on a storey, label 1.
+Boxes houseOnAStorey() {
+    Boxes boxes;
+    volume::test::addGroup(boxes.volume, "building", "Building");
+    volume::test::addGroup(boxes.volume, "storey", "Storey", 0);
+    for (const auto& [id, low, high] : {std::tuple("south", Vec3d{0, 0, 0}, Vec3d{8, 0.3, 3}),
+                                        std::tuple("north", Vec3d{0, 5.7, 0}, Vec3d{8, 6, 3})}) {
+        boxes.addBox(id, "BuildingConstructiveElement", low, high);
+        boxes.volume.labels.labels.back().attributes.push_back({"ifcType", std::string("IfcWall"), ""});
+        boxes.volume.labels.labels.back().parent = 1;
+    }
+    return boxes;
+}
+
+void addTyped(Boxes& boxes, const char* id, const char* type, Vec3d low, Vec3d high) {
+    boxes.addBox(id, "BuildingConstructiveElement", low, high);
+    boxes.volume.labels.labels.back().attributes.push_back({"ifcType", std::string(type), ""});
+}
+
+TEST(BuildingCrop, SmallPartsAwayFromTheBuildingDecideNoScale) {
+    Boxes boxes = houseOnAStorey();
+    addTyped(boxes, "geo-reference", "IfcBuildingElementProxy", {2, -35, 0}, {2.5, -34.5, 3});
+    addTyped(boxes, "bench", "IfcFurniture", {8.5, 2, 0}, {9.5, 3, 3});
+    addTyped(boxes, "bench beside it", "IfcFurniture", {11, 2, 0}, {12, 3, 3});
+    addTyped(boxes, "pavilion", "IfcBuildingElementProxy", {20, 0, 0}, {24, 4, 3});
+    EXPECT_EQ(partsAwayFromBuilding(boxes.volume), std::vector<std::uint32_t>{4});
+    const auto [low, high] = extentOfBorders(croppedToBuilding(boxes.cut({0, 0, 1}, {0, 0, 1}), boxes.volume));
+    EXPECT_NEAR(low.v, 0, 1e-5);
+    EXPECT_NEAR(high.u, 24, 1e-5) << "large parts belong to the building";
+}
+
+TEST(BuildingCrop, APlotEndsBesideTheBuildingAndASlabOfTheSiteDoesNot) {
+    Boxes boxes = houseOnAStorey();
+    addTyped(boxes, "plot", "IfcSlab", {-20, -20, 0}, {20, 30, 3});
+    addTyped(boxes, "slab", "IfcSlab", {0, 0, 0}, {9, 6.5, 3});
+    const SectionDrawing drawing = boxes.cut({0, 0, 1}, {0, 0, 1});
+    const auto [low, high] = extentOfBorders(croppedToBuilding(drawing, boxes.volume));
+    EXPECT_NEAR(low.u, 0, 1e-5) << "the edges of the plot are cut off";
+    EXPECT_NEAR(high.u, 9, 1e-5);
+    EXPECT_NEAR(high.v, 6.5, 1e-5);
+    EXPECT_TRUE(partsAwayFromBuilding(boxes.volume).empty());
 }
 
 }  // namespace
