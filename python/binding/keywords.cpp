@@ -19,6 +19,7 @@ std::string keywordOf(const Option& option) {
     std::string name(longName(option));
     name.erase(0, name.find_first_not_of('-'));
     std::replace(name.begin(), name.end(), '-', '_');
+    if (name == "from") name += '_';  // a reserved word of Python
     return name;
 }
 

@@ -399,7 +399,7 @@ class Words(unittest.TestCase):
             self.assertIn(f"\n    {keyword} : ", svt.build.__doc__ or "")
         for keyword in ("section", "highlight", "scale_bar", "hidden_lines"):
             self.assertIn(f"\n        {keyword} : ", svt.Volume.render.__doc__ or "")
-        for keyword in ("encoding", "meshes", "place", "lift", "zarr", "level_sets", "select"):
+        for keyword in ("encoding", "meshes", "place", "lift", "zarr", "level_sets", "select", "from_"):
             self.assertIn(f"\n        {keyword} : ", svt.Volume.save.__doc__ or "")
 
     def test_notebooks_show_volume_picture_and_drawing(self):

@@ -127,9 +127,12 @@ public:
     };
     [[nodiscard]] Result<std::vector<Place>> find(const std::string& id) const;
 
-    /// The volume of an entry. Reads only its bytes. May be called from several threads.
+    /// The volume of an entry. Reads only its bytes. May be called from several threads. Its meshes are moved to
+    /// SemanticVolume::footprints, because joined volumes have no meshes.
     /// \return the volume, or BadPack if it is damaged or belongs to another tile; CannotOpen or BadCity for servers
     [[nodiscard]] Result<volume::SemanticVolume> read(const IndexEntry& entry) const;
+    /// The same with its meshes, if the tile keeps any.
+    [[nodiscard]] Result<volume::SemanticVolume> readWithMeshes(const IndexEntry& entry) const;
     /// The bytes of an entry: a `.svt` file. \return the bytes, or BadPack, CannotOpen, BadCity
     [[nodiscard]] Result<std::string> readBytes(const IndexEntry& entry) const;
 

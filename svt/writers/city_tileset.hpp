@@ -18,8 +18,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
-#include <span>
+#include <optional>
 #include <string>
 
 namespace svt::writers {
@@ -37,7 +38,7 @@ struct CityTilesetFrame {
     int levels = 1;  ///< levels of the quadtree, including the root; 1..24
     std::string crsName;
     std::string source;        ///< source of the city, for display
-    VolumeWriteOptions write;  ///< place (of `corner`), lift, faces
+    VolumeWriteOptions write;  ///< place (of `corner`), lift, faces, from
 };
 
 /// The content of a square.
@@ -46,6 +47,7 @@ struct TileContent {
     Box3d box;         ///< in the frame of the root, metres
     double error = 0;  ///< deviation from the finest content, metres
     std::size_t features = 0;
+    bool hasVoxels = false;  ///< a volume without meshes has the surface of its voxels
 };
 
 /// A folder to which tiles are added. It appears on disk only with finish().
@@ -58,12 +60,17 @@ public:
                                                                      const CityTilesetFrame& frame);
     virtual ~CityTileset() = default;
 
-    /// Surfaces of volumes; a feature is a label without parent, with all labels below it. Upward faces have the colour
-    /// of its roofs, and vertical faces that of its walls, if it has such labels.
-    /// Threads: several may call this at the same time. Memory: that of labelSurfaces() of one volume, and the content.
-    /// \return the content, empty if no voxel is filled; or CannotProject, GridTooLarge, Cancelled
-    [[nodiscard]] virtual Result<TileContent> make(std::span<const volume::SemanticVolume> volumes,
-                                                   double error) const = 0;
+    /// The next volume of a square; nothing after the last one.
+    using NextVolume = std::function<Result<std::optional<volume::SemanticVolume>>()>;
+
+    /// Surfaces of volumes; a feature is a label without parent, with all labels below it. The faces of the model are
+    /// used where the volume keeps them, see MeshChoice::Open. Features with rooms or bodies, and labels without
+    /// faces, have the surface of their voxels. There, upward faces have the colour of the feature's roofs, and vertical faces
+    /// that of its walls, if it has such labels.
+    /// \param cell  surfaces are simplified to points one per cube of this side, see simplified(); 0: not at all
+    /// Threads: several may call this at the same time. Memory: one volume, and the content.
+    /// \return the content, empty if no voxel is filled; or an error of `next`, CannotProject, GridTooLarge, Cancelled
+    [[nodiscard]] virtual Result<TileContent> make(const NextVolume& next, double error, double cell) const = 0;
     /// Writes the content of a square, which must not have content yet. \return success, or CannotWrite, DiskFull
     [[nodiscard]] virtual Result<void> add(QuadtreeNode node, const TileContent& content) = 0;
     /// Memory: about 200 bytes per content and per square around it.

@@ -5,14 +5,17 @@
 ///
 /// Layers are named by IFC type, otherwise by class and function, or according to ISO 13567-2. Each ring, including
 /// holes, is a closed LWPOLYLINE, and a HATCH fills them. Room names are TEXT entities, doors are blocks, dimensions
-/// are DIMENSION entities with blocks. Comments (group 999) at the start contain the transform back to the model's CRS.
+/// are DIMENSION entities with blocks. Comments (group 999) at the start contain the transform back to the model's CRS,
+/// and with ISO layers the source of external walls.
 /// Text is in the code page named in the header, 1252; other characters are written as \U+XXXX. Version 2000 is the
 /// oldest that states its unit, and all programs read it.
 
+#include <svt/drawing/external_parts.hpp>
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/record/members.hpp>
 
 #include <string>
+#include <vector>
 
 namespace svt::writers {
 
@@ -20,6 +23,8 @@ struct DxfOptions {
     bool isoLayers = false;  ///< names of layers according to ISO 13567-2: `A-21----E-`
     /// Coordinates of the model's CRS. Vertical drawings then stand in space. Only plans keep their dimensions.
     bool world = false;
+    /// External walls and doors for ISO layers, for several drawings of a volume; null: they are found.
+    const std::vector<drawing::ExternalPart>* externals = nullptr;
 };
 
 /// The options that a user can set.

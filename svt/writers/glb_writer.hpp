@@ -21,6 +21,7 @@
 #include <svt/core/progress.hpp>
 #include <svt/core/result.hpp>
 #include <svt/volume/semantic_volume.hpp>
+#include <svt/writers/surface_source.hpp>
 
 #include <array>
 #include <cstdint>
@@ -41,6 +42,7 @@ constexpr auto namesOf(GlbFaces) {
 
 struct GlbOptions {
     GlbFaces faces = GlbFaces::Planes;
+    MeshChoice meshes = MeshChoice::Sheets;  ///< None for GlbFaces::Voxels, All for GlbFaces::Meshes
     /// The volume from which the written volume was extracted, on the same grid. Its planes are used, because the
     /// result of an extraction, such as a thin hull, has few planes of its own. Null: the planes of the volume itself.
     const volume::SemanticVolume* planesOf = nullptr;
@@ -58,9 +60,9 @@ struct GlbReport {
 };
 
 /// Writes the surfaces of all labels with voxels as one .glb, all or nothing. Voxel faces are merged into rectangles,
-/// closed per label (see labelSurfaces). Then the vertices on slopes are moved by up to one voxel. Labels without inside
-/// are written as the triangles of the model, with two sides, if the volume keeps these and `faces` is not Voxels.
-/// `planesOf` excludes triangles of the model. Equal volumes give equal bytes. Cost and memory: those of labelSurfaces; the file itself is not kept in memory.
+/// closed per label (see labelSurfaces). Then the vertices on slopes are moved by up to one voxel. The labels of
+/// GlbOptions::meshes are written as the triangles of the model, if the volume keeps these (see drawnTriangles); sheets
+/// have two sides. `planesOf` excludes triangles of the model. Equal volumes give equal bytes. Cost and memory: those of labelSurfaces; the file itself is not kept in memory.
 /// \return statistics, or
 ///         - CannotWrite, DiskFull, Cancelled
 ///         - NothingSelected  no label has voxels.

@@ -15,6 +15,7 @@
 #include <svt/drawing/opening_schedule.hpp>
 #include <svt/drawing/sheet_set.hpp>
 #include <svt/drawing/sheet_views.hpp>
+#include <svt/drawing/stair_flights.hpp>
 
 #include <array>
 #include <cstdint>
@@ -64,6 +65,8 @@ struct SheetContent {
     Diagnostics findings{};                              ///< of the tables, see drawing::reportAreas()
     std::optional<drawing::FloorAreas> areas{};          ///< the source of the tables
     std::optional<drawing::OpeningSchedule> openings{};  ///< plans have its marks
+    /// Plans have their lines of travel; without a value, they are found for each plan.
+    std::optional<std::vector<drawing::StairFlight>> stairs{};
 };
 
 struct SheetOptions {

@@ -10,6 +10,7 @@
 #include <svt/record/members.hpp>
 #include <svt/volume/semantic_volume.hpp>
 #include <svt/writers/glb_writer.hpp>
+#include <svt/writers/surface_source.hpp>
 
 #include <array>
 #include <cstddef>
@@ -80,8 +81,9 @@ record::Members<VdbWriteOptions> membersOf(const VdbWriteOptions*) noexcept;
 record::Members<BoxWriteOptions> membersOf(const BoxWriteOptions*) noexcept;
 
 struct VolumeWriteOptions {
-    bool isCompressed = true;           ///< dense formats with a choice: gzip or zlib; false: raw
-    GlbFaces faces = GlbFaces::Planes;  ///< formats of triangles
+    bool isCompressed = true;                  ///< dense formats with a choice: gzip or zlib; false: raw
+    GlbFaces faces = GlbFaces::Planes;         ///< formats of triangles
+    SurfaceSource from = SurfaceSource::Auto;  ///< glTF and 3D Tiles
     TextureKind texture = TextureKind::Pixel;
     std::uint64_t maxVoxels = std::uint64_t{1} << 24;  ///< of samples as numbers in a document
     CityGmlWriteOptions cityGml;
@@ -93,6 +95,13 @@ struct VolumeWriteOptions {
     int threads = 0;                     ///< maximum; 0: all cores. The bytes do not depend on it.
     const Progress* progress = nullptr;  ///< stages by format
 };
+
+/// The labels that are written as triangles of the model. \param automatic  the choice of SurfaceSource::Auto
+[[nodiscard]] constexpr MeshChoice meshChoice(const VolumeWriteOptions& options, MeshChoice automatic) noexcept {
+    if (options.from == SurfaceSource::Voxels || options.faces == GlbFaces::Voxels) return MeshChoice::None;
+    if (options.faces == GlbFaces::Meshes) return MeshChoice::All;
+    return options.from == SurfaceSource::Meshes ? MeshChoice::Open : automatic;
+}
 
 /// The options that a user can set.
 record::Members<VolumeWriteOptions> membersOf(const VolumeWriteOptions*) noexcept;

@@ -288,6 +288,15 @@ Result<std::string> City::readBytes(const IndexEntry& entry) const {
 }
 
 Result<volume::SemanticVolume> City::read(const IndexEntry& entry) const {
+    auto volume = readWithMeshes(entry);
+    if (volume && !volume->vectors.triangles.empty()) {
+        volume->footprints = std::move(volume->vectors);
+        volume->vectors = {};
+    }
+    return volume;
+}
+
+Result<volume::SemanticVolume> City::readWithMeshes(const IndexEntry& entry) const {
     SVT_TRY(bytes, readBytes(entry));
     const std::string place = store_->place(packName(entry.pack));
     auto volume = volume::readSvt(std::as_bytes(std::span(*bytes)), place);

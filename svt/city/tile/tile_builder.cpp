@@ -119,7 +119,7 @@ Result<std::optional<BuiltTile>> buildTile(const PackFeatures& features, std::sp
     building.grid = *grid;
     building.lod.lod = options.lod;
     building.threads = threads;
-    building.vectors.footprints = true;
+    building.vectors = {.meshes = true, .isRequired = false};
     SVT_TRY(built, pipeline::buildVolume(*model, building));
     BuiltTile tile;
     tile.full = std::move(built->volume);

@@ -16,10 +16,16 @@ namespace {
 
 using writers::TileContent;
 
-/// The content of a square of the quadtree: tiles of detail 0 or 1, or the columns of a coarser one.
+constexpr int kFaceLevel = 11;  // squares of 2^11 m have the faces of their tiles, simplified; smaller ones nothing
+constexpr double kMostColumns = 128;  // along the side of larger squares
+constexpr double kFaceCubes = 256;    // along the side of a square with simplified faces
+
+/// The content of a square of the quadtree: tiles, simplified to the spacing of the detail; or the columns of a coarse
+/// detail.
 struct Square {
     writers::QuadtreeNode node;
     int detail = 0;
+    bool isOwn = false;  // of tiles, not around them
     std::vector<IndexEntry> tiles;
     std::array<double, 4> rectangle{};
 };
@@ -31,11 +37,10 @@ public:
 
     Result<void> find() {
         SVT_TRY(entries, city_.find(0, kEverywhere));
-        SVT_TRY(coarse, city_.find(1, kEverywhere));
         if (entries->empty()) return Error(Code::NothingSelected, "the city has no tiles");
         layOut(*entries);
-        for (const IndexEntry& entry : finestDetail_ == 0 ? *entries : *coarse) add(entry, true);
-        for (const IndexEntry& entry : *coarse) add(entry, false);
+        for (const IndexEntry& entry : *entries) add(entry, true);
+        for (const IndexEntry& entry : *entries) add(entry, false);
         return {};
     }
 
@@ -76,10 +81,10 @@ private:
         return (value >= 0 ? value / step : -((-value + step - 1) / step)) * step;
     }
 
-    // The finest detail, 1 at least, with at most 256 columns along a side of 2^level metres.
+    // The finest detail, 1 at least, with at most kMostColumns along a side of 2^level metres.
     [[nodiscard]] int detailOf(int level) const {
         int detail = 1;
-        while (detail < city_.topDetail() && std::ldexp(1, level) > kLevelCells * spacingOf(detail, city_.spacing()).x)
+        while (detail < city_.topDetail() && std::ldexp(1, level) > kMostColumns * spacingOf(detail, city_.spacing()).x)
             ++detail;
         return detail;
     }
@@ -88,17 +93,19 @@ private:
     void add(const IndexEntry& entry, bool isOwn) {
         const std::int64_t side = std::int64_t{1} << entry.tile.level;
         const std::int64_t x = entry.tile.x * side - west_, y = entry.tile.y * side - south_;
-        const int from = entry.tile.level + (isOwn ? 0 : 1), to = isOwn ? entry.tile.level : rootLevel_;
+        const int from = isOwn ? entry.tile.level : std::max(entry.tile.level + 1, kFaceLevel);
+        const int to = isOwn ? entry.tile.level : rootLevel_;
         for (int level = from; level <= to; ++level) {
             const writers::QuadtreeNode node{rootLevel_ - level, static_cast<std::uint32_t>(x >> level),
                                              static_cast<std::uint32_t>(y >> level)};
             Square& square = squares_[{level, node.y, node.x}];
             square.node = node;
             square.detail = isOwn ? finestDetail_ : detailOf(level);
+            square.isOwn = isOwn;
             const double size = std::ldexp(1, level);
             const double west = double(west_) + node.x * size, south = double(south_) + node.y * size;
             square.rectangle = {west, south, west + size, south + size};
-            if (square.detail < kFirstClassDetail) square.tiles.push_back(entry);
+            if (level <= kFaceLevel) square.tiles.push_back(entry);
         }
     }
 
@@ -109,31 +116,47 @@ private:
     std::map<std::array<std::int64_t, 3>, Square> squares_;
 };
 
-Result<std::vector<volume::SemanticVolume>> volumesOf(const City& city, const Square& square) {
-    std::vector<volume::SemanticVolume> volumes;
-    for (const IndexEntry& entry : square.tiles) {
-        SVT_TRY(volume, city.read(entry));
-        volumes.push_back(std::move(*volume));
-    }
-    if (square.detail < kFirstClassDetail) return volumes;
+// The columns of a coarse detail; nothing if there are none.
+Result<std::optional<volume::SemanticVolume>> columnsOf(const City& city, const Square& square) {
     Extract extract;
     extract.detail = square.detail;
     extract.hasBox = true;
     const auto& [west, south, east, north] = square.rectangle;
     extract.box = {west, south, city.box().min.z - 1000, east, north, city.box().max.z + 1000};
     auto volume = extractVolume(city, extract);
+    if (volume) return std::optional(std::move(*volume));
     // A building may stand over the border of its tile, so that no column has its middle here.
-    if (!volume && volume.error().code() == Code::NothingSelected) return volumes;
-    if (!volume) return volume.error();
-    volumes.push_back(std::move(*volume));
-    return volumes;
+    if (volume.error().code() == Code::NothingSelected) return std::optional<volume::SemanticVolume>();
+    return volume.error();
+}
+
+Result<TileContent> contentOf(const City& city, const Square& square, const writers::CityTileset& tileset) {
+    const double spacing = spacingOf(square.detail, city.spacing()).x;
+    std::size_t given = 0;
+    if (square.tiles.empty())
+        return tileset.make(
+            [&]() -> Result<std::optional<volume::SemanticVolume>> {
+                if (given++ > 0) return std::optional<volume::SemanticVolume>();
+                return columnsOf(city, square);
+            },
+            spacing, 0);
+    const double side = square.rectangle[2] - square.rectangle[0];
+    const double coarse = std::max(side / kFaceCubes, 2 * city.spacing());
+    const double cell = !square.isOwn ? coarse : square.detail > 0 ? spacing : 0;
+    return tileset.make(
+        [&]() -> Result<std::optional<volume::SemanticVolume>> {
+            if (given == square.tiles.size()) return std::optional<volume::SemanticVolume>();
+            SVT_TRY(volume, city.readWithMeshes(square.tiles[given++]));
+            return std::optional(std::move(*volume));
+        },
+        square.isOwn ? 0 : cell, cell);
 }
 
 }  // namespace
 
-Result<std::uint64_t> writeCityTiles(const City& city, const std::filesystem::path& path,
-                                     const writers::VolumeWriteOptions& options, int finest, int threads,
-                                     const Progress* progress) {
+Result<CityTilesReport> writeCityTiles(const City& city, const std::filesystem::path& path,
+                                       const writers::VolumeWriteOptions& options, int finest, int threads,
+                                       const Progress* progress) {
     CitySquares found(city, finest);
     SVT_DO(found.find());
     writers::CityTilesetFrame frame = found.frame();
@@ -144,26 +167,28 @@ Result<std::uint64_t> writeCityTiles(const City& city, const std::filesystem::pa
     const std::vector<Square> squares = found.squares();
     const std::size_t batch = 2 * static_cast<std::size_t>(threads > 0 ? threads : hardwareThreads());
     ProgressCounter counter(progress, "tiles", squares.size());
+    CityTilesReport report;
     for (std::size_t begin = 0; begin < squares.size(); begin += batch) {
         const std::size_t count = std::min(batch, squares.size() - begin);
         std::vector<std::optional<Result<TileContent>>> made(count);
         parallelFor(count, 1, threads, [&](std::size_t from, std::size_t to) {
-            for (std::size_t n = from; n < to; ++n) {
-                const Square& square = squares[begin + n];
-                const double error = square.detail == finest ? 0 : spacingOf(square.detail, city.spacing()).x;
-                const auto volumes = volumesOf(city, square);
-                made[n].emplace(volumes ? (*tileset)->make(*volumes, error) : Result<TileContent>(volumes.error()));
-            }
+            for (std::size_t n = from; n < to; ++n) made[n].emplace(contentOf(city, squares[begin + n], **tileset));
         });
         for (std::size_t n = 0; n < count; ++n) {
             if (!*made[n]) return made[n]->error();
+            if (squares[begin + n].isOwn) {
+                ++report.tiles;
+                report.voxelTiles += (*made[n])->hasVoxels ? 1 : 0;
+            }
             SVT_DO((*tileset)->add(squares[begin + n].node, **made[n]));
             made[n].reset();
             counter.add();
         }
         if (Progress::isCancelled(progress)) return Error(Code::Cancelled, "stopped between tiles; nothing was left");
     }
-    return (*tileset)->finish();
+    SVT_TRY(bytes, (*tileset)->finish());
+    report.bytes = *bytes;
+    return report;
 }
 
 }  // namespace svt::city

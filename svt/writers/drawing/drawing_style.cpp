@@ -1,10 +1,13 @@
 #include <svt/writers/drawing/drawing_style.hpp>
 
 #include <svt/model/classes.hpp>
+#include <svt/model/phases.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <variant>
 
 namespace svt::writers {
 namespace {
@@ -31,8 +34,25 @@ constexpr HatchTile kHatches[] = {
      ""},
     {Hatch::Steel, 2, 1.8, -45, "#e3e8ee", "M0 .5H2M0 .95H2", ""},
     {Hatch::Glass, 4, 4, 0, "#e6f2f7", "M.6 1.6L1.4 .8M1.1 1.9L1.9 1.1M2.8 3.5L3.6 2.7", ""},
-    {Hatch::General, 2.8, 2.8, -45, "#f2f2f2", "M0 1.4H2.8", ""},
+    {Hatch::General, 2.8, 2.8, 45, "#f2f2f2", "M0 1.4H2.8", ""},
 };
+
+bool isWindowElement(const volume::Label& label) {
+    return std::any_of(label.attributes.begin(), label.attributes.end(), [](const Attribute& attribute) {
+        const std::string* text = std::get_if<std::string>(&attribute.value);
+        return text != nullptr && attribute.name == "ifcType" && text->find("Window") != std::string::npos;
+    });
+}
+
+// Frames of windows that are elements: they have no hatch of glass, but narrow lines like all windows.
+bool isWindowFrame(const volume::LabelTable& table, std::uint32_t label) {
+    const volume::Label& of = table.labels[label];
+    const bool isPart = std::any_of(of.attributes.begin(), of.attributes.end(), [](const Attribute& attribute) {
+        return attribute.name == model::kPhaseAttribute;
+    });
+    return isPart &&
+           (isWindowElement(of) || (of.parent < table.labels.size() && isWindowElement(table.labels[of.parent])));
+}
 
 }  // namespace
 
@@ -66,7 +86,11 @@ std::pair<PlanePoint, PlanePoint> drawnBox(const drawing::SectionDrawing& drawin
 
 DrawingStyle::DrawingStyle(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                            double millimetres)
-    : volume_(volume), hatches_(drawing::labelHatches(volume.labels)), isSlim_(volume.labels.labels.size(), 0) {
+    : volume_(volume),
+      hatches_(drawing.hatches != nullptr
+                   ? drawing.hatches
+                   : std::make_shared<const std::vector<Hatch>>(drawing::labelHatches(volume.labels))),
+      isSlim_(volume.labels.labels.size(), 0) {
     for (const SectionComponent& component : drawing.components)
         isSlim_[component.label] = isSlim(component, millimetres) ? 1 : 0;
 }
@@ -76,8 +100,9 @@ bool DrawingStyle::isSpace(std::uint32_t label) const noexcept {
 }
 
 bool DrawingStyle::isBold(std::uint32_t label) const noexcept {
-    if (isSpace(label) || hatches_[label] == Hatch::Glass || isSlim_[label] != 0) return false;
-    return model::classRank(volume_.labels.labels[label].className) >= model::ClassRank::Installation;
+    if (isSpace(label) || (*hatches_)[label] == Hatch::Glass || isSlim_[label] != 0) return false;
+    return model::classRank(volume_.labels.labels[label].className) >= model::ClassRank::Installation &&
+           !isWindowFrame(volume_.labels, label);
 }
 
 // Sheets are one voxel thick whatever they represent: towards rooms they take the line of the part behind them.

@@ -6,6 +6,7 @@
 #include <svt/drawing/section_drawing.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -31,7 +32,7 @@ public:
     /// \param millimetres  on paper per metre
     DrawingStyle(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume, double millimetres);
 
-    [[nodiscard]] render::Hatch hatchOf(std::uint32_t label) const noexcept { return hatches_[label]; }
+    [[nodiscard]] render::Hatch hatchOf(std::uint32_t label) const noexcept { return (*hatches_)[label]; }
     /// Whether a label is a room, unit or storey, or not drawn.
     [[nodiscard]] bool isSpace(std::uint32_t label) const noexcept;
     /// Cut load-bearing or enclosing parts have bold outlines. Fillings, furniture and parts that are only one or two
@@ -45,8 +46,8 @@ private:
     [[nodiscard]] bool isSlim(const drawing::SectionComponent& component, double millimetres) const noexcept;
 
     const volume::SemanticVolume& volume_;
-    std::vector<render::Hatch> hatches_;  // by label
-    std::vector<std::uint8_t> isSlim_;    // by label
+    std::shared_ptr<const std::vector<render::Hatch>> hatches_;  // by label
+    std::vector<std::uint8_t> isSlim_;                           // by label
 };
 
 }  // namespace svt::writers

@@ -154,6 +154,19 @@ TEST(DxfDrawing, NamesLayersAfterIso13567WhereAsked) {
     EXPECT_TRUE(DxfFile(makeDxf(planOf(volume), volume)).values(8).contains("IfcWall"));
 }
 
+// The air outside touches the wall around the room.
+TEST(DxfDrawing, IsoLayersOfExternalWallsFollowTheFileOrTheHull) {
+    auto volume = roomInWalls();
+    std::vector<Attribute>& attributes = volume.labels.labels[0].attributes;
+    attributes.push_back({"ifcType", std::string("IfcWall"), ""});
+    const DxfOptions options{.isoLayers = true, .world = false};
+    const std::string found = makeDxf(planOf(volume), volume, options);
+    EXPECT_TRUE(DxfFile(found).values(8).contains("A-21----E-"));
+    EXPECT_NE(found.find("1 of 1 (stated in the file: 0; found by the outside air"), std::string::npos);
+    attributes.push_back({"Pset_WallCommon.IsExternal", false, ""});
+    EXPECT_TRUE(DxfFile(makeDxf(planOf(volume), volume, options)).values(8).contains("A-22----E-"));
+}
+
 TEST(DxfDrawing, StandsInTheWorldWhereAsked) {
     const auto volume = roomInWalls();
     const DxfOptions world{.isoLayers = false, .world = true};

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 namespace svt::writers {
 namespace {
@@ -98,6 +99,8 @@ public:
           hasIsoLayers_(options.isoLayers),
           style_(drawing, volume, kDimensionScale),
           place_(drawing.axes, options.world) {
+        if (options.isoLayers)
+            externals_ = options.externals != nullptr ? *options.externals : drawing::findExternalParts(volume);
         if (!options.world || isPlan(drawing, volume.grid))
             dimensions_ = placeDimensions(drawing, drawnBox(drawing), kDimensionScale);
     }
@@ -127,11 +130,15 @@ private:
 
     [[nodiscard]] std::vector<std::string> comments() const {
         const drawing::PlaneAxes& axes = drawing_.axes;
-        return {dxfText(shownName(volume_)) + ", " + planeText(drawing_, volume_),
-                (place_.isWorld() ? "coordinates of the world; the drawing lies at origin + u * x + v * y, metres"
-                                  : "world = origin + u * x + v * y, metres") +
-                    (volume_.crsName.empty() ? std::string() : ", CRS " + dxfText(volume_.crsName)),
-                "origin " + vectorText(axes.origin, 6), "u " + vectorText(axes.u, 15), "v " + vectorText(axes.v, 15)};
+        std::vector<std::string> lines{
+            dxfText(shownName(volume_)) + ", " + planeText(drawing_, volume_),
+            (place_.isWorld() ? "coordinates of the world; the drawing lies at origin + u * x + v * y, metres"
+                              : "world = origin + u * x + v * y, metres") +
+                (volume_.crsName.empty() ? std::string() : ", CRS " + dxfText(volume_.crsName)),
+            "origin " + vectorText(axes.origin, 6), "u " + vectorText(axes.u, 15), "v " + vectorText(axes.v, 15)};
+        if (std::string sources = drawing::externalSources(externals_, volume_.labels); !sources.empty())
+            lines.push_back(std::move(sources));
+        return lines;
     }
 
     [[nodiscard]] DxfView view() const {
@@ -166,12 +173,15 @@ private:
     [[nodiscard]] const volume::Label& labelOf(std::uint32_t label) const noexcept {
         return volume_.labels.labels[label];
     }
+    [[nodiscard]] std::string isoOf(std::uint32_t label, DxfContent content, std::string_view field = {}) const {
+        return isoLayerOf(labelOf(label), externals_[label].isExternal, content, field);
+    }
     const std::string& layerOf(std::uint32_t label, DxfContent content) {
         const volume::Label& of = labelOf(label);
         const int color = content == DxfContent::Hatch ? 8 : colorOf(of.className);
         const int width =
             content == DxfContent::Element ? (style_.isBold(label) ? kBoldWidth : kMediumWidth) : kThinWidth;
-        if (hasIsoLayers_) return file_.layer(isoLayerOf(of, content), color, "Continuous", width);
+        if (hasIsoLayers_) return file_.layer(isoOf(label, content), color, "Continuous", width);
         return file_.layer(dxfLayerOf(of) + (content == DxfContent::Hatch ? "_HATCH" : ""), color, "Continuous", width);
     }
     const std::string& dimensionLayer() {
@@ -229,8 +239,7 @@ private:
 
     void addBeyond(const drawing::BeyondLine& line) {
         const BeyondStyle& style = beyondStyle(line.kind);
-        const std::string layer =
-            hasIsoLayers_ ? isoLayerOf(labelOf(line.label), DxfContent::Element, style.field) : style.layer;
+        const std::string layer = hasIsoLayers_ ? isoOf(line.label, DxfContent::Element, style.field) : style.layer;
         addLine(place_.placed(line.from), place_.placed(line.to),
                 file_.layer(layer, style.color, style.lineType, kBeyondWidth));
         addId(line.label);
@@ -357,6 +366,7 @@ private:
     const drawing::SectionDrawing& drawing_;
     const volume::SemanticVolume& volume_;
     bool hasIsoLayers_;
+    std::vector<drawing::ExternalPart> externals_;  // by label, for ISO layers
     DrawingStyle style_;
     DxfPlace place_;
     DimensionMarks dimensions_;

@@ -21,7 +21,7 @@ constexpr DxfHatchLine kEarth[] = {
     {45, 0, 0, 0.35, 0.27, 0.08}, {45, 0.05, -0.05, 0.35, 0.27, 0.08}, {135, 0, 0, 0.35, 0.2, 0.15}};
 constexpr DxfHatchLine kSteel[] = {{45, 0, 0, 0.18, 0, 0}, {45, 0.032, -0.032, 0.18, 0, 0}};
 constexpr DxfHatchLine kGlass[] = {{45, 0, 0, 0.28, 0.1, 0.3}};
-constexpr DxfHatchLine kGeneral[] = {{45, 0, 0, 0.28, 0, 0}};
+constexpr DxfHatchLine kGeneral[] = {{135, 0, 0, 0.28, 0, 0}};
 
 constexpr DxfHatch kDxfHatches[] = {{Hatch::Masonry, "SVT_MASONRY", kMasonry},
                                     {Hatch::Concrete, "SVT_CONCRETE", kConcrete},
@@ -77,7 +77,7 @@ std::string dxfLayerOf(const volume::Label& label) {
     return isWord ? name + "_" + plainName(function) : name;
 }
 
-std::string isoLayerOf(const volume::Label& label, DxfContent content, std::string_view field) {
+std::string isoLayerOf(const volume::Label& label, bool isExternal, DxfContent content, std::string_view field) {
     const std::string name = dxfLayerOf(label);
     std::string code = "--";
     for (const Element& element : kElements)
@@ -85,11 +85,6 @@ std::string isoLayerOf(const volume::Label& label, DxfContent content, std::stri
             code = element.code;
             break;
         }
-    const auto isExternal =
-        std::any_of(label.attributes.begin(), label.attributes.end(), [](const Attribute& attribute) {
-            const bool* truth = std::get_if<bool>(&attribute.value);
-            return truth != nullptr && *truth && attribute.name.ends_with("IsExternal");
-        });
     if (code == "22" && (isExternal || label.className == "WallSurface")) code = "21";
     if (code == "32" && isExternal) code = "31";
     const std::string optional = field.empty() ? std::string() : std::string(10, '-').append(field);

@@ -35,8 +35,10 @@ enum class DxfContent : char { Element = 'E', Hatch = 'H', Text = 'T', Dimension
 
 /// The layer of a component according to ISO 13567-2, ten characters: agent `A-`, element by the table of CI/SfB
 /// (`21----` external walls), presentation (`E-`).
+/// \param isExternal  of walls and doors, see drawing::findExternalParts()
 /// \param field  the user-defined field, eight characters behind the empty optional fields: lines beyond the cut
-[[nodiscard]] std::string isoLayerOf(const volume::Label& label, DxfContent content, std::string_view field = {});
+[[nodiscard]] std::string isoLayerOf(const volume::Label& label, bool isExternal, DxfContent content,
+                                     std::string_view field = {});
 /// The same for content that does not belong to a component: texts, dimensions.
 [[nodiscard]] std::string isoLayerOf(DxfContent content);
 

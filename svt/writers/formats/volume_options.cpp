@@ -48,6 +48,10 @@ record::Members<VolumeWriteOptions> membersOf(const VolumeWriteOptions*) noexcep
         member<&All::faces>("faces",
                             "slopes of a .glb: planes (flat, where the volume stores planes) or voxels (stairs)",
                             {.group = "Output", .option = "--faces", .isForProjects = true}),
+        member<&All::from>("from",
+                           "surfaces of a .glb and a .3dtiles: meshes (faces of the model that the volume keeps) or "
+                           "voxels; auto: meshes where they are closed or sheets, in a .3dtiles also open shells",
+                           {.group = "Output", .option = "--from", .isForProjects = true}),
     };
     return kMembers;
 }

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <string>
 #include <vector>
@@ -52,7 +51,8 @@ Json materialOf(const volume::Label& label, const std::string& name, bool isInvi
                                         {"metallicFactor", 0},
                                         {"roughnessFactor", 1}};
     if (alpha < 1) material["alphaMode"] = "BLEND";
-    if (label.filling == volume::Filling::Surface) material["doubleSided"] = true;
+    if (label.filling == volume::Filling::Surface || label.filling == volume::Filling::Winding)
+        material["doubleSided"] = true;
     return material;
 }
 
@@ -171,14 +171,10 @@ std::string sceneText(const volume::SemanticVolume& volume, std::span<const Labe
     return text;
 }
 
-// The label of each scalar; none for those of `sheets`.
-std::vector<std::uint32_t> labelsWithout(const volume::SemanticVolume& volume, std::span<const LabelSurface> sheets) {
-    std::vector<bool> isSheet(volume.labels.labels.size(), false);
-    for (const LabelSurface& sheet : sheets) isSheet[sheet.label] = true;
-    std::vector<std::uint32_t> labelOfScalar = volume.labels.labelOfScalar();
-    for (std::uint32_t& label : labelOfScalar)
-        if (label != kNoLabel && isSheet[label]) label = kNoLabel;
-    return labelOfScalar;
+// The labels whose triangles are written.
+MeshChoice meshChoiceOf(const GlbOptions& options) {
+    if (options.faces == GlbFaces::Voxels || options.planesOf != nullptr) return MeshChoice::None;
+    return options.faces == GlbFaces::Meshes ? MeshChoice::All : options.meshes;
 }
 
 Result<void> writeWords(AtomicFile& file, std::initializer_list<std::uint64_t> words) {
@@ -203,10 +199,8 @@ Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::file
                            const GlbOptions& options) {
     for (const volume::SemanticVolume* v : {&volume, options.planesOf})
         if (v != nullptr) SVT_DO(checkDimension(volume.grid, v->columns));
-    SheetSurfaces sheets;
-    if (options.faces != GlbFaces::Voxels && options.planesOf == nullptr)
-        sheets = sheetSurfaces(volume, options.faces == GlbFaces::Meshes);
-    SVT_TRY(surfaces, labelSurfaces(volume.columns, labelsWithout(volume, sheets.surfaces),
+    SheetSurfaces sheets = sheetSurfaces(volume, meshChoiceOf(options));
+    SVT_TRY(surfaces, labelSurfaces(volume.columns, withoutSheets(volume.labels.labelOfScalar(), volume.labels, sheets),
                                     {options.maxTriangles, options.threads, options.progress}));
     if (surfaces->empty() && sheets.surfaces.empty())
         return Error(Code::NothingSelected, "the volume has no voxels and therefore no surface");
@@ -214,8 +208,11 @@ Result<GlbReport> writeGlb(const volume::SemanticVolume& volume, const std::file
     Progress::tell(options.progress, "vertices", 0);
     SVT_TRY(positions,
             placeVertices(volume, *surfaces, options.faces, options.planesOf, options.threads, options.progress));
-    std::move(sheets.surfaces.begin(), sheets.surfaces.end(), std::back_inserter(*surfaces));
-    std::move(sheets.positions.begin(), sheets.positions.end(), std::back_inserter(*positions));
+    for (std::size_t s = 0; s < sheets.surfaces.size(); ++s) {
+        if (sheets.surfaces[s].triangles.empty()) continue;
+        surfaces->push_back(std::move(sheets.surfaces[s]));
+        positions->push_back(std::move(sheets.positions[s]));
+    }
 
     GlbReport report;
     std::uint64_t positionBytes = 0, binBytes = 0;
@@ -257,7 +254,10 @@ extern const VolumeFormat kGlb{
     .content = FileContent::Gltf,
     .write = [](const auto& volume, const auto& path, const auto& options) -> Result<std::uint64_t> {
         SVT_TRY(report, writeGlb(volume, path,
-                                 {.faces = options.faces, .threads = options.threads, .progress = options.progress}));
+                                 {.faces = options.faces,
+                                  .meshes = meshChoice(options, MeshChoice::Closed),
+                                  .threads = options.threads,
+                                  .progress = options.progress}));
         return report->bytes;
     }};
 

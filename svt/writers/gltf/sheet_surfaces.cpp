@@ -1,6 +1,8 @@
+#include <svt/writers/gltf/model_faces.hpp>
 #include <svt/writers/gltf/sheet_surfaces.hpp>
 
-#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <unordered_map>
 
 namespace svt::writers {
@@ -15,17 +17,19 @@ Vec3f placeOf(const volume::SemanticVolume& volume, std::uint32_t point) {
 
 }  // namespace
 
-SheetSurfaces sheetSurfaces(const volume::SemanticVolume& volume, bool allLabels) {
+SheetSurfaces sheetSurfaces(const volume::SemanticVolume& volume, MeshChoice choice) {
     SheetSurfaces sheets;
+    const std::vector<TriangleUse> uses = drawnTriangles(volume, choice);
     std::unordered_map<std::uint32_t, std::uint32_t> vertexOf;  // by point, in the last surface
-    for (const volume::VectorParts::Triangle& triangle : volume.vectors.triangles) {
-        const volume::Label& label = volume.labels.labels[triangle.label];
-        if (label.voxels == 0 || !(allLabels || label.filling == volume::Filling::Surface)) continue;
+    for (std::size_t t = 0; t < uses.size(); ++t) {
+        if (uses[t] == TriangleUse::None) continue;
+        const volume::VectorParts::Triangle& triangle = volume.vectors.triangles[t];
         if (sheets.surfaces.empty() || sheets.surfaces.back().label != triangle.label) {
             sheets.surfaces.emplace_back().label = triangle.label;
             sheets.positions.emplace_back();
             vertexOf.clear();
         }
+        if (uses[t] == TriangleUse::Covered) continue;
         Positions& positions = sheets.positions.back();
         std::array<std::uint32_t, 3> corners{};
         for (std::size_t c = 0; c < 3; ++c) {
@@ -39,6 +43,15 @@ SheetSurfaces sheetSurfaces(const volume::SemanticVolume& volume, bool allLabels
     for (std::size_t s = 0; s < sheets.surfaces.size(); ++s)
         sheets.surfaces[s].vertices.resize(sheets.positions[s].size());
     return sheets;
+}
+
+std::vector<std::uint32_t> withoutSheets(std::vector<std::uint32_t> labelOfScalar, const volume::LabelTable& labels,
+                                         const SheetSurfaces& sheets) {
+    for (const LabelSurface& sheet : sheets.surfaces) {
+        const volume::Label& label = labels.labels[sheet.label];
+        for (volume::Scalar s = label.first; s < label.first + label.count; ++s) labelOfScalar[s] = volume::kNoLabel;
+    }
+    return labelOfScalar;
 }
 
 }  // namespace svt::writers

@@ -6,7 +6,9 @@
 #include <svt/volume/semantic_volume.hpp>
 #include <svt/writers/gltf/label_surface.hpp>
 #include <svt/writers/gltf/surface_positions.hpp>
+#include <svt/writers/surface_source.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace svt::writers {
@@ -17,8 +19,13 @@ struct SheetSurfaces {
     std::vector<Positions> positions;    ///< of each surface
 };
 
-/// The triangles of each label that has voxels and whose triangles the volume keeps. Without `allLabels` only of labels
-/// without inside (volume::Filling::Surface), whose voxels are a layer of stairs.
-[[nodiscard]] SheetSurfaces sheetSurfaces(const volume::SemanticVolume& volume, bool allLabels);
+/// The drawn triangles of each chosen label, see drawnTriangles(). The surface of a label is empty if all of its
+/// triangles are covered.
+[[nodiscard]] SheetSurfaces sheetSurfaces(const volume::SemanticVolume& volume, MeshChoice choice);
+
+/// The label of each scalar; volume::kNoLabel for those of labels with triangles.
+/// \param labelOfScalar  of all scalars
+[[nodiscard]] std::vector<std::uint32_t> withoutSheets(std::vector<std::uint32_t> labelOfScalar,
+                                                       const volume::LabelTable& labels, const SheetSurfaces& sheets);
 
 }  // namespace svt::writers

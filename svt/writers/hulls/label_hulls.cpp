@@ -11,7 +11,7 @@ Result<LabelHulls> makeLabelHulls(const volume::SemanticVolume& volume, const Vo
                                     {std::uint64_t{1} << 27, options.threads, options.progress}));
     if (surfaces->empty()) return Error(Code::NothingSelected, "the volume has no voxels and therefore no surface");
     SVT_TRY(positions, placeVertices(volume, *surfaces, options.faces, nullptr, options.threads, options.progress));
-    return LabelHulls{std::move(*surfaces), std::move(*positions), &volume};
+    return LabelHulls{std::move(*surfaces), std::move(*positions), &volume, false};
 }
 
 }  // namespace svt::writers

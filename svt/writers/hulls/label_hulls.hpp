@@ -18,6 +18,7 @@ struct LabelHulls {
     std::vector<LabelSurface> surfaces;  ///< ascending by label; only labels with voxels
     std::vector<Positions> positions;    ///< positions of the vertices of each surface
     const volume::SemanticVolume* volume = nullptr;
+    bool hasMeshes = false;  ///< some surfaces are triangles of the model, which need not be closed
 
     /// World directions, metres from the lower corner of the grid.
     [[nodiscard]] Vec3d fromCorner(std::size_t surface, std::size_t vertex) const {

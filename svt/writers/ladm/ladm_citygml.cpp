@@ -122,8 +122,10 @@ private:
     void addUnit(std::uint32_t space) {
         const std::uint32_t label = all_.spaces.spaces[space].label;
         const std::string id = gmlId(labelOf(label).id, label);
+        // Without a name, an id that XML does not allow is the name.
+        const bool isNamed = !labelOf(label).name.empty() || id == labelOf(label).id;
         text_ += fmt::format("<bldg:buildingSubdivision><bldg:BuildingUnit gml:id=\"{}\"><gml:name>{}</gml:name>\n", id,
-                             xmlContent(labelOf(label).name));
+                             xmlContent(isNamed ? labelOf(label).name : labelOf(label).id));
         addAttributes(space);
         addBody(space, id);
         text_ += "</bldg:BuildingUnit></bldg:buildingSubdivision>\n";
@@ -139,15 +141,13 @@ private:
         if (space.totalVolume) spatial.push_back(measureAttribute("volume", *space.totalVolume, "m3"));
         if (space.bodyVolume) spatial.push_back(measureAttribute("bodyVolume", *space.bodyVolume, "m3"));
         text_ += attributeSet("LA_LegalSpaceBuildingUnit", spatial);
-        for (const analyze::OwnershipRight& right : all_.rights) {
+        for (const analyze::PartyRight& right : all_.rights) {
             if (all_.units[right.unit].space != index) continue;
-            const std::string share = right.share
-                                          ? fmt::format("{}/{}", right.share->numerator, right.share->denominator)
-                                          : fmt::format("{}", right.fraction);
-            text_ += attributeSet(
-                "LA_Right",
-                {stringAttribute("type", "ownership"), stringAttribute("party", all_.parties[right.party]),
-                 stringAttribute("share", share), stringAttribute("LA_AdministrativeSource", all_.partyFile)});
+            std::vector<std::string> set{stringAttribute("type", right.rightType().name),
+                                         stringAttribute("party", all_.parties[right.party])};
+            if (right.fraction) set.push_back(stringAttribute("share", analyze::shareText(right)));
+            set.push_back(stringAttribute("LA_AdministrativeSource", all_.sources[right.source]));
+            text_ += attributeSet(analyze::ladmClassName(right.rightType().of), set);
         }
         text_ += attributeSet("LA_SpatialSource", {stringAttribute("name", all_.spatialFile)});
     }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <string>
@@ -16,6 +17,9 @@ using analyze::LandAdministration;
 using analyze::LegalSpace;
 using analyze::SpaceRelation;
 using volume::kNoLabel;
+
+// By RightClass.
+constexpr std::array<const char*, 3> kRightTables{"la_right", "la_restriction", "la_responsibility"};
 
 // Keys of rows begin at 1.
 std::int64_t rowKey(std::size_t index) noexcept { return static_cast<std::int64_t>(index) + 1; }
@@ -74,11 +78,12 @@ private:
         package_.createTable("la_source", columnList({"type TEXT NOT NULL", "name TEXT"}));
         package_.createTable("la_party", "name TEXT NOT NULL");
         package_.createTable("la_baunit", columnList({"uid TEXT NOT NULL UNIQUE", "name TEXT", "class TEXT"}));
-        package_.createTable("la_right",
-                             columnList({"type TEXT NOT NULL", "party INTEGER NOT NULL REFERENCES la_party(fid)",
-                                         "baunit INTEGER NOT NULL REFERENCES la_baunit(fid)", "share_numerator INTEGER",
-                                         "share_denominator INTEGER", "share REAL NOT NULL",
-                                         "source INTEGER REFERENCES la_source(fid)"}));
+        for (const char* const table : kRightTables)
+            package_.createTable(
+                table,
+                columnList({"type TEXT NOT NULL", "party INTEGER NOT NULL REFERENCES la_party(fid)",
+                            "baunit INTEGER NOT NULL REFERENCES la_baunit(fid)", "share_numerator INTEGER",
+                            "share_denominator INTEGER", "share REAL", "source INTEGER REFERENCES la_source(fid)"}));
         package_.createFeatures(
             "la_spatialunit", "MULTIPOLYGON",
             columnList({"suid TEXT NOT NULL UNIQUE", "name TEXT", "class TEXT", "common BOOLEAN NOT NULL",
@@ -97,8 +102,9 @@ private:
                                        "exact BOOLEAN NOT NULL"}));
         package_.createTable("la_relation_face", columnList({"relation INTEGER NOT NULL REFERENCES la_relation(fid)",
                                                              "face INTEGER NOT NULL REFERENCES la_boundaryface(fid)"}));
-        for (const char* name : {"la_source", "la_party", "la_baunit", "la_right", "la_relation", "la_relation_face"})
+        for (const char* name : {"la_source", "la_party", "la_baunit", "la_relation", "la_relation_face"})
             package_.describeAttributes(name);
+        for (const char* const table : kRightTables) package_.describeAttributes(table);
     }
 
     void addSources() {
@@ -106,7 +112,12 @@ private:
         package_.insert("la_source", Row{std::int64_t{kAdministrative}, "administrative source",
                                          all_.partyFile + (isTable ? "" : " (attribute owner)")});
         package_.insert("la_source", Row{std::int64_t{kSpatial}, "spatial source", all_.spatialFile});
+        for (std::size_t n = 1; n < all_.sources.size(); ++n)
+            package_.insert("la_source", Row{sourceKey(n), "administrative source", all_.sources[n]});
     }
+
+    // The key of LandAdministration::sources[n]; the model has the second key.
+    static std::int64_t sourceKey(std::size_t n) noexcept { return n == 0 ? kAdministrative : rowKey(n + 1); }
 
     [[nodiscard]] const volume::Label& labelOf(std::uint32_t label) const { return volume_.labels.labels[label]; }
 
@@ -117,13 +128,14 @@ private:
             const volume::Label& label = labelOf(all_.units[n].label);
             package_.insert("la_baunit", Row{rowKey(n), label.id, label.name, label.className});
         }
-        for (std::size_t n = 0; n < all_.rights.size(); ++n) {
-            const analyze::OwnershipRight& right = all_.rights[n];
-            Row row{rowKey(n), "ownership", rowKey(right.party), rowKey(right.unit)};
+        std::array<std::int64_t, kRightTables.size()> last{};
+        for (const analyze::PartyRight& right : all_.rights) {
+            const auto table = static_cast<std::size_t>(right.rightType().of);
+            Row row{++last[table], right.rightType().name, rowKey(right.party), rowKey(right.unit)};
             row.push_back(right.share ? Cell(right.share->numerator) : Cell());
             row.push_back(right.share ? Cell(right.share->denominator) : Cell());
-            row.insert(row.end(), {right.fraction, std::int64_t{kAdministrative}});
-            package_.insert("la_right", row);
+            row.insert(row.end(), {numberCell(right.fraction), Cell(sourceKey(right.source))});
+            package_.insert(kRightTables[table], row);
         }
     }
 

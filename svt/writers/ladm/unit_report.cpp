@@ -95,6 +95,7 @@ private:
         double left = paintTable(measures(), kPageLeft, 188);
         left = paintTable(rooms(), kPageLeft, left + 4);
         double right = paintTable(owners(), kPageMiddle + 4, 188);
+        right = paintTable(otherRights(), kPageMiddle + 4, right + 4);
         right = paintTable(neighbours(), kPageMiddle + 4, right + 4);
         paintSources(284);
     }
@@ -131,14 +132,37 @@ private:
 
     [[nodiscard]] ReportTable owners() const {
         ReportTable table{"Owners", {"owner", "share"}, {}, {65, 86}};
-        for (const analyze::OwnershipRight& right : all_.rights) {
-            if (all_.units[right.unit].space != index_) continue;
+        for (const analyze::PartyRight& right : all_.rights) {
+            if (all_.units[right.unit].space != index_ || right.type != analyze::kOwnership) continue;
             table.rows.push_back({all_.parties[right.party],
-                                  right.share ? fmt::format("{}/{}", right.share->numerator, right.share->denominator)
-                                              : fmt::format("{:.6f}", right.fraction)});
+                                  right.share ? analyze::shareText(right) : fmt::format("{:.6f}", *right.fraction)});
         }
         if (table.rows.empty()) table.rows.push_back({"no owner in the sources", ""});
         return table;
+    }
+
+    // Empty if there are none.
+    [[nodiscard]] ReportTable otherRights() const {
+        ReportTable table{
+            "Other rights, restrictions and responsibilities", {"party", "type", "share"}, {}, {42, 72, 86}};
+        for (const analyze::PartyRight& right : all_.rights)
+            if (all_.units[right.unit].space == index_ && right.type != analyze::kOwnership)
+                table.rows.push_back(
+                    {all_.parties[right.party], std::string(right.rightType().name), analyze::shareText(right)});
+        return table;
+    }
+
+    // The table of owners, or the model, and the documents that rights of the unit name.
+    [[nodiscard]] std::string sourcesOfRights() const {
+        const bool isTable = all_.partySource == analyze::PartySource::Table;
+        std::string text = (isTable ? "" : "the attribute owner in ") + all_.partyFile;
+        for (std::uint32_t source = 1; source < all_.sources.size(); ++source) {
+            const bool isNamed = std::any_of(all_.rights.begin(), all_.rights.end(), [&](const auto& right) {
+                return all_.units[right.unit].space == index_ && right.source == source;
+            });
+            if (isNamed) text += ", " + all_.sources[source];
+        }
+        return text;
     }
 
     [[nodiscard]] ReportTable neighbours() const {
@@ -170,13 +194,12 @@ private:
     }
 
     void paintSources(double top) const {
-        const bool isTable = all_.partySource == analyze::PartySource::Table;
         canvas_.stroke({{{kPageLeft, top - 4}, {kPageRight, top - 4}}}, {0.13});
-        canvas_.text({{kPageLeft, top},
-                      2.2,
-                      shortened(fmt::format("Sources: geometry from {}; owners from {}{}", all_.spatialFile,
-                                            isTable ? "" : "the attribute owner in ", all_.partyFile),
-                                2.2, kPageRight - kPageLeft)});
+        canvas_.text(
+            {{kPageLeft, top},
+             2.2,
+             shortened(fmt::format("Sources: geometry from {}; rights from {}", all_.spatialFile, sourcesOfRights()),
+                       2.2, kPageRight - kPageLeft)});
         canvas_.text({{kPageLeft, top + 3.5},
                       2.2,
                       shortened("Reference system: " + (volume_.crsName.empty() ? "none" : volume_.crsName), 2.2,

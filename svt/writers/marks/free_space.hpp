@@ -34,18 +34,35 @@ public:
     void take(const MarkBox& box) { taken_.push_back(box); }
 
     /// The obstacles within a rectangle. Cost: O(obstacles near it + taken places).
-    [[nodiscard]] Hits hitsOf(const MarkBox& box) const;
+    /// \param mostLines  the search ends at a taken place, a border, or more lines than this; the counts are then those
+    ///                   found so far
+    [[nodiscard]] Hits hitsOf(const MarkBox& box, int mostLines = kAll) const;
+    /// Whether a rectangle has no border, no line and no taken place.
+    [[nodiscard]] bool isClear(const MarkBox& box) const { return hitsOf(box, 0).isClear(); }
     /// Whether a line crosses a taken place.
     [[nodiscard]] bool crossesTaken(drawing::PlanePoint from, drawing::PlanePoint to) const noexcept;
+
+    static constexpr int kAll = -1;
 
 private:
     struct Segment {
         drawing::PlanePoint from, to;
         Obstacle kind;
+        MarkBox around;  // with a margin for rounding
     };
+    /// A square of 5 mm: the segments in it, and the squares of 1 mm that they touch, as bits. A rectangle that contains
+    /// a touched square has an obstacle.
+    struct Cell {
+        std::vector<std::uint32_t> segments;
+        std::uint32_t borders = 0, lines = 0;
+    };
+    static std::uint32_t touchedBits(const Segment& segment, std::int64_t x, std::int64_t y) noexcept;
+    static std::uint32_t bitsWithin(const MarkBox& box, std::int64_t x, std::int64_t y) noexcept;
+
     std::vector<Segment> segments_;
     std::vector<MarkBox> taken_;
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+    std::unordered_map<std::uint64_t, Cell> cells_;
+    mutable std::vector<const Cell*> near_;      // of the current search
     mutable std::vector<std::uint32_t> seenIn_;  // by segment: the number of the last search that met it
     mutable std::uint32_t search_ = 0;
 };

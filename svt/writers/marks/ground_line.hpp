@@ -1,15 +1,32 @@
 #pragma once
 /// \file
-/// The ground in sections: a bold line where terrain without a body is cut, with strokes of earth below it.
+/// The ground in sections and elevations: a bold line with strokes of earth below it.
 
+#include <svt/drawing/building_levels.hpp>
 #include <svt/volume/semantic_volume.hpp>
 #include <svt/writers/canvas/mark_shapes.hpp>
 
+#include <span>
+
 namespace svt::writers {
 
-/// Terrain with a body has its own hatch and gets no strokes.
+/// The terrain that a section cuts. Terrain with a body has its own hatch and gets no strokes.
 /// \param millimetres  on paper per metre
 [[nodiscard]] MarkShapes drawGround(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                     double millimetres);
+
+/// The ground of an elevation, in front of the building.
+struct GroundBefore {
+    MarkShapes shapes;
+    bool isAssumed = false;  ///< the model has neither terrain nor ground surfaces: the line is at the ground floor
+};
+/// The line of the terrain along the foremost part of the building. Without terrain there, the lowest point of the
+/// ground surfaces, if the model has no level below the ground floor; otherwise the ground floor.
+/// \param drawing  of an elevation, cropped to the building
+/// \param levels   of the volume
+/// Cost: O(triangles).
+[[nodiscard]] GroundBefore drawGroundBefore(const drawing::SectionDrawing& drawing,
+                                            const volume::SemanticVolume& volume,
+                                            std::span<const drawing::BuildingLevel> levels, double millimetres);
 
 }  // namespace svt::writers

@@ -92,9 +92,7 @@ std::optional<PlanePoint> placeBeside(const CutOpening& opening, double radius, 
                                     opening.center.v + out * opening.across.v + by * opening.along.v};
                 const double cost = away + 0.5 * std::abs(by);
                 if (cost >= least) continue;
-                const FreeSpace::Hits hits =
-                    space.hitsOf({{at.u - radius, at.v - radius}, {at.u + radius, at.v + radius}});
-                if (!hits.isClear()) continue;
+                if (!space.isClear({{at.u - radius, at.v - radius}, {at.u + radius, at.v + radius}})) continue;
                 least = cost;
                 best = at;
             }

@@ -133,22 +133,55 @@ void addTravelText(const MarkPath& line, const std::string& text, MarkShapes& sh
     shapes.texts.push_back({{best->u, best->v - 0.36 * kText}, kText, text, false});
 }
 
-// The ends of an axis as the reader writes them: "x y z, x y z".
-std::optional<std::pair<Vec3d, Vec3d>> axisEnds(const Attribute& attribute) {
+// The points of an axis as the reader writes them: "x y z, x y z", more for curves.
+std::vector<Vec3d> axisPoints(const Attribute& attribute) {
     const std::string* text = std::get_if<std::string>(&attribute.value);
-    if (text == nullptr || !attribute.name.starts_with("axis ")) return std::nullopt;
+    if (text == nullptr || !attribute.name.starts_with("axis ")) return {};
     std::vector<double> numbers;
     for (std::size_t at = 0; at < text->size();) {
         const std::size_t end = std::min(text->find_first_of(" ,", at), text->size());
         if (end > at) {
             const auto number = parseNumber(std::string_view(*text).substr(at, end - at));
-            if (!number) return std::nullopt;
+            if (!number) return {};
             numbers.push_back(*number);
         }
         at = end + 1;
     }
-    if (numbers.size() != 6) return std::nullopt;
-    return std::pair(Vec3d{numbers[0], numbers[1], numbers[2]}, Vec3d{numbers[3], numbers[4], numbers[5]});
+    std::vector<Vec3d> points;
+    if (numbers.size() < 6 || numbers.size() % 3 != 0) return points;
+    for (std::size_t n = 0; n < numbers.size(); n += 3) points.push_back({numbers[n], numbers[n + 1], numbers[n + 2]});
+    return points;
+}
+
+double lengthOf(const MarkPath& path) {
+    double length = 0;
+    for (std::size_t n = 0; n + 1 < path.size(); ++n)
+        length += std::hypot(path[n + 1].u - path[n].u, path[n + 1].v - path[n].v);
+    return length;
+}
+
+// The parts of an axis within a rectangle; those of a closed axis go on beyond its first point.
+std::vector<MarkPath> partsWithin(const MarkPath& axis, const MarkBox& box) {
+    constexpr double kLeast = 1;  // millimetres
+    std::vector<MarkPath> parts;
+    for (std::size_t n = 0; n + 1 < axis.size(); ++n) {
+        const auto part = drawing::clipSegment(axis[n], axis[n + 1], box.low, box.high);
+        if (!part) continue;
+        if (parts.empty() || !(parts.back().back() == part->first)) parts.push_back({part->first});
+        parts.back().push_back(part->second);
+    }
+    if (parts.size() > 1 && axis.front() == axis.back() && parts.front().front() == parts.back().back()) {
+        parts.back().insert(parts.back().end(), parts.front().begin() + 1, parts.front().end());
+        parts.erase(parts.begin());
+    }
+    std::erase_if(parts, [](const MarkPath& part) { return !(lengthOf(part) > kLeast); });
+    return parts;
+}
+
+// The centre of a circle that touches the end of a path from outside.
+PlanePoint beyondEnd(PlanePoint end, PlanePoint before, double radius) {
+    const double size = std::hypot(end.u - before.u, end.v - before.v);
+    return {end.u + (end.u - before.u) / size * radius, end.v + (end.v - before.v) / size * radius};
 }
 
 }  // namespace
@@ -191,26 +224,26 @@ MarkShapes drawGrids(const drawing::SectionDrawing& drawing, const volume::Seman
     for (const volume::Label& label : volume.labels.labels) {
         if (label.className != "Grid") continue;
         for (const Attribute& attribute : label.attributes) {
-            const auto ends = axisEnds(attribute);
-            if (!ends) continue;
-            const auto onPaper = [&](Vec3d world) {
+            MarkPath axis;
+            for (const Vec3d& world : axisPoints(attribute)) {
                 const PlanePoint p = drawing.axes.planeFromWorld(world);
-                return PlanePoint{p.u * millimetres, p.v * millimetres};
-            };
-            const auto axis = drawing::clipSegment(onPaper(ends->first), onPaper(ends->second), inner.low, inner.high);
-            if (!axis) continue;
-            const auto [from, to] = *axis;
-            const double size = std::hypot(to.u - from.u, to.v - from.v);
-            if (!(size > 1)) continue;
-            shapes.axes.push_back({from, to});
-            const double u = (to.u - from.u) / size, v = (to.v - from.v) / size;
-            const std::string name = shortened(attribute.name.substr(5), kText, 2 * kRadius - 1);
-            for (const PlanePoint at : {PlanePoint{from.u - u * kRadius, from.v - v * kRadius},
-                                        PlanePoint{to.u + u * kRadius, to.v + v * kRadius}}) {
-                shapes.masks.push_back(circleAt(at, kRadius));
-                shapes.medium.push_back(circleAt(at, kRadius));
-                shapes.texts.push_back({{at.u, at.v - 0.36 * kText}, kText, name, false});
-                space.take({{at.u - kRadius, at.v - kRadius}, {at.u + kRadius, at.v + kRadius}});
+                const PlanePoint at{p.u * millimetres, p.v * millimetres};
+                if (axis.empty() || !(axis.back() == at)) axis.push_back(at);
+            }
+            for (const MarkPath& part : partsWithin(axis, inner)) {
+                shapes.axes.push_back(part);
+                const std::string name = shortened(attribute.name.substr(5), kText, 2 * kRadius - 1);
+                // A whole circle has its name once.
+                std::vector<PlanePoint> places{part.front()};
+                if (!(part.front() == part.back()))
+                    places = {beyondEnd(part.front(), part[1], kRadius),
+                              beyondEnd(part.back(), part[part.size() - 2], kRadius)};
+                for (const PlanePoint at : places) {
+                    shapes.masks.push_back(circleAt(at, kRadius));
+                    shapes.medium.push_back(circleAt(at, kRadius));
+                    shapes.texts.push_back({{at.u, at.v - 0.36 * kText}, kText, name, false});
+                    space.take({{at.u - kRadius, at.v - kRadius}, {at.u + kRadius, at.v + kRadius}});
+                }
             }
         }
     }

@@ -22,7 +22,8 @@ struct PlanHeights {
                                     std::span<const drawing::StairFlight> flights, const PlanHeights& heights,
                                     double millimetres, std::string_view risers, bool hasCommas, FreeSpace& space);
 
-/// The axes of grids with their names in circles at both ends. An axis that is longer than the drawing ends beside it.
+/// The axes of grids, straight or curved, with their names in circles at both ends. An axis that is longer than the
+/// drawing ends beside it; each of its parts within the drawing has its name. A whole circle has its name once.
 /// \param allowed  limits of the circles
 [[nodiscard]] MarkShapes drawGrids(const drawing::SectionDrawing& drawing, const volume::SemanticVolume& volume,
                                    double millimetres, const MarkBox& allowed, FreeSpace& space);

@@ -1,6 +1,7 @@
 #include <svt/writers/marks/room_stamps.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -105,15 +106,19 @@ private:
         constexpr double kOtherRoom = 20;  // millimetres that a place in another room counts more
         const double size = kStampSizes[1];
         const auto extent = sizeOfLines(lines, size);
+        std::array<PlanePoint, kDirections> directions;
+        for (int n = 0; n < kDirections; ++n) {
+            const double turn = 2 * std::numbers::pi * n / kDirections;
+            directions[static_cast<std::size_t>(n)] = {std::cos(turn), std::sin(turn)};
+        }
         std::optional<PlanePoint> best;
         double least = std::numeric_limits<double>::infinity();
         for (double away = kNearest; away <= kFarthest && away < least; away += kStep)
-            for (int n = 0; n < kDirections; ++n) {
-                const double turn = 2 * std::numbers::pi * n / kDirections;
-                const PlanePoint at{from.u + away * std::cos(turn), from.v + away * std::sin(turn)};
+            for (const PlanePoint direction : directions) {
+                const PlanePoint at{from.u + away * direction.u, from.v + away * direction.v};
                 const MarkBox box = boxAt(at, extent);
                 if (away >= least || !isAllowed(box) || meets(from, from, box)) continue;
-                if (!space_.hitsOf(box).isClear() || space_.crossesTaken(from, endOf(from, box))) continue;
+                if (!space_.isClear(box) || space_.crossesTaken(from, endOf(from, box))) continue;
                 const double cost = away + (isInOtherRoom(at, room) ? kOtherRoom : 0);
                 if (cost >= least) continue;
                 least = cost;
@@ -157,7 +162,7 @@ private:
             const MarkBox box = boxAt(at, extent);
             const double away = std::hypot(at.u - room.center.u, at.v - room.center.v);
             if (away >= least || !room.contains(box)) return;
-            const FreeSpace::Hits hits = space_.hitsOf(box);
+            const FreeSpace::Hits hits = space_.hitsOf(box, mostLines);
             if (hits.isTaken || hits.borders > 0 || hits.lines > mostLines) return;
             const double cost = away + kLineCost * hits.lines + kLightCost * hits.light;
             if (cost >= least) return;

@@ -1,19 +1,19 @@
 #include <svt/writers/draw_sheets.hpp>
 
+#include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/opening_schedule.hpp>
-#include <svt/volume/brick_volume.hpp>
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace svt::writers {
 namespace {
 
 // Fills in the sheets that the program chooses.
-Result<drawing::SheetViews> chooseViews(drawing::SheetSet& set, const volume::SemanticVolume& volume, int threads) {
+Result<drawing::SheetViews> chooseViews(drawing::SheetSet& set, const volume::SemanticVolume& volume,
+                                        const drawing::DrawingTables& tables, int threads) {
     if (!set.sheets.empty()) return drawing::viewsOfSet(set, volume);
-    SVT_TRY(chosen, drawing::chooseSheetViews(volume, threads));
+    SVT_TRY(chosen, drawing::chooseSheetViews(volume, threads, &tables));
     set.sheets = drawing::sheetSetOf(*chosen, volume).sheets;
     for (drawing::SheetView& view : chosen->views) view.beyond.above = view.beyond.above && set.above;
     return chosen;
@@ -39,11 +39,11 @@ SheetOptions sheetOptionsOf(const drawing::SheetSet& set) {
 
 Result<SheetContent> drawSheets(drawing::SheetSet& set, const volume::SemanticVolume& volume, int threads,
                                 std::vector<std::string>* nothing) {
-    SVT_TRY(chosen, chooseViews(set, volume, threads));
+    const drawing::DrawingTables tables(volume);
+    SVT_TRY(chosen, chooseViews(set, volume, tables, threads));
     SheetContent content;
     content.levels = std::move(chosen->levels);
     std::vector<int> groups;  // by view
-    std::optional<volume::BrickVolume> bricks;
     for (const drawing::SetSheet& sheet : set.sheets) {
         groups.insert(groups.end(), sheet.views.size(), static_cast<int>(content.groups.size()));
         content.groups.push_back({sheet.title, sheet.scale});
@@ -58,21 +58,16 @@ Result<SheetContent> drawSheets(drawing::SheetSet& set, const volume::SemanticVo
         options.dimensions = view.kind != drawing::ViewKind::Elevation && set.dimensions;
         options.dimensionUnit = set.dimensionUnit;
         options.levels = &content.levels;
+        options.tables = &tables;
         if (content.views.empty()) options.nothing = nothing;
-        SVT_TRY(drawing, bricks ? drawing::drawSection(volume, *bricks, view.plane, options)
-                                : drawing::drawSection(volume, view.plane, options));
+        SVT_TRY(drawing, drawing::drawSection(volume, view.plane, options));
         drawing->dimensionUnit = set.dimensionUnit;
-        // If one view needs bricks, the others do too. So they are made here and kept.
-        if (!bricks && std::ranges::any_of(drawing->components, [](const auto& c) { return !c.isExact; })) {
-            SVT_TRY(made,
-                    volume::BrickVolume::fromColumns(volume.columns, {.planes = volume.planes, .threads = threads}));
-            bricks = std::move(*made);
-        }
         content.views.push_back({std::move(view), std::move(*drawing), groups[content.views.size()]});
     }
     content.openings = drawing::scheduleOpenings(volume, content.levels);
+    content.stairs = drawing::findStairFlights(volume);
     if (!set.tables) return content;
-    SVT_TRY(areas, drawing::measureFloorAreas(volume, content.levels, threads, bricks ? &*bricks : nullptr));
+    SVT_TRY(areas, drawing::measureFloorAreas(volume, content.levels, threads, &tables));
     drawing::reportAreas(*areas, content.levels, volume, content.findings);
     const SheetLanguage language = sheetOptionsOf(set).language;
     content.tables = makeAreaTables(*areas, content.levels, language);

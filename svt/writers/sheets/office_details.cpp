@@ -138,8 +138,10 @@ void addPlanMarks(const ViewContext& context, const MarkBox& allowed, FreeSpace&
     };
     add(drawGrids(drawing, context.volume, mm, allowed, space));
     if (context.content.openings) add(drawPanes(drawing, context.volume, *context.content.openings, mm));
-    add(drawTravel(drawing, context.volume, drawing::findStairFlights(context.volume), heightsOf(context), mm,
-                   sheetWord(SheetWord::Risers, context.options.language),
+    std::vector<drawing::StairFlight> own;
+    if (!context.content.stairs) own = drawing::findStairFlights(context.volume);
+    add(drawTravel(drawing, context.volume, context.content.stairs ? *context.content.stairs : own, heightsOf(context),
+                   mm, sheetWord(SheetWord::Risers, context.options.language),
                    context.options.language == SheetLanguage::German, space));
     if (context.content.openings) add(placeOpeningMarks(drawing, *context.content.openings, mm, space));
 }
@@ -161,10 +163,15 @@ ViewMarks marksOf(const ViewContext& context) {
     if (context.view.view.kind == ViewKind::Section)
         if (MarkShapes ground = drawGround(drawing, context.volume, mm); !ground.bold.empty())
             marks.layers.push_back(std::move(ground));
+    if (context.view.view.kind == ViewKind::Elevation) {
+        GroundBefore ground = drawGroundBefore(drawing, context.volume, context.content.levels, mm);
+        if (!ground.shapes.bold.empty()) marks.layers.push_back(std::move(ground.shapes));
+        if (ground.isAssumed) marks.below.emplace_back(sheetWord(SheetWord::GroundAssumed, context.options.language));
+    }
     const std::vector<RoomStamp> stamps = roomStamps(context);
     PlacedStamps placed = placeStamps(drawing, stamps, mm, allowed, space);
     marks.layers.push_back(std::move(placed.shapes));
-    marks.below = listOf(stamps, placed, context);
+    for (std::string& line : listOf(stamps, placed, context)) marks.below.push_back(std::move(line));
     return marks;
 }
 

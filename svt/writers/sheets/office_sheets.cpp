@@ -87,7 +87,8 @@ Result<std::string> smallestPaper(const SheetContent& content, const volume::Sem
     constexpr std::array kPapers = {"A4", "A3", "A2", "A1", "A0"};
     SheetOptions attempt = options;
     SheetContent cropped = content;
-    for (DrawnView& view : cropped.views) view.drawing = drawing::croppedToBuilding(view.drawing, volume);
+    const std::vector<std::uint8_t> isAround = drawing::labelsAroundBuilding(volume);
+    for (DrawnView& view : cropped.views) view.drawing = drawing::croppedToBuilding(view.drawing, isAround);
     for (const char* paper : kPapers) {
         attempt.paper = paper;
         const auto layout = layOutSheets(cropped, attempt);

@@ -6,6 +6,7 @@
 #include <svt/writers/draw_sheets.hpp>
 #include <svt/writers/drawing/drawing_files_test.hpp>
 #include <svt/writers/marks/free_space.hpp>
+#include <svt/writers/marks/ground_line.hpp>
 #include <svt/writers/marks/room_stamps.hpp>
 #include <svt/writers/office_sheets.hpp>
 #include <svt/writers/sheets/stamp_texts.hpp>
@@ -15,7 +16,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace svt::writers {
@@ -75,6 +80,34 @@ std::size_t countTexts(const std::vector<std::string>& sheets, const std::string
     std::size_t count = 0;
     for (const std::string& sheet : sheets) count += SvgFile(sheet).count("//text[" + test + "]");
     return count;
+}
+
+// Hatches depend on the materials of all labels: they are chosen once for all views.
+TEST(DrawnSheets, ShareTheirHatches) {
+    House house;
+    house.addRow(3, 4);
+    const SheetContent content = house.content();
+    ASSERT_GT(content.views.size(), 5u);
+    for (const DrawnView& view : content.views) {
+        ASSERT_NE(view.drawing.hatches, nullptr);
+        EXPECT_EQ(view.drawing.hatches, content.views.front().drawing.hatches);
+    }
+}
+
+// A search that ends at the first obstacle finds the same clear places.
+TEST(FreeSpace, ASearchThatEndsEarlyDecidesTheSame) {
+    FreeSpace space;
+    space.add({0, 0}, {40, 13}, Obstacle::Border);
+    for (int n = 0; n < 8; ++n) space.add({5.0 * n, 20}, {5.0 * n + 3, 30}, Obstacle::Line);
+    space.add({0, 35}, {40, 35}, Obstacle::Light);
+    space.take({{10, 40}, {20, 44}});
+    for (double u = -3; u < 45; u += 1.5)
+        for (double v = -3; v < 48; v += 1.5) {
+            const MarkBox box{{u, v}, {u + 7, v + 2}};
+            const FreeSpace::Hits all = space.hitsOf(box), few = space.hitsOf(box, 1);
+            EXPECT_EQ(space.isClear(box), all.isClear());
+            EXPECT_EQ(few.isTaken || few.borders > 0 || few.lines > 1, all.isTaken || all.borders > 0 || all.lines > 1);
+        }
 }
 
 // Rooms of 1 x 1.5 m are smaller than their stamps at 1:100: before, they had none.
@@ -172,6 +205,18 @@ TEST(TitleBlock, HasTheFieldsOfTheFileAndOfTheOptions) {
     EXPECT_EQ(countTexts({house.sheets(options).front()}, ".='Other' or .='Zeichnungsnummer'"), 2u);
 }
 
+TEST(TitleBlock, TheDatumEndsBeforeTheLegend) {
+    House house;
+    house.volume.labels.labels[house.storey].name = "Ground floor of the northern wing of the new town hall";
+    house.volume.crsName = "EPSG:25832";
+    house.addRow(1, 3);
+    const std::string sheet = house.sheets({.scale = 100, .paper = "A3"}).front();
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(sheet, found, std::regex("font-size=\"([0-9.]+)\"[^>]*>(Heights above[^<]*)<")));
+    EXPECT_LE(widthOnPaper(found[2].str(), std::stod(found[1].str())), 85.5);
+    EXPECT_NE(found[2].str().find("\u2026"), std::string::npos);
+}
+
 TEST(TitleBlock, PlaceholdersOfTemplatesAreNoFacts) {
     House house;
     auto& labels = house.volume.labels.labels;
@@ -182,6 +227,11 @@ TEST(TitleBlock, PlaceholdersOfTemplatesAreNoFacts) {
     EXPECT_EQ(facts.project, "P-1");
     EXPECT_EQ(facts.building, "");
     EXPECT_EQ(facts.address, "");
+    labels[1].attributes = {{"address", std::string("Lake Road 3, <Default>"), ""}};
+    house.volume.modelName = "Project Number";
+    house.volume.source = "hall.ifc";
+    EXPECT_EQ(modelFacts(house.volume).project, "hall.ifc");
+    EXPECT_EQ(modelFacts(house.volume).address, "Lake Road 3");
     EXPECT_EQ(emptyBlockOptions({.number = "1",
                                  .creator = "",
                                  .approver = "x",
@@ -250,6 +300,18 @@ TEST(OpeningMarks, OfThePlanAreThoseOfTheSchedule) {
     EXPECT_EQ(countTexts({sheets.back()}, ".='Doors' or .='Windows'"), 2u);
 }
 
+// Some writers export windows without a shape and a size.
+TEST(OpeningMarks, OpeningsOfUnknownSizeAreCounted) {
+    House house;
+    house.addRow(1, 3);
+    for (const char* id : {"window", "another"}) volume::test::addGroup(house.volume, id, "Window", house.storey);
+    volume::test::addGroup(house.volume, "stated", "Window", house.storey).attributes = {{"overallWidth", 1.2, "m"}};
+    const SheetContent content = house.content();
+    ASSERT_TRUE(content.openings);
+    EXPECT_EQ(content.openings->unknown, 2u);
+    EXPECT_EQ(content.openings->rows.size(), 1u);
+}
+
 // 16 risers of 17.5 cm; the plan cuts the stair, so that its line of travel ends at a break line.
 TEST(StairMarks, HaveTheNumberOfRisers) {
     House house;
@@ -282,6 +344,34 @@ TEST(GridMarks, AxesHaveTheirNamesAtBothEnds) {
     EXPECT_EQ(countTexts({sheets.front()}, ".='far' or .='bad'"), 0u);
 }
 
+// An arc around the middle of the house, cut by the edge of the drawing, a bend, and a whole circle within it.
+TEST(GridMarks, CurvedAxesAreDrawnAsPolylines) {
+    House house;
+    house.addRow(3, 3);
+    volume::Label& grid = volume::test::addGroup(house.volume, "grid", "Grid", 1);
+    const auto arc = [](double radius, int degrees) {
+        std::string text;
+        for (int n = 0; n <= 48; ++n) {
+            const double turn = (degrees * n / 48.0) * std::numbers::pi / 180;
+            const bool isClosed = degrees == 360 && n == 48;
+            text += fmt::format("{}{:.6f} {:.6f} 0", n == 0 ? "" : ", ", 5 + radius * (isClosed ? 1 : std::cos(turn)),
+                                1 + radius * (isClosed ? 0 : std::sin(turn)));
+        }
+        return text;
+    };
+    grid.attributes = {{"axis K", arc(2, 180), "m"},
+                       {"axis Q", arc(0.8, 360), "m"},
+                       {"axis W", std::string("1 -2 0, 1 1 0, 9 1 0"), "m"},
+                       {"axis Z", arc(200, 180), "m"}};
+    drawing::SheetSet set;
+    set.tables = false;
+    const SvgFile plan(house.sheets({.scale = 100, .paper = "A3"}, set).front());
+    EXPECT_EQ(plan.count("//text[.='K']"), 2u);
+    EXPECT_EQ(plan.count("//text[.='Q']"), 1u) << "a whole circle has no ends";
+    EXPECT_EQ(plan.count("//text[.='W']"), 2u);
+    EXPECT_EQ(plan.count("//text[.='Z']"), 0u);
+}
+
 TEST(LineWidths, FollowTheScale) {
     House house;
     house.addRow(1, 3);
@@ -307,7 +397,57 @@ TEST(GroundLine, IsBoldInSections) {
     const auto sheets = makeSvgSheets(content, house.volume, options);
     ASSERT_TRUE(sheets);
     for (const std::string& sheet : *sheets) layers += SvgFile(sheet).count("//g[@inkscape:label='Ground']");
-    EXPECT_EQ(layers, 2u);  // sections A and B
+    EXPECT_EQ(layers, 6u);  // sections A and B, four elevations
+}
+
+struct GroundOf {
+    std::size_t layers = 0, assumed = 0;
+    friend bool operator==(const GroundOf&, const GroundOf&) = default;
+};
+GroundOf groundOf(const House& house) {
+    drawing::SheetSet set;
+    set.tables = false;
+    GroundOf ground;
+    for (const std::string& sheet : house.sheets({.scale = 100, .paper = "A3"}, set)) {
+        ground.layers += SvgFile(sheet).count("//g[@inkscape:label='Ground']");
+        ground.assumed += SvgFile(sheet).count("//text[.='Ground line assumed at the ground floor']");
+    }
+    return ground;
+}
+
+// Without terrain, elevations had no ground line.
+TEST(GroundLine, OfElevationsIsAssumedWhereTheModelHasNone) {
+    House house;
+    house.addRow(3, 3);
+    EXPECT_EQ(groundOf(house), (GroundOf{4, 4}));
+    house.add("ground", "GroundSurface", {0, 0, -0.2}, {9.8, 1.9, -0.2});
+    EXPECT_EQ(groundOf(house), (GroundOf{4, 0}));
+}
+
+// Terrain that rises to the east, only on the northern side of the house.
+TEST(GroundLine, FollowsTheTerrainBeforeTheBuilding) {
+    House house;
+    house.addRow(3, 3);  // 9.8 x 1.9 m
+    const auto ground = static_cast<std::uint32_t>(house.volume.labels.labels.size());
+    volume::test::addObject(house.volume, "ground", "TINRelief").filling = volume::Filling::Surface;
+    volume::test::addQuad(house.volume, ground, {{{-5, 1.9, -0.5}, {15, 1.9, 1.5}, {15, 9, 1.5}, {-5, 9, -0.5}}});
+    const auto linesOf = [&](const char* side) {
+        drawing::SectionOptions options;
+        options.beyond.visible = true;
+        const auto plane = *drawing::elevationPlane(side, house.volume);
+        const auto drawn = *drawing::drawSection(house.volume, plane, options);
+        const auto levels = drawing::findLevels(house.volume);
+        return std::pair(drawn.axes, drawGroundBefore(drawn, house.volume, levels, 10));
+    };
+    const auto [axes, north] = linesOf("north");
+    ASSERT_EQ(north.shapes.bold.size(), 1u);
+    EXPECT_FALSE(north.isAssumed);
+    for (const PlanePoint& p : north.shapes.bold.front()) {
+        const Vec3d world = axes.worldFromPlane({p.u / 10, p.v / 10});
+        EXPECT_NEAR(world.z, 0.1 * world.x, 1e-6);
+    }
+    EXPECT_NEAR(std::abs(north.shapes.bold.front().front().u - north.shapes.bold.front().back().u), 200, 1e-3);
+    EXPECT_TRUE(linesOf("south").second.isAssumed) << "no terrain before this wall";
 }
 
 // A plan ends at the floor below: the ground beside a lower storey is not in the plan of the third.

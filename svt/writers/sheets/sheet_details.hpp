@@ -39,7 +39,7 @@ struct BlockContext {
 /// The marks of a view.
 struct ViewMarks {
     std::vector<MarkShapes> layers;
-    std::vector<std::string> below;  ///< lines beside the caption: rooms without a stamp
+    std::vector<std::string> below;  ///< lines beside the caption: rooms without a stamp, an assumed ground
 };
 
 /// Stamps of rooms, and in plans the marks of openings, stairs and grids.

@@ -213,6 +213,7 @@ Result<std::string> makeSheetDxf(const SheetContent& content, std::size_t view, 
     own.groups = content.groups;
     own.areas = content.areas;
     own.openings = content.openings;
+    own.stairs = content.stairs;
     own.views.push_back(drawn);
     own.views.front().drawing = drawing::croppedToBuilding(drawn.drawing, volume);
     SVT_TRY(layout, layOutSheets(own, options));

@@ -80,6 +80,7 @@ constexpr Words kWords[] = {
     {W::SeeTable, "{} more: see the table of rooms", "{} weitere: siehe Raumtabelle"},
     {W::Risers, "R", "Stg"},
     {W::Legend, "Materials", "Baustoffe"},
+    {W::GroundAssumed, "Ground line assumed at the ground floor", "Geländelinie in Höhe des Erdgeschosses angenommen"},
     {W::Doors, "Doors", "Türen"},
     {W::Windows, "Windows", "Fenster"},
     {W::Mark, "Mark", "Pos."},
@@ -102,7 +103,7 @@ constexpr HatchWords kHatchWords[] = {
     {Hatch::Earth, "Earth", "Erdreich"},
     {Hatch::Steel, "Steel", "Stahl"},
     {Hatch::Glass, "Glass", "Glas"},
-    {Hatch::General, "Material not stated", "Baustoff ohne Angabe"},
+    {Hatch::General, "Without stated material", "Ohne Angabe des Baustoffs"},
 };
 
 std::string levelName(const drawing::BuildingLevel& level, double datum, SheetLanguage language) {

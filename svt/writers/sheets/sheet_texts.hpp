@@ -73,6 +73,7 @@ enum class SheetWord : std::uint8_t {
     SeeTable,      ///< "{} more in the table of rooms"
     Risers,
     Legend,
+    GroundAssumed,  ///< below an elevation
     Doors,
     Windows,
     Mark,

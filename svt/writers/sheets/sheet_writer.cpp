@@ -296,7 +296,7 @@ private:
         paintLegend(block, canvas_);
         if (sheet.views.empty()) return;
         addScaleBar(paper.left + 8, paper.bottom - 10, sheet.scale);
-        if (!content_.levels.empty()) canvas_.text({{paper.left + 8, paper.bottom - 22}, 2.2, datumText()});
+        if (!content_.levels.empty()) addDatum({paper.left + 8, paper.bottom - 22});
         if (content_.views[sheet.views.front().view].view.kind == ViewKind::Plan)
             addNorth(sheet, {paper.right - SheetPaper::kTitleWidth - 18, paper.bottom - 18});
     }
@@ -315,6 +315,14 @@ private:
                            name.empty() ? word(SheetWord::GroundFloor) : std::string_view(name), heightMark(0),
                            numberText(height, 2, options_.language),
                            volume_.crsName.empty() ? std::string_view() : word(SheetWord::InModelHeights));
+    }
+
+    // Smaller, then shortened, where it would reach the legend.
+    void addDatum(PaperPoint at) {
+        constexpr double kWidest = 85, kLeast = 1.8, kMost = 2.2;  // millimetres
+        const std::string text = datumText();
+        const double size = std::clamp(kMost * kWidest / widthOnPaper(text, kMost), kLeast, kMost);
+        canvas_.text({at, size, shortened(text, size, kWidest)});
     }
 
     // Four fields of a rounded length, 7 to 17 mm each.
@@ -396,7 +404,8 @@ private:
 // Terrain and vegetation around a building do not decide the scale of its sheets.
 SheetContent croppedContent(const SheetContent& content, const volume::SemanticVolume& volume) {
     SheetContent cropped = content;
-    for (DrawnView& view : cropped.views) view.drawing = drawing::croppedToBuilding(view.drawing, volume);
+    const std::vector<std::uint8_t> isAround = drawing::labelsAroundBuilding(volume);
+    for (DrawnView& view : cropped.views) view.drawing = drawing::croppedToBuilding(view.drawing, isAround);
     return cropped;
 }
 

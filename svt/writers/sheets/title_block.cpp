@@ -22,9 +22,10 @@ constexpr LineStyle kBlockEdge{0.35}, kBlockLine{0.18};
 
 // Texts that templates of other programs have where nobody filled in a fact.
 bool isPlaceholder(const std::string& text) {
-    constexpr std::string_view kPlaceholders[] = {"enter address here", "project name",    "project number",
-                                                  "project status",     "nicht definiert", "undefined",
-                                                  "building name",      "default",         "unnamed"};
+    constexpr std::string_view kPlaceholders[] = {
+        "enter address here", "project name",     "project number", "project status", "nicht definiert",
+        "undefined",          "building name",    "default",        "<default>",      "default project",
+        "defaultproject",     "default building", "unnamed"};
     const std::string lower = lowerAscii(text);
     return text.starts_with("//") ||
            std::find(std::begin(kPlaceholders), std::end(kPlaceholders), lower) != std::end(kPlaceholders);
@@ -103,7 +104,7 @@ ModelFacts modelFacts(const volume::SemanticVolume& volume) {
         }
         if (facts.address.empty()) facts.address = address;
     }
-    if (facts.project.empty()) facts.project = shownName(volume);
+    if (facts.project.empty()) facts.project = isPlaceholder(shownName(volume)) ? volume.source : shownName(volume);
     return facts;
 }
 

@@ -2,47 +2,74 @@
 
 #include <svt/analyze/known_volumes.hpp>
 #include <svt/analyze/label_measures.hpp>
+#include <svt/model/classes.hpp>
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/gltf/label_surface.hpp>
+#include <svt/writers/gltf/sheet_surfaces.hpp>
 #include <svt/writers/gltf/surface_positions.hpp>
 #include <svt/writers/labels/label_looks.hpp>
-#include <svt/writers/tiles3d/feature_glb.hpp>
 #include <svt/writers/tiles3d/globe_patch.hpp>
+#include <svt/writers/tiles3d/property_table.hpp>
 #include <svt/writers/tiles3d/quadtree_index.hpp>
+#include <svt/writers/tiles3d/tile_glb.hpp>
+#include <svt/writers/tiles3d/tile_mesh.hpp>
 #include <svt/writers/tiles3d/tileset_frame.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace svt::writers {
 namespace {
 
 using volume::kNoLabel;
 
-/// Data of a building for a row of the table, besides its label.
+/// Data of a building for a row of the table.
 struct Building {
-    const volume::Label* label = nullptr;
-    double volume = 0, lowest = 0, highest = 0;
+    volume::Label label;
+    double volume = 0, lowest = INFINITY, highest = -INFINITY;
 };
 
 /// The content of a square while it is made.
 struct Content {
-    FlatMesh mesh;
+    TileMesh mesh;
     std::vector<Building> buildings;
     Box3d box;     // in the frame of the root
     Vec3d origin;  // of the mesh, in the frame of the root
+    double cell = 0;
+    bool hasVoxels = false;
 };
 
-// The label without parent above each scalar.
-std::vector<std::uint32_t> rootOfScalar(const volume::LabelTable& table) {
-    std::vector<std::uint32_t> rootOf(table.labels.size()), roots = table.labelOfScalar();
+// The label without parent above each label.
+std::vector<std::uint32_t> rootsOf(const volume::LabelTable& table) {
+    std::vector<std::uint32_t> rootOf(table.labels.size());
     for (std::uint32_t l = 0; l < rootOf.size(); ++l)
         rootOf[l] = table.labels[l].parent < l ? rootOf[table.labels[l].parent] : l;
-    for (std::uint32_t& label : roots)
-        if (label != kNoLabel) label = rootOf[label];
-    return roots;
+    return rootOf;
+}
+
+// The faces of the model, without those of features with rooms or bodies, whose parts hide each other.
+SheetSurfaces outsideSheets(const volume::SemanticVolume& volume, MeshChoice choice,
+                            const std::vector<std::uint32_t>& rootOf) {
+    const auto& labels = volume.labels.labels;
+    std::vector<char> hasInside(labels.size(), 0);
+    for (std::size_t l = 0; l < labels.size(); ++l)
+        if (labels[l].voxels > 0 && (labels[l].filling == volume::Filling::Body || model::isSpace(labels[l].className)))
+            hasInside[rootOf[l]] = 1;
+    SheetSurfaces all = sheetSurfaces(volume, choice), kept;
+    for (std::size_t s = 0; s < all.surfaces.size(); ++s) {
+        if (hasInside[rootOf[all.surfaces[s].label]] != 0) continue;
+        kept.surfaces.push_back(std::move(all.surfaces[s]));
+        kept.positions.push_back(std::move(all.positions[s]));
+    }
+    return kept;
 }
 
 // Colours of upward, upright and downward faces.
@@ -61,27 +88,27 @@ std::array<VertexColor, 3> colorsOf(const std::vector<volume::Label>& labels, st
 }
 
 /// The table of a content.
-nlohmann::ordered_json tableOf(const std::vector<Building>& buildings, GltfBuffer& buffer) {
+nlohmann::ordered_json tableOf(const std::vector<Building>& buildings, bool hasAttributes, GltfBuffer& buffer) {
     std::vector<std::string> ids, names, classes, attributes;
     std::vector<double> volumes, heights, lowest;
     for (const Building& building : buildings) {
-        const volume::Label& label = *building.label;
+        const volume::Label& label = building.label;
         ids.push_back(label.id);
         names.push_back(label.name);
         classes.push_back(label.className);
         volumes.push_back(building.volume);
         heights.push_back(building.highest - building.lowest);
         lowest.push_back(building.lowest);
-        attributes.push_back(attributesText(label));
+        if (hasAttributes) attributes.push_back(attributesText(label));
     }
     PropertyTable table(buffer, buildings.size());
     table.strings("id", "id of the building in the model; of coarse content the classes that stand there", ids);
     table.strings("name", "name of the building, may be empty", names);
     table.strings("class", "class of CityGML", classes);
     table.knownNumbers("volume", "cubic metres", volumes);
-    table.numbers("height", "metres from the lowest to the highest voxel", heights);
+    table.numbers("height", "metres from the lowest to the highest point", heights);
     table.numbers("lowest", "metres above datum", lowest);
-    table.strings("attributes", "attributes of the building as JSON", attributes);
+    if (hasAttributes) table.attributes(attributes);
     return table.extension("building", "a building, or all features of a place in coarse content");
 }
 
@@ -92,18 +119,25 @@ public:
 
     Result<void> begin() { return folder_.create(); }
 
-    Result<TileContent> make(std::span<const volume::SemanticVolume> volumes, double error) const override {
+    Result<TileContent> make(const NextVolume& next, double error, double cell) const override {
         Content content;
-        for (const volume::SemanticVolume& volume : volumes) SVT_DO(append(volume, content));
+        content.cell = cell;
+        while (true) {
+            SVT_TRY(volume, next());
+            if (!*volume) break;
+            SVT_DO(append(**volume, content));
+        }
         TileContent made;
         made.error = error;
         made.box = content.box;
         made.features = content.buildings.size();
+        made.hasVoxels = content.hasVoxels;
         if (content.mesh.indices.empty()) return made;
-        SVT_TRY(glb, makeMeshGlb(
-                         content.mesh, {}, content.buildings.size(),
-                         [&](GltfBuffer& buffer) { return tableOf(content.buildings, buffer); }, content.origin,
-                         content.buildings.size() < 65536 ? VertexStorage::Quantized : VertexStorage::Full));
+        const double mostStep = std::max({kFinestStep, error / 16, cell / 16});
+        SVT_TRY(glb, makeTileGlb(
+                         content.mesh, content.buildings.size(),
+                         [&](GltfBuffer& buffer) { return tableOf(content.buildings, error == 0, buffer); },
+                         content.origin, mostStep));
         made.glb = std::move(*glb);
         return made;
     }
@@ -129,36 +163,77 @@ public:
 private:
     Result<void> append(const volume::SemanticVolume& volume, Content& content) const {
         if (Progress::isCancelled(frame_.write.progress)) return Error(Code::Cancelled, "stopped; nothing was left");
-        SVT_TRY(surfaces,
-                labelSurfaces(volume.columns, rootOfScalar(volume.labels), {std::uint64_t{1} << 27, 1, nullptr}));
-        if (surfaces->empty()) return {};
+        const std::vector<std::uint32_t> rootOf = rootsOf(volume.labels);
+        const SheetSurfaces sheets = outsideSheets(volume, meshChoice(frame_.write, MeshChoice::Open), rootOf);
+        std::vector<std::uint32_t> labelOf = withoutSheets(volume.labels.labelOfScalar(), volume.labels, sheets);
+        for (std::uint32_t& label : labelOf)
+            if (label != kNoLabel) label = rootOf[label];
+        SVT_TRY(surfaces, labelSurfaces(volume.columns, labelOf, {std::uint64_t{1} << 27, 1, nullptr}));
+        if (surfaces->empty() && sheets.surfaces.empty()) return {};
         SVT_TRY(positions, placeVertices(volume, *surfaces, frame_.write.faces, nullptr, 1, nullptr));
         const volume::Grid& grid = volume.grid;
         const Vec3d low = lowerCorner(grid);
         const Vec3d high = grid.worldFromIndex(toDouble(grid.dimension()) + Vec3d{-0.5, -0.5, -0.5});
         SVT_TRY(patch, lattice_->patch({low.x, low.y, high.x, high.y}));
         if (content.mesh.positions.empty()) content.origin = patch->place(low);
+        content.mesh.isDoubleSided = content.mesh.isDoubleSided || !sheets.surfaces.empty();
+        content.hasVoxels = content.hasVoxels || volume.vectors.triangles.empty();
         const auto& labels = volume.labels.labels;
-        for (std::size_t s = 0; s < surfaces->size(); ++s) {
-            const LabelSurface& surface = (*surfaces)[s];
+        std::size_t sheet = 0, voxels = 0;
+        for (std::uint32_t root = 0; root < labels.size(); root = std::max(root + 1, labels[root].subtreeEnd)) {
+            Parts parts{*patch, low, content.origin, {}, {labels[root]}};
+            const auto colors = colorsOf(labels, root);
+            const auto byDirection = [&](Vec3d normal) -> VertexColor {
+                constexpr double kUpright = 0.2;  // 78 degrees
+                return colors[normal.z > kUpright ? 0 : normal.z < -kUpright ? 2 : 1];
+            };
+            for (; voxels < surfaces->size() && (*surfaces)[voxels].label == root; ++voxels)
+                parts.add((*surfaces)[voxels], (*positions)[voxels], byDirection);
+            for (; sheet < sheets.surfaces.size() && rootOf[sheets.surfaces[sheet].label] == root; ++sheet) {
+                const volume::Label& own = labels[sheets.surfaces[sheet].label];
+                const VertexColor color = linearColor(own.color, 1);
+                const bool isBody = model::classRank(own.className) == model::ClassRank::Building;
+                parts.add(sheets.surfaces[sheet], sheets.positions[sheet],
+                          [&](Vec3d normal) { return isBody ? byDirection(normal) : color; });
+            }
+            if (!parts.hasAny) continue;
+            parts.building.volume = volumeOf(volume, root);
+            addBuilding(parts, content);
+        }
+        return {};
+    }
+
+    /// The surfaces of a building.
+    struct Parts {
+        const GlobePatch& patch;
+        Vec3d low, origin;
+        FeatureFaces faces;
+        Building building;
+        bool hasAny = false;
+
+        void add(const LabelSurface& surface, const Positions& positions,
+                 const std::function<VertexColor(Vec3d)>& colorOfNormal) {
+            hasAny = true;
             std::vector<Vec3d> places;
-            Building building{&labels[surface.label], volumeOf(volume, surface.label), INFINITY, -INFINITY};
-            for (const Vec3f position : (*positions)[s]) {
+            for (const Vec3f position : positions) {
                 const Vec3d world = low + toDouble(position);
                 building.lowest = std::min(building.lowest, world.z);
                 building.highest = std::max(building.highest, world.z);
-                const Vec3d place = patch->place(world);
-                content.box.add(place);
-                places.push_back(place - content.origin);
+                places.push_back(patch.place(world) - origin);
             }
-            const auto colors = colorsOf(labels, surface.label);
-            content.mesh.append(surface, places, static_cast<float>(content.buildings.size()), [&](Vec3d normal) {
-                constexpr double kUpright = 0.2;  // 78 degrees
-                return colors[normal.z > kUpright ? 0 : normal.z < -kUpright ? 2 : 1];
-            });
-            content.buildings.push_back(building);
+            faces.add(surface, places, colorOfNormal);
         }
-        return {};
+    };
+
+    static void addBuilding(Parts& parts, Content& content) {
+        if (content.cell > 0) {
+            parts.faces = simplified(parts.faces, content.cell);
+            if (parts.faces.triangles.empty()) return;
+        }
+        for (const auto& triangle : parts.faces.triangles)
+            for (const std::uint32_t corner : triangle) content.box.add(parts.faces.points[corner] + content.origin);
+        content.mesh.append(parts.faces, static_cast<std::uint32_t>(content.buildings.size()));
+        content.buildings.push_back(std::move(parts.building));
     }
 
     // m3; 0: unknown. Open shells have no volume of their own at detail 0.

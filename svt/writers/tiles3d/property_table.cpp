@@ -23,6 +23,7 @@ std::string attributesText(const volume::Label& label) {
         else
             value = GltfBuffer::Json::parse(toJsonText(list), nullptr, false);
     }
+    if (texts.empty()) return {};
     return texts.dump(-1, ' ', false, GltfBuffer::Json::error_handler_t::replace);
 }
 
@@ -38,7 +39,25 @@ void PropertyTable::strings(const char* name, std::string_view description, cons
     if (text.empty()) text = " ";
     class_[name] = {{"description", description}, {"type", "STRING"}, {"required", true}};
     const std::size_t view = buffer_.add(std::as_bytes(std::span(text)));
-    table_[name] = {{"values", view}, {"stringOffsets", buffer_.add(std::as_bytes(std::span(offsets)))}};
+    table_[name] = {{"values", view}};
+    addOffsets(offsets, table_[name]);
+}
+
+void PropertyTable::attributes(const std::vector<std::string>& values) {
+    strings("attributes", "attributes of the feature as JSON; none: an empty text, which stands for {}", values);
+    class_["attributes"]["required"] = false;
+    class_["attributes"]["noData"] = "";
+    class_["attributes"]["default"] = "{}";
+}
+
+void PropertyTable::addOffsets(const std::vector<std::uint32_t>& offsets, Json& column) {
+    if (offsets.back() > 0xFFFF) {
+        column["stringOffsets"] = buffer_.add(std::as_bytes(std::span(offsets)));
+        return;
+    }
+    const std::vector<std::uint16_t> small(offsets.begin(), offsets.end());
+    column["stringOffsets"] = buffer_.add(std::as_bytes(std::span(small)));
+    column["stringOffsetType"] = "UINT16";
 }
 
 template <class T>

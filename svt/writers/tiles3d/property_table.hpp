@@ -34,7 +34,8 @@ private:
     std::string bytes_;
 };
 
-/// The attributes of a label as a JSON object, for a column: single values as texts, several values as arrays.
+/// The attributes of a label as a JSON object, for a column: single values as texts, several values as arrays. Empty
+/// without attributes.
 [[nodiscard]] std::string attributesText(const volume::Label& label);
 
 /// Columns of a table of one class.
@@ -45,6 +46,8 @@ public:
     PropertyTable(GltfBuffer& buffer, std::size_t rows) : buffer_(buffer), rows_(rows) {}
 
     void strings(const char* name, std::string_view description, const std::vector<std::string>& values);
+    /// The column of attributesText(). Readers that know defaults see {} for an empty text.
+    void attributes(const std::vector<std::string>& values);
     void numbers(const char* name, std::string_view description, const std::vector<double>& values);
     void numbers(const char* name, std::string_view description, const std::vector<std::uint32_t>& values);
     /// Numbers of which 0 means that the value is unknown (`noData`).
@@ -54,6 +57,8 @@ public:
     [[nodiscard]] Json extension(const char* name, std::string_view description) const;
 
 private:
+    // In the smallest type that holds them, of two or four bytes.
+    void addOffsets(const std::vector<std::uint32_t>& offsets, Json& column);
     template <class T>
     void column(const char* name, std::string_view description, const char* componentType,
                 const std::vector<T>& values);

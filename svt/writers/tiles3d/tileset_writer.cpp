@@ -28,7 +28,7 @@ namespace {
 constexpr std::uint64_t kTileTriangles = 300'000;
 
 /// Writes a folder that appears when all of it is written; one that is there is not replaced. Equal volumes give equal
-/// bytes. Memory: that of labelSurfaces(), and one tile.
+/// bytes. Surfaces are the faces of the model, where the volume keeps them. Memory: that of labelSurfaces(), and one tile.
 /// \return bytes of all files, or CannotProject (a volume without a CRS and no place, or a CRS that PROJ cannot
 ///         convert), BadArgument for an invalid place, NothingSelected, GridTooLarge, WouldDestroy, CannotWrite,
 ///         Cancelled
@@ -39,14 +39,15 @@ Result<std::uint64_t> writeTileset(const volume::SemanticVolume& volume, const s
     SVT_TRY(frame, frameOfVolume(volume, corner, options));
     NewFolder folder(path);
     SVT_DO(folder.create());
-    SVT_TRY(hulls, makeLabelHulls(volume, options));
+    SVT_TRY(hulls, makeTileHulls(volume, meshChoice(options, MeshChoice::Open), options));
     const FeatureTexts texts = featureTexts(volume);
 
     const std::size_t count = hulls->surfaces.size();
     TilesetJson children = TilesetJson::array();
     for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
         std::uint64_t triangles = 0;
-        while (end < count && (end == begin || triangles + hulls->surfaces[end].triangles.size() <= kTileTriangles))
+        // A surface without triangles, which comes before those that cover it, does not end a tile.
+        while (end < count && (triangles == 0 || triangles + hulls->surfaces[end].triangles.size() <= kTileTriangles))
             triangles += hulls->surfaces[end++].triangles.size();
         SVT_DO(checkNotStopped(options.progress, "nothing"));
         Progress::tell(options.progress, "write", double(begin) / double(count));

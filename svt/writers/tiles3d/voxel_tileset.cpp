@@ -7,8 +7,8 @@
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/dense/piece_writer.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
-#include <svt/writers/tiles3d/feature_glb.hpp>
 #include <svt/writers/tiles3d/quadtree_index.hpp>
+#include <svt/writers/tiles3d/tile_glb.hpp>
 #include <svt/writers/tiles3d/tileset_frame.hpp>
 
 #include <fmt/format.h>
