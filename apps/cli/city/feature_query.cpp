@@ -47,10 +47,10 @@ const std::vector<Column>& ownColumns() {
                                                  {"filling", "filling"},
                                                  {"open", "open", 0, CellType::Whole},
                                                  // The deprecated name of totalVoxels is voxels.
-                                                 {"volume", "m3", 2, CellType::Number},
+                                                 {"volume", "best m3", 2, CellType::Number},
                                                  {"voxels", "", 0, CellType::Whole},
                                                  {"volumeBound", "+- m3", 2, CellType::Number},
-                                                 {"volumeSource", "m3 from"},
+                                                 {"volumeSource", "best m3 from"},
                                                  {"footprint", "area from"}};
     return kColumns;
 }

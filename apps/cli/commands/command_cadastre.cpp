@@ -85,6 +85,15 @@ Result<std::string> makeReports(const CadastreArguments& arguments, const LandAd
     return writers::makeUnitReports(all, *spaces, volume, view ? &*view : nullptr, arguments.build.threads);
 }
 
+Result<std::string> makeOutput(const std::string& ending, const CadastreArguments& arguments,
+                               const LandAdministration& all, const volume::SemanticVolume& volume) {
+    if (ending == ".pdf") return makeReports(arguments, all, volume);
+    if (ending == ".gpkg") return writers::makeLadmGeoPackage(all, volume);
+    if (ending == ".json") return writers::makeLadmCityJson(all, volume);
+    if (ending == ".ifc") return writers::makeLadmIfc(all, volume);
+    return writers::makeLadmCityGml(all, volume);
+}
+
 void printNotes(const LandAdministration& all, const volume::SemanticVolume& volume) {
     const auto count = [&](analyze::SpaceBody body) {
         return std::count_if(all.spaces.spaces.begin(), all.spaces.spaces.end(),
@@ -102,6 +111,10 @@ void printNotes(const LandAdministration& all, const volume::SemanticVolume& vol
                         all.spaces.withoutFaces.size(),
                         volume.labels.labels[all.spaces.spaces[all.spaces.withoutFaces.front()].label].id,
                         analyze::LegalSpaceOptions().maxBoxes));
+    for (std::uint32_t unit = 0; unit < all.units.size(); ++unit)
+        if (const auto sum = sumOfShares(all, unit, analyze::kOwnership); sum && *sum < 1 - 1e-9)
+            note(fmt::format("the shares of ownership in '{}' add up to {:.6g}; the rest has no owner",
+                             volume.labels.labels[all.units[unit].label].id, *sum));
     if (all.units.empty()) note("no legal unit has an owner: give a table with --owners, or units the attribute owner");
 }
 
@@ -115,10 +128,7 @@ Result<int> runCadastre(const CadastreArguments& arguments) {
     SVT_TRY(all, readAdministration(arguments, *volume));
     printNotes(*all, *volume);
     for (const std::filesystem::path& output : arguments.outputs) {
-        const std::string ending = endingOf(output);
-        SVT_TRY(bytes, ending == ".pdf"    ? makeReports(arguments, *all, *volume)
-                       : ending == ".gpkg" ? writers::makeLadmGeoPackage(*all, *volume)
-                                           : Result<std::string>(writers::makeLadmCityGml(*all, *volume)));
+        SVT_TRY(bytes, makeOutput(endingOf(output), arguments, *all, *volume));
         SVT_DO(writeFileAtomically(output, *bytes));
     }
     TerminalProgress::hide();
@@ -128,6 +138,7 @@ Result<int> runCadastre(const CadastreArguments& arguments) {
         print(relationTable(*all, *volume), TableFormat::Csv);
     else if (arguments.outputs.empty())
         printCadastre(*all, *volume);
+    if (arguments.json || arguments.csv) return kDone;
     for (const std::filesystem::path& output : arguments.outputs)
         summarize(fmt::format("{}: {} legal units, {} parties, {} boundary faces, {} relations", output.string(),
                               all->spaces.spaces.size(), all->parties.size(), all->spaces.faces.size(),
@@ -140,12 +151,13 @@ Members<CadastreArguments> membersOf(const CadastreArguments*) noexcept {
     using analyze::LegalSpaceOptions;
     static constexpr Member<All> kMembers[] = {
         modelInput<&All::input>("a .svt or a model file"),
-        member<&All::outputs>(
-            "-o,--output",
-            "file to write: the land administration (.gpkg or CityGML 3.0, .gml), or a page per unit (.pdf)",
-            {.value = "FILE", .file = FileUse::Output, .formats = "gpkg|citygml|pdf"}),
+        member<&All::outputs>("-o,--output",
+                              "file to write: the land administration (.gpkg, CityGML 3.0 .gml, CityJSON .city.json, "
+                              "IFC4 .ifc), or a page per "
+                              "unit (.pdf)",
+                              {.value = "FILE", .file = FileUse::Output, .formats = "gpkg|citygml|cityjson|ifc|pdf"}),
         member<&All::owners>(
-            "--owners", "table of feature, owner and share: .csv, or .gpkg with such a table",
+            "--owners", "table of feature, owner, share, right and source: .csv, or .gpkg with such a table",
             {.value = "T.csv", .otherwise = "the attribute owner of the units", .file = FileUse::OtherInput}),
         member<&All::unit>("--pages-of", "legal units with a page in the PDF", {.value = "QUERY", .otherwise = "all"}),
         member<&All::spaces, &LegalSpaceOptions::widestGap>("--gap", "report gaps between legal units up to this width",

@@ -53,6 +53,18 @@ void setLift(const std::string& crsName, Vec3d corner, writers::TilesetWriteOpti
     note(heights.remark);
 }
 
+// States the sources of surfaces if there are several, or another one than --from requires.
+void noteSurfaces(const volume::SemanticVolume& volume, const writers::VolumeWriteOptions& options, bool isTileset) {
+    using writers::MeshChoice;
+    const MeshChoice choice = writers::meshChoice(options, isTileset ? MeshChoice::Open : MeshChoice::Closed);
+    if (choice == MeshChoice::None) return;
+    const writers::SurfaceCounts counts = writers::countSurfaces(volume, choice);
+    const bool isRefused = options.from == writers::SurfaceSource::Meshes && counts.voxels > 0;
+    if (counts.voxels > 0 && (counts.meshes > 0 || isRefused))
+        note(fmt::format("surfaces: {} features have the faces of the model, {} the surface of their voxels",
+                         counts.meshes, counts.voxels));
+}
+
 Result<int> convertCity(const ConvertArguments& arguments) {
     const writers::VolumeFormat* format = writers::volumeFormatOf(arguments.output);
     const std::string_view name = format == nullptr ? "" : format->name;
@@ -70,8 +82,14 @@ Result<int> convertCity(const ConvertArguments& arguments) {
     const TerminalProgress progress;
     writers::VolumeWriteOptions options = arguments.write;
     setLift(city->crsName(), city->box().min, options.tileset);
-    SVT_DO(city::writeCityTiles(*city, arguments.output, options, arguments.part.level, arguments.build.threads,
-                                progress.get()));
+    SVT_TRY(report, city::writeCityTiles(*city, arguments.output, options, arguments.part.level,
+                                         arguments.build.threads, progress.get()));
+    const bool wantsMeshes = writers::meshChoice(options, writers::MeshChoice::Open) != writers::MeshChoice::None;
+    if (wantsMeshes && report->voxelTiles > 0)
+        note(
+            fmt::format("{} of {} tiles have no meshes, and the surfaces of their voxels; cities that are built now "
+                        "keep meshes",
+                        report->voxelTiles, report->tiles));
     return kDone;
 }
 
@@ -81,9 +99,10 @@ Result<int> runConvert(const ConvertArguments& arguments) {
     if (isCity(arguments.input)) return convertCity(arguments);
     const TerminalProgress progress;
     pipeline::BuildOptions build = arguments.build;
-    // IndoorGML gets the bodies of rooms from the model, and glTF its surfaces.
+    // IndoorGML gets the bodies of rooms from the model, glTF and 3D Tiles its surfaces.
     const writers::VolumeFormat* format = writers::volumeFormatOf(arguments.output);
-    const bool needsMeshes = format != nullptr && (format->name == "indoorgml" || format->name == "glb");
+    const bool hasSurfaces = format != nullptr && (format->name == "glb" || format->name == "tileset");
+    const bool needsMeshes = hasSurfaces || (format != nullptr && format->name == "indoorgml");
     if (needsMeshes) build.vectors = {.meshes = true, .isRequired = false};
     SVT_TRY(volume, loadVolume(arguments.input, build, progress.get(), false));
     volume = arguments.part.of(std::move(*volume), build.threads);
@@ -97,6 +116,7 @@ Result<int> runConvert(const ConvertArguments& arguments) {
     if (format != nullptr && format->name == "tileset" && !volume->crsName.empty())
         setLift(volume->crsName, volume->grid.origin(), options.tileset);
     SVT_DO(writers::writeVolume(*volume, arguments.output, options));
+    if (hasSurfaces && !options.tileset.hasVoxels) noteSurfaces(*volume, options, format->name == "tileset");
     return kDone;
 }
 

@@ -65,7 +65,7 @@ Result<Table> makeReport(const volume::SemanticVolume& volume, const Labels& sel
     if (arguments.areas) {
         Diagnostics findings;
         auto areas = areaTable(volume, withParts(), threads, findings);
-        printDiagnostics(findings, true);
+        printVolumeFindings(findings, volume.source, arguments.input);
         return areas;
     }
     if (!arguments.along.empty()) {
@@ -155,7 +155,7 @@ Result<int> runQuery(const QueryArguments& arguments) {
     if (isCity(arguments.input) || arguments.features.isAsked()) return runFeatures(arguments);
     pipeline::BuildOptions build = arguments.build;
     const bool hasBoxes = arguments.with.find("box") != std::string::npos;
-    if (arguments.areas || arguments.overlaps || hasBoxes) build.vectors.meshes = true;
+    if (arguments.areas || arguments.overlaps || hasBoxes || !arguments.parcels.empty()) build.vectors.meshes = true;
     SVT_TRY(volume, loadVolume(arguments.input, build, TerminalProgress().get(), false));
     auto selected = analyze::selectLabels(*volume, arguments.query);
     if (!selected && selected.error().code() == Code::NothingSelected) {

@@ -223,14 +223,15 @@ void noteMovedPlanes(const illustrate::Scene& scene, const volume::SemanticVolum
 }
 
 // Reports storeys with a wrong level, if the scene has a plane or region of a storey.
-void reportStoreys(const illustrate::Scene& scene, const volume::SemanticVolume& volume) {
+void reportStoreys(const illustrate::Scene& scene, const volume::SemanticVolume& volume,
+                   const std::filesystem::path& input) {
     const bool usesStoreys = std::ranges::any_of(scene.passes, [](const illustrate::ScenePass& pass) {
         return (pass.cut + pass.keep).find("storey=") != std::string::npos;
     });
     if (!usesStoreys) return;
     Diagnostics findings;
     drawing::reportStoreys(volume, findings);
-    printDiagnostics(findings, true);
+    printVolumeFindings(findings, volume.source, input);
 }
 
 bool isLineDrawing(const std::filesystem::path& output) {
@@ -314,7 +315,7 @@ Result<int> runLineDrawing(const RenderArguments& arguments, Series& series, con
     options.threads = arguments.build.threads;
     const auto draw = [&](const illustrate::Scene& scene, int number) -> Result<void> {
         Progress::tell(progress.get(), "lines", 0);
-        if (number == 0) reportStoreys(scene, *volume);
+        if (number == 0) reportStoreys(scene, *volume, arguments.input);
         SVT_TRY(spec, illustrate::makeFrameSpec(scene, *volume));
         SVT_TRY(view, drawing::drawLineView(*volume, *spec, options));
         SVT_DO(writeLineView(arguments, *view, *volume, scene.width, number));
@@ -392,7 +393,7 @@ Result<int> runVolumeRender(const RenderArguments& arguments, Series& series, co
             noteNames(painting->names);
             noteSun(scene, *volume);
             noteMovedPlanes(scene, *volume);
-            reportStoreys(scene, *volume);
+            reportStoreys(scene, *volume, arguments.input);
             noteCutaway(arguments.scene.cutaway, *volume, painting->frame);
         }
         return writePicture(arguments, series, painting->frame, number);

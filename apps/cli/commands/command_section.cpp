@@ -10,6 +10,7 @@
 
 #include <svt/city/city_walk.hpp>
 #include <svt/drawing/building_levels.hpp>
+#include <svt/drawing/external_parts.hpp>
 #include <svt/drawing/section_drawing.hpp>
 #include <svt/writers/drawing_formats.hpp>
 #include <svt/writers/section_table.hpp>
@@ -49,6 +50,11 @@ drawing::SectionOptions optionsOf(const SectionArguments& arguments, std::vector
     return options;
 }
 
+void noteExternals(const volume::SemanticVolume& volume) {
+    const std::string sources = drawing::externalSources(drawing::findExternalParts(volume), volume.labels);
+    if (!sources.empty()) note(sources);
+}
+
 // Prints the findings and writes the drawing.
 Result<int> writeSection(const SectionArguments& arguments, const drawing::SectionDrawing& drawing,
                          const volume::SemanticVolume& volume, const std::vector<drawing::HatchChoice>& hatches,
@@ -59,7 +65,7 @@ Result<int> writeSection(const SectionArguments& arguments, const drawing::Secti
     if (arguments.elevation.empty() && (arguments.plane.empty() || arguments.plane.starts_with("storey=")))
         drawing::reportStoreys(volume, findings);
     drawing::reportSection(drawing, volume, findings);
-    printDiagnostics(findings, true);
+    printVolumeFindings(findings, volume.source, arguments.input);
     noteHatches(uses);
     for (const std::string& message : nothing) note(message);
     const bool isEmpty = drawing.components.empty() && drawing.beyond.empty();
@@ -72,6 +78,7 @@ Result<int> writeSection(const SectionArguments& arguments, const drawing::Secti
     for (const auto& paths : {arguments.outputs, arguments.tables})
         for (const std::filesystem::path& path : paths) {
             SVT_DO(writers::writeDrawing(drawing, volume, path, {scale, arguments.dxf}));
+            if (endingOf(path) == ".dxf" && arguments.dxf.isoLayers) noteExternals(volume);
             if (endingOf(path) == ".pdf" && !writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
         }
     TerminalProgress::hide();

@@ -8,13 +8,18 @@
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/core/file.hpp>
+#include <svt/core/text.hpp>
+#include <svt/drawing/building_crop.hpp>
 #include <svt/drawing/building_levels.hpp>
+#include <svt/drawing/external_parts.hpp>
+#include <svt/image/text.hpp>
 #include <svt/writers/draw_sheets.hpp>
 #include <svt/writers/office_sheets.hpp>
 #include <svt/writers/sheet_geopackage.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <system_error>
 
@@ -60,14 +65,15 @@ Result<drawing::SheetSet> readSet(const SheetsArguments& arguments) {
 }
 
 // Prints the findings on inexact parts, once for all views.
-void printFindings(const writers::SheetContent& content, const volume::SemanticVolume& volume) {
+void printFindings(const writers::SheetContent& content, const volume::SemanticVolume& volume,
+                   const std::filesystem::path& input) {
     std::vector<const drawing::SectionDrawing*> drawings;
     for (const writers::DrawnView& view : content.views) drawings.push_back(&view.drawing);
     Diagnostics findings;
     drawing::reportStoreys(volume, findings);
     findings.append(content.findings);
     drawing::reportSections(drawings, volume, findings);
-    printDiagnostics(findings, true);
+    printVolumeFindings(findings, volume.source, input);
 }
 
 void noteHatches(const writers::SheetContent& content, const std::vector<drawing::HatchChoice>& hatches) {
@@ -94,8 +100,15 @@ std::string fileNameOf(const writers::SheetContent& content, std::size_t number)
 
 Result<void> writeDxfFolder(const writers::SheetContent& content, const volume::SemanticVolume& volume,
                             const std::filesystem::path& folder, const writers::SheetOptions& options,
-                            const writers::DxfOptions& dxf) {
+                            writers::DxfOptions dxf) {
     SVT_DO(makeFolder(folder));
+    std::vector<drawing::ExternalPart> externals;
+    if (dxf.isoLayers) {
+        externals = drawing::findExternalParts(volume);
+        dxf.externals = &externals;
+        if (const std::string sources = drawing::externalSources(externals, volume.labels); !sources.empty())
+            note(sources);
+    }
     for (std::size_t n = 0; n < content.views.size(); ++n) {
         const auto path = folder / (fileNameOf(content, n) + ".dxf");
         SVT_DO(checkNoStream(path));
@@ -119,6 +132,37 @@ const std::filesystem::path& writtenName(const SheetsArguments& arguments) {
     for (const auto* path : {&arguments.output, &arguments.folder, &arguments.dxfFolder, &arguments.schedule})
         if (!path->empty()) return *path;
     return arguments.setOutput;
+}
+
+// Texts that name up to three of several things.
+std::string firstNames(const std::vector<std::string>& names) {
+    const std::size_t shown = std::min<std::size_t>(names.size(), 3);
+    std::string text;
+    for (std::size_t n = 0; n < shown; ++n) text += (n > 0 ? ", '" : "'") + names[n] + "'";
+    return text + (shown < names.size() ? ", ..." : "");
+}
+
+// Points of reference and other small parts beside the building are not on the sheets.
+void notePartsAway(const volume::SemanticVolume& volume) {
+    std::vector<std::string> names;
+    for (const std::uint32_t l : drawing::partsAwayFromBuilding(volume)) {
+        const volume::Label& label = volume.labels.labels[l];
+        names.push_back(label.name.empty() ? label.id : label.name);
+    }
+    if (!names.empty())
+        note(fmt::format("{} small parts stand away from the building and are not on the sheets: {}", names.size(),
+                         firstNames(names)));
+}
+
+// The PDF has only the embedded font. Viewers of SVG take other fonts for characters that it lacks.
+void noteMissingLetters(const std::vector<std::string>& sheets) {
+    std::string missing;
+    for (const std::string& sheet : sheets) missing += image::missingLetters(sheet);
+    if (missing.empty()) return;
+    note(fmt::format(
+        "DejaVu Sans, the font of the PDF, has no characters such as '{}'; the PDF shows boxes instead, and "
+        "the sheets of --svg have them",
+        missing.substr(0, firstCharacter(missing).size)));
 }
 
 // A scale without a paper selects the paper.
@@ -154,7 +198,11 @@ Result<int> runSheets(const SheetsArguments& arguments) {
     std::vector<std::string> nothing;
     SVT_TRY(content, writers::drawSheets(*set, *volume, arguments.build.threads, &nothing));
     for (const std::string& message : nothing) note(message);
-    printFindings(*content, *volume);
+    printFindings(*content, *volume, arguments.input);
+    notePartsAway(*volume);
+    if (content->openings && content->openings->unknown > 0)
+        note(fmt::format("{} doors and windows have neither a shape nor a stated size; plans and schedules lack them",
+                         content->openings->unknown));
     SVT_DO(selectPaper(*set, *content, *volume, options));
     noteEmptyFields(set->titleBlock);
     noteHatches(*content, *hatches);
@@ -164,6 +212,7 @@ Result<int> runSheets(const SheetsArguments& arguments) {
         SVT_TRY(bytes, isPdf ? writers::makePdfSheets(*content, *volume, options)
                              : writers::makeSheetGeoPackage(*content, *volume));
         if (isPdf && !writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
+        if (isPdf) noteMissingLetters(*sheets);
         SVT_DO(writeFileAtomically(arguments.output, *bytes));
     }
     if (!arguments.folder.empty()) SVT_DO(writeSvgFolder(*sheets, arguments.folder));

@@ -40,7 +40,9 @@ Result<volume::SemanticVolume> loadParcels(const std::filesystem::path& input, c
         if (!heights.empty())
             return Error(Code::BadArgument,
                          "--parcel-heights is for parcels that are polygons (.geojson, .gpkg, .shp)");
-        return loadVolume(input, build, progress, false, &volume.grid);
+        pipeline::BuildOptions withMeshes = build;
+        withMeshes.vectors.meshes = true;
+        return loadVolume(input, withMeshes, progress, false, &volume.grid);
     }
     readers::ParcelOptions options;
     options.crsName = volume.crsName;
@@ -65,6 +67,7 @@ Result<volume::SemanticVolume> loadParcels(const std::filesystem::path& input, c
     pipeline::BuildOptions onGrid = build;
     onGrid.progress = progress;
     onGrid.grid = volume.grid;
+    onGrid.vectors.meshes = true;
     auto output = pipeline::buildVolume(*model, onGrid, &diagnostics);
     printDiagnostics(diagnostics, false);
     if (!output) return output.error();

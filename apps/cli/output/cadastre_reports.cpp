@@ -16,11 +16,6 @@ const volume::Label& labelOf(const LandAdministration& all, const volume::Semant
     return volume.labels.labels[all.spaces.spaces[space].label];
 }
 
-std::string shareText(const analyze::OwnershipRight& right) {
-    return right.share ? fmt::format("{}/{}", right.share->numerator, right.share->denominator)
-                       : fmt::format("{}", right.fraction);
-}
-
 Cell optional(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
 Json optionalJson(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
@@ -34,9 +29,9 @@ Cell areaOrEmpty(const LegalSpace& space) { return space.outline.empty() ? Cell(
 
 Table unitTable(const LandAdministration& all, const volume::SemanticVolume& volume) {
     Table table;
-    table.columns = {{"id", "id"},           {"name", "name"},    {"owner", "owner"},
-                     {"share", "share"},     {"body", "body"},    {"bodyVolume", "body m3"},
-                     {"volume", "total m3"}, {"area", "plan m2"}, {"faces", "faces"}};
+    table.columns = {{"id", "id"},        {"name", "name"},  {"owner", "owner"},        {"right", "right"},
+                     {"share", "share"},  {"body", "body"},  {"bodyVolume", "body m3"}, {"volume", "best m3"},
+                     {"area", "plan m2"}, {"faces", "faces"}};
     std::vector<std::size_t> faces(all.spaces.spaces.size(), 0);
     for (const analyze::BoundaryFace& face : all.spaces.faces) {
         ++faces[face.minus];
@@ -48,15 +43,16 @@ Table unitTable(const LandAdministration& all, const volume::SemanticVolume& vol
         const Row rest{analyze::spaceBodyName(space.body), optional(space.bodyVolume), optional(space.totalVolume),
                        areaOrEmpty(space), faces[s]};
         bool hasOwner = false;
-        for (const analyze::OwnershipRight& right : all.rights) {
+        for (const analyze::PartyRight& right : all.rights) {
             if (all.units[right.unit].space != s) continue;
             hasOwner = true;
-            Row row{label.id, label.name, all.parties[right.party], shareText(right)};
+            Row row{label.id, label.name, all.parties[right.party], right.rightType().name};
+            row.push_back(right.fraction ? Cell(shareText(right)) : Cell());
             row.insert(row.end(), rest.begin(), rest.end());
             table.rows.push_back(std::move(row));
         }
         if (hasOwner) continue;
-        Row row{label.id, label.name, nullptr, nullptr};
+        Row row{label.id, label.name, nullptr, nullptr, nullptr};
         row.insert(row.end(), rest.begin(), rest.end());
         table.rows.push_back(std::move(row));
     }
@@ -133,12 +129,17 @@ Json cadastreJson(const LandAdministration& all, const volume::SemanticVolume& v
     for (std::uint32_t s = 0; s < all.spaces.spaces.size(); ++s) {
         const LegalSpace& space = all.spaces.spaces[s];
         const volume::Label& label = labelOf(all, volume, s);
-        Json rights = Json::array();
-        for (const analyze::OwnershipRight& right : all.rights)
-            if (all.units[right.unit].space == s)
-                rights.push_back({{"party", all.parties[right.party]},
-                                  {"share", right.fraction},
-                                  {"fraction", right.share ? Json(shareText(right)) : Json(nullptr)}});
+        Json rights = Json::array(), shares = Json::object();
+        for (const analyze::PartyRight& right : all.rights) {
+            if (all.units[right.unit].space != s) continue;
+            rights.push_back({{"class", analyze::ladmClassName(right.rightType().of)},
+                              {"type", right.rightType().name},
+                              {"party", all.parties[right.party]},
+                              {"share", optionalJson(right.fraction)},
+                              {"fraction", right.share ? Json(shareText(right)) : Json(nullptr)},
+                              {"source", right.source == 0 ? Json(nullptr) : Json(all.sources[right.source])}});
+            shares[std::string(right.rightType().name)] = optionalJson(sumOfShares(all, right.unit, right.type));
+        }
         std::size_t faces = 0;
         for (const analyze::BoundaryFace& face : all.spaces.faces) faces += face.minus == s || face.plus == s ? 1 : 0;
         units.push_back({{"id", label.id},
@@ -152,7 +153,8 @@ Json cadastreJson(const LandAdministration& all, const volume::SemanticVolume& v
                          {"low", space.box.isEmpty() ? Json(nullptr) : Json(space.box.min.z)},
                          {"high", space.box.isEmpty() ? Json(nullptr) : Json(space.box.max.z)},
                          {"faces", faces},
-                         {"rights", std::move(rights)}});
+                         {"rights", std::move(rights)},
+                         {"shares", std::move(shares)}});
     }
     Json relations = Json::array();
     for (const SpaceRelation& relation : all.spaces.relations) relations.push_back(relationJson(all, volume, relation));
@@ -160,7 +162,11 @@ Json cadastreJson(const LandAdministration& all, const volume::SemanticVolume& v
     return {{"parties", all.parties},
             {"units", std::move(units)},
             {"relations", std::move(relations)},
-            {"sources", {{"parties", all.partyFile}, {"isTable", isTable}, {"geometry", all.spatialFile}}}};
+            {"sources",
+             {{"parties", all.partyFile},
+              {"isTable", isTable},
+              {"documents", std::vector<std::string>(all.sources.begin() + 1, all.sources.end())},
+              {"geometry", all.spatialFile}}}};
 }
 
 void printCadastre(const LandAdministration& all, const volume::SemanticVolume& volume) {

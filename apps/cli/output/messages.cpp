@@ -137,6 +137,16 @@ void printDiagnostics(const Diagnostics& diagnostics, bool hasAll) {
     if (!isQuiet() && !showsAll) printTotals(diagnostics, kinds);
 }
 
+void printVolumeFindings(const Diagnostics& findings, const std::string& source, const std::filesystem::path& input) {
+    if (input == "-") return printDiagnostics(findings, true);
+    Diagnostics named;
+    for (Diagnostic item : findings.items()) {
+        if (item.where.file == source) item.where.file = input.string();
+        named.add(item.severity, item.code, std::move(item.message), std::move(item.where));
+    }
+    printDiagnostics(named, true);
+}
+
 void printTotals(const Diagnostics& diagnostics, std::span<const FindingKind> kinds) {
     const std::size_t serious = diagnostics.count(Severity::Warning) + diagnostics.count(Severity::Error);
     const auto shown = std::count_if(diagnostics.items().begin(), diagnostics.items().end(), isAlwaysShown);

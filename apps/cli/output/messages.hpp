@@ -72,6 +72,11 @@ int failOfMemory();
 /// all; with --quiet only errors.
 void printDiagnostics(const Diagnostics& diagnostics, bool hasAll);
 
+/// Prints each finding on a volume. They name the source of the volume, such as the model that a .svt was built from; here
+/// they name the file that was read.
+/// \param source  SemanticVolume::source
+void printVolumeFindings(const Diagnostics& findings, const std::string& source, const std::filesystem::path& input);
+
 /// Prints the number of warnings and errors if some kinds have several of them, and the number of notes.
 void printTotals(const Diagnostics& diagnostics, std::span<const FindingKind> kinds);
 

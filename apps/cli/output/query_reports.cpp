@@ -6,6 +6,7 @@
 #include <svt/analyze/gaps.hpp>
 #include <svt/analyze/known_volumes.hpp>
 #include <svt/analyze/label_measures.hpp>
+#include <svt/analyze/parcel_parts.hpp>
 #include <svt/analyze/solid_overlaps.hpp>
 #include <svt/drawing/floor_areas.hpp>
 #include <svt/render/ray_labels.hpp>
@@ -87,15 +88,6 @@ std::vector<render::LabelInterval> stretchesIn(const std::vector<render::LabelIn
         }
     }
     return joined;
-}
-
-// Entry l: the first pair with label l of the first volume, or where it would be.
-std::vector<std::uint64_t> firstPairs(const std::vector<analyze::SharedVoxels>& pairs, std::size_t labelCount) {
-    std::vector<std::uint64_t> begins(labelCount + 1, 0);
-    for (const analyze::SharedVoxels& pair : pairs)
-        if (pair.a != volume::kNoLabel) ++begins[pair.a + 1];
-    for (std::size_t l = 0; l < labelCount; ++l) begins[l + 1] += begins[l];
-    return begins;
 }
 
 // Totals of the owners, of everything without owner, and of all.
@@ -238,10 +230,10 @@ Table featureTable(const volume::SemanticVolume& volume, const Labels& selected,
              {"ownOutside", "own m2 outside"},
              {"totalOutside", "total m2 outside"}});
     if (with.box) addBoxColumns(table.columns);
-    add({{"volume", "m3"}, {"voxels"}});
+    add({{"volume", "best m3"}, {"voxels"}});
     if (with.volume) add({{"voxelVolume"}});
     if (with.surface) add({{"surface"}, {"outside"}});
-    add({{"volumeBound", "+- m3"}, {"volumeSource", "m3 from"}});
+    add({{"volumeBound", "+- m3"}, {"volumeSource", "best m3 from"}});
     const analyze::Extents extents(volume.labels);
     const analyze::KnownVolumes volumes(volume.labels, volume.grid, extents);
     for (const analyze::FeatureMeasure& measure : measuresOf(volume, selected, with, threads)) {
@@ -465,28 +457,25 @@ Result<Table> areaTable(const volume::SemanticVolume& volume, const Labels& sele
 
 Result<Table> parcelTable(const volume::SemanticVolume& volume, const Labels& selected,
                           const volume::SemanticVolume& parcels, int threads) {
-    SVT_TRY(shared, analyze::sharedVoxels(volume, parcels, threads));
+    SVT_TRY(parts, analyze::partsInParcels(volume, selected, parcels, threads));
     Table table;
-    table.columns = {{"id", "id"},         {"class", "class"},  {"name", "name"},
-                     {"parcel", "parcel"}, {"parcelClass", ""}, {"parcelName", "name"},
-                     {"voxels", ""},       {"volume", "m3"},    {"part", "part"}};
-    const std::vector<std::uint64_t> begins = firstPairs(*shared, volume.labels.labels.size());
-    const analyze::Extents extents(volume.labels);
-    for (const std::uint32_t label : selected) {
-        std::map<std::uint32_t, std::uint64_t> byParcel;
-        std::uint64_t all = 0;
-        for (const std::uint32_t part : extents.of(label))
-            for (std::uint64_t at = begins[part]; at < begins[part + 1]; ++at) {
-                byParcel[(*shared)[at].b] += (*shared)[at].voxels;
-                all += (*shared)[at].voxels;
-            }
-        for (const auto& [parcel, voxels] : byParcel) {
-            Row row;
-            addNames(row, volume.labels, label);
-            addNames(row, parcels.labels, parcel);
-            row.insert(row.end(), {voxels, double(voxels) * volume.grid.voxelVolume(), double(voxels) / double(all)});
-            table.rows.push_back(std::move(row));
-        }
+    table.columns = {{"id", "id"},
+                     {"class", "class"},
+                     {"name", "name"},
+                     {"parcel", "parcel"},
+                     {"parcelClass", ""},
+                     {"parcelName", "name"},
+                     {"voxels", ""},
+                     {"volume", "m3"},
+                     {"volumeBound", "+- m3"},
+                     {"volumeSource", "m3 from"},
+                     {"part", "part"}};
+    for (const analyze::ParcelPart& part : *parts) {
+        Row row;
+        addNames(row, volume.labels, part.label);
+        addNames(row, parcels.labels, part.parcel);
+        row.insert(row.end(), {part.voxels, part.volume, known(part.bound), volumeSourceName(part.source), part.part});
+        table.rows.push_back(std::move(row));
     }
     return table;
 }

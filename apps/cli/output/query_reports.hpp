@@ -7,7 +7,6 @@
 
 #include <svt/analyze/contacts.hpp>
 #include <svt/analyze/owners.hpp>
-#include <svt/analyze/shared_voxels.hpp>
 #include <svt/illustrate/pick_ray.hpp>
 
 #include <cstdint>
