@@ -131,13 +131,14 @@ TEST_F(TwoBoxReports, ParcelsDivideThem) {
         byPair[row["id"].get<std::string>() + " " +
                (row["parcel"].is_null() ? "-" : row["parcel"].get<std::string>())] = row;
     ASSERT_EQ(byPair.size(), 5u);
-    EXPECT_EQ(keysOf(rows[0]),
-              (Keys{"class", "id", "name", "parcel", "parcelClass", "parcelName", "part", "volume", "voxels"}));
-    EXPECT_NEAR(byPair["left south"]["part"].get<double>(), 2.0 / 6, 0.01);
-    EXPECT_NEAR(byPair["left north"]["part"].get<double>(), 4.0 / 6, 0.01);
-    EXPECT_NEAR(byPair["right -"]["part"].get<double>(), 0.5, 0.02);
-    EXPECT_NEAR(byPair["right south"]["part"].get<double>(), 1.0 / 6, 0.02);
-    EXPECT_NEAR(byPair["left south"]["volume"].get<double>(), 24, 0.06 * 24);
+    EXPECT_EQ(keysOf(rows[0]), (Keys{"class", "id", "name", "parcel", "parcelClass", "parcelName", "part", "volume",
+                                     "volumeBound", "volumeSource", "voxels"}));
+    for (const auto& [pair, row] : byPair) EXPECT_EQ(row["volumeSource"], "meshes") << pair;
+    EXPECT_NEAR(byPair["left south"]["part"].get<double>(), 2.0 / 6, 1e-5);
+    EXPECT_NEAR(byPair["left north"]["part"].get<double>(), 4.0 / 6, 1e-5);
+    EXPECT_NEAR(byPair["right -"]["part"].get<double>(), 0.5, 1e-5);
+    EXPECT_NEAR(byPair["right south"]["part"].get<double>(), 1.0 / 6, 1e-5);
+    EXPECT_NEAR(byPair["left south"]["volume"].get<double>(), 24, 1e-4);
     // The same from a volume built on the same grid; another grid is rejected with a message that states the remedy.
     (void)runSvtWell(folder.path(), {"build", "parcels.gml", "-o", "p.svt", "--grid-of", "two.svt"});
     EXPECT_EQ(report({"all", "--parcels", "p.svt"}), rows);

@@ -193,6 +193,28 @@ TEST_P(SampleSceneTest, LooksAsItsReference) {
 INSTANTIATE_TEST_SUITE_P(Scenes, SampleSceneTest,
                          ::testing::Values("plan_with_names", "inset", "rooms_by_area", "storeys_apart"), nameOfScene);
 
+// Models of others, in which the glass of windows must show what is behind it.
+struct ModelPicture {
+    const char* file;
+    Picture picture;
+};
+void PrintTo(const ModelPicture& model, std::ostream* stream) { *stream << model.picture.name; }
+
+class ModelPictureTest : public ::testing::TestWithParam<ModelPicture> {};
+TEST_P(ModelPictureTest, LooksAsItsReference) {
+    SVT_NEEDS_DATA(model, GetParam().file);
+    const TemporaryFolder folder;
+    prepare(folder.path(), {"build", model.string(), "-o", "house.svt", "--spacing", "0.05"});
+    expectAsReference(folder.path(), GetParam().picture);
+}
+const std::vector<ModelPicture> kModelPictures{
+    {"fzk_haus.ifc",
+     {"fzk_haus_glass", {"--around", "id=\"1srAI$R4T8ihLXSNHmUSET\"", "--camera", "iso-sw", "--zoom", "0.5"}, {}}},
+    {"samplehouse.ifc", {"revit_house_glass", {"--camera", "left", "--zoom", "1.3"}, {}, "256x144"}},
+};
+INSTANTIATE_TEST_SUITE_P(Glass, ModelPictureTest, ::testing::ValuesIn(kModelPictures),
+                         [](const auto& test) { return test.param.picture.name; });
+
 class SmallHouse : public ::testing::Test {
 protected:
     SmallHouse() { prepareHouse(folder.path(), "0.2"); }

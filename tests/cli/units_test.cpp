@@ -208,7 +208,7 @@ TEST_F(Units, AreDividedByParcelsWithAllTheirParts) {
         sums[id] += row["part"].get<double>();
         const std::uint64_t expected = row["parcel"] == "west" ? all.west : all.voxels - all.west;
         EXPECT_EQ(row["voxels"], expected) << row;
-        EXPECT_NEAR(row["part"].get<double>(), double(expected) / double(all.voxels), 1e-9);
+        EXPECT_NEAR(row["part"].get<double>(), double(expected) / double(all.voxels), 0.02) << "by meshes: " << row;
         isDivided = isDivided || (id == "tower_S00_F1" && row["part"] > 0.7 && row["part"] < 0.85);
     }
     EXPECT_TRUE(isDivided) << "79 % of the flat lie in the west: " << rows;

@@ -30,9 +30,9 @@ function glbOf(bytes) {
 // A column of strings of the table.
 function strings(json, binary, name) {
   const table = json.extensions.EXT_structural_metadata.propertyTables[0];
-  const { values, stringOffsets } = table.properties[name];
+  const { values, stringOffsets, stringOffsetType } = table.properties[name];
   const view = (n) => binary.subarray(json.bufferViews[n].byteOffset, json.bufferViews[n].byteOffset + json.bufferViews[n].byteLength);
-  const offset = (n) => view(stringOffsets).readUInt32LE(4 * n);
+  const offset = (n) => (stringOffsetType === "UINT16" ? view(stringOffsets).readUInt16LE(2 * n) : view(stringOffsets).readUInt32LE(4 * n));
   return Array.from({ length: table.count }, (_, n) =>
     view(values)
       .subarray(offset(n), offset(n + 1))
@@ -42,10 +42,11 @@ function strings(json, binary, name) {
 
 // The box of a content in the frame of the tileset (z up).
 function boxOf(json) {
-  const { translation, scale } = json.nodes[0],
-    { min, max } = json.accessors[json.meshes[0].primitives[0].attributes.POSITION];
-  const at = (corner) => corner.map((value, axis) => value * scale[axis] + translation[axis]);
-  const [low, high] = [at(min), at(max)];
+  const { translation, scale = [1, 1, 1] } = json.nodes[0],
+    places = json.meshes[0].primitives.map((primitive) => json.accessors[primitive.attributes.POSITION]);
+  const at = (choose, end) =>
+    [0, 1, 2].map((axis) => choose(...places.map((accessor) => accessor[end][axis])) * scale[axis] + translation[axis]);
+  const [low, high] = [at(Math.min, "min"), at(Math.max, "max")];
   return [
     [low[0], -high[2], low[1]],
     [high[0], -low[2], high[1]],
@@ -90,7 +91,7 @@ await new TilesetTraverser(resolve(tiles), resolver, { depthFirst: true }).trave
       attributes = strings(json, binary, "attributes");
     strings(json, binary, "id").forEach((id, n) => {
       assert.ok(!finest.has(id), `${id} is there twice`);
-      finest.set(id, [classes[n], JSON.parse(attributes[n])]);
+      finest.set(id, [classes[n], JSON.parse(attributes[n] || "{}")]);
     });
   }
   return true;

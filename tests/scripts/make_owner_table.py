@@ -8,9 +8,16 @@ import sys
 
 database = sqlite3.connect(sys.argv[1])
 database.execute("CREATE TABLE other(a)")
-database.execute("CREATE TABLE owners(fid INTEGER PRIMARY KEY, Owner TEXT, Feature TEXT, Share REAL)")
-rows = [("tower_S00_F1", "Weber, A.", 0.5), ("tower_S00_F1", "Klein", 0.5), ("tower_S00_F2", "Weber, A.", None)]
-database.executemany("INSERT INTO owners(Feature, Owner, Share) VALUES(?, ?, ?)", rows)
+database.execute(
+    "CREATE TABLE owners(fid INTEGER PRIMARY KEY, Owner TEXT, Feature TEXT, Share REAL, Right TEXT, Source TEXT)"
+)
+rows = [
+    ("tower_S00_F1", "Weber, A.", 0.5, None, "deed 7"),
+    ("tower_S00_F1", "Klein", 0.5, "ownership", None),
+    ("tower_S00_F2", "Weber, A.", None, None, None),
+    ("tower_S00_F1", "Bank", None, "mortgage", "deed 8"),
+]
+database.executemany("INSERT INTO owners(Feature, Owner, Share, Right, Source) VALUES(?, ?, ?, ?, ?)", rows)
 database.commit()
 
 database = sqlite3.connect(sys.argv[2])

@@ -17,6 +17,8 @@ TABLES = {
     "la_party": None,
     "la_baunit": None,
     "la_right": None,
+    "la_restriction": None,
+    "la_responsibility": None,
     "la_spatialunit": "MULTIPOLYGON",
     "la_boundaryface": "POLYGON",
     "la_relation": None,
@@ -29,7 +31,15 @@ def check_keys(path):
     database = sqlite3.connect(path)
     broken = database.execute("PRAGMA foreign_key_check").fetchall()
     assert not broken, broken
-    for table in ("la_right", "la_spatialunit", "la_boundaryface", "la_relation", "la_relation_face"):
+    for table in (
+        "la_right",
+        "la_restriction",
+        "la_responsibility",
+        "la_spatialunit",
+        "la_boundaryface",
+        "la_relation",
+        "la_relation_face",
+    ):
         assert database.execute(f"PRAGMA foreign_key_list({table})").fetchall(), table
     bad = database.execute("PRAGMA integrity_check").fetchall()
     assert bad == [("ok",)], bad
@@ -79,6 +89,10 @@ def main():
             "JOIN la_party p ON r.party = p.fid JOIN la_baunit u ON r.baunit = u.fid"
         ).fetchall()
     )
+    counts["restrictions"] = database.execute(
+        "SELECT u.uid, r.type, p.name, r.share, s.name FROM la_restriction r JOIN la_party p ON r.party = p.fid "
+        "JOIN la_baunit u ON r.baunit = u.fid JOIN la_source s ON r.source = s.fid"
+    ).fetchall()
     counts["volumes"] = dict(database.execute("SELECT suid, body_volume FROM la_spatialunit").fetchall())
     print(json.dumps(counts))
 

@@ -463,28 +463,34 @@ def tileset(path):
 
         def values(accessor):
             told = gltf["accessors"][accessor]
-            kinds = {5126: "<f4", 5125: "<u4", 5121: "u1"}
+            kinds = {5126: "<f4", 5125: "<u4", 5123: "<u2", 5121: "u1", 5120: "i1"}
             array = np.frombuffer(view(told["bufferView"]), kinds[told["componentType"]])
-            return array.reshape(told["count"], -1)
+            return array.reshape(told["count"], -1)[:, : {"SCALAR": 1, "VEC3": 3, "VEC4": 4}[told["type"]]]
 
         meta = gltf["extensions"]["EXT_structural_metadata"]
         table = meta["propertyTables"][0]
         strings = {}
         for name, property in table["properties"].items():
             if "stringOffsets" in property:
-                offsets, all_text = np.frombuffer(view(property["stringOffsets"]), "<u4"), view(property["values"])
+                size = {"UINT16": "<u2", "UINT32": "<u4"}[property.get("stringOffsetType", "UINT32")]
+                offsets, all_text = np.frombuffer(view(property["stringOffsets"]), size), view(property["values"])
                 strings[name] = [all_text[a:b].decode() for a, b in zip(offsets, offsets[1:])]
                 assert len(strings[name]) == table["count"]
         volumes = np.frombuffer(view(table["properties"]["volume"]["values"]), "<f8")
         print(strings["id"], strings["name"], volumes.tolist())
         ids += strings["id"]
         box = np.array(tile["boundingVolume"]["box"])
+        node = gltf["nodes"][0]
+        scale, place = np.array(node.get("scale", [1, 1, 1])), np.array(node.get("translation", [0, 0, 0]))
         for primitive in gltf["meshes"][0]["primitives"]:
             attributes = primitive["attributes"]
             told = primitive["extensions"]["EXT_mesh_features"]["featureIds"][0]
             assert told == {"featureCount": table["count"], "attribute": 0, "label": "component", "propertyTable": 0}
-            position, normal = values(attributes["POSITION"]).astype(float), values(attributes["NORMAL"])
-            feature, index = values(attributes["_FEATURE_ID_0"])[:, 0], values(primitive["indices"]).reshape(-1, 3)
+            position = values(attributes["POSITION"]) * scale + place
+            normal = values(attributes["NORMAL"]) / 127
+            feature, index = values(attributes["_FEATURE_ID_0"])[:, 0], values(primitive["indices"]).reshape(
+                -1, 3
+            ).astype(int)
             assert (feature[index] == feature[index][:, :1]).all() and feature.max() < table["count"]
             a, b, c = (position[index[:, k]] for k in range(3))
             across = np.cross(b - a, c - a)
@@ -494,7 +500,7 @@ def tileset(path):
             half = np.abs(box[3:].reshape(3, 3)).sum(axis=0)
             assert (np.abs(world - box[:3]) <= half + 1e-4).all(), "all lies in the box of its tile"
             points.append(world)
-            faces.append(index.astype(int) + first)
+            faces.append(index + first)
             first += len(world)
     assert len(set(ids)) == len(ids)
     return np.concatenate(points) + np.array(tiles["asset"]["extras"]["origin"]), np.concatenate(faces)

@@ -271,5 +271,28 @@ TEST(Levels, TheZeroLevelIsTheGroundFloor) {
     EXPECT_NEAR(heightOf("Keller"), heightOf("\u22122.80"), 1e-6);
 }
 
+// The authors of small models put all floors into one storey.
+TEST(Levels, RoomsOnTwoFloorsOfOneStoreyHaveAPlanEach) {
+    const TemporaryFolder folder;
+    SmallIfc ifc;
+    const int storey = ifc.storey("Default storey", 0, "0.");
+    ifc.shell(storey, {0, 0, 0}, {8, 6, 2.8});
+    ifc.shell(storey, {0, 0, 3.1}, {8, 6, 5.9});
+    ifc.box("SPACE", "living room", storey, {0.3, 0.3, 0}, {7.7, 5.7, 2.8});
+    ifc.box("SPACE", "bedroom", storey, {0.3, 0.3, 3.1}, {7.7, 5.7, 5.9});
+    writeText(folder / "house.ifc", ifc.text());
+    const std::string sheets = sheetsOf(folder.path(), "house.ifc");
+    EXPECT_GE(countOf(sheets, ">Plan Default storey, level \u00B10.00<"), 1u);
+    EXPECT_GE(countOf(sheets, ">Plan Default storey, level +3.10<"), 1u);
+    const auto storeys = rowsOf(folder.path(), "house.ifc", "storey");
+    ASSERT_EQ(storeys.size(), 2u);
+    for (const auto& row : storeys) {
+        EXPECT_NEAR(row["nrf"].get<double>(), 7.4 * 5.4, 1e-3);
+        EXPECT_NEAR(row["bgf"].get<double>(), 48, 0.05);
+    }
+    EXPECT_NE(runSvt(folder.path(), {"sheets", "house.ifc", "--spacing", "0.2", "--svg", "s"}).err.find("E512"),
+              std::string::npos);
+}
+
 }  // namespace
 }  // namespace svt::test

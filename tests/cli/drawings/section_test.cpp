@@ -324,7 +324,8 @@ TEST(Section, WithoutMeshesNothingIsBeyond) {
     prepare(folder.path(), {"build", "boxes.gml", "-o", "v.svt", "--spacing", "0.1", "--vectors", "none"});
     const CommandResult result = runSvt(folder.path(), {"section", "v.svt", "-o", "d.svg", "--beyond"});
     EXPECT_EQ(result.exitCode, 0) << result.toString();
-    EXPECT_NE(result.err.find("E509 NoMeshes"), std::string::npos) << result.toString();
+    EXPECT_NE(result.err.find("E509 NoMeshes: v.svt: "), std::string::npos)
+        << "the file, not its model: " << result.toString();
 }
 
 TEST(Section, ErrorsSayWhatToDo) {

@@ -1,4 +1,5 @@
 // `svt sheets`: PDF that other programs read, true to scale, and what it says where that is not possible.
+#include <tests/cli/drawings/small_ifc.hpp>
 #include <tests/cli/run_command.hpp>
 #include <tests/cli/small_model.hpp>
 
@@ -222,6 +223,37 @@ TEST(Sheets, ATreeFarAwayIsNeitherMeasuredNorDecidesTheScale) {
     const std::size_t first = sections.find(">3.00<");
     ASSERT_NE(first, std::string::npos);
     EXPECT_NE(sections.find(">3.00<", first + 1), std::string::npos);
+}
+
+TEST(Sheets, ASmallPartFarAwayDecidesNoScaleAndIsNamed) {
+    const TemporaryFolder folder;
+    SmallIfc ifc;
+    const int storey = ifc.storey("EG", 0, "0.");
+    ifc.shell(storey, {0, 0, 0}, {8, 6, 3});
+    ifc.box("BUILDINGELEMENTPROXY", "geo-reference", storey, {2, -45, 0}, {2.5, -44.5, 0.5});
+    writeText(folder / "house.ifc", ifc.text());
+    const auto drawn = runSvt(folder.path(), {"sheets", "house.ifc", "--spacing", "0.2", "--svg", "s"});
+    ASSERT_EQ(drawn.exitCode, 0) << drawn.toString();
+    EXPECT_NE(readText(folder / "s" / "sheet-1.svg").find(">1:100<"), std::string::npos);
+    EXPECT_NE(drawn.err.find("1 small parts stand away from the building and are not on the sheets: 'geo-reference'"),
+              std::string::npos)
+        << drawn.err;
+}
+
+TEST(Sheets, CharactersThatThePdfCannotShowAreReported) {
+    const TemporaryFolder folder;
+    writeText(folder / "boxes.gml", twoBoxes());
+    const std::vector<std::string> start{"sheets", "boxes.gml", "-o", "p.pdf", "--title"};
+    const auto drawnAs = [&](const std::string& title) {
+        std::vector<std::string> arguments = start;
+        arguments.push_back(title);
+        return runSvt(folder.path(), arguments);
+    };
+    const auto drawn = drawnAs("\u6807\u9AD8");
+    if (drawn.err.find("E510") != std::string::npos) GTEST_SKIP() << "no cairo";
+    ASSERT_EQ(drawn.exitCode, 0) << drawn.toString();
+    EXPECT_NE(drawn.err.find("no characters such as '\u6807'"), std::string::npos) << drawn.err;
+    EXPECT_EQ(drawnAs("Town hall").err.find("no characters such as"), std::string::npos);
 }
 
 TEST(Sheets, DimensionsHaveTheirUnit) {

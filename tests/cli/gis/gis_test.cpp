@@ -175,6 +175,29 @@ TEST_F(GisTables, VolumesIncludePartsAndSayWhereTheyComeFrom) {
     EXPECT_NEAR(selected[0]["volume"].get<double>(), 448, 1e-6);
 }
 
+// A box that only leaves out a layer of background, and a selection of everything, change no volume.
+TEST_F(GisTables, VolumesOfPartsCountRoomsOnce) {
+    runSvtWell(folder.path(), {"sample", "house", "-o", "house.gml"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "whole.svt", "--spacing", "0.1"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "box.svt", "--spacing", "0.1", "--box",
+                               "499999.64,5399997.64,99,500030,5400030,130"});
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "selected.svt", "--spacing", "0.1", "--only", "all"});
+    const auto volumesOf = [&](const char* file) {
+        const json rows =
+            runSvtForJson(folder.path(), {"query", file, "class=Building or class=BuildingRoom", "--json"});
+        std::map<std::string, std::array<json, 3>> volumes;
+        for (const json& row : rows) volumes[row["id"]] = {row["volume"], row["totalVolume"], row["volumeBound"]};
+        return volumes;
+    };
+    const auto whole = volumesOf("whole.svt");
+    EXPECT_GT(whole.size(), 5u);
+    EXPECT_EQ(volumesOf("box.svt"), whole);
+    EXPECT_EQ(volumesOf("selected.svt"), whole);
+    const std::string text = runSvt(folder.path(), {"query", "whole.svt", "class=Building"}).out;
+    for (const char* heading : {"total m3", "best m3", "+- m3", "best m3 from"})
+        EXPECT_NE(text.find(heading), std::string::npos) << heading;
+}
+
 TEST_F(GisTables, KeepSeveralValuesOfAnAttribute) {
     const json depths = {0.5, nullptr}, ranks = {"1", "3"}, uses = {"shop", "flat, small"};
     for (const char* file : {"f.geojson", "f.csv", "f.gpkg", "f.parquet"})

@@ -54,6 +54,8 @@ const LimitedOutput kLimitedOutputs[] = {
     {"--output", {"cadastre", "tower.svt", "-o", "o.gpkg"}},
     {"--output", {"cadastre", "tower.svt", "-o", "o.gml"}},
     {"--output", {"cadastre", "tower.svt", "-o", "o.pdf"}},
+    {"--output", {"cadastre", "tower.svt", "-o", "o.city.json"}},
+    {"--output", {"cadastre", "tower.svt", "-o", "o.ifc"}},
     {"--output", {"query", "two.svt", "all", "-o", "o.geojson"}},
     {"--output", {"query", "two.svt", "all", "-o", "o.csv"}},
     {"--output", {"query", "two.svt", "all", "-o", "o.gpkg"}},
