@@ -246,7 +246,8 @@ void addLostFaces(const mesh::MeshSet& meshes, const IndexFromLocal& indexFromLo
                   VoxelizeResult& result) {
     std::vector<std::uint32_t> open;
     for (std::uint32_t o = 0; o < meshes.objects.size(); ++o)
-        if (meshes.objects[o].closingMethod == mesh::ClosingMethod::Open && !std::ranges::count(result.unfilled, o))
+        if (meshes.objects[o].closingMethod == mesh::ClosingMethod::Open &&
+            std::ranges::find(result.unfilled, o) == result.unfilled.end())
             open.push_back(o);
     if (open.empty()) return;
     std::stable_sort(open.begin(), open.end(),

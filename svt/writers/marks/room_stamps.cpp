@@ -103,7 +103,7 @@ private:
     bool placeFrom(PlanePoint from, std::size_t room, const std::vector<std::string>& lines) {
         constexpr double kNearest = 6, kFarthest = 120, kStep = 2;  // millimetres
         constexpr int kDirections = 72;
-        constexpr double kOtherRoom = 20;  // millimetres that a place in another room counts more
+        constexpr double kOtherRoom = 60;  // millimetres that a place in another room counts more
         const double size = kStampSizes[1];
         const auto extent = sizeOfLines(lines, size);
         std::array<PlanePoint, kDirections> directions;
@@ -212,6 +212,19 @@ std::vector<std::string> compactLines(const std::vector<std::string>& lines) {
     return compact;
 }
 
+// The first line broken in two, at the space nearest to its middle.
+std::vector<std::string> wrappedLines(const std::vector<std::string>& lines) {
+    const std::string& name = lines.front();
+    const std::size_t middle = name.size() / 2, before = name.rfind(' ', middle), after = name.find(' ', middle);
+    if (before == std::string::npos && after == std::string::npos) return lines;
+    const bool isBefore =
+        after == std::string::npos || (before != std::string::npos && middle - before < after - middle);
+    const std::size_t at = isBefore ? before : after;
+    std::vector<std::string> wrapped{name.substr(0, at), name.substr(at + 1)};
+    wrapped.insert(wrapped.end(), lines.begin() + 1, lines.end());
+    return wrapped;
+}
+
 }  // namespace
 
 PlacedStamps placeStamps(const drawing::SectionDrawing& drawing, std::span<const RoomStamp> stamps, double millimetres,
@@ -231,7 +244,9 @@ PlacedStamps placeStamps(const drawing::SectionDrawing& drawing, std::span<const
         std::vector<std::size_t> remaining;
         for (const std::size_t n : left)
             if (!placer.placeInside(n, stamps[n].lines, mayCover) &&
-                !placer.placeInside(n, compactLines(stamps[n].lines), mayCover))
+                !placer.placeInside(n, compactLines(stamps[n].lines), mayCover) &&
+                !placer.placeInside(n, wrappedLines(stamps[n].lines), mayCover) &&
+                !placer.placeInside(n, wrappedLines(compactLines(stamps[n].lines)), mayCover))
                 remaining.push_back(n);
         left = std::move(remaining);
     }

@@ -142,7 +142,7 @@ TEST(RoomStamps, RoomsWithoutPlaceStandInAList) {
 // A text covers neither a line nor another text, and a leader leads to a stamp outside.
 TEST(RoomStamps, AreClearOfLinesAndOfEachOther) {
     House house;
-    house.addRow(6, 1.2);
+    house.addRow(6, 0.7);
     house.add("hall", "BuildingRoom", {0.2, 2.1, 0}, {8, 8, 3}).name = "Hall";
     house.add("table", "BuildingFurniture", {3.5, 4.5, 0}, {4.7, 5.7, 0.8});
     drawing::SectionOptions options;
@@ -170,6 +170,25 @@ TEST(RoomStamps, AreClearOfLinesAndOfEachOther) {
                 << text.text;
         boxes.push_back(box);
     }
+}
+
+TEST(RoomStamps, BreakNamesToStayInTheirRooms) {
+    House house;
+    house.addRow(6, 1.2);
+    const auto drawn = *drawing::drawSection(house.volume, {{0, 0, 1}, {0, 0, 1.1}}, {});
+    std::vector<RoomStamp> stamps;
+    for (const auto& component : drawn.components)
+        if (house.volume.labels.labels[component.label].className == "BuildingRoom")
+            stamps.push_back({component.label, {"Living room", "12.34 m\u00B2"}});
+    ASSERT_EQ(stamps.size(), 6u);
+    FreeSpace space = freeSpaceOf(drawn, house.volume, 10);
+    const PlacedStamps placed = placeStamps(drawn, stamps, 10, {{-60, -60}, {160, 140}}, space);
+    EXPECT_TRUE(placed.shapes.thin.empty());
+    ASSERT_EQ(placed.shapes.texts.size(), 18u);
+    EXPECT_EQ(placed.shapes.texts[0].text, "Living");
+    EXPECT_EQ(placed.shapes.texts[1].text, "room");
+    EXPECT_NEAR(placed.shapes.texts[0].at.v - placed.shapes.texts[1].at.v, kLinePitch * placed.shapes.texts[0].size,
+                1e-9);
 }
 
 TEST(RoomStamps, HaveNumberHeightAndFloorFinish) {
