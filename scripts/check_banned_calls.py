@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Fails if a source of the library, the programs or the bindings calls what depends on the locale of the process, or maps
-a file that others may shorten.
+"""Fails if a source of the library, the programs or the bindings calls what depends on the locale of the process, maps a
+file that others may shorten, or makes an object per thread.
 
     scripts/check_banned_calls.py [ROOT]
 
@@ -52,6 +52,11 @@ BANNED = [
         r"\bFileBytes\s*::\s*map\b|\bmmap(64)?\s*\(|#include <sys/mman\.h>",
         MAPS,
         "call FileBytes::read(), or PartFile::read() for parts of a large file",
+    ),
+    (
+        r"\bthread_local\s+(?!(bool|int|double)\b)",
+        "makes an object per thread, which ends the WebAssembly modules without threads",
+        "pass the object on, or share it behind a mutex",
     ),
 ]
 # Who may map, and why.

@@ -33,11 +33,11 @@ commands() { # program, folder
   "$1" render "$2/h.svt" -o "$2/names.png" --size 320x200 --names class=BuildingRoom
   "$1" section "$2/h.svt" --plane z=1.2 -o "$2/plan.svg"
   "$1" query "$2/h.svt" class=BuildingRoom --csv >"$2/rooms.csv"
-  "$1" convert "$2/h.svt" "$2/h.nrrd"
+  for ending in nrrd vdb glb vox; do "$1" convert "$2/h.svt" "$2/h.$ending"; done
 } 2>>log
 commands node_modules/.bin/svt 'my models' >>log || { cat log >&2; exit 1; }
 commands "$svt" there >>log || { cat log >&2; exit 1; }
-for file in 'h 1.gml' h.svt h.png names.png plan.svg rooms.csv h.nrrd; do cmp "my models/$file" "there/$file"; done
+for file in 'h 1.gml' h.svt h.png names.png plan.svg rooms.csv h.nrrd h.vdb h.glb h.vox; do cmp "my models/$file" "there/$file"; done
 node_modules/.bin/svt publish 'my models/h.svt' -o site >>log
 [ -f site/index.html ] && cmp site/models/h.svt there/h.svt
 # Errors end as those of the program do.

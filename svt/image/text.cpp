@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -70,26 +71,32 @@ std::vector<char32_t> lettersOf(std::string_view text) {
     return letters;
 }
 
-// The advances of letters that a thread has measured. Sheets measure the same letters in thousands of texts, and
-// opening the font takes longer than all of them.
-class MeasuredLetters {
+// The advances of letters by size. Sheets measure the same letters in thousands of texts, and opening the font takes
+// longer than all of them.
+class Advances {
 public:
-    explicit MeasuredLetters(double height) : height_(height), size_(pixelsOf(height)) {}
-
-    double advanceOf(char32_t letter) {
-        constexpr std::size_t kMostLetters = 4096;
-        thread_local std::unordered_map<std::uint64_t, double> known;  // by size and letter
-        const std::uint64_t key = std::uint64_t{size_} << 32 | letter;
-        if (const auto found = known.find(key); found != known.end()) return found->second;
-        if (!font_) font_.emplace(height_);
-        if (known.size() >= kMostLetters) known.clear();
-        return known[key] = font_->advanceOf(letter);
+    double widthOf(std::string_view text, double height) {
+        const FT_UInt size = pixelsOf(height);
+        std::optional<Font> font;
+        double width = 0;
+        const std::lock_guard lock(inUse_);
+        for (const char32_t letter : lettersOf(text)) {
+            const std::uint64_t key = std::uint64_t{size} << 32 | letter;
+            auto found = known_.find(key);
+            if (found == known_.end()) {
+                if (!font) font.emplace(height);
+                if (known_.size() >= kMostLetters) known_.clear();
+                found = known_.emplace(key, font->advanceOf(letter)).first;
+            }
+            width += found->second;
+        }
+        return width;
     }
 
 private:
-    double height_;
-    FT_UInt size_;
-    std::optional<Font> font_;
+    static constexpr std::size_t kMostLetters = 4096;
+    std::mutex inUse_;
+    std::unordered_map<std::uint64_t, double> known_;
 };
 
 bool isIn(const Image<Rgba8>& image, std::int32_t x, std::int32_t y) {
@@ -171,10 +178,8 @@ std::string missingLetters(std::string_view text) {
 }
 
 double textWidth(std::string_view text, double height) {
-    MeasuredLetters letters(height);
-    double width = 0;
-    for (const char32_t letter : lettersOf(text)) width += letters.advanceOf(letter);
-    return width;
+    static Advances advances;
+    return advances.widthOf(text, height);
 }
 
 void drawText(Image<Rgba8>& image, double x, double y, std::string_view text, const TextStyle& style) {

@@ -35,6 +35,8 @@ BANNED = [
     "void* memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);",
     "void* memory = mmap64(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);",
     "#include <sys/mman.h>",
+    "thread_local ZlibPacker packer(1);",
+    "thread_local std::vector<int> seen;",
 ]
 ALLOWED = [
     "// std::strtod() depends on the locale\n/* atoi(text) */",
@@ -46,6 +48,7 @@ ALLOWED = [
     'text = fmt::format("{:.3f} {}", x, "L");',
     "// FileBytes::map() maps\nconst auto file = FileBytes::read(path);",
     "std::map<int, int> map(pairs.begin(), pairs.end());",
+    "thread_local bool isInLoop = false;",
 ]
 
 

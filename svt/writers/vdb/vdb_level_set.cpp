@@ -107,6 +107,7 @@ LowerNode lowerNode(const std::vector<float>& block, float background) {
     std::vector<float> tileValues(4096, 0.0f);
     VdbBytes masks;
     LowerNode node;
+    NodeValues nodeValues;
     std::array<float, 512> values{};
     std::size_t number = 0;
     for (std::int32_t x = 0; x < kLeavesAlong; ++x)
@@ -127,10 +128,10 @@ LowerNode lowerNode(const std::vector<float>& block, float background) {
                 children.set(number);
                 appendBytes(masks, active);
                 appendBytes(node.buffers, active);
-                putAllValues(node.buffers, values);
+                nodeValues.putAll(node.buffers, values);
             }
     appendBytes(node.topology, children, tiles);
-    putAllValues(node.topology, tileValues);
+    nodeValues.putAll(node.topology, tileValues);
     node.topology.insert(node.topology.end(), masks.begin(), masks.end());
     return node;
 }
@@ -236,7 +237,7 @@ Result<void> VdbLevelSet::writeUpper(Vec3i upper, const VdbSink& topology, const
             }
     VdbBytes bytes;
     appendBytes(bytes, first * VdbBlocks::kSide, children, tiles);
-    putAllValues(bytes, tileValues);
+    NodeValues().putAll(bytes, tileValues);
     if (topology) SVT_DO(topology(bytes));
     std::vector<float> values(std::size_t{VdbBlocks::kSide} * VdbBlocks::kSide * VdbBlocks::kSide, background_);
     const LowerNode empty = lowerNode(values, background_);

@@ -3,6 +3,7 @@
 /// Building blocks for the nodes of an OpenVDB tree: masks, numbers, values.
 
 #include <svt/core/bytes.hpp>
+#include <svt/core/deflate.hpp>
 
 #include <array>
 #include <cstddef>
@@ -24,11 +25,19 @@ struct NodeMask {
     void set(std::size_t bit) noexcept { words[bit / 64] |= std::uint64_t{1} << (bit % 64); }
 };
 
-/// The active values of a node: a byte that marks all others as background, then the values, compressed by zlib if that
-/// makes them smaller.
-void putValues(VdbBytes& to, std::span<const std::uint32_t> active);
+/// Appends the values of nodes, compressed by zlib if that makes them smaller. Each thread needs its own.
+class NodeValues {
+public:
+    NodeValues();
+    /// The active values of a node: a byte that marks all others as background, then the values.
+    void put(VdbBytes& to, std::span<const std::uint32_t> active);
+    /// All values of a node, active or not.
+    void putAll(VdbBytes& to, std::span<const float> values);
 
-/// All values of a node, active or not, in the same way.
-void putAllValues(VdbBytes& to, std::span<const float> values);
+private:
+    void putPacked(VdbBytes& to, std::int8_t kind, std::span<const std::byte> plain);
+
+    ZlibPacker packer_;
+};
 
 }  // namespace svt::writers

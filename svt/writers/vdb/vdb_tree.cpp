@@ -67,7 +67,7 @@ VdbBytes lowerTopology(const std::vector<std::uint32_t>& block) {
     });
     VdbBytes bytes;
     appendBytes(bytes, children, tiles);
-    putValues(bytes, tileValues);
+    NodeValues().put(bytes, tileValues);
     bytes.insert(bytes.end(), leaves.begin(), leaves.end());
     return bytes;
 }
@@ -75,13 +75,14 @@ VdbBytes lowerTopology(const std::vector<std::uint32_t>& block) {
 /// The leaves of a block: the mask again, and the active values.
 VdbBytes leafBuffers(const std::vector<std::uint32_t>& block) {
     VdbBytes bytes;
+    NodeValues nodeValues;
     std::vector<std::uint32_t> active;
     forEachLeaf(block, [&](std::size_t, const std::array<std::uint32_t, 512>& values, bool isUniform) {
         if (isUniform) return;
         appendBytes(bytes, maskOf(values));
         active.clear();
         std::copy_if(values.begin(), values.end(), std::back_inserter(active), [](std::uint32_t v) { return v != 0; });
-        putValues(bytes, active);
+        nodeValues.put(bytes, active);
     });
     return bytes;
 }
@@ -204,7 +205,7 @@ Result<void> VdbTree::writeUpper(const Upper& upper, const VdbSink& topology, co
     if (!done) return done;
     VdbBytes bytes;
     appendBytes(bytes, upper.first * VdbBlocks::kSide, children, tiles);
-    putValues(bytes, tileValues);
+    NodeValues().put(bytes, tileValues);
     if (topology)
         if (done = topology(bytes); !done) return done;
     std::vector<std::uint32_t> values;
