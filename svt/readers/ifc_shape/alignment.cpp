@@ -169,9 +169,9 @@ bool appendCurved(const IfcFile& file, const SegmentStart& segment, const Turnin
                  step = size / steps;
     Vec3d at = segment.at;
     points.push_back(at);
-    for (double done = 0; done < steps; ++done) {
+    for (std::size_t done = 0; double(done) < steps; ++done) {
         for (const auto& [share, weight] : kGauss) {
-            const double distance = (done + share) * step;
+            const double distance = (double(done) + share) * step;
             const auto [sine, cosine] = sineCosine(first + part.turning.at(part.start + sense * distance));
             at = at + Vec3d{cosine, sine, 0} * (weight * step);
         }
