@@ -85,7 +85,7 @@ class Manual(unittest.TestCase):
         with mock.patch.dict(os.environ, {"SVT_COMMAND": COMMAND}):
             self.run_part("Notebook")
         size = os.path.getsize(path("manual-parts/house.html"))
-        self.assertTrue(2_000_000 < size < 4_000_000, f"the manual states 3 MB, the page has {size}")
+        self.assertTrue(3_500_000 < size < 5_000_000, f"the manual states 4 MB, the page has {size}")
 
     def test_vtk(self):
         names = self.run_part("VTK and PyVista")

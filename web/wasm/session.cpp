@@ -228,9 +228,12 @@ std::optional<Picked> Session::pick(double x, double y) {
     // Label and depth are those at the centre of the pixel.
     const auto ray = render::viewRay(*lastSpec_, volume_.grid, (column + 0.5) / width, (row + 0.5) / height);
     const auto first = firstAt(column, row);
-    if (isSeenThrough(first.label))
-        if (auto behind = behindGlass(ray)) return behind;
-    return pickedAt(first, ray);
+    if (!isSeenThrough(first.label)) return pickedAt(first, ray);
+    auto behind = behindGlass(ray, true);
+    // The air of a room before nothing but glass: the glass is what a person sees.
+    if (behind && model::isSpace(volume_.labels.labels[behind->label].className))
+        if (auto glass = behindGlass(ray, false)) return glass;
+    return behind ? behind : pickedAt(first, ray);
 }
 
 render_gl::PickedPixel Session::firstAt(std::int32_t column, std::int32_t row) {
@@ -247,9 +250,16 @@ bool Session::isSeenThrough(volume::Scalar scalar) const {
 }
 
 // Casts only this ray. Its clips are those of the picture: regions of the picture, such as a lens, are cones in space.
-std::optional<Picked> Session::behindGlass(const render::ViewRay& ray) {
+std::optional<Picked> Session::behindGlass(const render::ViewRay& ray, bool hasSpaces) {
     render::FrameSpec spec = *lastSpec_;
-    for (render::Pass& pass : spec.passes) pass.lines.clear();
+    for (render::Pass& pass : spec.passes) {
+        pass.lines.clear();
+        for (std::size_t scalar = 0; !hasSpaces && scalar < pass.styles.size(); ++scalar) {
+            const std::uint32_t label = scalar < labelOfScalar_.size() ? labelOfScalar_[scalar] : volume::kNoLabel;
+            if (label != volume::kNoLabel && model::isSpace(volume_.labels.labels[label].className))
+                pass.styles[scalar].opacity = 0;
+        }
+    }
     spec.width = spec.height = spec.samplesPerPixel = 1;
     spec.light.ambientOcclusion = 0;
     spec.light.hasShadows = false;

@@ -16,7 +16,7 @@ function run(program, ...words) {
 }
 /** Files that esbuild leaves to the page. */
 const kThreads = ["svt_threads", "svt_view_threads"].flatMap((name) => [`${name}.js`, `${name}.wasm`, `${name}.worker.js`]);
-const kBeside = ["worker.js", "svt_view.wasm", "svt.js", "svt.wasm", ...kThreads, "DejaVuSans.ttf"];
+const kBeside = ["worker.js", "svt_view.wasm", "svt.wasm", ...kThreads, "DejaVuSans.ttf"];
 const kBody = '<svt-viewer id="a" src="/house.svt" section="z>1.6" names="class=BuildingRoom"></svt-viewer>';
 const visitor = new Visitor();
 

@@ -3,6 +3,7 @@
  * makes drawings and sheets; it is loaded when one of them is needed. Both exist with threads, for pages that are isolated
  * from other sites (headers COOP and COEP), and without. All give the same results.
  */
+import createWhole from "../../../../build/web/svt.js";
 import createView, { type SvtModule, type SvtModuleOptions } from "../../../../build/web/svt_view.js";
 import type { EngineError } from "../engine";
 import { kWithoutThreads } from "./protocol";
@@ -12,20 +13,17 @@ export type ModuleKind = "view" | "whole";
 type OnProgress = NonNullable<SvtModuleOptions["onProgress"]>;
 type Create = typeof createView;
 
-/** Files of a module. Its script is not bundled, unless it is the one of a visit: each thread loads the script again. */
+/** Files of a module. Scripts with threads are not bundled: each thread loads the script again. */
 interface Files {
   wasm: URL;
-  script: URL | null;
+  script: URL | Create;
   /** The script of a thread. */
   worker?: [name: string, address: URL];
 }
 
 const kPlain: Record<ModuleKind, Files> = {
-  view: { wasm: new URL("../../../../build/web/svt_view.wasm", import.meta.url), script: null },
-  whole: {
-    wasm: new URL("../../../../build/web/svt.wasm", import.meta.url),
-    script: new URL("../../../../build/web/svt.js", import.meta.url),
-  },
+  view: { wasm: new URL("../../../../build/web/svt_view.wasm", import.meta.url), script: createView },
+  whole: { wasm: new URL("../../../../build/web/svt.wasm", import.meta.url), script: createWhole },
 };
 const kThreads: Record<ModuleKind, Files> = {
   view: {
@@ -62,7 +60,8 @@ async function load(files: Files): Promise<Begun> {
   // Compiles while the script is still loading.
   const compiling = compiled(files.wasm);
   compiling.catch(() => undefined);
-  const create = files.script ? ((await import(/* @vite-ignore */ files.script.href)) as { default: Create }).default : createView;
+  const { script } = files;
+  const create = script instanceof URL ? ((await import(/* @vite-ignore */ script.href)) as { default: Create }).default : script;
   return { files, wasm: await compiling, create };
 }
 
@@ -114,7 +113,7 @@ function made({ files, wasm, create }: Begun, onProgress: OnProgress): Promise<S
     };
     const { script, worker } = files;
     const ofThreads: SvtModuleOptions = worker
-      ? { mainScriptUrlOrBlob: script!.href, locateFile: (name) => (name === worker[0] ? worker[1].href : name) }
+      ? { mainScriptUrlOrBlob: (script as URL).href, locateFile: (name) => (name === worker[0] ? worker[1].href : name) }
       : {};
     create({ onProgress, ...ofThreads, instantiateWasm }).then(resolve, reject);
   });
