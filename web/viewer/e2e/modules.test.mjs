@@ -35,8 +35,10 @@ function expected() {
 describe("modules", () => {
   it("follow each other, and tools then need no connection", async () => {
     await open();
+    const address = visit.page.url();
+    await visit.page.goto("about:blank");
     const asked = watched();
-    await visit.page.reload();
+    await visit.page.goto(address);
     await visit.firstImage();
     await eventually(async () => assert.deepEqual(asked, ["svt_view", "svt"]));
     await visit.page.waitForLoadState("networkidle");
