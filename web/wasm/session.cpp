@@ -230,7 +230,7 @@ std::optional<Picked> Session::pick(double x, double y) {
     const auto first = firstAt(column, row);
     if (!isSeenThrough(first.label)) return pickedAt(first, ray);
     auto behind = behindGlass(ray, true);
-    // The air of a room before nothing but glass: the glass is what a person sees.
+    // Behind the air of a room is only glass, which is the object that a person sees.
     if (behind && model::isSpace(volume_.labels.labels[behind->label].className))
         if (auto glass = behindGlass(ray, false)) return glass;
     return behind ? behind : pickedAt(first, ray);

@@ -99,7 +99,7 @@ public:
 
     /// \param x, y  fractions of the last picture's width and height
     /// \return the object that a person sees at this position: the first object that hides more than half of everything
-    ///         behind it, else the first object that is no room, else the room; or nothing
+    ///         behind it, else the first object other than a room, else the room; or nothing
     [[nodiscard]] std::optional<Picked> pick(double x, double y);
     /// All intervals along the ray through a position of the last picture, nearest first.
     [[nodiscard]] Result<std::vector<render::LabelInterval>> along(double x, double y);

@@ -23,7 +23,8 @@ constexpr double kCutAbove = 1.1;  // metres above the lowest point
 // The largest standard scale at which a drawing fits.
 double scaleFor(double width, double height, double paperWidth, double paperHeight) {
     constexpr double kSteps[] = {1, 2, 2.5, 5};
-    for (double ten = 10; ten < 1e9; ten *= 10)
+    double ten = 10;
+    for (int power = 1; power < 9; ++power, ten *= 10)
         for (const double step : kSteps) {
             const double scale = step * ten, millimetres = 1000 / scale;
             if (width * millimetres <= paperWidth && height * millimetres <= paperHeight) return scale;

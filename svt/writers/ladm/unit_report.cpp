@@ -92,11 +92,11 @@ private:
     }
 
     void paintTables() const {
-        double left = paintTable(measures(), kPageLeft, 188);
-        left = paintTable(rooms(), kPageLeft, left + 4);
+        const double left = paintTable(measures(), kPageLeft, 188);
+        static_cast<void>(paintTable(rooms(), kPageLeft, left + 4));
         double right = paintTable(owners(), kPageMiddle + 4, 188);
         right = paintTable(otherRights(), kPageMiddle + 4, right + 4);
-        right = paintTable(neighbours(), kPageMiddle + 4, right + 4);
+        static_cast<void>(paintTable(neighbours(), kPageMiddle + 4, right + 4));
         paintSources(284);
     }
 

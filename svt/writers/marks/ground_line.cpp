@@ -32,12 +32,14 @@ void addGround(MarkPath path, MarkShapes& shapes) {
     for (std::size_t n = 0; n + 1 < path.size(); ++n) {
         const PlanePoint a = path[n], b = path[n + 1];
         const double size = std::hypot(b.u - a.u, b.v - a.v);
-        for (; left < size; left += kPitch)
+        while (left < size) {
             for (int stroke = 0; stroke < kStrokes; ++stroke) {
                 const double t = left / size, shift = stroke * kApart;
                 const PlanePoint at{a.u + (b.u - a.u) * t + shift, a.v + (b.v - a.v) * t};
                 shapes.thin.push_back({at, {at.u - kLong, at.v - kLong}});
             }
+            left += kPitch;
+        }
         left -= size;
     }
     shapes.bold.push_back(std::move(path));

@@ -84,9 +84,10 @@ std::optional<PlanePoint> placeBeside(const CutOpening& opening, double radius, 
     constexpr double kShifts[] = {0, 0.35, -0.35, 0.7, -0.7, 1, -1};
     std::optional<PlanePoint> best;
     double least = 1e300;
-    for (double away = kNearest; away <= kFarthest; away += kStep)
+    for (int n = 0; kNearest + n * kStep <= kFarthest; ++n)
         for (const double shift : kShifts)
             for (const double side : {1.0, -1.0}) {
+                const double away = kNearest + n * kStep;
                 const double out = side * (opening.halfDepth + radius + away), by = shift * opening.halfLength;
                 const PlanePoint at{opening.center.u + out * opening.across.u + by * opening.along.u,
                                     opening.center.v + out * opening.across.v + by * opening.along.v};

@@ -117,8 +117,8 @@ void addTravelText(const MarkPath& line, const std::string& text, MarkShapes& sh
     double least = 1e300;
     for (std::size_t n = 0; n < line.size(); ++n)
         for (int turn = 0; turn < 12; ++turn)
-            for (double away = 0; away <= 12; away += 1.5) {
-                const double angle = 2 * std::numbers::pi * turn / 12;
+            for (int step = 0; step <= 8; ++step) {
+                const double angle = 2 * std::numbers::pi * turn / 12, away = 1.5 * step;
                 const PlanePoint at{line[n].u + away * std::cos(angle), line[n].v + away * std::sin(angle)};
                 const FreeSpace::Hits hits = space.hitsOf({{at.u - half, at.v - high}, {at.u + half, at.v + high}});
                 const double cost = away + 10 * hits.lines + 50 * hits.borders + (hits.isTaken ? 500 : 0);

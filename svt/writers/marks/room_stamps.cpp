@@ -113,8 +113,9 @@ private:
         }
         std::optional<PlanePoint> best;
         double least = std::numeric_limits<double>::infinity();
-        for (double away = kNearest; away <= kFarthest && away < least; away += kStep)
+        for (int n = 0; kNearest + n * kStep <= std::min(kFarthest, least); ++n)
             for (const PlanePoint direction : directions) {
+                const double away = kNearest + n * kStep;
                 const PlanePoint at{from.u + away * direction.u, from.v + away * direction.v};
                 const MarkBox box = boxAt(at, extent);
                 if (away >= least || !isAllowed(box) || meets(from, from, box)) continue;
