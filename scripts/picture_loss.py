@@ -11,7 +11,7 @@ lost if the picture of voxels shows that object nowhere within two voxels (at le
   missing   otherwise: the picture shows the background, or something farther away or nearer
   absent    if it is missing, and this object is nowhere in the picture within two voxels, at any depth
 
-All objects are opaque. The last column names the objects that lost most samples. Works with Python alone; svt is
+All objects are opaque. The last column names the objects that lost most samples. Needs only Python and svt:
 build/release/bin/svt, or the program that SVT names.
 """
 import argparse

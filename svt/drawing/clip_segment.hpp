@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// The part of a segment within an upright rectangle of the drawing plane.
+/// A segment and an upright rectangle of the drawing plane: the part within it, and whether they meet.
 
 #include <svt/drawing/section_drawing.hpp>
 
@@ -14,5 +14,8 @@ namespace svt::drawing {
 /// \return nothing if the segment is outside, touches the rectangle at one point only, or has no length
 [[nodiscard]] std::optional<std::pair<PlanePoint, PlanePoint>> clipSegment(PlanePoint a, PlanePoint b, PlanePoint low,
                                                                            PlanePoint high) noexcept;
+
+/// Whether the segment from `a` to `b`, which may be a point, has a point in the closed rectangle from `low` to `high`.
+[[nodiscard]] bool meetsRectangle(PlanePoint a, PlanePoint b, PlanePoint low, PlanePoint high) noexcept;
 
 }  // namespace svt::drawing

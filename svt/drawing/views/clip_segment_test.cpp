@@ -32,5 +32,16 @@ TEST(ClipSegment, IsNothingOutside) {
     EXPECT_TRUE(isOutside({1, 1}, {1, 1}));
 }
 
+TEST(ClipSegment, ARectangleIsMetAtItsBorderToo) {
+    const PlanePoint low{0, 0}, high{4, 2};
+    EXPECT_TRUE(meetsRectangle({-1, 1}, {5, 1}, low, high));
+    EXPECT_TRUE(meetsRectangle({-1, 2}, {5, 2}, low, high));
+    EXPECT_TRUE(meetsRectangle({-1, 1}, {1, -1}, low, high)) << "at a corner";
+    EXPECT_TRUE(meetsRectangle({1, 1}, {1, 1}, low, high)) << "a point";
+    EXPECT_FALSE(meetsRectangle({5, 1}, {5, 1}, low, high));
+    EXPECT_FALSE(meetsRectangle({-1, 3}, {5, 3}, low, high));
+    EXPECT_FALSE(meetsRectangle({-1, 0.5}, {0.5, -1}, low, high)) << "past a corner";
+}
+
 }  // namespace
 }  // namespace svt::drawing

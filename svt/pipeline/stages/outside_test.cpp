@@ -217,12 +217,12 @@ TEST(Outside, KeepsTheSidesOfSheets) {
     SurfaceModel made = gabledHouse(17, 0, true, true);
     made.model.features[made.building].className = "BuildingRoom";
     const BuildOutput room = buildSurfaces(made, 0.1);
-    BuildingModel alone;
-    alone.polygons = made.model.polygons;
-    test::addFeature(alone, "BuildingRoom", "house", model::kNoFeature, made.model.features[made.building].geometries);
+    BuildingModel onlyRoom;
+    onlyRoom.polygons = made.model.polygons;
+    test::addFeature(onlyRoom, "BuildingRoom", "house", model::kNoFeature, made.model.features[made.building].geometries);
     BuildOptions options;
     options.grid = room.volume.grid;
-    const auto output = buildVolume(alone, options);
+    const auto output = buildVolume(onlyRoom, options);
     ASSERT_TRUE(output);
     const auto roomVoxels = [](const BuildOutput& of) { return of.volume.labels.labels[0].voxels; };
     std::uint64_t walls = 0;

@@ -1,5 +1,7 @@
 #include <svt/writers/drawing/name_place.hpp>
 
+#include <svt/drawing/clip_segment.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -20,15 +22,7 @@ struct Rectangle {
 
 // Whether a segment has a point within a rectangle.
 bool meets(const Segment& s, const Rectangle& r) noexcept {
-    double from = 0, to = 1;
-    const auto clip = [&](double start, double change, double low, double high) {
-        if (change == 0) return start >= low && start <= high;
-        const double a = (low - start) / change, b = (high - start) / change;
-        from = std::max(from, std::min(a, b));
-        to = std::min(to, std::max(a, b));
-        return from <= to;
-    };
-    return clip(s.from.u, s.to.u - s.from.u, r.low.u, r.high.u) && clip(s.from.v, s.to.v - s.from.v, r.low.v, r.high.v);
+    return drawing::meetsRectangle(s.from, s.to, r.low, r.high);
 }
 
 void addRing(const drawing::Ring& ring, std::vector<Segment>& segments) {

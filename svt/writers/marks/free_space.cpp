@@ -1,5 +1,6 @@
 #include <svt/writers/marks/free_space.hpp>
 
+#include <svt/drawing/clip_segment.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/writers/canvas/sheet_canvas.hpp>
 #include <svt/writers/drawing/drawing_style.hpp>
@@ -38,15 +39,7 @@ bool overlap(const MarkBox& a, const MarkBox& b) noexcept {
 }  // namespace
 
 bool meets(PlanePoint from, PlanePoint to, const MarkBox& box) noexcept {
-    double begin = 0, end = 1;
-    const auto clip = [&](double start, double change, double low, double high) {
-        if (change == 0) return start >= low && start <= high;
-        const double a = (low - start) / change, b = (high - start) / change;
-        begin = std::max(begin, std::min(a, b));
-        end = std::min(end, std::max(a, b));
-        return begin <= end;
-    };
-    return clip(from.u, to.u - from.u, box.low.u, box.high.u) && clip(from.v, to.v - from.v, box.low.v, box.high.v);
+    return drawing::meetsRectangle(from, to, box.low, box.high);
 }
 
 void FreeSpace::add(PlanePoint from, PlanePoint to, Obstacle kind) {

@@ -14,11 +14,21 @@ namespace {
 using W = SheetWord;
 using render::Hatch;
 
-struct Words {
-    SheetWord word;
+template <class Key>
+struct Term {
+    Key key;
     std::string_view english, german;
 };
-constexpr Words kWords[] = {
+
+template <class Key, std::size_t N>
+std::string_view termOf(const Term<Key> (&terms)[N], Key key, SheetLanguage language) noexcept {
+    const auto* found =
+        std::find_if(std::begin(terms), std::end(terms), [&](const auto& term) { return term.key == key; });
+    if (found == std::end(terms)) return {};
+    return language == SheetLanguage::German ? found->german : found->english;
+}
+
+constexpr Term<SheetWord> kWords[] = {
     {W::Drawing, "Drawing", "Zeichnung"},
     {W::Model, "Model", "Modell"},
     {W::Scale, "Scale", "Maßstab"},
@@ -90,11 +100,7 @@ constexpr Words kWords[] = {
     {W::Sill, "Sill m", "Brüstung m"},
 };
 
-struct HatchWords {
-    Hatch hatch;
-    std::string_view english, german;
-};
-constexpr HatchWords kHatchWords[] = {
+constexpr Term<Hatch> kHatchWords[] = {
     {Hatch::Masonry, "Masonry", "Mauerwerk"},
     {Hatch::Concrete, "Concrete", "Beton"},
     {Hatch::ReinforcedConcrete, "Reinforced concrete", "Stahlbeton"},
@@ -114,18 +120,10 @@ std::string levelName(const drawing::BuildingLevel& level, double datum, SheetLa
 
 }  // namespace
 
-std::string_view sheetWord(SheetWord word, SheetLanguage language) noexcept {
-    const auto* found =
-        std::find_if(std::begin(kWords), std::end(kWords), [&](const Words& words) { return words.word == word; });
-    if (found == std::end(kWords)) return {};
-    return language == SheetLanguage::German ? found->german : found->english;
-}
+std::string_view sheetWord(SheetWord word, SheetLanguage language) noexcept { return termOf(kWords, word, language); }
 
 std::string_view hatchWord(render::Hatch hatch, SheetLanguage language) noexcept {
-    const auto* found = std::find_if(std::begin(kHatchWords), std::end(kHatchWords),
-                                     [&](const HatchWords& words) { return words.hatch == hatch; });
-    if (found == std::end(kHatchWords)) return {};
-    return language == SheetLanguage::German ? found->german : found->english;
+    return termOf(kHatchWords, hatch, language);
 }
 
 std::string elevationText(std::string_view side, SheetLanguage language) {

@@ -134,6 +134,24 @@ describe("A city on the page", () => {
     assert.deepEqual(await inPage("s.view.state.camera"), camera);
   });
 
+  it("has no drawings, and stays when they are asked for", async () => {
+    const server = started(await svtServe(at("town")));
+    await open(server.url);
+    await complete();
+    const codes = await page.evaluate(async () => {
+      const { engine } = document.querySelector("svt-app").session.volume;
+      const codeOf = (answer) =>
+        answer.then(
+          () => "",
+          (error) => `${error.code} ${error.message}`,
+        );
+      return [await codeOf(engine.sheets("en")), await codeOf(engine.drawing("z=1", "svg")), await engine.select("all")];
+    });
+    assert.match(codes[0], /^E904 .*a city has none/);
+    assert.match(codes[1], /^E904 .*a city has none/);
+    assert.ok(codes[2].length > 0, "the city can still be asked");
+  });
+
   it("finds a building by its id with two requests of ids.bin, and tells its properties", async () => {
     const server = started(await serveCity());
     const asked = await open(server.url);

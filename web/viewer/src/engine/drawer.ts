@@ -86,7 +86,13 @@ export class Drawer {
     this.hasFont = false;
     this.isDecided = false;
     if (this.wanted === "webgl2" && this.startGl()) this.kind = "webgl2";
-    if (this.last) (await this.draw(this.last.scene, this.last.width, this.last.height)).bitmap.close();
+    const { last } = this;
+    if (!last) return;
+    try {
+      (await this.draw(last.scene, last.width, last.height)).bitmap.close();
+    } catch (error) {
+      if (!isEngineError(error)) throw error; // the next picture reports it
+    }
   }
 
   /** Called when another volume is opened. */

@@ -4,7 +4,7 @@ import { json, makeCall, needsFont, needsWhole, openFiles } from "./calls";
 import { Drawer } from "./drawer";
 import { isEngineError } from "./errors";
 import { loadModule, loadWhole, prepareWhole } from "./module";
-import type { CityLook, VolumeInfo } from "../engine";
+import type { CityLook, EngineError, VolumeInfo } from "../engine";
 import type { Answer, Calls, CityNeeds, Request } from "./protocol";
 
 /** Idle time of the page before longer work starts. */
@@ -37,9 +37,10 @@ function drawerOf(svt: SvtModule): Drawer {
 
 /** The whole module with the open volume in place of the module that draws only. */
 async function continueInWhole(): Promise<void> {
+  if (!opened) throw { code: "E904", message: "drawings and sheets need one open volume; a city has none" } satisfies EngineError;
   const svt = await loadWhole(onProgress);
-  if (opened) openFiles(svt, opened.files, opened.options);
-  if (opened?.owners) makeCall(svt, "owners", opened.owners);
+  openFiles(svt, opened.files, opened.options);
+  if (opened.owners) makeCall(svt, "owners", opened.owners);
   await adopt(svt);
 }
 
@@ -95,6 +96,7 @@ async function answer(request: Request): Promise<void> {
       if ("needs" in look) return post({ id, result: look });
       if (args[0]) drawerOf(svt).forgetPicture();
       if (look.info) cityInfo = look.info;
+      opened = null;
       return post({ id, result: look.info && args[4].isMoving ? { ...look, info: { ...look.info, features: [] } } : look });
     }
     default: {
