@@ -219,7 +219,8 @@ TEST(Outside, KeepsTheSidesOfSheets) {
     const BuildOutput room = buildSurfaces(made, 0.1);
     BuildingModel onlyRoom;
     onlyRoom.polygons = made.model.polygons;
-    test::addFeature(onlyRoom, "BuildingRoom", "house", model::kNoFeature, made.model.features[made.building].geometries);
+    test::addFeature(onlyRoom, "BuildingRoom", "house", model::kNoFeature,
+                     made.model.features[made.building].geometries);
     BuildOptions options;
     options.grid = room.volume.grid;
     const auto output = buildVolume(onlyRoom, options);
