@@ -55,8 +55,4 @@ private:
     std::vector<std::uint32_t> firstFace_;  // of l: triangles [firstFace_[l], firstFace_[l + 1])
 };
 
-/// The faces of all footprints, with the points that they use: enough for PlanFaces to give the same footprints of
-/// buildings as with all faces. Cost: that of PlanFaces for all labels.
-[[nodiscard]] volume::VectorParts footprintFaces(const volume::LabelTable& labels, const volume::VectorParts& vectors);
-
 }  // namespace svt::analyze

@@ -16,7 +16,6 @@ namespace svt::pipeline {
 struct VectorChoice {
     bool edges = false;       ///< feature edges, see mesh::findFeatureEdges()
     bool meshes = false;      ///< all triangles
-    bool footprints = false;  ///< also keep SemanticVolume::footprints where the volume has no meshes; optional
     bool isRequired = true;   ///< false: nothing is stored if points are too far away
     [[nodiscard]] bool isNone() const noexcept { return !edges && !meshes; }
 };

@@ -22,8 +22,8 @@ struct SemanticVolume {
     std::string source;               ///< file name (without folder) of the model
     VectorParts vectors{};            ///< empty unless requested
     std::vector<FacePlane> planes{};  ///< planes of the model's faces, largest area first; empty if unknown
-    /// Triangles that give the outlines in plan, see analyze::footprintFaces(). For volumes without meshes, such as the
-    /// tiles of a city; else empty.
+    /// Triangles that give the outlines in plan, see analyze::PlanFaces. For volumes without meshes, such as the tiles of
+    /// a city; else empty.
     VectorParts footprints{};
 };
 

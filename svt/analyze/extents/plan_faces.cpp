@@ -95,33 +95,4 @@ PlanParts PlanFaces::of(std::span<const std::uint32_t> extent, PlanOutline outli
     return parts;
 }
 
-volume::VectorParts footprintFaces(const volume::LabelTable& table, const volume::VectorParts& vectors) {
-    const PlanFaces faces(table, vectors);
-    std::vector<char> isKept(vectors.triangles.size(), 0);
-    std::vector<std::uint32_t> extent;
-    for (std::uint32_t l = 0; l < table.labels.size(); ++l) {
-        if (table.labels[l].parent != volume::kNoLabel) continue;
-        extent.clear();
-        for (std::uint32_t below = l; below < table.labels[l].subtreeEnd; ++below) extent.push_back(below);
-        for (const std::uint32_t f : faces.of(extent, PlanOutline::Footprint).faces) isKept[f] = 1;
-    }
-    volume::VectorParts kept;
-    kept.unit = vectors.unit;
-    constexpr std::uint32_t kUnused = 0xFFFFFFFFu;
-    std::vector<std::uint32_t> newOf(vectors.points.size(), kUnused);
-    for (std::size_t f = 0; f < vectors.triangles.size(); ++f) {
-        if (isKept[f] == 0) continue;
-        volume::VectorParts::Triangle triangle = vectors.triangles[f];
-        for (std::uint32_t& corner : triangle.corners) {
-            if (newOf[corner] == kUnused) {
-                newOf[corner] = static_cast<std::uint32_t>(kept.points.size());
-                kept.points.push_back(vectors.points[corner]);
-            }
-            corner = newOf[corner];
-        }
-        kept.triangles.push_back(triangle);
-    }
-    return kept;
-}
-
 }  // namespace svt::analyze

@@ -1,6 +1,5 @@
 #include <svt/pipeline/build_volume.hpp>
 
-#include <svt/analyze/plan_faces.hpp>
 #include <svt/analyze/solid_overlaps.hpp>
 #include <svt/core/machine.hpp>
 #include <svt/mesh/thickness.hpp>
@@ -193,11 +192,6 @@ Result<BuildOutput> buildFrom(model::BuildingModel& model, const BuildOptions& o
     SVT_TRY(vectors, makeVectorParts(meshes, labelled.labelOfObject, grid, options.vectors,
                                      {model.lines, labelled.labelOfLine}, options.threads));
     output.volume.vectors = std::move(*vectors);
-    if (options.vectors.footprints && !options.vectors.meshes) {
-        SVT_TRY(all, makeVectorParts(meshes, labelled.labelOfObject, grid, {.meshes = true, .isRequired = false}, {},
-                                     options.threads));
-        output.volume.footprints = analyze::footprintFaces(labelled.table, *all);
-    }
     Progress::tell(options.progress, "pack", 0.7);
     output.volume.planes = voxelize::findFacePlanes(meshes, grid);
     Progress::tell(options.progress, "pack", 1);
