@@ -14,9 +14,9 @@ namespace svt::pipeline {
 
 /// The parts to store.
 struct VectorChoice {
-    bool edges = false;       ///< feature edges, see mesh::findFeatureEdges()
-    bool meshes = false;      ///< all triangles
-    bool isRequired = true;   ///< false: nothing is stored if points are too far away
+    bool edges = false;      ///< feature edges, see mesh::findFeatureEdges()
+    bool meshes = false;     ///< all triangles
+    bool isRequired = true;  ///< false: nothing is stored if points are too far away
     [[nodiscard]] bool isNone() const noexcept { return !edges && !meshes; }
 };
 
