@@ -37,7 +37,7 @@ function drawerOf(svt: SvtModule): Drawer {
 
 /** The whole module with the open volume in place of the module that draws only. */
 async function continueInWhole(): Promise<void> {
-  if (!opened) throw { code: "E904", message: "drawings and sheets need one open volume; a city has none" } satisfies EngineError;
+  if (!opened) throw { code: "E904", message: "drawings and sheets need an open volume, not a city" } satisfies EngineError;
   const svt = await loadWhole(onProgress);
   openFiles(svt, opened.files, opened.options);
   if (opened.owners) makeCall(svt, "owners", opened.owners);
