@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <span>
 
 namespace svt::cli {
 namespace {
@@ -24,8 +25,9 @@ bool isApart(image::Rgba8 a, image::Rgba8 b) {
 
 Result<TestVolume> buildTestVolume() {
     SVT_TRY(text, samples::writeSample(samples::SampleKind::House, samples::SampleFormat::CityGml3, {}));
+    const std::span<const char> document(*text);
     const auto start = Clock::now();
-    SVT_TRY(model, readers::readModel(std::as_bytes(std::span(text->data(), text->size())), "house.gml"));
+    SVT_TRY(model, readers::readModel(std::as_bytes(document), "house.gml"));
     pipeline::BuildOptions options;
     options.spacing = Vec3d{0.2, 0.2, 0.2};
     SVT_TRY(output, pipeline::buildVolume(*model, options));

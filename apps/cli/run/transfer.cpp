@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <string_view>
 #include <system_error>
 
 namespace svt::cli {
@@ -278,7 +279,8 @@ Result<void> Transfer::deliver() const {
     SVT_TRY(file, PartFile::open(output_));
     for (std::uint64_t at = 0; at < file->size(); at += kPieceBytes) {
         SVT_TRY(piece, file->readAll(at, kPieceBytes));
-        if (std::fwrite(piece->data(), 1, piece->size(), stdout) != piece->size())
+        const std::string_view bytes = *piece;
+        if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size())
             throw std::system_error(errno, std::generic_category());
     }
     if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category());

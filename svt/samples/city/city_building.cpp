@@ -40,7 +40,8 @@ Lot lotOf(const CitySampleOptions& options, std::int64_t column, std::int64_t ro
     for (std::int64_t& w : width) sum += w = draw.between(7'000, 14'000);
     std::int64_t west = column * (kBlockWidth + kStreet);
     for (std::int64_t n = 0; n < kLotsOfRow; ++n) {
-        const std::int64_t w = width[static_cast<std::size_t>(n)] * kBlockWidth / sum / 10 * 10;
+        const std::int64_t w =
+            width[static_cast<std::size_t>(n)] * kBlockWidth / std::max<std::int64_t>(sum, 1) / 10 * 10;
         if (n == lot % kLotsOfRow) {
             result.west = west;
             result.east = west + w;
