@@ -40,7 +40,7 @@ struct PictureTriangle {
     Vec3d normal;                     ///< unit length, outwards
     double left, top, right, bottom;  ///< its bounds in the picture, pixels
     LinearStyle style;
-    double opacity;
+    double opacity;  ///< share of light that this face stops
 };
 
 /// Shapes of one pass, binned into small squares of the picture.
@@ -138,7 +138,7 @@ private:
     void addLines(const Pass& pass, const FrameSpec& spec, const CameraRays& rays, const volume::Grid& grid,
                   const Clipper& clipper);
     void addLine(Vec3d from, Vec3d to, const CameraRays& rays, double nearest);
-    void addTriangles(const Pass& pass, const FrameSpec& spec, const CameraRays& rays, double nearest);
+    void addTriangles(const Pass& pass, const FrameSpec& spec, const CameraRays& rays, double nearest, double spacing);
     [[nodiscard]] Result<void> sortIntoTiles(int threads);
     void sortIntoSquares(Tile& tile, std::int32_t tileX, std::int32_t tileY, std::size_t most) const;
     [[nodiscard]] std::pair<double, double> spanOf(const PictureLine& line, double top, double bottom) const noexcept;

@@ -44,8 +44,10 @@ struct LineSet {
 };
 
 /// A triangle of a mesh, world space, metres; visible from both sides. It has the style of its scalar: opacity 1 is an
-/// opaque surface, opacity o in (0, 1) a pane that stops o of the light, 0 hides it. Where it is the first thing that a
-/// ray meets, label, depth and normal of the picture are its own.
+/// opaque surface, 0 hides it. An opacity in (0, 1) is that of a metre, as for voxels: two faces of a closed mesh stop
+/// the light that its mean thickness stops. This is twice the volume over the area, at least the largest spacing. A face
+/// of an open mesh stops the light of one spacing. Where a triangle is the first thing that a ray meets, label, depth and
+/// normal of the picture are its own.
 ///
 /// A pass does not draw the voxels of objects (FrameSpec::objectOfScalar) that have triangles in it. Where a clip cuts
 /// a closed mesh open, its cap is drawn. Nothing is drawn outside the volume's voxels.

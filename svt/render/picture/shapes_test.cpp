@@ -93,7 +93,7 @@ TEST(Lines, AreTintedByWhatLiesBeforeThem) {
     const image::Rgba8 seen = cast(volume, spec).color.at(40, 40);
     // Lines lie 1.5 voxels and twice the width in pixels before their place.
     const double length = 1.15 - 0.15 - 4 * 0.5 * 0.05, through = std::pow(0.6, length), behind = std::pow(0.6, 2.0);
-    // The glass alone before the line, as a share of that before the wall.
+    // The picture of only the glass before the line, as a share of the picture with the wall behind it.
     FrameSpec glass = frontOf({kGlass, {{0, 0, 0}, 1}});
     glass.light = spec.light;
     const double color = luminance(cast(volume, glass).color.at(40, 40));
@@ -256,8 +256,34 @@ TEST(Meshes, OfGlassArePanes) {
     spec.light = {.key = 0, .ambient = 0, .ambientOcclusion = 0};
     spec.background = {{0, 0, 0}, {0, 0, 0}, 1};
     spec.passes[0].triangles = boxTriangles(kChest.min, kChest.max, 2);
-    // Two panes stop three quarters; in the dark half of the colour is left.
-    EXPECT_NEAR(luminance(cast(volume, spec).color.at(30, 50)), 0.75 * 0.5, 0.01);
+    // The mean thickness is 2 x 1.44 m3 / 7.68 m2; in the dark half of the colour is left.
+    EXPECT_NEAR(luminance(cast(volume, spec).color.at(30, 50)), (1 - std::pow(0.5, 0.375)) * 0.5, 0.01);
+}
+
+// The opacity of a material is stored per metre, so that of a thin pane is nearly 1.
+TEST(Meshes, OfAThinPaneStopTheLightOfItsVoxels) {
+    const auto isPane = [](std::int32_t i, std::int32_t j, std::int32_t k) {
+        return i >= 10 && i < 30 && j == 15 && k >= 10 && k < 30;
+    };
+    const TestVolume volume =
+        makeVolume({40, 40, 40}, {0.1, 0.1, 0.1}, [&](std::int32_t i, std::int32_t j, std::int32_t k) {
+            return j >= 30 ? 2u : isPane(i, j, k) ? 3u : 1u;
+        });
+    const float perMetre = 1 - float(std::pow(0.8, 10));  // a spacing stops a fifth
+    FrameSpec spec = frontOf({{{0, 0, 0}, 0}, {{1, 1, 1}, 1}, {{0, 0, 0}, perMetre}});
+    spec.light.ambientOcclusion = 0;
+    const auto seen = [&] { return luminance(cast(volume, spec).color.at(40, 40)); };
+    const double voxels = seen();
+    spec.passes[0].triangles = boxTriangles({1, 1.5, 1}, {3, 1.504, 3}, 3);
+    const double mesh = seen();
+    const auto& box = spec.passes[0].triangles;
+    spec.passes[0].triangles = {box[4], box[5]};  // a sheet: the front
+    const double sheet = seen();
+    spec.passes[0].styles[3].opacity = 0;
+    const double bare = seen();
+    EXPECT_NEAR(voxels, 0.8 * bare, 0.01);
+    EXPECT_NEAR(mesh, 0.8 * bare, 0.01);
+    EXPECT_NEAR(sheet, 0.8 * bare, 0.01);
 }
 
 // A fan whose edges pass through the middles of pixels, and the same plate of two triangles.

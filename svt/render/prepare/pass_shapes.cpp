@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <unordered_set>
 
 namespace svt::render {
@@ -23,6 +24,58 @@ constexpr std::size_t kMaxEntries = std::size_t{1} << 26;
 bool isOutside(double x, double y, double dx, double dy, double middleX, double middleY, double halfX, double halfY) {
     return std::abs(dx * (middleY - y) - dy * (middleX - x)) > std::abs(dx) * halfY + std::abs(dy) * halfX;
 }
+
+// Totals of the triangles of an object.
+struct MeshTotals {
+    double area = 0, volume = 0;  // m2, m3
+    Vec3d turn;                   // sum of area vectors: zero for a closed mesh
+
+    // The length of the way through matter that one face stands for, metres. A ray meets a body twice. Bodies thinner
+    // than a sample have the opacity of one that is as thick as a sample.
+    [[nodiscard]] double depthOfFace(double spacing) const noexcept {
+        constexpr double kClosed = 1e-4;
+        const bool isClosed = length(turn) < kClosed * area && volume > 0;
+        return isClosed ? 0.5 * std::max(2 * volume / area, spacing) : spacing;
+    }
+};
+
+// The share of light that a face of each translucent object stops: opacities are per metre.
+class FaceOpacities {
+public:
+    FaceOpacities(const Pass& pass, std::span<const std::uint32_t> objectOfScalar, double spacing)
+        : pass_(pass), objectOfScalar_(objectOfScalar), spacing_(spacing) {
+        const Vec3d base = pass.triangles.front().corners[0];
+        for (const MeshTriangle& triangle : pass.triangles) {
+            if (!isTranslucent(triangle.scalar)) continue;
+            const Vec3d a = triangle.corners[0] - base, b = triangle.corners[1] - base, c = triangle.corners[2] - base;
+            const Vec3d across = cross(b - a, c - a) * 0.5;
+            MeshTotals& totals = totals_[objectOf(triangle.scalar)];
+            totals.area += length(across);
+            totals.volume += dot(a, across) / 3;
+            totals.turn = totals.turn + across;
+        }
+    }
+
+    [[nodiscard]] double of(volume::Scalar scalar) const {
+        const double perMetre = scalar < pass_.styles.size() ? double(pass_.styles[scalar].opacity) : 0;
+        if (!isTranslucent(scalar)) return perMetre;
+        const double depth = totals_.at(objectOf(scalar)).depthOfFace(spacing_);
+        return -std::expm1(depth * std::log1p(-perMetre));
+    }
+
+private:
+    [[nodiscard]] bool isTranslucent(volume::Scalar scalar) const noexcept {
+        return scalar < pass_.styles.size() && pass_.styles[scalar].opacity > 0 && pass_.styles[scalar].opacity < 1;
+    }
+    [[nodiscard]] std::uint32_t objectOf(volume::Scalar scalar) const noexcept {
+        return scalar < objectOfScalar_.size() ? objectOfScalar_[scalar] : scalar;
+    }
+
+    const Pass& pass_;
+    std::span<const std::uint32_t> objectOfScalar_;
+    double spacing_;
+    std::unordered_map<std::uint32_t, MeshTotals> totals_;
+};
 
 }  // namespace
 
@@ -57,7 +110,8 @@ Result<PassShapes> PassShapes::make(const Pass& pass, const FrameSpec& spec, con
         shapes.reach_ = std::max(shapes.reach_, half + 0.5);
     }
     shapes.addLines(pass, spec, rays, grid, clipper);
-    shapes.addTriangles(pass, spec, rays, nearest);
+    const Vec3d spacing = grid.spacing();
+    shapes.addTriangles(pass, spec, rays, nearest, std::max({spacing.x, spacing.y, spacing.z}));
     if (shapes.lines_.empty() && shapes.triangles_.empty()) return PassShapes();
     SVT_DO(shapes.sortIntoTiles(threads));
     return shapes;
@@ -116,8 +170,10 @@ void PassShapes::addLine(Vec3d from, Vec3d to, const CameraRays& rays, double ne
     if (std::isfinite(line.x) && std::isfinite(line.y) && std::isfinite(squared)) lines_.push_back(line);
 }
 
-void PassShapes::addTriangles(const Pass& pass, const FrameSpec& spec, const CameraRays& rays, double nearest) {
+void PassShapes::addTriangles(const Pass& pass, const FrameSpec& spec, const CameraRays& rays, double nearest,
+                              double spacing) {
     if (pass.triangles.empty()) return;
+    const FaceOpacities opacities(pass, spec.objectOfScalar, spacing);
     const PassTable styles(pass, spec.objectOfScalar, pass.styles.size());
     for (const MeshTriangle& source : pass.triangles) {
         const LinearStyle& style = styles[source.scalar];
@@ -128,7 +184,7 @@ void PassShapes::addTriangles(const Pass& pass, const FrameSpec& spec, const Cam
         if (!(length(across) > 0)) continue;
         triangle.normal = normalized(across);
         triangle.style = style;
-        triangle.opacity = double(pass.styles[source.scalar].opacity);
+        triangle.opacity = opacities.of(source.scalar);
         std::array<double, 6> outline{};
         int behind = 0;
         for (std::size_t c = 0; c < 3; ++c) {
