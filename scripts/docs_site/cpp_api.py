@@ -83,6 +83,11 @@ def _changed(html: str) -> str:
         html = pattern.sub(replacement, html)
     if 'name="nested-classes"' not in html:  # private ones, which have no list
         html = re.sub(r'<a href="#nested-classes">Classes</a> &#124;\s*', "", html)
+    if "<h1" not in html:  # indexes begin with a heading of level 3
+        title = re.search(r"<title>(.*?)(?: - SVT C\+\+ API)?</title>", html)
+        heading = f'<h1 class="title">{title[1]}</h1>' if title else ""
+        html = html.replace('<div class="contents">', f'<div class="contents">\n{heading}', 1)
+        html = re.sub(r"(</?)h3>", r"\1h2>", html)
     return html
 
 

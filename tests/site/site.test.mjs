@@ -27,8 +27,8 @@ function pagesIn(folder = "") {
 /** Pages of Doxygen: the lists, and a part of the others, which have the same parts. */
 function pagesOfCpp() {
   const all = readdirSync(join(site, "cpp")).filter((name) => name.endsWith(".html") && !name.startsWith("search"));
-  const lists = ["index.html", "annotated.html", "files.html", "namespaces.html", "classes.html"];
-  return [...lists, ...all.filter((_, number) => number % 150 === 0)].map((name) => `cpp/${name}`);
+  const lists = ["index", "annotated", "files", "namespaces", "classes", "functions", "functions_vars", "globals", "namespacemembers"];
+  return [...lists.map((name) => `${name}.html`), ...all.filter((_, number) => number % 150 === 0)].map((name) => `cpp/${name}`);
 }
 
 /** Calls work(item, page) for all items, with several pages at once. */
