@@ -63,6 +63,7 @@ struct TilesetWriteOptions {
     std::optional<Vec3d> place;
     std::optional<double> lift;  ///< added to heights, metres; unset: nothing (see globeHeights())
     bool hasVoxels = false;      ///< voxels by the draft extensions instead of surfaces
+    bool isCompressed = false;   ///< surfaces by EXT_meshopt_compression
 };
 struct VdbWriteOptions {
     bool hasLevelSets = false;  ///< each class as signed distances instead of a fog volume

@@ -31,7 +31,12 @@ function glbOf(bytes) {
 function strings(json, binary, name) {
   const table = json.extensions.EXT_structural_metadata.propertyTables[0];
   const { values, stringOffsets, stringOffsetType } = table.properties[name];
+  const choices = json.extensions.EXT_structural_metadata.schema.enums?.[name];
   const view = (n) => binary.subarray(json.bufferViews[n].byteOffset, json.bufferViews[n].byteOffset + json.bufferViews[n].byteLength);
+  if (choices) {
+    const number = (n) => (choices.valueType === "UINT8" ? view(values).readUInt8(n) : view(values).readUInt16LE(2 * n));
+    return Array.from({ length: table.count }, (_, n) => choices.values[number(n)].name);
+  }
   const offset = (n) => (stringOffsetType === "UINT16" ? view(stringOffsets).readUInt16LE(2 * n) : view(stringOffsets).readUInt32LE(4 * n));
   return Array.from({ length: table.count }, (_, n) =>
     view(values)

@@ -476,6 +476,12 @@ def tileset(path):
                 offsets, all_text = np.frombuffer(view(property["stringOffsets"]), size), view(property["values"])
                 strings[name] = [all_text[a:b].decode() for a, b in zip(offsets, offsets[1:])]
                 assert len(strings[name]) == table["count"]
+            elif name in meta["schema"].get("enums", {}):
+                told = meta["schema"]["enums"][name]
+                numbers = np.frombuffer(view(property["values"]), {"UINT8": "u1", "UINT16": "<u2"}[told["valueType"]])
+                names = {choice["value"]: choice["name"] for choice in told["values"]}
+                strings[name] = [names[int(number)] for number in numbers]
+                assert len(strings[name]) == table["count"]
         volumes = np.frombuffer(view(table["properties"]["volume"]["values"]), "<f8")
         print(strings["id"], strings["name"], volumes.tolist())
         ids += strings["id"]

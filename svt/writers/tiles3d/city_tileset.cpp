@@ -6,6 +6,7 @@
 #include <svt/writers/dense/new_folder.hpp>
 #include <svt/writers/gltf/label_surface.hpp>
 #include <svt/writers/gltf/sheet_surfaces.hpp>
+#include <svt/writers/gltf/straight_points.hpp>
 #include <svt/writers/gltf/surface_positions.hpp>
 #include <svt/writers/labels/label_looks.hpp>
 #include <svt/writers/tiles3d/globe_patch.hpp>
@@ -69,6 +70,7 @@ SheetSurfaces outsideSheets(const volume::SemanticVolume& volume, MeshChoice cho
         kept.surfaces.push_back(std::move(all.surfaces[s]));
         kept.positions.push_back(std::move(all.positions[s]));
     }
+    dropStraightPoints(kept);
     return kept;
 }
 
@@ -103,8 +105,9 @@ nlohmann::ordered_json tableOf(const std::vector<Building>& buildings, bool hasA
     }
     PropertyTable table(buffer, buildings.size());
     table.strings("id", "id of the building in the model; of coarse content the classes that stand there", ids);
-    table.strings("name", "name of the building, may be empty", names);
-    table.strings("class", "class of CityGML", classes);
+    if (std::any_of(names.begin(), names.end(), [](const std::string& name) { return !name.empty(); }))
+        table.strings("name", "name of the building, may be empty", names);
+    table.names("class", "class of CityGML", classes);
     table.knownNumbers("volume", "cubic metres", volumes);
     table.numbers("height", "metres from the lowest to the highest point", heights);
     table.numbers("lowest", "metres above datum", lowest);
@@ -134,10 +137,9 @@ public:
         made.hasVoxels = content.hasVoxels;
         if (content.mesh.indices.empty()) return made;
         const double mostStep = std::max({kFinestStep, error / 16, cell / 16});
-        SVT_TRY(glb, makeTileGlb(
-                         content.mesh, content.buildings.size(),
-                         [&](GltfBuffer& buffer) { return tableOf(content.buildings, error == 0, buffer); },
-                         content.origin, mostStep));
+        SVT_TRY(glb, makeTileGlb(content.mesh, content.buildings.size(),
+                                 [&](GltfBuffer& buffer) { return tableOf(content.buildings, error == 0, buffer); },
+                                 content.origin, {mostStep, frame_.write.tileset.isCompressed}));
         made.glb = std::move(*glb);
         return made;
     }

@@ -5,9 +5,11 @@
 #include <svt/analyze/selection.hpp>
 #include <svt/writers/dense/sample_stream.hpp>
 #include <svt/writers/gltf/sheet_surfaces.hpp>
+#include <svt/writers/gltf/straight_points.hpp>
 #include <svt/writers/tiles3d/property_table.hpp>
 #include <svt/writers/tiles3d/tile_glb.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace svt::writers {
@@ -45,10 +47,13 @@ GltfJson metadataOf(const LabelHulls& hulls, std::size_t begin, std::size_t end,
     }
     PropertyTable table(buffer, end - begin);
     table.strings("id", "id of the feature in the model", ids);
-    table.strings("name", "name of the feature, may be empty", names);
-    table.strings("class", "class of CityGML", classes);
-    table.strings("parent", "id of the feature that it is a part of", parents);
-    table.strings("storey", "name of its storey, may be empty", storeys);
+    const auto hasAny = [](const std::vector<std::string>& texts) {
+        return std::any_of(texts.begin(), texts.end(), [](const std::string& text) { return !text.empty(); });
+    };
+    if (hasAny(names)) table.strings("name", "name of the feature, may be empty", names);
+    table.names("class", "class of CityGML", classes);
+    table.names("parent", "id of the feature that it is a part of", parents);
+    if (hasAny(storeys)) table.names("storey", "name of its storey, may be empty", storeys);
     table.knownNumbers("volume", "cubic metres", volumes);
     table.numbers("firstScalar", "first value of its voxels in the volume", firsts);
     table.numbers("scalarCount", "number of values of its voxels", counts);
@@ -62,6 +67,7 @@ Result<LabelHulls> makeTileHulls(const volume::SemanticVolume& volume, MeshChoic
                                  const VolumeWriteOptions& options) {
     SVT_DO(checkDimension(volume.grid, volume.columns));
     SheetSurfaces sheets = sheetSurfaces(volume, choice);
+    dropStraightPoints(sheets);
     SVT_TRY(surfaces, labelSurfaces(volume.columns, withoutSheets(volume.labels.labelOfScalar(), volume.labels, sheets),
                                     {std::uint64_t{1} << 27, options.threads, options.progress}));
     if (surfaces->empty() && sheets.surfaces.empty())
@@ -107,13 +113,13 @@ Box3d boxOfHulls(const LabelHulls& hulls, std::size_t begin, std::size_t end) {
 }
 
 Result<std::string> makeFeatureGlb(const LabelHulls& hulls, std::size_t begin, std::size_t end,
-                                   const FeatureTexts& texts) {
+                                   const FeatureTexts& texts, bool isCompressed) {
     TileMesh mesh;
     mesh.isDoubleSided = hulls.hasMeshes;
     for (std::size_t s = begin; s < end; ++s) appendSurface(hulls, s, static_cast<std::uint32_t>(s - begin), mesh);
-    return makeTileGlb(
-        mesh, end - begin, [&](GltfBuffer& buffer) { return metadataOf(hulls, begin, end, texts, buffer); }, {},
-        kFinestStep);
+    return makeTileGlb(mesh, end - begin,
+                       [&](GltfBuffer& buffer) { return metadataOf(hulls, begin, end, texts, buffer); }, {},
+                       {kFinestStep, isCompressed});
 }
 
 }  // namespace svt::writers

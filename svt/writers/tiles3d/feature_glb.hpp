@@ -27,9 +27,10 @@ struct FeatureTexts {
 
 /// Surfaces [begin, end) as a .glb, y up, metres from the lower corner of the grid; feature n is surface begin + n.
 /// Shading is flat: a vertex has the normal of its face, and is stored once per face.
+/// \param isCompressed  by EXT_meshopt_compression
 /// \return the file, or GridTooLarge if it would reach the limit of 4 GiB
 [[nodiscard]] Result<std::string> makeFeatureGlb(const LabelHulls& hulls, std::size_t begin, std::size_t end,
-                                                 const FeatureTexts& texts);
+                                                 const FeatureTexts& texts, bool isCompressed = false);
 
 /// The box around surfaces [begin, end), world directions, metres from the lower corner.
 [[nodiscard]] Box3d boxOfHulls(const LabelHulls& hulls, std::size_t begin, std::size_t end);

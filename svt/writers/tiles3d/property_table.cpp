@@ -2,6 +2,10 @@
 
 #include <svt/core/check.hpp>
 #include <svt/writers/dense/piece_writer.hpp>
+#include <svt/writers/tiles3d/meshopt.hpp>
+
+#include <algorithm>
+#include <map>
 
 namespace svt::writers {
 std::size_t GltfBuffer::add(std::span<const std::byte> bytes, int stride, int target) {
@@ -12,6 +16,32 @@ std::size_t GltfBuffer::add(std::span<const std::byte> bytes, int stride, int ta
     bytes_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     views_.push_back(std::move(view));
     return views_.size() - 1;
+}
+
+std::size_t GltfBuffer::addVertices(std::span<const std::byte> bytes, std::size_t each, int target) {
+    const std::size_t view =
+        addCompressed(compressVertices(bytes, each), "ATTRIBUTES", bytes.size() / each, each, target);
+    views_[view]["byteStride"] = each;
+    return view;
+}
+
+std::size_t GltfBuffer::addIndices(std::span<const std::uint32_t> indices, std::size_t each, int target) {
+    return addCompressed(compressIndices(indices), "INDICES", indices.size(), each, target);
+}
+
+std::size_t GltfBuffer::addCompressed(const std::string& packed, const char* mode, std::size_t count, std::size_t each,
+                                      int target) {
+    const std::size_t view = add(std::as_bytes(std::span(packed)), 0, target);
+    Json own{{"buffer", 0}, {"byteOffset", views_[view]["byteOffset"]}, {"byteLength", packed.size()}};
+    own["byteStride"] = each;
+    own["count"] = count;
+    own["mode"] = mode;
+    views_[view]["buffer"] = 1;
+    views_[view]["byteOffset"] = decoded_;
+    views_[view]["byteLength"] = count * each;
+    views_[view]["extensions"] = {{"EXT_meshopt_compression", std::move(own)}};
+    decoded_ += (count * each + 7) / 8 * 8;
+    return view;
 }
 
 std::string attributesText(const volume::Label& label) {
@@ -41,6 +71,33 @@ void PropertyTable::strings(const char* name, std::string_view description, cons
     const std::size_t view = buffer_.add(std::as_bytes(std::span(text)));
     table_[name] = {{"values", view}};
     addOffsets(offsets, table_[name]);
+}
+
+void PropertyTable::names(const char* name, std::string_view description, const std::vector<std::string>& values) {
+    SVT_CHECK(values.size() == rows_);
+    std::map<std::string, std::uint32_t> numberOf;
+    std::vector<std::uint32_t> numbers;
+    Json choices = Json::array();
+    for (const std::string& value : values) {
+        const auto [at, isNew] = numberOf.try_emplace(validText(value), static_cast<std::uint32_t>(numberOf.size()));
+        if (isNew) choices.push_back({{"name", at->first}, {"value", at->second}});
+        numbers.push_back(at->second);
+    }
+    const auto [view, type] = addSmall(numbers);
+    enums_[name] = {{"valueType", type}, {"values", std::move(choices)}};
+    class_[name] = {{"description", description}, {"type", "ENUM"}, {"enumType", name}, {"required", true}};
+    table_[name] = {{"values", view}};
+}
+
+std::pair<std::size_t, const char*> PropertyTable::addSmall(const std::vector<std::uint32_t>& values) {
+    const std::uint32_t most = values.empty() ? 0 : *std::max_element(values.begin(), values.end());
+    if (most > 0xFFFF) return {buffer_.add(std::as_bytes(std::span(values))), "UINT32"};
+    if (most > 0xFF) {
+        const std::vector<std::uint16_t> small(values.begin(), values.end());
+        return {buffer_.add(std::as_bytes(std::span(small))), "UINT16"};
+    }
+    const std::vector<std::uint8_t> small(values.begin(), values.end());
+    return {buffer_.add(std::as_bytes(std::span(small))), "UINT8"};
 }
 
 void PropertyTable::attributes(const std::vector<std::string>& values) {
@@ -78,12 +135,16 @@ void PropertyTable::knownNumbers(const char* name, std::string_view description,
     class_[name]["noData"] = 0.0;
 }
 void PropertyTable::numbers(const char* name, std::string_view description, const std::vector<std::uint32_t>& values) {
-    column(name, description, "UINT32", values);
+    SVT_CHECK(values.size() == rows_);
+    const auto [view, type] = addSmall(values);
+    class_[name] = {{"description", description}, {"type", "SCALAR"}, {"componentType", type}, {"required", true}};
+    table_[name] = {{"values", view}};
 }
 
 PropertyTable::Json PropertyTable::extension(const char* name, std::string_view description) const {
-    Json schema{{"id", "svt"},
-                {"classes", {{name, {{"name", name}, {"description", description}, {"properties", class_}}}}}};
+    Json schema{{"id", "svt"}};
+    if (!enums_.empty()) schema["enums"] = enums_;
+    schema["classes"][name] = {{"name", name}, {"description", description}, {"properties", class_}};
     Json table{{"name", name}, {"class", name}, {"count", rows_}, {"properties", table_}};
     return {{"schema", std::move(schema)}, {"propertyTables", Json::array({std::move(table)})}};
 }

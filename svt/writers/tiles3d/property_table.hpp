@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace svt::writers {
@@ -26,12 +27,24 @@ public:
     /// \return the number of the buffer view
     std::size_t add(std::span<const std::byte> bytes, int stride = 0, int target = 0);
 
+    /// Adds bytes in the compressed form of EXT_meshopt_compression.
+    /// \param bytes  as they are when decoded
+    /// \param each   bytes of a vertex, a multiple of 4, or of an index, 2 or 4
+    std::size_t addVertices(std::span<const std::byte> bytes, std::size_t each, int target);
+    std::size_t addIndices(std::span<const std::uint32_t> indices, std::size_t each, int target);
+
+    /// Bytes of the decoded views; 0: nothing is compressed. They are a second buffer, which no file has.
+    [[nodiscard]] std::size_t decodedBytes() const noexcept { return decoded_; }
     [[nodiscard]] const Json& views() const noexcept { return views_; }
     [[nodiscard]] const std::string& bytes() const noexcept { return bytes_; }
 
 private:
+    std::size_t addCompressed(const std::string& packed, const char* mode, std::size_t count, std::size_t each,
+                              int target);
+
     Json views_ = Json::array();
     std::string bytes_;
+    std::size_t decoded_ = 0;
 };
 
 /// The attributes of a label as a JSON object, for a column: single values as texts, several values as arrays. Empty
@@ -46,9 +59,12 @@ public:
     PropertyTable(GltfBuffer& buffer, std::size_t rows) : buffer_(buffer), rows_(rows) {}
 
     void strings(const char* name, std::string_view description, const std::vector<std::string>& values);
+    /// Texts that repeat, as an enumeration: each text once in the schema, and its number in each row.
+    void names(const char* name, std::string_view description, const std::vector<std::string>& values);
     /// The column of attributesText(). Readers that know defaults see {} for an empty text.
     void attributes(const std::vector<std::string>& values);
     void numbers(const char* name, std::string_view description, const std::vector<double>& values);
+    /// In the smallest type that holds them, of one, two or four bytes.
     void numbers(const char* name, std::string_view description, const std::vector<std::uint32_t>& values);
     /// Numbers of which 0 means that the value is unknown (`noData`).
     void knownNumbers(const char* name, std::string_view description, const std::vector<double>& values);
@@ -59,13 +75,15 @@ public:
 private:
     // In the smallest type that holds them, of two or four bytes.
     void addOffsets(const std::vector<std::uint32_t>& offsets, Json& column);
+    // \return the view and the type
+    std::pair<std::size_t, const char*> addSmall(const std::vector<std::uint32_t>& values);
     template <class T>
     void column(const char* name, std::string_view description, const char* componentType,
                 const std::vector<T>& values);
 
     GltfBuffer& buffer_;
     std::size_t rows_;
-    Json class_ = Json::object(), table_ = Json::object();
+    Json class_ = Json::object(), table_ = Json::object(), enums_ = Json::object();
 };
 
 }  // namespace svt::writers

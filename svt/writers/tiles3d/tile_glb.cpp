@@ -53,12 +53,13 @@ std::vector<TilePart> partsOf(const TileMesh& mesh) {
 /// The buffer and accessors while primitives are added.
 class TileBuffer {
 public:
-    TileBuffer(const TileMesh& mesh, GltfBuffer& buffer, double mostStep) : mesh_(mesh), buffer_(buffer) {
+    TileBuffer(const TileMesh& mesh, GltfBuffer& buffer, const TileCoding& coding)
+        : mesh_(mesh), buffer_(buffer), isCompressed_(coding.isCompressed) {
         const auto [low, high] = extentOf(mesh.positions);
         low_ = low;
         const float longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
         scale_ = longest / kSteps;
-        isQuantized_ = double(scale_) <= mostStep && longest > 0;
+        isQuantized_ = double(scale_) <= coding.mostStep && longest > 0;
     }
 
     void addAttributes(bool hasColors, std::size_t features) {
@@ -91,7 +92,9 @@ private:
     }
     template <class T>
     std::size_t addVertices(const std::vector<T>& values, int type, const char* shape) {
-        const std::size_t view = buffer_.add(std::as_bytes(std::span(values)), sizeof(T), kVertexTarget);
+        const auto bytes = std::as_bytes(std::span(values));
+        const std::size_t view = isCompressed_ ? buffer_.addVertices(bytes, sizeof(T), kVertexTarget)
+                                               : buffer_.add(bytes, sizeof(T), kVertexTarget);
         return add({{"bufferView", view}, {"componentType", type}, {"count", values.size()}, {"type", shape}});
     }
     template <class T>
@@ -143,7 +146,9 @@ private:
         std::vector<std::uint16_t> small;
         if (isShort) small.assign(part.indices.begin(), part.indices.end());
         const auto bytes = isShort ? std::as_bytes(std::span(small)) : std::as_bytes(std::span(part.indices));
-        return add({{"bufferView", buffer_.add(bytes, 0, kIndexTarget)},
+        const std::size_t view = isCompressed_ ? buffer_.addIndices(part.indices, isShort ? 2 : 4, kIndexTarget)
+                                               : buffer_.add(bytes, 0, kIndexTarget);
+        return add({{"bufferView", view},
                     {"componentType", isShort ? kUnsignedShort : kUnsignedInt},
                     {"count", part.indices.size()},
                     {"type", "SCALAR"}});
@@ -155,6 +160,7 @@ private:
     Vec3f low_{};
     float scale_ = 1;
     bool isQuantized_ = true;
+    bool isCompressed_ = false;
 };
 
 TileJson materialOf(const TilePart& part, bool isDoubleSided) {
@@ -173,14 +179,15 @@ TileJson materialOf(const TilePart& part, bool isDoubleSided) {
 }  // namespace
 
 Result<std::string> makeTileGlb(const TileMesh& mesh, std::size_t features,
-                                const std::function<TileJson(GltfBuffer&)>& metadata, Vec3d place, double mostStep) {
+                                const std::function<TileJson(GltfBuffer&)>& metadata, Vec3d place,
+                                const TileCoding& coding) {
     const std::uint64_t bytes = std::uint64_t(mesh.positions.size()) * 24 + std::uint64_t(mesh.indices.size()) * 4;
     if (bytes > 0xF0000000u)
         return Error(Code::GridTooLarge,
                      fmt::format("a tile of {} bytes is more than a .glb can be; use --level", bytes));
     if (mesh.indices.empty()) return Error(Code::NothingSelected, "the surfaces have no area");
     GltfBuffer buffer;
-    TileBuffer tile(mesh, buffer, mostStep);
+    TileBuffer tile(mesh, buffer, coding);
     TileJson primitives = TileJson::array(), materials = TileJson::array();
     const std::vector<TilePart> parts = partsOf(mesh);
     tile.addAttributes(parts.front().hasColors, features);
@@ -191,9 +198,17 @@ Result<std::string> makeTileGlb(const TileMesh& mesh, std::size_t features,
     TileJson extension = metadata(buffer);
     std::string binary = buffer.bytes();
     binary.resize((binary.size() + 7) / 8 * 8, '\0');
+    TileJson buffers = TileJson::array({{{"byteLength", binary.size()}}});
+    TileJson used = {"EXT_mesh_features", "EXT_structural_metadata", "KHR_mesh_quantization"};
+    TileJson required = TileJson::array({"KHR_mesh_quantization"});
+    if (coding.isCompressed) {
+        for (TileJson* list : {&used, &required}) list->push_back("EXT_meshopt_compression");
+        buffers.push_back({{"byteLength", buffer.decodedBytes()},
+                           {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
+    }
     const TileJson json{{"asset", {{"version", "2.0"}, {"generator", "svt"}}},
-                        {"extensionsUsed", {"EXT_mesh_features", "EXT_structural_metadata", "KHR_mesh_quantization"}},
-                        {"extensionsRequired", TileJson::array({"KHR_mesh_quantization"})},
+                        {"extensionsUsed", std::move(used)},
+                        {"extensionsRequired", std::move(required)},
                         {"extensions", {{"EXT_structural_metadata", std::move(extension)}}},
                         {"scene", 0},
                         {"scenes", TileJson::array({{{"nodes", {0}}}})},
@@ -202,7 +217,7 @@ Result<std::string> makeTileGlb(const TileMesh& mesh, std::size_t features,
                         {"materials", std::move(materials)},
                         {"accessors", tile.accessors()},
                         {"bufferViews", buffer.views()},
-                        {"buffers", TileJson::array({{{"byteLength", binary.size()}}})}};
+                        {"buffers", std::move(buffers)}};
     return asGlbFile(json, binary);
 }
 

@@ -22,14 +22,19 @@ namespace svt::writers {
 
 inline constexpr double kFinestStep = 0.01;  ///< largest step of places in finest content, metres
 
+struct TileCoding {
+    double mostStep = kFinestStep;  ///< largest step of places, metres
+    bool isCompressed = false;      ///< vertices and indices by EXT_meshopt_compression
+};
+
 /// \param features  rows of the table
 /// \param metadata  adds columns to the buffer, and returns the extension EXT_structural_metadata
 /// \param place     position of the mesh, world directions, metres
-/// \param mostStep  largest step of places, metres
+/// \param coding    of the vertices
 /// \return the file; GridTooLarge if it would reach the limit of 4 GiB; NothingSelected without triangles
 [[nodiscard]] Result<std::string> makeTileGlb(const TileMesh& mesh, std::size_t features,
                                               const std::function<nlohmann::ordered_json(GltfBuffer&)>& metadata,
-                                              Vec3d place, double mostStep);
+                                              Vec3d place, const TileCoding& coding);
 
 /// A .glb of a document and its only buffer, which begins at a multiple of 8 bytes.
 [[nodiscard]] std::string asGlbFile(const nlohmann::ordered_json& json, const std::string& binary);

@@ -87,8 +87,8 @@ struct TileFile {
 };
 
 TileFile tileOf(const TileMesh& mesh, double mostStep = kFinestStep) {
-    auto file = makeTileGlb(
-        mesh, 2, [](GltfBuffer&) { return nlohmann::ordered_json::object(); }, {1, 2, 3}, mostStep);
+    auto file = makeTileGlb(mesh, 2, [](GltfBuffer&) { return nlohmann::ordered_json::object(); }, {1, 2, 3},
+                            {mostStep, false});
     EXPECT_TRUE(file) << file.error().message();
     return TileFile(*file);
 }

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <set>
-#include <unordered_map>
 
 namespace svt::writers {
 namespace {
@@ -27,21 +27,12 @@ std::array<std::int8_t, 4> shortNormal(Vec3d normal) noexcept {
     return {step(normal.x), step(normal.z), step(-normal.y), 0};
 }
 
-/// The identity of a vertex within a feature.
-struct VertexKey {
-    std::uint32_t point = 0;
-    std::array<std::int8_t, 4> normal{};
-    VertexColor color{};
-    friend bool operator==(const VertexKey&, const VertexKey&) = default;
-};
-struct VertexKeyHash {
-    std::size_t operator()(const VertexKey& key) const noexcept {
-        std::uint64_t hash = key.point;
-        for (std::size_t n = 0; n < 4; ++n)
-            hash = hash * 0x9E3779B97F4A7C15u + (std::uint64_t(std::uint8_t(key.normal[n])) << 8 | key.color[n]);
-        return static_cast<std::size_t>(hash ^ hash >> 32);
-    }
-};
+// Normals of a face that is not quite plane differ by a step.
+bool isNearNormal(const std::array<std::int8_t, 4>& a, const std::array<std::int8_t, 4>& b) noexcept {
+    for (std::size_t n = 0; n < 3; ++n)
+        if (std::abs(a[n] - b[n]) > 1) return false;
+    return true;
+}
 
 }  // namespace
 
@@ -106,21 +97,25 @@ FeatureFaces simplified(const FeatureFaces& faces, double side) {
 }
 
 void TileMesh::append(const FeatureFaces& faces, std::uint32_t feature) {
-    std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> known;
-    known.reserve(faces.points.size() * 2);
+    std::vector<std::vector<std::uint32_t>> verticesOf(faces.points.size());
     for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
         const Vec3d across = acrossOf(faces, faces.triangles[t]);
         const std::array<std::int8_t, 4> normal = shortNormal(across * (1 / length(across)));
         for (const std::uint32_t point : faces.triangles[t]) {
-            const auto [vertex, isNew] = known.try_emplace(VertexKey{point, normal, faces.colors[t]},
-                                                           static_cast<std::uint32_t>(positions.size()));
-            if (isNew) {
-                positions.push_back(withYUp(faces.points[point]));
-                normals.push_back(normal);
-                colors.push_back(faces.colors[t]);
-                features.push_back(feature);
+            std::vector<std::uint32_t>& known = verticesOf[point];
+            const auto same = std::find_if(known.begin(), known.end(), [&](std::uint32_t vertex) {
+                return colors[vertex] == faces.colors[t] && isNearNormal(normals[vertex], normal);
+            });
+            if (same != known.end()) {
+                indices.push_back(*same);
+                continue;
             }
-            indices.push_back(vertex->second);
+            known.push_back(static_cast<std::uint32_t>(positions.size()));
+            indices.push_back(known.back());
+            positions.push_back(withYUp(faces.points[point]));
+            normals.push_back(normal);
+            colors.push_back(faces.colors[t]);
+            features.push_back(feature);
         }
     }
 }

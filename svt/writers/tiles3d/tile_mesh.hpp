@@ -37,7 +37,8 @@ struct FeatureFaces {
 /// Cost: O(n log n).
 [[nodiscard]] FeatureFaces simplified(const FeatureFaces& faces, double side);
 
-/// The vertices of a tile, each attribute in its own array. A vertex has the normal and the colour of its faces.
+/// The vertices of a tile, each attribute in its own array. A vertex has the colour of its faces,
+/// and their normal within a step.
 struct TileMesh {
     std::vector<Vec3f> positions;                     ///< y up, metres
     std::vector<std::array<std::int8_t, 4>> normals;  ///< y up, in 127 steps; the last number is 0

@@ -51,7 +51,7 @@ Result<std::uint64_t> writeTileset(const volume::SemanticVolume& volume, const s
             triangles += hulls->surfaces[end++].triangles.size();
         SVT_DO(checkNotStopped(options.progress, "nothing"));
         Progress::tell(options.progress, "write", double(begin) / double(count));
-        SVT_TRY(glb, makeFeatureGlb(*hulls, begin, end, texts));
+        SVT_TRY(glb, makeFeatureGlb(*hulls, begin, end, texts, options.tileset.isCompressed));
         const std::string name = fmt::format("{}.glb", children.size());
         SVT_DO(folder.write(name, *glb));
         children.push_back({{"boundingVolume", boundingVolume(boxOfHulls(*hulls, begin, end))},
@@ -95,6 +95,9 @@ record::Members<TilesetWriteOptions> membersOf(const TilesetWriteOptions*) noexc
         record::member<&All::hasVoxels>(
             "voxels", "of a .3dtiles: voxels by draft extensions, as Cesium has them for trial, not surfaces",
             {.group = "Output", .option = "--voxels"}),
+        record::member<&All::isCompressed>(
+            "meshopt", "of a .3dtiles: compress the triangles by EXT_meshopt_compression, which the viewer must know",
+            {.group = "Output", .option = "--meshopt"}),
     };
     return kMembers;
 }

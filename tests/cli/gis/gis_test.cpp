@@ -44,18 +44,18 @@ std::string wall(double x0, double y0, double x1, double y1, double top) {
 }
 
 // Walls of a box without that in the south if it is open, floor and roof.
-std::string boxFaces(double x0, double y0, double x1, double y1, double top, bool hasSouth = true) {
+std::string facesOfBox(double x0, double y0, double x1, double y1, double top, bool hasSouth = true) {
     return polygon({{{x0, y0}, {x0, y1}, {x1, y1}, {x1, y0}}}, 0) +
            polygon({{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}}, top) + (hasSouth ? wall(x0, y0, x1, y0, top) : "") +
            wall(x1, y0, x1, y1, top) + wall(x1, y1, x0, y1, top) + wall(x0, y1, x0, y0, top);
 }
 
-std::string solid(const std::string& faces) {
+std::string lod2Solid(const std::string& faces) {
     return "<bldg:lod2Solid><gml:Solid><gml:exterior><gml:CompositeSurface>" + faces +
            "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod2Solid>";
 }
 
-std::string building(const char* id, const std::string& content, const char* element = "Building") {
+std::string buildingMember(const char* id, const std::string& content, const char* element = "Building") {
     return fmt::format("<bldg:{0} gml:id=\"{1}\">{2}</bldg:{0}>", element, id, content);
 }
 
@@ -78,23 +78,23 @@ std::string town() {
     const auto add = [&](const std::string& object) {
         text += "<core:cityObjectMember>" + object + "</core:cityObjectMember>";
     };
-    add(building("court", surface("GroundSurface", polygon(court, 0)) +
-                              surface("RoofSurface", polygon({{{-1, -1}, {13, -1}, {13, 11}, {-1, 11}}}, 6))));
+    add(buildingMember("court", surface("GroundSurface", polygon(court, 0)) +
+                                    surface("RoofSurface", polygon({{{-1, -1}, {13, -1}, {13, 11}, {-1, 11}}}, 6))));
     const auto part = [&](const char* id, const std::string& content) {
-        return "<bldg:consistsOfBuildingPart>" + building(id, content, "BuildingPart") +
+        return "<bldg:consistsOfBuildingPart>" + buildingMember(id, content, "BuildingPart") +
                "</bldg:consistsOfBuildingPart>";
     };
-    add(building("pair",
-                 part("west", solid(boxFaces(20, 0, 25, 8, 4))) +
-                     part("east", solid(boxFaces(25, 0, 31, 8, 6)) +
-                                      surface("GroundSurface", polygon({{{25, 0}, {25, 8}, {31, 8}, {31, 0}}}, 0)))));
-    add(building("floods",
-                 "<gen:stringAttribute name=\"use\"><gen:value>shop</gen:value></gen:stringAttribute>"
-                 "<gen:stringAttribute name=\"use\"><gen:value>flat, small</gen:value></gen:stringAttribute>" +
-                     flood("<ade:depth uom=\"m\">0.5</ade:depth><ade:rank>1</ade:rank>") +
-                     flood("<ade:rank>3</ade:rank>") + solid(boxFaces(40, 0, 44, 5, 3))));
-    add(building("dry", flood("<ade:depth uom=\"m\">0.25</ade:depth><ade:rank>1</ade:rank>") +
-                            solid(boxFaces(50, 0, 52, 2, 3))));
+    add(buildingMember(
+        "pair", part("west", lod2Solid(facesOfBox(20, 0, 25, 8, 4))) +
+                    part("east", lod2Solid(facesOfBox(25, 0, 31, 8, 6)) +
+                                     surface("GroundSurface", polygon({{{25, 0}, {25, 8}, {31, 8}, {31, 0}}}, 0)))));
+    add(buildingMember("floods",
+                       "<gen:stringAttribute name=\"use\"><gen:value>shop</gen:value></gen:stringAttribute>"
+                       "<gen:stringAttribute name=\"use\"><gen:value>flat, small</gen:value></gen:stringAttribute>" +
+                           flood("<ade:depth uom=\"m\">0.5</ade:depth><ade:rank>1</ade:rank>") +
+                           flood("<ade:rank>3</ade:rank>") + lod2Solid(facesOfBox(40, 0, 44, 5, 3))));
+    add(buildingMember("dry", flood("<ade:depth uom=\"m\">0.25</ade:depth><ade:rank>1</ade:rank>") +
+                                  lod2Solid(facesOfBox(50, 0, 52, 2, 3))));
     return text + "</core:CityModel>";
 }
 
@@ -173,6 +173,67 @@ TEST_F(GisTables, VolumesIncludePartsAndSayWhereTheyComeFrom) {
     ASSERT_EQ(selected.size(), 1u);
     EXPECT_EQ(selected[0]["id"], "pair");
     EXPECT_NEAR(selected[0]["volume"].get<double>(), 448, 1e-6);
+}
+
+// A house of 10 x 8 x 4 m with a window in a wall, and a block around a court that has neither floor nor ground surface.
+TEST_F(GisTables, AreasOfFacesAreThoseOfTheModel) {
+    const std::string hole = "<bldg:opening><bldg:Window><bldg:lod3MultiSurface><gml:MultiSurface>" +
+                             wall(2, 0, 4, 0, 1.5) +
+                             "</gml:MultiSurface></bldg:lod3MultiSurface></bldg:Window></bldg:opening>";
+    std::string south = surface("WallSurface", wall(0, 0, 10, 0, 4));
+    south.insert(south.find("</bldg:WallSurface>"), hole);
+    const std::string model = town();
+    writeText(
+        folder / "house.gml",
+        model.substr(0, model.find("<core:cityObjectMember>")) + "<core:cityObjectMember>" +
+            buildingMember("house", surface("RoofSurface", polygon({{{0, 0}, {10, 0}, {10, 8}, {0, 8}}}, 4)) + south +
+                                        surface("WallSurface", wall(10, 0, 10, 8, 4) + wall(10, 8, 0, 8, 4)) +
+                                        surface("WallSurface", wall(0, 8, 0, 0, 4)) +
+                                        surface("GroundSurface", polygon({{{0, 0}, {0, 8}, {10, 8}, {10, 0}}}, 0))) +
+            "</core:cityObjectMember></core:CityModel>");
+    const json rows = runSvtForJson(
+        folder.path(), {"query", "house.gml", "class=Building or class=RoofSurface", "--with", "faces", "--json"});
+    ASSERT_EQ(rows.size(), 2u) << rows;
+    const json& faces = rows[0]["faces"];
+    EXPECT_NEAR(faces["roof"].get<double>(), 80, 1e-4);
+    EXPECT_NEAR(faces["wall"].get<double>(), 144, 1e-4);
+    EXPECT_NEAR(faces["ground"].get<double>(), 80, 1e-4);
+    EXPECT_NEAR(faces["window"].get<double>(), 3, 1e-4);
+    EXPECT_TRUE(faces["door"].is_null()) << "the house has none";
+    EXPECT_NEAR(rows[1]["faces"]["roof"].get<double>(), 80, 1e-4);
+    EXPECT_TRUE(rows[1]["faces"]["wall"].is_null());
+    // Without meshes, no area is known.
+    runSvtWell(folder.path(), {"build", "house.gml", "-o", "bare.svt", "--spacing", "0.5", "--vectors", "none"});
+    const json bare =
+        runSvtForJson(folder.path(), {"query", "bare.svt", "class=Building", "--with", "faces", "--json"});
+    for (const char* kind : {"roof", "wall", "ground", "window", "door"}) EXPECT_TRUE(bare[0]["faces"][kind].is_null());
+    const std::string csv =
+        runSvtWell(folder.path(), {"query", "bare.svt", "class=Building", "--with", "faces", "--csv"});
+    EXPECT_NE(csv.find("roofFaces,wallFaces,groundFaces,windowFaces,doorFaces"), std::string::npos) << csv;
+}
+
+TEST_F(GisTables, FootprintsLeaveOutCourtsWithoutAFloor) {
+    std::string faces = polygon({{{0, 0}, {14, 0}, {14, 12}, {0, 12}}, {{4, 4}, {4, 7}, {8, 7}, {8, 4}}}, 5);
+    const std::array<std::array<double, 2>, 4> outer{{{0, 0}, {14, 0}, {14, 12}, {0, 12}}};
+    const std::array<std::array<double, 2>, 4> inner{{{4, 4}, {4, 7}, {8, 7}, {8, 4}}};
+    for (const auto& ring : {outer, inner})
+        for (std::size_t n = 0; n < 4; ++n)
+            faces += wall(ring[n][0], ring[n][1], ring[(n + 1) % 4][0], ring[(n + 1) % 4][1], 5);
+    const std::string paving = "<bldg:lod2MultiSurface><gml:MultiSurface>" +
+                               polygon({{{4, 4}, {8, 4}, {8, 7}, {4, 7}}}, 0) +
+                               "</gml:MultiSurface></bldg:lod2MultiSurface>";
+    const std::string model = town(), head = model.substr(0, model.find("<core:cityObjectMember>"));
+    const auto member = [](const std::string& text) {
+        return "<core:cityObjectMember>" + text + "</core:cityObjectMember>";
+    };
+    for (const std::string& other : {std::string(), member(buildingMember("paving", paving))}) {
+        writeText(folder / "block.gml",
+                  head + member(buildingMember("block", lod2Solid(faces))) + other + "</core:CityModel>");
+        runSvtWell(folder.path(), {"convert", "block.gml", "block.geojson", "--select", "id=block"});
+        const json block = featuresOf("block.geojson")["block"];
+        EXPECT_NEAR(areaOfGeometry(block["geometry"]), 14 * 12 - 12, 1e-4);
+        EXPECT_NEAR(block["properties"]["volume"].get<double>(), (14 * 12 - 12) * 5, 1e-3);
+    }
 }
 
 // A box that only leaves out a layer of background, and a selection of everything, change no volume.
