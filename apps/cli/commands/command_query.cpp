@@ -154,8 +154,9 @@ Result<int> runQuery(const QueryArguments& arguments) {
             "give one of them");
     if (isCity(arguments.input) || arguments.features.isAsked()) return runFeatures(arguments);
     pipeline::BuildOptions build = arguments.build;
-    const bool hasBoxes = arguments.with.find("box") != std::string::npos;
-    if (arguments.areas || arguments.overlaps || hasBoxes || !arguments.parcels.empty()) build.vectors.meshes = true;
+    const bool hasMeshes =
+        arguments.with.find("box") != std::string::npos || arguments.with.find("faces") != std::string::npos;
+    if (arguments.areas || arguments.overlaps || hasMeshes || !arguments.parcels.empty()) build.vectors.meshes = true;
     SVT_TRY(volume, loadVolume(arguments.input, build, TerminalProgress().get(), false));
     auto selected = analyze::selectLabels(*volume, arguments.query);
     if (!selected && selected.error().code() == Code::NothingSelected) {
@@ -176,8 +177,8 @@ Members<QueryArguments> membersOf(const QueryArguments*) noexcept {
         member<&All::query>("query", "such as 'class=BuildingRoom and volume>20'",
                             {.value = "QUERY", .isRequired = true}),
         member<&All::with>("--with",
-                           "more columns, any of volume (how it is known), surface (m2) and box, such as "
-                           "volume,surface",
+                           "more columns, any of volume (how it is known), surface (m2 by voxels), faces (m2 of "
+                           "the model by kind) and box, such as volume,surface",
                            {.value = "LIST", .group = "Report"}),
         member<&All::neighbors>("--neighbours", "neighbours of each feature, with the shared area",
                                 {.group = "Report"}),

@@ -3,6 +3,7 @@
 #include <apps/cli/output/messages.hpp>
 
 #include <svt/analyze/extents.hpp>
+#include <svt/analyze/face_areas.hpp>
 #include <svt/analyze/gaps.hpp>
 #include <svt/analyze/known_volumes.hpp>
 #include <svt/analyze/label_measures.hpp>
@@ -200,12 +201,14 @@ Result<With> parseWith(const std::string& text) {
             with.volume = true;
         else if (word == "surface")
             with.surface = true;
+        else if (word == "faces")
+            with.faces = true;
         else if (word == "box")
             with.box = true;
         else
             return Error(
                 Code::BadArgument,
-                fmt::format("--with '{}': unknown column '{}'; possible are volume, surface, box", text, word));
+                fmt::format("--with '{}': unknown column '{}'; possible are volume, surface, faces, box", text, word));
         at = end + 1;
     }
     return with;
@@ -229,6 +232,9 @@ Table featureTable(const volume::SemanticVolume& volume, const Labels& selected,
              {"totalSurface", "total m2"},
              {"ownOutside", "own m2 outside"},
              {"totalOutside", "total m2 outside"}});
+    if (with.faces)
+        for (const std::string_view kind : analyze::kFaceKindNames)
+            table.columns.push_back({std::string(kind) + "Faces", std::string(kind) + " m2"});
     if (with.box) addBoxColumns(table.columns);
     add({{"volume", "best m3"}, {"voxels"}});
     if (with.volume) add({{"voxelVolume"}});
@@ -236,6 +242,7 @@ Table featureTable(const volume::SemanticVolume& volume, const Labels& selected,
     add({{"volumeBound", "+- m3"}, {"volumeSource", "best m3 from"}});
     const analyze::Extents extents(volume.labels);
     const analyze::KnownVolumes volumes(volume.labels, volume.grid, extents);
+    const auto areasOfMeshes = with.faces ? analyze::meshAreas(volume) : std::vector<std::optional<double>>();
     for (const analyze::FeatureMeasure& measure : measuresOf(volume, selected, with, threads)) {
         const volume::Label& label = volume.labels.labels[measure.label];
         const auto& [l, own, total] = measure;
@@ -249,6 +256,9 @@ Table featureTable(const volume::SemanticVolume& volume, const Labels& selected,
         if (with.surface)
             row.insert(row.end(), {areaOf(own, &Measure::area), areaOf(total, &Measure::area),
                                    areaOf(own, &Measure::outsideArea), areaOf(total, &Measure::outsideArea)});
+        if (with.faces)
+            for (const auto& area : analyze::faceAreas(volume.labels, extents.of(l), areasOfMeshes))
+                row.push_back(known(area));
         if (with.box) appendCorners(row, total.box);
         const analyze::KnownVolume best = volumes.of(l);
         row.insert(row.end(), {known(best.volume), label.voxels});
@@ -269,12 +279,18 @@ Json featureJson(const volume::SemanticVolume& volume, const Labels& selected, c
     Json rows = Json::array();
     const analyze::Extents extents(volume.labels);
     const analyze::KnownVolumes volumes(volume.labels, volume.grid, extents);
+    const auto areasOfMeshes = with.faces ? analyze::meshAreas(volume) : std::vector<std::optional<double>>();
     for (const analyze::FeatureMeasure& measure : measuresOf(volume, selected, with, threads)) {
         Json row = labelJson(volume.labels, measure, volumes.of(measure.label), volume.grid);
         if (with.surface) {
             row["ownSurface"] = areasOf(measure.own);
             row["totalSurface"] = areasOf(measure.total);
             row["surface"] = {{"area", measure.own.area}, {"outside", measure.own.outsideArea}};
+        }
+        if (with.faces) {
+            const auto areas = analyze::faceAreas(volume.labels, extents.of(measure.label), areasOfMeshes);
+            for (std::size_t kind = 0; kind < areas.size(); ++kind)
+                row["faces"][std::string(analyze::kFaceKindNames[kind])] = areas[kind] ? Json(*areas[kind]) : Json();
         }
         if (with.box) {
             row["totalBox"] = boxJson(measure.total.box);

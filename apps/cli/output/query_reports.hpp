@@ -19,7 +19,7 @@ using Labels = std::vector<std::uint32_t>;  ///< ascending
 
 /// Additional columns of `--with`.
 struct With {
-    bool volume = false, surface = false, box = false;
+    bool volume = false, surface = false, faces = false, box = false;
 };
 [[nodiscard]] Result<With> parseWith(const std::string& text);
 

@@ -230,6 +230,7 @@ TEST(Owners, RightsOtherThanOwnershipAreKeptApart) {
     EXPECT_EQ(errorOf("feature,owner,right\na,,lease\n").where().line, 2u);
     EXPECT_EQ(errorOf("feature,owner,source\na,Ada,d1\na,Ada,d2\n").where().line, 3u) << "two deeds need shares";
     EXPECT_EQ(errorOf("feature,owner,right\na,Ada,lease,x\n").where().line, 2u);
+    EXPECT_EQ(errorOf("feature,owner,share,right\na,Ada,3/2,lease\n").where().line, 2u) << "a share is 1 at most";
 }
 
 TEST(Owners, SayWhatIsWrongAndWhere) {
@@ -258,6 +259,10 @@ TEST(Owners, SayWhatIsWrongAndWhere) {
         EXPECT_EQ(error.where().line, wrong.line) << wrong.text;
     }
     EXPECT_NE(errorOf("flatt,Bob").message().find("did you mean 'flat'?"), std::string::npos);
+    EXPECT_NE(errorOf("a,").message().find("found an empty one;"), std::string::npos);
+    EXPECT_NE(errorOf("a,Ada,").message().find("found an empty one;"), std::string::npos);
+    EXPECT_NE(errorOf("a").message().find("found 1;"), std::string::npos);
+    EXPECT_NE(errorOf("a,Ada,1,2").message().find("found 4;"), std::string::npos);
     EXPECT_NE(errorOf("a,Ada\na,Bob").message().find("in line 1"), std::string::npos);
     EXPECT_NE(errorOf("a,Ada\na,Bob").message().find("a share, such as 1/2"), std::string::npos);
 }

@@ -69,6 +69,25 @@ void gatherShells(const std::vector<MeshSource>& sources, const ShellInput& inpu
     });
 }
 
+double areaOfTriangles(const ObjectMesh& mesh) {
+    double area = 0;
+    for (const Triangle& triangle : mesh.triangles) {
+        const Vec3d a = mesh.vertices[triangle.corners[0]];
+        area += length(cross(mesh.vertices[triangle.corners[1]] - a, mesh.vertices[triangle.corners[2]] - a)) / 2;
+    }
+    return area;
+}
+
+// True if a shell with caps of its own encloses the volume of one with borrowed faces, by less area. A borrowed floor of a
+// court, and a cap below it, are a sheet that encloses nothing.
+bool enclosesTheSameByLess(const ObjectMesh& own, const ObjectMesh& borrowed) {
+    constexpr double kSame = 1e-6;
+    if (own.closingMethod != ClosingMethod::Capped || own.joinedEdges != 0 || own.bridgedLoops != 0) return false;
+    const double volume = signedVolume(borrowed.vertices, borrowed.triangles);
+    return std::abs(signedVolume(own.vertices, own.triangles) - volume) <= kSame * std::abs(volume) &&
+           areaOfTriangles(own) < (1 - kSame) * areaOfTriangles(borrowed);
+}
+
 // Closes the open objects with solid meaning, where they can be: by faces of adjoining features, then by their own.
 Result<void> closeShells(const ShellInput& input, const std::vector<MeshSource>& sources, std::vector<Work>& work) {
     std::optional<FaceFinder> finder;  // made for the first open object
@@ -79,13 +98,22 @@ Result<void> closeShells(const ShellInput& input, const std::vector<MeshSource>&
         shell.pointIds.resize(mesh.vertices.size(), kNoPoint);
         const auto vertexCount = static_cast<std::ptrdiff_t>(mesh.vertices.size());
         const auto triangleCount = static_cast<std::ptrdiff_t>(mesh.triangles.size());
+        ObjectMesh asRead = mesh;
         mesh.complementedFaces = finder->complement(mesh, shell.pointIds, shell.polygons);
         if (mesh.openEdges.empty()) {
             mesh.closingMethod = ClosingMethod::Complemented;
             if (!isFlat(mesh)) return;
         }
         closeByItself(mesh, input.options);
-        if (mesh.closingMethod != ClosingMethod::Surface || mesh.complementedFaces == 0) return;
+        if (mesh.complementedFaces == 0) return;
+        if (mesh.closingMethod == ClosingMethod::Capped) {
+            closeByItself(asRead, input.options);
+            if (!enclosesTheSameByLess(asRead, mesh)) return;
+            mesh = std::move(asRead);
+            shell.pointIds.resize(mesh.vertices.size(), kNoPoint);
+            return;
+        }
+        if (mesh.closingMethod != ClosingMethod::Surface) return;
         // A sheet, such as a footprint, does not include the sheets beside it.
         mesh.vertices.erase(mesh.vertices.begin() + vertexCount, mesh.vertices.end());
         mesh.triangles.erase(mesh.triangles.begin() + triangleCount, mesh.triangles.end());
@@ -243,8 +271,11 @@ void report(const BuildingModel& model, const Shell& shell, const ObjectMesh& me
         case ClosingMethod::Capped:
             log.add(Severity::Warning, Code::ShellCapped,
                     fmt::format("{} edges have no partner; {} leak even where edges are cut at points of others, such "
-                                "as {}; closed with {} planar caps{}",
-                                mesh.unmatchedEdges, mesh.leakCount, leaks, mesh.caps.size(), joinedText(mesh)),
+                                "as {}; closed with {} planar caps{}{}",
+                                mesh.unmatchedEdges, mesh.leakCount, leaks, mesh.caps.size(), joinedText(mesh),
+                                mesh.complementedFaces == 0
+                                    ? ""
+                                    : fmt::format(" and {} faces of adjoining features", mesh.complementedFaces)),
                     place);
             break;
         case ClosingMethod::Open:

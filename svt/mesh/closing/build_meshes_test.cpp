@@ -147,6 +147,63 @@ TEST(BuildMeshes, WhatNeighboursCannotCloseIsCapped) {
     EXPECT_NEAR(hall->volume, 30, 1e-12);
 }
 
+// The walls and the roof of a block of 20 x 16 x 5 m around a court of 6 x 4 m, without a floor.
+std::vector<SurfaceUse> addBlockWithCourt(BuildingModel& model) {
+    const Vec3d low{0, 0, 0}, high{20, 16, 5}, courtLow{7, 6, 0}, courtHigh{13, 10, 5};
+    std::vector<SurfaceUse> uses = addBox(model, low, high, {test::kBottom, test::kTop});
+    for (const int side : {test::kSouth, test::kEast, test::kNorth, test::kWest}) {
+        Ring ring = boxRing(courtLow, courtHigh, side);
+        std::reverse(ring.begin(), ring.end());
+        uses.push_back({addRings(model, {ring}), false});
+    }
+    Ring court = boxRing(courtLow, courtHigh, test::kTop);
+    std::reverse(court.begin(), court.end());
+    uses.push_back({addRings(model, {boxRing(low, high, test::kTop), court}), false});
+    return uses;
+}
+constexpr double kBlockVolume = (20 * 16 - 6 * 4) * 5.0, kBlockPlan = 20 * 16 - 6 * 4;
+constexpr double kBlockArea = 2 * kBlockPlan + (2 * 36 + 2 * 10) * 5.0;
+
+TEST(BuildMeshes, CapOfAFloorLeavesOutTheCourt) {
+    BuildingModel model;
+    addFeature(model, "Building", "block", model::kNoFeature, {solidOf(addBlockWithCourt(model))});
+    const MeshSet meshes = meshesOf(model);
+    const ObjectMesh& mesh = meshes.objects[0];
+    EXPECT_EQ(mesh.closingMethod, ClosingMethod::Capped);
+    ASSERT_EQ(mesh.caps.size(), 1u);
+    EXPECT_NEAR(mesh.caps[0].area, kBlockPlan, 1e-9);
+    EXPECT_NEAR(mesh.volume, kBlockVolume, 1e-9);
+    EXPECT_NEAR(mesh.area, kBlockArea, 1e-9) << "a cap over the court would count twice";
+}
+
+TEST(BuildMeshes, FloorOfACourtThatIsAFaceOfAnotherIsNotBorrowed) {
+    BuildingModel model;
+    addFeature(model, "Building", "block", model::kNoFeature, {solidOf(addBlockWithCourt(model))});
+    addFeature(model, "Building", "paving", model::kNoFeature,
+               {surfaceOf({{addRings(model, {boxRing({7, 6, 0}, {13, 10, 0}, test::kTop)}), false}})});
+    const MeshSet meshes = meshesOf(model);
+    const ObjectMesh* block = meshOf(model, meshes, "block");
+    ASSERT_NE(block, nullptr);
+    EXPECT_EQ(block->closingMethod, ClosingMethod::Capped);
+    EXPECT_EQ(block->complementedFaces, 0u);
+    EXPECT_EQ(block->caps.size(), 1u);
+    EXPECT_NEAR(block->volume, kBlockVolume, 1e-9);
+    EXPECT_NEAR(block->area, kBlockArea, 1e-9);
+}
+
+// A pavilion in the court belongs to the solid: its floor is a cap of its own.
+TEST(BuildMeshes, FloorInACourtHasItsOwnCap) {
+    BuildingModel model;
+    auto uses = addBlockWithCourt(model);
+    for (const SurfaceUse& use : addBox(model, {9, 7, 0}, {11, 9, 3}, {test::kBottom})) uses.push_back(use);
+    addFeature(model, "Building", "block", model::kNoFeature, {solidOf(uses)});
+    const MeshSet meshes = meshesOf(model);
+    EXPECT_EQ(meshes.objects[0].closingMethod, ClosingMethod::Capped);
+    EXPECT_EQ(meshes.objects[0].caps.size(), 2u);
+    EXPECT_NEAR(meshes.objects[0].volume, kBlockVolume + 12, 1e-9);
+    EXPECT_NEAR(meshes.objects[0].area, kBlockArea + 2 * 4 + 24, 1e-9);
+}
+
 TEST(BuildMeshes, BoundarySurfaceAloneIsASheet) {
     BuildingModel model;
     addFeature(model, "WallSurface", "wall", model::kNoFeature,

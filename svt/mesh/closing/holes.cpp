@@ -47,16 +47,16 @@ public:
         besideEdge_ = std::move(all);
     }
 
-    void close(const Loop& loop) {
-        if (loop.size() < 3) return;
-        if (boundsFlatPart(loop)) {
-            flatParts_.push_back(loop);
-            return;
-        }
-        if (addCap(loop)) return;
-        constexpr std::size_t kMaxCorners = 200;
-        if (loop.size() > kMaxCorners || fit(loop).deviation <= deviation_) return;
-        if (!closeCorner(loop)) closeAlongChords(loop);
+    void closeAll(const std::vector<Loop>& loops) {
+        const std::vector<std::size_t> holeOf = findHoles(loops);
+        std::vector<std::vector<const Loop*>> holes(loops.size());
+        for (std::size_t n = 0; n < loops.size(); ++n)
+            if (holeOf[n] != kNoLoop) holes[holeOf[n]].push_back(&loops[n]);
+        std::vector<char> isCapped(loops.size(), 0);
+        for (std::size_t n = 0; n < loops.size(); ++n)
+            isCapped[n] = !holes[n].empty() && !boundsFlatPart(loops[n]) && addCap(loops[n], holes[n]) ? 1 : 0;
+        for (std::size_t n = 0; n < loops.size(); ++n)
+            if (isCapped[n] == 0 && (holeOf[n] == kNoLoop || isCapped[holeOf[n]] == 0)) close(loops[n]);
     }
 
     // Slivers that float beside a shell get a back, so that they do not keep it open.
@@ -73,6 +73,62 @@ public:
     }
 
 private:
+    static constexpr std::size_t kNoLoop = ~std::size_t{0};
+
+    void close(const Loop& loop) {
+        if (loop.size() < 3) return;
+        if (boundsFlatPart(loop)) {
+            flatParts_.push_back(loop);
+            return;
+        }
+        if (addCap(loop)) return;
+        constexpr std::size_t kMaxCorners = 200;
+        if (loop.size() > kMaxCorners || fit(loop).deviation <= deviation_) return;
+        if (!closeCorner(loop)) closeAlongChords(loop);
+    }
+
+    // True if a ring, seen along the main direction of its normal, goes around a point.
+    [[nodiscard]] bool isAround(const Loop& ring, Vec3d unitNormal, Vec3d point) const {
+        const Vec3d size{std::abs(unitNormal.x), std::abs(unitNormal.y), std::abs(unitNormal.z)};
+        const int along = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
+        const int u = (along + 1) % 3, v = (along + 2) % 3;
+        bool isInside = false;
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const Vec3d a = at(ring[i]), b = at(ring[(i + 1) % ring.size()]);
+            if ((a[v] > point[v]) == (b[v] > point[v])) continue;
+            if (point[u] < a[u] + (b[u] - a[u]) * (point[v] - a[v]) / (b[v] - a[v])) isInside = !isInside;
+        }
+        return isInside;
+    }
+
+    // The loop whose cap has each loop as a hole: in its plane, inside it, and in the opposite direction. The lower edges
+    // of a court are such a hole in the floor of its building. A cap of each loop would cover the court twice.
+    [[nodiscard]] std::vector<std::size_t> findHoles(const std::vector<Loop>& loops) const {
+        constexpr std::size_t kMostLoops = 1000;  // the cost is quadratic
+        constexpr double kSamePlane = 0.999;
+        std::vector<std::size_t> holeOf(loops.size(), kNoLoop), order;
+        if (loops.size() < 2 || loops.size() > kMostLoops) return holeOf;
+        std::vector<FittedPlane> planes;
+        for (std::size_t n = 0; n < loops.size(); ++n) {
+            planes.push_back(fit(loops[n]));
+            if (planes[n].area > 0 && planes[n].deviation <= deviation_) order.push_back(n);
+        }
+        std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return planes[a].area > planes[b].area; });
+        for (std::size_t inner = 1; inner < order.size(); ++inner)
+            for (std::size_t outer = inner; outer-- > 0;) {  // the smallest one around it
+                const FittedPlane &own = planes[order[inner]], &around = planes[order[outer]];
+                const Vec3d first = at(loops[order[inner]].front());
+                const double direction = dot(own.unitNormal, around.unitNormal);
+                if (std::abs(direction) < kSamePlane ||
+                    std::abs(dot(first - around.center, around.unitNormal)) > deviation_ ||
+                    !isAround(loops[order[outer]], around.unitNormal, first))
+                    continue;
+                if (direction < 0 && holeOf[order[outer]] == kNoLoop) holeOf[order[inner]] = order[outer];
+                break;
+            }
+        return holeOf;
+    }
+
     [[nodiscard]] Vec3d at(std::uint32_t vertex) const { return mesh_.vertices[vertex]; }
 
     [[nodiscard]] FittedPlane fit(const Loop& ring) const {
@@ -136,22 +192,30 @@ private:
         return std::min(deviation_, 0.02 * std::sqrt(plane.area));
     }
 
-    bool addCap(const Loop& loop) {
-        std::vector<Vec3d> ring;
-        for (const std::uint32_t vertex : loop) ring.push_back(at(vertex));
-        const auto end = static_cast<std::uint32_t>(ring.size());
-        const Triangulation cap = triangulatePolygon(ring, {&end, 1});
+    // A planar cap, with holes in the opposite direction.
+    bool addCap(const Loop& loop, const std::vector<const Loop*>& holes = {}) {
+        Loop corners = loop;
+        std::vector<std::uint32_t> ends{static_cast<std::uint32_t>(loop.size())};
+        double area = fit(loop).area;
+        for (const Loop* hole : holes) {
+            corners.insert(corners.end(), hole->begin(), hole->end());
+            ends.push_back(static_cast<std::uint32_t>(corners.size()));
+            area -= fit(*hole).area;
+        }
+        std::vector<Vec3d> points;
+        for (const std::uint32_t vertex : corners) points.push_back(at(vertex));
+        const Triangulation cap = triangulatePolygon(points, ends);
         // If the ring crosses itself, the cap would need points that the shell does not have.
         if (cap.triangles.empty() || !cap.extraPoints.empty() || cap.planeDeviation > deviation_) return false;
-        for (const auto& corners : cap.triangles) {
+        for (const auto& triangleCorners : cap.triangles) {
             Triangle triangle;
-            for (std::size_t c = 0; c < 3; ++c) triangle.corners[c] = loop[corners[c]];
+            for (std::size_t c = 0; c < 3; ++c) triangle.corners[c] = corners[triangleCorners[c]];
             mesh_.triangles.push_back(triangle);
         }
         Cap record;
-        record.area = length(newellNormal(ring)) / 2;
-        for (const Vec3d& point : ring) record.center = record.center + point / static_cast<double>(ring.size());
-        record.ring = std::move(ring);
+        record.area = area;
+        record.ring.assign(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(loop.size()));
+        for (const Vec3d& point : record.ring) record.center = record.center + point / static_cast<double>(loop.size());
         mesh_.caps.push_back(std::move(record));
         return true;
     }
@@ -250,7 +314,7 @@ private:
 
 void capHoles(ObjectMesh& mesh, double deviation) {
     HoleCapper capper(mesh, deviation);
-    for (const auto& loop : findBoundaryLoops(mesh.openEdges)) capper.close(loop);
+    capper.closeAll(findBoundaryLoops(mesh.openEdges));
     capper.closeSlivers();
     mesh.openEdges = findOpenEdges(mesh.triangles);
 }

@@ -15,6 +15,9 @@ namespace svt::mesh {
 ///     o--------o              |/     /  a plane: x is      \  run  \  by the chord of its ends, then the next
 ///                             o-----'   where they meet     o-------o
 ///
+/// A loop inside another one in its plane, in the opposite direction, is a hole of its cap: the lower edges of a court in
+/// the missing floor of a building.
+///
 /// A run is evidence of a plane if it bends at least twice, and if a cap there would not lie on the neighbouring faces.
 /// The border of a flat part, such as a single floating face, is not a hole, unless the part is a sliver: all slivers
 /// together are at most a hundredth of the shell. Non-planar holes stay open.

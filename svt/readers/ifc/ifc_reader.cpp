@@ -125,7 +125,7 @@ private:
         units_ = readUnits(file_, project, place(), diagnostics_);
         file_.lengthUnit = units_.length;
         file_.angleUnit = units_.angle;
-        map_ = readMapPlace(file_, project);
+        map_ = readMapPlace(file_, project, place(), diagnostics_);
         const Fields fields = file_.fieldsOf(project);
         model_.name = fields[at::Project::Name].string().value_or("");
         projectName_ = fields[at::Project::LongName].string().value_or("");

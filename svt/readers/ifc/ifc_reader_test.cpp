@@ -388,6 +388,87 @@ TEST(IfcReader, MapConversionMovesToTheMap) {
     EXPECT_EQ(attribute(*find(*model, "0site"), "latitude").substr(0, 8), "49.09972");
 }
 
+// A wall, and property sets of georeferencing on the site. `conversion` and `crs` are lists of properties (name, value).
+std::string ifcWithMapSets(const std::vector<std::pair<std::string, std::string>>& conversion,
+                           const std::vector<std::pair<std::string, std::string>>& crs, const std::string& more = "") {
+    std::string text = std::string("#100=IFCWALL('wall',$,$,$,$,#15,#101,$,$);\n") + kBox + more;
+    const auto addSet = [&](int number, const char* name, const auto& properties) {
+        std::string list;
+        for (std::size_t n = 0; n < properties.size(); ++n) {
+            const int own = number + 10 + int(n);
+            list += fmt::format("{}#{}", n == 0 ? "" : ",", own);
+            text += fmt::format("#{}=IFCPROPERTYSINGLEVALUE('{}',$,{},$);\n", own, properties[n].first,
+                                properties[n].second);
+        }
+        text += fmt::format("#{}=IFCPROPERTYSET('set{}',$,'{}',$,({}));\n", number, number, name, list);
+        text += fmt::format("#{}=IFCRELDEFINESBYPROPERTIES('rel{}',$,$,$,(#30),#{});\n", number + 1, number, number);
+    };
+    addSet(700, "ePSet_MapConversion", conversion);
+    if (!crs.empty()) addSet(800, "ePSet_ProjectedCRS", crs);
+    return ifcFile(text, "#100", "IFC2X3");
+}
+
+const std::vector<std::pair<std::string, std::string>> kMapSet{{"Eastings", "IFCLENGTHMEASURE(457850000.)"},
+                                                               {"Northings", "IFCLENGTHMEASURE(5439000000.)"},
+                                                               {"OrthogonalHeight", "IFCLENGTHMEASURE(110000.)"},
+                                                               {"XAxisAbscissa", "IFCREAL(0.)"},
+                                                               {"XAxisOrdinate", "IFCREAL(1.)"},
+                                                               {"Scale", "IFCREAL(1.)"}};
+const std::vector<std::pair<std::string, std::string>> kCrsSet{{"Name", "IFCLABEL('EPSG:25832')"}};
+
+TEST(IfcReader, PropertySetsMoveToTheMap) {
+    std::vector<std::pair<std::string, std::string>> plain{
+        {"Eastings", "IFCREAL(457850.)"}, {"Northings", "IFCREAL(5439000.)"}, {"OrthogonalHeight", "IFCREAL(110.)"},
+        {"XAxisAbscissa", "IFCREAL(0.)"}, {"XAxisOrdinate", "IFCREAL(2.)"},   {"TargetCRS", "IFCLABEL('EPSG:25832')"}};
+    auto inMetres = kMapSet;
+    for (std::size_t n = 0; n < 3; ++n) inMetres[n].second = "IFCLENGTHMEASURE(" + plain[n].second.substr(8);
+    // Lengths in millimetres of the project, plain numbers, and lengths in the unit of the map.
+    for (const std::string& text :
+         {ifcWithMapSets(kMapSet, kCrsSet), ifcWithMapSets(plain, {}),
+          ifcWithMapSets(inMetres, {{"Name", "IFCLABEL('EPSG:25832')"}, {"MapUnit", "IFCLABEL('METRE')"}})}) {
+        Diagnostics log;
+        const auto model = readText(text, &log);
+        ASSERT_TRUE(model) << model.error().message();
+        EXPECT_EQ(model->crs.epsg, 25832);
+        const Box3d box = bounds(*model, *find(*model, "wall"));
+        EXPECT_NEAR(box.min.x, 457850 - 0.15, 1e-8);
+        EXPECT_NEAR(box.max.y, 5439000 + 0.1, 1e-8);
+        EXPECT_NEAR(box.max.z, 111, 1e-9);
+        EXPECT_EQ(std::ranges::count(log.items(), Code::BadValue, &Diagnostic::code), 0);
+    }
+}
+
+TEST(IfcReader, PropertySetsThatContradictAreAFinding) {
+    const auto findingsOf = [](const std::string& text, std::string& words) {
+        Diagnostics log;
+        auto model = readText(text, &log);
+        EXPECT_TRUE(model);
+        words.clear();
+        for (const Diagnostic& item : log.items())
+            if (item.code == Code::BadValue && item.severity == Severity::Warning) words += item.message + "\n";
+        return std::move(*model);
+    };
+    const auto entity = [](const std::string& eastings) {
+        return "#50=IFCMAPCONVERSION(#20,#51," + eastings +
+               ",5439000.,110.,0.,1.,1.);\n#51=IFCPROJECTEDCRS('EPSG:25832',$,$,$,$,$,#52);\n"
+               "#52=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n";
+    };
+    std::string words;
+    (void)findingsOf(ifcWithMapSets(kMapSet, kCrsSet, entity("457850.")), words);
+    EXPECT_EQ(words, "");
+    const auto other = findingsOf(ifcWithMapSets(kMapSet, kCrsSet, entity("457950.")), words);
+    EXPECT_NE(words.find("IfcMapConversion and ePSet_MapConversion differ: origin (457950.000"), std::string::npos)
+        << words;
+    EXPECT_NEAR(bounds(other, *find(other, "wall")).min.x, 457950 - 0.15, 1e-8);
+    (void)findingsOf(ifcWithMapSets(kMapSet, {{"Name", "IFCLABEL('EPSG:25833')"}}, entity("457850.")), words);
+    EXPECT_NE(words.find("CRS 'EPSG:25832' and 'EPSG:25833'"), std::string::npos) << words;
+    auto broken = kMapSet;
+    broken[1].second = "IFCLABEL('north')";
+    const auto local = findingsOf(ifcWithMapSets(broken, kCrsSet), words);
+    EXPECT_NE(words.find("lacks a number for Eastings or Northings"), std::string::npos) << words;
+    EXPECT_EQ(local.crs.epsg, 0);
+}
+
 // The attribute modelElevation of a storey at `place` metres in a building at `building` metres.
 double levelOfStorey(double building, double place, const std::string& elevation, const std::string& more = "") {
     const auto placed = [](int number, double height) {

@@ -1,10 +1,14 @@
 #include <svt/readers/ifc/units.hpp>
 
+#include <svt/core/text.hpp>
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace svt::readers::ifc {
 namespace {
@@ -47,6 +51,32 @@ bool isMapConversion(Entity entity) noexcept {
     return entity == Entity::MapConversion || entity == Entity::MapConversionScaled || entity == Entity::RigidOperation;
 }
 
+// The axes of the project on the map.
+// \param unit  of the map, in that of the project
+void setAxes(Vec3d x, double scale, double unit, Transform& mapFromProject) {
+    // Many writers give 1 although the units of model and map differ.
+    const double given = scale * unit, factor = scale == 1 || !(given > 0) || !std::isfinite(given) ? 1 : given;
+    x = length(x) > 0 ? normalized(x) : Vec3d{1, 0, 0};
+    mapFromProject.x = x * factor;
+    mapFromProject.y = Vec3d{-x.y, x.x, 0} * factor;
+    mapFromProject.z = {0, 0, factor};
+}
+
+// How two conversions differ, in words; empty if they agree within a millimetre and a microradian.
+std::string differenceOf(const MapPlace& a, const MapPlace& b) {
+    constexpr double kSameMetres = 1e-3, kSameAxis = 1e-6;
+    const Vec3d from = a.mapFromProject.origin, to = b.mapFromProject.origin;
+    if (length(to - from) > kSameMetres)
+        return fmt::format("origin ({:.3f}, {:.3f}, {:.3f}) and ({:.3f}, {:.3f}, {:.3f}) m", from.x, from.y, from.z,
+                           to.x, to.y, to.z);
+    if (length(b.mapFromProject.x - a.mapFromProject.x) > kSameAxis)
+        return fmt::format("x axis ({:.6f}, {:.6f}) and ({:.6f}, {:.6f})", a.mapFromProject.x.x, a.mapFromProject.x.y,
+                           b.mapFromProject.x.x, b.mapFromProject.x.y);
+    if (!a.crs.empty() && !b.crs.empty() && !equalsIgnoringCase(a.crs, b.crs))
+        return fmt::format("CRS '{}' and '{}'", a.crs, b.crs);
+    return {};
+}
+
 // The conversion of the project to a map.
 MapPlace readConversion(const IfcFile& file) {
     MapPlace place;
@@ -73,15 +103,119 @@ MapPlace readConversion(const IfcFile& file) {
                                         number(at::MapConversion::OrthogonalHeight, 0)} *
                                   mapUnit;
     if (isShift) return place;
-    double scale = number(at::MapConversion::Scale, 1) * mapUnit / file.lengthUnit;
-    // Many writers give 1 although the units of model and map differ.
-    if (number(at::MapConversion::Scale, 1) == 1 || !(scale > 0) || !std::isfinite(scale)) scale = 1;
-    Vec3d x{number(at::MapConversion::XAxisAbscissa, 1), number(at::MapConversion::XAxisOrdinate, 0), 0};
-    x = length(x) > 0 ? normalized(x) : Vec3d{1, 0, 0};
-    place.mapFromProject.x = x * scale;
-    place.mapFromProject.y = Vec3d{-x.y, x.x, 0} * scale;
-    place.mapFromProject.z = {0, 0, scale};
+    setAxes({number(at::MapConversion::XAxisAbscissa, 1), number(at::MapConversion::XAxisOrdinate, 0), 0},
+            number(at::MapConversion::Scale, 1), mapUnit / file.lengthUnit, place.mapFromProject);
     return place;
+}
+
+/// The properties of the sets of one name, on sites and projects.
+class MapProperties {
+public:
+    MapProperties(const IfcFile& file, string_view name) : file_(file) {
+        for (const RecordIndex relation : file.all(Entity::RelDefinesByProperties)) {
+            const Fields fields = file.fieldsOf(relation);
+            const RecordIndex set = file.follow(fields[at::RelDefinesByProperties::RelatingPropertyDefinition]);
+            if (file.entityOf(set) != Entity::PropertySet || std::find(sets_.begin(), sets_.end(), set) != sets_.end())
+                continue;
+            if (!equalsIgnoringCase(file.fieldsOf(set)[at::PropertySet::Name].string().value_or(""), name)) continue;
+            for (const RecordIndex object : file.followAll(fields[at::RelDefinesByProperties::RelatedObjects])) {
+                const string_view type = file.typeName(object);
+                if (!equalsIgnoringCase(type, "IFCSITE") && !equalsIgnoringCase(type, "IFCPROJECT")) continue;
+                sets_.push_back(set);
+                break;
+            }
+        }
+    }
+
+    [[nodiscard]] std::size_t count() const noexcept { return sets_.size(); }
+    /// The record of a property; kNoRecord: none.
+    [[nodiscard]] RecordIndex find(std::size_t set, string_view name) const {
+        for (const RecordIndex property : file_.followAll(sets_[set], at::PropertySet::HasProperties))
+            if (file_.entityOf(property) == Entity::PropertySingleValue &&
+                equalsIgnoringCase(file_.fieldsOf(property)[at::PropertySingleValue::Name].string().value_or(""), name))
+                return property;
+        return kNoRecord;
+    }
+    [[nodiscard]] Value value(std::size_t set, string_view name) const {
+        return file_.fieldsOf(find(set, name))[at::PropertySingleValue::NominalValue];
+    }
+    [[nodiscard]] std::string text(std::size_t set, string_view name) const {
+        return value(set, name).string().value_or("");
+    }
+    /// A length in metres. Its unit is its own, else that of the map; else that of the project for a length measure,
+    /// and the metre for a plain number.
+    [[nodiscard]] std::optional<double> length(std::size_t set, string_view name, std::optional<double> mapUnit) const {
+        const Fields fields = file_.fieldsOf(find(set, name));
+        const Value value = fields[at::PropertySingleValue::NominalValue];
+        const auto number = value.number();
+        if (!number) return std::nullopt;
+        const auto own = unitFactor(file_, file_.follow(fields[at::PropertySingleValue::Unit]));
+        const double otherwise = value.typeName().ends_with("LENGTHMEASURE") ? file_.lengthUnit : 1;
+        return *number * own.value_or(mapUnit.value_or(otherwise));
+    }
+
+private:
+    const IfcFile& file_;
+    std::vector<RecordIndex> sets_;
+};
+
+// Metres of a unit of the map that is a text; nothing for an empty or unknown one.
+std::optional<double> namedMapUnit(string_view name) noexcept {
+    constexpr double kSurveyFoot = 1200.0 / 3937;
+    constexpr std::pair<string_view, double> kUnits[] = {
+        {"METRE", 1},         {"METER", 1},  {"METRES", 1},
+        {"METERS", 1},        {"M", 1},      {"MILLIMETRE", .001},
+        {"MILLIMETER", .001}, {"MM", .001},  {"FOOT", .3048},
+        {"FEET", .3048},      {"FT", .3048}, {"US SURVEY FOOT", kSurveyFoot},
+        {"FTUS", kSurveyFoot}};
+    for (const auto& [unit, metres] : kUnits)
+        if (equalsIgnoringCase(name, unit)) return metres;
+    return std::nullopt;
+}
+
+// The conversion by property sets, as IfcMapConversion and IfcProjectedCRS state it.
+MapPlace readMapSets(const IfcFile& file, const Place& place, Diagnostics& diagnostics) {
+    const auto warn = [&](std::string text) {
+        diagnostics.add(Severity::Warning, Code::BadValue, std::move(text), place);
+    };
+    const MapProperties conversion(file, "ePSet_MapConversion"), crs(file, "ePSet_ProjectedCRS");
+    MapPlace first;
+    if (conversion.count() == 0 && crs.count() > 0)
+        warn(
+            "ePSet_ProjectedCRS names a CRS, but the file has no ePSet_MapConversion; the model keeps the "
+            "coordinates of its project");
+    for (std::size_t set = 0; set < conversion.count(); ++set) {
+        MapPlace found;
+        std::optional<double> mapUnit;
+        found.crs = conversion.text(set, "TargetCRS");
+        if (crs.count() > 0) {
+            const std::size_t own = std::min(set, crs.count() - 1);
+            if (const std::string name = crs.text(own, "Name"); !name.empty()) found.crs = name;
+            const std::string unit = crs.text(own, "MapUnit");
+            mapUnit = namedMapUnit(unit);
+            if (!unit.empty() && !mapUnit)
+                warn(fmt::format("the MapUnit '{}' of ePSet_ProjectedCRS is not known; the unit of each value counts",
+                                 unit));
+        }
+        const auto east = conversion.length(set, "Eastings", mapUnit);
+        const auto north = conversion.length(set, "Northings", mapUnit);
+        if (!east || !north) {
+            warn("ePSet_MapConversion lacks a number for Eastings or Northings and is not used");
+            continue;
+        }
+        const auto number = [&](string_view name, double otherwise) {
+            return conversion.value(set, name).number().value_or(otherwise);
+        };
+        found.isGiven = true;
+        found.mapFromProject.origin = {*east, *north, conversion.length(set, "OrthogonalHeight", mapUnit).value_or(0)};
+        setAxes({number("XAxisAbscissa", 1), number("XAxisOrdinate", 0), 0}, number("Scale", 1),
+                mapUnit.value_or(file.lengthUnit) / file.lengthUnit, found.mapFromProject);
+        if (!first.isGiven)
+            first = std::move(found);
+        else if (const std::string difference = differenceOf(first, found); !difference.empty())
+            warn(fmt::format("two property sets ePSet_MapConversion differ: {}; the first one is used", difference));
+    }
+    return first;
 }
 
 }  // namespace
@@ -157,8 +291,19 @@ Units readUnits(const IfcFile& file, RecordIndex project, const Place& place, Di
     return units;
 }
 
-MapPlace readMapPlace(const IfcFile& file, RecordIndex project) {
+MapPlace readMapPlace(const IfcFile& file, RecordIndex project, const Place& where, Diagnostics& diagnostics) {
     MapPlace place = readConversion(file);
+    MapPlace ofSets = readMapSets(file, where, diagnostics);
+    if (!place.isGiven) {
+        place = std::move(ofSets);
+    } else if (ofSets.isGiven) {
+        if (const std::string difference = differenceOf(place, ofSets); !difference.empty())
+            diagnostics.add(Severity::Warning, Code::BadValue,
+                            fmt::format("IfcMapConversion and ePSet_MapConversion differ: {}; IfcMapConversion is used",
+                                        difference),
+                            where);
+        if (place.crs.empty()) place.crs = std::move(ofSets.crs);
+    }
     if (const auto north = trueNorth(file, project)) {
         const Vec3d onMap = place.mapFromProject.direction(*north);
         place.trueNorthDegrees = std::atan2(onMap.x, onMap.y) * 180 / std::numbers::pi;

@@ -30,11 +30,14 @@ struct Units {
 struct MapPlace {
     Transform mapFromProject;
     std::string crs;                         ///< name of IfcProjectedCRS, such as EPSG:25832; empty: none
-    bool isGiven = false;                    ///< an IfcMapConversion
+    bool isGiven = false;                    ///< an IfcMapConversion, or the property sets in its place
     std::optional<double> trueNorthDegrees;  ///< from the y axis of the map to true north, clockwise
 };
-/// The direction of true north is that of a geometric context of the project (TrueNorth), turned by the conversion.
-[[nodiscard]] MapPlace readMapPlace(const IfcFile& file, RecordIndex project);
+/// The conversion is an IfcMapConversion, else the property sets `ePSet_MapConversion` and `ePSet_ProjectedCRS` of a
+/// site or project, by which IFC 2x3 states it. Findings (BadValue): both differ, or the sets lack a place. The direction
+/// of true north is that of a geometric context of the project (TrueNorth), turned by the conversion.
+[[nodiscard]] MapPlace readMapPlace(const IfcFile& file, RecordIndex project, const Place& place,
+                                    Diagnostics& diagnostics);
 
 /// Degrees of an IfcCompoundPlaneAngleMeasure: (49,5,59,0); nothing for another value.
 [[nodiscard]] std::optional<double> compoundDegrees(Value list);

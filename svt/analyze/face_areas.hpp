@@ -1,0 +1,32 @@
+#pragma once
+/// \file
+/// Areas of faces of the model, from the meshes that a volume keeps.
+
+#include <svt/volume/semantic_volume.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace svt::analyze {
+
+/// Classes of faces that are measured together, such as Window and WindowSurface.
+enum class FaceKind : std::uint8_t { Roof, Wall, Ground, Window, Door };
+inline constexpr std::array<std::string_view, 5> kFaceKindNames{"roof", "wall", "ground", "window", "door"};
+
+/// m2 of the mesh of each label; empty where the volume keeps none. Faces of sheets have one side, closed meshes of
+/// windows and doors all of theirs. Cost: O(labels + triangles).
+[[nodiscard]] std::vector<std::optional<double>> meshAreas(const volume::SemanticVolume& volume);
+
+/// m2 of the faces of each kind in an extent, by FaceKind. Empty: unknown, because the extent has no label of this kind,
+/// or one without a mesh. A part of a label that counts, such as a pane, is left out.
+/// \param extent  ascending, see Extents
+/// \param areas   of meshAreas()
+[[nodiscard]] std::array<std::optional<double>, 5> faceAreas(const volume::LabelTable& labels,
+                                                             std::span<const std::uint32_t> extent,
+                                                             std::span<const std::optional<double>> areas);
+
+}  // namespace svt::analyze
