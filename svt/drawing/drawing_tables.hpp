@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <utility>
@@ -18,6 +19,7 @@
 namespace svt::drawing {
 
 enum class PartRole : std::uint8_t;  // dimension/part_roles.hpp
+struct HatchChoice;                  // hatches.hpp
 
 /// Facts about a label that follow from its class and its place in the tree.
 struct LabelFacts {
@@ -28,6 +30,7 @@ struct LabelFacts {
     bool isElement = false;    ///< an element, or a part of one
     bool isBuilding = false;   ///< a building or a part of one
     bool hasSurfaces = false;  ///< boundary surfaces with voxels are its children
+    bool isStair = false;      ///< a stair, or a part of one
 };
 
 /// Triangles of one label, at most kMostTriangles, and the box around them.
@@ -58,13 +61,16 @@ struct PlanHulls {
     }
 };
 
-/// Each table is made when it is first needed. Not thread-safe.
+/// Each table is made when it is first needed. Several threads may use the tables at a time, if they call bricks() with
+/// one thread each.
 class DrawingTables {
 public:
     /// \param volume  must outlive the tables, unchanged
     explicit DrawingTables(const volume::SemanticVolume& volume) noexcept : volume_(volume) {}
 
-    /// labelHatches() of the volume.
+    /// chooseHatches() of the volume.
+    [[nodiscard]] const std::vector<HatchChoice>& hatchChoices() const;
+    /// The hatches of hatchChoices().
     [[nodiscard]] std::shared_ptr<const std::vector<render::Hatch>> hatches() const;
     [[nodiscard]] const std::vector<PartRole>& roles() const;                   ///< partRoles() of the volume
     [[nodiscard]] const std::vector<std::optional<double>>& roomAreas() const;  ///< roomFloorAreas() of the volume
@@ -77,6 +83,8 @@ public:
 
 private:
     const volume::SemanticVolume& volume_;
+    mutable std::mutex mutex_;  // of the tables below; those that are made do not change
+    mutable std::shared_ptr<const std::vector<HatchChoice>> hatchChoices_;
     mutable std::shared_ptr<const std::vector<render::Hatch>> hatches_;
     mutable std::optional<std::vector<PartRole>> roles_;
     mutable std::optional<std::vector<std::optional<double>>> roomAreas_;

@@ -61,7 +61,9 @@ struct LevelArea {
 
 /// All components of one class and IFC type, with their parts that have a style of their own, such as panes.
 struct ComponentSum {
-    std::string className, type;  ///< type: attribute `ifcType`, or empty
+    /// `type` is the attribute `ifcType`, otherwise the word in `function` of a constructive element or an installation,
+    /// otherwise empty.
+    std::string className, type;
     std::size_t count = 0;
     double area = 0;    ///< m2: sum of projections along the normal of each one's largest face; 0 without meshes
     double volume = 0;  ///< m3: of solids

@@ -91,7 +91,7 @@ struct SectionLine {
     std::uint32_t label = 0;
 };
 
-/// A polyline between two labels, each drawn once.
+/// A polyline between two labels, each drawn once. Walls of one material join without a border between them.
 struct SectionBorder {
     std::vector<PlanePoint> points;  ///< a closed one repeats the first at the end
     std::uint32_t left = 0;          ///< label on the left side in the order of points, or volume::kNoLabel
@@ -143,6 +143,13 @@ struct DimensionChain {
     friend bool operator==(const DimensionChain&, const DimensionChain&) = default;
 };
 
+/// The reason why a plan or a section has no chains of dimensions although they were requested.
+enum class ChainsLeftOut : std::uint8_t {
+    No,
+    NothingMeasured,  ///< it cuts no wall, slab, roof, column, window or door
+    TurnedWalls       ///< most walls of the plan run along axes that are turned against those of the grid
+};
+
 /// A clear dimension of a room in a plan, along u or v, between the walls of the room.
 struct RoomDimension {
     std::uint32_t label = 0;
@@ -190,6 +197,7 @@ struct SectionDrawing {
     std::vector<DimensionChain> dimensions;     ///< by side and row; only on request, in plans and upright sections
     std::vector<RoomDimension> roomDimensions;  ///< by label; only on request, and only in plans
     std::vector<OpeningHeights> openings;       ///< by label; only on request, and only in plans
+    ChainsLeftOut chainsLeftOut = ChainsLeftOut::No;
     DimensionUnit dimensionUnit = DimensionUnit::MetresCentimetres;
     std::vector<DoorSwing> doors;    ///< by label; only in plans, if the model describes how doors open
     std::vector<ClassArea> classes;  ///< by name
@@ -275,6 +283,9 @@ void reportSection(const SectionDrawing& drawing, const volume::SemanticVolume& 
 /// The same for several drawings of one volume, each component once. Does not report planes in faces.
 void reportSections(std::span<const SectionDrawing* const> drawings, const volume::SemanticVolume& volume,
                     Diagnostics& log);
+
+/// A sentence for the user on drawings whose chains of dimensions were left out, with the reason; empty: none.
+[[nodiscard]] std::string leftOutChains(std::span<const SectionDrawing* const> drawings);
 
 /// A rectangle for a text inside a polygon.
 struct TextPlace {

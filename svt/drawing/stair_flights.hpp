@@ -28,6 +28,9 @@ struct StairFlight {
     [[nodiscard]] int risersTo(double upperFloor) const noexcept;
 };
 
+/// The stair that each label is or is a part of, by class, IFC type, function or name; volume::kNoLabel for others.
+[[nodiscard]] std::vector<std::uint32_t> stairOfLabels(const volume::LabelTable& table);
+
 /// The stairs of the model, by class, IFC type, function or name, whose meshes have treads: horizontal faces that look
 /// up, 8 to 30 cm apart. Faces that carry another part of the stair, such as the top of a riser, are not treads. Nor are
 /// smaller faces between two treads. Stairs without treads, such as ramps, are left out.

@@ -6,6 +6,7 @@
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
+#include <apps/cli/output/pdf_notes.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/city/city_walk.hpp>
@@ -68,6 +69,7 @@ Result<int> writeSection(const SectionArguments& arguments, const drawing::Secti
     printVolumeFindings(findings, volume.source, arguments.input);
     noteHatches(uses);
     for (const std::string& message : nothing) note(message);
+    if (const std::string chains = drawing::leftOutChains(drawings); !chains.empty()) note(chains);
     const bool isEmpty = drawing.components.empty() && drawing.beyond.empty();
     if (isEmpty && !nothing.empty()) note("nothing is drawn");
     if (isEmpty && nothing.empty())
@@ -79,7 +81,9 @@ Result<int> writeSection(const SectionArguments& arguments, const drawing::Secti
         for (const std::filesystem::path& path : paths) {
             SVT_DO(writers::writeDrawing(drawing, volume, path, {scale, arguments.dxf}));
             if (endingOf(path) == ".dxf" && arguments.dxf.isoLayers) noteExternals(volume);
-            if (endingOf(path) == ".pdf" && !writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
+            if (endingOf(path) != ".pdf") continue;
+            if (!writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
+            noteMissingLetters(volume.labels);
         }
     TerminalProgress::hide();
     if (arguments.json) fmt::print(resultStream(), "{}", writers::makeSectionJson(drawing, volume, uses));

@@ -6,6 +6,7 @@
 #include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/levels/level_parts.hpp>
 #include <svt/drawing/room_floor_areas.hpp>
+#include <svt/drawing/side_by_side.hpp>
 #include <svt/model/classes.hpp>
 
 #include <fmt/format.h>
@@ -62,6 +63,17 @@ const std::string* attributeText(const volume::Label& label, std::string_view na
     for (const Attribute& attribute : label.attributes)
         if (attribute.name == name) return std::get_if<std::string>(&attribute.value);
     return nullptr;
+}
+
+// The type of IFC, else the function of a component of no class in particular, if it is a word: not "31001_1000".
+std::string typeOrFunction(const volume::Label& label) {
+    if (const std::string* type = attributeText(label, "ifcType")) return *type;
+    const bool isAnyClass =
+        label.className == "BuildingConstructiveElement" || label.className == "BuildingInstallation";
+    const std::string* function = isAnyClass ? attributeText(label, "function") : nullptr;
+    const bool isWord = function != nullptr && function->size() <= 40 &&
+                        std::all_of(function->begin(), function->end(), [](char c) { return isLetter(c) || c == ' '; });
+    return isWord ? *function : std::string();
 }
 
 // Whether a space is the hollow of a roof by its name, which does not count as a floor.
@@ -139,11 +151,11 @@ private:
         }
     }
 
-    Result<SectionDrawing> cutAt(double height) const {
+    Result<SectionDrawing> cutAt(double height, int threads) const {
         const Vec3d up = volume_.grid.axes()[2];
         const SectionPlane plane{up, volume_.grid.origin() + up * height};
         SectionOptions options;
-        options.threads = threads_;
+        options.threads = threads;
         options.tables = &tables_;
         if (!meetsGrid(plane, volume_.grid)) return SectionDrawing{};
         return drawSection(volume_, plane, options);
@@ -152,24 +164,28 @@ private:
     // Measures the area that each level encloses, and the area of each label at its level.
     Result<void> cutLevels() {
         areaAt_.assign(levels_.size(), std::vector<double>(volume_.labels.labels.size(), 0));
-        for (std::size_t n = 0; n < levels_.size(); ++n) {
-            const double floor = levels_[n].roomFloor.value_or(levels_[n].floor);
-            LevelArea& level = areas_.levels[n];
-            level.isExact = levels_[n].bound == 0;
-            SVT_TRY(drawing, cutAt(floor + kBelowSills));
-            CoveredArea covered;
-            for (const SectionComponent& component : drawing->components) {
-                const volume::Label& label = volume_.labels.labels[component.label];
-                if (model::classRank(label.className) == model::ClassRank::Other) continue;
-                addTo(level, component);
-                level.gross += component.area;
-                level.isGrossKnown = level.isGrossKnown || !model::isSpace(label.className);
-                areaAt_[n][component.label] = component.area;
-                covered.add(component, *drawing);
-            }
-            SVT_DO(closeOpenings(n, floor, *drawing, covered));
-        }
+        std::vector<Result<void>> cut(levels_.size());
+        drawSideBySide(levels_.size(), threads_, [&](std::size_t n, int threads) { cut[n] = cutLevel(n, threads); });
+        for (const Result<void>& level : cut) SVT_DO(level);
         return {};
+    }
+
+    Result<void> cutLevel(std::size_t n, int threads) {
+        const double floor = levels_[n].roomFloor.value_or(levels_[n].floor);
+        LevelArea& level = areas_.levels[n];
+        level.isExact = levels_[n].bound == 0;
+        SVT_TRY(drawing, cutAt(floor + kBelowSills, threads));
+        CoveredArea covered;
+        for (const SectionComponent& component : drawing->components) {
+            const volume::Label& label = volume_.labels.labels[component.label];
+            if (model::classRank(label.className) == model::ClassRank::Other) continue;
+            addTo(level, component);
+            level.gross += component.area;
+            level.isGrossKnown = level.isGrossKnown || !model::isSpace(label.className);
+            areaAt_[n][component.label] = component.area;
+            covered.add(component, *drawing);
+        }
+        return closeOpenings(n, floor, *drawing, covered, threads);
     }
 
     static void addTo(LevelArea& level, const SectionComponent& component) {
@@ -178,10 +194,11 @@ private:
     }
 
     // Adds the openings of walls to the gross area. Below the ceiling, above doors and windows, a wall is whole.
-    Result<void> closeOpenings(std::size_t n, double floor, const SectionDrawing& plan, CoveredArea& covered) {
+    Result<void> closeOpenings(std::size_t n, double floor, const SectionDrawing& plan, CoveredArea& covered,
+                               int threads) {
         const double height = ceilings_[n] - kBelowCeiling;
         if (!(height > floor + kBelowSills)) return {};
-        SVT_TRY(above, cutAt(height));
+        SVT_TRY(above, cutAt(height, threads));
         bool hasWalls = false;
         for (const SectionComponent& component : above->components) {
             const bool isCut = areaAt_[n][component.label] > 0;
@@ -198,7 +215,7 @@ private:
     // The area of a room without a closed mesh: at the cut of its level, or above its own floor if that is elsewhere.
     Result<double> cutArea(const RoomArea& room, const LabelExtent& extent) const {
         if (areaAt_[room.level][room.label] > 0) return areaAt_[room.level][room.label];
-        SVT_TRY(drawing, cutAt(extent.floor + kBelowSills));
+        SVT_TRY(drawing, cutAt(extent.floor + kBelowSills, threads_));
         for (const SectionComponent& component : drawing->components)
             if (component.label == room.label) return component.area;
         return 0.0;
@@ -257,10 +274,10 @@ private:
             const std::uint32_t object = isPart ? label.parent : l;
             const volume::Label& owner = labels[object];
             if (label.count == 0 || model::isSpace(owner.className) || owner.className == "Annotation") continue;
-            const std::string* type = attributeText(owner, "ifcType");
-            ComponentSum& sum = sums[{owner.className, type != nullptr ? *type : std::string()}];
+            std::string type = typeOrFunction(owner);
+            ComponentSum& sum = sums[{owner.className, type}];
             sum.className = owner.className;
-            if (type != nullptr) sum.type = *type;
+            sum.type = std::move(type);
             sum.count += std::exchange(isCounted[object], 1) == 0;
             sum.area += hasClosedMesh(label.filling) ? 0.5 * meshes_[l].seen : meshes_[l].seen;
             sum.volume += label.volume;

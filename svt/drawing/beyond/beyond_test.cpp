@@ -5,13 +5,16 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <set>
+#include <string>
 #include <tuple>
 
 namespace svt::drawing {
 namespace {
 
-/// What is drawn behind a plane, seen along y: u is x, v is z, of the grid's lower corner.
+/// The lines behind a plane, seen along y: u is x, v is z, of the grid's lower corner.
 SectionDrawing drawBeyond(const Boxes& boxes, Vec3d normal, Vec3d point, BeyondOptions beyond = {.visible = true},
                           int threads = 1, std::vector<std::string> hide = {}) {
     SectionOptions options;
@@ -66,7 +69,7 @@ TEST(LinesBeyond, ABoxHidesWhatIsBehindIt) {
     EXPECT_EQ(linesOf(drawing, BeyondKind::Hidden), (Lines{{2000, 1000, 4000, 1000}}));
 }
 
-// From behind A is hidden but for what stands above B.
+// From behind, only the part of A above B is visible.
 TEST(LinesBeyond, TheOtherSideIsSeenTheOtherWayRound) {
     Boxes boxes;
     boxes.addBox("A", "BuildingInstallation", {2, 1, 0}, {4, 2, 2});
@@ -147,6 +150,71 @@ TEST(LinesBeyond, APlanShowsWhatIsBelowAndWhatIsAbove) {
         (Lines{{0, 1000, 1000, 1000}, {2000, 1000, 6000, 1000}, {0, 2000, 1000, 2000}, {2000, 2000, 6000, 2000}}));
 }
 
+/// Half a turn of a winding stair: solid steps between the radii 0.2 and 1.2 m around (3, 3), whose undersides together
+/// are a helical soffit of facets.
+Boxes windingStair(int steps, const char* ifcType = "IfcStairFlight") {
+    Boxes boxes;
+    boxes.addLabel("stair", "BuildingConstructiveElement", volume::Filling::Solid, 1);
+    boxes.volume.labels.labels.back().attributes.push_back({"ifcType", std::string(ifcType), ""});
+    constexpr double kPi = 3.14159265358979323846, kRiser = 0.175, kThick = 0.2;
+    const auto at = [&](double radius, int step, double z) {
+        const double angle = kPi * step / steps;
+        return Vec3d{3 + radius * std::cos(angle), 3 + radius * std::sin(angle), z};
+    };
+    for (int n = 0; n < steps; ++n) {
+        const double top = 3 + kRiser * (n + 1), low = top - kThick - kRiser, high = top - kThick;
+        const Vec3d a = at(0.2, n, low), b = at(1.2, n, low), c = at(1.2, n + 1, high), d = at(0.2, n + 1, high);
+        const Vec3d e = at(0.2, n, top), f = at(1.2, n, top), g = at(1.2, n + 1, top), h = at(0.2, n + 1, top);
+        boxes.addQuad({a, d, c, b});
+        boxes.addQuad({e, f, g, h});
+        boxes.addQuad({a, b, f, e});
+        boxes.addQuad({c, d, h, g});
+        boxes.addQuad({b, c, g, f});
+        boxes.addQuad({d, a, e, h});
+    }
+    return boxes;
+}
+
+// Lines in plan that are not chords of the two circles.
+std::size_t linesAcross(const SectionDrawing& drawing, BeyondKind kind) {
+    std::size_t count = 0;
+    for (const BeyondLine& line : drawing.beyond)
+        if (line.kind == kind &&
+            std::abs(std::hypot(line.from.u - 3, line.from.v - 3) - std::hypot(line.to.u - 3, line.to.v - 3)) > 0.1)
+            ++count;
+    return count;
+}
+
+TEST(LinesBeyond, AHelicalSoffitShowsNoFacets) {
+    for (const int steps : {8, 12}) {
+        const Boxes stair = windingStair(steps);
+        const SectionDrawing below = drawBeyond(stair, {0, 0, 1}, {0, 0, 2}, {.above = true});
+        EXPECT_EQ(linesAcross(below, BeyondKind::Above), 2u) << "its two ends";
+        const SectionDrawing above = drawBeyond(stair, {0, 0, 1}, {0, 0, 8});
+        EXPECT_EQ(linesAcross(above, BeyondKind::Visible), std::size_t(steps) + 1) << "its treads";
+    }
+    // Other bodies of facets keep their edges.
+    const SectionDrawing other = drawBeyond(windingStair(8, "IfcSlab"), {0, 0, 1}, {0, 0, 2}, {.above = true});
+    EXPECT_GT(linesAcross(other, BeyondKind::Above), 8u);
+}
+
+// The underside of a straight flight meets that of its landing in an edge.
+TEST(LinesBeyond, FlightsAndLandingsKeepTheirEdges) {
+    Boxes boxes;
+    boxes.addLabel("stair", "BuildingConstructiveElement", volume::Filling::Solid, 1);
+    boxes.volume.labels.labels.back().attributes.push_back({"ifcType", std::string("IfcStair"), ""});
+    const auto edge = [](double x, double z, double y) { return Vec3d{x, y, z}; };
+    const std::array<std::array<double, 2>, 6> profile{
+        {{1, 3}, {4, 4.8}, {5.2, 4.8}, {5.2, 5}, {4, 5}, {1, 3.2}}};  // from the side
+    for (std::size_t n = 0; n < profile.size(); ++n) {
+        const auto [x, z] = profile[n];
+        const auto [nextX, nextZ] = profile[(n + 1) % profile.size()];
+        boxes.addQuad({edge(x, z, 1), edge(x, z, 2), edge(nextX, nextZ, 2), edge(nextX, nextZ, 1)});
+    }
+    const SectionDrawing below = drawBeyond(boxes, {0, 0, 1}, {0, 0, 2}, {.above = true});
+    EXPECT_TRUE(linesOf(below, BeyondKind::Above).contains({4000, 1000, 4000, 2000}));
+}
+
 // A line that pierces a slope ends there: the slope rises by 1 in 2, the rod's upper edges lie at 1.25 m.
 TEST(LinesBeyond, ALineEndsWhereItPiercesAFace) {
     Boxes boxes;
@@ -184,7 +252,7 @@ TEST(LinesBeyond, ALineIsDrawnWhereShellsPierceEachOther) {
     EXPECT_EQ(found, 1u);
 }
 
-// Facets of round things are no edges; their outline is.
+// Facets of round things have no edges between them, only an outline.
 TEST(LinesBeyond, ARoundColumnShowsItsOutline) {
     Boxes boxes;
     boxes.addLabel("column", "BuildingInstallation", volume::Filling::Solid, 1);

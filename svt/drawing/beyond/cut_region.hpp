@@ -24,11 +24,19 @@ public:
     void addCovered(PlanePoint from, PlanePoint to, Scratch& scratch, std::vector<LinePart>& covered) const;
 
 private:
-    [[nodiscard]] bool contains(PlanePoint p, PlaneIndex::Seen& seen) const;
+    static constexpr std::size_t kMostRows = 1024;
+    struct Border {
+        PlanePoint low, high;
+        double left = 0;  // the lower u
+    };
+    void sortIntoRows();
+    [[nodiscard]] std::size_t rowOf(double v) const noexcept;
+    [[nodiscard]] bool contains(PlanePoint p) const;
 
     std::vector<PlanePoint> corners_;  // of segments, two each
-    double leftmost_ = 0;
     PlaneIndex index_;
+    double bottom_ = kInfinity, rowHeight_ = 1;
+    std::vector<std::vector<Border>> rows_;  // by height; a border is in all rows that it meets
 };
 
 }  // namespace svt::drawing

@@ -14,12 +14,21 @@ constexpr double kCosineOfCrease = 0.939693;  // of 20 degrees: facets of round 
 constexpr double kSeen = 1e-3;                // cosine: faces of outlines
 constexpr double kFromTheSide = 1e-7;         // cosine below which a face is seen from the side
 constexpr double kSliver = 5e-6;              // metres: lower triangles have no direction
+// Facets of curved soffits and stringers of stairs. The two triangles of a helical soffit between two treads differ by
+// up to 56 degrees near the newel.
+constexpr double kCosineOfSoffit = 0.5;   // of 60 degrees
+constexpr double kCosineOfString = 0.82;  // of 35 degrees: corners of hexagonal and octagonal posts stay
+constexpr double kWidestFacet = 0.6;      // metres across an edge: straight flights and landings are wider
+constexpr double kHorizontal = 0.98;      // cosine: treads and landings
+constexpr double kUpright = 0.05;         // cosine
+constexpr double kCoincident = 0.9999;    // cosine
 
 // How the faces of a label are looked at.
 struct LabelView {
     bool isShown = false;
     bool isClosed = false;  // faces that look away need not be asked
-    double turn = 1;        // -1: seen from within
+    bool isStair = false;
+    double turn = 1;  // -1: seen from within
 };
 
 LabelView labelViewOf(std::uint32_t l, const volume::LabelTable& table, const std::vector<LabelFacts>& facts,
@@ -27,6 +36,7 @@ LabelView labelViewOf(std::uint32_t l, const volume::LabelTable& table, const st
     const volume::Label& label = table.labels[l];
     LabelView view;
     view.isClosed = facts[l].isClosed;
+    view.isStair = facts[l].isStair;
     if (!facts[l].isSpace) {
         view.isShown = isDrawn[l] != 0 && label.className != "ClosureSurface";
         return view;
@@ -51,6 +61,8 @@ public:
           away_(plane.normal * (options.looksAtCut ? 1.0 : -1.0)),
           base_(volume.grid.origin() - axes.origin) {
         handedness_ = dot(axes.normal, away_) > 0 ? 1 : -1;
+        const Vec3d up = volume.grid.axes()[2];
+        up_ = {dot(up, axes.u), dot(up, axes.v), dot(up, away_)};
         points_.resize(parts_.points.size());
         heights_.resize(parts_.points.size());
         isPlaced_.resize(parts_.points.size());
@@ -65,6 +77,8 @@ public:
           tables_(tables),
           eye_(&eye) {
         handedness_ = dot(cross(eye.axes.u, eye.axes.v), eye.away) > 0 ? 1 : -1;
+        const Vec3d up = volume.grid.axes()[2];
+        up_ = {dot(up, eye.axes.u), dot(up, eye.axes.v), dot(up, eye.away)};
         for (const Vec3i& point : parts_.points) {
             const Vec3d world = volume.grid.origin() + toDouble(point) * parts_.unit;
             points_.push_back(eye.viewed(world));
@@ -237,6 +251,12 @@ private:
             farthest = std::max(farthest, facing);
         }
         if (count == 0) return;
+        if (isCrease && view.isStair && isBetweenFacets(around)) {
+            isCrease = false;
+            const auto [a, b] = outerFaces(around);
+            nearest = std::min(a->facing, b->facing);
+            farthest = std::max(a->facing, b->facing);
+        }
         // Where a round surface turns away from the eye: beside a face that is seen there is one that is not.
         const bool isOutline = view.isClosed ? nearest < -kSeen && farthest > -kSeen : count == 2 && isFold(around);
         if (count > 1 && !isCrease && !isOutline) return;
@@ -252,6 +272,37 @@ private:
         ViewEdge edge{pictured(from.at), pictured(to.at), label, {}, 0, false};
         findFace(around, view, edge);
         shapes_.edges.push_back(edge);
+    }
+
+    // The two faces at an edge, without pairs of faces that lie on each other: those between two solid steps. Null if
+    // others than two are left.
+    [[nodiscard]] std::array<const TriangleView*, 2> outerFaces(std::span<const HalfEdge> around) const noexcept {
+        std::array<const TriangleView*, 4> faces{};
+        if (around.size() != 2 && around.size() != 4) return {};
+        for (std::size_t n = 0; n < around.size(); ++n) faces[n] = &normals_[around[n].triangle];
+        if (around.size() == 2) return {faces[0], faces[1]};
+        for (const auto& [a, b, c, d] : {std::array{0, 1, 2, 3}, std::array{0, 2, 1, 3}, std::array{0, 3, 1, 2},
+                                         std::array{1, 2, 0, 3}, std::array{1, 3, 0, 2}, std::array{2, 3, 0, 1}})
+            if (dot(faces[std::size_t(a)]->normal, faces[std::size_t(b)]->normal) < -kCoincident)
+                return {faces[std::size_t(c)], faces[std::size_t(d)]};
+        return {};
+    }
+
+    // Whether an edge of a stair lies between two narrow facets of a curved soffit, or of a curved upright face.
+    [[nodiscard]] bool isBetweenFacets(std::span<const HalfEdge> around) const noexcept {
+        const Vec3d start = points_[around[0].low], edge = points_[around[0].high] - start;
+        const auto faces = outerFaces(around);
+        int upright = 0;
+        for (const TriangleView* face : faces) {
+            if (face == nullptr) return false;
+            const double rise = std::abs(dot(face->normal, up_));
+            if (rise > kHorizontal || dot(face->normal, face->normal) == 0) return false;
+            upright += rise < kUpright ? 1 : 0;
+            for (const std::uint32_t corner : parts_.triangles[face->triangle].corners)
+                if (length(cross(edge, points_[corner] - start)) > kWidestFacet * length(edge)) return false;
+        }
+        if (upright == 1) return false;
+        return dot(faces[0]->normal, faces[1]->normal) > (upright == 2 ? kCosineOfString : kCosineOfSoffit);
     }
 
     // Whether an edge has a part above zero, and that part.
@@ -315,6 +366,7 @@ private:
     const DrawingTables& tables_;
     PlaneAxes axes_;     // of a parallel view, as away_ and base_
     Vec3d away_, base_;  // depth; from the axes' origin to that of the points
+    Vec3d up_;           // the grid's z axis in view space
     std::vector<std::uint8_t> isPlaced_;
     double handedness_ = 1;              // of u, v and depth
     const EyeView* eye_ = nullptr;       // or the plane's

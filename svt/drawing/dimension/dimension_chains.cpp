@@ -5,6 +5,7 @@
 #include <svt/drawing/levels/level_parts.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -18,20 +19,39 @@ constexpr double kLeastAlong = 0.6;     // share of the length of walls
 constexpr std::size_t kMostParts = 80;  // of a chain
 constexpr double kSameFoot = 0.5;       // metres: a room stands on a level
 
-// The share of the length of walls that runs along u or v.
-double shareAlongAxes(const SectionDrawing& drawing, const std::vector<PartRole>& roles) {
-    double all = 0, along = 0;
+// The lengths of the borders of walls, by their direction.
+struct WallDirections {
+    static constexpr std::size_t kSteps = 180;  // half degrees of a right angle
+    std::array<double, kSteps> lengths{};
+    double all = 0, alongAxes = 0;
+
+    [[nodiscard]] bool areAlongAxes() const noexcept { return all > 0 && alongAxes >= kLeastAlong * all; }
+    // Along another direction and across it, within a degree.
+    [[nodiscard]] bool areTurned() const noexcept {
+        double most = 0;
+        for (std::size_t n = 0; n < kSteps; ++n)
+            most = std::max(most, lengths[n] + lengths[(n + 1) % kSteps] + lengths[(n + 2) % kSteps]);
+        return !areAlongAxes() && all > 0 && most >= kLeastAlong * all;
+    }
+};
+
+WallDirections wallDirections(const SectionDrawing& drawing, const std::vector<PartRole>& roles) {
+    constexpr double kRightAngle = 1.57079632679489661923;
+    WallDirections directions;
     const auto isWall = [&](std::uint32_t label) { return label != kNoLabel && roles[label] == PartRole::Hull; };
     for (const SectionBorder& border : drawing.borders) {
         if (isWall(border.left) == isWall(border.right)) continue;
         for (std::size_t n = 0; n + 1 < border.points.size(); ++n) {
-            const double du = std::abs(border.points[n + 1].u - border.points[n].u),
-                         dv = std::abs(border.points[n + 1].v - border.points[n].v), length = std::hypot(du, dv);
-            all += length;
-            if (std::min(du, dv) <= kAlong * length) along += length;
+            const double du = border.points[n + 1].u - border.points[n].u,
+                         dv = border.points[n + 1].v - border.points[n].v, length = std::hypot(du, dv);
+            const double turns = std::atan2(dv, du) / kRightAngle, share = turns - std::floor(turns);
+            const auto step = static_cast<std::size_t>(share * WallDirections::kSteps);
+            directions.lengths[std::min(step, WallDirections::kSteps - 1)] += length;
+            directions.all += length;
+            if (std::min(std::abs(du), std::abs(dv)) <= kAlong * length) directions.alongAxes += length;
         }
     }
-    return all > 0 ? along / all : 0;
+    return directions;
 }
 
 bool isSameChain(const std::vector<double>& a, const std::vector<double>& b) {
@@ -138,18 +158,23 @@ void addDimensions(SectionDrawing& drawing, const volume::SemanticVolume& volume
     if (!isPlan && upright > 1e-9) return;
     const std::vector<PartRole> roles = rolesIn(drawing, tables.roles());
     const std::vector<BuildingLevel> levels = options.levels != nullptr ? *options.levels : findLevels(volume);
-    if (!isPlan) {
-        drawing.dimensions = findHeightChains(drawing, volume, roles, levels);
-        return;
-    }
-    drawing.dimensions = findPlanChains(drawing, roles);
+    drawing.dimensions = isPlan ? findPlanChains(drawing, roles) : findHeightChains(drawing, volume, roles, levels);
+    // An elevation cuts nothing.
+    const bool isCut = std::any_of(drawing.components.begin(), drawing.components.end(),
+                                   [&](const auto& part) { return roles[part.label] != PartRole::Space; });
+    if (drawing.dimensions.empty() && isCut)
+        drawing.chainsLeftOut = isPlan && wallDirections(drawing, roles).areTurned() ? ChainsLeftOut::TurnedWalls
+                                                                                     : ChainsLeftOut::NothingMeasured;
+    if (!isPlan) return;
     drawing.roomDimensions = findRoomDimensions(drawing, volume);
     drawing.openings = findOpeningHeights(drawing, volume, roles, levels, tables);
 }
 
 std::vector<DimensionChain> findPlanChains(const SectionDrawing& drawing, const std::vector<PartRole>& roles) {
     std::vector<DimensionChain> chains;
-    const bool isAlongAxes = shareAlongAxes(drawing, roles) >= kLeastAlong;
+    const WallDirections directions = wallDirections(drawing, roles);
+    if (directions.areTurned()) return chains;
+    const bool isAlongAxes = directions.areAlongAxes();
     for (const DimensionSide side :
          {DimensionSide::Below, DimensionSide::Right, DimensionSide::Above, DimensionSide::Left}) {
         std::vector<double> extent =

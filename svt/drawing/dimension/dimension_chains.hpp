@@ -39,7 +39,8 @@ void addDimensions(SectionDrawing& drawing, const volume::SemanticVolume& volume
 /// shutter before a wall does not count. A stop is a place where walls and fillings alternate, or where the face steps
 /// by 50 mm. Behind a face up to 1 m thick follow the rooms, or the air between walls if no rooms are drawn. Only the
 /// roles Space, Opening and Hull count; overall lengths are those of the hull. If less than 60 % of the length of walls
-/// runs along u or v, a side has only its overall length. Oblique parts of a face have no stops. Parts below 15 mm,
+/// runs along u or v, a side has only its overall length. If as much runs along other axes, within a degree, the
+/// building is turned and has no chains. Oblique parts of a face have no stops. Parts below 15 mm,
 /// chains of more than 80 parts, and chains that repeat the next one are omitted.
 /// \param roles  of rolesIn()
 /// Cost: O(borders * stops that one spans); beyond 50 million of these, only the overall length is given.

@@ -86,21 +86,39 @@ TEST(Dimensions, StepsOfTheFaceHaveStops) {
     EXPECT_EQ(chainsOf(drawing, DimensionSide::Above), (Chains{{7000}}));
 }
 
-TEST(Dimensions, ObliqueBuildingsHaveTheirOverallLengthOnly) {
+// A building of upright walls over a polygon.
+Boxes prism(const std::vector<Vec3d>& corners) {
     Boxes boxes;
-    boxes.addLabel("turned", "Building", volume::Filling::Solid, 1);
-    const Vec3d a{3, 0.5, 0}, b{6, 3.5, 0}, c{3, 6.5, 0}, d{0, 3.5, 0}, up{0, 0, 3};
-    boxes.addQuad({a, d, c, b});
-    boxes.addQuad({a + up, b + up, c + up, d + up});
-    const std::array<Vec3d, 4> corners{a, b, c, d};
-    for (std::size_t n = 0; n < 4; ++n) {
-        const Vec3d p = corners[n], q = corners[(n + 1) % 4];
+    boxes.addLabel("prism", "Building", volume::Filling::Solid, 1);
+    const Vec3d up{0, 0, 3};
+    const std::size_t count = corners.size();
+    for (std::size_t n = 1; n + 2 < count; n += 2) {
+        boxes.addQuad({corners[0], corners[(n + 2) % count], corners[n + 1], corners[n]});
+        boxes.addQuad({corners[0] + up, corners[n] + up, corners[n + 1] + up, corners[(n + 2) % count] + up});
+    }
+    for (std::size_t n = 0; n < count; ++n) {
+        const Vec3d p = corners[n], q = corners[(n + 1) % count];
         boxes.addQuad({p, q, q + up, p + up});
     }
-    const SectionDrawing drawing = planOf(boxes);
-    for (const DimensionSide side :
-         {DimensionSide::Below, DimensionSide::Right, DimensionSide::Above, DimensionSide::Left})
-        EXPECT_EQ(chainsOf(drawing, side), (Chains{{6000}}));
+    return boxes;
+}
+
+// Nobody measures the rectangle around a turned house.
+TEST(Dimensions, TurnedBuildingsHaveNoChains) {
+    const SectionDrawing drawing = planOf(prism({{3, 0.5, 0}, {6, 3.5, 0}, {3, 6.5, 0}, {0, 3.5, 0}}));
+    EXPECT_TRUE(drawing.dimensions.empty());
+    EXPECT_EQ(drawing.chainsLeftOut, ChainsLeftOut::TurnedWalls);
+    const SectionDrawing* const one = &drawing;
+    EXPECT_NE(leftOutChains(std::span(&one, 1)).find("--axes building"), std::string::npos);
+}
+
+// Six sides, no two of which are parallel or at a right angle.
+TEST(Dimensions, BuildingsWithoutMainDirectionHaveTheirOverallLengthOnly) {
+    const SectionDrawing drawing =
+        planOf(prism({{2, 0, 0}, {5, 0.7, 0}, {6, 3, 0}, {4.5, 5.5, 0}, {1.5, 5, 0}, {0, 2.5, 0}}));
+    EXPECT_EQ(chainsOf(drawing, DimensionSide::Below), (Chains{{6000}}));
+    EXPECT_EQ(chainsOf(drawing, DimensionSide::Left), (Chains{{5500}}));
+    EXPECT_EQ(drawing.chainsLeftOut, ChainsLeftOut::No);
 }
 
 // A casing of 50 mm around the window, 25 mm before the wall, and a shutter on the east wall.

@@ -24,8 +24,8 @@ constexpr string_view kOuterLayers[] = {"cladding", "roofing", "insulation"};  /
 constexpr string_view kUnmeasured[] = {"covering", "proxy",   "railing",   "shading",     "terrace",
                                        "terrasse", "balcony", "balkon",    "canopy",      "shutter",
                                        "handle",   "furnish", "furniture", "installation"};
-constexpr string_view kFrameTypes[] = {"column", "beam", "member", "rafter",  "purlin", "post",
-                                       "stair",  "ramp", "pile",   "chimney", "truss",  "reinforc"};
+constexpr string_view kFrameTypes[] = {"beam", "member", "rafter",  "purlin", "post",    "stair",
+                                       "ramp", "pile",   "chimney", "truss",  "reinforc"};
 constexpr string_view kHullTypes[] = {"wall", "slab", "roof", "plate", "floor", "footing", "foundation", "curtain"};
 
 bool hasOneOf(string_view text, std::span<const string_view> words) {
@@ -57,6 +57,7 @@ std::optional<PartRole> roleOfType(const std::string& type, const volume::Label&
     const std::string predefined = lowerTexts(label, {"predefinedType"});
     if (type.find("covering") != std::string::npos && hasOneOf(predefined, kOuterLayers)) return PartRole::Frame;
     if (hasOneOf(type, kUnmeasured)) return PartRole::Nothing;
+    if (type.find("column") != std::string::npos) return PartRole::Column;
     if (hasOneOf(type, kFrameTypes)) {
         return predefined.find("mullion") != std::string::npos ? PartRole::Hull : PartRole::Frame;
     }
@@ -124,9 +125,11 @@ std::vector<PartRole> rolesIn(const SectionDrawing& drawing, std::vector<PartRol
             if (role == from) role = to;
     };
     if (!isCut(PartRole::Hull)) {
-        replace(isCut(PartRole::Frame) ? PartRole::Frame : PartRole::Nothing, PartRole::Hull);
+        replace(PartRole::Column, PartRole::Hull);
+        replace(PartRole::Frame, PartRole::Nothing);
         return roles;
     }
+    replace(PartRole::Column, PartRole::Frame);
     // A post that touches a beam at a wall counts too.
     for (bool isChanged = true; isChanged;) {
         isChanged = false;

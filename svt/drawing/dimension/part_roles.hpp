@@ -16,7 +16,8 @@ enum class PartRole : std::uint8_t {
     Space,         ///< rooms, units, storeys
     Opening,       ///< windows and doors with their casings, frames and panes
     Hull,          ///< walls, slabs, roofs, and bodies of buildings without parts
-    Frame          ///< columns, beams, stairs, cladding: they count where they touch the hull
+    Frame,         ///< beams, stairs, cladding: they count where they touch the hull
+    Column         ///< counts where it touches the hull, and in drawings without a hull
 };
 
 /// The roles by label. Classes decide, then `ifcType`, `function` and `predefinedType`. Names decide only for components
@@ -24,8 +25,8 @@ enum class PartRole : std::uint8_t {
 /// their own, such as the layers of a wall, have its role.
 [[nodiscard]] std::vector<PartRole> partRoles(const volume::LabelTable& table);
 
-/// The roles within a drawing: a frame that touches the hull there counts as hull, others as nothing. Without a hull,
-/// all frames count; without frames too, everything that is neither space, opening nor surroundings.
+/// The roles within a drawing: a frame or a column that touches the hull there counts as hull, others as nothing.
+/// Without a hull, all columns count as hull, and frames as nothing.
 [[nodiscard]] std::vector<PartRole> rolesIn(const SectionDrawing& drawing, std::vector<PartRole> roles);
 
 }  // namespace svt::drawing

@@ -202,6 +202,11 @@ TEST(GroundFloor, IsNamedSoOrDeclaresTheElevationNearestToZero) {
     EXPECT_EQ(groundOf({{"Lower ground floor", 0}, {"Ground floor", 2.8}}), 1u);
     EXPECT_EQ(groundOf({{"T/FDN", -1.25}, {"Level 1", 0}}), 1u);
     EXPECT_EQ(groundOf({{"A", 30}, {"B", 32.8}}), 0u);
+    EXPECT_EQ(groundOf({{"A", 30}, {"Haus 2 EG", 32.8}, {"C", 35.6}}), 1u) << "the word at the end";
+    EXPECT_EQ(groundOf({{"A", 30}, {"EG-Wohnung", 32.8}, {"C", 35.6}}), 1u) << "the word at the beginning";
+    EXPECT_EQ(groundOf({{"A", 30}, {"Segel", 32.8}, {"Weg", 35.6}, {"Egon", 38.4}}), 0u) << "parts of other words";
+    EXPECT_EQ(groundOf({{"A", -1.2}, {"B", 1.6}}), 0u) << "too far from 0";
+    EXPECT_EQ(groundOf({{"A", -1.9}, {"B", 0.9}}), 1u);
 }
 
 TEST(GroundFloor, IsAboveTheStoreysBelowGround) {

@@ -170,6 +170,25 @@ TEST(StoreyFloors, WithoutRoomsSlabsConfirmTheDeclaredLevel) {
     EXPECT_TRUE(storeyHeights("Level 2", boxes.volume)->disagrees());
 }
 
+// The slab ends at 1.5 m, known up to one voxel of 0.25 m: a level up to 0.3 m + 0.25 m away agrees with it.
+TEST(StoreyFloors, ASlabOfVoxelsConfirmsALevelWithinItsBound) {
+    const auto sourceAt = [](double level) {
+        volume::SemanticVolume volume = volume::test::emptyVolume({5, 5, 21}, {0.25, 0.25, 0.25}, {100, 200, 30.125});
+        volume::test::addGroup(volume, "b", "Building");
+        volume::test::addGroup(volume, "s", "Storey", 0).attributes = {{"modelElevation", 30 + level, "m"}};
+        volume::test::addObject(volume, "slab", "BuildingConstructiveElement", 1).attributes = {
+            {"ifcType", std::string("IfcSlab"), ""}};
+        volume::test::addObject(volume, "wall", "BuildingConstructiveElement", 1);
+        volume::test::paint(volume, [](int i, int, int k) { return k >= 4 && k < 6 ? 1 : i == 0 ? 2 : 0; });
+        return storeyHeights("s", volume)->source;
+    };
+    EXPECT_EQ(sourceAt(1.5), FloorSource::Declared);
+    EXPECT_EQ(sourceAt(1.95), FloorSource::Declared);
+    EXPECT_EQ(sourceAt(2.1), FloorSource::Slabs);
+    EXPECT_EQ(sourceAt(1.05), FloorSource::Declared);
+    EXPECT_EQ(sourceAt(0.9), FloorSource::Slabs);
+}
+
 // A flat of two storeys is a member of both. Its rooms belong to the storeys that they are members of.
 TEST(StoreyFloors, ARoomBelongsToItsNearestStorey) {
     Boxes boxes;

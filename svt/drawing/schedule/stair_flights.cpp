@@ -34,19 +34,6 @@ bool isStairLabel(const volume::Label& label) {
     return words.find("stair") != std::string::npos || words.find("treppe") != std::string::npos;
 }
 
-// The stair that each label is part of, or kNoLabel.
-std::vector<std::uint32_t> stairOfLabels(const volume::LabelTable& table) {
-    std::vector<std::uint32_t> stairs(table.labels.size(), volume::kNoLabel);
-    for (std::uint32_t l = 0; l < stairs.size(); ++l) {
-        const std::uint32_t parent = table.labels[l].parent;
-        if (parent != volume::kNoLabel && parent < l && stairs[parent] != volume::kNoLabel)
-            stairs[l] = stairs[parent];
-        else if (isStairLabel(table.labels[l]))
-            stairs[l] = l;
-    }
-    return stairs;
-}
-
 // The upper one of the two in the middle; there must be values.
 double medianOf(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -173,6 +160,18 @@ double acrossOf(const StairTread& a, const StairTread& b, Vec3d up) noexcept {
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> stairOfLabels(const volume::LabelTable& table) {
+    std::vector<std::uint32_t> stairs(table.labels.size(), volume::kNoLabel);
+    for (std::uint32_t l = 0; l < stairs.size(); ++l) {
+        const std::uint32_t parent = table.labels[l].parent;
+        if (parent != volume::kNoLabel && parent < l && stairs[parent] != volume::kNoLabel)
+            stairs[l] = stairs[parent];
+        else if (isStairLabel(table.labels[l]))
+            stairs[l] = l;
+    }
+    return stairs;
+}
 
 int StairFlight::risersTo(double upperFloor) const noexcept {
     const double rest = upperFloor - treads.back().height;

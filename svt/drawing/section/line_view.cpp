@@ -3,6 +3,7 @@
 #include <svt/drawing/beyond/lines_beyond.hpp>
 #include <svt/drawing/section/draw_labels.hpp>
 #include <svt/drawing/section/exact_section.hpp>
+#include <svt/drawing/section/wall_joints.hpp>
 #include <svt/model/classes.hpp>
 
 #include <algorithm>
@@ -117,6 +118,7 @@ Result<LineView> drawLineView(const volume::SemanticVolume& volume, const render
     }
     EyeView eye = eyeOf(frame.camera);
     LineView view;
+    const DrawingTables tables(volume);
     if (*plane) {
         // Rooms are air: they are not filled, and the objects in them are visible.
         std::vector<std::uint8_t> isCut = isDrawn;
@@ -125,7 +127,7 @@ Result<LineView> drawLineView(const volume::SemanticVolume& volume, const render
         SectionOptions section;
         section.threads = options.threads;
         section.smallestArea = 1e-4;
-        SVT_TRY(drawing, drawLabels(volume, nullptr, **plane, isCut, section));
+        SVT_TRY(drawing, drawLabels(volume, nullptr, **plane, isCut, section, tables));
         view.drawing = std::move(*drawing);
         eye.hasCut = true;
         eye.cut = view.drawing.plane;
@@ -140,6 +142,7 @@ Result<LineView> drawLineView(const volume::SemanticVolume& volume, const render
     view.drawing.axes = eye.axes;
     view.drawing.plane = {eye.axes.normal, eye.axes.origin};
     addLinesOfView(view.drawing, volume, isDrawn, eye, options.hidden, options.threads);
+    joinWalls(view.drawing, volume.labels, tables);
     view.height = eye.distance > 0
                       ? 2 * eye.distance * std::tan(frame.camera.verticalFovDegrees * 3.14159265358979323846 / 360)
                       : frame.camera.orthographicHeight;

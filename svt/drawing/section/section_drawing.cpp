@@ -9,6 +9,7 @@
 #include <svt/drawing/section/draw_labels.hpp>
 #include <svt/drawing/section/exact_section.hpp>
 #include <svt/drawing/section/section_rings.hpp>
+#include <svt/drawing/section/wall_joints.hpp>
 #include <svt/model/classes.hpp>
 
 #include <fmt/format.h>
@@ -280,16 +281,18 @@ Result<SectionDrawing> drawSectionOf(const volume::SemanticVolume& volume, const
                      fmt::format("smallest area {} m2 and tolerance {} m of a section must be finite",
                                  options.smallestArea, options.tolerance));
     SVT_TRY(drawn, drawnLabels(volume, options));
-    return drawLabels(volume, bricks, plane, *drawn, options);
+    const DrawingTables ownTables(volume);
+    const DrawingTables& tables = options.tables != nullptr ? *options.tables : ownTables;
+    SVT_TRY(drawing, drawLabels(volume, bricks, plane, *drawn, options, tables));
+    joinWalls(*drawing, volume.labels, tables);
+    return std::move(*drawing);
 }
 
 }  // namespace
 
 Result<SectionDrawing> drawLabels(const volume::SemanticVolume& volume, const volume::BrickVolume* bricks,
                                   const SectionPlane& plane, const std::vector<std::uint8_t>& isDrawn,
-                                  const SectionOptions& options) {
-    const DrawingTables ownTables(volume);
-    const DrawingTables& tables = options.tables != nullptr ? *options.tables : ownTables;
+                                  const SectionOptions& options, const DrawingTables& tables) {
     const bool isCut = options.useMeshes && hasMeshes(volume);
     if (isCut) {
         SVT_TRY(drawing, drawMeshes(volume, bricks, plane, isDrawn, options, tables));

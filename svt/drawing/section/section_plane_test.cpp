@@ -105,6 +105,10 @@ TEST(SectionPlane, MovesOffFacesToTheSideThatIsKept) {
     const Vec3d turned = volume.grid.origin() + Vec3d{-0.4, 0.3, 0};
     EXPECT_NEAR(hairOffFaces({{-0.8, 0.6, 0}, turned}, volume), hair, 1e-9);
     EXPECT_EQ(hairOffFaces({{0, 1, 0}, turned}, volume), 0);
+    volume.planes = {{{{0, 0.6, -0.8}, 2.0 / 0.25 + 0.5}, {0, 0, 0}, {1, 1, 1}}};
+    EXPECT_EQ(hairOffFaces(at(2.0, 1), volume), 0) << "a slanted face has no common plane with it";
+    EXPECT_EQ(hairOffFaces(at(2.5, 1), volume), 0);
+    EXPECT_EQ(hairOffFaces(at(2.58, 1), volume), 0);
     volume.planes.clear();
     EXPECT_EQ(hairOffFaces(at(2.0, 1), volume), 0);
 }

@@ -87,4 +87,24 @@ void reportSections(std::span<const SectionDrawing* const> drawings, const volum
     warn(narrow, "they are hardly wider than the rounding of coordinates", "move the plane slightly");
 }
 
+std::string leftOutChains(std::span<const SectionDrawing* const> drawings) {
+    std::size_t nothing = 0, turned = 0;
+    for (const SectionDrawing* drawing : drawings) {
+        nothing += drawing->chainsLeftOut == ChainsLeftOut::NothingMeasured ? 1 : 0;
+        turned += drawing->chainsLeftOut == ChainsLeftOut::TurnedWalls ? 1 : 0;
+    }
+    std::string text;
+    if (nothing > 0)
+        text = fmt::format(
+            "{} of {} drawings have no chains of dimensions, because they cut no wall, slab, roof or "
+            "column",
+            nothing, drawings.size());
+    if (turned > 0)
+        text += fmt::format(
+            "{}{} of {} drawings have no chains of dimensions, because their walls are turned against "
+            "the axes of the grid; build the volume with --axes building",
+            text.empty() ? "" : "; ", turned, drawings.size());
+    return text;
+}
+
 }  // namespace svt::drawing

@@ -1,5 +1,6 @@
 #include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/sheet_views.hpp>
+#include <svt/drawing/side_by_side.hpp>
 #include <svt/drawing/storey_floors.hpp>
 
 #include <svt/drawing/dimension/part_roles.hpp>
@@ -33,17 +34,23 @@ Result<std::optional<double>> placeInRange(const volume::SemanticVolume& volume,
     const bool hasRooms = std::any_of(labels.begin(), labels.end(),
                                       [](const volume::Label& label) { return label.count > 0 && isRoomSpace(label); });
     const std::vector<PartRole>& roles = tables.roles();
-    SectionOptions options;
-    options.threads = threads;
-    options.tables = &tables;
+    // From the middle outwards, avoiding round fractions of the extent, where walls often stand.
+    const auto placeOf = [&](std::size_t n) {
+        const auto step = static_cast<double>((n + 1) / 2);
+        return range.low + (0.487 + (n % 2 == 0 ? 1 : -1) * range.spread * step) * range.size;
+    };
+    std::array<std::optional<Result<SectionDrawing>>, 9> drawings;
+    drawSideBySide(drawings.size(), threads, [&](std::size_t n, int own) {
+        SectionOptions options;
+        options.threads = own;
+        options.tables = &tables;
+        drawings[n] =
+            drawSection(volume, {along * (axis == 1 ? -1.0 : 1.0), volume.grid.origin() + along * placeOf(n)}, options);
+    });
     std::optional<double> best;
     double most = -kInfinity;
-    for (int n = 0; n < 9; ++n) {
-        // From the middle outwards, avoiding round fractions of the extent, where walls often stand.
-        const int step = (n + 1) / 2;
-        const double at = range.low + (0.487 + (n % 2 == 0 ? 1 : -1) * range.spread * step) * range.size;
-        const auto drawing =
-            drawSection(volume, {along * (axis == 1 ? -1.0 : 1.0), volume.grid.origin() + along * at}, options);
+    for (std::size_t n = 0; n < drawings.size(); ++n) {
+        const Result<SectionDrawing>& drawing = *drawings[n];
         if (!drawing) return drawing.error();
         // Without rooms, the plane that cuts most of the buildings wins.
         double score = 0;
@@ -58,7 +65,7 @@ Result<std::optional<double>> placeInRange(const volume::SemanticVolume& volume,
         }
         if (drawing->edgesInPlane > 0) score -= 1;
         if (cutsBuilding && score > most + 0.5) {
-            best = at;
+            best = placeOf(n);
             most = score;
         }
     }

@@ -3,6 +3,7 @@
 #include <svt/drawing/dimension/part_roles.hpp>
 #include <svt/drawing/hatches.hpp>
 #include <svt/drawing/room_floor_areas.hpp>
+#include <svt/drawing/stair_flights.hpp>
 #include <svt/model/classes.hpp>
 #include <svt/plane/hull.hpp>
 
@@ -34,6 +35,8 @@ std::vector<LabelFacts> factsOf(const volume::LabelTable& table) {
         while (top != kNoLabel && !facts[top].isBuilding) top = table.labels[top].parent;
         facts[l].building = top;
     }
+    const std::vector<std::uint32_t> stairs = stairOfLabels(table);
+    for (std::uint32_t l = 0; l < facts.size(); ++l) facts[l].isStair = stairs[l] != kNoLabel;
     return facts;
 }
 
@@ -108,32 +111,48 @@ std::pair<double, double> MeshRun::rangeAlong(Vec3d direction) const noexcept {
     return {from, to};
 }
 
+const std::vector<HatchChoice>& DrawingTables::hatchChoices() const {
+    const std::lock_guard lock(mutex_);
+    if (!hatchChoices_) hatchChoices_ = std::make_shared<const std::vector<HatchChoice>>(chooseHatches(volume_.labels));
+    return *hatchChoices_;
+}
+
 std::shared_ptr<const std::vector<render::Hatch>> DrawingTables::hatches() const {
-    if (!hatches_) hatches_ = std::make_shared<const std::vector<render::Hatch>>(labelHatches(volume_.labels));
+    const std::vector<HatchChoice>& choices = hatchChoices();
+    const std::lock_guard lock(mutex_);
+    if (hatches_) return hatches_;
+    std::vector<render::Hatch> hatches;
+    for (const HatchChoice& choice : choices) hatches.push_back(choice.hatch);
+    hatches_ = std::make_shared<const std::vector<render::Hatch>>(std::move(hatches));
     return hatches_;
 }
 
 const std::vector<PartRole>& DrawingTables::roles() const {
+    const std::lock_guard lock(mutex_);
     if (!roles_) roles_ = partRoles(volume_.labels);
     return *roles_;
 }
 
 const std::vector<std::optional<double>>& DrawingTables::roomAreas() const {
+    const std::lock_guard lock(mutex_);
     if (!roomAreas_) roomAreas_ = roomFloorAreas(volume_);
     return *roomAreas_;
 }
 
 const std::vector<LabelFacts>& DrawingTables::facts() const {
+    const std::lock_guard lock(mutex_);
     if (!facts_) facts_ = factsOf(volume_.labels);
     return *facts_;
 }
 
 const std::vector<MeshRun>& DrawingTables::runs() const {
+    const std::lock_guard lock(mutex_);
     if (!runs_) runs_ = runsOf(volume_.vectors);
     return *runs_;
 }
 
 Result<const volume::BrickVolume*> DrawingTables::bricks(int threads) const {
+    const std::lock_guard lock(mutex_);
     if (!bricks_) {
         SVT_TRY(made,
                 volume::BrickVolume::fromColumns(volume_.columns, {.planes = volume_.planes, .threads = threads}));
@@ -143,7 +162,9 @@ Result<const volume::BrickVolume*> DrawingTables::bricks(int threads) const {
 }
 
 const PlanHulls& DrawingTables::plans() const {
-    if (!plans_) plans_ = plansOf(volume_, runs());
+    const std::vector<MeshRun>& own = runs();
+    const std::lock_guard lock(mutex_);
+    if (!plans_) plans_ = plansOf(volume_, own);
     return *plans_;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -113,6 +114,32 @@ void checkVolumes(const model::BuildingModel& model, const Prepared& prepared, c
     }
 }
 
+namespace {
+
+// One note for all objects, with the share of the first three.
+void reportLostFaces(const model::BuildingModel& model, const mesh::MeshSet& meshes,
+                     std::span<const voxelize::LostShare> lostFaces, Diagnostics& log) {
+    constexpr std::size_t kShown = 3;
+    if (lostFaces.empty()) return;
+    std::string objects;
+    for (std::size_t n = 0; n < std::min(kShown, lostFaces.size()); ++n) {
+        const double share = lostFaces[n].share;
+        objects += fmt::format("{}'{}' ({:.{}f} %)", n == 0 ? "" : ", ",
+                               model.features[meshes.objects[lostFaces[n].object].feature].id, 100 * share,
+                               share < 0.01 ? 1 : 0);
+    }
+    if (lostFaces.size() > kShown) objects += fmt::format(" and {} others", lostFaces.size() - kShown);
+    const model::Feature& first = model.features[meshes.objects[lostFaces.front().object].feature];
+    log.add(
+        Severity::Note, Code::WindingFilled,
+        fmt::format("the filling by winding number leaves out parts of the surface of {} object{}: {}; "
+                    "there, voxels draw the faces, and no volume counts them",
+                    lostFaces.size(), lostFaces.size() == 1 ? "" : "s", objects),
+        {model.source, lostFaces.size() == 1 ? first.line : 0, 0, lostFaces.size() == 1 ? first.id : std::string()});
+}
+
+}  // namespace
+
 void reportBounds(const model::BuildingModel& model, const mesh::MeshSet& meshes,
                   const voxelize::VoxelizeResult& voxels, Diagnostics& log) {
     for (const std::uint32_t o : voxels.unfilled) {
@@ -123,14 +150,7 @@ void reportBounds(const model::BuildingModel& model, const mesh::MeshSet& meshes
                         meshes.objects[o].openEdges.size()),
             {model.source, feature.line, 0, feature.id});
     }
-    for (const voxelize::LostShare& lost : voxels.lostFaces) {
-        const model::Feature& feature = model.features[meshes.objects[lost.object].feature];
-        log.add(Severity::Note, Code::WindingFilled,
-                fmt::format("its filling by winding number leaves out {:.{}f} % of its surface; there, voxels draw its "
-                            "faces, and no volume counts them",
-                            100 * lost.share, lost.share < 0.01 ? 1 : 0),
-                {model.source, feature.line, 0, feature.id});
-    }
+    reportLostFaces(model, meshes, voxels.lostFaces, log);
     if (voxels.crowdedVoxels != 0)
         log.add(Severity::Warning, Code::Overlap,
                 fmt::format("{} voxels are claimed by more than 16 solids each; of these only overlaps with the first "
