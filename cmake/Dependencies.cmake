@@ -13,6 +13,7 @@ endforeach()
 
 # Not linked either: svt/writers loads it for PDF.
 find_path(CAIRO_INCLUDE_DIR cairo/cairo-pdf.h REQUIRED)
+find_path(FONTCONFIG_INCLUDE_DIR fontconfig/fontconfig.h REQUIRED)  # of the fonts in PDF
 set(SVT_CAIRO_LIBRARY libcairo.so.2)
 
 find_file(DEJAVU_SANS DejaVuSans.ttf PATHS /usr/share/fonts/truetype/dejavu /usr/share/fonts/TTF /usr/share/fonts/dejavu

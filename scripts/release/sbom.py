@@ -27,6 +27,7 @@ class Library(NamedTuple):
 # By Debian's source package, so that a new version needs no change here.
 LIBRARIES = {
     "fmtlib": Library("MIT", "linked"),
+    "fontconfig": Library("HPND", "linked"),
     "freetype": Library("FTL", "linked"),
     "gcc-12": Library("GPL-3.0-or-later WITH GCC-exception-3.1", "system"),
     "glibc": Library("LGPL-2.1-or-later", "system"),

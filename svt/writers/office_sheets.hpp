@@ -7,6 +7,8 @@
 #include <svt/writers/sheet_writer.hpp>
 #include <svt/writers/table.hpp>
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,11 +25,12 @@ namespace svt::writers {
 
 /// A view as DXF with a layout: model space has the drawing in metres, and paper space a sheet of the options' paper with
 /// frame, title block, marks, and a viewport at the scale. A file in world coordinates has no layout.
-/// \param view  index into content.views
+/// \param view      index into content.views
+/// \param isAround  of drawing::labelsAroundBuilding(), which is the same for all views
 /// \return the text, or an error of makeSvgSheets() for that view
 [[nodiscard]] Result<std::string> makeSheetDxf(const SheetContent& content, std::size_t view,
                                                const volume::SemanticVolume& volume, const SheetOptions& options,
-                                               const DxfOptions& dxf);
+                                               const DxfOptions& dxf, std::span<const std::uint8_t> isAround);
 
 /// The options of the title block that are empty: `--creator`, ...
 [[nodiscard]] std::vector<std::string> emptyBlockOptions(const drawing::TitleBlock& block);

@@ -99,9 +99,30 @@ struct SheetOptions {
 /// first call.
 [[nodiscard]] const std::string& missingPdfLayers();
 
+/// The letters of a text that no font of this machine has, each once: a PDF has boxes instead. Loads fontconfig if the
+/// embedded font lacks a letter.
+[[nodiscard]] std::string lettersWithoutFont(std::string_view text);
+
 /// The sheets as one PDF, one page per sheet, with the layers of the SVG unless missingPdfLayers().
 /// \return the bytes, or the errors of makeSvgSheets(), NoCairo or CannotWrite
 [[nodiscard]] Result<std::string> makePdfSheets(const SheetContent& content, const volume::SemanticVolume& volume,
                                                 const SheetOptions& options = {});
+
+/// Sheets in two formats.
+struct SheetFiles {
+    std::vector<std::string> svg;  ///< one document per sheet
+    std::string pdf;               ///< empty unless it was requested
+    std::string missingLetters;    ///< letters that no font of the machine has: boxes in the PDF
+    bool hasRightToLeft = false;   ///< Arabic or Hebrew text, whose letters the PDF neither joins nor orders
+};
+
+/// makeSvgSheets() and makePdfSheets() together, with the same bytes. Each sheet is painted once for both, so that the
+/// places of its texts are found once. Sheets are painted side by side.
+/// Memory: beside the files, up to eight painted sheets per thread.
+/// \param hasPdf   whether to make the PDF
+/// \param threads  0: all cores; the result does not depend on it
+/// \return the files, or an error of makePdfSheets()
+[[nodiscard]] Result<SheetFiles> makeSheetFiles(const SheetContent& content, const volume::SemanticVolume& volume,
+                                                const SheetOptions& options, bool hasPdf, int threads = 0);
 
 }  // namespace svt::writers

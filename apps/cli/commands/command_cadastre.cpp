@@ -4,6 +4,7 @@
 #include <apps/cli/output/cadastre_reports.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
+#include <apps/cli/output/pdf_notes.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/analyze/selection.hpp>
@@ -82,6 +83,7 @@ Result<std::string> makeReports(const CadastreArguments& arguments, const LandAd
         SVT_TRY(drawn, drawBuilding(volume, arguments.build.threads));
         view = std::move(*drawn);
     }
+    noteMissingLetters(volume.labels);
     return writers::makeUnitReports(all, *spaces, volume, view ? &*view : nullptr, arguments.build.threads);
 }
 

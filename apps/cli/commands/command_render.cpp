@@ -5,6 +5,7 @@
 #include <apps/cli/output/film.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
+#include <apps/cli/output/pdf_notes.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/analyze/selection.hpp>
@@ -250,6 +251,7 @@ Result<void> writeLineView(const RenderArguments& arguments, const drawing::Line
     }
     SVT_TRY(pdf, writers::makeViewPdf(view, volume, width));
     if (number == 0 && !writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
+    if (number == 0) noteMissingLetters(writers::lettersWithoutFont(volume.modelName));  // of the title
     SVT_DO(writeFileAtomically(path, *pdf));
     return {};
 }

@@ -5,14 +5,17 @@
 #include <apps/cli/options/shared_options.hpp>
 #include <apps/cli/output/messages.hpp>
 #include <apps/cli/output/output_files.hpp>
+#include <apps/cli/output/pdf_notes.hpp>
 #include <apps/cli/output/terminal_progress.hpp>
 
 #include <svt/core/file.hpp>
+#include <svt/core/parallel.hpp>
 #include <svt/core/text.hpp>
 #include <svt/drawing/building_crop.hpp>
 #include <svt/drawing/building_levels.hpp>
 #include <svt/drawing/external_parts.hpp>
-#include <svt/image/text.hpp>
+#include <svt/volume/svt_file.hpp>
+#include <svt/volume_readers/read_label_volume.hpp>
 #include <svt/writers/draw_sheets.hpp>
 #include <svt/writers/office_sheets.hpp>
 #include <svt/writers/sheet_geopackage.hpp>
@@ -35,7 +38,7 @@ struct SheetsArguments {
     std::optional<drawing::DimensionUnit> dimensionUnit;
     std::vector<std::string> hide;
     writers::DxfOptions dxf;
-    bool noAbove = false, noDimensions = false, noTables = false, verbose = false;
+    bool noAbove = false, noDimensions = false, noTables = false, noTurn = false, verbose = false;
     pipeline::BuildOptions build;
 };
 
@@ -100,7 +103,7 @@ std::string fileNameOf(const writers::SheetContent& content, std::size_t number)
 
 Result<void> writeDxfFolder(const writers::SheetContent& content, const volume::SemanticVolume& volume,
                             const std::filesystem::path& folder, const writers::SheetOptions& options,
-                            writers::DxfOptions dxf) {
+                            writers::DxfOptions dxf, int threads) {
     SVT_DO(makeFolder(folder));
     std::vector<drawing::ExternalPart> externals;
     if (dxf.isoLayers) {
@@ -109,11 +112,20 @@ Result<void> writeDxfFolder(const writers::SheetContent& content, const volume::
         if (const std::string sources = drawing::externalSources(externals, volume.labels); !sources.empty())
             note(sources);
     }
-    for (std::size_t n = 0; n < content.views.size(); ++n) {
-        const auto path = folder / (fileNameOf(content, n) + ".dxf");
-        SVT_DO(checkNoStream(path));
-        SVT_TRY(text, writers::makeSheetDxf(content, n, volume, options, dxf));
-        SVT_DO(writeFileAtomically(path, *text));
+    const std::vector<std::uint8_t> isAround = drawing::labelsAroundBuilding(volume);
+    const auto batch = 4 * static_cast<std::size_t>(threads > 0 ? threads : hardwareThreads());  // files in memory
+    for (std::size_t first = 0; first < content.views.size(); first += batch) {
+        std::vector<Result<std::string>> texts(std::min(batch, content.views.size() - first), std::string());
+        parallelFor(texts.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t n = begin; n < end; ++n)
+                texts[n] = writers::makeSheetDxf(content, first + n, volume, options, dxf, isAround);
+        });
+        for (std::size_t n = 0; n < texts.size(); ++n) {
+            const auto path = folder / (fileNameOf(content, first + n) + ".dxf");
+            SVT_DO(checkNoStream(path));
+            SVT_DO(texts[n]);
+            SVT_DO(writeFileAtomically(path, *texts[n]));
+        }
     }
     return {};
 }
@@ -154,15 +166,13 @@ void notePartsAway(const volume::SemanticVolume& volume) {
                          firstNames(names)));
 }
 
-// The PDF has only the embedded font. Viewers of SVG take other fonts for characters that it lacks.
-void noteMissingLetters(const std::vector<std::string>& sheets) {
-    std::string missing;
-    for (const std::string& sheet : sheets) missing += image::missingLetters(sheet);
-    if (missing.empty()) return;
-    note(fmt::format(
-        "DejaVu Sans, the font of the PDF, has no characters such as '{}'; the PDF shows boxes instead, and "
-        "the sheets of --svg have them",
-        missing.substr(0, firstCharacter(missing).size)));
+// Viewers of SVG have other fonts, and join and order the letters themselves.
+void noteLetters(const writers::SheetFiles& files) {
+    noteMissingLetters(files.missingLetters);
+    if (files.hasRightToLeft)
+        note(
+            "the PDF has Arabic or Hebrew text from left to right, without joined letters; the sheets of --svg have it "
+            "in its order");
 }
 
 // A scale without a paper selects the paper.
@@ -182,48 +192,99 @@ void noteEmptyFields(const drawing::TitleBlock& block) {
         note(fmt::format("the title block has fields without a value; {} fill them", fmt::join(empty, ", ")));
 }
 
+// The set with its drawings.
+struct DrawnSet {
+    drawing::SheetSet set;
+    volume::SemanticVolume volume;
+    writers::SheetContent content;
+    std::vector<drawing::HatchChoice> hatches;
+    std::vector<std::string> nothing;  // queries that select nothing
+};
+
+Result<DrawnSet> drawSet(const SheetsArguments& arguments, volume::SemanticVolume volume, const Progress* progress) {
+    SVT_TRY(set, readSet(arguments));
+    DrawnSet drawn{std::move(*set), std::move(volume), {}, {}, {}};
+    SVT_TRY(hatches, readHatches(arguments.materials, drawn.volume.labels));
+    drawn.hatches = std::move(*hatches);
+    Progress::tell(progress, "sheets", 0);
+    SVT_TRY(content, writers::drawSheets(drawn.set, drawn.volume, arguments.build.threads, &drawn.nothing));
+    drawn.content = std::move(*content);
+    return drawn;
+}
+
+// A building that is turned against the axes of its CRS is drawn along its walls. A volume keeps its grid.
+Result<DrawnSet> loadSet(const SheetsArguments& arguments, const Progress* progress) {
+    pipeline::BuildOptions build = arguments.build;
+    build.vectors.meshes = true;
+    SVT_TRY(volume, loadVolume(arguments.input, build, progress, arguments.verbose));
+    const bool isModel = !volume::isSvtFile(arguments.input) && !volume_readers::looksLikeLabelVolume(arguments.input);
+    SVT_TRY(drawn, drawSet(arguments, std::move(*volume), progress));
+    int turned = 0, straight = 0;  // plans
+    for (const writers::DrawnView& view : drawn->content.views) {
+        if (view.view.kind != drawing::ViewKind::Plan) continue;
+        turned += view.drawing.chainsLeftOut == drawing::ChainsLeftOut::TurnedWalls ? 1 : 0;
+        straight += view.drawing.dimensions.empty() ? 0 : 1;
+    }
+    if (turned <= straight || !isModel || arguments.noTurn || arguments.input == "-" ||
+        build.axes != pipeline::AxesKind::World)
+        return drawn;
+    build.axes = pipeline::AxesKind::Building;
+    Diagnostics findings;  // printed before
+    SVT_TRY(along, loadVolume(arguments.input, build, progress, findings));
+    note(
+        "the building is turned against the axes of its coordinates; the sheets follow its walls (--no-turn keeps "
+        "the axes)");
+    return drawSet(arguments, std::move(*along), progress);
+}
+
+// The reasons why parts of the drawings are missing.
+void noteGaps(const writers::SheetContent& content) {
+    std::vector<const drawing::SectionDrawing*> drawings;
+    for (const writers::DrawnView& view : content.views) drawings.push_back(&view.drawing);
+    if (const std::string chains = drawing::leftOutChains(drawings); !chains.empty()) note(chains);
+    if (content.openings && content.openings->unknown > 0)
+        note(fmt::format("{} doors and windows have neither a shape nor a stated size; plans and schedules lack them",
+                         content.openings->unknown));
+}
+
 Result<int> runSheets(const SheetsArguments& arguments) {
     if (arguments.output.empty() && arguments.folder.empty() && arguments.dxfFolder.empty() &&
         arguments.setOutput.empty() && arguments.schedule.empty())
         return Error(Code::BadArgument,
                      "nothing to write; give -o P.pdf, --svg DIR, --dxf DIR, --schedule S.csv or --write-sheets FILE");
-    SVT_TRY(set, readSet(arguments));
-    writers::SheetOptions options = writers::sheetOptionsOf(*set);
     const TerminalProgress progress;
-    pipeline::BuildOptions build = arguments.build;
-    build.vectors.meshes = true;
-    SVT_TRY(volume, loadVolume(arguments.input, build, progress.get(), arguments.verbose));
-    SVT_TRY(hatches, readHatches(arguments.materials, volume->labels));
-    Progress::tell(progress.get(), "sheets", 0);
-    std::vector<std::string> nothing;
-    SVT_TRY(content, writers::drawSheets(*set, *volume, arguments.build.threads, &nothing));
-    for (const std::string& message : nothing) note(message);
+    const int threads = arguments.build.threads;
+    SVT_TRY(drawn, loadSet(arguments, progress.get()));
+    const drawing::SheetSet* const set = &drawn->set;
+    const volume::SemanticVolume* const volume = &drawn->volume;
+    const writers::SheetContent* const content = &drawn->content;
+    writers::SheetOptions options = writers::sheetOptionsOf(*set);
+    for (const std::string& message : drawn->nothing) note(message);
     printFindings(*content, *volume, arguments.input);
     notePartsAway(*volume);
-    if (content->openings && content->openings->unknown > 0)
-        note(fmt::format("{} doors and windows have neither a shape nor a stated size; plans and schedules lack them",
-                         content->openings->unknown));
+    noteGaps(*content);
     SVT_DO(selectPaper(*set, *content, *volume, options));
     noteEmptyFields(set->titleBlock);
-    noteHatches(*content, *hatches);
-    SVT_TRY(sheets, writers::makeSvgSheets(*content, *volume, options));
-    if (!arguments.output.empty()) {
-        const bool isPdf = endingOf(arguments.output) != ".gpkg";
-        SVT_TRY(bytes, isPdf ? writers::makePdfSheets(*content, *volume, options)
-                             : writers::makeSheetGeoPackage(*content, *volume));
-        if (isPdf && !writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
-        if (isPdf) noteMissingLetters(*sheets);
+    noteHatches(*content, drawn->hatches);
+    const bool isPdf = !arguments.output.empty() && endingOf(arguments.output) != ".gpkg";
+    SVT_TRY(files, writers::makeSheetFiles(*content, *volume, options, isPdf, threads));
+    if (isPdf) {
+        if (!writers::missingPdfLayers().empty()) note(writers::missingPdfLayers());
+        noteLetters(*files);
+        SVT_DO(writeFileAtomically(arguments.output, files->pdf));
+    } else if (!arguments.output.empty()) {
+        SVT_TRY(bytes, writers::makeSheetGeoPackage(*content, *volume));
         SVT_DO(writeFileAtomically(arguments.output, *bytes));
     }
-    if (!arguments.folder.empty()) SVT_DO(writeSvgFolder(*sheets, arguments.folder));
+    if (!arguments.folder.empty()) SVT_DO(writeSvgFolder(files->svg, arguments.folder));
     if (!arguments.dxfFolder.empty())
-        SVT_DO(writeDxfFolder(*content, *volume, arguments.dxfFolder, options, arguments.dxf));
+        SVT_DO(writeDxfFolder(*content, *volume, arguments.dxfFolder, options, arguments.dxf, threads));
     if (!arguments.schedule.empty())
         SVT_DO(writeFileAtomically(arguments.schedule, writers::makeCsv(writers::openingTable(
                                                            *content->openings, content->levels, volume->labels))));
     if (!arguments.setOutput.empty()) SVT_DO(writeFileAtomically(arguments.setOutput, drawing::writeSheetSet(*set)));
     TerminalProgress::hide();
-    summarize(fmt::format("{}: {} sheets with {} views", writtenName(arguments).string(), sheets->size(),
+    summarize(fmt::format("{}: {} sheets with {} views", writtenName(arguments).string(), files->svg.size(),
                           content->views.size()));
     return kDone;
 }
@@ -293,6 +354,8 @@ Members<SheetsArguments> membersOf(const SheetsArguments*) noexcept {
         member<&All::dimensionUnit>("--dimension-unit",
                                     "unit of dimensions; m-cm is metres from 1 m, and centimetres below it",
                                     {.otherwise = "m-cm", .group = "Sheets", .isForProjects = true}),
+        member<&All::noTurn>("--no-turn", "keep the axes of the coordinates, even if the walls are turned against them",
+                             {.group = "Sheets", .isForProjects = true}),
         member<&All::noTables>("--no-tables", "no tables of rooms, floor areas and components",
                                {.group = "Sheets", .isForProjects = true}),
         memberAs<record::Choice, &All::language>(

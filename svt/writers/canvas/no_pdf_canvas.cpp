@@ -3,7 +3,7 @@
 
 namespace svt::writers {
 
-Result<std::unique_ptr<PdfCanvas>> makePdfCanvas(const std::string& /*title*/) {
+Result<std::unique_ptr<PdfCanvas>> makePdfCanvas(const std::string& /*title*/, const volume::LabelTable* /*names*/) {
     return Error(Code::NoCairo, "this build writes no PDF; write the sheets as SVG");
 }
 
@@ -11,5 +11,7 @@ const std::string& missingPdfLayers() {
     static const std::string text = "this build writes no PDF";
     return text;
 }
+
+std::string lettersWithoutFont(std::string_view /*text*/) { return {}; }
 
 }  // namespace svt::writers

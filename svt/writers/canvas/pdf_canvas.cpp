@@ -4,6 +4,7 @@
 #include <svt/core/text.hpp>
 #include <svt/image/text.hpp>
 #include <svt/writers/canvas/pdf_layers.hpp>
+#include <svt/writers/canvas/system_fonts.hpp>
 #include <svt/writers/canvas/tile_path.hpp>
 #include <svt/writers/sheet_writer.hpp>
 
@@ -154,9 +155,34 @@ FT_Face embeddedFace() {
     return face;
 }
 
+// Whether the embedded font has a letter. It has its own face, because faces that look up letters are not thread-safe.
+class EmbeddedLetters {
+public:
+    EmbeddedLetters() {
+        const auto font = image::embeddedFont();
+        if (FT_Init_FreeType(&library_) != 0 ||
+            FT_New_Memory_Face(library_, reinterpret_cast<const FT_Byte*>(font.data()),
+                               static_cast<FT_Long>(font.size()), 0, &face_) != 0)
+            face_ = nullptr;
+    }
+    ~EmbeddedLetters() {
+        if (library_ != nullptr) FT_Done_FreeType(library_);
+    }
+    EmbeddedLetters(const EmbeddedLetters&) = delete;
+    EmbeddedLetters& operator=(const EmbeddedLetters&) = delete;
+    [[nodiscard]] bool has(char32_t letter) const {
+        return letter < 0x80 || face_ == nullptr || FT_Get_Char_Index(face_, letter) != 0;
+    }
+
+private:
+    FT_Library library_ = nullptr;
+    FT_Face face_ = nullptr;
+};
+
 class CairoCanvas : public PdfCanvas {
 public:
-    explicit CairoCanvas(const Cairo& cairo, const std::string& title) : cairo_(cairo) {
+    CairoCanvas(const Cairo& cairo, const std::string& title, const std::string& language)
+        : cairo_(cairo), systemFonts_(language) {
         surface_ = cairo_.pdf_surface_create_for_stream(&CairoCanvas::append, &bytes_, 595, 842);
         cairo_.pdf_surface_set_metadata(surface_, CAIRO_PDF_METADATA_TITLE, title.c_str());
         cairo_.pdf_surface_set_metadata(surface_, CAIRO_PDF_METADATA_CREATOR, "svt");
@@ -171,6 +197,7 @@ public:
     ~CairoCanvas() override {
         for (const auto& [hatch, pattern] : patterns_) cairo_.pattern_destroy(pattern);
         if (font_ != nullptr) cairo_.font_face_destroy(font_);
+        for (const auto& [face, font] : fonts_) cairo_.font_face_destroy(font);
         cairo_.destroy(context_);
         cairo_.surface_destroy(surface_);
     }
@@ -239,21 +266,29 @@ public:
         const double width = text.anchor == TextAnchor::Start ? 0 : widthOnPaper(text.text, text.size);
         const double x = text.at.x - (text.anchor == TextAnchor::Middle ? 0.5 * width : width);
         cairo_.set_font_size(context_, text.size);
-        if (text.hasHalo) {
+        const std::vector<TextRun> runs = runsOf(text.text);
+        const auto drawRuns = [&](auto draw) {
             cairo_.new_path(context_);
             cairo_.move_to(context_, x, text.at.y);
-            cairo_.text_path(context_, text.text.c_str());
+            for (const TextRun& run : runs) {
+                cairo_.set_font_face(context_, run.font);
+                draw(context_, run.text.c_str());
+            }
+        };
+        if (text.hasHalo) {
+            drawRuns(cairo_.text_path);
             cairo_.set_source_rgb(context_, 1, 1, 1);
             cairo_.set_line_width(context_, 0.6);
             cairo_.set_dash(context_, nullptr, 0, 0);
             cairo_.stroke(context_);
         }
         cairo_.set_source_rgb(context_, 0, 0, 0);
-        cairo_.new_path(context_);
-        cairo_.move_to(context_, x, text.at.y);
-        cairo_.show_text(context_, text.text.c_str());
+        drawRuns(cairo_.show_text);
         cairo_.new_path(context_);
     }
+
+    [[nodiscard]] const std::string& missingLetters() const noexcept override { return missing_; }
+    [[nodiscard]] bool hasRightToLeft() const noexcept override { return hasRightToLeft_; }
 
     Result<std::string> finish() override {
         const cairo_status_t drawn = cairo_.status(context_);
@@ -268,6 +303,38 @@ public:
     }
 
 private:
+    // Letters of one font.
+    struct TextRun {
+        cairo_font_face_t* font;
+        std::string text;
+    };
+    // Letters of no font stay with the embedded one, which draws boxes.
+    std::vector<TextRun> runsOf(std::string_view text) {
+        std::vector<TextRun> runs;
+        while (!text.empty()) {
+            const Utf8Character letter = firstCharacter(text);
+            const std::string_view bytes = text.substr(0, letter.size != 0 ? letter.size : 1);
+            text.remove_prefix(bytes.size());
+            cairo_font_face_t* const font = letter.size == 0 ? font_ : fontOf(letter.code, bytes);
+            if (runs.empty() || runs.back().font != font) runs.push_back({font, {}});
+            runs.back().text += bytes;
+        }
+        return runs;
+    }
+    cairo_font_face_t* fontOf(char32_t letter, std::string_view bytes) {
+        hasRightToLeft_ = hasRightToLeft_ || (letter >= 0x0590 && letter <= 0x08FF) ||
+                          (letter >= 0xFB1D && letter <= 0xFDFF) || (letter >= 0xFE70 && letter <= 0xFEFC);
+        if (embedded_.has(letter)) return font_;
+        FT_Face face = systemFonts_.faceOf(letter);
+        if (face == nullptr) {
+            if (missing_.find(bytes) == std::string::npos) missing_ += bytes;
+            return font_;
+        }
+        cairo_font_face_t*& font = fonts_[face];
+        if (font == nullptr) font = cairo_.ft_font_face_create_for_ft_face(face, FT_LOAD_NO_HINTING);
+        return font;
+    }
+
     // Pages of cairo are parts of a sheet if there are layers, otherwise sheets. The first drawing operation begins a
     // page.
     void openPart() {
@@ -339,6 +406,11 @@ private:
     cairo_surface_t* surface_ = nullptr;
     cairo_t* context_ = nullptr;
     cairo_font_face_t* font_ = nullptr;
+    EmbeddedLetters embedded_;
+    SystemFonts systemFonts_;
+    std::map<FT_Face, cairo_font_face_t*> fonts_;  // of the machine
+    std::string missing_;
+    bool hasRightToLeft_ = false;
     std::map<render::Hatch, cairo_pattern_t*> patterns_;
     const bool hasLayers_ = missingPdfLayers().empty();
     std::vector<PdfPart> parts_;  // by page of cairo
@@ -348,9 +420,10 @@ private:
 
 }  // namespace
 
-Result<std::unique_ptr<PdfCanvas>> makePdfCanvas(const std::string& title) {
+Result<std::unique_ptr<PdfCanvas>> makePdfCanvas(const std::string& title, const volume::LabelTable* names) {
     if (!loadedCairo()) return loadedCairo().error();
-    return std::unique_ptr<PdfCanvas>(std::make_unique<CairoCanvas>(*loadedCairo(), title));
+    const std::string language = names != nullptr ? languageOfNames(*names) : "zh-cn";
+    return std::unique_ptr<PdfCanvas>(std::make_unique<CairoCanvas>(*loadedCairo(), title, language));
 }
 
 }  // namespace svt::writers

@@ -3,23 +3,31 @@
 /// Sheets as one PDF, with the cairo library. Two source files: one calls it, the other is for builds without it.
 
 #include <svt/core/result.hpp>
+#include <svt/volume/label_table.hpp>
 #include <svt/writers/canvas/sheet_canvas.hpp>
 
 #include <memory>
 
 namespace svt::writers {
 
-/// A PDF in memory: one page per sheet, with text as text in DejaVu Sans, which is embedded.
+/// A PDF in memory: one page per sheet, with text as text. Its letters are those of DejaVu Sans; letters that it lacks are
+/// those of fonts of the machine. All are embedded as subsets.
 class PdfCanvas : public SheetCanvas {
 public:
     /// The bytes of the file; drawing is not possible afterwards. Equal sheets give equal bytes with one release of
-    /// cairo.
+    /// cairo and the same fonts.
     /// \return the bytes, or CannotWrite with the message of cairo
     [[nodiscard]] virtual Result<std::string> finish() = 0;
+    /// The letters so far that no font has, each once; they are drawn as boxes.
+    [[nodiscard]] virtual const std::string& missingLetters() const noexcept = 0;
+    /// Whether a text so far has Arabic or Hebrew letters, which are neither joined nor ordered.
+    [[nodiscard]] virtual bool hasRightToLeft() const noexcept = 0;
 };
 
 /// \param title   title of the document, for its properties
+/// \param names   names that show whether Chinese characters take their Japanese or Korean forms; null: Chinese forms
 /// \return the canvas, or NoCairo for a build without cairo, or if the library is not installed
-[[nodiscard]] Result<std::unique_ptr<PdfCanvas>> makePdfCanvas(const std::string& title);
+[[nodiscard]] Result<std::unique_ptr<PdfCanvas>> makePdfCanvas(const std::string& title,
+                                                               const volume::LabelTable* names = nullptr);
 
 }  // namespace svt::writers

@@ -40,7 +40,10 @@ struct PaperText {
     bool hasHalo = false;    ///< white around the letters, over lines
     bool isUpright = false;  ///< turned by 90 degrees, read from the right
 };
-/// Width of a text in DejaVu Sans, millimetres.
+/// Whether fonts draw a letter one em wide: Chinese, Japanese and Korean. DejaVu Sans lacks all of them.
+[[nodiscard]] bool isWideLetter(char32_t code) noexcept;
+[[nodiscard]] bool hasWideLetters(std::string_view text) noexcept;
+/// Width of a text in DejaVu Sans, millimetres; wide letters count as one em.
 [[nodiscard]] double widthOnPaper(std::string_view text, double size);
 /// The text, or its beginning and an ellipsis if it is wider.
 [[nodiscard]] std::string shortened(const std::string& text, double size, double width);

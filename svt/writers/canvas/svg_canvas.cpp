@@ -23,6 +23,10 @@ void SvgCanvas::beginSheet(double width, double height, const std::string& title
 }
 
 void SvgCanvas::endSheet() {
+    if (hasWideLetters(body_))
+        head_ +=
+            "<style>text { font-family: 'DejaVu Sans', 'Noto Sans CJK JP', 'Noto Sans CJK SC', 'Noto Sans CJK KR', "
+            "'Droid Sans Fallback', sans-serif }</style>\n";
     if (!hatches_.empty()) {
         head_ += "<defs>\n";
         for (const HatchTile& tile : hatchTiles())

@@ -2,6 +2,7 @@
 
 #include <svt/volume/sample_volume_test.hpp>
 #include <svt/writers/drawing/drawing_files_test.hpp>
+#include <svt/writers/drawing/drawing_style.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/dxf_drawing.hpp>
 #include <svt/writers/geojson_drawing.hpp>
@@ -70,6 +71,29 @@ TEST(DrawingText, PlanesAreNamed) {
     EXPECT_EQ(textOf({0, 0, -1}, {0, 0, 1.2}), "Plan at z = 1.2 m");
     EXPECT_EQ(textOf({0, -1, 0}, {0, 1.25, 0}), "Section at y = 1.25 m");
     EXPECT_EQ(textOf({0.6, 0.8, 0}, {1, 1, 0}), "Section 0.6, 0.8, 0, -1.4 m");
+}
+
+// A sheet takes the line of the part behind it towards a room, and has a thin line towards everything else.
+TEST(DrawingStyle, SheetsAreBoldOnlyTowardsRooms) {
+    auto volume = roomInWalls();
+    const auto drawing = planOf(volume);
+    const auto isBold = [&](std::uint32_t left, std::uint32_t right) {
+        return DrawingStyle(drawing, volume, 20).isBoldBetween(left, right);
+    };
+    EXPECT_TRUE(isBold(0, 1));
+    EXPECT_TRUE(isBold(0, volume::kNoLabel));
+    volume.labels.labels[0].filling = volume::Filling::Surface;
+    const bool isBoldToRoom = isBold(0, 1);
+    EXPECT_EQ(isBold(1, 0), isBoldToRoom);
+    volume::test::addObject(volume, "slab", "BuildingConstructiveElement");
+    volume::test::addObject(volume, "chair", "BuildingFurniture");
+    const auto other = *drawing::drawSection(volume, drawing.plane);
+    const DrawingStyle style(other, volume, 20);
+    for (const std::uint32_t part : {2u, 3u}) {
+        EXPECT_FALSE(style.isBoldBetween(0, part));
+        EXPECT_FALSE(style.isBoldBetween(part, 0));
+    }
+    EXPECT_TRUE(style.isBoldBetween(2, 3));
 }
 
 TEST(SvgDrawing, IsToScaleInMillimetres) {

@@ -252,7 +252,7 @@ Result<std::string> makeUnitReports(const LandAdministration& administration, st
                                     const volume::SemanticVolume& volume, const drawing::LineView* view, int threads) {
     const auto levels = drawing::findLevels(volume);
     SVT_TRY(areas, drawing::measureFloorAreas(volume, levels, threads));
-    SVT_TRY(canvas, makePdfCanvas(volume.modelName.empty() ? volume.source : volume.modelName));
+    SVT_TRY(canvas, makePdfCanvas(volume.modelName.empty() ? volume.source : volume.modelName, &volume.labels));
     for (const std::uint32_t space : spaces) {
         if (administration.spaces.spaces[space].box.isEmpty())
             return Error(Code::NothingSelected,

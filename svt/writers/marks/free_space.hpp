@@ -6,7 +6,9 @@
 #include <svt/volume/semantic_volume.hpp>
 #include <svt/writers/canvas/mark_shapes.hpp>
 
+#include <array>
 #include <cstdint>
+#include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -20,6 +22,8 @@ enum class Obstacle : std::uint8_t {
     Light    ///< dashed lines above and behind
 };
 
+/// Obstacles are found by tiles of 64 mm: bits mark the squares of 1 mm that they meet, and cells of 8 mm list them. So
+/// a search looks at the obstacles near its rectangle, whatever the size of the drawing.
 class FreeSpace {
 public:
     struct Hits {
@@ -27,44 +31,68 @@ public:
         bool isTaken = false;  ///< by another text
         [[nodiscard]] bool isClear() const noexcept { return borders + lines == 0 && !isTaken; }
     };
+    /// The work so far: a measure of cost that does not depend on the machine.
+    struct Effort {
+        std::uint64_t searches = 0;  ///< rectangles and leaders
+        std::uint64_t compared = 0;  ///< obstacles and taken places that they were compared with
+    };
 
     void add(drawing::PlanePoint from, drawing::PlanePoint to, Obstacle kind);
     void add(const MarkPath& path, Obstacle kind);
     /// Occupies a place for a text.
-    void take(const MarkBox& box) { taken_.push_back(box); }
+    void take(const MarkBox& box);
 
-    /// The obstacles within a rectangle. Cost: O(obstacles near it + taken places).
+    /// The obstacles within a rectangle. Cost: O(area in mm2 / 64 + obstacles and taken places near it).
     /// \param mostLines  the search ends at a taken place, a border, or more lines than this; the counts are then those
     ///                   found so far
     [[nodiscard]] Hits hitsOf(const MarkBox& box, int mostLines = kAll) const;
     /// Whether a rectangle has no border, no line and no taken place.
-    [[nodiscard]] bool isClear(const MarkBox& box) const { return hitsOf(box, 0).isClear(); }
-    /// Whether a line crosses a taken place.
-    [[nodiscard]] bool crossesTaken(drawing::PlanePoint from, drawing::PlanePoint to) const noexcept;
+    [[nodiscard]] bool isClear(const MarkBox& box) const;
+    /// Whether a line crosses a taken place. Cost: O(length + taken places near it).
+    [[nodiscard]] bool crossesTaken(drawing::PlanePoint from, drawing::PlanePoint to) const;
+
+    [[nodiscard]] const Effort& effort() const noexcept { return effort_; }
 
     static constexpr int kAll = -1;
 
 private:
+    static constexpr std::int64_t kTile = 64, kCell = 8, kCells = kTile / kCell;  // millimetres; cells along a tile
+    using Squares = std::array<std::uint64_t, kTile>;                             // one bit per square, by row
+
     struct Segment {
         drawing::PlanePoint from, to;
         Obstacle kind;
         MarkBox around;  // with a margin for rounding
     };
-    /// A square of 5 mm: the segments in it, and the squares of 1 mm that they touch, as bits. A rectangle that contains
-    /// a touched square has an obstacle.
     struct Cell {
-        std::vector<std::uint32_t> segments;
-        std::uint32_t borders = 0, lines = 0;
+        std::vector<std::uint32_t> segments, light, taken;  // borders and lines; dashed lines; places of texts
     };
-    static std::uint32_t touchedBits(const Segment& segment, std::int64_t x, std::int64_t y) noexcept;
-    static std::uint32_t bitsWithin(const MarkBox& box, std::int64_t x, std::int64_t y) noexcept;
+    struct Tile {
+        Squares borders{}, lines{};  // squares that a segment meets: a rectangle around one has an obstacle
+        Squares taken{};             // squares within a taken place
+        std::array<Cell, kCells * kCells> cells;
+    };
+    /// Squares or cells from first to last.
+    struct Range {
+        std::int64_t first = 0, last = -1;
+    };
+
+    Cell& cellAt(std::int64_t x, std::int64_t y);
+    [[nodiscard]] const Tile* tileAt(std::int64_t x, std::int64_t y) const;
+    void mark(std::int64_t row, Range columns, Squares Tile::*squares);
+    void markSegment(const Segment& segment, Squares Tile::*squares);
+    template <class Visit>
+    void visitCells(const MarkBox& box, const Visit& visit) const;
+    template <class Marks>
+    [[nodiscard]] bool hasSquare(const MarkBox& box, const Marks& marksOf) const;
+    [[nodiscard]] bool isTaken(const MarkBox& box) const;
 
     std::vector<Segment> segments_;
     std::vector<MarkBox> taken_;
-    std::unordered_map<std::uint64_t, Cell> cells_;
-    mutable std::vector<const Cell*> near_;      // of the current search
+    std::unordered_map<std::uint64_t, Tile> tiles_;
     mutable std::vector<std::uint32_t> seenIn_;  // by segment: the number of the last search that met it
     mutable std::uint32_t search_ = 0;
+    mutable Effort effort_;
 };
 
 /// Whether a line has a point within a rectangle.

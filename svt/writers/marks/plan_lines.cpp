@@ -119,6 +119,7 @@ void addTravelText(const MarkPath& line, const std::string& text, MarkShapes& sh
         for (int turn = 0; turn < 12; ++turn)
             for (int step = 0; step <= 8; ++step) {
                 const double angle = 2 * std::numbers::pi * turn / 12, away = 1.5 * step;
+                if (away >= least) continue;
                 const PlanePoint at{line[n].u + away * std::cos(angle), line[n].v + away * std::sin(angle)};
                 const FreeSpace::Hits hits = space.hitsOf({{at.u - half, at.v - high}, {at.u + half, at.v + high}});
                 const double cost = away + 10 * hits.lines + 50 * hits.borders + (hits.isTaken ? 500 : 0);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <unordered_map>
 
 namespace svt::writers {
 namespace {
@@ -39,6 +41,31 @@ public:
         center = {place.center.u * millimetres, place.center.v * millimetres};
     }
 
+    /// A place for the middle of a stamp.
+    struct Place {
+        PlanePoint at;
+        double away = 0;  // from the centre, millimetres
+        int order = 0;    // of places with equal cost, the first is taken
+    };
+    /// The centre and the points of a lattice that lie in the room, nearest to the centre first.
+    const std::vector<Place>& places() {
+        constexpr int kSteps = 24;
+        if (!places_.empty()) return places_;
+        const double width = box.high.u - box.low.u, height = box.high.v - box.low.v;
+        int order = 0;
+        const auto add = [&](PlanePoint at) {
+            places_.push_back({at, std::hypot(at.u - center.u, at.v - center.v), order++});
+        };
+        add(center);
+        for (int i = 0; i <= kSteps; ++i)
+            for (int j = 0; j <= kSteps; ++j) add({box.low.u + width * i / kSteps, box.low.v + height * j / kSteps});
+        std::erase_if(places_, [&](const Place& place) { return place.order > 0 && !contains(place.at); });
+        std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
+            return a.away != b.away ? a.away < b.away : a.order < b.order;
+        });
+        return places_;
+    }
+
     [[nodiscard]] bool contains(PlanePoint p) const noexcept {
         if (p.u < box.low.u || p.u > box.high.u || p.v < box.low.v || p.v > box.high.v) return false;
         bool inside = false;
@@ -47,6 +74,10 @@ public:
         return inside;
     }
     [[nodiscard]] bool contains(const MarkBox& rectangle) const noexcept {
+        // A rectangle that reaches beyond the room's box meets a side.
+        if (rectangle.low.u < box.low.u || rectangle.high.u > box.high.u || rectangle.low.v < box.low.v ||
+            rectangle.high.v > box.high.v)
+            return false;
         return contains(PlanePoint{0.5 * (rectangle.low.u + rectangle.high.u),
                                    0.5 * (rectangle.low.v + rectangle.high.v)}) &&
                std::none_of(sides_.begin(), sides_.end(),
@@ -58,6 +89,7 @@ public:
 
 private:
     std::vector<std::pair<PlanePoint, PlanePoint>> sides_;
+    std::vector<Place> places_;
 };
 
 MarkBox boxAt(PlanePoint center, std::pair<double, double> size) noexcept {
@@ -72,19 +104,29 @@ MarkPath ringOf(const MarkBox& box) {
 class StampPlacer {
 public:
     StampPlacer(double millimetres, const MarkBox& allowed, FreeSpace& space, MarkShapes& shapes)
-        : millimetres_(millimetres), allowed_(allowed), space_(space), shapes_(shapes) {}
+        : millimetres_(millimetres), allowed_(allowed), space_(space), shapes_(shapes) {
+        for (std::size_t n = 0; n < directions_.size(); ++n) {
+            const double turn = 2 * std::numbers::pi * static_cast<double>(n) / double(directions_.size());
+            directions_[n] = {std::cos(turn), std::sin(turn)};
+        }
+    }
 
     void addRoom(const drawing::SectionComponent& component) { rooms_.emplace_back(component, millimetres_); }
 
     // In the room. A place that covers lines is only taken if `mayCover`.
     bool placeInside(std::size_t room, const std::vector<std::string>& lines, bool mayCover) {
+        const int mostLines = mayCover ? kMostLines : 0;
+        // If the smallest text does not fit, no larger one does.
+        const double smallest = *std::prev(std::end(kStampSizes));
+        const auto last = insideOf(rooms_[room], sizeOfLines(lines, smallest), mostLines);
+        if (!last) return false;
         for (const double size : kStampSizes) {
-            const auto place = insideOf(rooms_[room], sizeOfLines(lines, size), mayCover ? kMostLines : 0);
+            const auto place = size == smallest ? last : insideOf(rooms_[room], sizeOfLines(lines, size), mostLines);
             if (!place) continue;
             write(*place, lines, size);
-            return true;
+            break;
         }
-        return false;
+        return true;
     }
 
     // Outside, with a leader from a dot in the room: in its middle, or where texts do not stand in the leader's way.
@@ -102,19 +144,13 @@ public:
 private:
     bool placeFrom(PlanePoint from, std::size_t room, const std::vector<std::string>& lines) {
         constexpr double kNearest = 6, kFarthest = 120, kStep = 2;  // millimetres
-        constexpr int kDirections = 72;
         constexpr double kOtherRoom = 60;  // millimetres that a place in another room counts more
         const double size = kStampSizes[1];
         const auto extent = sizeOfLines(lines, size);
-        std::array<PlanePoint, kDirections> directions;
-        for (int n = 0; n < kDirections; ++n) {
-            const double turn = 2 * std::numbers::pi * n / kDirections;
-            directions[static_cast<std::size_t>(n)] = {std::cos(turn), std::sin(turn)};
-        }
         std::optional<PlanePoint> best;
         double least = std::numeric_limits<double>::infinity();
         for (int n = 0; kNearest + n * kStep <= std::min(kFarthest, least); ++n)
-            for (const PlanePoint direction : directions) {
+            for (const PlanePoint direction : directions_) {
                 const double away = kNearest + n * kStep;
                 const PlanePoint at{from.u + away * direction.u, from.v + away * direction.v};
                 const MarkBox box = boxAt(at, extent);
@@ -153,29 +189,30 @@ private:
     }
 
     // The place with the fewest lines, and nearest to the middle among these.
-    [[nodiscard]] std::optional<PlanePoint> insideOf(const RoomOutline& room, std::pair<double, double> extent,
+    [[nodiscard]] std::optional<PlanePoint> insideOf(RoomOutline& room, std::pair<double, double> extent,
                                                      int mostLines) const {
-        constexpr int kSteps = 24;
         constexpr double kLineCost = 20, kLightCost = 2;  // millimetres of distance
-        std::optional<PlanePoint> best;
+        if (extent.first + 2 * kAround > room.box.high.u - room.box.low.u ||
+            extent.second + 2 * kAround > room.box.high.v - room.box.low.v)
+            return std::nullopt;
+        const RoomOutline::Place* best = nullptr;
         double least = std::numeric_limits<double>::infinity();
-        const auto attempt = [&](PlanePoint at) {
-            const MarkBox box = boxAt(at, extent);
-            const double away = std::hypot(at.u - room.center.u, at.v - room.center.v);
-            if (away >= least || !room.contains(box)) return;
-            const FreeSpace::Hits hits = space_.hitsOf(box, mostLines);
-            if (hits.isTaken || hits.borders > 0 || hits.lines > mostLines) return;
-            const double cost = away + kLineCost * hits.lines + kLightCost * hits.light;
-            if (cost >= least) return;
-            least = cost;
-            best = at;
+        // With lines or without, a place costs at least its distance.
+        const auto isWorse = [&](double cost, const RoomOutline::Place& place) {
+            return cost > least || (cost == least && place.order > best->order);
         };
-        attempt(room.center);
-        const double width = room.box.high.u - room.box.low.u, height = room.box.high.v - room.box.low.v;
-        for (int i = 0; i <= kSteps; ++i)
-            for (int j = 0; j <= kSteps; ++j)
-                attempt({room.box.low.u + width * i / kSteps, room.box.low.v + height * j / kSteps});
-        return best;
+        for (const RoomOutline::Place& place : room.places()) {
+            if (place.away > least) break;
+            const MarkBox box = boxAt(place.at, extent);
+            if (isWorse(place.away, place) || !room.contains(box)) continue;
+            const FreeSpace::Hits hits = space_.hitsOf(box, mostLines);
+            if (hits.isTaken || hits.borders > 0 || hits.lines > mostLines) continue;
+            const double cost = place.away + kLineCost * hits.lines + kLightCost * hits.light;
+            if (isWorse(cost, place)) continue;
+            least = cost;
+            best = &place;
+        }
+        return best != nullptr ? std::optional(best->at) : std::nullopt;
     }
 
     void write(PlanePoint center, const std::vector<std::string>& lines, double size) {
@@ -198,6 +235,7 @@ private:
         shapes_.filled.push_back(std::move(dot));
     }
 
+    std::array<PlanePoint, 72> directions_;  // of leaders
     double millimetres_;
     const MarkBox& allowed_;
     FreeSpace& space_;
@@ -226,6 +264,14 @@ std::vector<std::string> wrappedLines(const std::vector<std::string>& lines) {
     return wrapped;
 }
 
+// The forms of a stamp, the preferred one first; each once.
+std::vector<std::vector<std::string>> formsOf(const std::vector<std::string>& lines) {
+    std::vector<std::vector<std::string>> forms;
+    for (auto& form : {lines, compactLines(lines), wrappedLines(lines), wrappedLines(compactLines(lines))})
+        if (std::find(forms.begin(), forms.end(), form) == forms.end()) forms.push_back(form);
+    return forms;
+}
+
 }  // namespace
 
 PlacedStamps placeStamps(const drawing::SectionDrawing& drawing, std::span<const RoomStamp> stamps, double millimetres,
@@ -233,24 +279,19 @@ PlacedStamps placeStamps(const drawing::SectionDrawing& drawing, std::span<const
     PlacedStamps placed;
     placed.shapes.layer = "Names";
     StampPlacer placer(millimetres, allowed, space, placed.shapes);
-    for (const RoomStamp& stamp : stamps) {
-        const auto component = std::find_if(drawing.components.begin(), drawing.components.end(),
-                                            [&](const drawing::SectionComponent& c) { return c.label == stamp.label; });
-        placer.addRoom(*component);
-    }
+    std::unordered_map<std::uint32_t, const drawing::SectionComponent*> componentOf;
+    for (const drawing::SectionComponent& component : drawing.components)
+        componentOf.emplace(component.label, &component);
+    for (const RoomStamp& stamp : stamps) placer.addRoom(*componentOf.find(stamp.label)->second);
     // Stamps in their own rooms come first, so that others do not take their places.
     std::vector<std::size_t> left;
     for (std::size_t n = 0; n < stamps.size(); ++n) left.push_back(n);
-    for (const bool mayCover : {false, true}) {
-        std::vector<std::size_t> remaining;
-        for (const std::size_t n : left)
-            if (!placer.placeInside(n, stamps[n].lines, mayCover) &&
-                !placer.placeInside(n, compactLines(stamps[n].lines), mayCover) &&
-                !placer.placeInside(n, wrappedLines(stamps[n].lines), mayCover) &&
-                !placer.placeInside(n, wrappedLines(compactLines(stamps[n].lines)), mayCover))
-                remaining.push_back(n);
-        left = std::move(remaining);
-    }
+    for (const bool mayCover : {false, true})
+        std::erase_if(left, [&](std::size_t n) {
+            const auto forms = formsOf(stamps[n].lines);
+            return std::any_of(forms.begin(), forms.end(),
+                               [&](const auto& lines) { return placer.placeInside(n, lines, mayCover); });
+        });
     for (const std::size_t n : left) {
         if (placer.placeOutside(n, stamps[n].lines)) continue;
         const std::vector<std::string> first{stamps[n].lines.front()};

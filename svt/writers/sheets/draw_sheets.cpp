@@ -2,8 +2,11 @@
 
 #include <svt/drawing/drawing_tables.hpp>
 #include <svt/drawing/opening_schedule.hpp>
+#include <svt/drawing/side_by_side.hpp>
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <utility>
 
 namespace svt::writers {
@@ -30,6 +33,23 @@ double depthOfPlan(const drawing::SheetView& plan, const std::vector<drawing::Bu
     return below == -kInfinity ? 0 : std::max(0.0, cut - below - kOnFloor);
 }
 
+using DrawnResult = std::optional<Result<drawing::SectionDrawing>>;
+
+// Plans are drawn side by side. Sections and elevations show the whole model: they follow one by one, so that the memory
+// of one of them is enough, and share the threads.
+std::vector<DrawnResult> drawAll(const std::vector<drawing::SheetView>& views, int threads,
+                                 const std::function<Result<drawing::SectionDrawing>(std::size_t, int)>& draw) {
+    std::vector<DrawnResult> drawn(views.size());
+    std::vector<std::size_t> plans;
+    for (std::size_t n = 0; n < views.size(); ++n)
+        if (views[n].kind == drawing::ViewKind::Plan) plans.push_back(n);
+    drawing::drawSideBySide(plans.size(), threads,
+                            [&](std::size_t p, int own) { drawn[plans[p]] = draw(plans[p], own); });
+    for (std::size_t n = 0; n < views.size(); ++n)
+        if (!drawn[n]) drawn[n] = draw(n, threads);
+    return drawn;
+}
+
 }  // namespace
 
 SheetOptions sheetOptionsOf(const drawing::SheetSet& set) {
@@ -48,21 +68,27 @@ Result<SheetContent> drawSheets(drawing::SheetSet& set, const volume::SemanticVo
         groups.insert(groups.end(), sheet.views.size(), static_cast<int>(content.groups.size()));
         content.groups.push_back({sheet.title, sheet.scale});
     }
-    for (drawing::SheetView& view : chosen->views) {
+    for (drawing::SheetView& view : chosen->views)
         if (view.kind == drawing::ViewKind::Plan) view.beyond.depth = depthOfPlan(view, content.levels, volume.grid);
+    const auto draw = [&](std::size_t n, int ownThreads) -> Result<drawing::SectionDrawing> {
+        const drawing::SheetView& view = chosen->views[n];
         drawing::SectionOptions options;
         options.hide = set.hide;
         options.smallestArea = 1e-4;
-        options.threads = threads;
+        options.threads = ownThreads;
         options.beyond = view.beyond;
         options.dimensions = view.kind != drawing::ViewKind::Elevation && set.dimensions;
         options.dimensionUnit = set.dimensionUnit;
         options.levels = &content.levels;
         options.tables = &tables;
-        if (content.views.empty()) options.nothing = nothing;
-        SVT_TRY(drawing, drawing::drawSection(volume, view.plane, options));
+        if (n == 0) options.nothing = nothing;
+        return drawing::drawSection(volume, view.plane, options);
+    };
+    std::vector<DrawnResult> drawings = drawAll(chosen->views, threads, draw);
+    for (std::size_t n = 0; n < drawings.size(); ++n) {
+        SVT_TRY(drawing, std::move(*drawings[n]));
         drawing->dimensionUnit = set.dimensionUnit;
-        content.views.push_back({std::move(view), std::move(*drawing), groups[content.views.size()]});
+        content.views.push_back({std::move(chosen->views[n]), std::move(*drawing), groups[n]});
     }
     content.openings = drawing::scheduleOpenings(volume, content.levels);
     content.stairs = drawing::findStairFlights(volume);

@@ -102,30 +102,13 @@ PlanHeights heightsOf(const ViewContext& context) {
     return heights;
 }
 
-// The rooms without a whole stamp as lines beside the caption.
-std::vector<std::string> listOf(const std::vector<RoomStamp>& stamps, const PlacedStamps& placed,
-                                const ViewContext& context) {
-    constexpr std::size_t kMostLines = 3;
-    constexpr double kText = 1.8, kWide = 110;  // millimetres
+// The lines of the stamps that are not whole on the plan, in their order.
+std::vector<std::vector<std::string>> withoutStampOf(const std::vector<RoomStamp>& stamps, const PlacedStamps& placed) {
     std::vector<std::size_t> missing = placed.withoutPlace;
     missing.insert(missing.end(), placed.shortened.begin(), placed.shortened.end());
     std::sort(missing.begin(), missing.end());
-    if (missing.empty()) return {};
-    const SheetLanguage language = context.options.language;
-    std::vector<std::string> lines{std::string(sheetWord(SheetWord::WithoutStamp, language))};
-    for (std::size_t n = 0; n < missing.size(); ++n) {
-        std::string entry = fmt::format("{}", fmt::join(stamps[missing[n]].lines, ", "));
-        if (n + 1 < missing.size()) entry += "; ";
-        if (widthOnPaper(lines.back() + entry, kText) > kWide && n > 0) {
-            if (lines.size() == kMostLines) {
-                lines.push_back(
-                    fmt::format(fmt::runtime(sheetWord(SheetWord::SeeTable, language)), missing.size() - n));
-                break;
-            }
-            lines.emplace_back();
-        }
-        lines.back() += entry;
-    }
+    std::vector<std::vector<std::string>> lines;
+    for (const std::size_t n : missing) lines.push_back(stamps[n].lines);
     return lines;
 }
 
@@ -171,8 +154,35 @@ ViewMarks marksOf(const ViewContext& context) {
     const std::vector<RoomStamp> stamps = roomStamps(context);
     PlacedStamps placed = placeStamps(drawing, stamps, mm, allowed, space);
     marks.layers.push_back(std::move(placed.shapes));
-    for (std::string& line : listOf(stamps, placed, context)) marks.below.push_back(std::move(line));
+    marks.withoutStamp = withoutStampOf(stamps, placed);
     return marks;
+}
+
+StampList stampList(const ViewMarks& marks, double width, SheetLanguage language) {
+    constexpr std::size_t kMostLines = 3;
+    constexpr double kText = 1.8, kWide = 110;  // millimetres
+    if (marks.withoutStamp.empty()) return {};
+    const std::string heading(sheetWord(SheetWord::WithoutStamp, language));
+    StampList list{{heading}, false};
+    for (std::size_t n = 0; n < marks.withoutStamp.size() && !list.needsTable; ++n) {
+        const bool isLast = n + 1 == marks.withoutStamp.size();
+        const std::string entry = fmt::format("{}{}", fmt::join(marks.withoutStamp[n], ", "), isLast ? "" : "; ");
+        const double most = std::min(width, kWide);
+        if (n > 0 && widthOnPaper(list.lines.back() + entry, kText) > most) list.lines.emplace_back();
+        list.lines.back() += entry;
+        list.needsTable = list.lines.size() > kMostLines || widthOnPaper(list.lines.back(), kText) > most;
+    }
+    if (list.needsTable) list.lines = {heading + std::string(sheetWord(SheetWord::SeeTable, language))};
+    return list;
+}
+
+SheetTable stampTable(const ViewMarks& marks, const std::string& caption, SheetLanguage language) {
+    const auto word = [&](SheetWord w) { return std::string(sheetWord(w, language)); };
+    SheetTable table{
+        word(SheetWord::WithoutStamp) + caption, {{word(SheetWord::Room)}, {word(SheetWord::Stamp)}}, {}, 0};
+    for (const std::vector<std::string>& lines : marks.withoutStamp)
+        table.rows.push_back({lines.front(), fmt::format("{}", fmt::join(lines.begin() + 1, lines.end(), ", "))});
+    return table;
 }
 
 LineWidths widthsOf(double scale) noexcept {

@@ -94,6 +94,31 @@ TEST(DrawnSheets, ShareTheirHatches) {
     }
 }
 
+// Plans are drawn side by side if there are as many as threads.
+TEST(DrawnSheets, DoNotDependOnTheNumberOfThreads) {
+    House house;
+    house.addRow(3, 4);
+    drawing::SheetSet set;
+    for (int n = 0; n < 5; ++n) {
+        const std::string plane = fmt::format("z={}", 0.5 + 0.4 * n);
+        drawing::SetView view;
+        view.plan = plane;
+        set.sheets.push_back({plane, 0, {view}});
+    }
+    drawing::SetView section;
+    section.section = "x=2";
+    set.sheets.push_back({"section", 0, {section}});
+    const auto drawn = [&](int threads) {
+        drawing::SheetSet own = set;
+        const auto content = drawSheets(own, house.volume, threads);
+        EXPECT_TRUE(content) << content.error().message();
+        return *makeSvgSheets(*content, house.volume, {});
+    };
+    const std::vector<std::string> one = drawn(1);
+    EXPECT_GT(one.size(), 5u);
+    for (const int threads : {2, 3, 4}) EXPECT_EQ(drawn(threads), one) << threads;
+}
+
 // A search that ends at the first obstacle finds the same clear places.
 TEST(FreeSpace, ASearchThatEndsEarlyDecidesTheSame) {
     FreeSpace space;
@@ -123,20 +148,45 @@ TEST(RoomStamps, EachRoomHasOneOnThePlan) {
     EXPECT_EQ(plan.count("//text[contains(., 'without a stamp')]"), 0u);
 }
 
-// Where no place is left, a list stands on the sheet.
-TEST(RoomStamps, RoomsWithoutPlaceStandInAList) {
+// The right ends of all texts that begin at their place, millimetres.
+double rightmostText(const std::string& sheet) {
+    const std::regex text("<text x=\"([-0-9.]+)\" y=\"[-0-9.]+\" font-size=\"([0-9.]+)\">([^<]*)<");
+    double right = 0;
+    for (std::sregex_iterator found(sheet.begin(), sheet.end(), text), end; found != end; ++found)
+        right = std::max(right, std::stod((*found)[1]) + widthOnPaper((*found)[3].str(), std::stod((*found)[2])));
+    return right;
+}
+
+// Where no place is left, a list stands beside the caption, or a table on further sheets. Before, the list ended after
+// three lines, and reached beyond the frame beside a long caption.
+TEST(RoomStamps, RoomsWithoutPlaceStandInAListOrATable) {
     House house;
+    house.volume.labels.labels[house.storey].name = "A storey with a name that leaves little room beside it for a list";
     house.addRow(60, 0.6);
-    const auto sheets = house.sheets({.scale = 500, .paper = "A4"});
+    drawing::SheetSet set;
+    set.tables = false;
+    const auto sheets = house.sheets({.scale = 500, .paper = "A4"}, set);
     ASSERT_FALSE(sheets.empty());
-    const SvgFile plan(sheets.front());
-    for (const int n : {1, 30, 60}) {
-        const std::string name = fmt::format("Room number {}", n);
-        const std::size_t placed = plan.count("//text[.='" + name + "']");
-        const std::size_t listed = plan.count("//text[contains(., '" + name + ",')]");
-        EXPECT_GE(placed + listed + plan.count("//text[contains(., 'more: see the table')]"), 1u) << n;
-    }
-    EXPECT_EQ(plan.count("//text[contains(., 'without a stamp')]"), 1u);
+    EXPECT_EQ(SvgFile(sheets.front()).count("//text[contains(., 'see the table')]"), 1u);
+    for (int n = 1; n <= 60; ++n) EXPECT_GE(countTexts(sheets, fmt::format(".='Room number {}'", n)), 1u) << n;
+    EXPECT_EQ(countTexts(sheets, "contains(., '0.90 m\u00B2')"), 60u) << "stamps and rows of the table";
+    const double right = 297 - 10;  // the frame
+    for (const std::string& sheet : sheets) EXPECT_LE(rightmostText(sheet), right);
+}
+
+// A list of a few rooms needs no table.
+TEST(RoomStamps, AFewRoomsWithoutPlaceStandBesideTheCaption) {
+    ViewMarks marks;
+    EXPECT_TRUE(stampList(marks, 100, SheetLanguage::English).lines.empty());
+    marks.withoutStamp = {{"Store 1", "2.00 m\u00B2"}, {"Store 2", "3.00 m\u00B2"}};
+    const StampList list = stampList(marks, 100, SheetLanguage::English);
+    EXPECT_FALSE(list.needsTable);
+    EXPECT_EQ(list.lines,
+              (std::vector<std::string>{"Rooms without a stamp: Store 1, 2.00 m\u00B2; Store 2, 3.00 m\u00B2"}));
+    EXPECT_TRUE(stampList(marks, 30, SheetLanguage::English).needsTable) << "too narrow";
+    const SheetTable table = stampTable(marks, "Plan EG", SheetLanguage::German);
+    EXPECT_EQ(table.rows,
+              (std::vector<std::vector<std::string>>{{"Store 1", "2.00 m\u00B2"}, {"Store 2", "3.00 m\u00B2"}}));
 }
 
 // A text covers neither a line nor another text, and a leader leads to a stamp outside.

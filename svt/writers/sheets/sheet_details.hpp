@@ -24,6 +24,13 @@ struct ViewContext {
     const RoomNotes& floors;  ///< heights of finished floors, by room
 };
 
+/// Facts of the model for a title block. Placeholders of templates, such as "Enter address here", count as absent.
+struct ModelFacts {
+    std::string project;   ///< long name of the project; else the name of the model
+    std::string building;  ///< names of the buildings
+    std::string address;   ///< of a building, or of the site
+};
+
 /// The sheet around its views.
 struct BlockContext {
     const SheetContent& content;
@@ -34,13 +41,26 @@ struct BlockContext {
     std::size_t number;         ///< of the sheet, from 0
     const std::string& title;   ///< of its drawings
     const std::string& source;  ///< file and CRS of the model
+    const ModelFacts& facts;
 };
 
 /// The marks of a view.
 struct ViewMarks {
     std::vector<MarkShapes> layers;
-    std::vector<std::string> below;  ///< lines beside the caption: rooms without a stamp, an assumed ground
+    std::vector<std::string> below;  ///< lines beside the caption
+    /// The lines of stamps that have no place, or only a part of them.
+    std::vector<std::vector<std::string>> withoutStamp;
 };
+
+/// The list of rooms without a stamp beside a caption.
+struct StampList {
+    std::vector<std::string> lines;  ///< empty: there are no such rooms
+    bool needsTable = false;         ///< the rooms do not fit: the line refers to stampTable()
+};
+/// \param width  of the free place beside the caption, millimetres
+[[nodiscard]] StampList stampList(const ViewMarks& marks, double width, SheetLanguage language);
+/// The same rooms as a table, for sheets of its own.
+[[nodiscard]] SheetTable stampTable(const ViewMarks& marks, const std::string& caption, SheetLanguage language);
 
 /// Stamps of rooms, and in plans the marks of openings, stairs and grids.
 [[nodiscard]] ViewMarks marksOf(const ViewContext& context);

@@ -204,7 +204,8 @@ std::string titleOfView(const drawing::SheetView& view, SheetLanguage language) 
 }  // namespace
 
 Result<std::string> makeSheetDxf(const SheetContent& content, std::size_t view, const volume::SemanticVolume& volume,
-                                 const SheetOptions& options, const DxfOptions& dxfOptions) {
+                                 const SheetOptions& options, const DxfOptions& dxfOptions,
+                                 std::span<const std::uint8_t> isAround) {
     const DrawnView& drawn = content.views[view];
     std::string dxf = makeDxf(drawn.drawing, volume, dxfOptions);
     if (dxfOptions.world) return dxf;
@@ -215,7 +216,7 @@ Result<std::string> makeSheetDxf(const SheetContent& content, std::size_t view, 
     own.openings = content.openings;
     own.stairs = content.stairs;
     own.views.push_back(drawn);
-    own.views.front().drawing = drawing::croppedToBuilding(drawn.drawing, volume);
+    own.views.front().drawing = drawing::croppedToBuilding(drawn.drawing, isAround);
     SVT_TRY(layout, layOutSheets(own, options));
     if (layout->sheets.empty()) return dxf;  // nothing is drawn
     const Sheet& sheet = layout->sheets.front();
@@ -244,7 +245,8 @@ Result<std::string> makeSheetDxf(const SheetContent& content, std::size_t view, 
                   {0.7});
     const std::string title = titleOfView(drawn.view, options.language);
     drawMarks(marksOf({own, volume, options, own.views.front(), placed, *layout, sheet, {}}), placed.place, canvas);
-    const BlockContext block{own, volume, options, *layout, sheet, view, title, volume.source};
+    const ModelFacts facts = modelFacts(volume);
+    const BlockContext block{own, volume, options, *layout, sheet, view, title, volume.source, facts};
     paintTitleBlock(block, canvas);
     paintLegend(block, canvas);
     canvas.text({{placed.place.corner.x, placed.place.corner.y + margins.below + 14}, 3.5, title});

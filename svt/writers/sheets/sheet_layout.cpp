@@ -222,6 +222,11 @@ std::vector<double> columnsOf(const SheetTable& table) {
         for (const auto& row : table.rows) width = std::max(width, widthOnPaper(row[c], PlacedTable::kText) + 3);
         widths.push_back(std::min(width, kWidestColumn));
     }
+    double all = 0;
+    for (const double width : widths) all += width;
+    // The title stands above the columns.
+    const double missing = widthOnPaper(table.title, PlacedTable::kTitleText) - all;
+    if (missing > 0 && !widths.empty()) widths.back() += std::min(missing, kWidestColumn);
     return widths;
 }
 

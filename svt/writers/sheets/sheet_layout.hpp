@@ -48,7 +48,7 @@ struct PlacedTable {
     std::size_t firstRow = 0, endRow = 0;
     double left = 0, top = 0;     ///< position of the title, millimetres
     std::vector<double> columns;  ///< widths, millimetres
-    static constexpr double kTitle = 8, kRow = 5, kText = 2.5;
+    static constexpr double kTitle = 8, kRow = 5, kText = 2.5, kTitleText = 3.5;
     [[nodiscard]] double width() const noexcept;
 };
 

@@ -339,6 +339,31 @@ TEST(PdfSheets, HaveAPageEachAndTheSameBytes) {
     EXPECT_EQ(*pdf, *makePdfSheets(content, volume, {.scale = 50, .paper = "A4"}));
 }
 
+// More sheets than a batch of one thread, each painted once for both formats.
+TEST(SheetFiles, AreThoseOfEachFormat) {
+    if (!makePdfCanvas("")) GTEST_SKIP() << "no cairo";
+    const volume::SemanticVolume volume = wallVolume();
+    SheetContent content;
+    for (int n = 0; n < 11; ++n) {
+        content.views.push_back(wallView(n % 2 == 0 ? ViewKind::Plan : ViewKind::Section, "A", 4, 3));
+        content.views.back().group = n;
+        content.groups.push_back({});
+    }
+    const SheetOptions options{.scale = 50, .paper = "A4"};
+    const auto svg = makeSvgSheets(content, volume, options);
+    const auto pdf = makePdfSheets(content, volume, options);
+    ASSERT_TRUE(svg && pdf);
+    ASSERT_EQ(svg->size(), 11u);
+    for (const int threads : {1, 2, 5}) {
+        const auto files = makeSheetFiles(content, volume, options, true, threads);
+        ASSERT_TRUE(files);
+        EXPECT_EQ(files->svg, *svg) << threads;
+        EXPECT_EQ(files->pdf, *pdf) << threads;
+    }
+    EXPECT_EQ(makeSheetFiles(content, volume, options, false)->pdf, "");
+    EXPECT_FALSE(makeSheetFiles(content, volume, {.scale = 1, .paper = "A4"}, true));
+}
+
 TEST(PdfSheets, JoinPagesOfPartsAndRefuseWhatIsNoPdf) {
     if (!missingPdfLayers().empty()) GTEST_SKIP() << missingPdfLayers();
     const PdfPart part{true, "Cut"};

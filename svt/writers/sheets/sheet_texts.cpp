@@ -1,32 +1,20 @@
 #include <svt/writers/sheets/sheet_texts.hpp>
 
 #include <svt/drawing/north.hpp>
+#include <svt/writers/sheets/class_words.hpp>
+#include <svt/writers/sheets/term.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <utility>
 
 namespace svt::writers {
 namespace {
 
 using W = SheetWord;
 using render::Hatch;
-
-template <class Key>
-struct Term {
-    Key key;
-    std::string_view english, german;
-};
-
-template <class Key, std::size_t N>
-std::string_view termOf(const Term<Key> (&terms)[N], Key key, SheetLanguage language) noexcept {
-    const auto* found =
-        std::find_if(std::begin(terms), std::end(terms), [&](const auto& term) { return term.key == key; });
-    if (found == std::end(terms)) return {};
-    return language == SheetLanguage::German ? found->german : found->english;
-}
 
 constexpr Term<SheetWord> kWords[] = {
     {W::Drawing, "Drawing", "Zeichnung"},
@@ -68,7 +56,7 @@ constexpr Term<SheetWord> kWords[] = {
     {W::Area, "Area m\u00B2", "Fläche m\u00B2"},
     {W::Height, "Height m", "Höhe m"},
     {W::Volume, "Volume m\u00B3", "Volumen m\u00B3"},
-    {W::Class, "Class", "Klasse"},
+    {W::Component, "Component", "Bauteil"},
     {W::Type, "Type", "Typ"},
     {W::Count, "Count", "Anzahl"},
     {W::Total, "Total", "Summe"},
@@ -87,7 +75,8 @@ constexpr Term<SheetWord> kWords[] = {
     {W::ElevationType, "Elevation", "Ansicht"},
     {W::ScheduleType, "Schedule", "Liste"},
     {W::WithoutStamp, "Rooms without a stamp: ", "Räume ohne Stempel: "},
-    {W::SeeTable, "{} more: see the table of rooms", "{} weitere: siehe Raumtabelle"},
+    {W::SeeTable, "see the table", "siehe Tabelle"},
+    {W::Stamp, "Stamp", "Stempel"},
     {W::Risers, "R", "Stg"},
     {W::Legend, "Materials", "Baustoffe"},
     {W::GroundAssumed, "Ground line assumed at the ground floor", "Geländelinie in Höhe des Erdgeschosses angenommen"},
@@ -116,6 +105,37 @@ std::string levelName(const drawing::BuildingLevel& level, double datum, SheetLa
     if (!level.name.empty()) return level.name;
     const double height = level.floor - datum;
     return fmt::format("{} {}", sheetWord(W::Level, language), numberText(height, 2, language));
+}
+
+// Types with one word share a row, unless only one of them has a known area or volume.
+SheetTable componentTable(const drawing::FloorAreas& areas, SheetLanguage language) {
+    std::vector<std::pair<std::string, drawing::ComponentSum>> sums;
+    for (const drawing::ComponentSum& sum : areas.components) {
+        std::string word = classWord(sum.type.empty() ? sum.className : sum.type, language);
+        const auto found = std::find_if(sums.begin(), sums.end(), [&](const auto& other) {
+            return other.first == word && (other.second.area > 0) == (sum.area > 0) &&
+                   (other.second.volume > 0) == (sum.volume > 0);
+        });
+        if (found == sums.end()) {
+            sums.emplace_back(std::move(word), sum);
+            continue;
+        }
+        found->second.count += sum.count;
+        found->second.area += sum.area;
+        found->second.volume += sum.volume;
+    }
+    std::stable_sort(sums.begin(), sums.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    const auto word = [&](SheetWord w) { return std::string(sheetWord(w, language)); };
+    SheetTable table{word(W::Components),
+                     {{word(W::Component)}, {word(W::Count), true}, {word(W::Area), true}, {word(W::Volume), true}},
+                     {},
+                     0};
+    const auto number = [&](double value) {
+        return value > 0 ? numberText(value, 2, language) : std::string("\u2013");
+    };
+    for (const auto& [name, sum] : sums)
+        table.rows.push_back({name, fmt::format("{}", sum.count), number(sum.area), number(sum.volume)});
+    return table;
 }
 
 }  // namespace
@@ -197,18 +217,7 @@ std::vector<SheetTable> makeAreaTables(const drawing::FloorAreas& areas,
         add(word(W::Total), areas.total());
         tables.push_back(std::move(floors));
     }
-    if (!areas.components.empty()) {
-        SheetTable components{
-            word(W::Components),
-            {{word(W::Class)}, {word(W::Type)}, {word(W::Count), true}, {word(W::Area), true}, {word(W::Volume), true}},
-            {},
-            0};
-        for (const drawing::ComponentSum& sum : areas.components)
-            components.rows.push_back({sum.className, sum.type, fmt::format("{}", sum.count),
-                                       sum.area > 0 ? number(sum.area) : "\u2013",
-                                       sum.volume > 0 ? number(sum.volume) : "\u2013"});
-        tables.push_back(std::move(components));
-    }
+    if (!areas.components.empty()) tables.push_back(componentTable(areas, language));
     return tables;
 }
 

@@ -51,7 +51,7 @@ enum class SheetWord : std::uint8_t {
     Area,
     Height,
     Volume,
-    Class,
+    Component,
     Type,
     Count,
     Total,
@@ -70,7 +70,8 @@ enum class SheetWord : std::uint8_t {
     ElevationType,
     ScheduleType,
     WithoutStamp,  ///< before a list of rooms
-    SeeTable,      ///< "{} more in the table of rooms"
+    SeeTable,      ///< the end of the line if the list is a table
+    Stamp,
     Risers,
     Legend,
     GroundAssumed,  ///< below an elevation

@@ -1,16 +1,17 @@
 #include <svt/writers/sheet_writer.hpp>
 
+#include <svt/core/parallel.hpp>
 #include <svt/core/rounding.hpp>
 #include <svt/drawing/building_crop.hpp>
 #include <svt/drawing/north.hpp>
 #include <svt/drawing/storey_floors.hpp>
 #include <svt/model/classes.hpp>
-#include <svt/writers/canvas/pdf_canvas.hpp>
 #include <svt/writers/canvas/svg_canvas.hpp>
 #include <svt/writers/drawing/dimension_marks.hpp>
 #include <svt/writers/drawing/drawing_text.hpp>
 #include <svt/writers/sheets/sheet_details.hpp>
 #include <svt/writers/sheets/sheet_layout.hpp>
+#include <svt/writers/sheets/sheet_painter.hpp>
 #include <svt/writers/sheets/sheet_texts.hpp>
 #include <svt/writers/sheets/title_block.hpp>
 
@@ -20,14 +21,30 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <utility>
 
 namespace svt::writers {
+
+// Facts of the volume that all sheets share.
+struct VolumeFacts {
+    std::vector<drawing::LabelExtent> extents;  // by label; empty without levels
+    ModelFacts model;
+};
+
+// The marks of a view, found before its sheet is painted.
+struct PreparedView {
+    RoomNotes floors;
+    ViewMarks marks;
+    std::pair<double, double> freeBelow;  // left and right end of the place for its caption, millimetres
+};
+
 namespace {
 
 using drawing::PlanePoint;
 using drawing::ViewKind;
 
 constexpr LineStyle kFrame{0.7}, kBox{0.35}, kFine{0.18};
+constexpr double kCaptionText = 3.5, kBesideCaption = 6, kCaptionHeight = 20;  // millimetres
 
 // Heights as architects write them: "+2.70", "±0.00".
 std::string heightText(double height, SheetLanguage language, drawing::DimensionUnit unit) {
@@ -42,44 +59,61 @@ std::string heightText(double height, SheetLanguage language, drawing::Dimension
 class SheetPainter {
 public:
     SheetPainter(const SheetContent& content, const volume::SemanticVolume& volume, const SheetLayout& layout,
-                 const SheetOptions& options, SheetCanvas& canvas)
-        : content_(content), volume_(volume), layout_(layout), options_(options), canvas_(canvas) {}
+                 const SheetOptions& options, const VolumeFacts& facts, SheetCanvas& canvas)
+        : content_(content), volume_(volume), layout_(layout), options_(options), facts_(facts), canvas_(canvas) {}
 
-    void paint() {
-        for (std::size_t n = 0; n < layout_.sheets.size(); ++n) {
-            const Sheet& sheet = layout_.sheets[n];
-            canvas_.beginSheet(layout_.paper.width, layout_.paper.height,
-                               fmt::format("{}: {}", modelName(), titleOf(sheet)));
-            for (const PlacedView& placed : sheet.views) {
-                const DrawnView& view = content_.views[placed.view];
-                const bool isFloorPlan = view.view.kind == ViewKind::Plan;
-                PaintOptions paint{isFloorPlan ? finishedFloors(view) : RoomNotes(), nullptr, {}};
-                const ViewMarks marks =
-                    marksOf({content_, volume_, options_, view, placed, layout_, sheet, paint.notes});
-                paint.marks = &marks.layers;
-                paint.widths = widthsOf(sheet.scale);
-                if (options_.language == SheetLanguage::German) paint.openings = {"BRH", "STH"};
-                paintDrawing(view.drawing, volume_, placed.place, canvas_, paint);
-                canvas_.beginLayer("Marks");
-                addCaption(placed, view, sheet.scale);
-                addBelow(placed, captionOf(view), marks.below);
-                if (view.view.kind == ViewKind::Plan)
-                    addSectionMarks(placed, view);
-                else
-                    addHeights(placed, view);
-                if (view.view.kind == ViewKind::Section) addLevelNames(placed, view);
-                canvas_.endLayer();
-            }
-            if (!sheet.tables.empty()) {
-                canvas_.beginLayer("Tables");
-                for (const PlacedTable& placed : sheet.tables) addTable(placed);
-                canvas_.endLayer();
-            }
-            canvas_.beginLayer("Frame");
-            addFrame(sheet, n);
-            canvas_.endLayer();
-            canvas_.endSheet();
+    // The marks of the views of a sheet, with lists of rooms without a stamp; lists that do not fit become tables.
+    [[nodiscard]] std::vector<PreparedView> prepare(std::size_t n, std::vector<SheetTable>& tables) const {
+        const Sheet& sheet = layout_.sheets[n];
+        std::vector<PreparedView> views;
+        for (const PlacedView& placed : sheet.views) {
+            const DrawnView& view = content_.views[placed.view];
+            PreparedView prepared;
+            if (view.view.kind == ViewKind::Plan) prepared.floors = finishedFloors(view);
+            prepared.marks = marksOf({content_, volume_, options_, view, placed, layout_, sheet, prepared.floors});
+            const std::string caption = captionOf(view);
+            prepared.freeBelow = std::pair(placed.place.corner.x - placed.margins.left, rightBelow(sheet, placed));
+            const double left = prepared.freeBelow.first + widthOnPaper(caption, kCaptionText) + kBesideCaption;
+            StampList list = stampList(prepared.marks, prepared.freeBelow.second - left, options_.language);
+            if (list.needsTable) tables.push_back(stampTable(prepared.marks, caption, options_.language));
+            for (std::string& text : list.lines) prepared.marks.below.push_back(std::move(text));
+            views.push_back(std::move(prepared));
         }
+        return views;
+    }
+
+    void paint(std::size_t n, const std::vector<PreparedView>& prepared) {
+        const Sheet& sheet = layout_.sheets[n];
+        canvas_.beginSheet(layout_.paper.width, layout_.paper.height,
+                           fmt::format("{}: {}", modelName(), titleOf(sheet)));
+        for (std::size_t v = 0; v < sheet.views.size(); ++v) {
+            const PlacedView& placed = sheet.views[v];
+            const DrawnView& view = content_.views[placed.view];
+            const ViewMarks& marks = prepared[v].marks;
+            PaintOptions paint{prepared[v].floors, nullptr, {}};
+            paint.marks = &marks.layers;
+            paint.widths = widthsOf(sheet.scale);
+            if (options_.language == SheetLanguage::German) paint.openings = {"BRH", "STH"};
+            paintDrawing(view.drawing, volume_, placed.place, canvas_, paint);
+            canvas_.beginLayer("Marks");
+            addCaption(placed, view, sheet.scale);
+            addBelow(placed, captionOf(view), prepared[v]);
+            if (view.view.kind == ViewKind::Plan)
+                addSectionMarks(placed, view);
+            else
+                addHeights(placed, view);
+            if (view.view.kind == ViewKind::Section) addLevelNames(placed, view);
+            canvas_.endLayer();
+        }
+        if (!sheet.tables.empty()) {
+            canvas_.beginLayer("Tables");
+            for (const PlacedTable& placed : sheet.tables) addTable(placed);
+            canvas_.endLayer();
+        }
+        canvas_.beginLayer("Frame");
+        addFrame(sheet, n);
+        canvas_.endLayer();
+        canvas_.endSheet();
     }
 
 private:
@@ -128,16 +162,37 @@ private:
 
     void addCaption(const PlacedView& placed, const DrawnView& view, double scale) {
         const double x = placed.place.corner.x - placed.margins.left, y = placed.place.corner.y + placed.margins.below;
-        canvas_.text({{x, y + 14}, 3.5, captionOf(view)});
+        canvas_.text({{x, y + 14}, kCaptionText, captionOf(view)});
         canvas_.text({{x, y + 18.5}, 2.5, fmt::format("1:{}", shortNumber(scale, 2))});
     }
 
-    // Small lines beside the caption.
-    void addBelow(const PlacedView& placed, const std::string& caption, const std::vector<std::string>& lines) {
-        constexpr double kText = 1.8, kPitch = 2.6;
-        const double x = placed.place.corner.x - placed.margins.left + widthOnPaper(caption, 3.5) + 6;
+    // The right end of the free place below a view: the frame, or the view beside it.
+    [[nodiscard]] double rightBelow(const Sheet& sheet, const PlacedView& placed) const {
+        constexpr double kFromFrame = 3, kFromView = 4;  // millimetres
+        double right = layout_.paper.right - kFromFrame;
+        const double y = placed.place.corner.y + placed.margins.below;
+        for (const PlacedView& other : sheet.views) {
+            const double left = other.place.corner.x - other.margins.left;
+            const bool isBeside = other.place.corner.y + other.margins.below + kCaptionHeight > y &&
+                                  other.place.corner.y - other.height - other.margins.above < y + kCaptionHeight;
+            if (isBeside && left > placed.place.corner.x) right = std::min(right, left - kFromView);
+        }
+        return right;
+    }
+
+    // Small lines beside the caption; beside the scale below it, where they would not fit.
+    void addBelow(const PlacedView& placed, const std::string& caption, const PreparedView& prepared) {
+        constexpr double kText = 1.8, kPitch = 2.6, kBesideScale = 16, kScaleLine = 18.5;
+        const auto& [left, right] = prepared.freeBelow;
+        double width = 0;
+        for (const std::string& text : prepared.marks.below) width = std::max(width, widthOnPaper(text, kText));
+        double x = left + widthOnPaper(caption, kCaptionText) + kBesideCaption;
         double y = placed.place.corner.y + placed.margins.below + 12.5;
-        for (const std::string& text : lines) {
+        if (x + width > right) {
+            x = std::max(left + kBesideScale, std::min(x, right - width));
+            y = placed.place.corner.y + placed.margins.below + kScaleLine;
+        }
+        for (const std::string& text : prepared.marks.below) {
             canvas_.text({{x, y}, kText, text});
             y += kPitch;
         }
@@ -147,8 +202,11 @@ private:
     void addTable(const PlacedTable& placed) {
         const SheetTable& table = content_.tables[placed.table];
         constexpr double kText = PlacedTable::kText, kRow = PlacedTable::kRow;
+        constexpr double kTitleBeyond = 5;  // millimetres, of the space between tables
         const double right = placed.left + placed.width();
-        canvas_.text({{placed.left, placed.top + 4.5}, 3.5, table.title});
+        canvas_.text({{placed.left, placed.top + 4.5},
+                      PlacedTable::kTitleText,
+                      shortened(table.title, PlacedTable::kTitleText, placed.width() + kTitleBeyond)});
         double y = placed.top + PlacedTable::kTitle;
         const auto addRow = [&](const auto& textOf) {
             double x = placed.left;
@@ -179,17 +237,16 @@ private:
 
     // The heights of finished floors in a plan: once, in the largest room, for the rooms that share a height, and in each
     // room with another height. Rooms that begin in a storey below, such as shafts, get no mark.
-    [[nodiscard]] RoomNotes finishedFloors(const DrawnView& plan) {
+    [[nodiscard]] RoomNotes finishedFloors(const DrawnView& plan) const {
         constexpr double kStoreyBelow = 1.5, kHeight = 0.01;  // metres
         if (content_.levels.empty()) return {};
-        if (extents_.empty()) extents_ = drawing::labelExtents(volume_);
         struct Floor {
             double area = 0;
             std::vector<const drawing::SectionComponent*> rooms;
         };
         std::map<long, Floor> floors;  // by height in centimetres
         for (const drawing::SectionComponent& component : plan.drawing.components) {
-            const drawing::LabelExtent& extent = extents_[component.label];
+            const drawing::LabelExtent& extent = facts_.extents[component.label];
             const std::string& name = volume_.labels.labels[component.label].className;
             if (!model::isSpace(name) || model::classRank(name) != model::ClassRank::Room) continue;
             if (extent.bound > 0 || extent.floor < plan.view.floor - kStoreyBelow) continue;
@@ -291,7 +348,7 @@ private:
         const SheetPaper& paper = layout_.paper;
         box(paper.left, paper.top, paper.right, paper.bottom, kFrame);
         const std::string title = titleOf(sheet), source = sourceText();
-        const BlockContext block{content_, volume_, options_, layout_, sheet, number, title, source};
+        const BlockContext block{content_, volume_, options_, layout_, sheet, number, title, source, facts_.model};
         paintTitleBlock(block, canvas_);
         paintLegend(block, canvas_);
         if (sheet.views.empty()) return;
@@ -397,8 +454,8 @@ private:
     const volume::SemanticVolume& volume_;
     const SheetLayout& layout_;
     const SheetOptions& options_;
+    const VolumeFacts& facts_;
     SheetCanvas& canvas_;
-    std::vector<drawing::LabelExtent> extents_;  // for finishedFloors()
 };
 
 // Terrain and vegetation around a building do not decide the scale of its sheets.
@@ -411,22 +468,58 @@ SheetContent croppedContent(const SheetContent& content, const volume::SemanticV
 
 }  // namespace
 
-Result<std::vector<std::string>> makeSvgSheets(const SheetContent& content, const volume::SemanticVolume& volume,
-                                               const SheetOptions& options) {
-    const SheetContent cropped = croppedContent(content, volume);
+struct PreparedSheets::Parts {
+    SheetContent content;
+    const volume::SemanticVolume& volume;
+    SheetOptions options;
+    SheetLayout layout;
+    VolumeFacts facts;
+    std::vector<std::vector<PreparedView>> views;  // by sheet
+};
+
+PreparedSheets::PreparedSheets(std::unique_ptr<const Parts> parts) noexcept : parts_(std::move(parts)) {}
+PreparedSheets::PreparedSheets(PreparedSheets&&) noexcept = default;
+PreparedSheets::~PreparedSheets() = default;
+
+Result<PreparedSheets> PreparedSheets::make(const SheetContent& content, const volume::SemanticVolume& volume,
+                                            const SheetOptions& options, int threads) {
+    SheetContent cropped = croppedContent(content, volume);
     SVT_TRY(layout, layOutSheets(cropped, options));
-    SvgCanvas canvas;
-    SheetPainter(cropped, volume, *layout, options, canvas).paint();
-    return canvas.takeDocuments();
+    VolumeFacts facts{{}, modelFacts(volume)};
+    if (!content.levels.empty()) facts.extents = drawing::labelExtents(volume);
+    std::vector<std::vector<PreparedView>> views(layout->sheets.size());
+    std::vector<std::vector<SheetTable>> tables(views.size());  // by sheet
+    parallelFor(views.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+        SvgCanvas unused;
+        const SheetPainter painter(cropped, volume, *layout, options, facts, unused);
+        for (std::size_t n = begin; n < end; ++n) views[n] = painter.prepare(n, tables[n]);
+    });
+    const std::size_t before = cropped.tables.size();
+    for (std::vector<SheetTable>& own : tables)
+        for (SheetTable& table : own) cropped.tables.push_back(std::move(table));
+    if (cropped.tables.size() > before) {
+        // Tables come after the views, whose places stay.
+        layout = layOutSheets(cropped, options);
+        SVT_DO(layout);
+        views.resize(layout->sheets.size());
+    }
+    return PreparedSheets(std::make_unique<const Parts>(
+        Parts{std::move(cropped), volume, options, std::move(*layout), std::move(facts), std::move(views)}));
 }
 
-Result<std::string> makePdfSheets(const SheetContent& content, const volume::SemanticVolume& volume,
-                                  const SheetOptions& options) {
-    const SheetContent cropped = croppedContent(content, volume);
-    SVT_TRY(layout, layOutSheets(cropped, options));
-    SVT_TRY(canvas, makePdfCanvas(shownName(volume)));
-    SheetPainter(cropped, volume, *layout, options, **canvas).paint();
-    return (*canvas)->finish();
+std::size_t PreparedSheets::size() const noexcept { return parts_->layout.sheets.size(); }
+
+void PreparedSheets::paint(std::size_t sheet, SheetCanvas& canvas) const {
+    SheetPainter(parts_->content, parts_->volume, parts_->layout, parts_->options, parts_->facts, canvas)
+        .paint(sheet, parts_->views[sheet]);
+}
+
+Result<std::vector<std::string>> makeSvgSheets(const SheetContent& content, const volume::SemanticVolume& volume,
+                                               const SheetOptions& options) {
+    SVT_TRY(sheets, PreparedSheets::make(content, volume, options));
+    SvgCanvas canvas;
+    for (std::size_t n = 0; n < sheets->size(); ++n) sheets->paint(n, canvas);
+    return canvas.takeDocuments();
 }
 
 }  // namespace svt::writers

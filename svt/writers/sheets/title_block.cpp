@@ -113,7 +113,7 @@ void paintTitleBlock(const BlockContext& context, SheetCanvas& canvas) {
     const SheetLanguage language = context.options.language;
     const drawing::TitleBlock& block = context.options.block;
     const double left = paper.right - SheetPaper::kTitleWidth, top = paper.bottom - SheetPaper::kTitleHeight;
-    const ModelFacts facts = modelFacts(context.volume);
+    const ModelFacts& facts = context.facts;
     canvas.stroke({{{left, paper.bottom}, {left, top}, {paper.right, top}}}, kBlockEdge);
     const auto field = [&](double column, double width, double row, double size, std::string_view heading,
                            const std::string& text) {

@@ -8,12 +8,7 @@
 
 namespace svt::writers {
 
-/// Facts of the model for a title block. Placeholders of templates, such as "Enter address here", count as absent.
-struct ModelFacts {
-    std::string project;   ///< long name of the project; else the name of the model
-    std::string building;  ///< names of the buildings
-    std::string address;   ///< of a building, or of the site
-};
+/// The facts of a model. Cost: O(labels).
 [[nodiscard]] ModelFacts modelFacts(const volume::SemanticVolume& volume);
 
 /// The block of 180 x 36 mm at the lower right. Unknown fields have a dash.

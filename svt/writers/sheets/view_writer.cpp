@@ -49,7 +49,7 @@ Result<std::string> makeSectionPdf(const drawing::SectionDrawing& drawing, const
         return Error(Code::BadArgument,
                      fmt::format("at 1:{} the page has {:.1f} x {:.1f} m; PDF allows 5.08 m; give a smaller scale",
                                  shortNumber(scale, 2), page->width / 1000, page->height / 1000));
-    SVT_TRY(canvas, makePdfCanvas(shownName(volume)));
+    SVT_TRY(canvas, makePdfCanvas(shownName(volume), &volume.labels));
     (*canvas)->beginSheet(page->width, page->height, planeText(drawing, volume));
     const double below = page->top + (page->high.v - page->low.v) * page->millimetres;
     paintDrawing(drawing, volume, {{page->left, below}, page->low, page->millimetres}, **canvas);
@@ -67,7 +67,7 @@ std::string makeViewSvg(const drawing::LineView& view, const volume::SemanticVol
 }
 
 Result<std::string> makeViewPdf(const drawing::LineView& view, const volume::SemanticVolume& volume, double width) {
-    SVT_TRY(canvas, makePdfCanvas(shownName(volume)));
+    SVT_TRY(canvas, makePdfCanvas(shownName(volume), &volume.labels));
     paintView(view, volume, width, **canvas);
     return (*canvas)->finish();
 }

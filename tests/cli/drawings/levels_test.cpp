@@ -23,7 +23,7 @@ std::vector<nlohmann::json> rowsOf(const fs::path& folder, const std::string& mo
 
 // The sheets of a model as one text.
 std::string sheetsOf(const fs::path& folder, const std::string& model) {
-    runSvtWell(folder, {"sheets", model, "--spacing", "0.2", "--svg", "sheets"});
+    runSvtWell(folder, {"sheets", model, "--spacing", "0.2", "--svg", "sheets", "--no-turn"});
     std::string text;
     for (int n = 1; fs::exists(folder / "sheets" / fmt::format("sheet-{}.svg", n)); ++n)
         text += readText(folder / "sheets" / fmt::format("sheet-{}.svg", n));
