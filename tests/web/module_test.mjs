@@ -84,6 +84,17 @@ test("a volume has the features that the command lists", () => {
   assert.deepEqual(info.spacing, listed.grid.spacing);
   assert.ok(info.storeys.length > 0 && info.storeys.every((storey) => storey.top > storey.floor));
   assert.equal(info.hasEdges, false);
+  const described = rows("query", houseVolume, "all");
+  const spaces = new Set(info.features.filter(({ isSpace }) => isSpace).map(({ id }) => id));
+  for (const { name, count, onSpaces, isNumber } of info.attributeUses) {
+    const having = described.filter(({ attributes = {} }) => name in attributes);
+    const isOfNumbers = having.every(({ attributes }) => typeof attributes[name] === "number");
+    assert.deepEqual([count, onSpaces, isNumber], [having.length, having.filter(({ id }) => spaces.has(id)).length, isOfNumbers], name);
+  }
+  const isMember = ({ groups = [] }) => groups.some((group) => info.features[group].id === "house_storey_0");
+  const below = new Set(rows("query", houseVolume, "storey=house_storey_0").map(({ id }) => id));
+  const members = info.features.filter(isMember).map(({ id }) => id);
+  assert.ok(members.length > 0 && members.every((id) => below.has(id)), members.join());
 });
 
 test("pictures and labels are those of the command, byte by byte", () => {
@@ -130,6 +141,25 @@ test("properties, neighbours and selections are rows of 'svt query'", () => {
       neighbours.map((n) => ({ id: n.neighbour, class: n.neighbourClass, name: n.neighbourName, area: n.area })),
     );
   }
+});
+
+test("values of an attribute are those of 'svt query', null for features without it", () => {
+  const { features } = open(houseVolume);
+  const known = new Map(rows("query", houseVolume, "all").map(({ id, attributes = {} }) => [id, attributes]));
+  const names = [...new Set([...known.values()].flatMap((attributes) => Object.keys(attributes)))];
+  let numbers = 0;
+  for (const name of [...names.slice(0, 12), "nothing"]) {
+    const { values } = ask("attributeValues", name);
+    assert.equal(values.length, features.length);
+    features.forEach(({ id }, n) => {
+      const expected = known.get(id)?.[name] ?? null;
+      numbers += typeof values[n] === "number" ? 1 : 0;
+      if (typeof expected === "number")
+        assert.ok(values[n] === expected || String(values[n]).startsWith(String(expected)), `${id} ${name}`);
+      else if (typeof expected === "string" || expected === null) assert.equal(values[n], expected, `${id} ${name}`);
+    });
+  }
+  assert.ok(numbers > 0);
 });
 
 test("a draft has as many pixels as the picture, and is picked as it is", () => {

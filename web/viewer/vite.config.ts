@@ -2,6 +2,7 @@ import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
 import { billOfMaterialsPlugin } from "./sbom_plugin";
 import { template } from "./src/texts";
+import { toolTemplate } from "./src/tool_texts";
 
 // Relative addresses, so that the page works in any folder of any server.
 export default defineConfig({
@@ -24,7 +25,7 @@ export default defineConfig({
         this.emitFile({
           type: "asset",
           fileName: "languages/template.json",
-          source: `${JSON.stringify({ texts: template(), classes: {} }, null, 1)}\n`,
+          source: `${JSON.stringify({ texts: { ...template(), ...toolTemplate() }, classes: {} }, null, 1)}\n`,
         });
       },
     },

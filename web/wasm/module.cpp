@@ -178,6 +178,9 @@ Result<Reply> select(const Arguments& arguments) { return replyOf(selectionOf(*s
 Result<Reply> findInAttributes(const Arguments& arguments) {
     return Reply(attributesFoundIn(*session, arguments.text(0)));
 }
+Result<Reply> attributeValues(const Arguments& arguments) {
+    return Reply(attributeValuesOf(*session, arguments.text(0)));
+}
 Result<Reply> properties(const Arguments& arguments) { return replyOf(propertiesOf(*session, arguments.text(0))); }
 
 std::string cameraText(const illustrate::SceneCamera& camera) {
@@ -302,6 +305,7 @@ constexpr Call kCalls[] = {{"open", open, false},
                            {"select", select},
                            {"findInAttributes", findInAttributes},
                            {"properties", properties},
+                           {"attributeValues", attributeValues},
                            {"view", view},
                            {"picture", picture},
                            {"labels", labels},

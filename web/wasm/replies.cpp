@@ -73,6 +73,30 @@ Json attributeNames(const volume::LabelTable& table) {
     return list;
 }
 
+// [{name, count, isNumber, onSpaces}] of the same attributes: the number of features with the attribute, whether all
+// values are numbers, and how many of the features are spaces.
+Json attributeUses(const volume::LabelTable& table, const Json& names) {
+    struct Use {
+        std::size_t count = 0, onSpaces = 0;
+        bool isNumber = true;
+    };
+    std::map<std::string_view, Use> uses;
+    for (const volume::Label& label : table.labels)
+        for (const Attribute& attribute : label.attributes) {
+            Use& use = uses[attribute.name];
+            ++use.count;
+            if (model::isSpace(label.className)) ++use.onSpaces;
+            use.isNumber = use.isNumber && (std::holds_alternative<double>(attribute.value) ||
+                                            std::holds_alternative<std::int64_t>(attribute.value));
+        }
+    Json list = Json::array();
+    for (const Json& name : names) {
+        const Use& use = uses[name.get_ref<const std::string&>()];
+        list.push_back({{"name", name}, {"count", use.count}, {"isNumber", use.isNumber}, {"onSpaces", use.onSpaces}});
+    }
+    return list;
+}
+
 Json featuresJson(const volume::LabelTable& table) {
     Json list = Json::array();
     std::vector<int> depth(table.labels.size(), 0);
@@ -88,6 +112,7 @@ Json featuresJson(const volume::LabelTable& table) {
         feature["color"] = image::colorText(label.color);
         feature["opacity"] = label.opacity;
         if (model::isSpace(label.className)) feature["isSpace"] = true;
+        if (!label.groups.empty()) feature["groups"] = label.groups;
         if (std::string type = typeOf(label); !type.empty()) feature["type"] = std::move(type);
         list.push_back(std::move(feature));
     }
@@ -214,6 +239,7 @@ std::vector<std::string> wordsOf(const std::string& text) {
 std::string infoOf(const Session& session) {
     const volume::SemanticVolume& volume = session.volume();
     const auto& axes = volume.grid.axes();
+    const Json attributes = attributeNames(volume.labels);
     return textOf({{"name", volume.modelName},
                    {"source", volume.source},
                    {"crs", volume.crsName},
@@ -228,7 +254,8 @@ std::string infoOf(const Session& session) {
                    {"hasMeshes", !volume.vectors.triangles.empty()},
                    {"spacingReason", session.spacingReason()},
                    {"details", session.details()},
-                   {"attributes", attributeNames(volume.labels)},
+                   {"attributes", attributes},
+                   {"attributeUses", attributeUses(volume.labels, attributes)},
                    {"findings", findingsJson(session.findings())}});
 }
 
@@ -246,6 +273,32 @@ Result<std::string> propertiesOf(Session& session, const std::string& id) {
         return propertiesIn(*around, index, by);
     }
     return propertiesIn(session, index, {});
+}
+
+std::string attributeValuesOf(const Session& session, const std::string& name) {
+    Json values = Json::array();
+    std::optional<std::string> unit;
+    std::vector<Attribute> named;
+    for (const volume::Label& label : session.volume().labels.labels) {
+        named.clear();
+        for (const Attribute& attribute : label.attributes)
+            if (attribute.name == name) named.push_back(attribute);
+        Json value;
+        for (const AttributeList& list : attributeLists(named)) {
+            const Attribute* only = list.isSingle() ? list.items.front().attribute : nullptr;
+            const auto* number = only == nullptr ? nullptr : std::get_if<double>(&only->value);
+            const auto* whole = only == nullptr ? nullptr : std::get_if<std::int64_t>(&only->value);
+            const std::string own = only == nullptr ? std::string() : only->unit;
+            if ((number != nullptr || whole != nullptr) && unit.value_or(own) == own) {
+                unit = own;
+                value = number != nullptr ? Json(*number) : Json(*whole);
+            } else {
+                value = toText(list) + (own.empty() ? "" : " " + own);
+            }
+        }
+        values.push_back(std::move(value));
+    }
+    return textOf({{"values", std::move(values)}, {"unit", unit.value_or(std::string())}});
 }
 
 std::string pickOf(Session& session, double x, double y, double reach) {

@@ -15,6 +15,10 @@ namespace svt::web {
 [[nodiscard]] std::string infoOf(const Session& session);
 /// FeatureProperties, or NothingSelected if no feature has that id.
 [[nodiscard]] Result<std::string> propertiesOf(Session& session, const std::string& id);
+/// AttributeValues: the values of one attribute, in the order of the features of infoOf(); null for features without it.
+/// A number whose unit differs from that of the first number is text with its unit.
+/// Cost: O(attributes of all features).
+[[nodiscard]] std::string attributeValuesOf(const Session& session, const std::string& name);
 /// Pick or null
 /// \param reach  maximum distance, metres, to snap to a corner or else an edge of the model; 0: no snapping
 [[nodiscard]] std::string pickOf(Session& session, double x, double y, double reach);

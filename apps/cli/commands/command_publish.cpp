@@ -36,7 +36,9 @@ Result<int> runPublish(const PublishArguments& arguments) {
     const bool hasCity =
         std::any_of(models->begin(), models->end(), [](const serve::SiteModel& model) { return !model.city.empty(); });
     summarize(fmt::format("{}: {} files, {:.1f} kB; {} shows it", arguments.output.string(), site->resources().size(),
-                          double(*bytes) / 1000, hasCity ? "a web server with range requests" : "any web server"));
+                          double(*bytes) / 1000,
+                          hasCity ? "a web server with range requests (nginx, Apache, S3, not 'python3 -m http.server')"
+                                  : "any web server"));
     return kDone;
 }
 

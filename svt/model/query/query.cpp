@@ -141,13 +141,40 @@ Mask rowsWhere(Rows rows, const Condition& condition) {
     return mask;
 }
 
-Mask selectUnder(const Node& node, Rows rows) {
-    const Mask starts = rowsWhere(rows, [&](const QueryRow& row) {
-        return row.id == node.value || (!row.name.empty() && row.name == node.value);
-    });
+/// Values of several terms of one kind, so that a row is compared with all of them at once.
+class Values {
+public:
+    template <class Wanted>
+    Values(const std::vector<Node>& terms, const Wanted& wanted) {
+        for (const Node& term : terms)
+            if (wanted(term)) values_.emplace_back(term.value);
+        std::sort(values_.begin(), values_.end());
+    }
+    [[nodiscard]] bool isEmpty() const { return values_.empty(); }
+    [[nodiscard]] bool contain(std::string_view value) const {
+        return std::binary_search(values_.begin(), values_.end(), value);
+    }
+
+private:
+    std::vector<std::string_view> values_;
+};
+
+bool isUnder(const Node& node) { return node.kind == Kind::Under; }
+bool isOfId(const Node& node) {
+    return node.kind == Kind::Compare && node.key == Key::Id && node.op == Op::Equal && !node.pattern;
+}
+
+template <class IsStart>
+Mask selectBelow(Rows rows, const IsStart& isStart) {
+    const Mask starts = rowsWhere(
+        rows, [&](const QueryRow& row) { return isStart(row.id) || (!row.name.empty() && isStart(row.name)); });
     Mask mask = Descendants(rows).reachedFrom(starts);
     for (std::size_t i = 0; i < mask.size(); ++i) mask[i] |= starts[i];
     return mask;
+}
+
+Mask selectUnder(const Node& node, Rows rows) {
+    return selectBelow(rows, [&](std::string_view name) { return name == node.value; });
 }
 
 /// Used for != and !~ too: a row in two storeys matches if one of them differs.
@@ -181,6 +208,22 @@ Mask selectCompare(const Node& node, Rows rows) {
     return Mask(rows.size(), 0);
 }
 
+Mask evaluate(const Node& node, Rows rows);
+
+/// Thousands of ids take one search per row, instead of one pass over the rows per id.
+Mask selectAny(const std::vector<Node>& terms, Rows rows) {
+    const Values ids(terms, isOfId), above(terms, isUnder);
+    Mask mask(rows.size(), 0);
+    const auto add = [&](const Mask& other) {
+        for (std::size_t i = 0; i < mask.size(); ++i) mask[i] |= other[i];
+    };
+    if (!ids.isEmpty()) add(rowsWhere(rows, [&](const QueryRow& row) { return ids.contain(row.id); }));
+    if (!above.isEmpty()) add(selectBelow(rows, [&](std::string_view name) { return above.contain(name); }));
+    for (const Node& term : terms)
+        if (!isOfId(term) && !isUnder(term)) add(evaluate(term, rows));
+    return mask;
+}
+
 /// The parser limits the depth of nodes.
 Mask evaluate(const Node& node, Rows rows) {
     switch (node.kind) {
@@ -193,13 +236,12 @@ Mask evaluate(const Node& node, Rows rows) {
             for (char& matches : mask) matches ^= 1;
             return mask;
         }
-        case Kind::And:
-        case Kind::Or: {
+        case Kind::Or: return selectAny(node.children, rows);
+        case Kind::And: {
             Mask mask = evaluate(node.children.front(), rows);
             for (std::size_t k = 1; k < node.children.size(); ++k) {
                 const Mask other = evaluate(node.children[k], rows);
-                for (std::size_t i = 0; i < mask.size(); ++i)
-                    mask[i] = node.kind == Kind::And ? mask[i] & other[i] : mask[i] | other[i];
+                for (std::size_t i = 0; i < mask.size(); ++i) mask[i] &= other[i];
             }
             return mask;
         }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -294,6 +295,32 @@ TEST(QueryParser, SpellingsOfTheSameQueryAreEqual) {
     for (const char* text : {R"("a\"b"="it's")", R"('a"b'=='it\'s')", R"( ( 'a"b' = "it's" ) )", R"('a"b'~"^it's$")"})
         EXPECT_EQ(Query::parse(text)->select({&row, 1}).size(), 1u) << text;
     EXPECT_EQ(Query::parse("id=x")->text(), "id=x");
+}
+
+TEST(Query, ManyIdsAndSubtreesSelectWhatEachSelects) {
+    std::vector<std::string> ids;
+    for (int i = 0; i < 600; ++i) ids.push_back("f" + std::to_string(i));
+    std::vector<QueryRow> rows(ids.size());
+    std::vector<std::uint32_t> groupOfSeven{7};
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+        rows[i].id = ids[i];
+        rows[i].className = i % 2 == 0 ? "Window" : "Door";
+        rows[i].name = i == 3 ? "f500" : "";
+        rows[i].parent = i % 10 == 0 ? 0xFFFFFFFFu : i - i % 10;
+        if (i == 100) rows[i].groups = groupOfSeven;
+    }
+    const std::vector<std::string> terms{
+        "id=f12",   "id=f12",     "id=f599",    "id=gone",     "under f20",
+        "under f7", "under gone", "under f500", "id~'^f59.$'", "class=Door and id!=f1"};
+    std::string text;
+    std::set<std::uint32_t> each;
+    for (const std::string& term : terms) {
+        text += (text.empty() ? "" : " or ") + term;
+        for (const std::uint32_t row : Query::parse(term)->select(rows)) each.insert(row);
+    }
+    const std::vector<std::uint32_t> all = Query::parse(text)->select(rows);
+    EXPECT_EQ(std::set<std::uint32_t>(all.begin(), all.end()), each);
+    EXPECT_EQ(all.size(), each.size());
 }
 
 TEST(QueryParser, DepthAndLengthAreLimited) {

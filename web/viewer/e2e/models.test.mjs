@@ -105,13 +105,12 @@ describe("search and colours", () => {
 
   it("offers the attributes of the model for colours, with a legend in the picture", async () => {
     await visit.tool("look");
-    const offered = await visit.page.locator("#color-by-keys option").evaluateAll((options) => options.map((option) => option.value));
+    const offered = await visit.page.locator("#color-by option").evaluateAll((options) => options.map((option) => option.value));
     assert.ok(offered.includes("ifcType"), offered.join());
     const picture = () =>
       inPage("(async () => [...new Uint8Array(await s.volume.engine.picture(await s.view.composed([480, 270])))].join())()");
     const plain = await picture();
-    await visit.page.fill("#color-by", "ifcType");
-    await visit.page.locator("#color-by").press("Enter");
+    await visit.page.selectOption("#color-by", "ifcType");
     await visit.settled();
     assert.equal(await inPage("s.messages.message"), null);
     assert.notEqual(await picture(), plain);

@@ -233,7 +233,7 @@ describe("languages", () => {
     const [id] = await inPage("s.volume.engine.select('class=IfcDoor')");
     await inPage("s.selection.select([v])", id);
     const properties = await inPage("(async () => { await new Promise((r) => setTimeout(r, 500)); return s.selection.properties; })()");
-    const text = (await visit.page.locator("svt-properties dl").allInnerTexts()).join("\n");
+    const text = (await visit.page.locator("svt-properties dl, svt-properties table").allInnerTexts()).join("\n");
     assert.ok(text.includes(`${properties.surface.toFixed(2).replace(".", ",")} m²`), text);
     for (const [key, { value }] of Object.entries(properties.numbers)) {
       const digits = Math.min(6, /\.(\d+)/.exec(properties.attributes[key])?.[1].length ?? 0);

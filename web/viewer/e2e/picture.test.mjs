@@ -138,7 +138,7 @@ describe("picture", () => {
 });
 
 describe("touch", () => {
-  it("turns by one finger, zooms by two, selects by a tap and lists by a long press", async () => {
+  it("turns by one finger, zooms by two, selects by a tap, and has a menu that lists by a long press", async () => {
     await open("?model=house", { hasTouch: true, viewport: { width: 360, height: 740 } });
     await settled();
     const box = await stage();
@@ -164,8 +164,11 @@ describe("touch", () => {
     await visit.page.touchscreen.tap(box.x + box.width / 2, box.y + box.height / 2);
     await eventually(async () => assert.equal((await state()).selection.length, 1));
     await fingers("touchStart", [box.width / 2, box.height / 2]);
-    await eventually(async () => assert.ok((await inPage("s.selection.along"))?.stretches.length > 1));
+    const item = visit.page.getByRole("menuitem", { name: "List everything behind a point" });
+    await item.waitFor();
     await fingers("touchEnd");
+    await item.click();
+    await eventually(async () => assert.ok((await inPage("s.selection.along"))?.stretches.length > 1));
   });
 });
 

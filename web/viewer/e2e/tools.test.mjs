@@ -176,16 +176,14 @@ describe("tools", () => {
   });
 
   it("colours by storey, with a legend and an arrow to the north", async () => {
-    await visit.page.fill("#color-by", "storey");
-    await visit.page.locator("#color-by").press("Enter");
+    await visit.page.selectOption("#color-by", "storey");
     await visit.page.locator("#north-arrow").check();
     await settled();
     const scene = await inPage("s.view.composed([640, 360])");
     assert.equal(scene.colorBy, "storey");
     assert.equal(scene.northArrow, true);
     assert.equal(await inPage("s.messages.message"), null);
-    await visit.page.fill("#color-by", "");
-    await visit.page.locator("#color-by").press("Enter");
+    await visit.page.selectOption("#color-by", "");
     await visit.page.locator("#north-arrow").uncheck();
     await settled();
     assert.equal((await inPage("s.view.composed([640, 360])")).colorBy, undefined);

@@ -1,19 +1,26 @@
 /** The page: bar, panels, picture, tools, and global keyboard shortcuts. */
 
 import { html, nothing, type PropertyValues } from "lit";
+import { actionOfKey, actionsOf, kTools, storeyActions, type ActionHost } from "./actions";
 import { appStyles } from "./app_styles";
 import "./canvas/picture";
 import type { PictureView } from "./canvas/picture";
+import type { CommandPalette } from "./panels/command_palette";
+import type { ContextMenu } from "./panels/context_menu";
 import "./panels/help_dialog";
 import type { HelpDialog } from "./panels/help_dialog";
 import "./panels/legend";
+import type { MenuRequest } from "./panels/menu_request";
 import "./panels/properties_panel";
 import "./panels/start_panel";
 import "./panels/tree_panel";
 import type { TreePanel } from "./panels/tree_panel";
 import { stepText, type Tool } from "./session/view";
 import { kFileKinds } from "./opening";
+import { menuActions, nameOfSelection } from "./selection_actions";
+import type { Message } from "./session/messages";
 import type { Changed } from "./state/history";
+import { isSameChoice, type ViewState } from "./state/view_state";
 import "./tools/focus_tool";
 import "./tools/lens_tool";
 import "./tools/look_tool";
@@ -23,29 +30,17 @@ import "./tools/share_tool";
 import { leaveCustom } from "./tools/share_tool";
 import "./tools/views_tool";
 import { setWalking } from "./tools/views_tool";
-import { movedByKey } from "./camera/view_keys";
 import { movedText, number, t } from "./texts";
-import { subtree } from "./state/visibility";
 import { movedByArrow } from "./ui/arrow_keys";
 import { icon, type IconName } from "./ui/icons";
 import { controls, Part } from "./ui/part";
 import { theme, toggleTheme } from "./ui/theme";
 
-const kTools: { tool: Tool; icon: IconName; key: string }[] = [
-  { tool: "section", icon: "section", key: "x" },
-  { tool: "lens", icon: "lens", key: "c" },
-  { tool: "focus", icon: "focus", key: "v" },
-  { tool: "look", icon: "look", key: "k" },
-  { tool: "measure", icon: "measure", key: "m" },
-  { tool: "views", icon: "view", key: "n" },
-  { tool: "share", icon: "share", key: "b" },
-];
-
 /** Below this width, panels are sheets over the picture. */
 const kNarrow = "(max-width: 759px)";
 const kSmall = "(max-width: 1179px)";
 
-export class App extends Part {
+export class App extends Part implements ActionHost {
   static override properties = {
     ...Part.properties,
     canvas: { attribute: false },
@@ -53,6 +48,7 @@ export class App extends Part {
     isSmall: { state: true },
     isTreeShown: { state: true },
     isSelectionShown: { state: true },
+    isTableShown: { state: true },
     isDropping: { state: true },
     dockAt: { state: true },
   };
@@ -61,6 +57,7 @@ export class App extends Part {
   declare isSmall: boolean;
   declare isTreeShown: boolean;
   declare isSelectionShown: boolean;
+  declare isTableShown: boolean;
   declare isDropping: boolean;
   /** The tool that the Tab key reaches. */
   declare dockAt: number;
@@ -68,6 +65,9 @@ export class App extends Part {
   onFiles: (files: File[]) => void = () => {};
   onModel: (name: string) => void = () => {};
   private seenSelection: unknown = null;
+  private wasWalking = false;
+  /** The last message, and the view when it came. */
+  private seenMessage: { message: Message | null; state: ViewState } | null = null;
 
   static override styles = [controls, appStyles];
 
@@ -77,6 +77,7 @@ export class App extends Part {
     this.isSmall = matchMedia(kSmall).matches;
     this.isTreeShown = !this.isNarrow;
     this.isSelectionShown = true;
+    this.isTableShown = false;
     this.isDropping = false;
     this.dockAt = 0;
   }
@@ -89,6 +90,8 @@ export class App extends Part {
     addEventListener("dragleave", (event) => !event.relatedTarget && (this.isDropping = false));
     addEventListener("drop", (event) => this.dropped(event));
     this.addEventListener("svt-choose", () => this.choose());
+    this.addEventListener("svt-menu", (event) => void this.openMenu(event as MenuRequest));
+    this.addEventListener("svt-close-table", () => this.openTable());
   }
 
   private get isHuge(): boolean {
@@ -112,6 +115,14 @@ export class App extends Part {
     else if (!isEmpty) this.isSelectionShown = true;
   }
 
+  override updated(): void {
+    const { view } = this.session;
+    if (view.isWalking && !this.wasWalking) this.picture?.focus();
+    this.wasWalking = view.isWalking;
+    this.endMessage();
+    view.mark = getComputedStyle(this).getPropertyValue("--mark").trim();
+  }
+
   override render() {
     const { session } = this;
     const hasModel = session.volume.info !== null;
@@ -119,9 +130,10 @@ export class App extends Part {
     return html`
       <button class="skip" @click=${() => this.picture?.focus()}>${t("skipToPicture")}</button>
       ${this.bar()}
-      <main>
+      <main class=${this.isTableShown && hasModel ? "with-table" : ""}>
         ${isEmpty ? html`<svt-start .session=${session}></svt-start>` : hasModel && !this.isNarrow ? this.wide() : this.middle()}
         ${this.isNarrow && hasModel ? this.sheets() : nothing}
+        ${this.isTableShown && hasModel ? html`<section class="table" aria-label=${t("tableHint")}><svt-table .session=${session}></svt-table></section>` : nothing}
         ${session.messages.progress ? this.progress() : nothing}
         ${session.messages.message ? this.message() : nothing}
         ${this.isDropping ? html`<div class="dropping">${t("dropNow")}</div>` : nothing}
@@ -129,6 +141,8 @@ export class App extends Part {
       <div class="visually-hidden" role="status" aria-live="polite" id="said">${session.messages.said}</div>
       <input type="file" id="file" hidden multiple accept=${[...kFileKinds, ".gz", ".csv"].join(",")} aria-label=${t("openHint", { kinds: kFileKinds.join(", ") })} @change=${this.chosen} />
       <svt-help .session=${session}></svt-help>
+      <svt-palette .session=${session}></svt-palette>
+      <svt-menu .session=${session}></svt-menu>
     `;
   }
 
@@ -156,6 +170,8 @@ export class App extends Part {
           : nothing
       }
       ${hasModel && !volume.isServerOnly ? html`${this.stepButton("undo", view.history.last, () => view.undo())}${this.stepButton("redo", view.history.next, () => view.redo())}` : nothing}
+      ${hasModel && !volume.isServerOnly ? html`<button class="bare" id="table" aria-pressed=${this.isTableShown} aria-label=${t("tableHint")} title="${t("tableHint")} (T)" @click=${() => this.openTable()}>${icon("table")}</button>` : nothing}
+      <button class="bare" id="actions" aria-haspopup="dialog" aria-label=${t("actionsHint")} title=${t("actionsHint")} @click=${() => this.openPalette()}>${icon("menu")}</button>
       <button class="bare" id="open" aria-label=${t("openHint", { kinds: kFileKinds.join(", ") })} title=${t("openHint", { kinds: kFileKinds.join(", ") })} @click=${() => this.choose()}>${icon("open")}</button>
       <button class="bare" id="theme" aria-label=${t("theme")} title=${t("theme")} @click=${() => this.switchTheme()}>${icon(theme() === "dark" ? "sun" : "moon")}</button>
       ${
@@ -179,10 +195,11 @@ export class App extends Part {
     return html`<button class="bare" id=${which} ?disabled=${!changed} aria-label=${text} title=${text} @click=${act}>${icon(which)}</button>`;
   }
 
-  private showSheet(which: "tree" | "selection"): void {
+  showSheet(which: "tree" | "selection"): void {
     const isTree = which === "tree";
     const isOn = isTree ? !this.isTreeShown : !this.isSelectionShown;
     if (this.isNarrow && isOn) {
+      this.isTableShown = false;
       this.isTreeShown = this.isSelectionShown = false;
       this.session.view.tool = null;
     }
@@ -322,10 +339,10 @@ export class App extends Part {
       <div class="bar"><h2>${t(tool)}</h2><button class="bare" aria-label=${t("close")} @click=${() => this.useTool(tool)}>${icon("close", 18)}</button></div>${content}</section>`;
   }
 
-  private useTool(tool: Tool): void {
+  useTool(tool: Tool): void {
     const { session } = this;
     session.view.tool = session.view.tool === tool ? null : tool;
-    if (session.view.tool && this.isNarrow) this.isTreeShown = this.isSelectionShown = false;
+    if (session.view.tool && this.isNarrow) this.isTreeShown = this.isSelectionShown = this.isTableShown = false;
     if (session.view.tool === "lens" && session.view.now.effect !== "lens")
       session.view.set({ effect: "lens", lens: { ...session.view.now.lens, pinned: false } });
     if (session.view.tool === "section" && !session.view.now.sections.length && !session.volume.info?.storeys.length) {
@@ -347,10 +364,18 @@ export class App extends Part {
   }
 
   private message() {
-    const { title, text, isError } = this.session.messages.message!;
+    const { title, text, isError, repairs = [] } = this.session.messages.message!;
     return html`<div class="message ${isError ? "bad" : ""}" id="message" role=${isError ? "alert" : "status"}>
-      <div>${title ? html`<strong>${title}</strong><br />` : nothing}${text}</div>
+      <div>${title ? html`<strong>${title}</strong><br />` : nothing}${text}${repairs.map(({ text: label, act }) => html` <button class="repair" @click=${act}>${label}</button>`)}</div>
       <button class="bare" aria-label=${t("dismiss")} @click=${() => this.dismiss()}>${icon("close", 18)}</button></div>`;
+  }
+
+  /** Removes the message about a choice once the user has made another one. */
+  private endMessage(): void {
+    const { messages, view } = this.session;
+    const { message } = messages;
+    if (this.seenMessage?.message !== message) this.seenMessage = { message, state: view.state };
+    else if (message?.isOfChoice && !isSameChoice(view.state, this.seenMessage.state)) queueMicrotask(() => this.dismiss());
   }
 
   private dismiss(): void {
@@ -361,11 +386,11 @@ export class App extends Part {
     return this.renderRoot.querySelector("svt-picture");
   }
 
-  private help(): void {
+  help(): void {
     this.renderRoot.querySelector<HelpDialog>("svt-help")?.show();
   }
 
-  private switchTheme(): void {
+  switchTheme(): void {
     const { session } = this;
     const now = toggleTheme();
     const { look } = session.view.now;
@@ -374,7 +399,7 @@ export class App extends Part {
     this.requestUpdate();
   }
 
-  private choose(): void {
+  choose(): void {
     this.renderRoot.querySelector<HTMLInputElement>("#file")!.click();
   }
 
@@ -399,57 +424,62 @@ export class App extends Part {
   }
 
   private keyDown(event: KeyboardEvent): void {
-    if (this.renderRoot.querySelector<HelpDialog>("svt-help")?.isOpen) return;
+    const dialogs = this.renderRoot.querySelectorAll<HelpDialog | CommandPalette | ContextMenu>("svt-help, svt-palette, svt-menu");
+    if ([...dialogs].some((dialog) => dialog.isOpen)) return;
     const target = event.composedPath()[0] as HTMLElement;
     const isTyping = target.matches?.("input:not([type=checkbox]), textarea, select") || target.isContentEditable;
     if (event.key === "Escape") return this.leave(isTyping ? target : null);
     if (movedByArrow(event)) return event.preventDefault();
-    if (!isTyping && (event.ctrlKey || event.metaKey) && !event.altKey && this.stepKey(event)) return event.preventDefault();
-    if (isTyping || event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
-    if (event.key === "?") this.help();
-    else if (!this.session.volume.info || !this.shortcut(event)) return;
+    if (event.altKey || event.defaultPrevented) return;
+    const action = actionOfKey(actionsOf(this), event);
+    // In fields, only the palette: all other keys are text, or steps of the field.
+    if (!action || (isTyping && action.id !== "palette")) return;
     event.preventDefault();
+    action.run();
   }
 
-  private stepKey(event: KeyboardEvent): boolean {
-    const key = event.key.toLowerCase();
+  /** The element that a part of the page becomes once its script has come. */
+  private async loaded<Element extends HTMLElement>(name: string, script: () => Promise<unknown>): Promise<Element | null> {
+    try {
+      await script();
+      return this.renderRoot.querySelector<Element>(name);
+    } catch (error) {
+      this.session.messages.fail(error);
+      return null;
+    }
+  }
+
+  openPalette(): void {
+    void this.loaded<CommandPalette>("svt-palette", () => import("./panels/command_palette")).then((palette) =>
+      palette?.show([...actionsOf(this), ...storeyActions(this.session)]),
+    );
+  }
+
+  /** Shows the table of objects, or closes it. */
+  openTable(): void {
+    this.isTableShown = !this.isTableShown;
+    if (!this.isTableShown) return void this.updateComplete.then(() => this.renderRoot.querySelector<HTMLElement>("#table")?.focus());
+    if (this.isNarrow) this.isTreeShown = this.isSelectionShown = false;
+    if (this.isNarrow) this.session.view.tool = null;
+    void this.loaded("svt-table", () => import("./panels/object_table"));
+  }
+
+  private async openMenu({ detail }: MenuRequest): Promise<void> {
     const { session } = this;
-    if (!session.volume.info || (key !== "z" && key !== "y")) return false;
-    if (key === "y" || event.shiftKey) session.view.redo();
-    else session.view.undo();
-    return true;
+    const menu = await this.loaded<ContextMenu>("svt-menu", () => import("./panels/context_menu"));
+    await menu?.show(menuActions(session, detail.inPicture ?? null), nameOfSelection(session), detail);
   }
 
-  private shortcut(event: KeyboardEvent): boolean {
-    const { session } = this;
-    const key = event.key.toLowerCase();
-    const tool = kTools.find((entry) => entry.key === key)?.tool;
-    if (tool) this.useTool(tool);
-    else if (movedByKey(session.view, key)) return true;
-    else if (key === "g") setWalking(session, !session.view.isWalking);
-    else if (key === "h") this.hideSelection(event.shiftKey);
-    else if (key === "/") this.search();
-    else return false;
-    return true;
-  }
-
-  private hideSelection(showAll: boolean): void {
-    const { view, volume } = this.session;
-    if (showAll) return view.set({ hide: [], show: [] });
-    const { index } = volume;
-    const { hidden } = view;
-    const members = view.state.selection.flatMap((id) => {
-      const i = index.byId.get(id);
-      return i === undefined ? [] : [...subtree(index, i)];
+  pressInTool(tool: Tool, selector: string): void {
+    if (this.session.view.tool !== tool) this.useTool(tool);
+    void this.updateComplete.then(async () => {
+      const part = this.renderRoot.querySelector<Part>(`#card svt-${tool}-tool`);
+      await part?.updateComplete;
+      for (const root of part ? [part.renderRoot, ...nestedRoots(part.renderRoot)] : []) root.querySelector<HTMLElement>(selector)?.click();
     });
-    if (members.length)
-      view.hide(
-        members,
-        members.some((i) => !hidden[i]),
-      );
   }
 
-  private search(): void {
+  search(): void {
     if (!this.isTreeShown) this.showSheet("tree");
     void this.updateComplete.then(() => this.renderRoot.querySelector<TreePanel>("svt-tree")?.focusSearch());
   }
@@ -469,3 +499,8 @@ export class App extends Part {
   }
 }
 customElements.define("svt-app", App);
+
+/** Roots of the parts inside a part. */
+function nestedRoots(root: ParentNode): ShadowRoot[] {
+  return [...root.querySelectorAll("*")].flatMap((element) => element.shadowRoot ?? []);
+}

@@ -29,9 +29,11 @@ export const appStyles = css`
   .middle { position: relative; height: 100%; min-width: 0; overflow: hidden; }
   .floating { position: absolute; right: 10px; top: 10px; width: 290px; max-height: calc(100% - 96px); overflow: auto; border: 1px solid var(--line); border-radius: 12px; background: var(--panel); box-shadow: var(--shadow); z-index: 3; }
   .floating svt-properties { height: auto; }
-  .sheet { position: absolute; left: 0; right: 0; bottom: 0; height: 62%; background: var(--panel); border-top: 1px solid var(--line); border-radius: 14px 14px 0 0; box-shadow: var(--shadow); z-index: 5; overflow: hidden; display: grid; grid-template-rows: auto 1fr; }
+  .sheet { position: absolute; left: 0; right: 0; bottom: 0; height: 62%; background: var(--panel); border-top: 1px solid var(--line); border-radius: 14px 14px 0 0; box-shadow: var(--shadow); z-index: 5; overflow: hidden; display: grid; grid-template: auto 1fr / minmax(0, 1fr); }
   .sheet > .bar { display: flex; justify-content: space-between; align-items: center; padding: 4px 6px 4px 14px; border-bottom: 1px solid var(--line); }
   .sheet > :last-child { min-height: 0; }
+  .table { position: absolute; left: 0; right: 0; bottom: 0; height: 45%; border-top: 1px solid var(--line-strong); background: var(--panel); z-index: 5; }
+  .with-table > wa-split-panel, .with-table > .middle { position: absolute; inset: 0 0 45%; height: auto; }
   .dock { position: absolute; left: 50%; bottom: 12px; transform: translateX(-50%); display: flex; gap: 2px; padding: 4px; border: 1px solid var(--line); border-radius: 14px; background: var(--panel); box-shadow: var(--shadow); z-index: 4; max-width: calc(100% - 12px); }
   .dock button { flex-direction: column; gap: 2px; font-size: 11px; padding: 5px 8px; min-width: 56px; border-color: transparent; background: transparent; border-radius: 10px; position: relative; }
   .dock button:hover { background: var(--hover); }
@@ -41,7 +43,9 @@ export const appStyles = css`
   .card > .bar { display: flex; justify-content: space-between; align-items: center; margin-bottom: 6px; }
   .corner { position: absolute; right: 10px; top: 46px; display: grid; gap: 8px; z-index: 2; max-width: 46%; justify-items: end; }
   .status { position: absolute; right: 12px; top: 8px; font-size: 11px; color: var(--stage-quiet); z-index: 1; font-variant-numeric: tabular-nums; pointer-events: none; text-align: right; }
-  .message { position: absolute; left: 50%; top: 12px; transform: translateX(-50%); max-width: min(560px, calc(100% - 24px)); padding: 10px 8px 10px 14px; border-radius: 12px; border: 1px solid var(--line); background: var(--panel); box-shadow: var(--shadow); z-index: 8; display: flex; gap: 10px; align-items: start; font-size: 13px; line-height: 1.45; }
+  /* Above the tools: titles are at the top of the picture, legends at its right. */
+  .message { position: absolute; left: 50%; bottom: 84px; transform: translateX(-50%); max-width: min(560px, calc(100% - 24px)); padding: 10px 8px 10px 14px; border-radius: 12px; border: 1px solid var(--line); background: var(--panel); box-shadow: var(--shadow); z-index: 8; display: flex; gap: 10px; align-items: start; font-size: 13px; line-height: 1.45; }
+  .message .repair { display: block; margin-top: 6px; }
   .message.bad { border-color: var(--error); }
   .message div { overflow-wrap: anywhere; max-height: 40vh; overflow: auto; }
   .progress { position: absolute; inset: 0; display: grid; place-items: center; z-index: 7; pointer-events: none; }
@@ -57,8 +61,13 @@ export const appStyles = css`
     svt-tree, svt-properties { font-size: 16px; }
   }
   @media (max-width: 759px) {
+    main { grid-template: minmax(0, 1fr) auto auto / minmax(0, 1fr); }
+    .message { position: static; transform: none; max-width: none; border-radius: 0; border-width: 1px 0 0; order: 3; }
+    .message div { max-height: 20vh; }
+    .table { position: static; height: 50dvh; }
+    .with-table > .middle { position: relative; inset: auto; }
     .brand, .title .quiet, .status { display: none; }
-    main { display: grid; grid-template-rows: minmax(0, 1fr) auto; }
+    main { display: grid; }
     main > .middle { display: grid; grid-template-rows: minmax(0, 1fr) auto auto; }
     .dock, .card, .sheet { position: static; transform: none; max-width: none; width: auto; border-radius: 0; border-width: 1px 0 0; box-shadow: none; }
     .dock { order: 2; justify-content: space-between; }
@@ -73,6 +82,8 @@ export const appStyles = css`
   }
   @media (max-width: 479px) {
     header { flex-wrap: wrap; justify-content: space-between; }
+    /* The list of actions has them. */
+    #theme, #table { display: none; }
     .title { flex-basis: 100%; padding-left: 6px; }
     .title select { max-width: 100%; }
     header .languages { width: auto; }

@@ -47,6 +47,18 @@ export interface Feature {
   opacity: number;
   /** A room, flat or storey: pictures leave it out unless a query asks for it. Absent: false. */
   isSpace?: boolean;
+  /** Positions, in this list of features, of storeys, flats and groups that have it as a member. Absent: none. */
+  groups?: number[];
+}
+
+/** The features with an attribute. */
+export interface AttributeUse {
+  name: string;
+  /** Number of features, and of rooms and other spaces among them. */
+  count: number;
+  onSpaces: number;
+  /** Whether all values are numbers. */
+  isNumber: boolean;
 }
 
 export interface VolumeInfo {
@@ -69,6 +81,8 @@ export interface VolumeInfo {
   details: number;
   /** Names of attributes, the most frequent ones first. */
   attributes: string[];
+  /** The same attributes with their features. Absent: unknown. */
+  attributeUses?: AttributeUse[];
   features: Feature[];
   /** Number of all buildings of a city, visible or not. */
   buildings?: number;
@@ -98,6 +112,13 @@ export interface FeatureProperties {
   /** The box of the feature with its parts; the neighbours are those of both. */
   box: { low: Point; high: Point };
   neighbours: { id: string; class: string; name: string; area: number }[];
+}
+
+/** Values of one attribute. Null: the feature does not have it. Numbers in another unit than the first one are text. */
+export interface AttributeValues {
+  values: (number | string | null)[];
+  /** The unit of the numbers; empty: none. */
+  unit: string;
 }
 
 /** The hit at a pixel of the last picture; null: nothing. */
@@ -234,6 +255,8 @@ export const kCalls = {
   /** Ids of features with an attribute that contains all words, in its name or value. */
   findInAttributes: call<(words: string) => string[]>(),
   properties: call<(id: string) => FeatureProperties>(),
+  /** The values of one attribute, in the order of VolumeInfo.features. */
+  attributeValues: call<(name: string) => AttributeValues>(),
   /**
    * Eye and target that show the features selected by a query (empty: all), from a named view or else from the
    * current view direction.

@@ -71,6 +71,7 @@ export async function createServerEngine(canvas: HTMLCanvasElement): Promise<Eng
     pick: () => Promise.resolve(null),
     along: () => Promise.resolve([]),
     findInAttributes: () => Promise.resolve([]),
+    attributeValues: () => Promise.resolve({ values: [], unit: "" }),
     picture: async (scene) => (await drawn(scene)).arrayBuffer(),
     step: (eye) => Promise.resolve(eye),
     movedPlanes: () => Promise.resolve([]),

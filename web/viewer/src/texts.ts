@@ -98,6 +98,8 @@ const kTexts = {
     "The library had stopped and was started again. {error}",
     "Die Bibliothek war stehen geblieben und wurde neu gestartet. {error}",
   ],
+  refused: ["This cannot be drawn; the last choice was taken back", "Das lässt sich nicht zeichnen; die letzte Wahl ist zurückgenommen"],
+  makeRoomsSolid: ["Make rooms solid", "Räume undurchsichtig machen"],
   dismiss: ["Dismiss", "Schließen"],
   close: ["Close", "Schließen"],
   cpuKind: ["drawn without a graphics card", "ohne Grafikkarte gezeichnet"],
@@ -132,7 +134,13 @@ const kTexts = {
   onlyThis: ["Only this", "Nur dies"],
   isHidden: ["hidden", "verborgen"],
   hiddenCount: ["{n} hidden", "{n} verborgen"],
-  filterNote: ["Only {name} is shown", "Nur {name} wird gezeigt"],
+  filterNote: ["Shown: {name}", "Gezeigt: {name}"],
+  shownOf_rooms: ["{n} rooms", "{n} Räume"],
+  shownOf_flats: ["{n} flats", "{n} Wohnungen"],
+  shownOf_walls: ["{n} walls", "{n} Wände"],
+  shownOf_windows: ["{n} windows", "{n} Fenster"],
+  shownOf_doors: ["{n} doors", "{n} Türen"],
+  shownOf_parts: ["{n} parts", "{n} Teile"],
   parts: ["{n} parts", "{n} Teile"],
   onePart: ["1 part", "1 Teil"],
   colorOf: ["Colour of {name}", "Farbe von {name}"],
@@ -167,6 +175,14 @@ const kTexts = {
   alongNothing: ["Nothing lies along this ray.", "Entlang dieses Strahls liegt nichts."],
   picked: ["Selected: {name}, {class}", "Ausgewählt: {name}, {class}"],
   pickedNothing: ["Nothing there", "Dort ist nichts"],
+  showOthers: ["Show the others again", "Die anderen wieder zeigen"],
+  zoomToIt: ["Zoom to it", "Heranzoomen"],
+  sameType: ["Select all of this type ({type})", "Alle dieser Art auswählen ({type})"],
+  sameStorey: ["Select all of this storey ({name})", "Alles in diesem Geschoss auswählen ({name})"],
+  copyId: ["Copy the id", "Kennung kopieren"],
+  pathOf: ["Where it is", "Wo es liegt"],
+  actionsHint: ["Actions (Ctrl and K)", "Aktionen (Strg und K)"],
+  tableHint: ["Table of objects", "Tabelle der Objekte"],
   storey: ["Storey", "Geschoss"],
 
   tools: ["Tools", "Werkzeuge"],
@@ -287,7 +303,21 @@ const kTexts = {
   ],
   names: ["Names of the selection", "Namen der Auswahl"],
   colorBy: ["Colour by", "Farbe nach"],
-  colorByNothing: ["class, storey, volume, owner, an attribute", "class, storey, volume, owner, ein Attribut"],
+  colorByNothing: ["The model's own colours", "Farben des Modells"],
+  colorByFeatures: ["Of every component", "Von jedem Bauteil"],
+  colorByAttributes: ["Attributes of the model", "Attribute des Modells"],
+  colorKey: ["{key}: {kind}", "{key}: {kind}"],
+  colorKeyCount: ["{key}: {kind}, {n} with a value", "{key}: {kind}, {n} mit Wert"],
+  kindNumber: ["number", "Zahl"],
+  kindText: ["text", "Text"],
+  key_class: ["Class", "Klasse"],
+  key_name: ["Name", "Name"],
+  key_storey: ["Storey", "Geschoss"],
+  key_volume: ["Volume", "Volumen"],
+  key_area: ["Floor area of rooms", "Grundfläche der Räume"],
+  key_owner: ["Owner", "Eigentümer"],
+  compared: ["Comparison", "Vergleich"],
+  difference: ["Difference", "Differenz"],
   label_title: ["Title", "Titel"],
   label_scaleBar: ["Scale bar", "Maßstab"],
   label_northArrow: ["North arrow", "Nordpfeil"],
@@ -397,7 +427,7 @@ const kTexts = {
     "Klick; mit Strg mehrere; Eingabe: das Objekt in der Mitte",
   ],
   keyAlong: ["List everything behind a point", "Alles hinter einem Punkt auflisten"],
-  keyAlongHow: ["Alt-click, long press, L", "Alt-Klick, langes Drücken, L"],
+  keyAlongHow: ["Alt-click, L", "Alt-Klick, L"],
   keyFrame: ["Frame", "Heranholen"],
   keyFrameHow: ["double click, F", "Doppelklick, F"],
   keyViews: ["Named views", "Benannte Ansichten"],
@@ -415,6 +445,12 @@ const kTexts = {
   keyUndoHow: ["Ctrl and Z; Ctrl, Shift and Z or Ctrl and Y", "Strg und Z; Strg, Umschalt und Z oder Strg und Y"],
   keySearch: ["Search", "Suchen"],
   keySearchHow: ["/", "/"],
+  keyActions: ["All actions", "Alle Aktionen"],
+  keyActionsHow: ["Ctrl and K", "Strg und K"],
+  keyMenu: ["Menu of an object", "Menü eines Objekts"],
+  keyMenuHow: ["right click, long press, Shift and F10", "Rechtsklick, langes Drücken, Umschalt und F10"],
+  keyTable: ["Table of objects", "Tabelle der Objekte"],
+  keyTableHow: ["T", "T"],
   keyLeave: ["Leave, deselect", "Verlassen, Auswahl aufheben"],
   keyLeaveHow: ["Esc", "Esc"],
   keyTree: ["In the list", "In der Liste"],
@@ -486,8 +522,13 @@ export function browserLanguage(): Language {
 }
 
 export function t(key: TextKey, values: Record<string, string | number> = {}): string {
+  return inLanguage(key, kTexts[key], values);
+}
+
+/** @param key  of the text in a language file */
+export function inLanguage(key: string, builtIn: readonly [string, string], values: Record<string, string | number> = {}): string {
   const { language, other } = spoken.value;
-  const text: string = other?.texts[key] ?? kTexts[key][language === "de" ? 1 : 0];
+  const text: string = other?.texts[key] ?? builtIn[language === "de" ? 1 : 0];
   return text.replace(/\{(\w+)\}/g, (whole, name: string) => (name in values ? String(values[name]) : whole));
 }
 

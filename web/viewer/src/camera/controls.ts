@@ -20,6 +20,8 @@ export interface ControlsHost {
   /** Fractions of the picture. */
   clicked(x: number, y: number, event: PointerEvent): void;
   listed(x: number, y: number): void;
+  /** Asks for the context menu of a point. @param at  in the window, pixels */
+  menu(x: number, y: number, at: { x: number; y: number }, isTouch: boolean): void;
   framed(x: number, y: number): void;
   /** The pointer hovers, or has left (null). */
   hovered(at: { x: number; y: number; isDown: boolean } | null): void;
@@ -85,7 +87,7 @@ export class Controls {
       const at = this.shareOf(event);
       this.longPress = window.setTimeout(() => {
         this.down = null;
-        this.host.listed(...at);
+        this.host.menu(...at, { x: event.clientX, y: event.clientY }, true);
       }, kLongPress);
     }
   }
@@ -140,8 +142,10 @@ export class Controls {
     clearTimeout(this.longPress);
     const down = this.down;
     this.down = null;
-    if (!down || down.isMoved || down.button !== 0) return;
+    if (!down || down.isMoved) return;
     const [x, y] = this.shareOf(event);
+    if (down.button === 2) this.host.menu(x, y, { x: event.clientX, y: event.clientY }, false);
+    if (down.button !== 0) return;
     if (event.altKey) this.host.listed(x, y);
     else this.host.clicked(x, y, event);
   }

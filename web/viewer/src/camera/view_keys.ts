@@ -2,16 +2,14 @@
 
 import type { View } from "../session/view";
 import { kViews } from "../state/member_controls";
-import { ofSubtree } from "../state/queries";
 
 /** True if the key is one of them. */
 export function movedByKey(view: View, key: string): boolean {
   const named = kViews[Number(key) - 1];
   if (named) void view.goTo("", named);
   else if (key === "0") {
-    view.isWalking = false;
-    void view.goTo("", null);
-  } else if (key === "f") void view.goTo(view.now.selection.map(ofSubtree).join(" or "), null);
+    void view.goTo("", null, true, view.endWalking());
+  } else if (key === "f") void view.goToSelected();
   else return false;
   return true;
 }

@@ -9,6 +9,7 @@ import { t } from "../texts";
 import { controls, Part } from "../ui/part";
 import { labelOf } from "../state/feature_index";
 import { ofId } from "../state/queries";
+import { askForMenu, isMenuKey } from "../panels/menu_request";
 import { dragged, rangeOf } from "../tools/plane_outline";
 import { compass, handleOf, measure, place, planes, selectionBox, type View } from "./overlay";
 
@@ -116,6 +117,7 @@ export class PictureView extends Part {
       element: this.stage,
       clicked: (x, y, event) => void this.clicked(x, y, event),
       listed: (x, y) => void this.session.selection.listAlong(x, y),
+      menu: (x, y, at, isTouch) => void this.menu(x, y, at, isTouch),
       framed: (x, y) => void this.framed(x, y),
       hovered: (at) => this.hovered(at),
       wheeled: (event) => this.wheeled(event),
@@ -174,6 +176,28 @@ export class PictureView extends Part {
       session.messages.fail(error);
     }
   }
+
+  /** Selects the object at a point, unless it is selected already, and asks the page for the menu. Other pages have no menu. */
+  private async menu(x: number, y: number, at: { x: number; y: number }, isTouch: boolean): Promise<void> {
+    const { selection, volume, view, model } = this.session;
+    if (this.inputs !== "page") return isTouch ? selection.listAlong(x, y) : undefined;
+    if (!volume.engine || volume.isServerOnly || model.status !== "ready") return;
+    const pick = await volume.engine.pick(x, y).catch(() => null);
+    if (pick && !view.state.selection.includes(pick.id)) selection.select([pick.id]);
+    this.hover = null;
+    askForMenu(this, { ...at, inPicture: [x, y] });
+  }
+
+  /** The menu of the selection, or of the object in the middle. */
+  private readonly menuKey = (event: KeyboardEvent): void => {
+    if (!isMenuKey(event) || this.inputs !== "page") return;
+    event.preventDefault();
+    event.stopPropagation();
+    const { left, top, width, height } = this.getBoundingClientRect();
+    const at = { x: left + width / 2, y: top + height / 2 };
+    if (this.session.selection.isEmpty) void this.menu(0.5, 0.5, at, false);
+    else askForMenu(this, { ...at, inPicture: [0.5, 0.5] });
+  };
 
   /** Whether the click may select. */
   private asks(pick: Pick | null, x: number, y: number): boolean {
@@ -235,7 +259,7 @@ export class PictureView extends Part {
     return html`
       ${this.canvas}
       <div class="stage ${session.view.tool === "measure" ? "measuring" : ""} ${this.inputs}" data-picture tabindex=${isStill ? nothing : 0}
-        role=${isStill ? "img" : "application"} aria-roledescription=${isStill ? nothing : t("picture")} aria-label=${label}></div>
+        role=${isStill ? "img" : "application"} aria-roledescription=${isStill ? nothing : t("picture")} aria-label=${label} @keydown=${this.menuKey}></div>
       <svg class="cross" viewBox="0 0 15 15" aria-hidden="true"><path d="M7.5 0v15M0 7.5h15"></path></svg>
       <svg class="over" aria-hidden="true">
         ${isReady ? svg`${this.isBare ? nothing : planes(view)}${selectionBox(view)}${measure(view)}${this.isBare ? nothing : compass(view)}` : nothing}

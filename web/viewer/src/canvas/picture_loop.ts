@@ -19,7 +19,7 @@ export interface PictureHost {
   /** Called when a frame is on the canvas; `token` is the result of take() when it was requested. */
   shown(report: FrameReport, quality: Quality, token: unknown): void;
   take(): unknown;
-  failed(error: EngineError): void;
+  failed(error: EngineError, token: unknown): void;
 }
 
 const kStillAfter = 140;
@@ -102,7 +102,7 @@ export class PictureLoop {
     } catch (error) {
       // Drawing failed in this state; the next change tries again.
       if (this.quality === quality) this.quality = "fine";
-      this.host.failed(error as EngineError);
+      this.host.failed(error as EngineError, token);
     }
   }
 }

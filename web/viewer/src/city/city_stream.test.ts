@@ -4,6 +4,7 @@ import { Messages } from "../session/messages";
 import { OpenVolume } from "../session/open_volume";
 import { Selection } from "../session/selection";
 import { ShownPicture } from "../session/shown_picture";
+import { Answers } from "../session/answers";
 import { View } from "../session/view";
 import type { Camera } from "../state/view_state";
 import type { CityFiles } from "./city_files";
@@ -34,7 +35,7 @@ afterEach(() => {
 function started(answer: (options: CityOptions) => Partial<CityLook> | Error = () => ({ info: kInfo })) {
   const volume = new OpenVolume(),
     messages = new Messages();
-  const view = new View(volume, messages);
+  const view = new View(volume, messages, new Answers(volume));
   const parts = { volume, view, messages };
   const selection = new Selection(parts),
     picture = new ShownPicture(parts);

@@ -10,6 +10,7 @@ const kRows = [
   ["keyZoom", "keyZoomHow"],
   ["keyPick", "keyPickHow"],
   ["keyAlong", "keyAlongHow"],
+  ["keyMenu", "keyMenuHow"],
   ["keyFrame", "keyFrameHow"],
   ["keyFit", "keyFitHow"],
   ["keyViews", "keyViewsHow"],
@@ -18,6 +19,8 @@ const kRows = [
   ["keyUndo", "keyUndoHow"],
   ["keySearch", "keySearchHow"],
   ["keyTree", "keyTreeHow"],
+  ["keyActions", "keyActionsHow"],
+  ["keyTable", "keyTableHow"],
   ["walk", "walkHint"],
   ["keyLeave", "keyLeaveHow"],
 ] as const;

@@ -2,12 +2,13 @@
 
 import { css, html, nothing } from "lit";
 import type { FeatureProperties } from "../engine";
-import { labelOf } from "../state/feature_index";
+import { isGroupOfParts, labelOf, type FeatureIndex } from "../state/feature_index";
 import { ofId, ofSubtree } from "../state/queries";
-import { subtree } from "../state/visibility";
-import { dateText, number, t } from "../texts";
+import { number, t } from "../texts";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
+import { comparison } from "./comparison";
+import { kindOf, nameOf, pathTo } from "./feature_path";
 import "./style_editor";
 
 export class PropertiesPanel extends Part {
@@ -26,11 +27,24 @@ export class PropertiesPanel extends Part {
       li span:first-child { overflow: hidden; text-overflow: ellipsis; min-width: 0; }
       li span:last-child { color: var(--quiet); font-variant-numeric: tabular-nums; flex: none; }
       .actions { margin: 12px 0 4px; display: flex; flex-wrap: wrap; gap: 6px; }
+      .scroll { overflow-x: auto; }
+      #comparison { width: 100%; font-size: 12px; font-variant-numeric: tabular-nums; }
+      #comparison :is(thead, tbody) { display: block; }
+      #comparison tr { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr)); padding: 3px 0; border-bottom: 1px solid var(--line); }
+      #comparison :is(th, td) { padding: 0 2px; text-align: right; overflow-wrap: anywhere; font-weight: 400; }
+      #comparison th[scope="col"] { font-weight: 600; }
+      #comparison th[scope="row"] { grid-column: 1 / -1; text-align: left; color: var(--quiet); }
+      #comparison .same td { color: var(--quiet); }
       .hint { color: var(--quiet); margin-top: 8px; }
       .head { display: flex; align-items: start; gap: 8px; justify-content: space-between; }
       .id { font-family: var(--mono); font-size: 11px; color: var(--quiet); overflow-wrap: anywhere; }
-      .findings li { padding: 4px 0; font-size: 12px; }
-      @media (max-width: 759px), (pointer: coarse) { li button { min-height: 44px; } }
+      .path ol { list-style: none; margin: 0 0 8px; padding: 0; display: flex; flex-wrap: wrap; align-items: center; font-size: 12px; }
+      .path li { display: flex; align-items: center; min-width: 0; }
+      .path li + li::before { content: "›"; color: var(--quiet); padding: 0 2px; }
+      .path button { width: auto; min-height: 26px; padding: 2px 4px; color: var(--quiet); justify-content: flex-start; gap: 4px; min-width: 0; white-space: normal; }
+      .path button span { color: inherit; overflow-wrap: anywhere; }
+      .path svg { flex: none; }
+      @media (max-width: 759px), (pointer: coarse) { li button, .path button { min-height: 44px; min-width: 44px; } }
     `,
   ];
 
@@ -45,10 +59,21 @@ export class PropertiesPanel extends Part {
   }
 
   private findings() {
-    const { findings: found = [], spacingReason = "" } = this.session.volume.info ?? {};
-    const findings = spacingReason ? [t("spacingTold", { reason: spacingReason }), ...found] : found;
-    if (!findings.length) return nothing;
-    return html`<h3>${t("findingsTitle")}</h3><ul class="findings">${findings.slice(0, 50).map((text) => html`<li>${text}</li>`)}</ul>`;
+    const { findings = [], spacingReason = "" } = this.session.volume.info ?? {};
+    if (!findings.length && !spacingReason) return nothing;
+    loadDetails();
+    return html`<svt-findings .session=${this.session}></svt-findings>`;
+  }
+
+  /** Building, storey, flat and room around the feature, as buttons that select them. */
+  private path(i: number) {
+    const { index } = this.session.volume;
+    const above = pathTo(index, i);
+    if (!above.length) return nothing;
+    return html`<nav class="path" aria-label=${t("pathOf")}><ol>${above.map((at) => {
+      const feature = index.features[at]!;
+      return html`<li><button class="bare" title=${feature.class} @click=${() => this.session.selection.select([feature.id])}>${icon(kindOf(feature), 14)}<span>${nameOf(index, feature)}</span></button></li>`;
+    })}</ol></nav>`;
   }
 
   private close() {
@@ -61,39 +86,46 @@ export class PropertiesPanel extends Part {
   private one(properties: FeatureProperties | null) {
     const { session } = this;
     const feature = session.selection.only!;
+    const { index } = session.volume;
+    const i = index.byId.get(feature.id)!;
+    const isGroup = isGroupOfParts(index, i);
     return html`
-      <div class="head"><div><h2>${labelOf(feature)}</h2><div class="quiet">${feature.class}</div><div class="id">${feature.id}</div></div>${this.close()}</div>
+      ${this.path(i)}
+      <div class="head"><div><h2>${labelOf(feature)}</h2><div class="quiet">${feature.type && feature.type !== feature.class ? `${feature.type} · ` : ""}${feature.class}</div><div class="id">${feature.id}</div></div>${this.close()}</div>
       ${this.actions()}
       ${
-        feature.count > 0
-          ? html`<svt-style-editor .session=${session} .query=${ofId(feature.id)} .label=${labelOf(feature)} .color=${feature.color} .opacity=${feature.opacity}></svt-style-editor>`
+        feature.count > 0 || isGroup
+          ? html`<svt-style-editor .session=${session} .query=${isGroup ? ofSubtree(feature.id) : ofId(feature.id)} .label=${labelOf(feature)} .color=${feature.color} .opacity=${feature.opacity}></svt-style-editor>`
           : nothing
       }
-      ${properties ? this.details(properties) : nothing}
+      ${properties ? this.details(properties, isGroup) : nothing}
     `;
   }
 
-  private details(p: FeatureProperties) {
+  private details(p: FeatureProperties, isGroup: boolean) {
     const size = p.box.high.map((high, i) => high - p.box.low[i]!);
-    const attributes = Object.entries(p.attributes);
+    const { index } = this.session.volume;
+    loadDetails();
     const hasParts = p.totalSurface > 0 && p.totalSurface !== p.surface;
     return html`
       <dl>
-        ${p.voxelVolume > 0 ? html`<dt>${t("volumeByVoxels")}</dt><dd>${number(p.voxelVolume, 3)} m³</dd>` : nothing}
+        ${isGroup && p.totalVolume !== null ? html`<dt>${t("totalVolume")}</dt><dd id="total-volume">${number(p.totalVolume, 3)} m³</dd>` : nothing}
+        ${isGroup && hasParts ? html`<dt>${t("totalSurface")}</dt><dd>${number(p.totalSurface, 2)} m²</dd>` : nothing}
+        ${p.voxelVolume > 0 && !isGroup ? html`<dt>${t("volumeByVoxels")}</dt><dd>${number(p.voxelVolume, 3)} m³</dd>` : nothing}
         ${p.modelVolume !== null ? html`<dt>${t("modelVolume")}</dt><dd>${number(p.modelVolume, 3)} m³</dd>` : nothing}
-        ${p.surface > 0 ? html`<dt>${t("surface")}</dt><dd>${number(p.surface, 2)} m²</dd>` : nothing}
-        ${hasParts && p.totalVolume !== null ? html`<dt>${t("totalVolume")}</dt><dd>${number(p.totalVolume, 3)} m³</dd>` : nothing}
-        ${hasParts ? html`<dt>${t("totalSurface")}</dt><dd>${number(p.totalSurface, 2)} m²</dd>` : nothing}
+        ${p.surface > 0 && !isGroup ? html`<dt>${t("surface")}</dt><dd>${number(p.surface, 2)} m²</dd>` : nothing}
+        ${hasParts && !isGroup && p.totalVolume !== null ? html`<dt>${t("totalVolume")}</dt><dd>${number(p.totalVolume, 3)} m³</dd>` : nothing}
+        ${hasParts && !isGroup ? html`<dt>${t("totalSurface")}</dt><dd>${number(p.totalSurface, 2)} m²</dd>` : nothing}
         ${size.every(Number.isFinite) && p.totalSurface > 0 ? html`<dt>${t("extent")}</dt><dd>${size.map((v) => number(v, 2)).join(" × ")} m</dd>` : nothing}
       </dl>
       <h3>${t("attributes")}</h3>
-      ${attributes.length ? html`<dl>${attributes.map(([key, value]) => html`<dt>${key}</dt><dd>${valueText(p.numbers[key], value)}</dd>`)}</dl>` : html`<p class="quiet">${t("noAttributes")}</p>`}
+      <svt-attributes .session=${this.session} .of=${p}></svt-attributes>
       ${
         p.neighbours.length
           ? html`<h3>${t("neighbours")}</h3><ul>${p.neighbours.map((n) =>
               n.id === ""
                 ? html`<li class="outside"><span>${t("outside")}</span><span>${number(n.area, 2)} m²</span></li>`
-                : html`<li><button @click=${() => this.session.selection.select([n.id])}><span>${labelOf(n)}</span><span>${number(n.area, 2)} m²</span></button></li>`,
+                : html`<li><button @click=${() => this.session.selection.select([n.id])}><span>${nameOf(index, n)} <span class="quiet">${typeOf(index, n)}</span></span><span>${number(n.area, 2)} m²</span></button></li>`,
             )}</ul>`
           : nothing
       }
@@ -106,6 +138,7 @@ export class PropertiesPanel extends Part {
     return html`
       <div class="head"><h2>${t("severalSelected", { n })}</h2>${this.close()}</div>
       ${this.actions()}
+      ${comparison(this.session.selection.pair)}
       <ul>${view.now.selection.slice(0, 200).map((id) => {
         const feature = index.features[index.byId.get(id) ?? -1];
         return feature
@@ -117,20 +150,14 @@ export class PropertiesPanel extends Part {
 
   private actions() {
     const { session } = this;
-    const { index } = session.volume;
-    const { now, hidden } = session.view;
-    const members = now.selection.flatMap((id) => {
-      const i = index.byId.get(id);
-      return i === undefined ? [] : [...subtree(index, i)];
-    });
-    const isHidden = members.some((i) => index.features[i]!.count > 0) && members.every((i) => hidden[i]);
+    const { now, isSelectionHidden: isHidden } = session.view;
     const focus = { ...now.focus, query: "" };
     return html`<div class="actions">
-      <button @click=${() => void session.view.goTo(now.selection.map(ofSubtree).join(" or "), null)}>${icon("fit", 16)}${t("frameIt")}</button>
+      <button @click=${() => void session.view.goToSelected()}>${icon("fit", 16)}${t("frameIt")}</button>
       <button aria-pressed=${now.effect === "highlight"} @click=${() => session.view.set({ effect: now.effect === "highlight" ? "none" : "highlight", focus })}>${icon("focus", 16)}${t("highlightIt")}</button>
       <button aria-pressed=${now.effect === "cutaway"} @click=${() => session.view.set({ effect: now.effect === "cutaway" ? "none" : "cutaway", focus })}>${icon("target", 16)}${t("cutawayTo")}</button>
-      <button aria-pressed=${isHidden} @click=${() => session.view.hide(members, !isHidden)}>${icon(isHidden ? "eye" : "eyeOff", 16)}${isHidden ? t("show") : t("hide")}</button>
-      <button aria-pressed=${now.show.length > 0} @click=${() => session.view.set({ show: now.show.length ? [] : now.selection.map(ofSubtree) })}>${icon("only", 16)}${t("onlyThis")}</button>
+      <button aria-pressed=${isHidden} @click=${() => session.view.hideSelected(!isHidden)}>${icon(isHidden ? "eye" : "eyeOff", 16)}${isHidden ? t("show") : t("hide")}</button>
+      <button aria-pressed=${now.show.length > 0} @click=${() => (now.show.length ? session.view.showOthers() : session.view.showOnlySelected())}>${icon("only", 16)}${t("onlyThis")}</button>
     </div>`;
   }
 
@@ -150,9 +177,13 @@ export class PropertiesPanel extends Part {
 }
 customElements.define("svt-properties", PropertiesPanel);
 
-/** Numbers and days in the notation of the page's language. */
-function valueText(value: { value: number; unit: string } | undefined, text: string): string {
-  if (!value) return dateText(text);
-  const digits = /\.(\d+)/.exec(text)?.[1]?.length ?? 0;
-  return `${number(value.value, Math.min(6, digits))}${value.unit ? ` ${value.unit}` : ""}`;
+/** Attributes and findings come after the first picture. */
+function loadDetails(): void {
+  void import("./details");
+}
+
+/** The type of a neighbour, unless it is its name. */
+function typeOf(index: FeatureIndex, { id, name, class: className }: { id: string; name: string; class: string }): string {
+  const type = index.features[index.byId.get(id) ?? -1]?.type || className;
+  return name && name !== type ? type : "";
 }

@@ -36,7 +36,7 @@ export class StyleEditor extends Part {
       opacity = style?.opacity ?? this.opacity;
     return html`
       <div class="line">
-        <wa-color-picker size="s" label=${t("colorOf", { name: this.label })} title=${help("/passes/*/styles/*/color")} value=${color} without-format-toggle
+        <wa-color-picker size="s" label=${t("colorOf", { name: this.label })} title=${help("/passes/*/styles/*/color")} .value=${color} without-format-toggle
           @change=${(e: Event) => this.change({ color: toHex((e.target as HTMLInputElement).value) })}></wa-color-picker>
         ${memberSlider("opacity", t("opacityOf", { name: this.label }), opacity, (wanted) => this.change({ opacity: wanted }))}
         <output>${Math.round(opacity * 100)} %</output>

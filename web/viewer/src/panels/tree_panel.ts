@@ -4,18 +4,24 @@
  */
 
 import { css, html, nothing, unsafeCSS } from "lit";
+import { repeat } from "lit/directives/repeat.js";
 import type { EngineError } from "../engine";
 import { ancestors, labelOf } from "../state/feature_index";
 import { ofClass, ofId, ofSubtree } from "../state/queries";
 import { SeenCounts, subtree, type Seen } from "../state/visibility";
 import { t } from "../texts";
+import { shownText } from "./shown_text";
 import { icon } from "../ui/icons";
 import { controls, Part } from "../ui/part";
+import { kindOf } from "./feature_path";
+import { askForMenu, isMenuKey } from "./menu_request";
 import { firstOpen, rowsOf, type Rows } from "./tree_rows";
 
 /** Height of a row in pixels: the width of a finger on touch screens. */
 const kRow = matchMedia("(max-width: 759px), (pointer: coarse)").matches ? 44 : 30;
 const kSpare = 6;
+/** Milliseconds until a touch is a long press. */
+const kLongPress = 550;
 /** Milliseconds after the last key. */
 const kAttributesAfter = 150;
 
@@ -77,6 +83,8 @@ export class TreePanel extends Part {
       .item button { min-height: 26px; min-width: 26px; padding: 2px; border-radius: 6px; flex: none; }
       @media (max-width: 759px), (pointer: coarse) { .field svg { top: 14px; } .item { gap: 0; } .item button { min-height: 44px; min-width: 44px; } }
       .twist { color: var(--quiet); }
+      .kind { flex: none; display: flex; color: var(--quiet); }
+      .selected .kind { color: inherit; }
       .name { flex: 1; min-width: 0; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; }
       .name .quiet { font-size: 12px; margin-left: 6px; }
       .item.selected .quiet { color: inherit; }
@@ -193,8 +201,8 @@ export class TreePanel extends Part {
         ${this.edited ? this.editor(this.edited) : nothing}
         ${
           session.view.now.show.length
-            ? html`<div class="note small"><span>${t("filterNote", { name: session.view.now.show.join(", ") })}</span>
-              <button class="small" @click=${() => session.view.set({ show: [] })}>${t("showAll")}</button></div>`
+            ? html`<div class="note small" id="shown"><span>${t("filterNote", { name: shownText(session.volume.index, session.view.now.show, session.view.answers.of) })}</span>
+              <button class="small" @click=${() => session.view.showOthers()}>${t("showAll")}</button></div>`
             : nothing
         }
         ${
@@ -221,9 +229,14 @@ export class TreePanel extends Part {
     const to = Math.min(shown.length, Math.ceil((this.top + this.listHeight) / kRow) + kSpare);
     if (!shown.length) return nothing;
     const selected = new Set(session.view.now.selection);
+    const rows = shown.slice(from, to);
     return html`<div class="space" role="tree" tabindex="0" aria-label=${t("structure")} aria-multiselectable="true"
-      aria-activedescendant="row-${this.active}" @keydown=${this.treeKey}>
-      ${shown.slice(from, to).map((i, n) => this.item(i, from + n, selected))}
+      aria-activedescendant=${rows.includes(this.active) ? `row-${this.active}` : nothing} @keydown=${this.treeKey}>
+      ${repeat(
+        rows,
+        (i) => i,
+        (i, n) => this.item(i, from + n, selected),
+      )}
     </div>`;
   }
 
@@ -241,7 +254,7 @@ export class TreePanel extends Part {
     return html`<div id="row-${i}" role="treeitem" class="item ${isSelected ? "selected" : ""} ${this.active === i ? "active" : ""} ${seen === "none" ? "gone" : ""}"
       data-top=${row * kRow} data-depth=${index.depth[i]!} aria-level=${index.depth[i]! + 1} aria-posinset=${row + 1} aria-setsize=${this.rows.shown.length}
       aria-selected=${isSelected} aria-expanded=${isParent ? String(this.rows.isOpen(i)) : nothing}
-      @click=${(e: MouseEvent) => this.picked(i, e)} @dblclick=${() => void this.session.view.goTo(ofSubtree(feature.id), null)}>
+      @click=${(e: MouseEvent) => this.picked(i, e)} @contextmenu=${(e: MouseEvent) => this.menuAt(i, e)} @pointerdown=${(e: PointerEvent) => this.pressed(i, e)} @dblclick=${() => void this.session.view.goTo(ofSubtree(feature.id), null)}>
       ${
         isParent
           ? html`<button class="bare twist" tabindex="-1" aria-hidden="true" @click=${(e: Event) => this.toggle(i, e)}>${icon(this.rows.isOpen(i) ? "down" : "right", 14)}</button>`
@@ -252,8 +265,9 @@ export class TreePanel extends Part {
           ? html`<button class="bare" tabindex="-1" aria-hidden="true" title=${t("styleOf", { name: labelOf(feature) })} @click=${(e: Event) => this.edit(i, e)}><span class="swatch" data-color=${color}></span></button>`
           : nothing
       }
+      <span class="kind">${icon(kindOf(feature), 14)}</span>
       <span class="name" title="${labelOf(feature)} · ${feature.class}">${labelOf(feature)} <span class="quiet">${feature.class}</span></span>
-      ${isParent ? html`<span class="count">${index.solids[i]}</span>` : nothing}
+      ${isParent ? html`<span class="count">${this.counts.solidsOf(i)}</span>` : nothing}
       ${seen === "none" ? html`<span class="visually-hidden">${t("isHidden")}</span>` : nothing}
       <button class="bare eye ${seen}" tabindex="-1" aria-hidden="true" title=${seen === "none" ? t("show") : t("hide")} @click=${(e: Event) => this.see(i, seen, e)}>${eyeOf(seen)}</button>
     </div>`;
@@ -281,6 +295,7 @@ export class TreePanel extends Part {
             this.session.selection.select(
               members.map((i) => index.features[i]!.id),
               e.ctrlKey,
+              query,
             )}><span class="name">${name}</span></button>
           <span class="count">${solids.length}</span>
           <button class="bare eye ${seen}" aria-pressed=${seen === "none"} aria-label="${t("hide")}: ${name}" @click=${() => this.session.view.hide(members, seen !== "none")}>${eyeOf(seen)}</button>
@@ -316,6 +331,28 @@ export class TreePanel extends Part {
     this.session.selection.select([this.session.volume.index.features[i]!.id], event.ctrlKey || event.metaKey);
   }
 
+  /** Selects a row, unless it is selected already, and asks for its menu. */
+  private menuAt(
+    i: number,
+    event: Event & { clientX?: number; clientY?: number },
+    at = { x: event.clientX ?? 0, y: event.clientY ?? 0 },
+  ): void {
+    event.preventDefault();
+    const { id } = this.session.volume.index.features[i]!;
+    this.active = i;
+    if (!this.session.view.state.selection.includes(id)) this.session.selection.select([id]);
+    askForMenu(this, at);
+  }
+
+  /** Touch: a long press asks for the menu. */
+  private pressed(i: number, event: PointerEvent): void {
+    if (event.pointerType !== "touch") return;
+    const row = event.currentTarget as HTMLElement;
+    const timer = setTimeout(() => this.menuAt(i, event), kLongPress);
+    const end = () => clearTimeout(timer);
+    for (const kind of ["pointerup", "pointercancel", "pointermove", "contextmenu"]) row.addEventListener(kind, end, { once: true });
+  }
+
   private toggle(i: number, event?: Event): void {
     event?.stopPropagation();
     if (this.open.has(i)) this.open.delete(i);
@@ -346,7 +383,7 @@ export class TreePanel extends Part {
     if (!query || !this.session.volume.engine) return;
     try {
       const ids = await this.session.volume.engine.select(query);
-      this.session.selection.select(ids);
+      this.session.selection.select(ids, false, query);
       this.answer = t("selectedByQuery", { n: ids.length });
     } catch (error) {
       this.error = (error as EngineError).message;
@@ -393,6 +430,11 @@ export class TreePanel extends Part {
     const { index } = this.session.volume;
     const at = Math.max(0, shown.indexOf(this.active));
     const i = shown[at]!;
+    if (isMenuKey(event)) {
+      const row = this.renderRoot.querySelector(`#row-${i}`)?.getBoundingClientRect() ?? this.getBoundingClientRect();
+      event.stopPropagation();
+      return this.menuAt(i, event, { x: row.left + 40, y: row.bottom });
+    }
     const isParent = index.end[i]! > i + 1;
     const go = (row: number) => (this.active = shown[Math.min(shown.length - 1, Math.max(0, row))]!);
     const page = Math.max(1, Math.floor(this.listHeight / kRow) - 1);

@@ -2,6 +2,7 @@
 
 import { classWords } from "../state/class_words";
 import { language } from "../texts";
+import { isStorey } from "./feature_path";
 import { ancestors, labelOf, type FeatureIndex } from "../state/feature_index";
 
 export interface Rows {
@@ -36,9 +37,30 @@ export function childCount(index: FeatureIndex, i: number): number {
 export function rowsOf(index: FeatureIndex, open: ReadonlySet<number>, search: string, also: ReadonlySet<number> = new Set()): Rows {
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
   if (words.length) return found(index, words, also);
+  return { shown: inOrder(index, (i) => open.has(i)), matches: null, isOpen: (i) => open.has(i) };
+}
+
+/** Features of a level: storeys first, all others in the order of the model. */
+function storeysFirst(index: FeatureIndex, from: number, to: number): number[] {
+  const storeys: number[] = [],
+    others: number[] = [];
+  for (let i = from; i < to; i = index.end[i]!) (isStorey(index.features[i]!) ? storeys : others).push(i);
+  return storeys.length ? [...storeys, ...others] : others;
+}
+
+/** Expanded features from top to bottom. @param isKept  features that are listed; absent: all */
+function inOrder(index: FeatureIndex, isOpen: (i: number) => boolean, isKept: (i: number) => boolean = () => true): number[] {
   const shown: number[] = [];
-  for (let i = 0; i < index.features.length; i = open.has(i) ? i + 1 : index.end[i]!) shown.push(i);
-  return { shown, matches: null, isOpen: (i) => open.has(i) };
+  const waiting = storeysFirst(index, 0, index.features.length).reverse();
+  while (waiting.length) {
+    const i = waiting.pop()!;
+    if (!isKept(i)) continue;
+    shown.push(i);
+    if (!isOpen(i) || index.end[i]! === i + 1) continue;
+    const below = storeysFirst(index, i + 1, index.end[i]!);
+    for (let n = below.length - 1; n >= 0; --n) waiting.push(below[n]!);
+  }
+  return shown;
 }
 
 const kKnown = new Map<string, string>();
@@ -62,5 +84,6 @@ function found(index: FeatureIndex, words: string[], also: ReadonlySet<number>):
     kept.add(i);
     for (const above of ancestors(index, i)) kept.add(above);
   });
-  return { shown: [...kept].sort((a, b) => a - b), matches, isOpen: () => true };
+  const isKept = (i: number) => kept.has(i);
+  return { shown: inOrder(index, isKept, isKept), matches, isOpen: () => true };
 }

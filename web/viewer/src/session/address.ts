@@ -35,7 +35,7 @@ export class Address {
     const { state } = view;
     if (!this.volume.info || !state.camera) return;
     try {
-      const hash = await hashOf(await view.composed(view.size), state);
+      const hash = await hashOf(await view.composed(view.size), state, this.volume.isCity ? null : this.volume.index);
       if (view.state === state) history.replaceState(null, "", `${this.plain()}${hash}`);
     } catch {
       // A view that cannot be drawn has no link; the picture has already reported the reason.

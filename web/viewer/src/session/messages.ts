@@ -10,6 +10,10 @@ export interface Message {
   isError: boolean;
   /** The error itself; its code may be empty. */
   error?: EngineError;
+  /** The message ends with the next change of the view by the user. */
+  isOfChoice?: boolean;
+  /** Buttons that repair it. */
+  repairs?: { text: string; act: () => void }[];
 }
 
 export interface Progress {
@@ -24,12 +28,20 @@ export class Messages extends Observable {
   /** Text for screen readers. */
   said = "";
 
-  fail(error: unknown, title?: string): void {
+  /** @param log  where the error is also written, with its title */
+  fail(error: unknown, title?: string, log: (text: string) => void = console.error): void {
     const { code, message } = error as Partial<EngineError>;
     if (code === kCancelled) return;
     const text = message ?? String(error);
+    log(`svt: ${title ? `${title}: ` : ""}${code ? `${code}: ` : ""}${text}`);
     const given = { code: code ?? "", message: text };
     this.message = { ...(title ? { title } : {}), text: code ? `${text} (${code})` : text, isError: true, error: given };
+  }
+
+  /** A choice that cannot be drawn, and was taken back. */
+  refuse(error: EngineError, title: string, repairs: NonNullable<Message["repairs"]>): void {
+    this.fail(error, title, console.warn);
+    if (this.message) this.message = { ...this.message, isOfChoice: true, ...(repairs.length ? { repairs } : {}) };
   }
 
   tell(text: string): void {

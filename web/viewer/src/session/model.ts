@@ -6,6 +6,7 @@ import { kCancelled } from "../engine";
 import type { EngineError, FileBytes, OpenOptions, Point, VolumeInfo } from "../engine";
 import { sub } from "../camera/vec";
 import { batch, until } from "../observable";
+import { expanded } from "../state/compact";
 import { hiddenSpaces } from "../state/spaces";
 import { initialState, shifted, type ViewState } from "../state/view_state";
 import { stageText, t } from "../texts";
@@ -175,13 +176,16 @@ export class Model extends ViewPart {
     const { volume, view } = this;
     batch(() => {
       volume.take(info);
-      const state = isNew ? { ...given, hide: hiddenSpaces(volume.index) } : given;
+      const known = volume.isCity ? given : expanded(given, volume.index);
+      const state = isNew ? { ...known, hide: hiddenSpaces(volume.index) } : known;
       this.parts.selection.forget();
       this.parts.picture.forget();
       // The selected features of a city may not be visible yet.
       view.begin({ ...state, selection: state.selection.filter((id) => volume.isCity || volume.index.byId.has(id)) });
       this.status = "ready";
     });
+    const { selection, selectedBy } = view.state;
+    if (selectedBy && !selection.length) void this.parts.selection.selectByQuery(selectedBy);
     if (!view.state.camera) void view.fit(0);
   }
 

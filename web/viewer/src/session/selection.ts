@@ -15,6 +15,8 @@ export interface AlongList {
 export class Selection extends ViewPart {
   /** Properties of the selected feature, if there is exactly one; null until they arrive. */
   properties: FeatureProperties | null = null;
+  /** Properties of the selected features, if there are exactly two; null until they arrive. */
+  pair: readonly [FeatureProperties, FeatureProperties] | null = null;
   along: AlongList | null = null;
 
   constructor(parts: ViewParts) {
@@ -35,12 +37,17 @@ export class Selection extends ViewPart {
     return this.along === null && this.view.now.selection.length === 0;
   }
 
-  select(ids: string[], isAdded = false): void {
+  /** @param query  that selects exactly these; empty: none is known */
+  select(ids: string[], isAdded = false, query = ""): void {
     const { selection } = this.view.state;
-    const kept = isAdded ? selection.filter((id) => !ids.includes(id)) : [];
-    const added = isAdded && ids.every((id) => selection.includes(id)) ? [] : ids;
+    const given = new Set(ids);
+    const before = new Set(isAdded ? selection : []);
+    const kept = [...before].filter((id) => !given.has(id));
+    const added = isAdded && ids.every((id) => before.has(id)) ? [] : ids;
+    const selectedBy = isAdded && kept.length ? "" : query;
+    if (selectedBy) this.view.answers.learn(selectedBy, ids);
     this.along = null;
-    this.view.set({ selection: [...kept, ...added] });
+    this.view.set({ selection: [...kept, ...added], selectedBy: added.length ? selectedBy : "" });
     const { only } = this;
     if (only) this.messages.say(t("picked", { name: labelOf(only), class: only.class }));
     else this.messages.say(ids.length ? t("severalSelected", { n: this.view.state.selection.length }) : t("nothingSelected"));
@@ -67,17 +74,27 @@ export class Selection extends ViewPart {
   forget(): void {
     this.along = null;
     this.properties = null;
+    this.pair = null;
+  }
+
+  /** Selects again by the query of a link. */
+  async selectByQuery(query: string): Promise<void> {
+    const ids = await this.volume.engine?.select(query).catch(() => []);
+    if (ids?.length && !this.view.state.selection.length) this.select(ids, false, query);
   }
 
   private async read(): Promise<void> {
     const { selection } = this.view.state;
-    const id = selection.length === 1 ? selection[0]! : null;
-    if (this.properties?.id !== id) this.properties = null;
+    if (this.properties?.id !== selection[0] || selection.length !== 1) this.properties = null;
+    if (selection.length !== 2 || this.pair?.some(({ id }, n) => id !== selection[n])) this.pair = null;
     const { engine, isCity, index } = this.volume;
-    if (id === null || !engine || (isCity && !index.byId.has(id))) return;
+    if (!engine || selection.length < 1 || selection.length > 2) return;
+    if (isCity && !selection.every((id) => index.byId.has(id))) return;
     try {
-      const properties = await engine.properties(id);
-      if (this.view.state.selection[0] === id) this.properties = properties;
+      const [first, second] = await Promise.all(selection.map((id) => engine.properties(id)));
+      if (this.view.state.selection !== selection) return;
+      if (second) this.pair = [first!, second];
+      else this.properties = first!;
     } catch (error) {
       this.messages.fail(error);
     }

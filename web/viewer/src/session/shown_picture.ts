@@ -3,10 +3,15 @@
 import { PictureLoop, type Quality } from "../canvas/picture_loop";
 import type { ColorScale, Engine, EngineError, FrameReport, MovedPlane } from "../engine";
 import { effect, untracked } from "../observable";
+import { roomClasses, withSolidRooms } from "../state/color_keys";
 import { cutOf } from "../state/scene_of";
-import type { Camera, ViewState } from "../state/view_state";
-import { movedText } from "../texts";
+import { isSameChoice, type Camera, type ViewState } from "../state/view_state";
+import { movedText, t } from "../texts";
 import { ViewPart, type ViewParts } from "./view_part";
+
+/** Code of errors after which the library has no volume. */
+const kFatal = "E999";
+const kMostRefusals = 3;
 
 export class ShownPicture extends ViewPart {
   /** null: the open model does not have a picture yet. */
@@ -19,6 +24,10 @@ export class ShownPicture extends ViewPart {
   /** The meaning of the colours, for readers who cannot see the legend; null: the picture has no legend. */
   scale: ColorScale | null = null;
   private loop: PictureLoop | null = null;
+  /** The last view that was drawn; null: none yet. */
+  private drawable: ViewState | null = null;
+  /** Number of views in succession that could not be drawn. */
+  private refusals = 0;
   /** The cut whose planes were compared with faces. */
   private seenCut: string | null = null;
 
@@ -29,17 +38,43 @@ export class ShownPicture extends ViewPart {
     });
   }
 
-  /** @param failed  called with the errors of pictures */
-  start(engine: Engine, failed: (error: EngineError) => void): void {
+  /** @param died  called when the library has stopped */
+  start(engine: Engine, died: (error: EngineError) => void): void {
     const { volume, view } = this;
     this.loop = new PictureLoop({
       engine,
       size: () => view.size,
-      describe: (size, samples) => (volume.info ? view.describe(size, samples) : null),
+      describe: (size, samples) => (volume.info ? view.describe(size, samples, true) : null),
       take: () => view.state,
       shown: (report, quality, token) => this.shown(report, quality, token as ViewState),
-      failed,
+      failed: (error, token) => {
+        if (error.code === kFatal) {
+          this.messages.fail(error);
+          died(error);
+        } else this.refuse(error, token as ViewState);
+      },
     });
+  }
+
+  /** Takes back a choice that cannot be drawn, so that the picture goes on following the camera. */
+  private refuse(error: EngineError, refused: ViewState): void {
+    const { view, messages } = this;
+    // A newer view is drawn next, and may be good.
+    if (!isSameChoice(view.state, refused)) return;
+    if (this.refusals >= kMostRefusals) return messages.fail(error);
+    const { drawable } = this;
+    view.refuse(refused, drawable, this.refusals++ > 0);
+    const repairs = refused.colorBy && refused.colorBy !== drawable?.colorBy ? this.solidRooms(refused.colorBy) : [];
+    messages.refuse(error, t("refused"), repairs);
+  }
+
+  private solidRooms(key: string) {
+    const { index } = this.volume;
+    const act = () => {
+      this.messages.message = null;
+      this.view.set(withSolidRooms(this.view.state, key, index, true));
+    };
+    return roomClasses(index).length ? [{ text: t("makeRoomsSolid"), act }] : [];
   }
 
   /** Called when another model is opened. */
@@ -47,6 +82,8 @@ export class ShownPicture extends ViewPart {
     this.moved = [];
     this.seenCut = null;
     this.report = null;
+    this.drawable = null;
+    this.refusals = 0;
   }
 
   private redraw(): void {
@@ -56,6 +93,8 @@ export class ShownPicture extends ViewPart {
 
   private shown(report: FrameReport, quality: Quality, state: ViewState): void {
     if (!this.report) performance.mark("svt-first-image");
+    this.drawable = state;
+    this.refusals = 0;
     this.report = report;
     this.quality = quality;
     this.camera = state.camera;

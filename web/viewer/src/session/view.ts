@@ -1,15 +1,17 @@
 /** The view of the open model: its state, its undo steps, the animation of its camera, and its scene. */
 
 import { between, withProjection } from "../camera/camera";
-import type { CameraPreset, Samples, Scene, SceneCamera } from "../engine";
+import type { CameraPreset, Samples, Scene, SceneCamera, SceneStyle } from "../engine";
 import { kSceneMembers } from "../generated/scene_members";
 import { computed, membersOf, Observable } from "../observable";
 import { History, type Changed } from "../state/history";
-import { sceneCamera, sceneOf, type Described } from "../state/scene_of";
-import { withSpaces } from "../state/spaces";
-import { initialState, type Camera, type ViewState } from "../state/view_state";
-import { hiddenFlags, hideQueries, switched } from "../state/visibility";
+import { sceneCamera, sceneOf, selectionQueries, type Described } from "../state/scene_of";
+import { hiddenSpaces, withoutSpaces, withSpaces } from "../state/spaces";
+import { tintStyles } from "../state/tint";
+import { initialState, isSameChoice, type Camera, type ViewState } from "../state/view_state";
+import { hiddenFlags, hideQueries, switched, withMembersOf } from "../state/visibility";
 import { t, type TextKey } from "../texts";
+import type { Answers } from "./answers";
 import type { Messages } from "./messages";
 import type { OpenVolume } from "./open_volume";
 
@@ -25,6 +27,9 @@ export interface Framing {
   fieldOfView: number;
 }
 
+/** Joined queries, each of up to 20,000 characters; the library takes 65,536 bytes. */
+const kMostFramed = 16;
+
 /** Milliseconds from one view to another. */
 const kFlight = 350;
 
@@ -37,7 +42,8 @@ export class View extends Observable {
     const { parallel = kSceneMembers["/camera/parallel"].default, fieldOfView = null } = this.state.camera ?? {};
     return { parallel, fieldOfView };
   });
-  private readonly hiddenNow = computed(() => hiddenFlags(this.volume.index, this.now.hide));
+  private readonly hiddenNow = computed(() => hiddenFlags(this.volume.index, this.now.hide, this.answers.of));
+  private readonly selectedNow = computed(() => withMembersOf(this.volume.index, this.now.selection, this.now.selectedBy !== ""));
   readonly history = new History();
   /** Size of the picture area in device pixels. */
   size: [number, number] = [640, 360];
@@ -57,6 +63,13 @@ export class View extends Observable {
    * spaces are drawn where a query asks for them, as by the command.
    */
   hasSwitches = true;
+  /** Colour of the outline of selected features; empty: these have no tint. */
+  mark = "";
+  /** A selection whose tint cannot be drawn. */
+  private untinted: readonly string[] | null = null;
+  /** Queries of hidden spaces, which showOnlySelected() has removed. */
+  private spacesBefore: string[] | null = null;
+  private beforeWalking: Projection | null = null;
   private flight = 0;
   /** The view fitted to the whole building, and its aspect ratio; it is recomputed for another aspect ratio. */
   private fitted: { camera: Camera; aspect: number } | null = null;
@@ -64,6 +77,7 @@ export class View extends Observable {
   constructor(
     private readonly volume: OpenVolume,
     private readonly messages: Messages,
+    readonly answers: Answers,
   ) {
     super();
   }
@@ -76,13 +90,46 @@ export class View extends Observable {
     return this.size[0] / this.size[1];
   }
 
-  describe(size: [number, number], samples?: Samples): Described {
-    const described = sceneOf(this.state, this.volume.box, size, samples);
-    if (this.hasSwitches && !this.state.custom)
-      described.scene.passes = described.scene.passes!.map((pass) => withSpaces(pass, this.volume.index, this.hidden));
+  /** The selected features with all below them and their members; of a query, only the features that it selects. */
+  get selected(): readonly number[] {
+    return this.selectedNow.value;
+  }
+
+  /** @param isOnScreen  selected features are tinted, as nowhere else */
+  describe(size: [number, number], samples?: Samples, isOnScreen = false): Described {
+    const { state } = this;
+    const described = sceneOf(state, this.volume.box, size, samples);
+    if (this.hasSwitches && !state.custom) {
+      const tint = isOnScreen ? this.tint() : [];
+      const isFocused = state.effect === "highlight" || state.effect === "cutaway";
+      const isAsked = !isFocused && (state.styles.length + state.named.length + tint.length > 0 || state.names);
+      described.scene.passes = described.scene.passes!.map((pass) => {
+        const styled = tint.length ? { ...pass, styles: [...(pass.styles ?? []), ...tint] } : pass;
+        return withSpaces(styled, this.volume.index, this.hidden, isAsked);
+      });
+    }
     // Tiles of a city fit the pixels. Levels of detail of the tiles would cost time and memory without benefit.
     if (this.volume.isCity) described.scene.passes = described.scene.passes!.map((pass) => ({ level: 0, ...pass }));
     return described;
+  }
+
+  /** Whether selected features are tinted: not in effects, and not over colours that have a meaning. */
+  private get isTinted(): boolean {
+    const { effect, colorBy, custom, selection } = this.state;
+    return (
+      this.mark !== "" &&
+      selection !== this.untinted &&
+      selection.length > 0 &&
+      (effect === "none" || effect === "lens") &&
+      !colorBy &&
+      !custom
+    );
+  }
+
+  private tint(): SceneStyle[] {
+    if (!this.isTinted) return [];
+    const visible = this.selected.filter((i) => !this.hidden[i]);
+    return tintStyles(this.volume.index, selectionQueries(this.state), visible, this.mark);
   }
 
   /** The scene for `svt render --scene`, with effects. */
@@ -95,14 +142,36 @@ export class View extends Observable {
   /** Changes the view; the picture follows. */
   set(change: Partial<ViewState>): void {
     const before = this.state;
-    this.become({ ...before, ...change });
+    const selectedBy = change.selection && change.selectedBy === undefined ? { selectedBy: "" } : {};
+    this.become({ ...before, ...change, ...selectedBy });
     this.history.record(before, this.state, performance.now());
   }
 
   private become(state: ViewState): void {
     const before = this.state;
     this.state = state;
-    if (isDrawnDifferently(before, state)) this.redraw();
+    if (isDrawnDifferently(before, state) || (before.selection !== state.selection && this.mark !== "")) this.redraw();
+  }
+
+  /**
+   * Takes a choice back, because the view cannot be drawn: its step is dropped. The camera, the selection and measured points
+   * stay.
+   * @param drawable  the last view that was drawn; null: none yet
+   * @param isAgain  the view before the last step cannot be drawn, either
+   */
+  refuse(refused: ViewState, drawable: ViewState | null, isAgain: boolean): void {
+    const before = this.history.refuse(refused);
+    if (!isAgain && Object.keys(before).length) return this.become({ ...this.state, ...before });
+    const { camera, preset, selection, selectedBy, measured } = this.state;
+    const kept = { camera, preset, selection, selectedBy, measured };
+    const isSame = drawable !== null && isSameChoice(refused, drawable);
+    // The same choice was drawn before: effects and names do not suit the current selection or camera.
+    if (isSame) this.untinted = selection;
+    this.become({
+      ...(drawable ?? initialState(this.state.look)),
+      ...kept,
+      ...(isSame ? { effect: "none" as const, names: false } : {}),
+    });
   }
 
   /** Starts the view of another model, without an undo step. */
@@ -146,9 +215,37 @@ export class View extends Observable {
     this.redraw();
   }
 
-  hide(members: Iterable<number>, hidden: boolean): void {
+  /** @param queries  that select the members, if they are known */
+  hide(members: Iterable<number>, hidden: boolean, queries: readonly string[] = []): void {
     const flags = switched(this.hidden, members, hidden);
-    this.set({ hide: hideQueries(this.volume.index, flags, this.state.hide) });
+    this.set({ hide: hideQueries(this.volume.index, flags, this.state.hide, this.answers.of, hidden ? queries : []) });
+  }
+
+  hideSelected(hidden: boolean): void {
+    if (this.selected.length) this.hide(this.selected, hidden, selectionQueries(this.state));
+  }
+
+  /** Whether there are selected features with voxels, and all of them are hidden. */
+  get isSelectionHidden(): boolean {
+    const { features } = this.volume.index;
+    const solids = this.selected.filter((i) => features[i]!.count > 0);
+    return solids.length > 0 && solids.every((i) => this.hidden[i]);
+  }
+
+  /** Shows only the selected features, hidden spaces among them. */
+  showOnlySelected(): void {
+    const { hide } = this.state;
+    const others = withoutSpaces(hide, this.volume.index);
+    this.spacesBefore = hide.filter((query) => !others.includes(query));
+    this.set({ show: selectionQueries(this.state), hide: others });
+  }
+
+  /** Ends showOnlySelected(). */
+  showOthers(): void {
+    const { hide } = this.state;
+    const spaces = this.spacesBefore ?? hiddenSpaces(this.volume.index);
+    this.spacesBefore = null;
+    this.set({ show: [], hide: [...hide, ...spaces.filter((query) => !hide.includes(query))] });
   }
 
   /**
@@ -173,12 +270,31 @@ export class View extends Observable {
     }
   }
 
+  /** Shows the selected features; all features, if there are too many for one query. */
+  async goToSelected(): Promise<void> {
+    const queries = selectionQueries(this.state);
+    await this.goTo(queries.length > kMostFramed ? "" : queries.join(" or "), null);
+  }
+
   /** Moves to a camera that the library has found, with the projection of another one. */
   moveToFound({ eye, target, fieldOfView }: SceneCamera, like: Projection | null = this.state.camera, isFollowed = true): void {
     if (!eye || !target) return;
     const degrees = fieldOfView ?? like?.fieldOfView ?? kSceneMembers["/camera/fieldOfView"].default;
     const camera: Camera = { eye, target, parallel: false, height: 10, fieldOfView: degrees };
     this.moveTo(withProjection(camera, like?.parallel ?? false), isFollowed);
+  }
+
+  beginWalking(): void {
+    const { camera } = this.state;
+    if (!this.isWalking && camera) this.beforeWalking = { parallel: camera.parallel, fieldOfView: camera.fieldOfView };
+    this.isWalking = true;
+  }
+
+  /** The projection before, which has a narrower field of view; null: nobody was walking. */
+  endWalking(): Framing | null {
+    const { isWalking, beforeWalking } = this;
+    this.isWalking = false;
+    return isWalking && beforeWalking ? { around: "", ...beforeWalking } : null;
   }
 
   /** Animated, unless the user prefers reduced motion. */
@@ -228,7 +344,8 @@ function isDrawnDifferently(a: ViewState, b: ViewState): boolean {
   for (const key of Object.keys(b) as (keyof ViewState)[]) {
     if (a[key] === b[key]) continue;
     if (key === "measured") continue;
-    if (key !== "selection" || b.names || ((b.effect === "highlight" || b.effect === "cutaway") && b.focus.query === "")) return true;
+    const isOfSelection = key === "selection" || key === "selectedBy";
+    if (!isOfSelection || b.names || ((b.effect === "highlight" || b.effect === "cutaway") && b.focus.query === "")) return true;
   }
   return false;
 }

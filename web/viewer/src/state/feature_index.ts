@@ -11,6 +11,10 @@ export interface FeatureIndex {
   /** Number of features with voxels in the subtree, including itself. */
   solids: Int32Array;
   byId: Map<string, number>;
+  /** Members of storeys, flats and other groups that are not below them in the tree. */
+  members: ReadonlyMap<number, readonly number[]>;
+  /** Number of such groups among the features [0, i). */
+  groupsBefore: Int32Array;
   /** Classes by name, with the features of each. */
   classes: Map<string, number[]>;
   /** Position of the feature that owns a scalar; see ownerOf(). */
@@ -36,10 +40,30 @@ export function indexFeatures(given: Feature[]): FeatureIndex {
     const below = children[i]!;
     for (let c = below.length - 1; c >= 0; --c) stack.push(below[c]!);
   }
-  return indexOrdered(order.map((i) => given[i]!));
+  return indexOrdered(
+    order.map((i) => given[i]!),
+    membersOf(given, order),
+  );
 }
 
-function indexOrdered(features: Feature[]): FeatureIndex {
+/** Members by the position of their group in the order. */
+function membersOf(given: Feature[], order: number[]): Map<number, number[]> {
+  const members = new Map<number, number[]>();
+  if (!given.some((feature) => feature.groups)) return members;
+  const place = new Int32Array(given.length);
+  order.forEach((i, at) => (place[i] = at));
+  order.forEach((i, at) => {
+    for (const group of given[i]!.groups ?? []) {
+      if (group < 0 || group >= given.length) continue;
+      const known = members.get(place[group]!);
+      if (known) known.push(at);
+      else members.set(place[group]!, [at]);
+    }
+  });
+  return members;
+}
+
+function indexOrdered(features: Feature[], members: ReadonlyMap<number, readonly number[]>): FeatureIndex {
   const n = features.length;
   const byId = new Map(features.map((feature, i) => [feature.id, i]));
   const end = new Int32Array(n),
@@ -63,6 +87,8 @@ function indexOrdered(features: Feature[]): FeatureIndex {
     end[above] = Math.max(end[above]!, end[i]!);
     solids[above]! += solids[i]!;
   }
+  const groupsBefore = new Int32Array(n + 1);
+  for (let i = 0; i < n; ++i) groupsBefore[i + 1] = groupsBefore[i]! + (members.has(i) ? 1 : 0);
   const owners = features.map((_, i) => i).filter((i) => features[i]!.count > 0);
   owners.sort((a, b) => features[a]!.first - features[b]!.first);
   return {
@@ -72,10 +98,47 @@ function indexOrdered(features: Feature[]): FeatureIndex {
     depth,
     solids,
     byId,
+    members,
+    groupsBefore,
     classes,
     firstScalars: Int32Array.from(owners, (i) => features[i]!.first),
     ownersByScalar: Int32Array.from(owners),
   };
+}
+
+/** Whether a feature stands for its members or for all below it, as a flat, a storey or a building does. */
+export function isGroupOfParts(index: FeatureIndex, i: number): boolean {
+  return index.members.has(i) || (index.features[i]!.count === 0 && index.end[i]! > i + 1);
+}
+
+/** Whether a feature below i, or i itself, is a group with members elsewhere in the tree. */
+export function hasGroups(index: FeatureIndex, i: number): boolean {
+  return index.groupsBefore[index.end[i]!]! > index.groupsBefore[i]!;
+}
+
+/**
+ * The features with all below them and all members of groups among them, as the query `under` selects them; each once.
+ * Cost: O(features of the result), and one byte per feature of the model.
+ */
+export function withMembers(index: FeatureIndex, starts: Iterable<number>): number[] {
+  const isFound = new Uint8Array(index.features.length);
+  const found: number[] = [];
+  const open = [...starts];
+  while (open.length) {
+    const start = open.pop()!;
+    for (let at = start; at < index.end[start]!;) {
+      // The search has found this feature before, with all below it.
+      if (isFound[at]) {
+        at = index.end[at]!;
+        continue;
+      }
+      isFound[at] = 1;
+      found.push(at);
+      for (const member of index.members.get(at) ?? []) open.push(member);
+      ++at;
+    }
+  }
+  return found.sort((a, b) => a - b);
 }
 
 /** The feature of a scalar; -1: background, or none. */

@@ -17,7 +17,7 @@ interface Step {
 const kSameStep = 800;
 const kMaxSteps = 200;
 /** Members without steps: the selection is not drawn, and the user does not choose the first camera of the picture. */
-const kUncounted = new Set<keyof ViewState>(["selection", "preset"]);
+const kUncounted = new Set<keyof ViewState>(["selection", "selectedBy", "preset"]);
 
 export class History extends Observable {
   private done: readonly Step[] = [];
@@ -50,6 +50,20 @@ export class History extends Observable {
       step.before = of(step.before);
       step.after = of(step.after);
     }
+  }
+
+  /**
+   * Drops the last step that led to a view that cannot be drawn.
+   * @return the values before it; empty: there is no such step
+   */
+  refuse(state: ViewState): Partial<ViewState> {
+    for (let n = this.done.length - 1; n >= 0; --n) {
+      const { before, after, changed } = this.done[n]!;
+      if (changed.every((key) => key === "camera") || !changed.every((key) => after[key] === state[key])) continue;
+      this.done = this.done.filter((_, other) => other !== n);
+      return Object.fromEntries(changed.filter((key) => key !== "camera").map((key) => [key, before[key]]));
+    }
+    return {};
   }
 
   clear(): void {

@@ -5,6 +5,8 @@
 
 import type { Scene } from "../engine";
 import { kSceneMembers, type SceneMember } from "../generated/scene_members";
+import { compacted } from "./compact";
+import type { FeatureIndex } from "./feature_index";
 import { isAllowed, isValueOf, kPlainMembers } from "./member_controls";
 import { initialState, type ViewState } from "./view_state";
 
@@ -47,8 +49,26 @@ export async function unpacked(text: string): Promise<unknown> {
   return JSON.parse(new TextDecoder().decode(await through(bytes, new DecompressionStream("deflate-raw"), kMaxBytes)));
 }
 
-export async function hashOf(scene: Scene, state: ViewState): Promise<string> {
-  return `#scene=${await packed(scene)}&view=${await packed(changes(state))}`;
+/** Characters of a link that servers and programs take. */
+const kMostCharacters = 7_500;
+
+/**
+ * A link that is not too long: the scene is left out if necessary, then the selection, then what is hidden or shown.
+ * @param index  of the model, for short sets of features; null: the features of the model change, as in a city
+ */
+export async function hashOf(scene: Scene, state: ViewState, index: FeatureIndex | null = null): Promise<string> {
+  const short = index ? compacted(state, index) : state;
+  const withScene = async (view: string) => {
+    const all = `#scene=${await packed(scene)}&view=${view}`;
+    return all.length > kMostCharacters ? `#view=${view}` : all;
+  };
+  const attempts: Partial<ViewState>[] = [{}, { selection: [], selectedBy: "" }, { selection: [], selectedBy: "", hide: [], show: [] }];
+  let hash = "";
+  for (const change of attempts) {
+    hash = await withScene(await packed(changes({ ...short, ...change })));
+    if (hash.length <= kMostCharacters) break;
+  }
+  return hash;
 }
 
 /** The state of a link; null if the link has no state. Rejects if it is damaged. */

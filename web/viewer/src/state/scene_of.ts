@@ -4,7 +4,7 @@ import type { CameraPreset, Effects, Point, Samples, Scene, SceneCamera, ScenePa
 import { parallelZoom, type Box } from "../camera/camera";
 import { add, distance, normalized, scale, sub } from "../camera/vec";
 import { kSceneMembers } from "../generated/scene_members";
-import { ofId } from "./queries";
+import { joined, ofId, ofSubtree } from "./queries";
 import type { Camera, Section, ViewState } from "./view_state";
 
 /** A scene of one pass, and the effects to apply with `Engine.compose()`. */
@@ -39,9 +39,14 @@ export function cutOf(sections: Section[], regions: string[] = []): string {
   return [...sections.map(regionOf), ...regions].join(" or ");
 }
 
+/** The queries of the selected features, each with all below it and its members. */
+export function selectionQueries({ selection, selectedBy }: Pick<ViewState, "selection" | "selectedBy">): string[] {
+  return selectedBy ? [selectedBy] : joined(selection.map(ofSubtree));
+}
+
 /** The queries for highlight or cutaway; empty: nothing to show. */
 export function focusQueries(state: ViewState): string[] {
-  return state.focus.query.trim() !== "" ? [state.focus.query.trim()] : state.selection.map(ofId);
+  return state.focus.query.trim() !== "" ? [state.focus.query.trim()] : selectionQueries(state);
 }
 
 export function sceneCamera(
@@ -120,7 +125,7 @@ export function sceneOf(
   const camera = sceneCamera(state.camera, box, size[0] / size[1], state.preset);
   scene.camera = camera;
   if (state.hatches !== null) scene.hatches = { show: state.hatches };
-  const named = [...state.named, ...(state.names ? state.selection.map(ofId) : [])];
+  const named = [...state.named, ...(state.names ? (state.selectedBy ? [state.selectedBy] : joined(state.selection.map(ofId))) : [])];
   if (named.length) scene.names = named;
   if (state.colorBy) scene.colorBy = state.colorBy;
   Object.assign(scene, state.picture);

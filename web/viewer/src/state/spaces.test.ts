@@ -20,9 +20,24 @@ describe("spaces", () => {
 
   it("are asked for where one of them is visible", () => {
     expect(withSpaces({}, house, flags("r0", "r1"))).toEqual({});
-    expect(withSpaces({ cut: "z>1" }, house, flags("r0"))).toEqual({ cut: "z>1", styles: [asked] });
+    expect(withSpaces({ cut: "z>1" }, house, flags())).toEqual({ cut: "z>1", styles: [asked] });
+    expect(withSpaces({}, house, flags("r0"))).toEqual({ styles: [{ ...asked, select: 'id="r1"' }] });
     const own = { select: "class=BuildingRoom", color: "#ff0000" };
     expect(withSpaces({ styles: [own] }, house, flags())).toEqual({ styles: [own] });
     expect(withSpaces({ show: ["id=w"] }, house, flags())).toEqual({ show: ["id=w"] });
+    const invisible = { select: "class=BuildingRoom", opacity: 0 };
+    expect(withSpaces({ show: ["all"] }, house, flags("r0", "r1"))).toEqual({ show: ["all"], styles: [invisible] });
+  });
+
+  it("are left out by the library, so that queries do not hide what belongs to them", () => {
+    const hide = ["class=BuildingRoom", 'id="r0"', "class=Wall", "volume>20"];
+    expect(withSpaces({ hide }, house, flags("r0", "r1", "w"))).toEqual({ hide: ["class=Wall", "volume>20"] });
+  });
+
+  it("stay invisible where a style or a name may ask for them", () => {
+    const own = { select: "all", color: "#ff0000" };
+    const invisible = { ...asked, opacity: 0 };
+    expect(withSpaces({ styles: [own] }, house, flags("r0", "r1"), true)).toEqual({ styles: [own, invisible] });
+    expect(withSpaces({}, house, flags(), true)).toEqual({ styles: [asked] });
   });
 });

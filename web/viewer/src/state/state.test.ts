@@ -64,11 +64,11 @@ describe("scene of the state", () => {
 
   it("highlights the selection where no query is given", () => {
     const selected = state({ selection: ["a", "b"], effect: "highlight" });
-    expect(sceneOf(selected, box, size).effects).toEqual({ highlight: { queries: ['id="a"', 'id="b"'], context: "ghost" } });
+    expect(sceneOf(selected, box, size).effects).toEqual({ highlight: { queries: ['under "a"', 'under "b"'], context: "ghost" } });
     expect(focusQueries({ ...selected, focus: { ...selected.focus, query: "class=Door" } })).toEqual(["class=Door"]);
     expect(sceneOf(state({ effect: "highlight" }), box, size).effects).toEqual({});
     expect(sceneOf({ ...selected, effect: "cutaway" }, box, size).effects).toEqual({
-      cutaway: { query: 'id="a" or id="b"', margin: 0.15 },
+      cutaway: { query: 'under "a" or under "b"', margin: 0.15 },
     });
   });
 

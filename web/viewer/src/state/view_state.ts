@@ -82,6 +82,8 @@ export interface ViewState {
   picture: Partial<Pick<Scene, PlainMember>>;
   /** Ids. */
   selection: string[];
+  /** The query that selected them; empty: they were selected one by one. */
+  selectedBy: string;
   /** Points measured between, metres from the grid's lower corner. */
   measured: Point[];
   /** A scene given as JSON: its passes are drawn unchanged, and the tools change only the rest. */
@@ -109,9 +111,18 @@ export function initialState(look: Look = kSceneMembers["/look"].default): ViewS
     colorBy: "",
     picture: {},
     selection: [],
+    selectedBy: "",
     measured: [],
     custom: null,
   };
+}
+
+/** Members that a picture can always follow. */
+const kFree: readonly (keyof ViewState)[] = ["camera", "preset", "selection", "selectedBy", "measured"];
+
+/** Whether two views differ at most in members that a picture can always follow. */
+export function isSameChoice(a: ViewState, b: ViewState): boolean {
+  return (Object.keys(b) as (keyof ViewState)[]).every((key) => kFree.includes(key) || a[key] === b[key]);
 }
 
 /** Changes the style of exactly this query; a style without any setting is removed. */

@@ -3,41 +3,88 @@
  * model, and converted to a flag per feature for the tree.
  */
 
-import type { FeatureIndex } from "./feature_index";
-import { ofClass, ofId, ofSubtree, parseOwn } from "./queries";
+import { hasGroups, withMembers, type FeatureIndex } from "./feature_index";
+import { joined, ofClass, ofId, ofSubtree, ownTerms, parseOwn, type OwnQuery } from "./queries";
 
-/** 1 for each feature hidden by the queries. Queries not written by the page are ignored. */
-export function hiddenFlags(index: FeatureIndex, queries: string[]): Uint8Array {
+/** The features that the library selects for a query of the user; undefined: not yet known. */
+export type Answers = (query: string) => readonly number[] | undefined;
+const noAnswers: Answers = () => undefined;
+
+/** The features that a query selects, with the members of groups. */
+function membersOf(index: FeatureIndex, term: OwnQuery): readonly number[] {
+  if (term.kind === "all") return index.features.map((_, i) => i);
+  if (term.kind === "class") return index.classes.get(term.value) ?? [];
+  const i = index.byId.get(term.value);
+  if (i === undefined) return [];
+  return term.kind === "id" ? [i] : withMembers(index, [i]);
+}
+
+/** The features of the queries; those of an unknown query are left out. */
+export function featuresOf(index: FeatureIndex, queries: readonly string[], answers: Answers = noAnswers): number[] {
+  const flags = hiddenFlags(index, queries, answers);
+  return index.features.flatMap((_, i) => (flags[i] ? [i] : []));
+}
+
+/** 1 for each feature hidden by the queries. Queries that the page cannot answer yet are ignored. */
+export function hiddenFlags(index: FeatureIndex, queries: readonly string[], answers: Answers = noAnswers): Uint8Array {
   const flags = new Uint8Array(index.features.length);
   for (const query of queries) {
-    const own = parseOwn(query);
-    if (!own) continue;
-    if (own.kind === "all") return flags.fill(1);
-    if (own.kind === "class") for (const i of index.classes.get(own.value) ?? []) flags[i] = 1;
-    else {
-      const i = index.byId.get(own.value);
-      if (i !== undefined) flags.fill(1, i, own.kind === "id" ? i + 1 : index.end[i]!);
+    const terms = ownTerms(query);
+    const above: number[] = [];
+    for (const term of terms ?? []) {
+      const i = term.kind === "under" ? index.byId.get(term.value) : undefined;
+      if (i !== undefined) above.push(i);
+      else if (term.kind !== "under") for (const member of membersOf(index, term)) flags[member] = 1;
     }
+    if (above.length) for (const i of withMembers(index, above)) flags[i] = 1;
+    if (!terms) for (const i of answers(query) ?? []) flags[i] = 1;
   }
   return flags;
 }
 
-/** A minimal set of the page's own queries that hides all flagged features with voxels; other queries are kept. */
-export function hideQueries(index: FeatureIndex, flags: Uint8Array, before: string[] = []): string[] {
-  const foreign = before.filter((query) => parseOwn(query) === null);
+/**
+ * Few queries that hide all flagged features with voxels. Queries of the user stay, unless a feature of theirs is no longer
+ * flagged.
+ * @param offered  queries that the flagged features may come from
+ */
+export function hideQueries(
+  index: FeatureIndex,
+  flags: Uint8Array,
+  before: readonly string[] = [],
+  answers: Answers = noAnswers,
+  offered: readonly string[] = [],
+): string[] {
+  const isFlagged = (members: readonly number[]) => members.every((i) => flags[i] || index.features[i]!.count === 0);
+  const kept = new Map<string, readonly number[]>();
+  for (const query of [...before, ...offered]) {
+    const members = ownTerms(query) ? groupOf(index, query) : answers(query);
+    if (members === null) continue;
+    if (members ? isFlagged(members) : before.includes(query)) kept.set(query, members ?? []);
+  }
+  const foreign = [...kept.keys()];
   const solid = (i: number) => index.features[i]!.count > 0;
-  if (index.features.every((_, i) => flags[i] || !solid(i))) return [...foreign, "all"];
-  const byTree = treeQueries(index, flags, new Uint8Array(flags.length));
+  if (index.features.every((_, i) => flags[i] || !solid(i))) return [...foreign.filter((query) => !kept.get(query)!.length), "all"];
   const covered = new Uint8Array(flags.length);
+  for (const members of kept.values()) for (const i of members) covered[i] = 1;
+  const byTree = treeQueries(index, flags, covered);
   const classes: string[] = [];
+  const inClasses = covered.slice();
   for (const [name, members] of index.classes) {
     const solids = members.filter(solid);
     if (solids.length < 2 || !solids.every((i) => flags[i]) || !/^[\w.-]+$/.test(name)) continue;
+    if (solids.every((i) => covered[i])) continue;
     classes.push(ofClass(name));
-    for (const i of members) covered[i] = 1;
+    for (const i of members) inClasses[i] = 1;
   }
-  const byClass = [...classes, ...treeQueries(index, flags, covered)];
-  return [...foreign, ...(byClass.length < byTree.length ? byClass : byTree)];
+  const rest = treeQueries(index, flags, inClasses);
+  return [...foreign, ...(classes.length + rest.length < byTree.length ? [...classes, ...joined(rest)] : joined(byTree))];
+}
+
+/** The members of a group for the query `under` of it: they are anywhere in the tree, so that no other query is as short. */
+function groupOf(index: FeatureIndex, query: string): readonly number[] | null {
+  const term = parseOwn(query);
+  const i = term?.kind === "under" ? index.byId.get(term.value) : undefined;
+  return i !== undefined && hasGroups(index, i) ? withMembers(index, [i]) : null;
 }
 
 function treeQueries(index: FeatureIndex, flags: Uint8Array, covered: Uint8Array): string[] {
@@ -59,7 +106,7 @@ function treeQueries(index: FeatureIndex, flags: Uint8Array, covered: Uint8Array
   for (let i = 0; i < n;) {
     const feature = index.features[i]!;
     if (open[i] === 0) i = index.end[i]!;
-    else if (visible[i] === 0 && open[i]! > 1) {
+    else if (visible[i] === 0 && open[i]! > 1 && hidesOnlyFlagged(index, flags, i)) {
       queries.push(ofSubtree(feature.id));
       i = index.end[i]!;
     } else {
@@ -70,6 +117,11 @@ function treeQueries(index: FeatureIndex, flags: Uint8Array, covered: Uint8Array
   return queries;
 }
 
+/** Whether the members of groups in a subtree are all flagged, too. */
+function hidesOnlyFlagged(index: FeatureIndex, flags: Uint8Array, i: number): boolean {
+  return !hasGroups(index, i) || withMembers(index, [i]).every((member) => flags[member] || index.features[member]!.count === 0);
+}
+
 /** Flags with a subtree or class shown or hidden. */
 export function switched(flags: Uint8Array, members: Iterable<number>, hidden: boolean): Uint8Array {
   const after = flags.slice();
@@ -77,8 +129,15 @@ export function switched(flags: Uint8Array, members: Iterable<number>, hidden: b
   return after;
 }
 
-export function* subtree(index: FeatureIndex, i: number): Iterable<number> {
-  for (let at = i; at < index.end[i]!; ++at) yield at;
+/** A feature with all below it, and the members of groups among them. */
+export function subtree(index: FeatureIndex, i: number): number[] {
+  return withMembers(index, [i]);
+}
+
+/** The features with these ids. @param isExact  without those below them */
+export function withMembersOf(index: FeatureIndex, ids: readonly string[], isExact: boolean): readonly number[] {
+  const found = ids.flatMap((id) => index.byId.get(id) ?? []);
+  return isExact ? found : withMembers(index, found);
 }
 
 /** Visible portion of a subtree or class. */
@@ -108,15 +167,25 @@ export class SeenCounts {
     return this.hidden[this.hidden.length - 1]!;
   }
 
+  /** Number of features with voxels in a subtree, with the members of groups. */
+  solidsOf(i: number): number {
+    return hasGroups(this.index, i) ? sum(this.solids, subtree(this.index, i)) : this.index.solids[i]!;
+  }
+
   ofSubtree(i: number): Seen {
+    if (hasGroups(this.index, i)) return this.ofMembers(subtree(this.index, i));
     const end = this.index.end[i]!;
     return seenOf(this.solids[end]! - this.solids[i]!, this.hidden[end]! - this.hidden[i]!);
   }
 
-  ofMembers(members: number[]): Seen {
-    const sum = (of: Int32Array) => members.reduce((all, i) => all + of[i + 1]! - of[i]!, 0);
-    return seenOf(sum(this.solids), sum(this.hidden));
+  ofMembers(members: readonly number[]): Seen {
+    return seenOf(sum(this.solids, members), sum(this.hidden, members));
   }
+}
+
+/** Sum over members, of prefix sums. */
+function sum(of: Int32Array, members: readonly number[]): number {
+  return members.reduce((all, i) => all + of[i + 1]! - of[i]!, 0);
 }
 
 function seenOf(solids: number, hidden: number): Seen {

@@ -8,19 +8,17 @@ import { kPlainMembers, type PlainMember } from "../state/member_controls";
 import { withMember } from "../state/view_state";
 import { plainControl } from "../ui/plain_control";
 import { controls, Part } from "../ui/part";
+import { colorChoice } from "./color_choice";
 
 const kLooks = kSceneMembers["/look"].choices;
 const kLines = ["off", ...kSceneMembers["/passes/*/lines/*/hidden"].choices] as const;
-
-/** Suggested keys; attributes of the model are possible, too. */
-const kColorKeys = ["class", "name", "storey", "volume", "area"] as const;
 
 export class LookTool extends Part {
   static override styles = [controls, css`.segments { display: flex; } h3:first-child { margin-top: 0; }`];
 
   override render() {
     const { session } = this;
-    const { look, wireframe, names, colorBy, picture } = session.view.now;
+    const { look, wireframe, names, picture } = session.view.now;
     const hasEdges = session.volume.info?.hasEdges ?? false;
     return html`
       <div class="segments" role="radiogroup" aria-label=${t("look")} title=${help("/look")}>${kLooks.map(
@@ -39,9 +37,7 @@ export class LookTool extends Part {
         <label class="check" title=${help("/names")}><input type="checkbox" id="names" .checked=${names} @change=${(e: Event) => session.view.set({ names: (e.target as HTMLInputElement).checked })} />${t("names")}</label>
         <label class="check"><input type="checkbox" id="legend" .checked=${session.view.isLegendShown} @change=${(e: Event) => (session.view.isLegendShown = (e.target as HTMLInputElement).checked)} />${t("legend")}</label>
       </div>
-      <h3 id="color-by-title">${t("colorBy")}</h3>
-      <input id="color-by" list="color-by-keys" aria-labelledby="color-by-title" title=${help("/colorBy")} placeholder=${t("colorByNothing")} .value=${colorBy} @change=${(e: Event) => session.view.set({ colorBy: (e.target as HTMLInputElement).value.trim() })} />
-      <datalist id="color-by-keys">${[...kColorKeys, ...(session.model.owners.file ? ["owner"] : []), ...(session.volume.info?.attributes ?? [])].map((key) => html`<option value=${key}></option>`)}</datalist>
+      ${colorChoice(session)}
       ${kPlainMembers.map((name) => plainControl(name, picture[name.slice(1) as PlainMember], (value) => session.view.set({ picture: withMember(picture, name, value) })))}
     `;
   }

@@ -2,6 +2,7 @@
 
 import { css, html, nothing } from "lit";
 import type { DrawingFormat, DrawingParts, VolumeInfo } from "../engine";
+import type { View } from "../session/view";
 import { regionOf } from "../state/scene_of";
 import type { Section, SectionAxis } from "../state/view_state";
 import { help, language, number, t } from "../texts";
@@ -26,13 +27,19 @@ const kPlanHeight = 1.1;
 const kMostChips = 14;
 
 /** Storeys, or levels that the model does not name. Storeys of several buildings with the same name and height are one entry. */
-function levelsOf(storeys: VolumeInfo["storeys"]): { name: string; floor: number }[] {
+export function levelsOf(storeys: VolumeInfo["storeys"]): { name: string; floor: number }[] {
   const levels = storeys.map(({ name, id, floor }) => ({ name: name || id || t("level", { height: number(floor, 2) }), floor }));
   const once = levels.filter(
     ({ name, floor }, n) => levels.findIndex((other) => other.name === name && Math.abs(other.floor - floor) < 0.05) === n,
   );
   const isAlone = (name: string) => once.filter((other) => other.name === name).length === 1;
   return once.map(({ name, floor }) => ({ name: isAlone(name) ? name : `${name} (${number(floor, 2)} m)`, floor }));
+}
+
+/** Cuts a storey as a plan does. */
+export function cutStorey(view: View, floor: number): void {
+  const others = view.now.sections.filter((section) => section.axis !== "z");
+  view.set({ sections: [...others, { axis: "z", at: Number((floor + kPlanHeight).toFixed(3)), flip: false, turn: 0, tilt: 90 }] });
 }
 
 export class SectionTool extends Part {
@@ -109,10 +116,11 @@ export class SectionTool extends Part {
     const levels = levelsOf(this.session.volume.info?.storeys ?? []);
     if (!levels.length) return nothing;
     if (levels.length > kMostChips)
-      return html`<select id="storeys" aria-label=${t("storeys")} @change=${(e: Event) => this.cutStorey(levels[(e.target as HTMLSelectElement).selectedIndex - 1]!.floor)}>
+      return html`<select id="storeys" aria-label=${t("storeys")} @change=${(e: Event) => cutStorey(this.session.view, levels[(e.target as HTMLSelectElement).selectedIndex - 1]!.floor)}>
         <option selected disabled>${t("storeys")}</option>${levels.map(({ name }) => html`<option>${name}</option>`)}</select>`;
     return html`<div class="chips" role="group" aria-label=${t("storeys")}>${levels.map(
-      ({ name, floor }) => html`<button aria-label=${t("storeyCut", { name })} @click=${() => this.cutStorey(floor)}>${name}</button>`,
+      ({ name, floor }) =>
+        html`<button aria-label=${t("storeyCut", { name })} @click=${() => cutStorey(this.session.view, floor)}>${name}</button>`,
     )}</div>`;
   }
 
@@ -202,13 +210,6 @@ export class SectionTool extends Part {
 
   private removePlane(n: number): void {
     this.session.view.set({ sections: this.session.view.now.sections.filter((_, i) => i !== n) });
-  }
-
-  private cutStorey(floor: number): void {
-    const others = this.session.view.now.sections.filter((section) => section.axis !== "z");
-    this.session.view.set({
-      sections: [...others, { axis: "z", at: Number((floor + kPlanHeight).toFixed(3)), flip: false, turn: 0, tilt: 90 }],
-    });
   }
 
   private async export(n: number, format: FileFormat): Promise<void> {

@@ -17,10 +17,12 @@ const kEyeHeight = 1.65;
 
 /** Walking begins in air, on the storey that contains the height of the view's target; else on the lowest. */
 export function setWalking(session: Session, isWalking: boolean): void {
-  session.view.isWalking = isWalking;
-  if (!session.view.now.camera) return;
+  const { view } = session;
+  if (isWalking) view.beginWalking();
+  const before = isWalking ? null : view.endWalking();
+  if (!view.now.camera) return;
   if (isWalking) void enter(session);
-  else void session.view.goTo("", kSceneMembers["/camera/preset"].default);
+  else void view.goTo("", kSceneMembers["/camera/preset"].default, true, before);
 }
 
 async function enter(session: Session): Promise<void> {

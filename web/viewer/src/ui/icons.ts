@@ -39,6 +39,22 @@ const kPaths = {
   redo: "M15 14l5-5-5-5M20 9H10a6 6 0 0 0 0 12h3",
   up: "M12 19V5M6 11l6-6 6 6",
   only: "M12 15a3 3 0 1 0 0-6 3 3 0 0 0 0 6ZM4 4l3 3M20 4l-3 3M4 20l3-3M20 20l-3-3",
+  table: "M3 5h18v14H3ZM3 10h18M3 14.500h18M9 5v14",
+  menu: "M4 7h16M4 12h16M4 17h16",
+  building: "M5 21V4h14v17M2 21h20M9 8h2M13 8h2M9 12h2M13 12h2M10 21v-5h4v5",
+  storey: "M3 17l9 4 9-4M3 12l9 4 9-4M3 7l9 4 9-4-9-4-9 4Z",
+  unit: "M4 4h16v16H4ZM4 13h9M13 4v16",
+  room: "M4 20V4h16v16h-7M4 20h4M8 20a5 5 0 0 1 5-5v5",
+  window: "M5 3h14v18H5ZM12 3v18M5 12h14",
+  door: "M6 21V3h12v18M3 21h18M14.500 12h.01",
+  roof: "M2 13 12 4l10 9M6 12v8h12v-8",
+  stair: "M3 20h4v-4h4v-4h4V8h4V4h2",
+  wall: "M3 5h18v14H3ZM3 9.700h18M3 14.300h18M9 5v4.700M15 9.700v4.600M9 14.300V19",
+  slab: "M2 12l10-5 10 5-10 5-10-5ZM2 12v3l10 5 10-5v-3",
+  beam: "M6 4h12M6 20h12M12 4v16",
+  furniture: "M6 4v9h12V4M4 11v6h16v-6M6 17v3M18 17v3",
+  pipe: "M3 9h8a4 4 0 0 1 4 4v8M3 5h10a6 6 0 0 1 6 6v10",
+  part: "M12 3 4 7.500v9L12 21l8-4.500v-9L12 3Z",
 } as const;
 
 export type IconName = keyof typeof kPaths;

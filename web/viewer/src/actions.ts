@@ -1,0 +1,200 @@
+/** All actions of the page, in one list: keys, context menus and the command palette take them from here. */
+
+import { movedByKey } from "./camera/view_keys";
+import { kSceneMembers } from "./generated/scene_members";
+import { selectionActions } from "./selection_actions";
+import type { Session } from "./session";
+import type { Tool } from "./session/view";
+import { kViews } from "./state/member_controls";
+import { t } from "./texts";
+import { withProjection } from "./camera/camera";
+import { cutStorey, levelsOf } from "./tools/section_tool";
+import { setWalking } from "./tools/views_tool";
+import type { IconName } from "./ui/icons";
+
+export interface Action {
+  id: string;
+  text: () => string;
+  icon?: IconName;
+  /** Such as `x`, `shift+h` or `ctrl+z`; the palette shows the first one. */
+  keys?: readonly string[];
+  /** Absent: always. */
+  isEnabled?: () => boolean;
+  run: () => void;
+}
+
+/** The page, as actions need it. */
+export interface ActionHost {
+  session: Session;
+  useTool(tool: Tool): void;
+  /** Opens a tool and presses one of its controls. */
+  pressInTool(tool: Tool, selector: string): void;
+  showSheet(which: "tree" | "selection"): void;
+  search(): void;
+  help(): void;
+  switchTheme(): void;
+  choose(): void;
+  openPalette(): void;
+  openTable(): void;
+}
+
+export const kTools: readonly { tool: Tool; icon: IconName; key: string }[] = [
+  { tool: "section", icon: "section", key: "x" },
+  { tool: "lens", icon: "lens", key: "c" },
+  { tool: "focus", icon: "focus", key: "v" },
+  { tool: "look", icon: "look", key: "k" },
+  { tool: "measure", icon: "measure", key: "m" },
+  { tool: "views", icon: "view", key: "n" },
+  { tool: "share", icon: "share", key: "b" },
+];
+
+const kMostStoreys = 200;
+
+/** The action of a key that is enabled now. */
+export function actionOfKey(actions: readonly Action[], event: KeyboardEvent): Action | undefined {
+  const key = event.key.toLowerCase();
+  const control = event.ctrlKey || event.metaKey ? "ctrl+" : "";
+  const find = (name: string) => actions.find(({ keys, isEnabled }) => keys?.includes(name) && (isEnabled?.() ?? true));
+  // Shift is a part of signs such as `?`.
+  return (event.shiftKey ? find(`${control}shift+${key}`) : undefined) ?? find(control + key);
+}
+
+export function actionsOf(host: ActionHost): Action[] {
+  const { session } = host;
+  const hasModel = () => session.volume.info !== null;
+  const hasParts = () => hasModel() && !session.volume.isServerOnly;
+  const ofModel = (action: Action): Action => ({ isEnabled: hasModel, ...action });
+  return [
+    ...selectionActions(session).map((action) => ({ ...action, isEnabled: () => hasParts() && (action.isEnabled?.() ?? true) })),
+    ...kTools.map(({ tool, icon, key }) =>
+      ofModel({ id: `tool-${tool}`, text: () => t(tool), icon, keys: [key], run: () => host.useTool(tool) }),
+    ),
+    ...viewActions(session).map(ofModel),
+    ...pageActions(host, hasParts),
+    ...toolActions(host).map(ofModel),
+  ];
+}
+
+function viewActions(session: Session): Action[] {
+  const { view } = session;
+  return [
+    ...kViews.map((name, n): Action => ({
+      id: `view-${name}`,
+      text: () => `${t("views")}: ${t(`view_${name}`)}`,
+      icon: "view",
+      keys: [String(n + 1)],
+      run: () => void movedByKey(view, String(n + 1)),
+    })),
+    { id: "fit", text: () => t("fit"), icon: "fit", keys: ["0"], run: () => void movedByKey(view, "0") },
+    { id: "walk", text: () => t("walk"), icon: "walk", keys: ["g"], run: () => setWalking(session, !view.isWalking) },
+    {
+      id: "parallel",
+      text: () => t("parallel"),
+      icon: "view",
+      isEnabled: () => view.state.camera !== null && !view.isWalking,
+      run: () => view.turn(withProjection(view.state.camera!, !view.state.camera!.parallel)),
+    },
+    {
+      id: "undo",
+      text: () => t("undo", { what: "" }).replace(/:\s*$/, ""),
+      icon: "undo",
+      keys: ["ctrl+z"],
+      isEnabled: () => view.history.last !== null,
+      run: () => view.undo(),
+    },
+    {
+      id: "redo",
+      text: () => t("redo", { what: "" }).replace(/:\s*$/, ""),
+      icon: "redo",
+      keys: ["ctrl+shift+z", "ctrl+y"],
+      isEnabled: () => view.history.next !== null,
+      run: () => view.redo(),
+    },
+    ...kSceneMembers["/look"].choices.map((look): Action => ({
+      id: `look-${look}`,
+      text: () => `${t("look")}: ${t(`look_${look}`)}`,
+      icon: "look",
+      run: () => view.set({ look }),
+    })),
+    { id: "names", text: () => t("names"), icon: "look", run: () => view.set({ names: !view.state.names }) },
+    { id: "legend", text: () => t("legend"), icon: "look", run: () => (view.isLegendShown = !view.isLegendShown) },
+  ];
+}
+
+function pageActions(host: ActionHost, hasParts: () => boolean): Action[] {
+  const { session } = host;
+  const { languages, volume, model } = session;
+  const hasModel = () => volume.info !== null;
+  return [
+    {
+      id: "show-all",
+      text: () => t("showAll"),
+      icon: "eye",
+      keys: ["shift+h"],
+      isEnabled: hasParts,
+      run: () => session.view.set({ hide: [], show: [] }),
+    },
+    { id: "search", text: () => t("search"), icon: "search", keys: ["/"], isEnabled: hasParts, run: () => host.search() },
+    { id: "table", text: () => t("tableHint"), icon: "table", keys: ["t"], isEnabled: hasParts, run: () => host.openTable() },
+    {
+      id: "panel-tree",
+      text: () => t("showPanel", { panel: t("panelTree") }),
+      icon: "tree",
+      isEnabled: hasParts,
+      run: () => host.showSheet("tree"),
+    },
+    {
+      id: "panel-selection",
+      text: () => t("showPanel", { panel: t("panelProperties") }),
+      icon: "info",
+      isEnabled: hasModel,
+      run: () => host.showSheet("selection"),
+    },
+    { id: "refine", text: () => t("makeFiner"), icon: "plus", isEnabled: () => model.refining.isCoarse, run: () => model.refining.again() },
+    { id: "open", text: () => t("open"), icon: "open", run: () => host.choose() },
+    { id: "theme", text: () => t("theme"), icon: "moon", run: () => host.switchTheme() },
+    ...languages.all.map(({ code, name }): Action => ({
+      id: `language-${code}`,
+      text: () => `${t("languages")}: ${name}`,
+      icon: "info",
+      run: () => void languages.choose(code),
+    })),
+    { id: "help", text: () => t("helpTitle"), icon: "help", keys: ["?"], run: () => host.help() },
+    { id: "palette", text: () => t("actionsHint"), icon: "menu", keys: ["ctrl+k"], run: () => host.openPalette() },
+  ];
+}
+
+/** Controls of the tools. */
+function toolActions(host: ActionHost): Action[] {
+  const press = (id: string, text: () => string, icon: IconName, tool: Tool, selector: string): Action => ({
+    id,
+    text,
+    icon,
+    run: () => host.pressInTool(tool, selector),
+  });
+  return [
+    press("add-plane", () => t("addPlane"), "section", "section", "#add-plane"),
+    press("sheets", () => t("sheets"), "section", "section", "#draw-sheets"),
+    press("keep-view", () => t("keepView"), "bookmark", "share", "#keep-view"),
+    press("copy-link", () => t("copyLink"), "copy", "share", "#copy-link"),
+    press("copy-command", () => t("copyCommand"), "code", "share", "#copy-command"),
+    press("copy-embedding", () => t("copyEmbedding"), "code", "share", "#copy-embedding"),
+    press("scene-json", () => t("sceneJson"), "code", "share", "#show-scene"),
+    press("save-picture", () => t("pictureSave"), "image", "share", "#save-picture"),
+    press("export-views", () => t("bookmarksExport"), "bookmark", "share", "#export-views"),
+    press("import-views", () => t("bookmarksImport"), "bookmark", "share", "#import-views"),
+    press("export-bcf", () => t("bcfExport"), "bookmark", "share", "#export-bcf"),
+  ];
+}
+
+/** Sections at the storeys. Not in `actionsOf`, because a district has thousands of storeys, and none has a key. */
+export function storeyActions({ volume, view }: Session): Action[] {
+  return levelsOf(volume.info?.storeys ?? [])
+    .slice(0, kMostStoreys)
+    .map(({ name, floor }, n) => ({
+      id: `storey-${n}`,
+      text: () => t("storeyCut", { name }),
+      icon: "section",
+      run: () => cutStorey(view, floor),
+    }));
+}
