@@ -67,6 +67,24 @@ TEST(ParcelParts, OfParcelsThatOverlapAreCounted) {
     }
 }
 
+// The solid of a flat lies in two smaller solids, so the flat has only the voxels of its balcony.
+TEST(ParcelParts, OfAFlatWithoutSpaceOfItsSolidComeFromVoxels) {
+    volume::SemanticVolume volume = volume::test::emptyVolume({16, 4, 4}, {1, 1, 1});
+    const std::uint32_t flat = addParcelBox(volume, "flat", {0, 0, 0}, {8, 4, 4});
+    volume::test::addObject(volume, "balcony", "BuildingRoom", flat);
+    const std::uint32_t west = addParcelBox(volume, "west", {0, 0, 0}, {4, 4, 4});
+    const std::uint32_t east = addParcelBox(volume, "east", {4, 0, 0}, {8, 4, 4});
+    volume::test::paint(volume, [](int i, int, int) { return i < 4 ? 3 : i < 8 ? 4 : i < 10 ? 2 : 0; });
+    volume::SemanticVolume parcels = volume::test::emptyVolume({16, 4, 4}, {1, 1, 1});
+    addParcelBox(parcels, "plot", {-50, -50, -50}, {50, 50, 50});
+    const auto parts = partsInParcels(volume, std::vector<std::uint32_t>{flat, west, east}, parcels, 1);
+    ASSERT_TRUE(parts) << parts.error().toString();
+    ASSERT_EQ(parts->size(), 3u);
+    EXPECT_NEAR((*parts)[0].volume, 32, 1e-9);
+    EXPECT_EQ((*parts)[0].source, VolumeSource::Voxels);
+    EXPECT_EQ((*parts)[1].source, VolumeSource::Meshes);
+}
+
 TEST(ParcelParts, NeedOneGrid) {
     const volume::SemanticVolume volume = volume::test::emptyVolume({16, 4, 4}, {1, 1, 1});
     const volume::SemanticVolume other = volume::test::emptyVolume({16, 4, 4}, {0.5, 1, 1});

@@ -66,6 +66,22 @@ TEST(LegalUnits, ADoorMayStandInADeepNiche) {
     EXPECT_EQ(check(volume).units[0].access, UnitAccess::Common);
 }
 
+// A leaf that is half as thick as it is wide has a thin side; a thicker one has none.
+TEST(LegalUnits, ADoorHasAThinSide) {
+    const auto accessOf = [](int thickness) {
+        volume::SemanticVolume volume = twoFlats();
+        volume::test::paintBoxes(volume, {{6, {0, 0, 0}, {24, 20, 12}},
+                                          {3, {0, 11, 0}, {12, 20, 12}},
+                                          {4, {13, 11, 0}, {24, 20, 12}},
+                                          {5, {0, 0, 0}, {24, 7, 12}},
+                                          {0, {2, 7, 0}, {6, 11, 8}},
+                                          {7, {2, 8, 0}, {6, 8 + thickness, 8}}});
+        return check(volume).units[0].access;
+    };
+    EXPECT_EQ(accessOf(2), UnitAccess::Common);
+    EXPECT_NE(accessOf(3), UnitAccess::Common);
+}
+
 TEST(LegalUnits, CommonUnitsSaySoAndADoorMayLeadOutside) {
     volume::SemanticVolume volume = twoFlats();
     volume.labels.labels[3].attributes.push_back({"function", std::string("Gemeinschaftsraum"), ""});

@@ -67,6 +67,18 @@ TEST(StairFlights, SmallerFacesBetweenTreadsDoNotCount) {
     EXPECT_NEAR(flights[0].riser, 0.19, 1e-5);
 }
 
+TEST(StairFlights, TwoStepsAreNoFlightAndHideNoOther) {
+    StairBoxes stair;
+    stair.addLabel("flight", "BuildingConstructiveElement", volume::Filling::Solid, 2);
+    stair.volume.labels.labels.back().attributes.push_back({"ifcType", std::string("IfcStair"), ""});
+    for (int n = 0; n < 2; ++n) stair.add({kGoing * n, 3, 0}, {kGoing * (n + 1), 4, 0.18 * (n + 1)});
+    for (int n = 0; n < 8; ++n)
+        volume::test::addBoxMesh(stair.volume, 1, {kGoing * n, 0, 0}, {kGoing * (n + 1), 1, 0.18 * (n + 1)});
+    const auto flights = findStairFlights(stair.volume);
+    ASSERT_EQ(flights.size(), 1u);
+    EXPECT_EQ(flights[0].treads.size(), 8u);
+}
+
 TEST(StairFlights, PlatesOfSteelAreTreads) {
     StairBoxes stair;
     for (int n = 0; n < 5; ++n)

@@ -175,6 +175,16 @@ TEST(ApprovedVolumes, OfManySamples) {
     expectFiles("many", volume, cases);
 }
 
+// Longer than a node of OpenVDB below the root, which has 4096 voxels on a side.
+TEST(ApprovedVolumes, OfALongWall) {
+    SemanticVolume volume = volume::test::emptyVolume({4200, 9, 9}, {0.1, 0.1, 0.1}, {1000, 2000, 50});
+    volume.source = "long.gml";
+    volume::test::addObject(volume, "wall", "BuildingConstructiveElement");
+    volume::test::addObject(volume, "post", "BuildingFurniture");
+    volume::test::paint(volume, [](int i, int j, int k) { return j == 4 ? 1 : i % 700 == 0 && k < 3 ? 2 : 0; });
+    expectFiles("long", volume, {{"a.vdb"}});
+}
+
 TEST(ApprovedVolumes, OfATower) {
     expectFiles("tower_textures", towerOfTwo(), textureCases());
     expectFiles("tower_sparse", towerOfTwo(), sparseCases());

@@ -88,7 +88,8 @@ describe("files", () => {
       .waitFor();
     await eventually(async () => assert.ok((await inPage("(await s.volume.engine.select('class=BuildingRoom')).length")) > 0));
     assert.deepEqual(await inPage("[s.volume.info.name, s.view.state.hide]"), before);
-    assert.deepEqual(visit.problems, []);
+    assert.equal(visit.problems.length, 1, visit.problems.join("\n"));
+    assert.match(visit.problems[0], /^error: svt: .*E103.*noise\.gml/);
   });
 
   it("are kept on request, and found by a reload and by links, which say what they need", async () => {

@@ -139,7 +139,7 @@ describe("tools", () => {
     await tool("focus");
     await visit.page.getByRole("radio", { name: "Highlight" }).click();
     let scene = await inPage("s.view.composed([640, 360])");
-    assert.deepEqual(scene.passes[1].show, ['id="house_hidden_beam"']);
+    assert.deepEqual(scene.passes[1].show, ['under "house_hidden_beam"']);
     await settled();
     await visit.page.getByRole("radio", { name: "Cut away" }).click();
     scene = await inPage("s.view.composed([640, 360])");

@@ -7,7 +7,6 @@ import "./canvas/picture";
 import type { PictureView } from "./canvas/picture";
 import type { CommandPalette } from "./panels/command_palette";
 import type { ContextMenu } from "./panels/context_menu";
-import "./panels/help_dialog";
 import type { HelpDialog } from "./panels/help_dialog";
 import "./panels/legend";
 import type { MenuRequest } from "./panels/menu_request";
@@ -387,7 +386,7 @@ export class App extends Part implements ActionHost {
   }
 
   help(): void {
-    this.renderRoot.querySelector<HelpDialog>("svt-help")?.show();
+    void this.loaded<HelpDialog>("svt-help", () => import("./panels/help_dialog")).then((dialog) => dialog?.show());
   }
 
   switchTheme(): void {

@@ -1,7 +1,8 @@
 /** Mouse, touch and keys. */
 
 import { css, html } from "lit";
-import { t } from "../texts";
+import { t, type TextKey } from "../texts";
+import { isToolText, toolText, type ToolTextKey } from "../tool_texts";
 import { controls, Part } from "../ui/part";
 
 const kRows = [
@@ -25,6 +26,8 @@ const kRows = [
   ["keyLeave", "keyLeaveHow"],
 ] as const;
 
+const textOf = (key: TextKey | ToolTextKey): string => (isToolText(key) ? toolText(key) : t(key));
+
 export class HelpDialog extends Part {
   static override styles = [
     controls,
@@ -38,18 +41,19 @@ export class HelpDialog extends Part {
   ];
 
   private get dialog() {
-    return this.renderRoot.querySelector("wa-dialog") as HTMLElement & { open: boolean };
+    return this.renderRoot.querySelector<HTMLElement & { open: boolean }>("wa-dialog");
   }
   get isOpen(): boolean {
-    return this.dialog.open;
+    return this.dialog?.open ?? false;
   }
-  show(): void {
-    this.dialog.open = true;
+  async show(): Promise<void> {
+    await this.updateComplete;
+    if (this.dialog) this.dialog.open = true;
   }
 
   override render() {
     return html`<wa-dialog label=${t("helpTitle")} light-dismiss>
-      <dl>${kRows.map(([what, how]) => html`<dt>${t(what)}</dt><dd>${t(how)}</dd>`)}</dl>
+      <dl>${kRows.map(([what, how]) => html`<dt>${textOf(what)}</dt><dd>${textOf(how)}</dd>`)}</dl>
     </wa-dialog>`;
   }
 }
